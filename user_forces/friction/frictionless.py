@@ -1,0 +1,15 @@
+"""No friction."""
+
+from __future__ import annotations
+
+from user_forces.friction.law import FrictionLaw
+from user_forces.values import value
+
+
+@value
+class Frictionless(FrictionLaw):
+    """F_t = 0."""
+
+    def __call__(self, slip: float, normal_force: float) -> float:
+        """Zero [N], whatever the slip [m/s] and normal force [N]."""
+        return 0.0
