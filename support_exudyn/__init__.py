@@ -1,0 +1,47 @@
+"""Dynamics of linkages with clearance in their pins, on Exudyn.
+
+    from support_exudyn import ClearancePin, CubicStep, Scenario, reference_support, simulate
+
+    result = simulate(Scenario(machine=reference_support(), drive=CubicStep(), duration=5.0))
+    result["pin.rear_base.force"]  # newton, at result.time
+
+One entry, `simulate`; everything else is a value that is handed in. SI units and radians.
+"""
+
+from support_exudyn.drives import CubicStep, Drive, Held, UniformSpeed
+from support_exudyn.errors import Failure, SimulationError
+from support_exudyn.linkages.hydraulic_support import HydraulicSupport
+from support_exudyn.machine import Body, Column, Linkage, Machine, Part, PinPlace, TracePoint
+from support_exudyn.onset import Onset
+from support_exudyn.pins import ClearancePin, IdealPin, Pin
+from support_exudyn.result import Result
+from support_exudyn.scenario import Scenario, SolverSettings
+from support_exudyn.simulate import simulate
+from support_exudyn.supports import load_support, reference_support
+
+__all__ = [
+    "Body",
+    "ClearancePin",
+    "Column",
+    "CubicStep",
+    "Drive",
+    "Failure",
+    "Held",
+    "HydraulicSupport",
+    "IdealPin",
+    "Linkage",
+    "Machine",
+    "Onset",
+    "Part",
+    "Pin",
+    "PinPlace",
+    "Result",
+    "Scenario",
+    "SimulationError",
+    "SolverSettings",
+    "TracePoint",
+    "UniformSpeed",
+    "load_support",
+    "reference_support",
+    "simulate",
+]

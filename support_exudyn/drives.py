@@ -1,0 +1,148 @@
+"""How the columns extend over time."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+
+from pydantic import model_validator
+
+from user_forces.values import NonNegative, Positive, Value, value
+
+
+class Drive(Value, ABC):
+    """Extension of a column from its start length as a function of time.
+
+    The contract: `extension` is continuous; `speed` is its derivative; between two neighbouring
+    `breaks` both are smooth, and the solver lands on every break.
+    """
+
+    @abstractmethod
+    def extension(self, t: float) -> float:
+        """Extension [m] at time t [s]."""
+
+    @abstractmethod
+    def speed(self, t: float) -> float:
+        """Its rate [m/s]; at a jump the value before it."""
+
+    @property
+    @abstractmethod
+    def breaks(self) -> tuple[float, ...]:
+        """Times [s] at which a derivative jumps."""
+
+    @property
+    @abstractmethod
+    def span(self) -> tuple[float, float]:
+        """Smallest and largest extension [m]."""
+
+
+@value
+class Held(Drive):
+    """Columns of constant length."""
+
+    def extension(self, t: float) -> float:
+        """0 m."""
+        return 0.0
+
+    def speed(self, t: float) -> float:
+        """0 m/s."""
+        return 0.0
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """None."""
+        return ()
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """(0, 0)."""
+        return 0.0, 0.0
+
+
+class _Stroke(Drive):
+    """A stroke between two times, at rest before and after."""
+
+    stroke: float
+    start: float
+    end: float
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """Start and end of the stroke [s]."""
+        return self.start, self.end
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """0 and the stroke [m], in order."""
+        return min(0.0, self.stroke), max(0.0, self.stroke)
+
+    def _phase(self, t: float) -> float:
+        """0 at the start of the stroke, 1 at its end, clipped."""
+        return min(1.0, max(0.0, (t - self.start) / (self.end - self.start)))
+
+    def _check_times(self) -> None:
+        if self.end <= self.start:
+            raise ValueError(f"end = {self.end} s: allowed: > start = {self.start} s")
+
+
+@value
+class CubicStep(_Stroke):
+    """Smooth inlet, drive mode 2 of the paper.
+
+        extension = stroke (3 x^2 - 2 x^3), x = (t - start)/(end - start) from 0 to 1
+
+    The cubic STEP function of multibody programs: speed is continuous, acceleration jumps at both ends.
+    The paper's STEP(TIME,0,0,3,0)+STEP(TIME,3,0,5,500), in mm, is the default.
+
+    Arguments:
+        stroke: [m], 0.5 by default; negative to lower.
+        start, end: [s], 3 and 5 by default; end > start >= 0.
+    """
+
+    stroke: float = 0.5
+    start: NonNegative = 3.0
+    end: Positive = 5.0
+
+    @model_validator(mode="after")
+    def _ends_after_it_starts(self) -> CubicStep:
+        self._check_times()
+        return self
+
+    def extension(self, t: float) -> float:
+        """Extension [m] at time t [s]."""
+        x = self._phase(t)
+        return self.stroke * x * x * (3.0 - 2.0 * x)
+
+    def speed(self, t: float) -> float:
+        """Speed [m/s] at time t [s]."""
+        x = self._phase(t)
+        return self.stroke * 6.0 * x * (1.0 - x) / (self.end - self.start)
+
+
+@value
+class UniformSpeed(_Stroke):
+    """Direct inlet (drive mode 1 of the paper): constant speed from rest, without transition.
+
+    The speed jumps at both ends. With rigid columns that is an impulse: the largest force and acceleration
+    of a run grow as the step shrinks and have no limit. Everything between the jumps does converge.
+
+    Arguments:
+        stroke: [m], 0.5 by default; negative to lower.
+        start, end: [s], 3 and 5 by default; end > start >= 0.
+    """
+
+    stroke: float = 0.5
+    start: NonNegative = 3.0
+    end: Positive = 5.0
+
+    @model_validator(mode="after")
+    def _ends_after_it_starts(self) -> UniformSpeed:
+        self._check_times()
+        return self
+
+    def extension(self, t: float) -> float:
+        """Extension [m] at time t [s]."""
+        return self.stroke * self._phase(t)
+
+    def speed(self, t: float) -> float:
+        """Speed [m/s] at time t [s]; at the jumps the value before."""
+        return self.stroke / (self.end - self.start) if self.start < t <= self.end else 0.0

@@ -1,0 +1,35 @@
+"""How a run fails."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+
+@dataclass(frozen=True)
+class Failure:
+    """Why, when and where a run stopped.
+
+    reason: what went wrong. advice: what to change. time [s]: when. state: named values at that time.
+    """
+
+    reason: str
+    advice: str
+    time: float
+    state: dict[str, float] = field(default_factory=dict)
+
+    def __str__(self) -> str:
+        values = ", ".join(f"{name} = {value:.6g}" for name, value in self.state.items())
+        return f"stopped at t = {self.time:.9g} s: {self.reason}. {self.advice}" + (
+            f" State then: {values}." if values else ""
+        )
+
+
+class SimulationError(RuntimeError):
+    """A run that could not be finished; `failure` says why, when and where."""
+
+    def __init__(self, failure: Failure) -> None:
+        super().__init__(str(failure))
+        self.failure = failure
+
+    def __reduce__(self) -> tuple[type[SimulationError], tuple[Failure]]:
+        return SimulationError, (self.failure,)  # so that it comes back whole from a worker process

@@ -1,0 +1,1 @@
+"""Machines, one per file: closed-form kinematics and their layout as a linkage."""

@@ -1,0 +1,261 @@
+r"""A four-bar shield support, both sides lumped into one plane.
+
+        I___________________T      canopy, on the shield's hinge I, with its tip T
+       /        G      E           columns: rear H-G, front F-E
+    D /         |     /
+    C*----.     |    /             shield beam C-D-I with tail beam
+     \     \    |   /
+      \     \   |  /               rear link B-C, front link A-D
+       B      A  H  F
+    ===================== base (ground)
+
+x forward (towards the coal face), y up. With all pins ideal the two column lengths fix the posture:
+the four-bar has one degree of freedom and the canopy on its hinge another.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import NamedTuple
+
+import numpy as np
+from pydantic import model_validator
+from scipy.optimize import brentq, root
+
+from support_exudyn.machine import (
+    GROUND,
+    Body,
+    Column,
+    Linkage,
+    Machine,
+    Part,
+    TracePoint,
+    lumped,
+    pinned,
+)
+from support_exudyn.plane import circle_intersection, direction, distance, moved, side
+from user_forces.values import InputError, Positive, Vector2, value
+
+BODIES = ("rear_link", "front_link", "shield", "canopy")
+
+
+class Posture(NamedTuple):
+    """Where everything is with ideal pins. Angles [rad] are turns from the reference posture."""
+
+    rear_link: float
+    front_link: float
+    shield: float
+    canopy: float
+    rear_shield: Vector2  # C [m]
+    front_shield: Vector2  # D
+    hinge: Vector2  # I
+    front_head: Vector2  # E
+    rear_head: Vector2  # G
+    tip: Vector2
+
+
+@value
+class HydraulicSupport(Machine):
+    """Pivots, parts and start height of a four-column shield support.
+
+    Arguments:
+        rear_base, front_base: B and A, pivots of rear and front link on the base [m].
+        rear_shield, front_shield: C and D, pivots of the links on the shield beam.
+        hinge: I, shield beam on canopy.
+        front_foot, front_head: F and E, ends of the front column.
+        rear_foot, rear_head: H and G, ends of the rear column.
+        tip: foremost point of the canopy.
+            All of these in one reference posture.
+        parts: for each of rear_link, front_link, shield and canopy the parts it is made of, in the
+            reference posture.
+        start_hinge_height: y of the hinge at the start [m], with the canopy level.
+    """
+
+    rear_base: Vector2
+    front_base: Vector2
+    rear_shield: Vector2
+    front_shield: Vector2
+    hinge: Vector2
+    front_foot: Vector2
+    front_head: Vector2
+    rear_foot: Vector2
+    rear_head: Vector2
+    tip: Vector2
+    parts: Mapping[str, tuple[Part, ...]]
+    start_hinge_height: Positive
+
+    @model_validator(mode="after")
+    def _can_be_built(self) -> HydraulicSupport:
+        if sorted(self.parts) != sorted(BODIES):
+            raise ValueError(f"parts = {sorted(self.parts)}: allowed: exactly {', '.join(BODIES)}")
+        for name, parts in self.parts.items():
+            if lumped(parts).inertia <= 0.0:
+                raise ValueError(f"parts.{name}: total inertia is 0 kg m^2; allowed: > 0")
+        try:
+            self.start()
+        except InputError as error:
+            raise ValueError(str(error)) from None
+        return self
+
+    # --- posture, closed form ---
+
+    def four_bar(self, rear_link: float) -> tuple[Vector2, Vector2, Vector2] | None:
+        """C, D and I for a turn of the rear link [rad]; None where the four-bar does not close.
+
+        D is where the circles of the front link about A and of the shield beam about C meet, on the
+        same side of CA as in the reference posture.
+        """
+        c = moved(self.rear_shield, self.rear_base, self.rear_base, rear_link)
+        which = side(self.rear_shield, self.front_base, self.front_shield)
+        d = circle_intersection(
+            c,
+            distance(self.rear_shield, self.front_shield),
+            self.front_base,
+            distance(self.front_base, self.front_shield),
+            which,
+        )
+        if d is None:
+            return None
+        turn = _turn(direction(self.rear_shield, self.front_shield), direction(c, d))
+        return c, d, moved(self.hinge, self.rear_shield, c, turn)
+
+    def posture(self, rear_link: float, canopy: float) -> Posture | None:
+        """Posture for turns of rear link and canopy [rad]; None where the four-bar does not close."""
+        closed = self.four_bar(rear_link)
+        if closed is None:
+            return None
+        c, d, i = closed
+
+        def on_canopy(point: Vector2) -> Vector2:
+            return moved(point, self.hinge, i, canopy)
+
+        return Posture(
+            rear_link,
+            _turn(direction(self.front_base, self.front_shield), direction(self.front_base, d)),
+            _turn(direction(self.rear_shield, self.front_shield), direction(c, d)),
+            canopy,
+            c,
+            d,
+            i,
+            on_canopy(self.front_head),
+            on_canopy(self.rear_head),
+            on_canopy(self.tip),
+        )
+
+    def start(self) -> Posture:
+        """Posture with a level canopy and the hinge at its start height.
+
+        Raises InputError with the reachable range if the linkage does not go there.
+        """
+        turns = np.radians(np.linspace(-60.0, 60.0, 241))
+        heights = [closed[2][1] if (closed := self.four_bar(t)) else math.nan for t in turns]
+        excess = np.array(heights) - self.start_hinge_height
+        crossings = np.flatnonzero(excess[:-1] * excess[1:] <= 0.0)
+        if crossings.size == 0:
+            raise InputError(
+                f"start_hinge_height = {self.start_hinge_height} m: the four-bar cannot bring the hinge there; "
+                f"allowed: {np.nanmin(heights):.4f} to {np.nanmax(heights):.4f} m"
+            )
+        near = crossings[np.argmin(np.abs(turns[crossings]))]
+
+        def height_error(turn: float) -> float:
+            closed = self.four_bar(turn)
+            return closed[2][1] - self.start_hinge_height if closed else math.nan
+
+        found = self.posture(float(brentq(height_error, turns[near], turns[near + 1], xtol=1e-15)), 0.0)
+        assert found is not None  # both ends of the bracket close
+        return found
+
+    def column_lengths(self, posture: Posture) -> tuple[float, float]:
+        """Lengths [m] of front and rear column."""
+        return distance(self.front_foot, posture.front_head), distance(self.rear_foot, posture.rear_head)
+
+    def extended(self, extension: float, near: Posture | None = None) -> Posture | None:
+        """Posture with both columns longer than at the start by `extension` [m]; None if there is none.
+
+        `near`: a posture to search from, the start by default; steps of some centimetres are safe.
+        """
+        start = self.start()
+        front, rear = (length + extension for length in self.column_lengths(start))
+        near = near or start
+
+        def misfit(turns: np.ndarray) -> list[float]:
+            posture = self.posture(float(turns[0]), float(turns[1]))
+            if posture is None:
+                return [math.inf, math.inf]
+            got = self.column_lengths(posture)
+            return [got[0] - front, got[1] - rear]
+
+        with np.errstate(invalid="ignore"):
+            found = root(misfit, [near.rear_link, near.canopy], tol=1e-14)
+        if not np.all(np.abs(misfit(found.x)) < 1e-11):
+            return None
+        return self.posture(float(found.x[0]), float(found.x[1]))
+
+    def check_extension(self, lowest: float, highest: float) -> None:
+        """Raise InputError unless the columns close the linkage from `lowest` to `highest` [m]."""
+        for goal in (lowest, highest):
+            reached, posture, step = 0.0, self.start(), math.copysign(0.02, goal)
+            while reached != goal:
+                target = reached + step
+                if abs(target) > abs(goal):
+                    target = goal
+                following = self.extended(target, posture)
+                if following is not None and abs(following.rear_link - posture.rear_link) < 0.2:
+                    reached, posture = target, following
+                elif abs(step) > 1e-4:
+                    step /= 2.0
+                else:
+                    raise InputError(
+                        f"column extension = {goal} m: the columns cannot close the linkage there; "
+                        f"allowed: up to {reached:.3f} m from the start posture"
+                    )
+
+    # --- layout ---
+
+    def linkage(self) -> Linkage:
+        """The support as four moving bodies, five pins, two columns and the canopy tip."""
+        p = self.start()
+        turned = {"rear_link": p.rear_link, "front_link": p.front_link, "shield": p.shield, "canopy": p.canopy}
+        anchors = {  # a point of each body: where it is in the reference posture and at the start
+            "rear_link": (self.rear_base, self.rear_base),
+            "front_link": (self.front_base, self.front_base),
+            "shield": (self.rear_shield, p.rear_shield),
+            "canopy": (self.hinge, p.hinge),
+        }
+        lines = {  # by which a body's angle is measured
+            "rear_link": direction(self.rear_base, p.rear_shield),
+            "front_link": direction(self.front_base, p.front_shield),
+            "shield": direction(p.rear_shield, p.hinge),
+            "canopy": p.canopy,
+        }
+        bodies = {}
+        for name in BODIES:
+            lump = lumped(self.parts[name])
+            centre = moved(lump.centre, *anchors[name], turned[name])
+            bodies[name] = Body(mass=lump.mass, inertia=lump.inertia, centre=centre, angle=lines[name])
+        return Linkage(
+            bodies=bodies,
+            pins={
+                "rear_base": pinned(GROUND, "rear_link", self.rear_base),
+                "front_base": pinned(GROUND, "front_link", self.front_base),
+                "rear_shield": pinned("rear_link", "shield", p.rear_shield),
+                "front_shield": pinned("front_link", "shield", p.front_shield),
+                "shield_canopy": pinned("shield", "canopy", p.hinge),
+            },
+            columns={
+                "front_column": Column(
+                    foot=GROUND, head="canopy", foot_point=self.front_foot, head_point=p.front_head
+                ),
+                "rear_column": Column(
+                    foot=GROUND, head="canopy", foot_point=self.rear_foot, head_point=p.rear_head
+                ),
+            },
+            points={"tip": TracePoint(body="canopy", point=p.tip)},
+        )
+
+
+def _turn(before: float, after: float) -> float:
+    """Smallest turn [rad] from one direction to another."""
+    return math.remainder(after - before, 2.0 * math.pi)

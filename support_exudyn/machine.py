@@ -1,0 +1,165 @@
+"""What the engine needs to know of a machine: bodies, pins and columns in their start posture."""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Iterable, Mapping
+from dataclasses import field
+
+from pydantic import model_validator
+
+from user_forces.values import NonNegative, Positive, Value, Vector2, value
+
+GROUND = "ground"
+
+
+@value
+class Part(Value):
+    """A rigid part of a body.
+
+    Arguments:
+        mass: [kg], > 0.
+        centre: centre of mass [m].
+        inertia: about the centre of mass [kg m^2], >= 0 (0: a point mass).
+    """
+
+    mass: Positive
+    centre: Vector2
+    inertia: NonNegative = 0.0
+
+
+def bar(mass: float, a: Vector2, b: Vector2) -> Part:
+    """A uniform slender bar from a to b: centre in the middle, inertia m l^2 / 12."""
+    length = math.hypot(a[0] - b[0], a[1] - b[1])
+    return Part(mass=mass, centre=((a[0] + b[0]) / 2, (a[1] + b[1]) / 2), inertia=mass * length**2 / 12)
+
+
+def lumped(parts: Iterable[Part]) -> Part:
+    """Several parts fixed to each other, as one: total mass, common centre, Steiner's theorem."""
+    parts = tuple(parts)
+    mass = sum(p.mass for p in parts)
+    x = sum(p.mass * p.centre[0] for p in parts) / mass
+    y = sum(p.mass * p.centre[1] for p in parts) / mass
+    inertia = sum(p.inertia + p.mass * ((p.centre[0] - x) ** 2 + (p.centre[1] - y) ** 2) for p in parts)
+    return Part(mass=mass, centre=(x, y), inertia=inertia)
+
+
+@value
+class Body(Value):
+    """A moving rigid body at the start.
+
+    Arguments:
+        mass: [kg], > 0.
+        inertia: about the centre of mass [kg m^2], > 0.
+        centre: centre of mass [m].
+        angle: orientation [rad] of the line by which the machine measures this body.
+        velocity: of the centre of mass [m/s].
+        spin: angular velocity [rad/s].
+    """
+
+    mass: Positive
+    inertia: Positive
+    centre: Vector2
+    angle: float = 0.0
+    velocity: Vector2 = (0.0, 0.0)
+    spin: float = 0.0
+
+
+@value
+class PinPlace(Value):
+    """A place where two bodies are pinned together; whether ideally or loosely is the scenario's choice.
+
+    Arguments:
+        first, second: names of the bodies, one of them may be "ground". Pin forces are reported as
+            the force of the first on the second.
+        first_point: the pin's centre on the first body [m], start posture.
+        second_point: the same on the second body; the same point unless the start is eccentric.
+    """
+
+    first: str
+    second: str
+    first_point: Vector2
+    second_point: Vector2
+
+
+def pinned(first: str, second: str, point: Vector2) -> PinPlace:
+    """A pin whose centres coincide at the start."""
+    return PinPlace(first=first, second=second, first_point=point, second_point=point)
+
+
+@value
+class Column(Value):
+    """A strut of prescribed length between two bodies.
+
+    Arguments:
+        foot, head: names of the bodies, one of them may be "ground".
+        foot_point, head_point: its ends [m], start posture.
+    """
+
+    foot: str
+    head: str
+    foot_point: Vector2
+    head_point: Vector2
+
+    @property
+    def start_length(self) -> float:
+        """Distance of its ends at the start [m]."""
+        return math.dist(self.foot_point, self.head_point)
+
+
+@value
+class TracePoint(Value):
+    """A point of a body whose path is recorded.
+
+    Arguments:
+        body: name of the body.
+        point: where it is at the start [m].
+    """
+
+    body: str
+    point: Vector2
+
+
+@value
+class Linkage(Value):
+    """A planar mechanism in its start posture; x forward, y up, SI.
+
+    Arguments:
+        bodies: moving bodies by name.
+        pins: pins by name.
+        columns: driven columns by name.
+        points: traced points by name.
+    """
+
+    bodies: Mapping[str, Body]
+    pins: Mapping[str, PinPlace] = field(default_factory=dict)
+    columns: Mapping[str, Column] = field(default_factory=dict)
+    points: Mapping[str, TracePoint] = field(default_factory=dict)
+
+    @model_validator(mode="after")
+    def _names_are_known(self) -> Linkage:
+        used = [(f"pins.{k}", b) for k, p in self.pins.items() for b in (p.first, p.second)]
+        used += [(f"columns.{k}", b) for k, c in self.columns.items() for b in (c.foot, c.head)]
+        used += [(f"points.{k}", p.body) for k, p in self.points.items()]
+        for where, body in used:
+            if body != GROUND and body not in self.bodies:
+                raise ValueError(
+                    f"{where} = {body!r}: no such body; allowed: {GROUND}, {', '.join(self.bodies)}"
+                )
+        return self
+
+
+class Machine(Value, ABC):
+    """A machine is its dimensions and masses; it knows how to lay itself out as a linkage."""
+
+    @abstractmethod
+    def linkage(self) -> Linkage:
+        """The mechanism in its start posture."""
+
+    def check_extension(self, lowest: float, highest: float) -> None:
+        """Raise InputError if the columns cannot be extended over this range [m] from the start.
+
+        A machine without driven columns has nothing to check.
+        """
+        del lowest, highest

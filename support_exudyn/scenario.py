@@ -1,0 +1,82 @@
+"""Everything that determines a run."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import field
+from typing import Annotated, Literal
+
+from pydantic import Field, model_validator
+
+from support_exudyn.drives import Drive, Held
+from support_exudyn.machine import Machine
+from support_exudyn.pins import ClearancePin, Pin
+from user_forces.values import Fraction, Positive, Value, Vector2, value
+
+
+@value
+class SolverSettings(Value):
+    """Settings of the generalised-alpha solver.
+
+    Arguments:
+        spectral_radius: rho at infinite frequency, from 0 (all high-frequency content damped out in a
+            step) to 1 (none). At 0.5 the joint forces are quiet at small steps; at 0.9 rounding
+            shows in them below a step of 0.2 ms.
+        newton_tolerance: relative tolerance of Newton's residual, > 0.
+        impact_refinement: how many times shorter the steps are during an impact, that is from the touch
+            to the first least depth or to parting; 1 to 100. Errors of an impact are of second order
+            in the step and carried on to all later ones.
+    """
+
+    spectral_radius: Fraction = 0.5
+    newton_tolerance: Annotated[float, Field(gt=0, le=1e-3)] = 1e-8
+    impact_refinement: Annotated[int, Field(ge=1, le=100)] = 16
+
+
+@value
+class Scenario(Value):
+    """One run: a machine, its pins, how it starts and is driven, and how finely it is computed.
+
+    Arguments:
+        machine: what is simulated.
+        pins: for each pin that is not ideal (or to say so), what it is, by name.
+        drive: how all columns extend.
+        duration: end time [s], > 0; the run starts at 0.
+        start: "concentric": every journal in the middle of its bore, velocities as the machine says;
+            "settled": at rest in static equilibrium under gravity.
+        gravity: acceleration [m/s^2].
+        step: largest time step [s], > 0. Steps are equal parts of the time between two records; they are
+            cut at impacts.
+        record_period: time between records [s], > 0.
+        solver: settings of the time integration.
+    """
+
+    machine: Machine
+    pins: Mapping[str, Pin] = field(default_factory=dict)
+    drive: Drive = field(default_factory=Held)
+    duration: Positive
+    start: Literal["concentric", "settled"] = "concentric"
+    gravity: Vector2 = (0.0, -9.81)
+    step: Annotated[float, Field(gt=0, le=0.1)] = 2.5e-4
+    record_period: Positive = 1e-3
+    solver: SolverSettings = field(default_factory=SolverSettings)
+
+    @model_validator(mode="after")
+    def _fits_the_machine(self) -> Scenario:
+        places = self.machine.linkage().pins
+        for name in self.pins:
+            if name not in places:
+                raise ValueError(
+                    f"pins.{name}: the machine has no such pin; allowed: {', '.join(places) or 'none'}"
+                )
+        if self.record_period > self.duration:
+            raise ValueError(
+                f"record_period = {self.record_period} s: allowed: at most the duration, {self.duration} s"
+            )
+        self.machine.check_extension(*self.drive.span)
+        return self
+
+    @property
+    def clearance_pins(self) -> dict[str, ClearancePin]:
+        """The pins that have clearance, by name."""
+        return {name: pin for name, pin in self.pins.items() if isinstance(pin, ClearancePin)}

@@ -1,0 +1,66 @@
+"""Static equilibrium with loose pins, so that a run can start settled."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import exudyn
+
+from support_exudyn.errors import Failure, SimulationError
+from support_exudyn.scene import INITIAL, Scene
+from support_exudyn.solver import quiet_engine
+
+# A journal in the middle of its bore has no stiffness. A centring spring in every loose pin is there at
+# first, stiff enough to hold the weight of the machine within the clearance, and is then taken away.
+CENTRING = (1.0, 0.3, 0.1, 0.03, 0.01, 1e-3, 1e-4, 1e-6, 0.0)
+
+
+def settle(scene: Scene) -> None:
+    """Make the static equilibrium under gravity the initial state of the scene, at rest.
+
+    Elastic contact without friction. Velocities the machine asks for are set to zero.
+
+    Raises SimulationError if there is no equilibrium or it is not found.
+    """
+    data = scene.mbs.systemData
+    weight = sum(item.body.mass for item in scene.bodies.values()) * _norm(scene.scenario.gravity)
+    try:
+        for pin in scene.loose_pins.values():
+            pin.settling = True
+        for share in CENTRING:
+            for pin in scene.loose_pins.values():
+                pin.centring_stiffness = share * weight / pin.contact.bearing.clearance
+            _solve(scene)
+            data.SetODE2Coordinates(data.GetODE2Coordinates(), INITIAL)
+    finally:
+        for pin in scene.loose_pins.values():
+            pin.settling = False
+            pin.calls = 0
+    data.SetODE2Coordinates_t(0.0 * data.GetODE2Coordinates_t(INITIAL), INITIAL)
+    scene.reset_memory()
+
+
+def _solve(scene: Scene) -> None:
+    solver: Any = exudyn.MainSolverStatic()
+    settings: Any = exudyn.SimulationSettings()
+    settings.solution.file.write = False
+    settings.staticSolver.verboseMode = 0
+    settings.staticSolver.newton.relativeTolerance = 1e-10
+    try:
+        with quiet_engine():
+            found = solver.SolveSystem(scene.mbs, settings)
+    except exudyn.ExudynError:
+        found = False
+    if not found:
+        raise SimulationError(
+            Failure(
+                "no static equilibrium was found",
+                "Is every body held by pins and columns, and does gravity press the loose pins? "
+                "Otherwise start concentric.",
+                0.0,
+            )
+        )
+
+
+def _norm(vector: tuple[float, float]) -> float:
+    return float((vector[0] ** 2 + vector[1] ** 2) ** 0.5)

@@ -1,0 +1,5 @@
+"""Machine data files (TOML; mm and kg) and their reader."""
+
+from support_exudyn.supports.read import load_support, reference_support
+
+__all__ = ["load_support", "reference_support"]
