@@ -1,0 +1,319 @@
+"""What does 1.5 mm of clearance in the rear-link pin do to the rise? (Section 3 of the paper.)
+
+The support stands still for 3 s, while the journal falls from the middle of its bore and comes to rest,
+and rises by 500 mm in the next 2 s. Ideal pin against 1.5 mm, with friction and without.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+import numpy.typing as npt
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from rich.console import Console
+from rich.table import Table
+
+from studies import paper_machine, style
+from studies.study import Number, Options, Pair, options, rounded, run_main, run_pairs, write_summary
+from support_exudyn import Result, Scenario
+from support_exudyn.files import whole_file
+
+Series = npt.NDArray[np.float64]
+DEGREES = 180.0 / np.pi
+STUDY = "clearance_influence"
+CLEARANCE_MM = 1.5
+IDEAL = "ideal"
+DRY = f"{CLEARANCE_MM} mm, mu_d = {paper_machine.SLIDING_COEFFICIENT}"
+SMOOTH = f"{CLEARANCE_MM} mm, mu_d = 0"
+CASES = (IDEAL, SMOOTH, DRY)
+FORCE = f"pin.{paper_machine.LOOSE_PIN}.force"
+RISE_START, RISE_END = 3.0, 5.0  # [s]
+WINDOWS = {"early": (3.0, 3.12), "middle": (4.0, 4.12), "late": (4.6, 4.72)}  # enlarged in Fig. 3 [s]
+
+
+def scenarios(quick: bool) -> dict[str, Scenario]:
+    """The three cases."""
+    step = 1e-3 if quick else 2.5e-4
+    return {
+        SMOOTH: paper_machine.loose_rise(CLEARANCE_MM, 0.0, step),
+        DRY: paper_machine.loose_rise(CLEARANCE_MM, paper_machine.SLIDING_COEFFICIENT, step),
+        IDEAL: paper_machine.ideal_rise(1e-3),
+    }
+
+
+# --- measures ---
+
+
+def in_rise(result: Result) -> npt.NDArray[np.bool_]:
+    """Mask of the records from 3 to 5 s."""
+    return (result.time >= RISE_START - 1e-9) & (result.time <= RISE_END + 1e-9)
+
+
+def velocity_deg(result: Result) -> Series:
+    """Angular velocity of the rear link [deg/s]."""
+    return DEGREES * result["rear_link.angular_velocity"]
+
+
+def acceleration_deg(result: Result) -> Series:
+    """Angular acceleration of the rear link [deg/s^2]."""
+    return DEGREES * result["rear_link.angular_acceleration"]
+
+
+def measure(pairs: Mapping[str, Pair]) -> list[Number]:
+    """All numbers of the study."""
+    numbers = [
+        Number(
+            "stiffness_coefficient",
+            f"{CLEARANCE_MM} mm",
+            paper_machine.stiffness(CLEARANCE_MM) / 1e3**1.5,
+            "N/mm^1.5",
+            None,
+            paper_machine.STIFFNESS[CLEARANCE_MM],
+        )
+    ]
+    for case, pair in pairs.items():
+        numbers += _rise_numbers(case, pair)
+        if case != IDEAL:
+            numbers += _comparison_numbers(case, pair, pairs[IDEAL])
+            numbers += _impact_numbers(case, pair)
+        numbers += _energy_numbers(case, pair)
+    return numbers
+
+
+def _rise_numbers(case: str, pair: Pair) -> list[Number]:
+    """Statistics over the records from 3 to 5 s, every 1 ms; the largest from 0 to 5 s."""
+    printed = case == DRY  # the paper has friction, though with data it does not give
+    table: list[tuple[str, str, Callable[[Result], float], float | None]] = [
+        (
+            "mean_pin_force",
+            "N",
+            lambda r: float(r[FORCE][in_rise(r)].mean()),
+            paper_machine.MEAN_FORCE[CLEARANCE_MM],
+        ),
+        (
+            "std_pin_force",
+            "N",
+            lambda r: float(r[FORCE][in_rise(r)].std()),
+            paper_machine.FORCE_SPREAD[CLEARANCE_MM],
+        ),
+        ("largest_pin_force", "N", lambda r: float(r[FORCE].max()), None),
+        ("largest_pin_force_in_rise", "N", lambda r: float(r[FORCE][in_rise(r)].max()), None),
+        (
+            "largest_angular_speed_in_rise",
+            "deg/s",
+            lambda r: float(np.abs(velocity_deg(r)[in_rise(r)]).max()),
+            None,
+        ),
+        (
+            "mean_angular_acceleration",
+            "deg/s^2",
+            lambda r: float(acceleration_deg(r)[in_rise(r)].mean()),
+            paper_machine.MEAN_ACCELERATION[CLEARANCE_MM],
+        ),
+        (
+            "std_angular_acceleration",
+            "deg/s^2",
+            lambda r: float(acceleration_deg(r)[in_rise(r)].std()),
+            None,
+        ),
+    ]
+    return [
+        pair.number(name, case, unit, measure, paper if printed else None)
+        for name, unit, measure, paper in table
+    ]
+
+
+def _comparison_numbers(case: str, pair: Pair, ideal: Pair) -> list[Number]:
+    """What the clearance changes against the ideal pin, record by record, from 3 to 5 s."""
+
+    def departure(channel: str, scale: float) -> Callable[[Result], Series]:
+        return lambda r: scale * (r[channel] - ideal.fine[channel])[in_rise(r)]
+
+    force = departure(FORCE, 1.0)
+    speed = departure("rear_link.angular_velocity", DEGREES)
+    tip = departure("tip.x", 1e3)
+    return [
+        pair.number("rms_pin_force_departure", case, "N", lambda r: _rms(force(r))),
+        pair.number("rms_angular_velocity_departure", case, "deg/s", lambda r: _rms(speed(r))),
+        pair.number("mean_tip_shift", case, "mm", lambda r: float(tip(r).mean())),
+    ]
+
+
+def _impact_numbers(case: str, pair: Pair) -> list[Number]:
+    """The first three touches, and how many there are."""
+    pin = paper_machine.LOOSE_PIN
+    numbers = [pair.number("touches", case, "1", lambda r: float(len(r.onsets[pin])))]
+    numbers.append(pair.number("largest_pin_force_any_step", case, "N", lambda r: float(r.largest_force[pin])))
+    for n in range(3):
+        numbers += [
+            pair.number(f"onset_{n + 1}_time", case, "s", _onset(n, "time")),
+            pair.number(f"onset_{n + 1}_speed", case, "m/s", _onset(n, "speed")),
+        ]
+    return numbers
+
+
+def _onset(n: int, field: Literal["time", "speed"]) -> Callable[[Result], float]:
+    return lambda r: float(getattr(r.onsets[paper_machine.LOOSE_PIN][n], field))
+
+
+def _energy_numbers(case: str, pair: Pair) -> list[Number]:
+    numbers = [pair.number("column_work", case, "J", lambda r: float(r["energy.work"][-1]))]
+    if case != IDEAL:
+        numbers.append(pair.number("energy_dissipated", case, "J", lambda r: r.dissipated))
+    numbers.append(Number("energy_error", case, pair.fine.energy_error, "J", None))  # is itself an error
+    return numbers
+
+
+def _rms(values: Series) -> float:
+    return float(np.sqrt(np.mean(values**2)))
+
+
+# --- figures ---
+
+
+def figures(results: Mapping[str, Result]) -> dict[str, Figure]:
+    """Counterparts of Fig. 3, 4 and 5, by file name."""
+    return {
+        "fig3_angular_velocity": _velocity_figure(results),
+        "fig4_angular_acceleration": _line_figure(
+            results,
+            acceleration_deg,
+            1.0,
+            "angular acceleration\n[deg/s²]",
+            "Angular acceleration of the rear link (paper: Fig. 4)",
+        ),
+        "fig5_pin_force": _line_figure(
+            results, lambda r: r[FORCE], 1e-3, "pin force [kN]", "Force in the rear-link pin (paper: Fig. 5)"
+        ),
+    }
+
+
+def _draw(axes: Axes, results: Mapping[str, Result], get: Callable[[Result], Series], scale: float) -> None:
+    """The three cases, the most restless one undermost."""
+    curves = [
+        (DRY, style.LOOSE, 0.9, "-", f"{CLEARANCE_MM} mm, friction {paper_machine.SLIDING_COEFFICIENT}"),
+        (SMOOTH, style.SMOOTH, 1.2, "-", f"{CLEARANCE_MM} mm, no friction"),
+        (IDEAL, style.IDEAL, 1.0, (0, (4, 2)), "ideal pin"),
+    ]
+    for case, colour, width, dashes, label in curves:
+        result = results[case]
+        axes.plot(result.time, scale * get(result), color=colour, lw=width, ls=dashes, label=label)
+
+
+def _velocity_figure(results: Mapping[str, Result]) -> Figure:
+    drawing = Figure(figsize=style.size(170, 125))
+    panels = drawing.subplots(2, 2)
+    titles = ["a) 0 to 5 s"] + [f"{letter}) {name}" for letter, name in zip("bcd", WINDOWS, strict=True)]
+    for axes, title in zip(panels.flat, titles, strict=True):
+        _draw(axes, results, velocity_deg, 1.0)
+        axes.set(title=title, xlabel="time [s]", ylabel="angular velocity [deg/s]")
+    panels[0, 0].set_xlim(0.0, 5.0)
+    for axes, window in zip(list(panels.flat)[1:], WINDOWS.values(), strict=True):
+        axes.set_xlim(*window)
+        _fit_height(axes, window, [velocity_deg(results[c]) for c in CASES], results[IDEAL].time)
+        panels[0, 0].axvspan(*window, color="#eeeeee", zorder=0)
+    _legend(drawing, panels[0, 0])
+    drawing.suptitle("Angular velocity of the rear link (paper: Fig. 3). Grey in a): enlarged in b) to d)")
+    return drawing
+
+
+def _line_figure(
+    results: Mapping[str, Result], get: Callable[[Result], Series], scale: float, label: str, title: str
+) -> Figure:
+    """The whole run above, the rise alone below on its own scale: the first impacts dwarf the rest."""
+    drawing = Figure(figsize=style.size(170, 125))
+    whole, rise = drawing.subplots(2, 1)
+    for axes in (whole, rise):
+        _draw(axes, results, get, scale)
+        axes.set(xlabel="time [s]", ylabel=label)
+    whole.set(xlim=(0.0, 5.0), title="a) 0 to 5 s, start with the journal in the middle of its bore")
+    rise.set(xlim=(RISE_START, RISE_END), title="b) the rise, 3 to 5 s")
+    values = [scale * get(results[c]) for c in CASES]
+    _fit_height(rise, (RISE_START + 1e-3, RISE_END - 1e-3), values, results[IDEAL].time)
+    _legend(drawing, whole)
+    drawing.suptitle(title)
+    return drawing
+
+
+def _legend(drawing: Figure, axes: Axes) -> None:
+    """One legend for all panels, below them."""
+    drawing.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=3)
+
+
+def _fit_height(axes: Axes, window: tuple[float, float], curves: Sequence[Series], times: Series) -> None:
+    inside = (times >= window[0]) & (times <= window[1])
+    low = min(curve[inside].min() for curve in curves)
+    high = max(curve[inside].max() for curve in curves)
+    margin = 0.05 * (high - low)
+    axes.set_ylim(low - margin, high + margin)
+
+
+# --- table ---
+
+
+def table(numbers: Sequence[Number]) -> Table:
+    """All numbers, a row a name, a column a case."""
+    shown = Table(title="Rise of the reference support: ideal rear-link pin against 1.5 mm clearance")
+    for heading in ("quantity", "unit", *CASES, "paper"):
+        shown.add_column(heading, justify="left" if heading in ("quantity", "unit") else "right")
+    by_name: dict[str, dict[str, Number]] = {}
+    for number in numbers:
+        by_name.setdefault(number.name, {})[number.case] = number
+    for name, row in by_name.items():
+        any_case = f"{CLEARANCE_MM} mm"
+        cells = [rounded(row[c].value, row[c].numerical_error) if c in row else "" for c in CASES]
+        if any_case in row:
+            cells[1] = cells[2] = rounded(row[any_case].value, None)
+        printed = next((n.paper for n in row.values() if n.paper is not None), None)
+        unit = next(iter(row.values())).unit
+        shown.add_row(name.replace("_", " "), unit, *cells, "" if printed is None else f"{printed:g}")
+    shown.caption = (
+        "± is the change when the step is halved. Means and spreads: 3 to 5 s, every 1 ms. The paper gives no\n"
+        "machine data: its numbers stand beside ours for orientation, not as a check."
+    )
+    return shown
+
+
+# --- main ---
+
+
+def study(chosen: Options) -> None:
+    """Run, measure, draw and write everything into the output folder."""
+    started = time.perf_counter()
+    pairs = run_pairs(scenarios(chosen.quick), chosen.workers)
+    results = {name: pair.fine for name, pair in pairs.items()}
+    for name, result in results.items():
+        result.save(chosen.out / "runs" / f"{_file_name(name)}.h5")
+    with style.look():
+        for name, drawing in figures(results).items():
+            style.save(drawing, chosen.out, name)
+    numbers = measure(pairs)
+    shown = table(numbers)
+    Console(width=None if sys.stdout.isatty() else 150).print(shown)
+    _write_table(chosen.out / "table.txt", shown)
+    write_summary(chosen.out, STUDY, numbers, time.perf_counter() - started)
+
+
+def _write_table(path: Path, shown: Table) -> None:
+    with whole_file(path) as temporary, temporary.open("w", encoding="utf-8") as file:
+        Console(file=file, width=150).print(shown)
+
+
+def _file_name(case: str) -> str:
+    return case.replace(" mm, mu_d = ", "mm_mu").replace(".", "p")
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Entry of `python -m studies.clearance_influence`."""
+    description = (__doc__ or "").splitlines()[0]
+    return run_main(study, options(STUDY, argv, description))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

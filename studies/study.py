@@ -1,0 +1,144 @@
+"""What all studies share: their options, runs at two step sizes, numbers and summary."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import os
+import sys
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
+
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+
+from support_exudyn import Failure, Result, Scenario, SimulationError
+from support_exudyn.files import whole_file
+from support_exudyn.provenance import versions
+from support_exudyn.sweep import run_all
+
+
+@dataclass(frozen=True)
+class Options:
+    """How a study is to be run: folder for its output, coarse steps for a quick look, processes."""
+
+    out: Path
+    quick: bool
+    workers: int
+
+
+def options(study: str, argv: Sequence[str] | None, description: str) -> Options:
+    """Options of a study from the command line."""
+    parser = argparse.ArgumentParser(prog=f"python -m studies.{study}", description=description)
+    add_options(parser, Path("results") / study)
+    given = parser.parse_args(argv)
+    return Options(given.out, given.quick, given.workers)
+
+
+def add_options(parser: argparse.ArgumentParser, out: Path) -> None:
+    """The options that every study takes."""
+    parser.add_argument("--out", type=Path, default=out, metavar="DIR", help=f"folder for output ({out})")
+    parser.add_argument("--quick", action="store_true", help="coarser steps: a look in seconds, larger errors")
+    parser.add_argument(
+        "--workers", type=int, default=os.cpu_count() or 1, metavar="N", help="processes (all cores)"
+    )
+
+
+@dataclass(frozen=True)
+class Number:
+    """A number that a study reports.
+
+    name, case: what, and of which run. value, unit. numerical_error: how much it changes when the step
+    is halved, None if it is not computed by stepping. paper: the printed value, None if there is none.
+    """
+
+    name: str
+    case: str
+    value: float
+    unit: str
+    numerical_error: float | None
+    paper: float | None = None
+
+
+@dataclass(frozen=True)
+class Pair:
+    """A case at its step and at half of it."""
+
+    coarse: Result
+    fine: Result
+
+    def number(
+        self, name: str, case: str, unit: str, measure: Callable[[Result], float], paper: float | None = None
+    ) -> Number:
+        """A measured number: the finer run's value, and its distance from the coarser run's."""
+        value = measure(self.fine)
+        return Number(name, case, value, unit, abs(value - measure(self.coarse)), paper)
+
+
+def run_pairs(cases: Mapping[str, Scenario], workers: int) -> dict[str, Pair]:
+    """Run every case at its step and at half of it, in parallel, under a progress bar.
+
+    Raises SimulationError if a run fails.
+    """
+    # the longest first, so that no process is left alone with a long run at the end
+    runs = {f"{name}, half step": replace(case, step=case.step / 2) for name, case in cases.items()}
+    runs |= dict(cases)
+    columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.percentage:3.0f} %"))
+    with Progress(*columns, TimeRemainingColumn(), console=Console(stderr=True)) as bars:
+        tasks = {name: bars.add_task(name, total=1.0) for name in runs}
+
+        def show(shares: Mapping[str, float]) -> None:
+            for name, share in shares.items():
+                bars.update(tasks[name], completed=share)
+
+        results = run_all(runs, workers=workers, progress=show)
+    for name, result in results.items():
+        if isinstance(result, Failure):
+            raise SimulationError(replace(result, reason=f"{name}: {result.reason}"))
+    good = {name: result for name, result in results.items() if isinstance(result, Result)}
+    return {name: Pair(good[name], good[f"{name}, half step"]) for name in cases}
+
+
+def write_summary(out: Path, study: str, numbers: Sequence[Number], wall_s: float) -> Path:
+    """Write DIR/summary.json: study, versions, wall time and all numbers."""
+    summary = {
+        "study": study,
+        "versions": versions(),
+        "wall_s": round(wall_s, 3),
+        "numbers": [asdict(number) for number in numbers],
+    }
+    path = out / "summary.json"
+    with whole_file(path) as temporary:
+        temporary.write_text(json.dumps(summary, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+    return path
+
+
+def rounded(value: float, error: float | None) -> str:
+    """A number with its error, both to the digits that the error leaves."""
+    if error is None:
+        return f"{value:.6g}"
+    if error == 0.0 or not math.isfinite(error):
+        return f"{value:.6g}"
+    digits = max(0, 1 - math.floor(math.log10(error)))
+    if digits > 9:
+        return f"{value:.6g} ± {error:.0e}"
+    return f"{value:.{digits}f} ± {error:.{digits}f}"
+
+
+def run_main(main: Callable[[Options], None], chosen: Options) -> int:
+    """Run a study; what the user can mend is said in a sentence. Returns the exit code."""
+    try:
+        started = time.perf_counter()
+        chosen.out.mkdir(parents=True, exist_ok=True)  # better to fail now than after the work
+        main(chosen)
+        print(f"{chosen.out}: done in {time.perf_counter() - started:.1f} s", file=sys.stderr)
+    except (SimulationError, OSError) as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        print("interrupted; nothing half-written is left", file=sys.stderr)
+        return 130
+    return 0

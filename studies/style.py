@@ -1,0 +1,55 @@
+"""One look for all figures."""
+
+from __future__ import annotations
+
+from contextlib import AbstractContextManager
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+from matplotlib.figure import Figure
+
+from support_exudyn.files import whole_file
+
+# Okabe and Ito's colours: told apart by colour-blind readers; the lightness differs too, for grey prints.
+IDEAL = "#000000"
+LOOSE = "#0072B2"
+SMOOTH = "#E69F00"
+
+STYLE: dict[Any, Any] = {
+    "font.family": "sans-serif",
+    "font.size": 9,
+    "axes.titlesize": 9,
+    "axes.titlelocation": "left",
+    "figure.titlesize": 10,
+    "axes.grid": True,
+    "grid.color": "#dddddd",
+    "grid.linewidth": 0.5,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "lines.linewidth": 1.0,
+    "legend.frameon": False,
+    "figure.constrained_layout.use": True,
+    "savefig.dpi": 200,
+    "axes.formatter.useoffset": False,
+    "pdf.fonttype": 42,
+}
+
+
+def look() -> AbstractContextManager[None]:
+    """Put the common style into force for all drawing and saving inside the with block."""
+    return mpl.rc_context(STYLE)
+
+
+def size(width_mm: float, height_mm: float) -> tuple[float, float]:
+    """Size of a figure in the inches that matplotlib wants."""
+    return width_mm / 25.4, height_mm / 25.4
+
+
+def save(drawing: Figure, out: Path, name: str) -> list[Path]:
+    """Write a figure as PNG and PDF."""
+    paths = [out / f"{name}.png", out / f"{name}.pdf"]
+    for path in paths:
+        with whole_file(path) as temporary:
+            drawing.savefig(temporary, format=path.suffix[1:])
+    return paths
