@@ -12,8 +12,8 @@ from user_forces.values import NonNegative, Positive, Value, value
 class Drive(Value, ABC):
     """Extension of a column from its start length as a function of time.
 
-    The contract: `extension` is continuous; `speed` is its derivative; between two neighbouring
-    `breaks` both are smooth, and the solver lands on every break.
+    The contract: `extension` is continuous; `speed` is its derivative; between two neighbouring `breaks`
+    both are smooth; at a break the speed may jump by `speed_jump`. The solver lands on every break.
     """
 
     @abstractmethod
@@ -23,6 +23,11 @@ class Drive(Value, ABC):
     @abstractmethod
     def speed(self, t: float) -> float:
         """Its rate [m/s]; at a jump the value before it."""
+
+    def speed_jump(self, t: float) -> float:
+        """By how much the speed jumps [m/s] at a break t [s]; nowhere by default."""
+        del t
+        return 0.0
 
     @property
     @abstractmethod
@@ -58,12 +63,24 @@ class Held(Drive):
         return 0.0, 0.0
 
 
-class _Stroke(Drive):
-    """A stroke between two times, at rest before and after."""
+@value
+class Stroke(Drive):
+    """A stroke between two times, at rest before and after.
 
-    stroke: float
-    start: float
-    end: float
+    Arguments:
+        stroke: [m], 0.5 by default; negative to lower.
+        start, end: [s], 3 and 5 by default; end > start >= 0.
+    """
+
+    stroke: float = 0.5
+    start: NonNegative = 3.0
+    end: Positive = 5.0
+
+    @model_validator(mode="after")
+    def _ends_after_it_starts(self) -> Stroke:
+        if self.end <= self.start:
+            raise ValueError(f"end = {self.end} s: allowed: > start = {self.start} s")
+        return self
 
     @property
     def breaks(self) -> tuple[float, ...]:
@@ -75,17 +92,13 @@ class _Stroke(Drive):
         """0 and the stroke [m], in order."""
         return min(0.0, self.stroke), max(0.0, self.stroke)
 
-    def _phase(self, t: float) -> float:
+    def phase(self, t: float) -> float:
         """0 at the start of the stroke, 1 at its end, clipped."""
         return min(1.0, max(0.0, (t - self.start) / (self.end - self.start)))
 
-    def _check_times(self) -> None:
-        if self.end <= self.start:
-            raise ValueError(f"end = {self.end} s: allowed: > start = {self.start} s")
-
 
 @value
-class CubicStep(_Stroke):
+class CubicStep(Stroke):
     """Smooth inlet, drive mode 2 of the paper.
 
         extension = stroke (3 x^2 - 2 x^3), x = (t - start)/(end - start) from 0 to 1
@@ -93,56 +106,40 @@ class CubicStep(_Stroke):
     The cubic STEP function of multibody programs: speed is continuous, acceleration jumps at both ends.
     The paper's STEP(TIME,0,0,3,0)+STEP(TIME,3,0,5,500), in mm, is the default.
 
-    Arguments:
-        stroke: [m], 0.5 by default; negative to lower.
-        start, end: [s], 3 and 5 by default; end > start >= 0.
+    Arguments: those of `Stroke`.
     """
-
-    stroke: float = 0.5
-    start: NonNegative = 3.0
-    end: Positive = 5.0
-
-    @model_validator(mode="after")
-    def _ends_after_it_starts(self) -> CubicStep:
-        self._check_times()
-        return self
 
     def extension(self, t: float) -> float:
         """Extension [m] at time t [s]."""
-        x = self._phase(t)
+        x = self.phase(t)
         return self.stroke * x * x * (3.0 - 2.0 * x)
 
     def speed(self, t: float) -> float:
         """Speed [m/s] at time t [s]."""
-        x = self._phase(t)
+        x = self.phase(t)
         return self.stroke * 6.0 * x * (1.0 - x) / (self.end - self.start)
 
 
 @value
-class UniformSpeed(_Stroke):
+class UniformSpeed(Stroke):
     """Direct inlet (drive mode 1 of the paper): constant speed from rest, without transition.
 
-    The speed jumps at both ends. With rigid columns that is an impulse: the largest force and acceleration
-    of a run grow as the step shrinks and have no limit. Everything between the jumps does converge.
+    The speed jumps at both ends. With rigid columns that is an impulse, and the bodies' velocities jump with
+    it; the impulse is reported in N s (`Result.impulses`). A force and an acceleration at that instant do not
+    exist; just before and just after they do.
 
-    Arguments:
-        stroke: [m], 0.5 by default; negative to lower.
-        start, end: [s], 3 and 5 by default; end > start >= 0.
+    Arguments: those of `Stroke`.
     """
-
-    stroke: float = 0.5
-    start: NonNegative = 3.0
-    end: Positive = 5.0
-
-    @model_validator(mode="after")
-    def _ends_after_it_starts(self) -> UniformSpeed:
-        self._check_times()
-        return self
 
     def extension(self, t: float) -> float:
         """Extension [m] at time t [s]."""
-        return self.stroke * self._phase(t)
+        return self.stroke * self.phase(t)
 
     def speed(self, t: float) -> float:
         """Speed [m/s] at time t [s]; at the jumps the value before."""
         return self.stroke / (self.end - self.start) if self.start < t <= self.end else 0.0
+
+    def speed_jump(self, t: float) -> float:
+        """Up at the start, down at the end [m/s]."""
+        speed = self.stroke / (self.end - self.start)
+        return {self.start: speed, self.end: -speed}.get(t, 0.0)

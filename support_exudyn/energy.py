@@ -18,15 +18,25 @@ class RunningIntegrals:
     def __init__(self, number: int) -> None:
         self.totals = [0.0] * number
         self._last: tuple[float, Sequence[float]] | None = None  # time and values
+        self._jump: float | None = None  # time after which the quantities are other than before
         self._before: tuple[float, Sequence[float]] | None = None
 
     def restart(self) -> None:
         """The quantities have a kink here: do not use what was before the last values."""
         self._before = None
 
+    def jump(self, t: float) -> None:
+        """The quantities jump at t [s], the end of the last step."""
+        self._before = self._last = None
+        self._jump = t
+
     def add(self, t: float, values: Sequence[float]) -> None:
         """The quantities' values at the end of a step, t [s]."""
-        if self._last is not None:
+        if self._jump is not None:  # all that is known of the first step after a jump is its end
+            for n, value in enumerate(values):
+                self.totals[n] += (t - self._jump) * value
+            self._jump = None
+        elif self._last is not None:
             t1, last = self._last
             h2 = t - t1
             if self._before is not None and (h1 := t1 - self._before[0]) > 0.25 * h2:

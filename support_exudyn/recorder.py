@@ -48,6 +48,11 @@ class Recorder:
         if kink:
             self.energies.restart()
 
+    def jump(self, t: float, energy: float) -> None:
+        """The columns' speed has jumped at t [s], which gave the bodies this energy [J]."""
+        self.energies.totals[0] += energy
+        self.energies.jump(t)
+
     def record(self, t: float) -> None:
         """Keep the state at time t [s]."""
         data = self._data

@@ -13,6 +13,7 @@ import numpy as np
 
 from support_exudyn.channels import Channel
 from support_exudyn.files import whole_file
+from support_exudyn.impulse import Impulse
 from support_exudyn.onset import Onset
 from support_exudyn.scenario import Scenario
 from support_exudyn.solver import Counts
@@ -27,7 +28,8 @@ class Result:
 
     scenario: what was run. channels: quantities over time by name, see `result["tip.x"]`.
     onsets: for each clearance pin the beginnings of contact. largest_force: for each clearance pin the
-    largest force [N] at the end of any step, also between records. counts: what the solver did.
+    largest force [N] at the end of any step, also between records. impulses: where the columns' speed
+    jumped. counts: what the solver did.
     wall_time: [s], of building, settling and integrating. provenance: versions and platform.
     """
 
@@ -35,6 +37,7 @@ class Result:
     channels: Mapping[str, Channel]
     onsets: Mapping[str, tuple[Onset, ...]]
     largest_force: Mapping[str, float]
+    impulses: tuple[Impulse, ...]
     counts: Counts
     wall_time: float
     provenance: Mapping[str, str]
@@ -72,6 +75,7 @@ class Result:
         with whole_file(path) as temporary, h5py.File(temporary, "w") as file:
             file.attrs["format"] = FORMAT
             file.attrs["scenario"] = json.dumps(self.scenario.to_data())
+            file.attrs["impulses"] = json.dumps([asdict(impulse) for impulse in self.impulses])
             file.attrs["counts"] = json.dumps(asdict(self.counts))
             file.attrs["wall_time_s"] = self.wall_time
             file.attrs["provenance"] = json.dumps(dict(self.provenance))
@@ -116,6 +120,7 @@ def _read(file: h5py.File) -> Result:
         },
         onsets={name: tuple(Onset(*row) for row in data[:].tolist()) for name, data in onsets.items()},
         largest_force={name: float(data.attrs["largest_force_N"]) for name, data in onsets.items()},
+        impulses=tuple(Impulse(**item) for item in attribute("impulses")),
         counts=Counts(**attribute("counts")),
         wall_time=float(file.attrs["wall_time_s"]),
         provenance=attribute("provenance"),

@@ -17,7 +17,7 @@ from exudyn.itemInterface import (
     ObjectRigidBody2D,
 )
 
-from support_exudyn.loose_pin import LoosePin
+from support_exudyn.loose_pin import LoosePin, recalled
 from support_exudyn.machine import GROUND, Body, Column, Linkage, PinPlace
 from support_exudyn.onset import PinMemory
 from support_exudyn.pins import ClearancePin
@@ -26,6 +26,7 @@ from support_exudyn.scenario import Scenario
 from user_forces.values import Vector2
 
 INITIAL = exudyn.ConfigurationType.Initial
+CURRENT = exudyn.ConfigurationType.Current
 
 
 @dataclass(frozen=True)
@@ -81,15 +82,24 @@ class Scene:
         """Give every clearance pin the memory that belongs to the initial state of the bodies."""
         data = self.mbs.systemData.GetDataCoordinates(INITIAL)
         for pin in self.loose_pins.values():
-            depth, rate = self._depth_and_rate(pin)
+            depth, rate = self._depth_and_rate(pin, INITIAL)
             touching = depth > 0.0
             data[pin.slots] = PinMemory(touching, max(0.0, rate) if touching else 0.0, depth, rate)
         self.mbs.systemData.SetDataCoordinates(data, INITIAL)
 
-    def _depth_and_rate(self, pin: LoosePin) -> tuple[float, float]:
+    def refresh_memory(self) -> None:
+        """Tell every clearance pin that velocities have jumped; contacts that go on go on."""
+        data = self.mbs.systemData.GetDataCoordinates()
+        for pin in self.loose_pins.values():
+            memory = recalled(data[pin.slots].tolist())
+            depth, rate = self._depth_and_rate(pin, CURRENT)
+            data[pin.slots] = memory._replace(depth=depth, rate=rate)
+        self.mbs.systemData.SetDataCoordinates(data)
+
+    def _depth_and_rate(self, pin: LoosePin, state: Any) -> tuple[float, float]:
         def relative(what: Any) -> tuple[float, float]:
-            journal = self.mbs.GetMarkerOutput(pin.journal_marker, what, INITIAL)
-            bore = self.mbs.GetMarkerOutput(pin.bore_marker, what, INITIAL)
+            journal = self.mbs.GetMarkerOutput(pin.journal_marker, what, state)
+            bore = self.mbs.GetMarkerOutput(pin.bore_marker, what, state)
             return float(journal[0] - bore[0]), float(journal[1] - bore[1])
 
         output = exudyn.OutputVariableType

@@ -44,7 +44,8 @@ def simulate(scenario: Scenario, *, progress: Progress = _no_progress, throw: bo
         if scenario.start == "settled":
             settle(scene)
         recorder = Recorder(scene)
-        counts = Run(scene, recorder, progress).go()
+        run = Run(scene, recorder, progress)
+        counts = run.go()
     except SimulationError as error:
         if throw:
             raise
@@ -54,6 +55,7 @@ def simulate(scenario: Scenario, *, progress: Progress = _no_progress, throw: bo
         channels=channels(scene, recorder.history()),
         onsets={name: tuple(pin.onsets) for name, pin in scene.loose_pins.items()},
         largest_force={name: pin.largest_force for name, pin in scene.loose_pins.items()},
+        impulses=tuple(run.impulses),
         counts=counts,
         wall_time=time.perf_counter() - began,
         provenance=provenance(),

@@ -21,6 +21,7 @@ from typing import Any
 import exudyn
 
 from support_exudyn.errors import Failure, SimulationError
+from support_exudyn.impulse import Impulse, jump_velocities
 from support_exudyn.onset import SHARE
 from support_exudyn.recorder import Recorder
 from support_exudyn.scenario import SolverSettings
@@ -65,6 +66,7 @@ class Run:
         self.progress = progress
         self.plan = StepPlan(scenario.duration, scenario.record_period, scenario.step, scenario.drive.breaks)
         self.solver: Any = exudyn.MainSolverImplicitSecondOrder()  # its stubs lack self
+        self.impulses: list[Impulse] = []
         self.impact_refinement = scenario.solver.impact_refinement
         self.impact_step = self.plan.next_time(0.0, self.impact_refinement)  # [s]
         self.settings = _settings(scenario.solver, scenario.duration)
@@ -125,7 +127,8 @@ class Run:
 
     def _after_step(self, mbs: Any, t: float) -> bool:
         """After every accepted step, and once at the start."""
-        kink = self.plan.is_break(t)
+        breaking = self.plan.break_at(t)
+        kink = breaking is not None
         if self.trying:
             self.trying = False
             self.steps += 1
@@ -138,8 +141,19 @@ class Run:
             self.recorder.record(t)
             self._check_finite()
             self.progress(t / self.plan.duration)
+        if breaking is not None:
+            self._jump(breaking)
         self.solver.it.currentStepSize = max(SMALLEST_STEP, self._next_time(t) - t)
         return True
+
+    def _jump(self, t: float) -> None:
+        """Velocities after a break, if the columns' speed jumps there."""
+        speed_jump = self.scene.scenario.drive.speed_jump(t)
+        if speed_jump:
+            impulse = jump_velocities(self.scene, t, speed_jump)
+            self.impulses.append(impulse)
+            self.recorder.jump(t, impulse.energy)
+            self.scene.refresh_memory()
 
     def _next_time(self, t: float) -> float:
         """Where the step that starts at t is to end: on the grid, or at an impact seen coming [s]."""

@@ -22,7 +22,7 @@ class StepPlan:
         self.duration = duration
         self.record_period = record_period
         self.step = step
-        self.breaks = sorted(t for t in set(breaks) if 0.0 < t < duration)
+        self.breaks = sorted(t for t in set(breaks) if 0.0 <= t < duration)
         self._tolerance = CLOSE * min(step, record_period)
         self._after_breaks = [(b, self.next_time(b) - self._tolerance) for b in self.breaks]
 
@@ -47,12 +47,12 @@ class StepPlan:
         n = round(t / self.record_period)
         return abs(t - n * self.record_period) <= self._tolerance
 
-    def is_break(self, t: float) -> bool:
-        """Whether time t [s] is one of the breaks."""
-        for b in self.breaks:  # noqa: SIM110, twice as fast as any(), once a step
+    def break_at(self, t: float) -> float | None:
+        """The break that time t [s] is, if it is one."""
+        for b in self.breaks:
             if abs(t - b) <= self._tolerance:
-                return True
-        return False
+                return b
+        return None
 
     def _stops_around(self, t: float) -> tuple[float, float]:
         """The last stop (record or break) not after t, and the first after it [s]."""

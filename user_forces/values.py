@@ -13,6 +13,7 @@ dictionaries (for JSON, TOML or HDF5) by `Value.to_data` and back by `Value.from
 from __future__ import annotations
 
 import dataclasses
+import inspect
 from collections.abc import Mapping
 from typing import Annotated, Any, ClassVar, TypeVar
 
@@ -52,12 +53,14 @@ class Value:
         Raises InputError if the type is not known or a field does not fit.
         """
         kind = data.get("type")
-        if kind not in Value._register:
+        known = {name: cls for name, cls in Value._register.items() if dataclasses.is_dataclass(cls)}
+        known = {name: cls for name, cls in known.items() if not inspect.isabstract(cls)}
+        if kind not in known:
             raise InputError(
-                f"type = {kind!r}: not a known type; known are {', '.join(sorted(Value._register))}. "
+                f"type = {kind!r}: not a known type; known are {', '.join(sorted(known))}. "
                 "Import the module that defines it first."
             )
-        return Value._register[kind](**{k: _rebuilt(v) for k, v in data.items() if k != "type"})
+        return known[kind](**{k: _rebuilt(v) for k, v in data.items() if k != "type"})
 
 
 def _plain(item: Any) -> Any:

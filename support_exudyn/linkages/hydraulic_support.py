@@ -90,6 +90,8 @@ class HydraulicSupport(Machine):
         if sorted(self.parts) != sorted(BODIES):
             raise ValueError(f"parts = {sorted(self.parts)}: allowed: exactly {', '.join(BODIES)}")
         for name, parts in self.parts.items():
+            if not parts:
+                raise ValueError(f"parts.{name} = (): allowed: at least one part")
             if lumped(parts).inertia <= 0.0:
                 raise ValueError(f"parts.{name}: total inertia is 0 kg m^2; allowed: > 0")
         try:

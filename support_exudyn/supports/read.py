@@ -35,7 +35,7 @@ def load_support(path: str | Path) -> HydraulicSupport:
     try:
         data = tomllib.loads(path.read_text(encoding="utf-8"))
         return _support(data)
-    except (tomllib.TOMLDecodeError, InputError) as error:
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError, InputError) as error:
         raise InputError(f"{path}: {error}") from None
 
 
@@ -44,33 +44,58 @@ def _support(data: dict[str, Any]) -> HydraulicSupport:
     for key in ("start_hinge_height_mm", "pivots_mm", "parts"):
         if key not in data:
             raise InputError(f"{key}: missing; it has no default")
+    for key in ("pivots_mm", "parts"):
+        if not isinstance(data[key], dict):
+            raise InputError(f"{key} = {data[key]!r}: allowed: a table")
     pivots = {name: _metres(point, f"pivots_mm.{name}") for name, point in data["pivots_mm"].items()}
     parts = {
-        body: tuple(_part(item, pivots, f"parts.{body}[{n}]") for n, item in enumerate(items))
+        body: tuple(_part(item, pivots, f"parts.{body}[{n}]") for n, item in enumerate(_tables(items, body)))
         for body, items in data["parts"].items()
     }
-    return HydraulicSupport(parts=parts, start_hinge_height=data["start_hinge_height_mm"] / 1e3, **pivots)
+    height = _number(data["start_hinge_height_mm"], "start_hinge_height_mm")
+    return HydraulicSupport(parts=parts, start_hinge_height=height / 1e3, **pivots)
+
+
+def _tables(items: Any, body: str) -> list[dict[str, Any]]:
+    if not (isinstance(items, list) and all(isinstance(item, dict) for item in items)):
+        raise InputError(f"parts.{body} = {items!r}: allowed: tables, each begun with [[parts.{body}]]")
+    return items
 
 
 def _part(item: dict[str, Any], pivots: dict[str, Vector2], where: str) -> Part:
     _only(item, PART_KEYS, where + ".")
+    if "mass_kg" not in item:
+        raise InputError(f"{where}.mass_kg: missing; it has no default")
+    mass = _number(item["mass_kg"], f"{where}.mass_kg")
     try:
         if "between" in item:
-            a, b = (pivots[name] for name in item["between"])
-            return bar(item["mass_kg"], a, b)
+            a, b = _ends(item["between"], pivots, f"{where}.between")
+            return bar(mass, a, b)
+        if "centre_mm" not in item:
+            raise InputError("centre_mm or between: missing; a part needs one of them")
+        length = _number(item.get("length_mm", 0.0), f"{where}.length_mm") / 1e3
         centre = _metres(item["centre_mm"], f"{where}.centre_mm")
-        length = item.get("length_mm", 0.0) / 1e3
-        return Part(mass=item["mass_kg"], centre=centre, inertia=item["mass_kg"] * length**2 / 12)
-    except KeyError as error:
-        raise InputError(f"{where}: {error} is missing or not a pivot") from None
+        return Part(mass=mass, centre=centre, inertia=mass * length**2 / 12)
     except InputError as error:
-        raise InputError(f"{where}: {error}") from None
+        raise InputError(str(error) if str(error).startswith(where) else f"{where}: {error}") from None
+
+
+def _ends(names: Any, pivots: dict[str, Vector2], where: str) -> tuple[Vector2, Vector2]:
+    if not (isinstance(names, list) and len(names) == 2 and all(name in pivots for name in names)):
+        raise InputError(f"{where} = {names!r}: allowed: two of {', '.join(pivots)}")
+    return pivots[names[0]], pivots[names[1]]
+
+
+def _number(item: Any, where: str) -> float:
+    if isinstance(item, bool) or not isinstance(item, (int, float)):
+        raise InputError(f"{where} = {item!r}: allowed: a number")
+    return float(item)
 
 
 def _metres(point: Any, where: str) -> Vector2:
-    if not (isinstance(point, list) and len(point) == 2 and all(isinstance(c, (int, float)) for c in point)):
+    if not (isinstance(point, list) and len(point) == 2):
         raise InputError(f"{where} = {point!r}: allowed: two numbers [x, y] in mm")
-    return point[0] / 1e3, point[1] / 1e3
+    return _number(point[0], where) / 1e3, _number(point[1], where) / 1e3
 
 
 def _only(data: dict[str, Any], allowed: set[str], where: str) -> None:

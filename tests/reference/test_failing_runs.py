@@ -1,0 +1,84 @@
+"""Failures are clear, and can be had as a value."""
+
+from __future__ import annotations
+
+import pickle
+
+import pytest
+
+from support_exudyn import ClearancePin, Failure, Held, Scenario, SimulationError, simulate
+from support_exudyn.sweep import run_all
+from tests.reference.cases import Pair, loose_support, paper_contact
+from tests.reference.test_momentum import ONE, TWO
+from user_forces import FrictionLaw, value
+
+
+@value
+class Breaking(FrictionLaw):
+    """Works until the slip exceeds 1 mm/s."""
+
+    kind: str
+
+    def __call__(self, slip: float, normal_force: float) -> float:
+        if abs(slip) < 1e-3:
+            return 0.0
+        if self.kind == "nan":
+            return float("nan")
+        if self.kind == "overflow":
+            raise OverflowError("force out of range")
+        raise LookupError("a bug in the law")
+
+
+def breaking(kind: str) -> Scenario:
+    good = paper_contact(1.5, 0.0)
+    contact = type(good)(bearing=good.bearing, normal=good.normal, friction=Breaking(kind=kind))
+    return _with(contact)
+
+
+def _with(contact: object) -> Scenario:
+    scenario = loose_support(drive=Held(), duration=0.05)
+    return Scenario(**{**vars(scenario), "pins": {"rear_base": ClearancePin(contact=contact)}})
+
+
+@pytest.mark.parametrize("kind", ["nan", "overflow"])
+def test_a_failure_says_when_and_in_what_state(kind: str) -> None:
+    with pytest.raises(SimulationError) as caught:
+        simulate(breaking(kind))
+    failure = caught.value.failure
+    assert 0.017 < failure.time < 0.05  # the first touch is at 17.4 ms
+    assert failure.state["pin.rear_base.approach_speed"] == pytest.approx(0.17, abs=0.01)
+    assert "step" in failure.state
+    assert "Try a smaller step" in str(caught.value)
+
+
+def test_a_failure_can_be_had_as_a_value() -> None:
+    failure = simulate(breaking("overflow"), throw=False)
+    assert isinstance(failure, Failure)
+    assert "force out of range" in failure.reason
+
+
+def test_a_bug_in_a_law_is_not_taken_for_a_failed_run() -> None:
+    with pytest.raises(LookupError, match="a bug in the law"):
+        simulate(breaking("bug"), throw=False)
+
+
+def test_a_failure_comes_back_whole_from_another_process() -> None:
+    error = SimulationError(Failure("reason", "advice.", 1.5, {"x": 2.0}))
+    assert pickle.loads(pickle.dumps(error)).failure == error.failure
+
+
+def test_a_sweep_goes_on_after_a_failure() -> None:
+    machine = Pair(one=ONE, two=TWO, one_point=(0.2, 0.25), two_point=(0.2, 0.25))
+    pins = {"pin": ClearancePin(contact=paper_contact(1.5, 0.0))}
+    scenarios = {
+        "bad": Scenario(machine=machine, pins=pins, duration=0.01, start="settled"),
+        "good": Scenario(machine=machine, pins=pins, duration=0.01),
+    }
+    seen: list[dict[str, float]] = []
+    results = run_all(scenarios, workers=2, progress=lambda shares: seen.append(dict(shares)))
+    assert isinstance(results["bad"], Failure)
+    assert not isinstance(results["good"], Failure)
+    assert seen[-1]["good"] == 1.0
+    # the same as in this process, to the bit
+    here = simulate(scenarios["good"])
+    assert (here["one.x"] == results["good"]["one.x"]).all()

@@ -1,0 +1,169 @@
+from __future__ import annotations
+
+import json
+
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+from scipy.integrate import quad
+
+from support_exudyn import CubicStep, Held, UniformSpeed
+from tests.analytic import adams_step
+from user_forces import InputError, Value
+
+Stroke = CubicStep | UniformSpeed
+
+kinds = st.sampled_from([CubicStep, UniformSpeed])
+strokes = st.floats(-2.0, 2.0)
+starts = st.floats(0.0, 5.0)
+lengths = st.floats(0.1, 5.0)
+times = st.floats(-1.0, 12.0)
+
+
+def drive(kind: type[Stroke], stroke: float, start: float, length: float) -> Stroke:
+    return kind(stroke=stroke, start=start, end=start + length)
+
+
+@given(kind=kinds, stroke=strokes, start=starts, length=lengths, t=times)
+def test_speed_is_the_derivative_of_the_extension(
+    kind: type[Stroke], stroke: float, start: float, length: float, t: float
+) -> None:
+    chosen, h = drive(kind, stroke, start, length), 1e-5
+    assume(all(abs(t - b) > 2.0 * h for b in chosen.breaks))
+    slope = (chosen.extension(t + h) - chosen.extension(t - h)) / (2.0 * h)
+    # central difference: third derivative 12 stroke/length^3 times h^2/6, and rounding of 2 m over h
+    assert chosen.speed(t) == pytest.approx(slope, abs=12.0 * 2.0 / length**3 * h**2 / 6.0 + 1e-10)
+
+
+@given(kind=kinds, stroke=strokes, start=starts, length=lengths)
+def test_speed_adds_up_to_the_stroke(kind: type[Stroke], stroke: float, start: float, length: float) -> None:
+    chosen = drive(kind, stroke, start, length)
+    # from just after the start, where uniform speed has jumped; polynomials: quadrature is exact
+    total = quad(chosen.speed, start + 1e-12, start + length)[0]
+    assert total == pytest.approx(stroke, abs=1e-9)
+
+
+@given(kind=kinds, stroke=strokes, start=starts, length=lengths, before=st.floats(0.0, 5.0))
+def test_columns_rest_before_the_start(
+    kind: type[Stroke], stroke: float, start: float, length: float, before: float
+) -> None:
+    chosen = drive(kind, stroke, start, length)
+    assert chosen.extension(start - before) == 0.0
+    assert chosen.speed(start - before) == 0.0
+
+
+@given(kind=kinds, stroke=strokes, start=starts, length=lengths, after=st.floats(1e-6, 5.0))
+def test_columns_rest_at_their_stroke_after_the_end(
+    kind: type[Stroke], stroke: float, start: float, length: float, after: float
+) -> None:
+    chosen = drive(kind, stroke, start, length)
+    assert chosen.extension(chosen.end + after) == stroke
+    assert chosen.speed(chosen.end + after) == 0.0
+
+
+@given(stroke=strokes, start=starts, length=lengths, t=times)
+def test_cubic_step_is_the_step_function(stroke: float, start: float, length: float, t: float) -> None:
+    chosen = drive(CubicStep, stroke, start, length)
+    # the same polynomial in another order: rounding of 2 m
+    assert chosen.extension(t) == pytest.approx(adams_step(t, start, 0.0, start + length, stroke), abs=2e-15)
+
+
+@pytest.mark.parametrize("t", [0.0, 2.9, 3.0, 3.2, 4.0, 4.7, 5.0, 9.0])
+def test_default_is_the_sum_of_steps_that_the_paper_writes(t: float) -> None:
+    # STEP(TIME,0,0,3,0)+STEP(TIME,3,0,5,500) [mm]
+    paper = adams_step(t, 0.0, 0.0, 3.0, 0.0) + adams_step(t, 3.0, 0.0, 5.0, 500.0)
+    # rounding of 0.5 m
+    assert CubicStep().extension(t) == pytest.approx(paper / 1e3, abs=2e-16)
+
+
+def test_cubic_step_is_fastest_in_the_middle() -> None:
+    # 3/2 of the mean speed of 0.5 m in 2 s
+    assert CubicStep().speed(4.0) == 0.375
+
+
+@pytest.mark.parametrize(("t", "expected"), [(3.0, 0.75), (5.0, -0.75)])
+def test_acceleration_of_the_cubic_step_jumps_at_its_ends(t: float, expected: float) -> None:
+    inside = 1e-6 if t == 3.0 else -1e-6
+    slope = (CubicStep().speed(t + inside) - CubicStep().speed(t)) / inside
+    # 6 stroke/length^2; one-sided difference: 12 stroke/length^3 times 1e-6 s
+    assert slope == pytest.approx(expected, abs=1e-6)
+
+
+@given(stroke=strokes, start=starts, length=lengths, share=st.floats(0.0, 0.5))
+def test_cubic_step_is_symmetric_about_its_middle(
+    stroke: float, start: float, length: float, share: float
+) -> None:
+    chosen = drive(CubicStep, stroke, start, length)
+    middle = start + 0.5 * length
+    sides = chosen.extension(middle - share * length) + chosen.extension(middle + share * length)
+    # rounding of the times, 1e-15 s, at speeds up to 1.5 * 2 m / 0.1 s
+    assert sides == pytest.approx(stroke, abs=1e-12)
+
+
+def test_uniform_speed_is_the_papers() -> None:
+    assert UniformSpeed().speed(4.0) == 0.25
+
+
+def test_uniform_speed_is_half_way_at_half_time() -> None:
+    assert UniformSpeed().extension(4.0) == 0.25
+
+
+def test_uniform_speed_at_its_jumps_is_the_speed_before() -> None:
+    assert UniformSpeed().speed(3.0) == 0.0
+    assert UniformSpeed().speed(5.0) == 0.25
+
+
+@given(kind=kinds, stroke=strokes, start=starts, length=lengths)
+def test_speed_jumps_at_the_breaks_as_told(
+    kind: type[Stroke], stroke: float, start: float, length: float
+) -> None:
+    chosen, h = drive(kind, stroke, start, length), 1e-9
+    for t in chosen.breaks:
+        # the cubic step's acceleration, at most 6 stroke/length^2 = 1200 m/s^2, over 1 ns
+        assert chosen.speed_jump(t) == pytest.approx(chosen.speed(t + h) - chosen.speed(t), abs=2e-6)
+
+
+@pytest.mark.parametrize("chosen", [UniformSpeed(), CubicStep(), Held()])
+def test_speed_does_not_jump_between_the_breaks(chosen: Held | Stroke) -> None:
+    assert [chosen.speed_jump(t) for t in (0.0, 2.9, 4.0, 5.1)] == [0.0] * 4
+
+
+@given(kind=kinds, stroke=strokes, start=starts, length=lengths)
+def test_breaks_are_start_and_end(kind: type[Stroke], stroke: float, start: float, length: float) -> None:
+    assert drive(kind, stroke, start, length).breaks == (start, start + length)
+
+
+@given(kind=kinds, stroke=strokes, start=starts, length=lengths, t=times)
+def test_extension_stays_within_the_span(
+    kind: type[Stroke], stroke: float, start: float, length: float, t: float
+) -> None:
+    chosen = drive(kind, stroke, start, length)
+    lowest, highest = chosen.span
+    # rounding of 2 m
+    assert lowest - 5e-16 <= chosen.extension(t) <= highest + 5e-16
+    assert {lowest, highest} == {0.0, stroke}
+
+
+@given(t=times)
+def test_held_columns_do_not_move(t: float) -> None:
+    assert (Held().extension(t), Held().speed(t)) == (0.0, 0.0)
+    assert Held().breaks == ()
+    assert Held().span == (0.0, 0.0)
+
+
+@pytest.mark.parametrize("kind", [CubicStep, UniformSpeed])
+@pytest.mark.parametrize("end", [3.0, 2.0])
+def test_end_before_the_start_is_refused(kind: type[Stroke], end: float) -> None:
+    with pytest.raises(InputError, match=rf"{kind.__name__}: end = {end} s: allowed: > start = 3\.0 s"):
+        kind(start=3.0, end=end)
+
+
+@pytest.mark.parametrize("kind", [CubicStep, UniformSpeed])
+def test_start_before_the_run_is_refused(kind: type[Stroke]) -> None:
+    with pytest.raises(InputError, match=rf"{kind.__name__}\.start = -1\.0: .*allowed: >= 0"):
+        kind(start=-1.0)
+
+
+@pytest.mark.parametrize("chosen", [Held(), CubicStep(stroke=-0.2), UniformSpeed(end=7.0)])
+def test_a_drive_comes_back_from_json(chosen: Held | Stroke) -> None:
+    assert Value.from_data(json.loads(json.dumps(chosen.to_data()))) == chosen

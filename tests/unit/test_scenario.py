@@ -1,0 +1,183 @@
+from __future__ import annotations
+
+import dataclasses
+import json
+import math
+
+import pytest
+
+from support_exudyn import (
+    ClearancePin,
+    CubicStep,
+    Held,
+    IdealPin,
+    Scenario,
+    SolverSettings,
+    UniformSpeed,
+)
+from support_exudyn.machine import Body, Part
+from tests.unit.cases import contact, support
+from user_forces import InputError, JournalBearing, Value
+
+SUPPORT = support()
+
+
+def scenario(**changes: object) -> Scenario:
+    fields: dict[str, object] = {"machine": SUPPORT, "duration": 5.0}
+    return Scenario(**fields | changes)
+
+
+# --- bad input is refused when it is made ---
+
+
+def test_negative_mass_is_refused() -> None:
+    with pytest.raises(InputError, match=r"Part\.mass = -500\.0: .*allowed: > 0"):
+        Part(mass=-500.0, centre=(0.0, 0.0))
+    with pytest.raises(InputError, match=r"Body\.mass = -500\.0: .*allowed: > 0"):
+        Body(mass=-500.0, inertia=1.0, centre=(0.0, 0.0))
+
+
+def test_clearance_larger_than_the_bore_is_refused() -> None:
+    with pytest.raises(InputError, match=r"clearance = 1\.5 m: .*allowed: > 0 and < 0\.0655"):
+        JournalBearing(bore_radius=0.0655, clearance=1.5)
+
+
+@pytest.mark.parametrize("kind", [CubicStep, UniformSpeed])
+@pytest.mark.parametrize("stroke", [5.0, -2.0])
+def test_columns_that_cannot_close_the_linkage_are_refused(
+    kind: type[CubicStep] | type[UniformSpeed], stroke: float
+) -> None:
+    with pytest.raises(InputError, match=rf"column extension = {stroke} m: .*allowed: up to "):
+        scenario(drive=kind(stroke=stroke))
+
+
+def test_step_of_zero_is_refused() -> None:
+    with pytest.raises(InputError, match=r"Scenario\.step = 0\.0: .*allowed: > 0 and <= 0\.1"):
+        scenario(step=0.0)
+
+
+def test_negative_step_is_refused() -> None:
+    with pytest.raises(InputError, match=r"Scenario\.step = -0\.001: .*allowed: > 0 and <= 0\.1"):
+        scenario(step=-0.001)
+
+
+def test_unknown_field_is_refused() -> None:
+    with pytest.raises(
+        InputError, match=r"Scenario\.speed = 3: unknown field; the fields are machine, pins, drive"
+    ):
+        scenario(speed=3)
+
+
+def test_unknown_pin_name_is_refused() -> None:
+    names = "rear_base, front_base, rear_shield, front_shield, shield_canopy"
+    with pytest.raises(InputError, match=rf"pins\.rear: the machine has no such pin; allowed: {names}"):
+        scenario(pins={"rear": IdealPin()})
+
+
+def test_record_period_longer_than_the_run_is_refused() -> None:
+    with pytest.raises(InputError, match=r"record_period = 6\.0 s: allowed: at most the duration, 5\.0 s"):
+        scenario(record_period=6.0)
+
+
+@pytest.mark.parametrize("duration", [-5.0, 0.0, math.nan, math.inf])
+def test_duration_of_no_length_is_refused(duration: float) -> None:
+    with pytest.raises(InputError, match=rf"Scenario\.duration = {duration}: .*allowed: > 0"):
+        scenario(duration=duration)
+
+
+def test_missing_duration_is_refused() -> None:
+    with pytest.raises(InputError, match=r"Scenario\.duration: missing"):
+        Scenario(machine=SUPPORT)
+
+
+def test_record_period_of_zero_is_refused() -> None:
+    with pytest.raises(InputError, match=r"Scenario\.record_period = 0\.0: .*allowed: > 0"):
+        scenario(record_period=0.0)
+
+
+def test_something_else_in_place_of_a_pin_is_refused() -> None:
+    with pytest.raises(InputError, match=r"Scenario\.pins\.rear_base = JournalContact\(.*Pin"):
+        scenario(pins={"rear_base": contact()})
+
+
+def test_something_else_in_place_of_a_machine_is_refused() -> None:
+    with pytest.raises(InputError, match=r"Scenario\.machine = 'support': .*Machine"):
+        scenario(machine="support")
+
+
+def test_unknown_start_is_refused() -> None:
+    with pytest.raises(InputError, match=r"Scenario\.start = 'resting': .*'concentric' or 'settled'"):
+        scenario(start="resting")
+
+
+def test_gravity_that_is_not_finite_is_refused() -> None:
+    with pytest.raises(InputError, match=r"Scenario\.gravity\.1 = nan: "):
+        scenario(gravity=(0.0, math.nan))
+
+
+@pytest.mark.parametrize(
+    ("field", "wrong", "allowed"),
+    [
+        ("spectral_radius", 1.1, ">= 0 and <= 1"),
+        ("spectral_radius", -0.1, ">= 0 and <= 1"),
+        ("newton_tolerance", 0.0, "> 0 and <= 0.001"),
+        ("newton_tolerance", 0.1, "> 0 and <= 0.001"),
+        ("impact_refinement", 0, ">= 1 and <= 100"),
+        ("impact_refinement", 101, ">= 1 and <= 100"),
+    ],
+)
+def test_solver_setting_out_of_range_is_refused(field: str, wrong: float, allowed: str) -> None:
+    with pytest.raises(InputError, match=rf"SolverSettings\.{field} = {wrong}: .*allowed: {allowed}"):
+        SolverSettings(**{field: wrong})
+
+
+def test_bore_on_neither_body_is_refused() -> None:
+    with pytest.raises(InputError, match=r"ClearancePin\.bore = 'third': .*'first' or 'second'"):
+        ClearancePin(contact=contact(), bore="third")
+
+
+def test_a_changed_copy_is_checked_too() -> None:
+    with pytest.raises(InputError, match=r"record_period = 6\.0 s"):
+        dataclasses.replace(scenario(), record_period=6.0)
+
+
+# --- good input ---
+
+
+@pytest.mark.parametrize("stroke", [0.5, -0.3, 0.0])
+def test_a_stroke_within_reach_is_taken(stroke: float) -> None:
+    assert scenario(drive=CubicStep(stroke=stroke)).drive.span == (min(0.0, stroke), max(0.0, stroke))
+
+
+def test_a_single_record_is_taken() -> None:
+    assert scenario(record_period=5.0).record_period == 5.0
+
+
+def test_columns_are_held_and_pins_ideal_unless_said_otherwise() -> None:
+    plain = scenario()
+    assert plain.drive == Held()
+    assert plain.clearance_pins == {}
+    assert plain.gravity == (0.0, -9.81)
+
+
+def test_only_pins_with_clearance_are_listed_as_such() -> None:
+    loose = ClearancePin(contact=contact())
+    mixed = scenario(pins={"front_base": IdealPin(), "rear_base": loose})
+    assert mixed.clearance_pins == {"rear_base": loose}
+
+
+def test_a_scenario_cannot_be_changed() -> None:
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        scenario().duration = 1.0  # type: ignore[misc]
+
+
+@pytest.mark.parametrize("drive", [Held(), CubicStep(stroke=-0.2), UniformSpeed(end=4.5)])
+def test_a_scenario_comes_back_from_json(drive: Held | CubicStep | UniformSpeed) -> None:
+    one = scenario(
+        drive=drive,
+        pins={"rear_base": ClearancePin(contact=contact(), bore="second"), "front_base": IdealPin()},
+        start="settled",
+        gravity=(0.1, -9.7),
+        solver=SolverSettings(spectral_radius=0.9),
+    )
+    assert Value.from_data(json.loads(json.dumps(one.to_data()))) == one

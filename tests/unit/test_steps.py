@@ -1,0 +1,184 @@
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+from support_exudyn.steps import StepPlan
+
+Times = list[float]
+
+
+def walk(plan: StepPlan, refinement: int = 1) -> Times:
+    """The times a solver lands on that adds each step to its time, up to the end or rounding before it."""
+    times = [0.0]
+    while times[-1] < plan.duration * (1.0 - 1e-12):
+        t = times[-1]
+        times.append(t + (plan.next_time(t, refinement) - t))
+        assert times[-1] > t
+        assert len(times) < 20000
+    return times
+
+
+def expected_stops(duration: float, period: float, breaks: Times) -> Times:
+    """Records, breaks and the end, sorted, those that differ by rounding only taken as one."""
+    wanted = [n * period for n in range(int(duration / period) + 2)] + breaks + [duration]
+    stops: Times = []
+    for t in sorted(t for t in wanted if 0.0 <= t <= duration):
+        if not stops or t - stops[-1] > 1e-12:
+            stops.append(t)
+    return stops
+
+
+@st.composite
+def plans(draw: st.DrawFn) -> tuple[StepPlan, Times]:
+    """A plan and its stops; decimal numbers as people write them, or any."""
+    period = draw(st.sampled_from([1e-3, 7e-3, 9e-3, 0.01, 0.1]) | st.floats(1e-3, 1.0))
+    duration = period * draw(st.integers(1, 15) | st.floats(1.0, 15.0))
+    if draw(st.booleans()):
+        duration = float(f"{duration:.6g}")
+    assume(duration >= period)
+    step = period * draw(st.sampled_from([0.1, 0.25, 0.5, 1.0]) | st.floats(0.08, 2.0))
+    breaks = [n / 100 * duration for n in draw(st.lists(st.integers(-20, 120), max_size=3))]
+    breaks += [n * period for n in draw(st.lists(st.integers(0, 15), max_size=2))]
+    stops = expected_stops(duration, period, breaks)
+    # times that are nearly but not quite the same have a test of their own
+    assume(all(b - a > 1e-6 * min(step, period) for a, b in pairwise(stops)))
+    return StepPlan(duration, period, step, breaks), stops
+
+
+@given(planned=plans())
+def test_every_record_and_break_is_hit_exactly(planned: tuple[StepPlan, Times]) -> None:
+    plan, stops = planned
+    times = walk(plan)
+    for stop in stops:
+        # rounding of times up to 15 s
+        assert min(abs(t - stop) for t in times) < 4e-15
+
+
+@given(planned=plans())
+def test_the_last_time_is_the_end(planned: tuple[StepPlan, Times]) -> None:
+    plan, _ = planned
+    # rounding of the last record, if the end is one
+    assert walk(plan)[-1] == pytest.approx(plan.duration, rel=1e-15)
+    assert plan.next_time(plan.duration) == plan.duration
+
+
+@given(planned=plans())
+def test_no_step_is_longer_than_asked_for(planned: tuple[StepPlan, Times]) -> None:
+    plan, _ = planned
+    # a share of 1e-9 is not worth another step
+    assert max(b - a for a, b in pairwise(walk(plan))) <= plan.step * (1.0 + 2e-9)
+
+
+@given(planned=plans(), refinement=st.integers(1, 7))
+def test_steps_between_two_stops_are_equal_and_as_few_as_possible(
+    planned: tuple[StepPlan, Times], refinement: int
+) -> None:
+    plan, stops = planned
+    times = walk(plan, refinement)
+    for before, after in pairwise(stops):
+        inside = [t for t in times if before - 1e-12 < t < after + 1e-12]
+        parts = len(inside) - 1
+        # a share of 1e-9 is not worth another step
+        assert parts == refinement * max(1, math.ceil((after - before) / plan.step - 1e-9))
+        for a, b in pairwise(inside):
+            # rounding of times up to 15 s
+            assert b - a == pytest.approx((after - before) / parts, abs=1e-14)
+
+
+@given(planned=plans(), refinement=st.integers(2, 7))
+def test_a_refined_grid_contains_the_grid(planned: tuple[StepPlan, Times], refinement: int) -> None:
+    plan, _ = planned
+    coarse, fine = walk(plan), walk(plan, refinement)
+    assert len(fine) - 1 == refinement * (len(coarse) - 1)
+    # rounding of times up to 15 s
+    assert fine[::refinement] == pytest.approx(coarse, abs=1e-14)
+
+
+@given(planned=plans(), share=st.floats(0.0, 1.0, exclude_max=True), refinement=st.integers(1, 7))
+def test_from_any_time_on_the_grid_is_the_same(
+    planned: tuple[StepPlan, Times], share: float, refinement: int
+) -> None:
+    plan, _ = planned
+    grid = walk(plan, refinement)
+    t = share * plan.duration
+    tolerance = 1e-9 * min(plan.step, plan.record_period)
+    following = next((g for g in grid if g > t + tolerance), plan.duration)
+    # rounding of times up to 15 s
+    assert plan.next_time(t, refinement) == pytest.approx(following, abs=1e-14)
+
+
+@given(planned=plans())
+def test_every_record_is_recorded_once_and_nothing_else(planned: tuple[StepPlan, Times]) -> None:
+    plan, _ = planned
+    recorded = [t for t in walk(plan) if plan.is_record(t)]
+    # rounding of times up to 15 s
+    assert recorded == pytest.approx(expected_stops(plan.duration, plan.record_period, []), abs=4e-15)
+
+
+@given(planned=plans())
+def test_breaks_are_known_as_such(planned: tuple[StepPlan, Times]) -> None:
+    plan, _ = planned
+    for t in walk(plan):
+        # breaks that differ by rounding only are the same time
+        near = [b for b in plan.breaks if abs(t - b) < 1e-12]
+        found = plan.break_at(t)
+        assert (found in near) if near else (found is None)
+
+
+def test_steps_by_hand() -> None:
+    plan = StepPlan(duration=0.5, record_period=0.2, step=0.1, breaks=[0.25])
+    # 0.2 to the break in one step, from there to 0.4 in two of 0.075; rounding
+    assert walk(plan) == pytest.approx([0.0, 0.1, 0.2, 0.25, 0.325, 0.4, 0.5], abs=1e-15)
+
+
+def test_breaks_outside_the_run_are_left_out() -> None:
+    assert StepPlan(1.0, 0.1, 0.1, [-1.0, 0.35, 1.0, 2.0]).breaks == [0.35]
+
+
+def test_a_break_at_the_start_is_one() -> None:
+    assert StepPlan(1.0, 0.1, 0.1, [0.0, 0.35]).break_at(0.0) == 0.0
+
+
+def test_a_break_within_rounding_of_a_record_takes_no_step_of_its_own() -> None:
+    assert 3 * 0.1 != 0.3
+    sizes = [b - a for a, b in pairwise(walk(StepPlan(1.0, 0.1, 0.05, [0.3, 0.6, 0.7])))]
+    # rounding
+    assert sizes == pytest.approx([0.05] * 20, abs=1e-15)
+
+
+def test_a_break_close_to_a_record_is_still_landed_on() -> None:
+    late = 0.3 + 1e-7
+    times = walk(StepPlan(1.0, 0.1, 0.05, [late]))
+    assert late in times
+    assert 3 * 0.1 in times
+
+
+def test_the_end_is_a_record_even_off_the_period() -> None:
+    plan = StepPlan(1.0, 0.3, 0.1, [])
+    assert plan.is_record(1.0)
+    assert [t for t in walk(plan) if plan.is_record(t)] == pytest.approx([0.0, 0.3, 0.6, 0.9, 1.0], abs=1e-15)
+
+
+def test_the_start_is_a_record() -> None:
+    assert StepPlan(1.0, 0.3, 0.1, []).is_record(0.0)
+
+
+def test_a_long_run_lands_on_every_record() -> None:
+    plan = StepPlan(100.0, 1e-3, 1e-3, [])
+    t, records = 0.0, 0
+    while t < 100.0:
+        t += plan.next_time(t) - t
+        records += plan.is_record(t)
+    assert records == 100_000
+
+
+def test_only_the_step_after_a_break_follows_it() -> None:
+    plan = StepPlan(1.0, 0.1, 0.05, [0.32])
+    # from 0.32 to the record at 0.4 there are two steps of 0.04
+    following = [t for t in (0.25, 0.3, 0.31, 0.32, 0.33, 0.3599, 0.36, 0.4) if plan.follows_break(t)]
+    assert following == [0.32, 0.33, 0.3599]
