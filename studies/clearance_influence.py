@@ -39,7 +39,7 @@ WINDOWS = {"early": (3.0, 3.12), "middle": (4.0, 4.12), "late": (4.6, 4.72)}  # 
 
 def scenarios(quick: bool) -> dict[str, Scenario]:
     """The three cases."""
-    step = 1e-3 if quick else 2.5e-4
+    step = 1e-3 if quick else 5e-4
     return {
         SMOOTH: paper_machine.loose_rise(CLEARANCE_MM, 0.0, step),
         DRY: paper_machine.loose_rise(CLEARANCE_MM, paper_machine.SLIDING_COEFFICIENT, step),

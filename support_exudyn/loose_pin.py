@@ -27,7 +27,7 @@ from user_forces.values import Vector2
 FRAME_TURN = 1e-3
 SMALL_TURN = 1e-7  # below it there is no difference to rounding [rad]
 # An impact that does not end by parting counts as over after so many swings of the depth, deep and back.
-SWINGS = 4
+SWINGS = 2
 REPEAT_ERROR = 1e6  # above any tolerance of the engine's discontinuous iteration: the step is repeated
 
 
@@ -140,9 +140,13 @@ class LoosePin:
             self.largest_force, math.hypot(self.force.normal_force, self.force.friction_force)
         )
 
+    def begin_impact(self) -> None:
+        """From now on the depth swings: at a touch, and when the columns' speed jumps under a closed pin."""
+        self.swings_left, self._opening = SWINGS, False
+
     def _follow_impact(self) -> None:
         if self.onset is not None:
-            self.swings_left, self._opening = SWINGS, False
+            self.begin_impact()
         elif self.force.depth <= 0.0:
             self.swings_left = 0
         elif self._opening and self.force.rate >= 0.0:

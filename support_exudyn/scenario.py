@@ -30,7 +30,7 @@ class SolverSettings(Value):
 
     spectral_radius: Fraction = 0.5
     newton_tolerance: Annotated[float, Field(gt=0, le=1e-3)] = 1e-8
-    impact_refinement: Annotated[int, Field(ge=1, le=100)] = 16
+    impact_refinement: Annotated[int, Field(ge=1, le=100)] = 32
 
 
 @value
@@ -57,7 +57,7 @@ class Scenario(Value):
     duration: Positive
     start: Literal["concentric", "settled"] = "concentric"
     gravity: Vector2 = (0.0, -9.81)
-    step: Annotated[float, Field(gt=0, le=0.1)] = 2.5e-4
+    step: Annotated[float, Field(gt=0, le=0.1)] = 5e-4
     record_period: Positive = 1e-3
     solver: SolverSettings = field(default_factory=SolverSettings)
 

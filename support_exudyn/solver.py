@@ -154,6 +154,8 @@ class Run:
             self.impulses.append(impulse)
             self.recorder.jump(t, impulse.energy)
             self.scene.refresh_memory()
+            for pin in self.pins:
+                pin.begin_impact()
 
     def _next_time(self, t: float) -> float:
         """Where the step that starts at t is to end: on the grid, or at an impact seen coming [s]."""

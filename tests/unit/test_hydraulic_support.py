@@ -179,6 +179,16 @@ def test_start_at_the_reference_height_is_the_reference_posture() -> None:
     assert (start.rear_link, start.front_link, start.shield) == pytest.approx((0.0, 0.0, 0.0), abs=1e-14)
 
 
+def test_start_is_the_nearer_of_two_postures_with_the_hinge_at_this_height() -> None:
+    turns = np.radians(np.linspace(-38.0, 42.0, 8001))
+    heights = np.array([closed[2][1] if (closed := SUPPORT.four_bar(t)) else math.nan for t in turns.tolist()])
+    there = turns[:-1][(heights[:-1] - 2.75) * (heights[1:] - 2.75) <= 0.0]
+    assert there.size == 2  # beyond its highest point the hinge comes down again
+    start = support(start_hinge_height=2.75).start()
+    # the scan is 0.01 deg fine
+    assert start.rear_link == pytest.approx(there[np.abs(there).argmin()], abs=math.radians(0.01))
+
+
 def changed(point: Point, dx: float, dy: float, sense: float) -> Point:
     return sense * point[0] + dx, point[1] + dy
 

@@ -50,13 +50,27 @@ def plans(draw: st.DrawFn) -> tuple[StepPlan, Times]:
     return StepPlan(duration, period, step, breaks), stops
 
 
-@given(planned=plans())
-def test_every_record_and_break_is_hit_exactly(planned: tuple[StepPlan, Times]) -> None:
+@given(planned=plans(), refinement=st.integers(1, 7))
+def test_every_record_and_break_is_hit_exactly(planned: tuple[StepPlan, Times], refinement: int) -> None:
     plan, stops = planned
-    times = walk(plan)
+    times = {0.0}
+    t = 0.0
+    while t < plan.duration:
+        t = plan.next_time(t, refinement)
+        times.add(t)
+    asked_for = {n * plan.record_period for n in range(17)} | {*plan.breaks, plan.duration}
     for stop in stops:
+        # of those that differ by rounding only, any one
+        assert any(abs(t - stop) < 1e-12 and t in times for t in asked_for)
+
+
+@given(planned=plans(), refinement=st.integers(1, 7))
+def test_a_time_just_short_of_a_stop_is_on_it(planned: tuple[StepPlan, Times], refinement: int) -> None:
+    plan, stops = planned
+    for stop in stops[1:-1]:
+        short = math.nextafter(stop, 0.0)
         # rounding of times up to 15 s
-        assert min(abs(t - stop) for t in times) < 4e-15
+        assert plan.next_time(short, refinement) == pytest.approx(plan.next_time(stop, refinement), abs=4e-15)
 
 
 @given(planned=plans())
