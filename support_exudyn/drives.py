@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 
 from pydantic import model_validator
 
-from user_forces.values import NonNegative, Positive, Value, value
+from user_forces.values import NonNegative, Positive, Real, Value, value
 
 
 class Drive(Value, ABC):
@@ -72,7 +72,7 @@ class Stroke(Drive):
         start, end: [s], 3 and 5 by default; end > start >= 0.
     """
 
-    stroke: float = 0.5
+    stroke: Real = 0.5
     start: NonNegative = 3.0
     end: Positive = 5.0
 

@@ -9,7 +9,7 @@ from dataclasses import field
 
 from pydantic import model_validator
 
-from user_forces.values import NonNegative, Positive, Value, Vector2, value
+from user_forces.values import NonNegative, Positive, Real, Value, Vector2, value
 
 GROUND = "ground"
 
@@ -61,9 +61,9 @@ class Body(Value):
     mass: Positive
     inertia: Positive
     centre: Vector2
-    angle: float = 0.0
+    angle: Real = 0.0
     velocity: Vector2 = (0.0, 0.0)
-    spin: float = 0.0
+    spin: Real = 0.0
 
 
 @value
@@ -139,6 +139,11 @@ class Linkage(Value):
 
     @model_validator(mode="after")
     def _names_are_known(self) -> Linkage:
+        if GROUND in self.bodies:
+            raise ValueError(f"bodies.{GROUND}: the name of what does not move; call the body otherwise")
+        for name, pin in self.pins.items():
+            if pin.first == pin.second:
+                raise ValueError(f"pins.{name} = {pin.first!r} twice: allowed: two different bodies")
         used = [(f"pins.{k}", b) for k, p in self.pins.items() for b in (p.first, p.second)]
         used += [(f"columns.{k}", b) for k, c in self.columns.items() for b in (c.foot, c.head)]
         used += [(f"points.{k}", p.body) for k, p in self.points.items()]

@@ -2,19 +2,30 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from typing import Literal
 
 from user_forces.contact import JournalContact
 from user_forces.values import Value, value
 
 
-class Pin(Value):
+class Pin(Value, ABC):
     """An ideal pin or a clearance pin."""
+
+    @property
+    @abstractmethod
+    def is_ideal(self) -> bool:
+        """Whether the two bodies share a point."""
 
 
 @value
 class IdealPin(Pin):
     """The two bodies share a point: two position constraints, whose multipliers are the pin force."""
+
+    @property
+    def is_ideal(self) -> bool:
+        """Yes."""
+        return True
 
 
 @value
@@ -28,3 +39,8 @@ class ClearancePin(Pin):
 
     contact: JournalContact
     bore: Literal["first", "second"] = "first"
+
+    @property
+    def is_ideal(self) -> bool:
+        """No."""
+        return False

@@ -29,7 +29,7 @@ def distance(a: Vector2, b: Vector2) -> float:
 
 
 def direction(a: Vector2, b: Vector2) -> float:
-    """Angle [rad] of the line from a to b, from +x, in (-pi, pi]."""
+    """Angle [rad] of the line from a to b, from +x, from -pi to pi."""
     return math.atan2(b[1] - a[1], b[0] - a[0])
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import field
 from typing import Annotated, Literal
@@ -11,7 +12,7 @@ from pydantic import Field, model_validator
 from support_exudyn.drives import Drive, Held
 from support_exudyn.machine import Machine
 from support_exudyn.pins import ClearancePin, Pin
-from user_forces.values import Fraction, Positive, Value, Vector2, value
+from user_forces.values import Fraction, Positive, Real, Value, Vector2, value
 
 
 @value
@@ -29,7 +30,7 @@ class SolverSettings(Value):
     """
 
     spectral_radius: Fraction = 0.5
-    newton_tolerance: Annotated[float, Field(gt=0, le=1e-3)] = 1e-8
+    newton_tolerance: Annotated[Real, Field(gt=0, le=1e-3)] = 1e-8
     impact_refinement: Annotated[int, Field(ge=1, le=100)] = 32
 
 
@@ -57,7 +58,7 @@ class Scenario(Value):
     duration: Positive
     start: Literal["concentric", "settled"] = "concentric"
     gravity: Vector2 = (0.0, -9.81)
-    step: Annotated[float, Field(gt=0, le=0.1)] = 5e-4
+    step: Annotated[Real, Field(gt=0, le=0.1)] = 5e-4
     record_period: Positive = 1e-3
     solver: SolverSettings = field(default_factory=SolverSettings)
 
@@ -68,6 +69,13 @@ class Scenario(Value):
             if name not in places:
                 raise ValueError(
                     f"pins.{name}: the machine has no such pin; allowed: {', '.join(places) or 'none'}"
+                )
+        for name, place in places.items():
+            apart = math.dist(place.first_point, place.second_point)
+            if apart > 1e-9 and name not in self.clearance_pins:
+                raise ValueError(
+                    f"pins.{name}: its points on both bodies are {apart:.3g} m apart at the start; "
+                    "allowed for an ideal pin: 0, for a clearance pin: any"
                 )
         if self.record_period > self.duration:
             raise ValueError(

@@ -23,7 +23,8 @@ class StepPlan:
         self.record_period = record_period
         self.step = step
         self.breaks = sorted(t for t in set(breaks) if 0.0 <= t < duration)
-        self._tolerance = CLOSE * min(step, record_period)
+        # not below the rounding of times, else a long run of tiny steps would not advance
+        self._tolerance = max(CLOSE * min(step, record_period), 4.0 * math.ulp(duration))
         self._after_breaks = [(b, self.next_time(b) - self._tolerance) for b in self.breaks]
 
     def next_time(self, t: float, refinement: int = 1) -> float:
@@ -63,4 +64,6 @@ class StepPlan:
                 before = b
             elif t + self._tolerance < b < after:
                 after = b
+        if self.duration - after <= self._tolerance:
+            after = self.duration
         return before, after

@@ -50,6 +50,7 @@ def run_all(
     context = multiprocessing.get_context("spawn")  # the engine does not survive a fork
     shares = context.Array("d", len(scenarios), lock=False)
     workers = max(1, min(workers, len(scenarios)))
+    strangers = set(multiprocessing.active_children())
     with ProcessPoolExecutor(workers, context, _start_worker, (shares,)) as pool:
         futures = {
             name: pool.submit(_run, place, scenario) for place, (name, scenario) in enumerate(scenarios.items())
@@ -63,5 +64,7 @@ def run_all(
                 progress(dict(zip(scenarios, shares, strict=True)))
         except BaseException:
             pool.shutdown(wait=False, cancel_futures=True)
+            for worker in set(multiprocessing.active_children()) - strangers:
+                worker.terminate()  # else it would finish its run first
             raise
         return {name: future.result() for name, future in futures.items()}

@@ -49,9 +49,12 @@ class JournalContact(Value):
     friction: FrictionLaw = Frictionless()
 
     def gap_state(self, x: float, y: float, vx: float, vy: float) -> tuple[float, float]:
-        """Depth [m] and its rate [m/s]; see `force` for the arguments. Concentric: rate 0."""
+        """Depth [m] and its rate [m/s]; see `force` for the arguments.
+
+        From the middle every way leads outwards: there the rate is the speed.
+        """
         eccentricity = math.hypot(x, y)
-        rate = (x * vx + y * vy) / eccentricity if eccentricity > 0.0 else 0.0
+        rate = (x * vx + y * vy) / eccentricity if eccentricity > 0.0 else math.hypot(vx, vy)
         return self.bearing.depth(eccentricity), rate
 
     def force(

@@ -7,7 +7,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from user_forces.values import Positive, Value, value
+from user_forces.values import Positive, Real, Value, value
 
 
 @value
@@ -23,7 +23,7 @@ class Material(Value):
 
     name: str
     elastic_modulus: Positive
-    poisson_ratio: Annotated[float, Field(ge=0, le=0.5)]
+    poisson_ratio: Annotated[Real, Field(ge=0, le=0.5)]
     density: Positive
 
     @property

@@ -18,14 +18,22 @@ from collections.abc import Mapping
 from typing import Annotated, Any, ClassVar, TypeVar
 
 import annotated_types
-from pydantic import ConfigDict, Field, ValidationError
+from pydantic import BeforeValidator, ConfigDict, Field, ValidationError
 from pydantic.dataclasses import dataclass as pydantic_dataclass
 from typing_extensions import dataclass_transform
 
-Positive = Annotated[float, Field(gt=0)]
-NonNegative = Annotated[float, Field(ge=0)]
-Fraction = Annotated[float, Field(ge=0, le=1)]
-Vector2 = tuple[float, float]
+
+def _no_text(item: Any) -> Any:
+    if isinstance(item, (str, bytes, bool)):
+        raise ValueError("Input should be a number")
+    return item
+
+
+Real = Annotated[float, BeforeValidator(_no_text)]
+Positive = Annotated[Real, Field(gt=0)]
+NonNegative = Annotated[Real, Field(ge=0)]
+Fraction = Annotated[Real, Field(ge=0, le=1)]
+Vector2 = tuple[Real, Real]
 
 
 class InputError(ValueError):
@@ -52,10 +60,10 @@ class Value:
 
         Raises InputError if the type is not known or a field does not fit.
         """
-        kind = data.get("type")
+        kind = data.get("type") if isinstance(data, Mapping) else None
         known = {name: cls for name, cls in Value._register.items() if dataclasses.is_dataclass(cls)}
         known = {name: cls for name, cls in known.items() if not inspect.isabstract(cls)}
-        if kind not in known:
+        if not isinstance(kind, str) or kind not in known:
             raise InputError(
                 f"type = {kind!r}: not a known type; known are {', '.join(sorted(known))}. "
                 "Import the module that defines it first."
@@ -67,6 +75,8 @@ def _plain(item: Any) -> Any:
     if isinstance(item, Value):
         return item.to_data()
     if isinstance(item, Mapping):
+        if "type" in item:
+            raise InputError("'type': cannot be used as a name, it marks what kind of value data are of")
         return {k: _plain(v) for k, v in item.items()}
     if isinstance(item, (tuple, list)):
         return [_plain(v) for v in item]

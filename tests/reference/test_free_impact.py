@@ -37,3 +37,31 @@ def test_restitution_is_the_closed_form_of_the_law(restitution: float, step: flo
     rebound = result["one.velocity_x"][-1] - result["two.velocity_x"][-1]
     # second-order error of steps that divide the contact by a thousand
     assert rebound / 0.2 == pytest.approx(delivered_restitution(law.damping_factor), abs=1e-5)
+
+
+def test_a_first_step_that_reaches_the_wall_gives_the_right_speed() -> None:
+    # from the middle at 0.2 m/s the wall is 5 ms away; the step is longer
+    contact = JournalContact(
+        bearing=JournalBearing(bore_radius=0.02, clearance=0.001),
+        normal=LankaraniNikravesh(stiffness=1e6, restitution=0.9),
+    )
+    machine = Pair(
+        one=Body(mass=3.0, inertia=0.02, centre=(0.0, 0.0)),
+        two=Body(mass=2.0, inertia=0.01, centre=(0.0, 0.0), velocity=(0.2, 0.0)),
+        one_point=(0.0, 0.0),
+        two_point=(0.0, 0.0),
+    )
+    step = 5.1e-3
+    result = simulate(
+        Scenario(
+            machine=machine,
+            pins={"pin": ClearancePin(contact=contact)},
+            duration=2 * step,
+            step=step,
+            record_period=step,
+            gravity=(0.0, 0.0),
+        )
+    )
+    onset = result.onsets["pin"][0]
+    assert onset.time == pytest.approx(5e-3, rel=1e-9)  # free flight is a straight line
+    assert onset.speed == pytest.approx(0.2, rel=1e-9)

@@ -301,3 +301,9 @@ def test_a_normal_law_in_place_of_a_friction_law_is_refused() -> None:
     law = LankaraniNikravesh(stiffness=1e9, restitution=0.9)
     with pytest.raises(InputError, match=r"JournalContact\.friction = LankaraniNikravesh.*FrictionLaw"):
         replace(CONTACT, friction=law)
+
+
+def test_from_the_middle_every_way_leads_outwards() -> None:
+    depth, rate = CONTACT.gap_state(0.0, 0.0, 0.3, -0.4)
+    assert depth == -CONTACT.bearing.clearance
+    assert rate == 0.5

@@ -390,17 +390,14 @@ def test_bodies_start_at_rest() -> None:
 @pytest.mark.parametrize(
     ("body", "a", "b"),
     [
-        ("rear_link", PIVOTS["rear_base"], START_MM["rear_shield"]),
-        ("front_link", PIVOTS["front_base"], START_MM["front_shield"]),
+        ("rear_link", PIVOTS_MM["rear_base"], START_MM["rear_shield"]),
+        ("front_link", PIVOTS_MM["front_base"], START_MM["front_shield"]),
         ("shield", START_MM["rear_shield"], START_MM["hinge"]),
     ],
 )
 def test_angle_of_a_body_is_that_of_its_bar(body: str, a: Point, b: Point) -> None:
-    a = a if a in PIVOTS.values() else (a[0] / 1e3, a[1] / 1e3)
     # half of the last printed digit, 0.5 um at both ends of a bar of 1 m
-    assert math.degrees(SUPPORT.linkage().bodies[body].angle) == pytest.approx(
-        degrees(a, (b[0] / 1e3, b[1] / 1e3)), abs=1e-4
-    )
+    assert math.degrees(SUPPORT.linkage().bodies[body].angle) == pytest.approx(degrees(a, b), abs=1e-4)
 
 
 @pytest.mark.parametrize(

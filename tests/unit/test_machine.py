@@ -132,3 +132,16 @@ def test_a_machine_without_columns_takes_any_extension() -> None:
             return Linkage(bodies={"a": BODY}, pins={"p": pinned("ground", "a", (0.0, 1.0))})
 
     Pendulum().check_extension(-1.0, 1.0)
+
+
+def test_no_body_is_called_ground() -> None:
+    body = Body(mass=1.0, inertia=1.0, centre=(0.0, 0.0))
+    with pytest.raises(InputError, match="ground"):
+        Linkage(bodies={"ground": body})
+
+
+def test_a_pin_joins_two_bodies() -> None:
+    body = Body(mass=1.0, inertia=1.0, centre=(0.0, 0.0))
+    place = PinPlace(first="one", second="one", first_point=(0.0, 0.0), second_point=(0.0, 0.0))
+    with pytest.raises(InputError, match=r"pins\.pin = 'one' twice"):
+        Linkage(bodies={"one": body}, pins={"pin": place})

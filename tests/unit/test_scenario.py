@@ -11,13 +11,16 @@ from support_exudyn import (
     CubicStep,
     Held,
     IdealPin,
+    Linkage,
+    Machine,
+    PinPlace,
     Scenario,
     SolverSettings,
     UniformSpeed,
 )
 from support_exudyn.machine import Body, Part
 from tests.unit.cases import contact, support
-from user_forces import InputError, JournalBearing, Value
+from user_forces import InputError, JournalBearing, Value, value
 
 SUPPORT = support()
 
@@ -181,3 +184,17 @@ def test_a_scenario_comes_back_from_json(drive: Held | CubicStep | UniformSpeed)
         solver=SolverSettings(spectral_radius=0.9),
     )
     assert Value.from_data(json.loads(json.dumps(one.to_data()))) == one
+
+
+def test_an_ideal_pin_must_be_closed_at_the_start() -> None:
+    one = Body(mass=1.0, inertia=1.0, centre=(0.0, 0.0))
+    apart = PinPlace(first="ground", second="one", first_point=(0.0, 0.0), second_point=(0.001, 0.0))
+
+    @value
+    class Open(Machine):
+        def linkage(self) -> Linkage:
+            return Linkage(bodies={"one": one}, pins={"pin": apart})
+
+    with pytest.raises(InputError, match=r"pins\.pin: .* 0\.001 m apart .* allowed for an ideal pin: 0"):
+        Scenario(machine=Open(), duration=1.0)
+    Scenario(machine=Open(), duration=1.0, pins={"pin": ClearancePin(contact=contact())})

@@ -196,3 +196,14 @@ def test_only_the_step_after_a_break_follows_it() -> None:
     # from 0.32 to the record at 0.4 there are two steps of 0.04
     following = [t for t in (0.25, 0.3, 0.31, 0.32, 0.33, 0.3599, 0.36, 0.4) if plan.follows_break(t)]
     assert following == [0.32, 0.33, 0.3599]
+
+
+def test_tiny_steps_advance_late_in_a_long_run() -> None:
+    plan = StepPlan(338.1, 0.1, 1.6759e-6, ())
+    t = 678 * 0.1
+    assert plan.next_time(t) > t + 1e-6
+
+
+def test_the_last_record_is_the_end_and_comes_once() -> None:
+    plan = StepPlan(0.027, 0.009, 0.009, ())  # 3 * 0.009 is a rounding below 0.027
+    assert plan.next_time(0.018) == 0.027

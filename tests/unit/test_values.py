@@ -189,3 +189,15 @@ def test_data_of_an_abstract_type_are_refused() -> None:
 def test_a_check_over_several_fields_is_a_sentence() -> None:
     with pytest.raises(InputError, match=r"^JournalBearing: clearance = 2\.0 m: .*allowed: > 0 and < 1\.0"):
         JournalBearing(bore_radius=1.0, clearance=2.0)
+
+
+@pytest.mark.parametrize("data", [{"type": ["a"]}, [1], {}, "text", {"type": "Nothing"}])
+def test_data_that_are_no_value_are_refused(data: object) -> None:
+    with pytest.raises(InputError, match="not a known type"):
+        Value.from_data(data)
+
+
+@pytest.mark.parametrize("wrong", ["0.05", True, b"1"])
+def test_text_and_truth_are_no_numbers(wrong: object) -> None:
+    with pytest.raises(InputError, match=r"bore_radius = .*number; allowed: > 0"):
+        JournalBearing(bore_radius=wrong, clearance=0.001)

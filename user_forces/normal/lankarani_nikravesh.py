@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import math
-from functools import cached_property
 from typing import Annotated
 
 from pydantic import Field
 
 from user_forces.normal.law import NormalLaw
-from user_forces.values import Fraction, Positive, value
+from user_forces.values import Fraction, Positive, Real, value
 
 
 @value
@@ -35,10 +34,10 @@ class LankaraniNikravesh(NormalLaw):
 
     stiffness: Positive
     restitution: Fraction
-    exponent: Annotated[float, Field(ge=1, le=3)] = 1.5
+    exponent: Annotated[Real, Field(ge=1, le=3)] = 1.5
     approach_speed_floor: Positive = 1e-3
 
-    @cached_property
+    @property
     def damping_factor(self) -> float:
         """chi [-]."""
         return 0.75 * (1.0 - self.restitution**2)
