@@ -8,8 +8,10 @@
 One entry, `simulate`; everything else is a value that is handed in. SI units and radians.
 """
 
-from support_exudyn.drives import CubicStep, Drive, Held, UniformSpeed
+from support_exudyn.channels import Channel
+from support_exudyn.drives import CubicStep, Drive, Held, Stroke, UniformSpeed
 from support_exudyn.errors import Failure, SimulationError
+from support_exudyn.impulse import Impulse
 from support_exudyn.linkages.hydraulic_support import HydraulicSupport
 from support_exudyn.machine import Body, Column, Linkage, Machine, Part, PinPlace, TracePoint
 from support_exudyn.onset import Onset
@@ -21,6 +23,7 @@ from support_exudyn.supports import load_support, reference_support
 
 __all__ = [
     "Body",
+    "Channel",
     "ClearancePin",
     "Column",
     "CubicStep",
@@ -29,6 +32,7 @@ __all__ = [
     "Held",
     "HydraulicSupport",
     "IdealPin",
+    "Impulse",
     "Linkage",
     "Machine",
     "Onset",
@@ -39,6 +43,7 @@ __all__ = [
     "Scenario",
     "SimulationError",
     "SolverSettings",
+    "Stroke",
     "TracePoint",
     "UniformSpeed",
     "load_support",
