@@ -73,7 +73,7 @@ def measure(pairs: Mapping[str, Pair]) -> list[Number]:
             f"{CLEARANCE_MM} mm",
             paper_machine.stiffness(CLEARANCE_MM) / 1e3**1.5,
             "N/mm^1.5",
-            None,
+            0.0,  # a closed form
             paper_machine.STIFFNESS[CLEARANCE_MM],
         )
     ]
@@ -166,7 +166,7 @@ def _energy_numbers(case: str, pair: Pair) -> list[Number]:
     numbers = [pair.number("column_work", case, "J", lambda r: float(r["energy.work"][-1]))]
     if case != IDEAL:
         numbers.append(pair.number("energy_dissipated", case, "J", lambda r: r.dissipated))
-    numbers.append(Number("energy_error", case, pair.fine.energy_error, "J", None))  # is itself an error
+    numbers.append(pair.number("energy_error", case, "J", lambda r: r.energy_error))
     return numbers
 
 
@@ -269,10 +269,10 @@ def table(numbers: Sequence[Number]) -> Table:
         any_case = f"{CLEARANCE_MM} mm"
         cells = [rounded(row[c].value, row[c].numerical_error) if c in row else "" for c in CASES]
         if any_case in row:
-            cells[1] = cells[2] = rounded(row[any_case].value, None)
+            cells[1] = cells[2] = rounded(row[any_case].value, row[any_case].numerical_error)
         printed = next((n.paper for n in row.values() if n.paper is not None), None)
         unit = next(iter(row.values())).unit
-        shown.add_row(name.replace("_", " "), unit, *cells, "" if printed is None else f"{printed:g}")
+        shown.add_row(name.replace("_", " "), unit, *cells, "" if printed is None else f"{printed:.9g}")
     shown.caption = (
         "± is the change when the step is halved. Means and spreads: 3 to 5 s, every 1 ms. The paper gives no\n"
         "machine data: its numbers stand beside ours for orientation, not as a check."

@@ -52,14 +52,14 @@ class Number:
     """A number that a study reports.
 
     name, case: what, and of which run. value, unit. numerical_error: how much it changes when the step
-    is halved, None if it is not computed by stepping. paper: the printed value, None if there is none.
+    is halved; 0 for a closed form. paper: the printed value, None if there is none.
     """
 
     name: str
     case: str
     value: float
     unit: str
-    numerical_error: float | None
+    numerical_error: float
     paper: float | None = None
 
 
@@ -116,12 +116,10 @@ def write_summary(out: Path, study: str, numbers: Sequence[Number], wall_s: floa
     return path
 
 
-def rounded(value: float, error: float | None) -> str:
-    """A number with its error, both to the digits that the error leaves."""
-    if error is None:
-        return f"{value:.6g}"
+def rounded(value: float, error: float) -> str:
+    """A number with its error, both to the digits that the error leaves; alone if it has none."""
     if error == 0.0 or not math.isfinite(error):
-        return f"{value:.6g}"
+        return f"{value:.9g}"
     digits = max(0, 1 - math.floor(math.log10(error)))
     if digits > 9:
         return f"{value:.6g} ± {error:.0e}"

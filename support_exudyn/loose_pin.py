@@ -169,9 +169,7 @@ class LoosePin:
     ) -> list[float]:
         """Force and moment of the connector, which act on the bore and, reversed, on the journal."""
         self.calls += 1
-        x, y = displacement[0], displacement[1]
-        if abs(rotation[2]) > SMALL_TURN:
-            x, y = _true_displacement(x, y, rotation[2])
+        x, y = _true_displacement(displacement[0], displacement[1], rotation[2])
         if self.settling:
             return self._settling_force(x, y)
         bore_spin = journal_spin = 0.0

@@ -34,7 +34,6 @@ class Recorder:
     """Collects a History while a run goes on."""
 
     def __init__(self, scene: Scene) -> None:
-        self.scene = scene
         self.energies = RunningIntegrals(3)  # work of the columns, losses by damping and by friction
         self._data = scene.mbs.systemData
         self._pins = tuple(scene.loose_pins.values())

@@ -25,8 +25,8 @@ class SolverSettings(Value):
             shows in them below a step of 0.2 ms.
         newton_tolerance: relative tolerance of Newton's residual, > 0.
         impact_refinement: how many times shorter the steps are during an impact, that is from the touch
-            to the first least depth or to parting; 1 to 100. Errors of an impact are of second order
-            in the step and carried on to all later ones.
+            until the depth has swung twice or the surfaces part; 1 to 100. Errors of an impact are of
+            second order in the step and carried on to all later ones.
     """
 
     spectral_radius: Fraction = 0.5

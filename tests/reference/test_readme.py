@@ -27,7 +27,3 @@ def test_the_picture_is_there() -> None:
     text = README.read_text(encoding="utf-8")
     for picture in re.findall(r"!\[.*?\]\((.*?)\)", text):
         assert (README.parent / picture).is_file()
-
-
-def test_no_placeholder_is_left() -> None:
-    assert "@" not in README.read_text(encoding="utf-8")

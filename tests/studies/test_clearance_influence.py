@@ -40,7 +40,9 @@ def test_the_summary_has_the_agreed_form(summary: dict[str, Any]) -> None:
         assert set(number) == {"name", "case", "value", "unit", "numerical_error", "paper"}
         assert math.isfinite(number["value"])
         assert number["unit"]
-        assert number["numerical_error"] is None or number["numerical_error"] >= 0.0
+        assert math.isfinite(number["numerical_error"])
+        assert number["numerical_error"] >= 0.0
+        assert number["paper"] is None or math.isfinite(number["paper"])
 
 
 def test_every_file_is_there(out: Path) -> None:
