@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 from user_forces.friction.frictionless import Frictionless
 from user_forces.friction.law import FrictionLaw
 from user_forces.journal import JournalBearing
-from user_forces.normal.law import NormalLaw
+from user_forces.normal.law import NormalLaw, Touch
+from user_forces.scalar import hypot, is_number, maximum, where
 from user_forces.values import Value, value
+
+SMALLEST = 1e-300  # [m], only so that nothing is divided by zero
+SHALLOWEST = 1e-30  # depth [m] with which a law is evaluated where there is no contact
 
 
 class ContactForce(NamedTuple):
@@ -27,11 +30,26 @@ class ContactForce(NamedTuple):
     force_y: float  # [N]
     journal_arm: float  # of the contact point from the journal's centre, along n [m]
     clamped: bool  # the law asked for tension, which was cut to zero
+    deflection: float  # state of the friction law, 0 if it has none [m]
 
     @property
     def journal_moment(self) -> float:
         """Moment [N m] of the force about the journal's centre."""
         return self.journal_arm * self.friction_force
+
+
+class SlipHistory(NamedTuple):
+    """What a friction law with a state needs of the step that is being made.
+
+    deflection: at its start [m]. slip: at its start [m/s]. step: its length [s].
+    """
+
+    deflection: float
+    slip: float
+    step: float
+
+
+AT_REST = SlipHistory(0.0, 0.0, 0.0)
 
 
 @value
@@ -48,15 +66,6 @@ class JournalContact(Value):
     normal: NormalLaw
     friction: FrictionLaw = Frictionless()
 
-    def gap_state(self, x: float, y: float, vx: float, vy: float) -> tuple[float, float]:
-        """Depth [m] and its rate [m/s]; see `force` for the arguments.
-
-        From the middle every way leads outwards: there the rate is the speed.
-        """
-        eccentricity = math.hypot(x, y)
-        rate = (x * vx + y * vy) / eccentricity if eccentricity > 0.0 else math.hypot(vx, vy)
-        return self.bearing.depth(eccentricity), rate
-
     def force(
         self,
         x: float,
@@ -65,39 +74,45 @@ class JournalContact(Value):
         vy: float,
         bore_spin: float,
         journal_spin: float,
-        approach_speed: float | None,
+        touch: Touch | None,
+        history: SlipHistory = AT_REST,
     ) -> ContactForce:
-        """Force of the bore on the journal.
+        """Force of the bore on the journal. Takes floats or expressions (`user_forces.scalar`).
 
         Arguments:
             x, y: journal's centre minus bore's centre [m], in any axes.
             vx, vy: velocity of the journal's centre minus that of the bore's centre [m/s], same axes;
                 the plain difference, not the rate seen by an observer who turns with the bore.
             bore_spin, journal_spin: angular velocities of both bodies [rad/s].
-            approach_speed: rate at the onset of the contact going on [m/s]; None while the surfaces
-                are apart, and then there is no force whatever the depth.
+            touch: what began the contact going on; None while the surfaces are apart, and then there is no
+                force whatever the depth.
+            history: for friction laws with a state, the step whose end this is.
 
         Returns:
             ContactForce. The force acts at one point of space on both bodies, so linear and angular
             momentum are conserved: on the journal `journal_arm` from its centre along n, which is
-            `journal_arm` plus the eccentricity from the bore's.
+            `journal_arm` plus the eccentricity from the bore's. From the middle every way leads outwards:
+            there the rate is the speed.
         """
-        eccentricity = math.hypot(x, y)
+        eccentricity = hypot(x, y)
         bearing = self.bearing
-        depth = eccentricity - bearing.clearance  # Eq. 3
-        if eccentricity == 0.0:  # no direction of contact
-            return ContactForce(depth, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, bearing.journal_radius, False)
-        nx, ny = x / eccentricity, y / eccentricity
-        rate = nx * vx + ny * vy
+        depth = bearing.depth(eccentricity)  # Eq. 3
+        away = maximum(eccentricity, SMALLEST)
+        nx, ny = x / away, y / away
         bore_arm, journal_arm = bearing.contact_arms(depth)
         slip = nx * vy - ny * vx + journal_spin * journal_arm - bore_spin * bore_arm
-        if depth <= 0.0 or approach_speed is None:
-            return ContactForce(depth, rate, slip, 0.0, 0.0, 0.0, 0.0, journal_arm, False)
-        normal = self.normal(depth, rate, approach_speed)
-        clamped = normal < 0.0
-        if clamped:
-            normal = 0.0
-        friction = self.friction(slip, normal)
+        rate = nx * vx + ny * vy
+        if touch is None or (is_number(depth) and depth <= 0.0):
+            if is_number(eccentricity) and eccentricity == 0.0:
+                rate = hypot(vx, vy)
+            return ContactForce(depth, rate, slip, 0.0, 0.0, 0.0, 0.0, journal_arm, False, 0.0)
+        asked = self.normal(maximum(depth, SHALLOWEST), rate, touch)
+        normal = where(depth > 0.0, maximum(asked, 0.0), 0.0)
+        deflection = 0.0
+        if self.friction.has_state:
+            mean_slip = 0.5 * (history.slip + slip)
+            deflection = self.friction.next_deflection(history.deflection, mean_slip, history.step)
+        friction = self.friction(slip, normal, deflection)
         return ContactForce(
             depth,
             rate,
@@ -107,5 +122,6 @@ class JournalContact(Value):
             -normal * nx - friction * ny,
             -normal * ny + friction * nx,
             journal_arm,
-            clamped,
+            asked < 0.0,
+            deflection,
         )

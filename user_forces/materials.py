@@ -38,3 +38,11 @@ class Material(Value):
 # Table 1 of the same paper: the parts of the support, and the pin.
 STEEL = Material(name="steel", elastic_modulus=2.07e11, poisson_ratio=0.29, density=7801.0)
 STEEL_35CRMO = Material(name="35CrMo", elastic_modulus=2.06e11, poisson_ratio=0.3, density=7850.0)
+
+
+def effective_modulus(one: Material, other: Material) -> float:
+    """E* [Pa] of two bodies in contact, 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
+
+    Source: Johnson, Contact Mechanics (1985), Eq. 4.21.
+    """
+    return 1.0 / (math.pi * (one.compliance + other.compliance))

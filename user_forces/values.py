@@ -33,6 +33,7 @@ Real = Annotated[float, BeforeValidator(_no_text)]
 Positive = Annotated[Real, Field(gt=0)]
 NonNegative = Annotated[Real, Field(ge=0)]
 Fraction = Annotated[Real, Field(ge=0, le=1)]
+Restitution = Annotated[Real, Field(gt=0, le=1)]
 Vector2 = tuple[Real, Real]
 
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from pydantic import model_validator
 
-from user_forces.friction.law import FrictionLaw
+from user_forces.friction.law import FrictionLaw, against
+from user_forces.scalar import magnitude, maximum, minimum
 from user_forces.values import NonNegative, Positive, value
 
 
@@ -40,11 +41,8 @@ class Ambrosio(FrictionLaw):
             )
         return self
 
-    def __call__(self, slip: float, normal_force: float) -> float:
+    def __call__(self, slip: float, normal_force: float, deflection: float = 0.0) -> float:
         """Tangential force [N] for a slip [m/s] and a normal force [N] >= 0."""
-        speed = abs(slip)
-        if speed <= self.static_speed:
-            return 0.0
-        c_d = min(1.0, (speed - self.static_speed) / (self.dynamic_speed - self.static_speed))  # Eq. 8
-        force = self.sliding_coefficient * c_d * normal_force  # Eq. 7
-        return -force if slip > 0.0 else force
+        ramp = (magnitude(slip) - self.static_speed) / (self.dynamic_speed - self.static_speed)
+        c_d = minimum(1.0, maximum(0.0, ramp))  # Eq. 8
+        return against(slip, self.sliding_coefficient * c_d * normal_force)  # Eq. 7

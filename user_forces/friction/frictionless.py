@@ -10,6 +10,6 @@ from user_forces.values import value
 class Frictionless(FrictionLaw):
     """F_t = 0."""
 
-    def __call__(self, slip: float, normal_force: float) -> float:
+    def __call__(self, slip: float, normal_force: float, deflection: float = 0.0) -> float:
         """Zero [N], whatever the slip [m/s] and normal force [N]."""
         return 0.0

@@ -4,17 +4,44 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 
+from user_forces.scalar import sign
 from user_forces.values import Value
 
 
 class FrictionLaw(Value, ABC):
     """Tangential force as a function of slip speed and normal force.
 
-    The contract: `law(slip, normal_force)` gives the force along t on the journal, where slip is the
-    speed of the journal's surface relative to the bore's along the same t. It never does positive work:
-    force times slip <= 0.
+    The contract:
+    1. `law(slip, normal_force, deflection)` gives the force along t on the journal, where slip is the speed of
+       the journal's surface relative to the bore's along the same t.
+    2. A law without a state never does positive work: force times slip <= 0; it ignores `deflection`.
+    3. A law with a state says so by `has_state`. The state is one number, the deflection, zero at the touch.
+       The law owns no memory: `next_deflection` is handed its value at the start of a step and returns that
+       at the end, and the solver makes the step with it.
+    4. It is written with the functions of `user_forces.scalar`, so that it can be compiled too.
     """
 
     @abstractmethod
-    def __call__(self, slip: float, normal_force: float) -> float:
-        """Tangential force [N] for a slip [m/s] and a normal force [N] >= 0."""
+    def __call__(self, slip: float, normal_force: float, deflection: float = 0.0) -> float:
+        """Tangential force [N] for a slip [m/s], a normal force [N] >= 0 and a deflection."""
+
+    @property
+    def has_state(self) -> bool:
+        """Whether the force depends on the deflection."""
+        return False
+
+    def next_deflection(self, deflection: float, slip: float, step: float) -> float:
+        """Deflection after a step [s] over which the slip [m/s] was this one on average."""
+        del slip, step
+        return deflection
+
+
+def against(slip: float, force: float) -> float:
+    """A force [N] that points against the slip; zero where there is none."""
+    return -sign(slip) * force
+
+
+def check_coefficients(static: float, sliding: float) -> None:
+    """Raise ValueError if the static coefficient is smaller than the sliding one."""
+    if static < sliding:
+        raise ValueError(f"static_coefficient = {static}: allowed: >= sliding_coefficient = {sliding}")

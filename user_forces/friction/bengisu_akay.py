@@ -1,0 +1,46 @@
+"""Bengisu and Akay's friction."""
+
+from __future__ import annotations
+
+from pydantic import model_validator
+
+from user_forces.friction.law import FrictionLaw, against, check_coefficients
+from user_forces.scalar import exp, magnitude, maximum, where
+from user_forces.values import NonNegative, Positive, value
+
+
+@value
+class BengisuAkay(FrictionLaw):
+    """F_t = -mu(abs(slip)) F_n sign(slip), rising to mu_s at v_0 and falling to mu_d beyond:
+
+        mu(v) = mu_s (1 - (v - v_0)^2 / v_0^2)              v < v_0
+                mu_d + (mu_s - mu_d) exp(-xi (v - v_0))     v >= v_0
+
+    Continuous, with a kink at v_0. It does not stick: a loaded pin creeps.
+
+    Arguments:
+        static_coefficient: mu_s [-], >= mu_d.
+        sliding_coefficient: mu_d [-], >= 0.
+        static_speed: v_0 [m/s], > 0.
+        decay: xi [s/m], > 0.
+
+    Source: Bengisu and Akay, J. Sound Vib. 171 (1994) 557-570.
+    """
+
+    static_coefficient: NonNegative
+    sliding_coefficient: NonNegative
+    static_speed: Positive = 1e-3
+    decay: Positive = 100.0
+
+    @model_validator(mode="after")
+    def _static_is_larger(self) -> BengisuAkay:
+        check_coefficients(self.static_coefficient, self.sliding_coefficient)
+        return self
+
+    def __call__(self, slip: float, normal_force: float, deflection: float = 0.0) -> float:
+        """Tangential force [N] for a slip [m/s] and a normal force [N] >= 0."""
+        beyond = magnitude(slip) - self.static_speed
+        rising = self.static_coefficient * (1.0 - (beyond / self.static_speed) * (beyond / self.static_speed))
+        difference = self.static_coefficient - self.sliding_coefficient
+        falling = self.sliding_coefficient + difference * exp(-self.decay * maximum(beyond, 0.0))
+        return against(slip, where(beyond < 0.0, rising, falling) * normal_force)

@@ -1,0 +1,42 @@
+"""Brown and McPhee's friction."""
+
+from __future__ import annotations
+
+from pydantic import model_validator
+
+from user_forces.friction.law import FrictionLaw, check_coefficients
+from user_forces.scalar import tanh
+from user_forces.values import NonNegative, Positive, value
+
+
+@value
+class BrownMcPhee(FrictionLaw):
+    """F_t = -F_n (mu_d tanh(4 x) + (mu_s - mu_d) x / (x^2/4 + 3/4)^2), x = slip/v_t.
+
+    Smooth everywhere. The second term has its largest value, 1, at x = 1, so the force is mu_s F_n at v_t
+    within mu_d/1500. It does not stick: a loaded pin creeps. The published law adds a viscous term, which dry
+    pins do not have.
+
+    Arguments:
+        static_coefficient: mu_s [-], >= mu_d.
+        sliding_coefficient: mu_d [-], >= 0.
+        transition_speed: v_t [m/s], > 0.
+
+    Source: Brown and McPhee, J. Comput. Nonlinear Dyn. 11 (2016) 054502.
+    """
+
+    static_coefficient: NonNegative
+    sliding_coefficient: NonNegative
+    transition_speed: Positive = 1e-2
+
+    @model_validator(mode="after")
+    def _static_is_larger(self) -> BrownMcPhee:
+        check_coefficients(self.static_coefficient, self.sliding_coefficient)
+        return self
+
+    def __call__(self, slip: float, normal_force: float, deflection: float = 0.0) -> float:
+        """Tangential force [N] for a slip [m/s] and a normal force [N] >= 0."""
+        x = slip / self.transition_speed
+        width = 0.25 * x * x + 0.75
+        difference = self.static_coefficient - self.sliding_coefficient
+        return -normal_force * (self.sliding_coefficient * tanh(4.0 * x) + difference * x / (width * width))

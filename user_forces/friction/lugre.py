@@ -1,0 +1,72 @@
+"""The LuGre friction of Canudas de Wit, Olsson, Astrom and Lischinsky."""
+
+from __future__ import annotations
+
+from pydantic import model_validator
+
+from user_forces.friction.law import FrictionLaw, check_coefficients
+from user_forces.scalar import exp, magnitude, sign
+from user_forces.values import NonNegative, Positive, value
+
+
+@value
+class LuGre(FrictionLaw):
+    """F_t = -F_n (s0 z + s1 dz/dt + s2 slip), with the deflection z [m] of bristles between the surfaces:
+
+        dz/dt = slip - s0 abs(slip) z / g,   g = mu_d + (mu_s - mu_d) exp(-(slip/v_S)^2)
+
+    The form that is proportional to the normal force. It sticks: below mu_s F_n a loaded pin rests on its
+    bristles, deflected by z = F_t / (s0 F_n). In steady slip it is g F_n and the viscous part. Bristles are
+    straight, z = 0, at a touch. z moves with the system: it is advanced with the mean slip of each step,
+    exactly for constant slip, inside the solver's iteration; of second order. The force can return the
+    energy that is in the bristles, s0 z^2 F_n / 2; to be passive altogether, s1 abs(slip) < 4 g.
+
+    Arguments:
+        static_coefficient: mu_s [-], >= mu_d.
+        sliding_coefficient: mu_d [-], > 0.
+        stribeck_speed: v_S [m/s], > 0.
+        bristle_stiffness: s0 [1/m], > 0.
+        bristle_damping: s1 [s/m], >= 0.
+        viscosity: s2 [s/m], >= 0.
+
+    Source: Canudas de Wit, Olsson, Astrom and Lischinsky, IEEE Trans. Autom. Control 40 (1995) 419-425.
+    """
+
+    static_coefficient: NonNegative
+    sliding_coefficient: Positive
+    stribeck_speed: Positive = 1e-2
+    bristle_stiffness: Positive = 1e5
+    bristle_damping: NonNegative = 10.0
+    viscosity: NonNegative = 0.0
+
+    @model_validator(mode="after")
+    def _static_is_larger(self) -> LuGre:
+        check_coefficients(self.static_coefficient, self.sliding_coefficient)
+        return self
+
+    @property
+    def has_state(self) -> bool:
+        """Yes: the deflection of the bristles [m]."""
+        return True
+
+    def steady_deflection(self, slip: float) -> float:
+        """Size [m] of the deflection in steady slip, g / s0."""
+        ratio = slip / self.stribeck_speed
+        extra = (self.static_coefficient - self.sliding_coefficient) * exp(-ratio * ratio)
+        return (self.sliding_coefficient + extra) / self.bristle_stiffness
+
+    def deflection_rate(self, deflection: float, slip: float) -> float:
+        """dz/dt [m/s]."""
+        return slip - magnitude(slip) / self.steady_deflection(slip) * deflection
+
+    def next_deflection(self, deflection: float, slip: float, step: float) -> float:
+        """z [m] after a step [s] at constant slip [m/s]: nears the steady one as exp(-abs(slip) step s0/g)."""
+        size = self.steady_deflection(slip)
+        steady = sign(slip) * size
+        return steady + (deflection - steady) * exp(-magnitude(slip) * step / size)
+
+    def __call__(self, slip: float, normal_force: float, deflection: float = 0.0) -> float:
+        """Tangential force [N] for a slip [m/s], a normal force [N] >= 0 and a deflection z [m]."""
+        lost = self.bristle_damping * magnitude(slip) / self.steady_deflection(slip)
+        bristles = (self.bristle_stiffness - lost) * deflection
+        return -normal_force * (bristles + (self.bristle_damping + self.viscosity) * slip)

@@ -1,0 +1,45 @@
+"""Coulomb's friction with the Stribeck effect."""
+
+from __future__ import annotations
+
+from pydantic import model_validator
+
+from user_forces.friction.law import FrictionLaw, against, check_coefficients
+from user_forces.scalar import exp, magnitude, step
+from user_forces.values import NonNegative, Positive, value
+
+
+@value
+class Stribeck(FrictionLaw):
+    """F_t = -(mu_d + (mu_s - mu_d) exp(-(slip/v_S)^2)) s^2 (3 - 2 s) F_n sign(slip), s = abs(slip)/v_t to 1.
+
+    The force falls from mu_s to mu_d as the slip passes v_S; the cubic STEP up to v_t makes it continuous at
+    rest. It does not stick: a loaded pin creeps.
+
+    Arguments:
+        static_coefficient: mu_s [-], >= mu_d.
+        sliding_coefficient: mu_d [-], >= 0.
+        stribeck_speed: v_S [m/s], > 0.
+        tolerance_speed: v_t [m/s], > 0; well below v_S, else mu_s is not reached.
+
+    Source: Stribeck, Z. VDI 46 (1902) 1341-1348; with the Gaussian of Armstrong-Helouvry, Dupont and
+    Canudas de Wit, Automatica 30 (1994) 1083-1138.
+    """
+
+    static_coefficient: NonNegative
+    sliding_coefficient: NonNegative
+    stribeck_speed: Positive = 1e-2
+    tolerance_speed: Positive = 1e-3
+
+    @model_validator(mode="after")
+    def _static_is_larger(self) -> Stribeck:
+        check_coefficients(self.static_coefficient, self.sliding_coefficient)
+        return self
+
+    def __call__(self, slip: float, normal_force: float, deflection: float = 0.0) -> float:
+        """Tangential force [N] for a slip [m/s] and a normal force [N] >= 0."""
+        speed = magnitude(slip)
+        ratio = speed / self.stribeck_speed
+        extra = (self.static_coefficient - self.sliding_coefficient) * exp(-ratio * ratio)
+        share = step(speed / self.tolerance_speed)
+        return against(slip, (self.sliding_coefficient + extra) * share * normal_force)

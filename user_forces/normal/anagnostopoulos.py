@@ -1,0 +1,53 @@
+"""Anagnostopoulos's linear spring and dashpot, the dashpot made from a restitution."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import field
+from functools import cached_property
+from typing import Annotated
+
+from pydantic import Field
+
+from user_forces.normal.kelvin_voigt import cut_dashpot_restitution
+from user_forces.normal.law import Touch
+from user_forces.normal.power_law import ElasticPower
+from user_forces.scalar import sqrt
+from user_forces.values import Real, Restitution, value
+
+
+@value
+class Anagnostopoulos(ElasticPower):
+    """F = K depth + c rate, c = 2 zeta sqrt(K m), zeta = -ln e / sqrt(pi^2 + ln(e)^2).
+
+    m is the mass that moves as the depth does. A half swing of the oscillator returns e v0, but its last part
+    is tension. Where tension is cut, as here, the surfaces part earlier and faster:
+    Delivers 0.253, 0.397, 0.550, 0.718, 0.902
+    for e = 0.1, 0.3, 0.5, 0.7, 0.9.
+    The force jumps to c v0 at the touch.
+
+    Arguments:
+        stiffness: K [N/m], > 0.
+        restitution: e [-], > 0 and <= 1.
+
+    Source: Anagnostopoulos, Earthquake Eng. Struct. Dyn. 16 (1988) 443-456.
+    """
+
+    restitution: Restitution
+    exponent: Annotated[Real, Field(ge=1, le=1)] = field(default=1.0)
+
+    @cached_property
+    def damping_ratio(self) -> float:
+        """zeta [-]."""
+        decrement = math.log(self.restitution)
+        return -decrement / math.hypot(math.pi, decrement)
+
+    @property
+    def delivered_restitution(self) -> float:
+        """Restitution [-] that a free impact delivers, tension cut."""
+        return cut_dashpot_restitution(self.damping_ratio)
+
+    def __call__(self, depth: float, rate: float, touch: Touch) -> float:
+        """Normal force [N] at depth [m] > 0, rate [m/s]."""
+        damping = 2.0 * self.damping_ratio * sqrt(self.stiffness * touch.mass)
+        return self.stiffness * depth + damping * rate

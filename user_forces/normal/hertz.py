@@ -1,0 +1,23 @@
+"""Hertz's elastic contact."""
+
+from __future__ import annotations
+
+from user_forces.normal.law import Touch
+from user_forces.normal.power_law import ElasticPower
+from user_forces.values import value
+
+
+@value
+class Hertz(ElasticPower):
+    """F = K depth^n: no damping, restitution 1.
+
+    Arguments:
+        stiffness: K [N/m^n], > 0; see `user_forces.stiffness`.
+        exponent: n [-], 1.5 for two spheres, from 1 to 3.
+
+    Source: Hertz, J. reine angew. Math. 92 (1882) 156-171; Johnson, Contact Mechanics (1985), Eq. 4.23.
+    """
+
+    def __call__(self, depth: float, rate: float, touch: Touch) -> float:
+        """Normal force [N] at depth [m] > 0; rate and touch have no influence."""
+        return self.elastic_force(depth)

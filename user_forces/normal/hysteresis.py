@@ -1,0 +1,101 @@
+"""Laws F = F_el (1 + chi rate / w): an elastic force that is larger on the way in than on the way out."""
+
+from __future__ import annotations
+
+import math
+from abc import abstractmethod
+from dataclasses import field
+from functools import cached_property
+
+from scipy.optimize import brentq
+from scipy.special import lambertw
+
+from user_forces.normal.damping_speed import DampingSpeed, DepthSpeed
+from user_forces.normal.law import NormalLaw, Touch
+from user_forces.values import Fraction, value
+
+
+@value
+class Hysteresis(NormalLaw):
+    """F = F_el(depth) (1 + chi rate / w) with a damping factor chi made from the restitution.
+
+    What a free impact delivers depends on chi alone, not on F_el, masses or speed: with u = rate / v0 and m
+    the reduced mass, m v0^2 u du = -F_el (1 + chi u) d(depth), and the depth is the same (zero) at touch,
+    u = 1, and at parting, u = -e. So the integral of u / (1 + chi u) from -e to 1 vanishes:
+
+        chi (1 + e) = ln((1 + chi) / (1 - chi e))
+
+    `delivered_restitution` solves that for e. The force is a pressure throughout: 1 - chi e > 0.
+
+    Arguments:
+        restitution: e that is asked for [-].
+        damping_speed: what w is; v0 in a free impact, see there for a contact that does not part.
+    """
+
+    restitution: Fraction
+    damping_speed: DampingSpeed = field(default_factory=DepthSpeed)
+
+    @abstractmethod
+    def factor(self, restitution: float) -> float:
+        """Damping factor chi [-] >= 0 for a restitution [-]."""
+
+    @cached_property
+    def damping_factor(self) -> float:
+        """Damping factor chi [-] of this law."""
+        return self.factor(self.restitution)
+
+    @property
+    def delivered_restitution(self) -> float:
+        """Restitution [-] that a free impact delivers."""
+        return delivered_restitution(self.damping_factor)
+
+    def __call__(self, depth: float, rate: float, touch: Touch) -> float:
+        """Normal force [N] at depth [m] > 0, rate [m/s]."""
+        w = self.damping_speed(touch, self.elastic_energy(depth))
+        return self.elastic_force(depth) * (1.0 + self.damping_factor / w * rate)
+
+    @property
+    def forgets(self) -> bool:
+        """As the damping speed does."""
+        return self.damping_speed.forgets
+
+
+def delivered_restitution(damping_factor: float) -> float:
+    """Restitution e that a free impact delivers for a damping factor chi >= 0.
+
+        e = (1 + W0(-(1 + chi) exp(-(1 + chi)))) / chi,   W0 Lambert's function
+
+    which is the root of chi (1 + e) = ln((1 + chi)/(1 - chi e)); see `Hysteresis`.
+    """
+    chi = damping_factor
+    if chi < 1e-5:  # the next term is smaller than 1e-10
+        return 1.0 - 2.0 / 3.0 * chi
+    argument = -(1.0 + chi) * math.exp(-(1.0 + chi))
+    found = (1.0 + float(lambertw(argument).real)) / chi
+    if chi < 1.0:  # Lambert's function loses half of its digits where its branches meet, at small chi
+        found -= _imbalance(chi, found) * (1.0 - chi * found) / (chi * chi * found)
+    return found
+
+
+def exact_damping_factor(restitution: float) -> float:
+    """Damping factor chi in [0, 1/e] with which a free impact delivers the restitution e, 0 < e <= 1.
+
+    The inverse of `delivered_restitution`: the root of chi e - 1 + (1 + chi) exp(-chi (1 + e)), by Brent's
+    method.
+    """
+    e = restitution
+    if e > 1.0 - 1e-5:  # what is left out changes the restitution by less than 1e-10
+        return 1.5 * (1.0 - e)
+    if e > 0.5:
+        # chi = 0 is a root too, so look above the first-order value 3/2 (1 - e), which is always smaller
+        return float(brentq(_imbalance, 1.4 * (1.0 - e), 3.0 * (1.0 - e), args=(e,), xtol=1e-15, rtol=1e-14))
+
+    def imbalance(chi: float) -> float:
+        return chi * e - 1.0 + (1.0 + chi) * math.exp(-chi * (1.0 + e))
+
+    return float(brentq(imbalance, 1.0, (1.0 + 1e-15) / e, xtol=1e-15, rtol=1e-14))
+
+
+def _imbalance(chi: float, e: float) -> float:
+    """-chi (1 + e) + ln((1 + chi)/(1 - chi e)); its derivative by e is chi^2 e / (1 - chi e)."""
+    return math.log1p(chi) - math.log1p(-chi * e) - chi * (1.0 + e)
