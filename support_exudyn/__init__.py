@@ -9,11 +9,13 @@ One entry, `simulate`; everything else is a value that is handed in. SI units an
 """
 
 from support_exudyn.channels import Channel
-from support_exudyn.drives import CubicStep, Drive, Held, Stroke, UniformSpeed
+from support_exudyn.drives import CubicStep, Drive, Held, Steady, Stroke, UniformSpeed
 from support_exudyn.errors import Failure, SimulationError
 from support_exudyn.impulse import Impulse
 from support_exudyn.linkages.hydraulic_support import HydraulicSupport
-from support_exudyn.machine import Body, Column, Linkage, Machine, Part, PinPlace, TracePoint
+from support_exudyn.linkages.impact_stand import ImpactStand
+from support_exudyn.linkages.slider_crank import SliderCrank, ravn_slider_crank
+from support_exudyn.machine import Body, Column, Crank, Linkage, Machine, Part, PinPlace, Slide, TracePoint
 from support_exudyn.onset import Onset
 from support_exudyn.pins import ClearancePin, IdealPin, Pin
 from support_exudyn.result import Result
@@ -26,12 +28,14 @@ __all__ = [
     "Channel",
     "ClearancePin",
     "Column",
+    "Crank",
     "CubicStep",
     "Drive",
     "Failure",
     "Held",
     "HydraulicSupport",
     "IdealPin",
+    "ImpactStand",
     "Impulse",
     "Linkage",
     "Machine",
@@ -42,11 +46,15 @@ __all__ = [
     "Result",
     "Scenario",
     "SimulationError",
+    "Slide",
+    "SliderCrank",
     "SolverSettings",
+    "Steady",
     "Stroke",
     "TracePoint",
     "UniformSpeed",
     "load_support",
+    "ravn_slider_crank",
     "reference_support",
     "simulate",
 ]

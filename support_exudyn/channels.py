@@ -7,11 +7,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from support_exudyn.loose_pin import LoosePin, recalled
+from support_exudyn.connector import recalled
+from support_exudyn.loose_pin import LoosePin
 from support_exudyn.machine import GROUND
+from support_exudyn.plane import rotated
 from support_exudyn.recorder import History
 from support_exudyn.scene import Scene
-from user_forces.contact import ContactForce
+from user_forces.contact import ContactForce, SlipHistory
 from user_forces.values import Vector2
 
 
@@ -30,6 +32,8 @@ def channels(scene: Scene, history: History) -> dict[str, Channel]:
     found |= _body_channels(scene, history)
     found |= _point_channels(scene, history)
     found |= _column_channels(scene, history)
+    found |= _crank_channels(scene, history)
+    found |= _slide_channels(scene, history)
     stored = np.zeros_like(history.time)
     for name in scene.linkage.pins:
         if name in scene.loose_pins:
@@ -42,18 +46,18 @@ def channels(scene: Scene, history: History) -> dict[str, Channel]:
 
 
 class _Motion:
-    """Motion of a point of a body: position, velocity (n, 2) and spin (n,)."""
+    """Motion of a point of a body: position, velocity (n, 2), and the body's angle and spin (n,)."""
 
     def __init__(self, scene: Scene, history: History, body: str, point: Vector2) -> None:
         rows = history.time.size
         if body == GROUND:
             self.position = np.tile(point, (rows, 1))
             self.velocity = np.zeros((rows, 2))
-            self.spin = np.zeros(rows)
+            self.spin = self.angle = np.zeros(rows)
             return
         item = scene.bodies[body]
         i = item.first
-        angle = item.body.angle + history.position[:, i + 2]
+        self.angle = angle = item.body.angle + history.position[:, i + 2]
         self.spin = history.velocity[:, i + 2]
         c, s = np.cos(angle), np.sin(angle)
         x, y = item.local(point)
@@ -106,6 +110,23 @@ def _column_channels(scene: Scene, history: History) -> dict[str, Channel]:
     return found
 
 
+def _crank_channels(scene: Scene, history: History) -> dict[str, Channel]:
+    # the multiplier of a crank's angle is the moment against it
+    return {
+        f"{name}.moment": Channel(-history.multiplier[:, item.multiplier], "N m", "of the drive on the crank")
+        for name, item in scene.cranks.items()
+    }
+
+
+def _slide_channels(scene: Scene, history: History) -> dict[str, Channel]:
+    found: dict[str, Channel] = {}
+    for name, item in scene.slides.items():
+        force, moment = history.multiplier[:, item.first], history.multiplier[:, item.first + 1]
+        found[f"{name}.force"] = Channel(np.abs(force), "N", "magnitude of the guide's force, across it")
+        found[f"{name}.moment"] = Channel(np.abs(moment), "N m", "magnitude of the guide's moment")
+    return found
+
+
 def _force_channels(name: str, fx: np.ndarray, fy: np.ndarray) -> dict[str, Channel]:
     return {
         f"pin.{name}.force": Channel(np.hypot(fx, fy), "N", "magnitude of the pin force"),
@@ -129,14 +150,16 @@ def _loose_pin_channels(scene: Scene, history: History, name: str) -> tuple[dict
     bore, journal = (_Motion(scene, history, *end) for end in ends)
     offset = journal.position - bore.position
     relative = journal.velocity - bore.velocity
-    states = _contact_states(pin, history, offset, relative, bore.spin, journal.spin)
+    states = _contact_states(pin, history, offset, relative, bore, journal)
+
+    memories = [recalled(data) for data in history.memory[:, pin.slots].tolist()]
 
     def column(get: Callable[[ContactForce], float]) -> np.ndarray:
         return np.array([get(state) for state in states])
 
     sign = 1.0 if second_has_journal else -1.0
     stored = column(lambda s: pin.contact.normal.elastic_energy(s.depth) if s.depth > 0.0 else 0.0)
-    speeds = np.where(history.memory[:, pin.slots.start] > 0.5, history.memory[:, pin.slots.start + 1], 0.0)
+    speeds = np.array([memory.approach_speed if memory.in_contact else 0.0 for memory in memories])
     found = _force_channels(name, sign * column(lambda s: s.force_x), sign * column(lambda s: s.force_y))
     found |= {
         f"pin.{name}.normal_force": Channel(column(lambda s: s.normal_force), "N", "normal contact force"),
@@ -145,10 +168,14 @@ def _loose_pin_channels(scene: Scene, history: History, name: str) -> tuple[dict
         ),
         f"pin.{name}.depth": Channel(column(lambda s: s.depth), "m", "depth; negative: gap"),
         f"pin.{name}.slip": Channel(column(lambda s: s.slip), "m/s", "slip of the journal's surface, along t"),
-        f"pin.{name}.approach_speed": Channel(speeds, "m/s", "at the onset of the contact going on; 0 apart"),
+        f"pin.{name}.approach_speed": Channel(speeds, "m/s", "touch speed that the laws are told; 0 apart"),
         f"pin.{name}.eccentricity_x": Channel(offset[:, 0], "m", "journal's centre from the bore's, forward"),
         f"pin.{name}.eccentricity_y": Channel(offset[:, 1], "m", "journal's centre from the bore's, up"),
     }
+    if pin.contact.friction.has_state:
+        found[f"pin.{name}.deflection"] = Channel(
+            column(lambda s: s.deflection), "m", "state of the friction law"
+        )
     return found, stored
 
 
@@ -157,23 +184,26 @@ def _contact_states(
     history: History,
     offset: np.ndarray,
     relative: np.ndarray,
-    bore_spin: np.ndarray,
-    journal_spin: np.ndarray,
+    bore: _Motion,
+    journal: _Motion,
 ) -> list[ContactForce]:
     """The contact at every record, from state and memory."""
     states = []
     rows = zip(
         offset.tolist(),
         relative.tolist(),
-        bore_spin.tolist(),
-        journal_spin.tolist(),
+        bore.spin.tolist(),
+        journal.spin.tolist(),
+        bore.angle.tolist(),
         history.memory[:, pin.slots].tolist(),
         strict=True,
     )
-    for (x, y), (vx, vy), spin_b, spin_j, data in rows:
+    for (x, y), (vx, vy), bore_spin, journal_spin, bore_angle, data in rows:
         memory = recalled(data)
-        speed = memory.approach_speed if memory.in_contact else None
-        states.append(pin.contact.force(x, y, vx, vy, spin_b, spin_j, speed))
+        touch = memory.touch(*rotated((x, y), -bore_angle))
+        # the memory has been taken at the same instant: no time has passed since
+        now = SlipHistory(memory.deflection, memory.slip, 0.0)
+        states.append(pin.contact.force(x, y, vx, vy, bore_spin, journal_spin, touch, now))
     return states
 
 
@@ -195,6 +225,6 @@ def _energy_channels(scene: Scene, history: History, stored: np.ndarray) -> dict
         "energy.elastic": Channel(stored, "J", "stored in the contacts"),
         "energy.damping_loss": Channel(history.damping_loss, "J", "dissipated by normal damping so far"),
         "energy.friction_loss": Channel(history.friction_loss, "J", "dissipated by friction so far"),
-        "energy.work": Channel(history.work, "J", "work of the columns so far"),
+        "energy.work": Channel(history.work, "J", "work of the drive so far"),
         "energy.balance": Channel(balance, "J", "gain minus work plus loss; zero if computed exactly"),
     }

@@ -1,4 +1,4 @@
-"""How the columns extend over time."""
+"""How the driven parts of a machine move over time: columns extend, cranks turn."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from user_forces.values import NonNegative, Positive, Real, Value, value
 
 
 class Drive(Value, ABC):
-    """Extension of a column from its start length as a function of time.
+    """Extension of a column from its start length [m], or of a crank from its start angle [rad], over time.
 
     The contract: `extension` is continuous; `speed` is its derivative; between two neighbouring `breaks`
     both are smooth; at a break the speed may jump by `speed_jump`. The solver lands on every break.
@@ -30,14 +30,18 @@ class Drive(Value, ABC):
         return 0.0
 
     @property
+    def initial_speed(self) -> float:
+        """Speed just after the start [m/s]; the machine starts with velocities that belong to it."""
+        return 0.0
+
+    @property
     @abstractmethod
     def breaks(self) -> tuple[float, ...]:
         """Times [s] at which a derivative jumps."""
 
-    @property
     @abstractmethod
-    def span(self) -> tuple[float, float]:
-        """Smallest and largest extension [m]."""
+    def span(self, duration: float) -> tuple[float, float]:
+        """Smallest and largest extension [m] within this time [s]."""
 
 
 @value
@@ -57,8 +61,7 @@ class Held(Drive):
         """None."""
         return ()
 
-    @property
-    def span(self) -> tuple[float, float]:
+    def span(self, duration: float) -> tuple[float, float]:
         """(0, 0)."""
         return 0.0, 0.0
 
@@ -87,8 +90,7 @@ class Stroke(Drive):
         """Start and end of the stroke [s]."""
         return self.start, self.end
 
-    @property
-    def span(self) -> tuple[float, float]:
+    def span(self, duration: float) -> tuple[float, float]:
         """0 and the stroke [m], in order."""
         return min(0.0, self.stroke), max(0.0, self.stroke)
 
@@ -143,3 +145,36 @@ class UniformSpeed(Stroke):
         """Up at the start, down at the end [m/s]."""
         speed = self.stroke / (self.end - self.start)
         return {self.start: speed, self.end: -speed}.get(t, 0.0)
+
+
+@value
+class Steady(Drive):
+    """Constant speed from the start on, for a crank that has been turning for long.
+
+    Arguments:
+        rate: speed [rad/s] of cranks, [m/s] of columns.
+    """
+
+    rate: Real
+
+    def extension(self, t: float) -> float:
+        """rate t [rad]."""
+        return self.rate * t
+
+    def speed(self, t: float) -> float:
+        """rate [rad/s]."""
+        return self.rate
+
+    @property
+    def initial_speed(self) -> float:
+        """rate [rad/s]."""
+        return self.rate
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """None: it has been so for long."""
+        return ()
+
+    def span(self, duration: float) -> tuple[float, float]:
+        """0 and rate times duration [rad], in order."""
+        return min(0.0, self.rate * duration), max(0.0, self.rate * duration)

@@ -109,6 +109,32 @@ class Column(Value):
 
 
 @value
+class Crank(Value):
+    """A body whose angle is driven, against the ground. Its pivot is an ideal pin of the linkage.
+
+    Arguments:
+        body: name of the body.
+    """
+
+    body: str
+
+
+@value
+class Slide(Value):
+    """A straight guide of the ground: a point of a body stays on a line, and the body does not turn.
+
+    Arguments:
+        body: name of the body.
+        point: the point, start posture [m].
+        direction: of the line [rad], from +x.
+    """
+
+    body: str
+    point: Vector2
+    direction: Real = 0.0
+
+
+@value
 class TracePoint(Value):
     """A point of a body whose path is recorded.
 
@@ -130,12 +156,16 @@ class Linkage(Value):
         pins: pins by name.
         columns: driven columns by name.
         points: traced points by name.
+        cranks: driven cranks by name.
+        slides: straight guides by name.
     """
 
     bodies: Mapping[str, Body]
     pins: Mapping[str, PinPlace] = field(default_factory=dict)
     columns: Mapping[str, Column] = field(default_factory=dict)
     points: Mapping[str, TracePoint] = field(default_factory=dict)
+    cranks: Mapping[str, Crank] = field(default_factory=dict)
+    slides: Mapping[str, Slide] = field(default_factory=dict)
 
     @model_validator(mode="after")
     def _names_are_known(self) -> Linkage:
@@ -147,11 +177,16 @@ class Linkage(Value):
         used = [(f"pins.{k}", b) for k, p in self.pins.items() for b in (p.first, p.second)]
         used += [(f"columns.{k}", b) for k, c in self.columns.items() for b in (c.foot, c.head)]
         used += [(f"points.{k}", p.body) for k, p in self.points.items()]
+        moving = [(f"cranks.{k}", c.body) for k, c in self.cranks.items()]
+        moving += [(f"slides.{k}", s.body) for k, s in self.slides.items()]
         for where, body in used:
             if body != GROUND and body not in self.bodies:
                 raise ValueError(
                     f"{where} = {body!r}: no such body; allowed: {GROUND}, {', '.join(self.bodies)}"
                 )
+        for where, body in moving:
+            if body not in self.bodies:
+                raise ValueError(f"{where} = {body!r}: no such moving body; allowed: {', '.join(self.bodies)}")
         return self
 
 
@@ -163,8 +198,8 @@ class Machine(Value, ABC):
         """The mechanism in its start posture."""
 
     def check_extension(self, lowest: float, highest: float) -> None:
-        """Raise InputError if the columns cannot be extended over this range [m] from the start.
+        """Raise InputError if the drive cannot be extended over this range from the start.
 
-        A machine without driven columns has nothing to check.
+        The range is in m for columns and in rad for cranks; a machine that can follow any has nothing to check.
         """
         del lowest, highest

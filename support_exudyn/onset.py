@@ -8,24 +8,68 @@ zero depth is its slope where it crosses zero.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from enum import Enum
 from typing import NamedTuple
 
 from scipy.optimize import brentq
 
-# A step that ends within this share of its length from an onset is taken as ending there, and one that
-# starts that close before it as starting there. The force missed or added in between is of the order
-# K (v0 share h)^1.5, a relative 1e-6 of an impact that lasts ten steps; the speed is exact anyway.
-SHARE = 0.05
+from user_forces.normal.law import Touch
+from user_forces.scalar import maximum
+
+# A step that ends within this share of an impact's step from a touch or a parting is taken as ending there, and
+# one that starts that close before it as starting there. The force missed or added in between is of the order
+# K (v0 share h)^n, a relative 1e-5 of an impact of a hundred steps even for n = 1; the speed is exact anyway.
+SHARE = 0.001
+BEYOND = 0.1  # of that share is a cut step aimed behind the touch or parting, so as not to end before it
+
+
+class Mobility(NamedTuple):
+    """How easily the journal moves against the bore: velocity = mobility times impulse, a symmetric matrix.
+
+    xx, xy, yy: in the bore's axes [1/kg].
+    """
+
+    xx: float
+    xy: float
+    yy: float
+
+    def mass(self, x: float, y: float) -> float:
+        """Mass [kg] that moves in the direction x, y: 1 / (n mobility n). Takes numbers or expressions."""
+        square = x * x + y * y + SMALLEST
+        along = self.xx * x * x + 2.0 * self.xy * x * y + self.yy * y * y
+        return square / maximum(along, square / HEAVIEST)
+
+
+SMALLEST = 1e-30  # so that nothing is divided by zero [m^2]
+HEAVIEST = 1e15  # [kg], stands for a direction in which the joints leave no motion
 
 
 class PinMemory(NamedTuple):
     """What a clearance pin remembers from one accepted step to the next."""
 
     in_contact: bool
-    approach_speed: float  # of the contact going on [m/s]
+    approach_speed: float  # of the contact going on [m/s], see Touch
     depth: float  # [m]
     rate: float  # [m/s]
+    slip: float = 0.0  # [m/s]
+    deflection: float = 0.0  # of the friction law [m]
+    mobility_xx: float = 1.0  # [1/kg], see Mobility
+    mobility_xy: float = 0.0
+    mobility_yy: float = 1.0
+
+    @property
+    def mobility(self) -> Mobility:
+        """Mobility of the journal when the contact began, or was last pressed on again."""
+        return Mobility(self.mobility_xx, self.mobility_xy, self.mobility_yy)
+
+    def with_mobility(self, mobility: Mobility) -> PinMemory:
+        """The same with another mobility."""
+        return self._replace(mobility_xx=mobility.xx, mobility_xy=mobility.xy, mobility_yy=mobility.yy)
+
+    def touch(self, x: float, y: float) -> Touch | None:
+        """What the laws are told at an eccentricity x, y [m]; None while the surfaces are apart."""
+        return Touch(self.approach_speed, self.mobility.mass(x, y)) if self.in_contact else None
 
 
 class Onset(NamedTuple):
@@ -49,7 +93,9 @@ class Verdict(NamedTuple):
     action: Action
     memory: PinMemory
     onset: Onset | None = None
+    anew: bool = False  # the contact has been pressed on again without having parted
     step: float = math.inf  # to repeat with, if cut [s]
+    landing: float = math.inf  # where steps are to end, if cut [s]
 
 
 class DepthPath(NamedTuple):
@@ -111,7 +157,13 @@ def last_return(path: DepthPath) -> float | None:
 
 
 def judge(
-    start: PinMemory, depth: float, rate: float, end_time: float, step: float, impact_step: float
+    start: PinMemory,
+    depth: float,
+    rate: float,
+    end_time: float,
+    step: float,
+    impact_step: Callable[[float], float],
+    forgets: bool,
 ) -> Verdict:
     """Whether a tried step may stand, seen from one clearance pin.
 
@@ -120,31 +172,61 @@ def judge(
         depth, rate: at its end [m], [m/s].
         end_time: end of the step [s].
         step: its length [s].
-        impact_step: the length that steps are to have in an impact [s].
+        impact_step: the length that steps are to have in an impact that begins with a speed [m/s], [s].
+        forgets: whether a contact that is pressed on again begins anew (`NormalLaw.forgets`).
     """
     path = DepthPath(start.depth, start.rate, depth, rate, step)
+    end = start._replace(depth=depth, rate=rate)
     if start.in_contact:
-        again = last_return(path)
-        if again is not None:
-            onset = _onset(path, again, end_time)
-            return Verdict(Action.ACCEPT, PinMemory(True, onset.speed, depth, rate), onset)
-        if depth <= 0.0:
-            return Verdict(Action.ACCEPT, PinMemory(False, 0.0, depth, rate))
-        return Verdict(Action.ACCEPT, PinMemory(True, start.approach_speed, depth, rate))
-
+        return _judge_contact(path, start, end, end_time, forgets)
     touch = first_rise(path)
     if touch is None:
-        return Verdict(Action.ACCEPT, PinMemory(False, 0.0, depth, rate))
+        return Verdict(Action.ACCEPT, end)
     onset = _onset(path, touch, end_time)
-    if touch >= 1.0 - SHARE:
-        return Verdict(Action.ACCEPT, PinMemory(True, onset.speed, depth, rate), onset)
-    if touch <= SHARE and step > 1.01 * impact_step:  # the impact must not begin with a long step
-        return Verdict(Action.CUT, start, onset, impact_step)
-    if touch <= SHARE:
-        return Verdict(Action.REPEAT, PinMemory(True, onset.speed, start.depth, start.rate), onset)
-    # the engine shortens a repeated step to three quarters or less, so a late onset is reached in two
-    share = touch if touch <= 0.75 else touch / 2.0
-    return Verdict(Action.CUT, start, onset, share * step)
+    shorter = impact_step(onset.speed)
+    share = SHARE * min(1.0, shorter / step)  # of this step, which may be far longer than those of the impact
+    if touch >= 1.0 - share:
+        return Verdict(Action.ACCEPT, end._replace(in_contact=True, approach_speed=onset.speed), onset)
+    if touch > share:
+        return _cut(touch, share, path, start, end_time, onset)
+    if step > 1.01 * shorter:  # the impact must not begin with a long step
+        return Verdict(Action.CUT, start, onset, step=shorter)
+    return Verdict(Action.REPEAT, start._replace(in_contact=True, approach_speed=onset.speed), onset)
+
+
+def _judge_contact(
+    path: DepthPath, start: PinMemory, end: PinMemory, end_time: float, forgets: bool
+) -> Verdict:
+    """The same for a pin that is in contact at the start of the step."""
+    again = last_return(path)
+    if again is not None:
+        onset = _onset(path, again, end_time)
+        return Verdict(Action.ACCEPT, end._replace(approach_speed=onset.speed), onset)
+    if end.depth <= 0.0:
+        parting = path.crossing(0.0, 1.0) if start.depth > 0.0 else 0.0
+        if SHARE < parting < 1.0 - SHARE:  # else the last step would push too long or too hard
+            return _cut(parting, SHARE, path, start, end_time)
+        return Verdict(Action.ACCEPT, end._replace(in_contact=False, approach_speed=0.0))
+    anew = start.rate < 0.0 <= end.rate
+    if anew and forgets:
+        end = end._replace(approach_speed=0.0)
+    return Verdict(Action.ACCEPT, end, anew=anew)
+
+
+def _cut(
+    fraction: float,
+    share: float,
+    path: DepthPath,
+    start: PinMemory,
+    end_time: float,
+    onset: Onset | None = None,
+) -> Verdict:
+    """Repeat the step so that it ends at a fraction of it, and rather a little later than before."""
+    goal = fraction + BEYOND * share
+    landing = end_time - (1.0 - goal) * path.step
+    # the engine shortens a repeated step to three quarters or less, so a late one is reached in two
+    length = (goal if goal <= 0.75 else goal / 2.0) * path.step
+    return Verdict(Action.CUT, start, onset, step=length, landing=landing)
 
 
 def _onset(path: DepthPath, fraction: float, end_time: float) -> Onset:

@@ -34,10 +34,12 @@ class Recorder:
     """Collects a History while a run goes on."""
 
     def __init__(self, scene: Scene) -> None:
-        self.energies = RunningIntegrals(3)  # work of the columns, losses by damping and by friction
+        self.energies = RunningIntegrals(3)  # work of the drive, losses by damping and by friction
         self._data = scene.mbs.systemData
         self._pins = tuple(scene.loose_pins.values())
-        self._columns = tuple(column.multiplier for column in scene.columns.values())
+        self._driven = tuple(column.multiplier for column in scene.columns.values()) + tuple(
+            crank.multiplier for crank in scene.cranks.values()
+        )
         self._speed = scene.scenario.drive.speed
         self._rows: list[tuple[Any, ...]] = []
 
@@ -72,13 +74,13 @@ class Recorder:
         return History(*(np.array(column) for column in zip(*self._rows, strict=True)))
 
     def _powers(self, t: float) -> tuple[float, float, float]:
-        """Power [W] of the columns, of damping and of friction at the end of a step."""
+        """Power [W] of the drive, of damping and of friction at the end of a step."""
         columns = damping = friction = 0.0
         speed = self._speed(t)
-        if speed != 0.0 and self._columns:
+        if speed != 0.0 and self._driven:
             multipliers = self._data.GetAECoordinates()
-            # the multiplier of a distance is the tension
-            columns = -speed * sum(float(multipliers[n]) for n in self._columns)
+            # the multiplier of a distance is the tension, that of a crank's angle the moment against it
+            columns = -speed * sum(float(multipliers[n]) for n in self._driven)
         for pin in self._pins:
             force = pin.force
             if force.depth > 0.0:

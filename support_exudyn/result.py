@@ -19,7 +19,7 @@ from support_exudyn.scenario import Scenario
 from support_exudyn.solver import Counts
 from user_forces.values import InputError, Value
 
-FORMAT = "support_exudyn result 1"
+FORMAT = "support_exudyn result 2"
 
 
 @dataclass(frozen=True)

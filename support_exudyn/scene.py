@@ -2,62 +2,41 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
+from functools import cached_property, partial
 from typing import Any
 
 import exudyn
+import numpy as np
 from exudyn.itemInterface import (
     LoadForceVector,
     MarkerBodyPosition,
     MarkerBodyRigid,
+    MarkerNodeCoordinate,
+    NodePointGround,
     NodeRigidBody2D,
+    ObjectConnectorCoordinate,
     ObjectConnectorDistance,
     ObjectGround,
+    ObjectJointPrismatic2D,
     ObjectJointRevolute2D,
     ObjectRigidBody2D,
 )
 
-from support_exudyn.loose_pin import LoosePin, recalled
-from support_exudyn.machine import GROUND, Body, Column, Linkage, PinPlace
-from support_exudyn.onset import PinMemory
+from support_exudyn.connector import recalled
+from support_exudyn.kinetics import Kinetics
+from support_exudyn.loose_pin import LoosePin
+from support_exudyn.machine import GROUND, Body, Column, Crank, Linkage, PinPlace, Slide
+from support_exudyn.onset import Mobility, PinMemory
 from support_exudyn.pins import ClearancePin
-from support_exudyn.plane import minus, rotated
 from support_exudyn.scenario import Scenario
+from support_exudyn.scene_items import BodyItem, ColumnItem, CrankItem, IdealItem, SlideItem
+from user_forces.contact import ContactForce
 from user_forces.values import Vector2
 
 INITIAL = exudyn.ConfigurationType.Initial
 CURRENT = exudyn.ConfigurationType.Current
-
-
-@dataclass(frozen=True)
-class BodyItem:
-    """A moving body in the engine: its node, object and first coordinate (x, y, angle follow)."""
-
-    body: Body
-    node: Any
-    object: Any
-    first: int
-
-    def local(self, point: Vector2) -> Vector2:
-        """A point of the start posture in the body's own axes, from its centre of mass [m]."""
-        return rotated(minus(point, self.body.centre), -self.body.angle)
-
-
-@dataclass(frozen=True)
-class IdealItem:
-    """An ideal pin in the engine: its object and the first of its two multipliers."""
-
-    object: Any
-    first: int
-
-
-@dataclass(frozen=True)
-class ColumnItem:
-    """A driven column in the engine: its object and its multiplier."""
-
-    column: Column
-    object: Any
-    multiplier: int
 
 
 @dataclass(frozen=True)
@@ -72,38 +51,100 @@ class Scene:
     ideal_pins: dict[str, IdealItem]
     loose_pins: dict[str, LoosePin]
     columns: dict[str, ColumnItem]
+    cranks: dict[str, CrankItem]
+    slides: dict[str, SlideItem]
 
-    def extend_columns(self, extension: float) -> None:
-        """Make the columns longer than at the start by so much [m]."""
-        for item in self.columns.values():
-            self.mbs.SetObjectParameter(item.object, "distance", item.column.start_length + extension)
+    def drive_to(self, extension: float) -> None:
+        """Make the columns longer than at the start by so much [m], turn the cranks by so much [rad]."""
+        for column in self.columns.values():
+            length = column.column.start_length + extension
+            self.mbs.SetObjectParameter(column.object, "distance", length)
+        for crank in self.cranks.values():
+            self.mbs.SetObjectParameter(crank.object, "offset", extension)
+
+    @cached_property
+    def kinetics(self) -> Kinetics:
+        """Masses and constraints as matrices; clearance pins are free."""
+        return Kinetics(self.linkage, self.bodies, tuple(self.ideal_pins))
+
+    def mobility(self, name: str, state: Any = CURRENT) -> Mobility:
+        """Mobility of a clearance pin's journal, in the axes of its bore; see `Kinetics.pin_mobility`."""
+        position = self.mbs.systemData.GetODE2Coordinates(state)
+        matrix = self.kinetics.pin_mobility(position, name)
+        angle = self.bore_angle(name, position)
+        axes = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
+        turned = axes.T @ matrix @ axes
+        return Mobility(float(turned[0, 0]), float(turned[0, 1]), float(turned[1, 1]))
+
+    def bore_angle(self, name: str, position: Any) -> float:
+        """Angle [rad] of the axes of the bore's body."""
+        body = self._ends(name)[0]
+        start = 0.0 if body == GROUND else self.bodies[body].body.angle
+        return start + self._turn(body, position)
+
+    def _ends(self, name: str) -> tuple[str, str]:
+        """Bodies of the bore and of the journal of a clearance pin."""
+        place = self.linkage.pins[name]
+        bore_first = self.scenario.clearance_pins[name].bore == "first"
+        return (place.first, place.second) if bore_first else (place.second, place.first)
+
+    def _turn(self, body: str, coordinates: Any) -> float:
+        """Rotation [rad] of a body since the start posture, or its rate, from the vector of all."""
+        return 0.0 if body == GROUND else float(coordinates[self.bodies[body].first + 2])
+
+    def start_moving(self) -> None:
+        """Give the bodies the velocities that the drive has at the start, with ideal pins."""
+        speed = self.scenario.drive.initial_speed
+        if speed == 0.0:
+            return
+        closed = Kinetics(self.linkage, self.bodies, tuple(self.linkage.pins))
+        data = self.mbs.systemData
+        position, velocity = data.GetODE2Coordinates(INITIAL), data.GetODE2Coordinates_t(INITIAL)
+        rows = closed.rows(position)
+        rates = np.zeros(len(rows))
+        rates[closed.driven()] = speed
+        change, _ = closed.respond(position, np.zeros_like(velocity), rates - rows @ velocity)
+        data.SetODE2Coordinates_t(velocity + change, INITIAL)
 
     def reset_memory(self) -> None:
         """Give every clearance pin the memory that belongs to the initial state of the bodies."""
         data = self.mbs.systemData.GetDataCoordinates(INITIAL)
-        for pin in self.loose_pins.values():
-            depth, rate = self._depth_and_rate(pin, INITIAL)
-            touching = depth > 0.0
-            data[pin.slots] = PinMemory(touching, max(0.0, rate) if touching else 0.0, depth, rate)
+        position = self.mbs.systemData.GetODE2Coordinates(INITIAL)
+        for name, pin in self.loose_pins.items():
+            state = self._contact_state(name, pin, INITIAL)
+            touching = state.depth > 0.0
+            data[pin.slots] = PinMemory(
+                in_contact=touching,
+                approach_speed=max(0.0, state.rate) if touching else 0.0,
+                depth=state.depth,
+                rate=state.rate,
+                slip=state.slip,
+            ).with_mobility(self.mobility(name, INITIAL))
+            bore, journal = (self._turn(b, position) for b in self._ends(name))
+            pin.start(journal - bore)
         self.mbs.systemData.SetDataCoordinates(data, INITIAL)
 
     def refresh_memory(self) -> None:
         """Tell every clearance pin that velocities have jumped; contacts that go on go on."""
         data = self.mbs.systemData.GetDataCoordinates()
-        for pin in self.loose_pins.values():
+        for name, pin in self.loose_pins.items():
             memory = recalled(data[pin.slots].tolist())
-            depth, rate = self._depth_and_rate(pin, CURRENT)
-            data[pin.slots] = memory._replace(depth=depth, rate=rate)
+            state = self._contact_state(name, pin, CURRENT)
+            data[pin.slots] = memory._replace(depth=state.depth, rate=state.rate, slip=state.slip)
         self.mbs.systemData.SetDataCoordinates(data)
 
-    def _depth_and_rate(self, pin: LoosePin, state: Any) -> tuple[float, float]:
+    def _contact_state(self, name: str, pin: LoosePin, state: Any) -> ContactForce:
         def relative(what: Any) -> tuple[float, float]:
-            journal = self.mbs.GetMarkerOutput(pin.journal_marker, what, state)
-            bore = self.mbs.GetMarkerOutput(pin.bore_marker, what, state)
+            journal = self.mbs.GetMarkerOutput(pin.connector.journal_marker, what, state)
+            bore = self.mbs.GetMarkerOutput(pin.connector.bore_marker, what, state)
             return float(journal[0] - bore[0]), float(journal[1] - bore[1])
 
         output = exudyn.OutputVariableType
-        return pin.contact.gap_state(*relative(output.Position), *relative(output.Velocity))
+        rates = self.mbs.systemData.GetODE2Coordinates_t(state)
+        bore_spin, journal_spin = (self._turn(body, rates) for body in self._ends(name))
+        return pin.contact.force(
+            *relative(output.Position), *relative(output.Velocity), bore_spin, journal_spin, None
+        )
 
 
 class _Builder:
@@ -159,7 +200,7 @@ class _Builder:
             return 0.0 if body == GROUND else self.bodies[body].body.angle
 
         both_move = GROUND not in (bore, journal)
-        return LoosePin.add(
+        return LoosePin(
             self.mbs,
             pin.contact,
             bore=(item(bore), local(bore, bore_point)),
@@ -167,11 +208,34 @@ class _Builder:
             turn=angle(journal) - angle(bore),
             bore_node=self.bodies[bore].node if both_move else None,
             bore_on_ground=bore == GROUND,
+            symbolic=self.scenario.solver.backend == "symbolic",
+            impact_steps=self.scenario.solver.impact_steps,
         )
 
     def add_column(self, column: Column) -> Any:
         markers = [self.marker(column.foot, column.foot_point), self.marker(column.head, column.head_point)]
         return self.mbs.AddObject(ObjectConnectorDistance(markerNumbers=markers, distance=column.start_length))
+
+    def add_crank(self, crank: Crank) -> Any:
+        fixed = self.mbs.AddNode(NodePointGround())
+        markers = [
+            self.mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=fixed, coordinate=0)),
+            self.mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=self.bodies[crank.body].node, coordinate=2)),
+        ]
+        return self.mbs.AddObject(ObjectConnectorCoordinate(markerNumbers=markers))
+
+    def add_slide(self, slide: Slide) -> Any:
+        # the moment is about the first marker, which therefore is the body's
+        markers = [self.marker(slide.body, slide.point), self.marker(GROUND, slide.point)]
+        turn = self.bodies[slide.body].body.angle
+        along, across = slide.direction - turn, slide.direction + 0.5 * math.pi
+        return self.mbs.AddObject(
+            ObjectJointPrismatic2D(
+                markerNumbers=markers,
+                axisMarker0=[math.cos(along), math.sin(along), 0.0],
+                normalMarker1=[math.cos(across), math.sin(across), 0.0],
+            )
+        )
 
     def build(self) -> Scene:
         loose = {
@@ -180,6 +244,8 @@ class _Builder:
         }
         ideal = {name: self.add_ideal(place) for name, place in self.linkage.pins.items() if name not in loose}
         columns = {name: self.add_column(column) for name, column in self.linkage.columns.items()}
+        cranks = {name: self.add_crank(crank) for name, crank in self.linkage.cranks.items()}
+        slides = {name: self.add_slide(slide) for name, slide in self.linkage.slides.items()}
         self.mbs.Assemble()
         data = self.mbs.systemData
         scene = Scene(
@@ -197,7 +263,15 @@ class _Builder:
                 name: ColumnItem(self.linkage.columns[name], o, int(data.GetObjectLTGAE(o)[0]))
                 for name, o in columns.items()
             },
+            cranks={
+                name: CrankItem(self.linkage.cranks[name], o, int(data.GetObjectLTGAE(o)[0]))
+                for name, o in cranks.items()
+            },
+            slides={name: SlideItem(o, int(data.GetObjectLTGAE(o)[0])) for name, o in slides.items()},
         )
+        for name, pin in loose.items():
+            pin.mobility = partial(scene.mobility, name)
+        scene.start_moving()
         scene.reset_memory()
         return scene
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from contextlib import ExitStack
 from typing import Any
 
 import exudyn
@@ -24,18 +26,17 @@ def settle(scene: Scene) -> None:
     """
     data = scene.mbs.systemData
     weight = sum(item.body.mass for item in scene.bodies.values()) * _norm(scene.scenario.gravity)
-    try:
+    share = CENTRING[0]
+
+    def stiffness(clearance: float) -> Callable[[], float]:
+        return lambda: share * weight / clearance
+
+    with ExitStack() as contacts:
         for pin in scene.loose_pins.values():
-            pin.settling = True
-        for share in CENTRING:
-            for pin in scene.loose_pins.values():
-                pin.centring_stiffness = share * weight / pin.contact.bearing.clearance
+            contacts.enter_context(pin.settling(stiffness(pin.contact.bearing.clearance)))
+        for share in CENTRING:  # noqa: B007
             _solve(scene)
             data.SetODE2Coordinates(data.GetODE2Coordinates(), INITIAL)
-    finally:
-        for pin in scene.loose_pins.values():
-            pin.settling = False
-            pin.calls = 0
     data.SetODE2Coordinates_t(0.0 * data.GetODE2Coordinates_t(INITIAL), INITIAL)
     scene.reset_memory()
 

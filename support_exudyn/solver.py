@@ -27,12 +27,18 @@ from support_exudyn.recorder import Recorder
 from support_exudyn.scenario import SolverSettings
 from support_exudyn.scene import Scene
 from support_exudyn.steps import StepPlan
+from user_forces.normal.law import LoadError
 
 SMALLEST_STEP = 1e-13  # [s]
+SMALLEST_IMPACT_STEP = 1e-11  # [s], well above the rounding of times
 # The joint forces overshoot in the first steps after a jump of the columns' acceleration, by a factor that
 # falls with the spectral radius from step to step. The grid step that follows is divided so often, so that
 # nothing of it is left at the next record.
 BREAK_REFINEMENT = 32
+ADVICE = (
+    "Try a smaller step; if that does not help, look whether the posture is near a dead centre "
+    "or a contact is far stiffer than the masses beside it allow."
+)
 Progress = Callable[[float], None]  # is told the share that is done, 0 to 1
 
 
@@ -67,8 +73,6 @@ class Run:
         self.plan = StepPlan(scenario.duration, scenario.record_period, scenario.step, scenario.drive.breaks)
         self.solver: Any = exudyn.MainSolverImplicitSecondOrder()  # its stubs lack self
         self.impulses: list[Impulse] = []
-        self.impact_refinement = scenario.solver.impact_refinement
-        self.impact_step = self.plan.next_time(0.0, self.impact_refinement)  # [s]
         self.settings = _settings(scenario.solver, scenario.duration)
         self.time = 0.0  # end of the last accepted step
         self.steps = self.cut_steps = self.failed_newton = 0
@@ -80,7 +84,7 @@ class Run:
         mbs, it = self.scene.mbs, self.solver.it
         data = mbs.systemData.GetDataCoordinates(exudyn.ConfigurationType.Initial).tolist()
         for pin in self.pins:
-            pin.step_sizes = lambda: (float(it.currentStepSize), self.impact_step)
+            pin.step_size = lambda: float(it.currentStepSize)
             pin.begin_try(data[pin.slots], 0.0)
         mbs.SetPreStepUserFunction(self._before_try)
         mbs.SetPostStepUserFunction(self._after_step)
@@ -89,6 +93,8 @@ class Run:
                 finished = self.solver.SolveSystem(mbs, self.settings)
         except exudyn.ExudynError as error:
             cause = error.__cause__  # set if a function of ours raised
+            if isinstance(cause, LoadError):
+                raise SimulationError(self._failure("a contact is overloaded", str(cause))) from error
             if cause is not None and not isinstance(cause, ArithmeticError):
                 raise cause from None
             raise SimulationError(self._failure(_first_line(cause or error))) from error
@@ -116,7 +122,7 @@ class Run:
         self.trying = True
         extension = self.scene.scenario.drive.extension(t)
         if extension != self.extension:
-            self.scene.extend_columns(extension)
+            self.scene.drive_to(extension)
             self.extension = extension
         if self.pins:
             data = self.data.GetDataCoordinates().tolist()
@@ -159,16 +165,13 @@ class Run:
 
     def _next_time(self, t: float) -> float:
         """Where the step that starts at t is to end: on the grid, or at an impact seen coming [s]."""
-        refinement = 1
-        for pin in self.pins:
-            if pin.swings_left:  # in an impact
-                refinement = self.impact_refinement
+        largest = min((pin.impact.step for pin in self.pins), default=math.inf)
         if self.plan.follows_break(t):
-            refinement = max(refinement, BREAK_REFINEMENT)
-        goal = self.plan.next_time(t, refinement)
+            largest = min(largest, self.plan.step / BREAK_REFINEMENT)
+        goal = self.plan.next_time(t, max(largest, SMALLEST_IMPACT_STEP))
         for pin in self.pins:
-            if t + SHARE * (goal - t) < pin.expected_onset < goal:
-                goal = pin.expected_onset
+            if t + SHARE * (goal - t) < pin.landing < goal:
+                goal = pin.landing
         return goal
 
     def _check_finite(self) -> None:
@@ -176,7 +179,7 @@ class Run:
         if not math.isfinite(total):
             raise ArithmeticError("a velocity is no longer a finite number")
 
-    def _failure(self, reason: str) -> Failure:
+    def _failure(self, reason: str, advice: str = ADVICE) -> Failure:
         state: dict[str, float] = {"step": float(self.solver.it.currentStepSize)}
         velocity = self.data.GetODE2Coordinates_t()
         for name, item in self.scene.bodies.items():
@@ -187,8 +190,7 @@ class Run:
             state[f"pin.{name}.approach_speed"] = pin.memory.approach_speed
         return Failure(
             reason,
-            "Try a smaller step; if that does not help, look whether the posture is near a dead centre "
-            "or a contact is far stiffer than the masses beside it allow.",
+            advice,
             self.time,
             state,
         )

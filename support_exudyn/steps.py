@@ -27,12 +27,12 @@ class StepPlan:
         self._tolerance = max(CLOSE * min(step, record_period), 4.0 * math.ulp(duration))
         self._after_breaks = [(b, self.next_time(b) - self._tolerance) for b in self.breaks]
 
-    def next_time(self, t: float, refinement: int = 1) -> float:
-        """The next grid time after t [s] on a grid so many times finer; at the end, the end."""
+    def next_time(self, t: float, largest: float = math.inf) -> float:
+        """The next grid time after t [s]; on a finer grid if steps may not be larger than so [s]."""
         if t >= self.duration - self._tolerance:
             return self.duration
         before, after = self._stops_around(t)
-        parts = refinement * max(1, math.ceil((after - before) / self.step - CLOSE))
+        parts = max(1, math.ceil((after - before) / min(self.step, largest) - CLOSE))
         size = (after - before) / parts
         done = math.floor((t - before + self._tolerance) / size)
         return after if done + 1 >= parts else before + (done + 1) * size

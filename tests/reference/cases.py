@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from support_exudyn import (
     Body,
     ClearancePin,
@@ -10,6 +12,8 @@ from support_exudyn import (
     Machine,
     PinPlace,
     Scenario,
+    Steady,
+    ravn_slider_crank,
     reference_support,
 )
 from user_forces import (
@@ -20,7 +24,10 @@ from user_forces import (
     JournalBearing,
     JournalContact,
     LankaraniNikravesh,
+    Material,
+    TouchSpeed,
     external_contact_stiffness,
+    internal_contact_stiffness,
     value,
 )
 
@@ -29,13 +36,13 @@ FORCE = "pin.rear_base.force"
 
 
 def paper_contact(clearance_mm: float, sliding_coefficient: float) -> JournalContact:
-    """The paper's pin: Lankarani-Nikravesh with restitution 0.9, stiffness of Eq. 5."""
+    """The paper's pin: Lankarani-Nikravesh with restitution 0.9, stiffness of Eq. 5, textbook damping."""
     bearing = JournalBearing(bore_radius=0.0655, clearance=clearance_mm / 1e3)
     stiffness = external_contact_stiffness(bearing, STEEL, STEEL_35CRMO)
     friction = Ambrosio(sliding_coefficient=sliding_coefficient) if sliding_coefficient else Frictionless()
     return JournalContact(
         bearing=bearing,
-        normal=LankaraniNikravesh(stiffness=stiffness, restitution=0.9),
+        normal=LankaraniNikravesh(stiffness=stiffness, restitution=0.9, damping_speed=TouchSpeed(floor=1e-3)),
         friction=friction,
     )
 
@@ -64,3 +71,40 @@ class Pair(Machine):
     def linkage(self) -> Linkage:
         place = PinPlace(first="one", second="two", first_point=self.one_point, second_point=self.two_point)
         return Linkage(bodies={"one": self.one, "two": self.two}, pins={"pin": place})
+
+
+# --- the slider-crank of the field ---
+
+CRANK_SPEED = 5000.0 * 2.0 * np.pi / 60.0  # [rad/s]
+SLIDER_PIN = "slider_pin"
+
+
+def slider_crank_contact(sliding_coefficient: float = 0.0) -> JournalContact:
+    """Bearing 10 mm, journal 9.5 mm, steel; Lankarani-Nikravesh 0.9, internal-contact stiffness, textbook."""
+    bearing = JournalBearing(bore_radius=0.01, clearance=0.0005)
+    steel = Material(name="steel", elastic_modulus=207e9, poisson_ratio=0.3, density=7800.0)
+    stiffness = internal_contact_stiffness(bearing, steel, steel)
+    return JournalContact(
+        bearing=bearing,
+        normal=LankaraniNikravesh(stiffness=stiffness, restitution=0.9, damping_speed=TouchSpeed(floor=1e-3)),
+        friction=Ambrosio(sliding_coefficient=sliding_coefficient) if sliding_coefficient else Frictionless(),
+    )
+
+
+def slider_crank(duration: float, **changes: object) -> Scenario:
+    """Ravn's slider-crank at 5000 rpm from angle 0, without gravity, with ideal pins, changed as asked."""
+    fields: dict[str, object] = {
+        "machine": ravn_slider_crank(),
+        "drive": Steady(rate=CRANK_SPEED),
+        "duration": duration,
+        "step": 1e-6,
+        "record_period": 1e-5,
+        "gravity": (0.0, 0.0),
+    }
+    return Scenario(**fields | changes)
+
+
+def loose_slider_crank(duration: float, sliding_coefficient: float = 0.0, **changes: object) -> Scenario:
+    """The same with clearance in the slider's pin, the bore in the slider."""
+    pin = ClearancePin(contact=slider_crank_contact(sliding_coefficient))
+    return slider_crank(duration, pins={SLIDER_PIN: pin}, **changes)

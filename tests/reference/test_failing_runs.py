@@ -6,11 +6,18 @@ import pickle
 
 import pytest
 
-from support_exudyn import ClearancePin, Failure, Held, Scenario, SimulationError, simulate
+from support_exudyn import (
+    ClearancePin,
+    Failure,
+    Held,
+    Scenario,
+    SimulationError,
+    simulate,
+)
 from support_exudyn.sweep import run_all
 from tests.reference.cases import Pair, loose_support, paper_contact
 from tests.reference.test_momentum import ONE, TWO
-from user_forces import FrictionLaw, value
+from user_forces import FrictionLaw, LankaraniNikravesh, LoadError, Touch, value
 
 
 @value
@@ -19,7 +26,7 @@ class Breaking(FrictionLaw):
 
     kind: str
 
-    def __call__(self, slip: float, normal_force: float) -> float:
+    def __call__(self, slip: float, normal_force: float, deflection: float = 0.0) -> float:
         if abs(slip) < 1e-3:
             return 0.0
         if self.kind == "nan":
@@ -27,6 +34,16 @@ class Breaking(FrictionLaw):
         if self.kind == "overflow":
             raise OverflowError("force out of range")
         raise LookupError("a bug in the law")
+
+
+@value
+class Thin(LankaraniNikravesh):
+    """Is not valid below 10 micrometres."""
+
+    def __call__(self, depth: float, rate: float, touch: Touch) -> float:
+        if depth > 1e-5:
+            raise LoadError(f"Thin: depth = {depth} m: allowed: up to 1e-05 m")
+        return super().__call__(depth, rate, touch)
 
 
 def breaking(kind: str) -> Scenario:
@@ -55,6 +72,18 @@ def test_a_failure_can_be_had_as_a_value() -> None:
     failure = simulate(breaking("overflow"), throw=False)
     assert isinstance(failure, Failure)
     assert "force out of range" in failure.reason
+
+
+def test_a_contact_that_is_overloaded_says_what_the_law_takes() -> None:
+    good = paper_contact(1.5, 0.0)
+    thin = Thin(stiffness=good.normal.stiffness, restitution=0.9)
+    failure = simulate(_with(type(good)(bearing=good.bearing, normal=thin)), throw=False)
+    assert isinstance(failure, Failure)
+    assert failure.reason == "a contact is overloaded"
+    # the law's own words in place of advice on steps
+    assert "allowed: up to 1e-05 m" in failure.advice
+    assert "step" not in failure.advice
+    assert 0.017 < failure.time < 0.02  # the first touch is at 17.4 ms
 
 
 def test_a_bug_in_a_law_is_not_taken_for_a_failed_run() -> None:

@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from support_exudyn import Held, Result, simulate
-from tests.reference.cases import loose_support
-from user_forces import InputError
+from support_exudyn import Held, Result, UniformSpeed, simulate
+from tests.reference.cases import SLIDER_PIN, loose_slider_crank, loose_support
+from user_forces import InputError, LuGre
 
 
 @pytest.fixture(scope="module")
@@ -18,10 +18,24 @@ def result() -> Result:
     return simulate(loose_support(1.5, 0.25, drive=Held(), duration=0.06))
 
 
-def test_it_reads_back_as_it_was(result: Result, tmp_path: Path) -> None:
+@pytest.fixture(scope="module")
+def crank() -> Result:
+    """A crank, a slide, an impulse, and friction with a state."""
+    scenario = loose_slider_crank(3e-4, drive=UniformSpeed(stroke=52.4, start=0.0, end=0.1))
+    pin = scenario.clearance_pins[SLIDER_PIN]
+    friction = LuGre(static_coefficient=0.1, sliding_coefficient=0.05)
+    contact = dataclasses.replace(pin.contact, friction=friction)
+    pins = {SLIDER_PIN: dataclasses.replace(pin, contact=contact)}
+    return simulate(dataclasses.replace(scenario, pins=pins))
+
+
+@pytest.mark.parametrize("kind", ["result", "crank"])
+def test_it_reads_back_as_it_was(kind: str, request: pytest.FixtureRequest, tmp_path: Path) -> None:
+    result: Result = request.getfixturevalue(kind)
     back = Result.load(result.save(tmp_path / "deep" / "run.h5"))
     assert back.scenario == result.scenario
     assert back.onsets == result.onsets
+    assert back.impulses == result.impulses
     assert back.counts == result.counts
     assert back.largest_force == result.largest_force
     assert back.wall_time == result.wall_time
@@ -65,11 +79,29 @@ def test_an_unknown_channel_lists_those_there_are(result: Result) -> None:
         result["tip.z"]
 
 
-def test_every_channel_has_a_unit_and_the_length_of_time(result: Result) -> None:
+@pytest.mark.parametrize("kind", ["result", "crank"])
+def test_every_channel_has_a_unit_and_the_length_of_time(kind: str, request: pytest.FixtureRequest) -> None:
+    result: Result = request.getfixturevalue(kind)
     for channel in result.channels.values():
         assert channel.values.shape == result.time.shape
-        assert channel.unit in {"s", "m", "m/s", "rad", "rad/s", "rad/s^2", "N", "J"}
+        assert channel.unit in {"s", "m", "m/s", "rad", "rad/s", "rad/s^2", "N", "N m", "J"}
         assert channel.meaning
+
+
+def test_cranks_slides_and_states_of_friction_have_channels(crank: Result) -> None:
+    units = {name: channel.unit for name, channel in crank.channels.items()}
+    new = {"crank.moment": "N m", "guide.force": "N", "guide.moment": "N m"}
+    new[f"pin.{SLIDER_PIN}.deflection"] = "m"
+    assert new.items() <= units.items()
+    (impulse,) = crank.impulses
+    assert set(impulse.cranks) == {"crank"}
+    assert len(crank.onsets[SLIDER_PIN]) >= 1
+    assert np.abs(crank[f"pin.{SLIDER_PIN}.deflection"]).max() > 0.0
+
+
+def test_friction_without_a_state_has_no_channel_of_it(result: Result) -> None:
+    assert "pin.rear_base.friction_force" in result.channels
+    assert "pin.rear_base.deflection" not in result.channels
 
 
 def test_a_failed_save_leaves_the_old_file(result: Result, tmp_path: Path) -> None:

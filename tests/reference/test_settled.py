@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from support_exudyn import ClearancePin, Held, Scenario, SimulationError, simulate
+from support_exudyn import ClearancePin, Held, Scenario, SimulationError, SolverSettings, simulate
 from tests.reference.cases import FORCE, PIN, Pair, loose_support, paper_contact, support
 from tests.reference.test_momentum import ONE, TWO
 
@@ -17,8 +17,9 @@ def settled(clearance_mm: float = 1.5, friction: float = 0.0, **changes: object)
     return loose_support(clearance_mm, friction, **fields)
 
 
-def test_a_settled_support_stays_at_rest() -> None:
-    result = simulate(settled())
+@pytest.mark.parametrize("backend", ["python", "symbolic"])
+def test_a_settled_support_stays_at_rest(backend: str) -> None:
+    result = simulate(settled(solver=SolverSettings(backend=backend)))
     # a contact this stiff turns the Newton residual of 1e-8 into speeds of 1e-9 m/s
     assert np.abs(result["rear_link.angular_velocity"]).max() < 1e-8
     np.testing.assert_allclose(result[FORCE], result[FORCE][0], rtol=1e-7)

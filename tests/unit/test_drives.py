@@ -7,7 +7,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
-from support_exudyn import CubicStep, Held, UniformSpeed
+from support_exudyn import CubicStep, Drive, Held, Steady, UniformSpeed
 from tests.analytic import adams_step
 from user_forces import InputError, Value
 
@@ -18,6 +18,7 @@ strokes = st.floats(-2.0, 2.0)
 starts = st.floats(0.0, 5.0)
 lengths = st.floats(0.1, 5.0)
 times = st.floats(-1.0, 12.0)
+rates = st.floats(-1e3, 1e3)
 
 
 def drive(kind: type[Stroke], stroke: float, start: float, length: float) -> Stroke:
@@ -123,8 +124,8 @@ def test_speed_jumps_at_the_breaks_as_told(
         assert chosen.speed_jump(t) == pytest.approx(chosen.speed(t + h) - chosen.speed(t), abs=2e-6)
 
 
-@pytest.mark.parametrize("chosen", [UniformSpeed(), CubicStep(), Held()])
-def test_speed_does_not_jump_between_the_breaks(chosen: Held | Stroke) -> None:
+@pytest.mark.parametrize("chosen", [UniformSpeed(), CubicStep(), Held(), Steady(rate=3.0)])
+def test_speed_does_not_jump_between_the_breaks(chosen: Drive) -> None:
     assert [chosen.speed_jump(t) for t in (0.0, 2.9, 4.0, 5.1)] == [0.0] * 4
 
 
@@ -133,14 +134,22 @@ def test_breaks_are_start_and_end(kind: type[Stroke], stroke: float, start: floa
     assert drive(kind, stroke, start, length).breaks == (start, start + length)
 
 
-@given(kind=kinds, stroke=strokes, start=starts, length=lengths, t=times)
+@given(
+    kind=kinds,
+    stroke=strokes,
+    start=starts,
+    length=lengths,
+    duration=st.floats(0.1, 12.0),
+    share=st.floats(0.0, 1.0),
+)
 def test_extension_stays_within_the_span(
-    kind: type[Stroke], stroke: float, start: float, length: float, t: float
+    kind: type[Stroke], stroke: float, start: float, length: float, duration: float, share: float
 ) -> None:
     chosen = drive(kind, stroke, start, length)
-    lowest, highest = chosen.span
+    lowest, highest = chosen.span(duration)
     # rounding of 2 m
-    assert lowest - 5e-16 <= chosen.extension(t) <= highest + 5e-16
+    assert lowest - 5e-16 <= chosen.extension(share * duration) <= highest + 5e-16
+    # the whole stroke, also where the run ends before
     assert {lowest, highest} == {0.0, stroke}
 
 
@@ -148,7 +157,57 @@ def test_extension_stays_within_the_span(
 def test_held_columns_do_not_move(t: float) -> None:
     assert (Held().extension(t), Held().speed(t)) == (0.0, 0.0)
     assert Held().breaks == ()
-    assert Held().span == (0.0, 0.0)
+    assert Held().span(5.0) == (0.0, 0.0)
+
+
+@pytest.mark.parametrize("chosen", [Held(), CubicStep(), UniformSpeed(), UniformSpeed(start=0.0)])
+def test_columns_start_at_rest(chosen: Drive) -> None:
+    # a stroke that begins at the start begins with a jump and not with a speed
+    assert chosen.initial_speed == 0.0
+
+
+# --- a crank that has been turning for long ---
+
+
+@given(rate=rates, t=st.floats(0.0, 12.0))
+def test_steady_speed_is_the_derivative_of_the_angle(rate: float, t: float) -> None:
+    crank, h = Steady(rate=rate), 1e-3
+    slope = (crank.extension(t + h) - crank.extension(t - h)) / (2.0 * h)
+    # a straight line: rounding of 12 s times the rate, over 2 ms
+    assert crank.speed(t) == pytest.approx(slope, rel=2e-12, abs=1e-12)
+
+
+@given(rate=rates)
+def test_a_steady_crank_begins_at_its_start_angle_and_at_speed(rate: float) -> None:
+    crank = Steady(rate=rate)
+    assert crank.extension(0.0) == 0.0
+    # it has its speed from the start on: nothing jumps
+    assert crank.initial_speed == crank.speed(0.0) == rate
+    assert crank.speed_jump(0.0) == 0.0
+
+
+def test_a_steady_crank_has_no_break() -> None:
+    assert Steady(rate=3.0).breaks == ()
+
+
+@pytest.mark.parametrize(("rate", "span"), [(3.0, (0.0, 6.0)), (-3.0, (-6.0, 0.0)), (0.0, (0.0, 0.0))])
+def test_span_of_a_steady_crank_is_what_it_turns_in_the_run(rate: float, span: tuple[float, float]) -> None:
+    assert Steady(rate=rate).span(2.0) == span
+
+
+@given(rate=rates, duration=st.floats(0.1, 12.0), share=st.floats(0.0, 1.0))
+def test_a_steady_crank_stays_within_the_span(rate: float, duration: float, share: float) -> None:
+    lowest, highest = Steady(rate=rate).span(duration)
+    assert lowest <= Steady(rate=rate).extension(share * duration) <= highest
+
+
+@pytest.mark.parametrize("rate", [float("nan"), float("inf")])
+def test_a_rate_that_is_not_finite_is_refused(rate: float) -> None:
+    with pytest.raises(InputError, match=rf"Steady\.rate = {rate}: "):
+        Steady(rate=rate)
+
+
+# --- bad input, and back from data ---
 
 
 @pytest.mark.parametrize("kind", [CubicStep, UniformSpeed])
@@ -164,6 +223,6 @@ def test_start_before_the_run_is_refused(kind: type[Stroke]) -> None:
         kind(start=-1.0)
 
 
-@pytest.mark.parametrize("chosen", [Held(), CubicStep(stroke=-0.2), UniformSpeed(end=7.0)])
-def test_a_drive_comes_back_from_json(chosen: Held | Stroke) -> None:
+@pytest.mark.parametrize("chosen", [Held(), CubicStep(stroke=-0.2), UniformSpeed(end=7.0), Steady(rate=-3.0)])
+def test_a_drive_comes_back_from_json(chosen: Drive) -> None:
     assert Value.from_data(json.loads(json.dumps(chosen.to_data()))) == chosen

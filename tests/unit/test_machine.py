@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from support_exudyn import Body, Column, Linkage, Machine, Part, PinPlace, TracePoint
+from support_exudyn import Body, Column, Crank, Linkage, Machine, Part, PinPlace, Slide, TracePoint
 from support_exudyn.machine import bar, lumped, pinned
 from user_forces import InputError, Value, value
 
@@ -111,6 +111,22 @@ def test_a_point_of_an_unknown_body_is_refused() -> None:
         Linkage(bodies={"a": BODY}, points={"t": TracePoint(body="b", point=(0.0, 0.0))})
 
 
+@pytest.mark.parametrize("body", ["b", "ground"])
+def test_a_crank_that_does_not_move_is_refused(body: str) -> None:
+    with pytest.raises(InputError, match=rf"cranks\.c = '{body}': no such moving body; allowed: a"):
+        Linkage(bodies={"a": BODY}, cranks={"c": Crank(body=body)})
+
+
+@pytest.mark.parametrize("body", ["b", "ground"])
+def test_a_slide_of_a_body_that_does_not_move_is_refused(body: str) -> None:
+    with pytest.raises(InputError, match=rf"slides\.s = '{body}': no such moving body; allowed: a"):
+        Linkage(bodies={"a": BODY}, slides={"s": Slide(body=body, point=(0.0, 0.0))})
+
+
+def test_a_slide_is_along_x_unless_said_otherwise() -> None:
+    assert Slide(body="a", point=(0.0, 0.0)).direction == 0.0
+
+
 def test_everything_may_be_fixed_to_the_ground() -> None:
     linkage = Linkage(bodies={"a": BODY}, pins={"p": pinned("ground", "a", (0.0, 0.0))})
     assert linkage.pins["p"].first == "ground"
@@ -121,6 +137,8 @@ def test_a_linkage_comes_back_from_json() -> None:
         bodies={"a": BODY},
         pins={"p": PinPlace(first="ground", second="a", first_point=(0.0, 0.0), second_point=(0.0, 0.1))},
         points={"t": TracePoint(body="a", point=(1.0, 0.0))},
+        cranks={"c": Crank(body="a")},
+        slides={"s": Slide(body="a", point=(0.0, 1.0), direction=0.3)},
     )
     assert Value.from_data(json.loads(json.dumps(linkage.to_data()))) == linkage
 

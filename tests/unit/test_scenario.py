@@ -16,6 +16,7 @@ from support_exudyn import (
     PinPlace,
     Scenario,
     SolverSettings,
+    Steady,
     UniformSpeed,
 )
 from support_exudyn.machine import Body, Part
@@ -125,13 +126,24 @@ def test_gravity_that_is_not_finite_is_refused() -> None:
         ("spectral_radius", -0.1, ">= 0 and <= 1"),
         ("newton_tolerance", 0.0, "> 0 and <= 0.001"),
         ("newton_tolerance", 0.1, "> 0 and <= 0.001"),
-        ("impact_refinement", 0, ">= 1 and <= 100"),
-        ("impact_refinement", 101, ">= 1 and <= 100"),
+        ("impact_steps", 15, ">= 16 and <= 10000"),
+        ("impact_steps", 10001, ">= 16 and <= 10000"),
     ],
 )
 def test_solver_setting_out_of_range_is_refused(field: str, wrong: float, allowed: str) -> None:
     with pytest.raises(InputError, match=rf"SolverSettings\.{field} = {wrong}: .*allowed: {allowed}"):
         SolverSettings(**{field: wrong})
+
+
+def test_unknown_backend_is_refused() -> None:
+    with pytest.raises(InputError, match=r"SolverSettings\.backend = 'fortran': .*'python' or 'symbolic'"):
+        SolverSettings(backend="fortran")
+
+
+def test_a_drive_is_refused_if_it_leaves_the_reach_only_late_in_the_run() -> None:
+    assert scenario(drive=Steady(rate=0.1)).drive.span(5.0) == (0.0, 0.5)
+    with pytest.raises(InputError, match=r"column extension = 5\.0 m: .*allowed: up to "):
+        scenario(drive=Steady(rate=0.1), duration=50.0)
 
 
 def test_bore_on_neither_body_is_refused() -> None:
@@ -149,7 +161,7 @@ def test_a_changed_copy_is_checked_too() -> None:
 
 @pytest.mark.parametrize("stroke", [0.5, -0.3, 0.0])
 def test_a_stroke_within_reach_is_taken(stroke: float) -> None:
-    assert scenario(drive=CubicStep(stroke=stroke)).drive.span == (min(0.0, stroke), max(0.0, stroke))
+    assert scenario(drive=CubicStep(stroke=stroke)).drive.span(5.0) == (min(0.0, stroke), max(0.0, stroke))
 
 
 def test_a_single_record_is_taken() -> None:
@@ -174,14 +186,67 @@ def test_a_scenario_cannot_be_changed() -> None:
         scenario().duration = 1.0  # type: ignore[misc]
 
 
-@pytest.mark.parametrize("drive", [Held(), CubicStep(stroke=-0.2), UniformSpeed(end=4.5)])
-def test_a_scenario_comes_back_from_json(drive: Held | CubicStep | UniformSpeed) -> None:
+@pytest.mark.parametrize("impact_steps", [16, 10000])
+def test_few_and_many_steps_per_impact_are_taken(impact_steps: int) -> None:
+    assert SolverSettings(impact_steps=impact_steps).impact_steps == impact_steps
+
+
+def test_settings_are_those_documented_unless_said_otherwise() -> None:
+    plain = SolverSettings()
+    assert (plain.spectral_radius, plain.newton_tolerance) == (0.5, 1e-8)
+    assert (plain.impact_steps, plain.backend) == (512, "python")
+
+
+# --- the same run with all steps shorter ---
+
+
+def test_a_refined_run_has_half_the_step_and_twice_the_steps_in_an_impact() -> None:
+    finer = scenario(step=1e-3, solver=SolverSettings(impact_steps=100)).refined()
+    assert finer.step == 5e-4
+    assert finer.solver.impact_steps == 200
+
+
+def test_a_step_that_records_cut_short_is_refined_from_what_it_really_is() -> None:
+    # steps end at records, so one of 5 ms is one of 1 ms here: half of that, else nothing would be refined
+    assert scenario(step=5e-3, record_period=1e-3).refined().step == 5e-4
+
+
+def test_nothing_else_of_a_refined_run_differs() -> None:
+    one = scenario(
+        drive=CubicStep(stroke=-0.2),
+        pins={"rear_base": ClearancePin(contact=contact(), bore="second")},
+        start="settled",
+        gravity=(0.1, -9.7),
+        record_period=2e-3,
+        solver=SolverSettings(spectral_radius=0.9, newton_tolerance=1e-9, backend="symbolic"),
+    )
+    finer = one.refined()
+    back = dataclasses.replace(finer.solver, impact_steps=one.solver.impact_steps)
+    assert finer != one
+    assert dataclasses.replace(finer, step=one.step, solver=back) == one
+
+
+def test_refined_twice_is_refined_by_four() -> None:
+    # halves of a binary fraction: exact
+    assert scenario(step=2.0**-10).refined().refined() == scenario(step=2.0**-10).refined(4)
+
+
+def test_a_run_too_fine_to_be_refined_is_refused() -> None:
+    finest = scenario(solver=SolverSettings(impact_steps=6000))
+    with pytest.raises(
+        InputError, match=r"SolverSettings\.impact_steps = 12000: .*allowed: >= 16 and <= 10000"
+    ):
+        finest.refined()
+
+
+@pytest.mark.parametrize("drive", [Held(), CubicStep(stroke=-0.2), UniformSpeed(end=4.5), Steady(rate=0.02)])
+def test_a_scenario_comes_back_from_json(drive: Held | CubicStep | UniformSpeed | Steady) -> None:
     one = scenario(
         drive=drive,
         pins={"rear_base": ClearancePin(contact=contact(), bore="second"), "front_base": IdealPin()},
-        start="settled",
+        start="concentric" if isinstance(drive, Steady) else "settled",
         gravity=(0.1, -9.7),
-        solver=SolverSettings(spectral_radius=0.9),
+        solver=SolverSettings(spectral_radius=0.9, impact_steps=64, backend="symbolic"),
     )
     assert Value.from_data(json.loads(json.dumps(one.to_data()))) == one
 
@@ -198,3 +263,8 @@ def test_an_ideal_pin_must_be_closed_at_the_start() -> None:
     with pytest.raises(InputError, match=r"pins\.pin: .* 0\.001 m apart .* allowed for an ideal pin: 0"):
         Scenario(machine=Open(), duration=1.0)
     Scenario(machine=Open(), duration=1.0, pins={"pin": ClearancePin(contact=contact())})
+
+
+def test_a_moving_drive_cannot_start_settled() -> None:
+    with pytest.raises(InputError, match="start = 'settled': is at rest, but the drive moves"):
+        scenario(drive=Steady(rate=0.02), start="settled")

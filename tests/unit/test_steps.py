@@ -12,12 +12,12 @@ from support_exudyn.steps import StepPlan
 Times = list[float]
 
 
-def walk(plan: StepPlan, refinement: int = 1) -> Times:
+def walk(plan: StepPlan, largest: float = math.inf) -> Times:
     """The times a solver lands on that adds each step to its time, up to the end or rounding before it."""
     times = [0.0]
     while times[-1] < plan.duration * (1.0 - 1e-12):
         t = times[-1]
-        times.append(t + (plan.next_time(t, refinement) - t))
+        times.append(t + (plan.next_time(t, largest) - t))
         assert times[-1] > t
         assert len(times) < 20000
     return times
@@ -50,13 +50,17 @@ def plans(draw: st.DrawFn) -> tuple[StepPlan, Times]:
     return StepPlan(duration, period, step, breaks), stops
 
 
-@given(planned=plans(), refinement=st.integers(1, 7))
-def test_every_record_and_break_is_hit_exactly(planned: tuple[StepPlan, Times], refinement: int) -> None:
+# the largest step, as a share of the plan's own: whole parts of it, any, longer ones, or as it is
+shares = st.sampled_from([0.5, 0.25, 0.1, 1.0, math.inf]) | st.floats(0.1, 2.0)
+
+
+@given(planned=plans(), share=shares)
+def test_every_record_and_break_is_hit_exactly(planned: tuple[StepPlan, Times], share: float) -> None:
     plan, stops = planned
     times = {0.0}
     t = 0.0
     while t < plan.duration:
-        t = plan.next_time(t, refinement)
+        t = plan.next_time(t, share * plan.step)
         times.add(t)
     asked_for = {n * plan.record_period for n in range(17)} | {*plan.breaks, plan.duration}
     for stop in stops:
@@ -64,13 +68,14 @@ def test_every_record_and_break_is_hit_exactly(planned: tuple[StepPlan, Times], 
         assert any(abs(t - stop) < 1e-12 and t in times for t in asked_for)
 
 
-@given(planned=plans(), refinement=st.integers(1, 7))
-def test_a_time_just_short_of_a_stop_is_on_it(planned: tuple[StepPlan, Times], refinement: int) -> None:
+@given(planned=plans(), share=shares)
+def test_a_time_just_short_of_a_stop_is_on_it(planned: tuple[StepPlan, Times], share: float) -> None:
     plan, stops = planned
+    largest = share * plan.step
     for stop in stops[1:-1]:
         short = math.nextafter(stop, 0.0)
         # rounding of times up to 15 s
-        assert plan.next_time(short, refinement) == pytest.approx(plan.next_time(stop, refinement), abs=4e-15)
+        assert plan.next_time(short, largest) == pytest.approx(plan.next_time(stop, largest), abs=4e-15)
 
 
 @given(planned=plans())
@@ -81,49 +86,61 @@ def test_the_last_time_is_the_end(planned: tuple[StepPlan, Times]) -> None:
     assert plan.next_time(plan.duration) == plan.duration
 
 
-@given(planned=plans())
-def test_no_step_is_longer_than_asked_for(planned: tuple[StepPlan, Times]) -> None:
+@given(planned=plans(), share=shares)
+def test_no_step_is_longer_than_asked_for(planned: tuple[StepPlan, Times], share: float) -> None:
     plan, _ = planned
+    longest = max(b - a for a, b in pairwise(walk(plan, share * plan.step)))
     # a share of 1e-9 is not worth another step
-    assert max(b - a for a, b in pairwise(walk(plan))) <= plan.step * (1.0 + 2e-9)
+    assert longest <= min(1.0, share) * plan.step * (1.0 + 2e-9)
 
 
-@given(planned=plans(), refinement=st.integers(1, 7))
+@given(planned=plans(), share=shares)
 def test_steps_between_two_stops_are_equal_and_as_few_as_possible(
-    planned: tuple[StepPlan, Times], refinement: int
+    planned: tuple[StepPlan, Times], share: float
 ) -> None:
     plan, stops = planned
-    times = walk(plan, refinement)
+    largest = share * plan.step
+    times = walk(plan, largest)
     for before, after in pairwise(stops):
         inside = [t for t in times if before - 1e-12 < t < after + 1e-12]
         parts = len(inside) - 1
         # a share of 1e-9 is not worth another step
-        assert parts == refinement * max(1, math.ceil((after - before) / plan.step - 1e-9))
+        assert parts == max(1, math.ceil((after - before) / min(plan.step, largest) - 1e-9))
         for a, b in pairwise(inside):
             # rounding of times up to 15 s
             assert b - a == pytest.approx((after - before) / parts, abs=1e-14)
 
 
-@given(planned=plans(), refinement=st.integers(2, 7))
-def test_a_refined_grid_contains_the_grid(planned: tuple[StepPlan, Times], refinement: int) -> None:
-    plan, _ = planned
-    coarse, fine = walk(plan), walk(plan, refinement)
-    assert len(fine) - 1 == refinement * (len(coarse) - 1)
-    # rounding of times up to 15 s
-    assert fine[::refinement] == pytest.approx(coarse, abs=1e-14)
-
-
-@given(planned=plans(), share=st.floats(0.0, 1.0, exclude_max=True), refinement=st.integers(1, 7))
-def test_from_any_time_on_the_grid_is_the_same(
-    planned: tuple[StepPlan, Times], share: float, refinement: int
+@given(planned=plans(), share=shares)
+def test_a_largest_step_gives_the_grid_of_a_plan_with_that_step(
+    planned: tuple[StepPlan, Times], share: float
 ) -> None:
     plan, _ = planned
-    grid = walk(plan, refinement)
-    t = share * plan.duration
+    shorter = StepPlan(plan.duration, plan.record_period, min(1.0, share) * plan.step, plan.breaks)
+    # rounding of times up to 15 s
+    assert walk(plan, share * plan.step) == pytest.approx(walk(shorter), abs=1e-14)
+
+
+@given(planned=plans(), longer=st.floats(1.0, 10.0))
+def test_a_largest_step_beyond_the_plans_own_changes_nothing(
+    planned: tuple[StepPlan, Times], longer: float
+) -> None:
+    plan, _ = planned
+    assert walk(plan, longer * plan.step) == walk(plan)
+
+
+@given(planned=plans(), place=st.floats(0.0, 1.0, exclude_max=True), share=shares)
+def test_from_any_time_on_the_grid_is_the_same(
+    planned: tuple[StepPlan, Times], place: float, share: float
+) -> None:
+    plan, _ = planned
+    largest = share * plan.step
+    grid = walk(plan, largest)
+    t = place * plan.duration
     tolerance = 1e-9 * min(plan.step, plan.record_period)
     following = next((g for g in grid if g > t + tolerance), plan.duration)
     # rounding of times up to 15 s
-    assert plan.next_time(t, refinement) == pytest.approx(following, abs=1e-14)
+    assert plan.next_time(t, largest) == pytest.approx(following, abs=1e-14)
 
 
 @given(planned=plans())
@@ -148,6 +165,14 @@ def test_steps_by_hand() -> None:
     plan = StepPlan(duration=0.5, record_period=0.2, step=0.1, breaks=[0.25])
     # 0.2 to the break in one step, from there to 0.4 in two of 0.075; rounding
     assert walk(plan) == pytest.approx([0.0, 0.1, 0.2, 0.25, 0.325, 0.4, 0.5], abs=1e-15)
+
+
+def test_shorter_steps_by_hand() -> None:
+    plan = StepPlan(duration=0.5, record_period=0.2, step=0.1, breaks=[0.25])
+    # at most 0.06: 0.2 in four of 0.05, 0.05 in one, 0.15 in three of 0.05, 0.1 in two; rounding
+    assert walk(plan, 0.06) == pytest.approx([0.05 * n for n in range(11)], abs=1e-15)
+    # in mid step, on the finer grid: 0.2 in four
+    assert plan.next_time(0.07, 0.06) == pytest.approx(0.1, abs=1e-15)
 
 
 def test_breaks_outside_the_run_are_left_out() -> None:

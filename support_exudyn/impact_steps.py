@@ -1,0 +1,110 @@
+"""How finely a contact is stepped: short steps from a touch on, until what swings in it has become small."""
+
+from __future__ import annotations
+
+import math
+
+from user_forces.normal.law import NormalLaw, Touch
+
+# An impact that does not part is over after so many swings in a row, deep and back, that were small: by less
+# than this share of the depth. (With a tenth of it the rise takes a third more steps and no number changes.)
+SMALL_SWINGS = 4
+LIVELY = 0.5
+# A contact at rest whose depth changes in a step by more than this share of it is in an impact again.
+QUIET = 0.08
+# One that does not swing (a damped contact under load creeps) is over after so many undamped durations;
+# a free impact that delivers a restitution of 0.03 has parted after five.
+DURATIONS = 20
+# Steps after the parting that are as short as those of the impact: generalised alpha carries a share of old
+# accelerations on, and a long step would turn what is left of the impact's last ones into speed.
+STEPS_APART = 4
+# A force that jumps at the touch is met with steps that begin this many times halved and then double: the first
+# step after a jump sees about half of it.
+HALVINGS = 7
+GROWTH = 1.5  # of the speed that is in an impact, at which its steps are chosen anew
+
+
+class ImpactSteps:
+    """Length of the steps of one clearance pin.
+
+    Arguments:
+        law: the pin's normal law.
+        number: of steps in an undamped impact, see SolverSettings.
+    """
+
+    def __init__(self, law: NormalLaw, number: int) -> None:
+        self._law = law
+        self._number = number
+        self._length = math.inf  # of steps in the impact going on [s]; infinite: there is none
+        self._speed = 0.0  # for which it was chosen [m/s]
+        self._halvings = 0
+        self._steps = 0  # in contact since the impact began
+        self._steps_apart = 0
+        self._small_swings = 0
+        self._opening = False
+        self._deepest = 0.0  # since the last swing [m]
+        self._depth = 0.0  # at the end of the last step [m]
+
+    @property
+    def step(self) -> float:
+        """Largest length of the next step [s]; infinite if there is no impact."""
+        return math.ldexp(self._length, -self._halvings)
+
+    def length(self, speed: float, mass: float) -> float:
+        """Length of the steps in an impact of this speed [m/s] and mass [kg], [s]."""
+        return self._law.impact_time(Touch(speed, mass)) / self._number
+
+    def touch(self, depth: float, rate: float, mass: float) -> None:
+        """The surfaces have touched at the end of the last step; state and moving mass then."""
+        self.begin(depth, rate, mass)
+        if self._law.touch_force(Touch(self._speed, mass)) > 0.0:
+            self._halvings = HALVINGS
+
+    def begin(self, depth: float, rate: float, mass: float) -> None:
+        """From now on the depth swings: after a touch, or when the drive's speed jumps under a closed pin."""
+        self._steps = self._steps_apart = self._small_swings = 0
+        self._opening, self._deepest, self._depth = False, depth, depth
+        self._choose(depth, rate, mass)
+
+    def follow(self, depth: float, rate: float, mass: float) -> None:
+        """A step has been accepted, without a touch at its end; state and moving mass at its end."""
+        self._halvings = max(0, self._halvings - 1)
+        change, self._depth = abs(depth - self._depth), depth
+        if depth <= 0.0:
+            self._steps_apart += 1
+            if self._steps_apart > STEPS_APART:
+                self._length = math.inf
+            return
+        self._deepest = max(self._deepest, depth)
+        if self._opening and rate >= 0.0:
+            self._swung(depth)
+        elif rate < 0.0:
+            self._opening = True
+        if self._length < math.inf:
+            self._go_on(depth, rate, mass)
+        elif change > QUIET * depth:
+            self.begin(depth, rate, mass)
+
+    def _swung(self, depth: float) -> None:
+        """The depth is at its smallest: a swing is complete."""
+        lively = self._deepest - depth > LIVELY * self._deepest
+        self._small_swings = 0 if lively else self._small_swings + 1
+        if lively:
+            self._steps = 0
+        self._opening, self._deepest = False, depth
+
+    def _go_on(self, depth: float, rate: float, mass: float) -> None:
+        self._steps += 1
+        if self._small_swings >= SMALL_SWINGS or self._steps > DURATIONS * self._number:
+            self._length = math.inf
+        elif self._energy_speed(depth, rate, mass) > GROWTH * self._speed:
+            self._choose(depth, rate, mass)
+
+    def _choose(self, depth: float, rate: float, mass: float) -> None:
+        self._speed = self._energy_speed(depth, rate, mass)
+        self._length = self.length(self._speed, mass)
+
+    def _energy_speed(self, depth: float, rate: float, mass: float) -> float:
+        """Speed [m/s] of a free body that has all the energy that is in the contact now."""
+        stored = self._law.elastic_energy(depth) if depth > 0.0 else 0.0
+        return math.sqrt(rate * rate + 2.0 * stored / mass)

@@ -1,0 +1,117 @@
+"""Masses and constraints of a scene as matrices, for what happens at an instant.
+
+Mass matrix M and constraint Jacobian C (ideal pins, columns, cranks, slides) give the change of velocities dv
+and the impulses L under generalised impulses b and a change c of the constraints' rates:
+
+    M dv + C^T L = b,    C dv = c
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from support_exudyn.machine import GROUND, Linkage, PinPlace
+from support_exudyn.scene_items import BodyItem
+from user_forces.values import Vector2
+
+Matrix = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Kinetics:
+    """Matrices of a linkage whose bodies stand in the engine.
+
+    linkage: the mechanism. bodies: where each body's coordinates stand. ideal: names of the pins that are
+    closed, in the order of their rows.
+    """
+
+    linkage: Linkage
+    bodies: dict[str, BodyItem]
+    ideal: Sequence[str]
+
+    def mass(self) -> Matrix:
+        """Diagonal of the mass matrix, shape (n,)."""
+        mass = np.zeros(3 * len(self.bodies))
+        for item in self.bodies.values():
+            body = item.body
+            mass[item.first : item.first + 3] = body.mass, body.mass, body.inertia
+        return mass
+
+    def rows(self, position: Matrix) -> Matrix:
+        """Jacobian C, shape (m, n): two rows an ideal pin, one a column, one a crank, two a slide."""
+        rows: list[Matrix] = []
+        for name in self.ideal:
+            rows += list(self.relative(position, self.linkage.pins[name])[1])
+        for column in self.linkage.columns.values():
+            foot, foot_rate = self.point(position, column.foot, column.foot_point)
+            head, head_rate = self.point(position, column.head, column.head_point)
+            along = (head - foot) / np.linalg.norm(head - foot)
+            rows.append(along @ (head_rate - foot_rate))
+        rows += [self._turning(position.size, crank.body) for crank in self.linkage.cranks.values()]
+        for slide in self.linkage.slides.values():
+            across = np.array([-np.sin(slide.direction), np.cos(slide.direction)])
+            rows.append(across @ self.point(position, slide.body, slide.point)[1])
+            rows.append(self._turning(position.size, slide.body))
+        return np.array(rows).reshape(-1, position.size)
+
+    def _turning(self, size: int, body: str) -> Matrix:
+        """The row that gives a body's angular velocity."""
+        row = np.zeros(size)
+        row[self.bodies[body].first + 2] = 1.0
+        return row
+
+    def driven(self) -> slice:
+        """Which of the rows are driven: columns, then cranks."""
+        first = 2 * len(self.ideal)
+        return slice(first, first + len(self.linkage.columns) + len(self.linkage.cranks))
+
+    def point(self, position: Matrix, body: str, point: Vector2) -> tuple[Matrix, Matrix]:
+        """Where a point of a body is (2,) and the matrix that turns all velocities into its own (2, n)."""
+        rate = np.zeros((2, position.size))
+        if body == GROUND:
+            return np.array(point), rate
+        item = self.bodies[body]
+        i = item.first
+        angle = item.body.angle + position[i + 2]
+        x, y = item.local(point)
+        arm = np.array([x * np.cos(angle) - y * np.sin(angle), x * np.sin(angle) + y * np.cos(angle)])
+        rate[0, i : i + 3] = 1.0, 0.0, -arm[1]
+        rate[1, i : i + 3] = 0.0, 1.0, arm[0]
+        return np.array(item.body.centre) + position[i : i + 2] + arm, rate
+
+    def relative(self, position: Matrix, place: PinPlace) -> tuple[Matrix, Matrix]:
+        """Centre of a pin on its second body minus that on its first (2,), and its rate's matrix (2, n)."""
+        first, first_rate = self.point(position, place.first, place.first_point)
+        second, second_rate = self.point(position, place.second, place.second_point)
+        return second - first, second_rate - first_rate
+
+    def respond(self, position: Matrix, impulse: Matrix, jump: Matrix | float) -> tuple[Matrix, Matrix]:
+        """Change of velocities dv (n,) and impulses L (m,) under impulses b (n,) and a jump c (m,)."""
+        rows = self.rows(position)
+        size, count = position.size, len(rows)
+        system = np.zeros((size + count, size + count))
+        system[:size, :size] = np.diag(self.mass())
+        system[:size, size:] = rows.T
+        system[size:, :size] = rows
+        right = np.concatenate([impulse, np.broadcast_to(jump, (count,))])
+        try:
+            solution = np.linalg.solve(system, right)
+        except np.linalg.LinAlgError:  # constraints that repeat each other
+            solution = np.linalg.lstsq(system, right, rcond=None)[0]
+        return solution[:size], solution[size:]
+
+    def pin_mobility(self, position: Matrix, name: str) -> Matrix:
+        """How a clearance pin's eccentricity answers an impulse in it: J dv per impulse (2, 2) [1/kg].
+
+            M dv + C^T L = J^T,   C dv = 0
+
+        with J the rows that give the rate of the eccentricity. The inverse of n J dv n is the mass that an
+        impact along n feels. Other clearance pins transmit no impulse.
+        """
+        rate = self.relative(position, self.linkage.pins[name])[1]
+        answers = [rate @ self.respond(position, row, 0.0)[0] for row in rate]
+        return np.array(answers)

@@ -1,0 +1,58 @@
+"""Where the parts of a linkage stand in the engine."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from support_exudyn.machine import Body, Column, Crank
+from support_exudyn.plane import minus, rotated
+from user_forces.values import Vector2
+
+
+@dataclass(frozen=True)
+class BodyItem:
+    """A moving body in the engine: its node, object and first coordinate (x, y, angle follow)."""
+
+    body: Body
+    node: Any
+    object: Any
+    first: int
+
+    def local(self, point: Vector2) -> Vector2:
+        """A point of the start posture in the body's own axes, from its centre of mass [m]."""
+        return rotated(minus(point, self.body.centre), -self.body.angle)
+
+
+@dataclass(frozen=True)
+class IdealItem:
+    """An ideal pin in the engine: its object and the first of its two multipliers."""
+
+    object: Any
+    first: int
+
+
+@dataclass(frozen=True)
+class ColumnItem:
+    """A driven column in the engine: its object and its multiplier."""
+
+    column: Column
+    object: Any
+    multiplier: int
+
+
+@dataclass(frozen=True)
+class CrankItem:
+    """A driven crank in the engine: its object and its multiplier."""
+
+    crank: Crank
+    object: Any
+    multiplier: int
+
+
+@dataclass(frozen=True)
+class SlideItem:
+    """A straight guide in the engine: its object and the first of its two multipliers."""
+
+    object: Any
+    first: int
