@@ -7,10 +7,14 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from studies import clearance_influence
+from studies import clearance_influence, contact_laws, slider_crank
 from studies.study import Options, add_options, run_main
 
-STUDIES = {clearance_influence.STUDY: clearance_influence.study}
+STUDIES = {
+    clearance_influence.STUDY: clearance_influence.study,
+    contact_laws.STUDY: contact_laws.study,
+    slider_crank.STUDY: slider_crank.study,
+}
 
 
 def main(argv: Sequence[str] | None = None) -> int:

@@ -9,7 +9,6 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
-from pathlib import Path
 from typing import Literal
 
 import numpy as np
@@ -20,9 +19,18 @@ from rich.console import Console
 from rich.table import Table
 
 from studies import paper_machine, style
-from studies.study import Number, Options, Pair, options, rounded, run_main, run_pairs, write_summary
+from studies.study import (
+    Number,
+    Options,
+    Pair,
+    options,
+    rounded,
+    run_main,
+    run_pairs,
+    write_summary,
+    write_table,
+)
 from support_exudyn import Result, Scenario
-from support_exudyn.files import whole_file
 
 Series = npt.NDArray[np.float64]
 DEGREES = 180.0 / np.pi
@@ -296,13 +304,8 @@ def study(chosen: Options) -> None:
     numbers = measure(pairs)
     shown = table(numbers)
     Console(width=None if sys.stdout.isatty() else 150).print(shown)
-    _write_table(chosen.out / "table.txt", shown)
+    write_table(chosen.out / "table.txt", shown)
     write_summary(chosen.out, STUDY, numbers, time.perf_counter() - started)
-
-
-def _write_table(path: Path, shown: Table) -> None:
-    with whole_file(path) as temporary, temporary.open("w", encoding="utf-8") as file:
-        Console(file=file, width=150).print(shown)
 
 
 def _file_name(case: str) -> str:

@@ -13,6 +13,7 @@ from user_forces import (
     JournalBearing,
     JournalContact,
     LankaraniNikravesh,
+    TouchSpeed,
     external_contact_stiffness,
 )
 
@@ -40,7 +41,9 @@ def stiffness(clearance_mm: float) -> float:
 
 def loose_pin(clearance_mm: float, sliding_coefficient: float) -> ClearancePin:
     """The rear-link pin as a clearance pin; the bore is in the base."""
-    normal = LankaraniNikravesh(stiffness=stiffness(clearance_mm), restitution=RESTITUTION)
+    normal = LankaraniNikravesh(
+        stiffness=stiffness(clearance_mm), restitution=RESTITUTION, damping_speed=TouchSpeed(floor=1e-3)
+    )
     friction = Ambrosio(sliding_coefficient=sliding_coefficient) if sliding_coefficient else Frictionless()
     return ClearancePin(contact=JournalContact(bearing=bearing(clearance_mm), normal=normal, friction=friction))
 

@@ -14,11 +14,14 @@ from pathlib import Path
 
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+from rich.table import Table
 
 from support_exudyn import Failure, Result, Scenario, SimulationError
 from support_exudyn.files import whole_file
 from support_exudyn.provenance import versions
 from support_exudyn.sweep import run_all
+
+MOST_BARS = 12  # more runs than that share one progress bar
 
 
 @dataclass(frozen=True)
@@ -84,15 +87,19 @@ def run_pairs(cases: Mapping[str, Scenario], workers: int) -> dict[str, Pair]:
     Raises SimulationError if a run fails.
     """
     # the longest first, so that no process is left alone with a long run at the end
-    runs = {f"{name}, half step": replace(case, step=case.step / 2) for name, case in cases.items()}
+    runs = {f"{name}, half step": case.refined() for name, case in cases.items()}
     runs |= dict(cases)
+    together = len(runs) > MOST_BARS
     columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.percentage:3.0f} %"))
     with Progress(*columns, TimeRemainingColumn(), console=Console(stderr=True)) as bars:
-        tasks = {name: bars.add_task(name, total=1.0) for name in runs}
+        total = [bars.add_task(f"{len(runs)} runs", total=float(len(runs)))] if together else []
+        tasks = {} if together else {name: bars.add_task(name, total=1.0) for name in runs}
 
         def show(shares: Mapping[str, float]) -> None:
-            for name, share in shares.items():
-                bars.update(tasks[name], completed=share)
+            for task in total:
+                bars.update(task, completed=sum(shares.values()))
+            for name, task in tasks.items():
+                bars.update(task, completed=shares[name])
 
         results = run_all(runs, workers=workers, progress=show)
     for name, result in results.items():
@@ -114,6 +121,12 @@ def write_summary(out: Path, study: str, numbers: Sequence[Number], wall_s: floa
     with whole_file(path) as temporary:
         temporary.write_text(json.dumps(summary, indent=1, allow_nan=False) + "\n", encoding="utf-8")
     return path
+
+
+def write_table(path: Path, table: Table, width: int = 150) -> None:
+    """Write a table as text."""
+    with whole_file(path) as temporary, temporary.open("w", encoding="utf-8") as file:
+        Console(file=file, width=width).print(table)
 
 
 def rounded(value: float, error: float) -> str:

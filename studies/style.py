@@ -15,6 +15,7 @@ from support_exudyn.files import whole_file
 IDEAL = "#000000"
 LOOSE = "#0072B2"
 SMOOTH = "#E69F00"
+THIRD = "#009E73"
 
 STYLE: dict[Any, Any] = {
     "font.family": "sans-serif",

@@ -11,15 +11,14 @@ import h5py
 import pytest
 
 from studies import clearance_influence as study
-from studies.__main__ import main
 from support_exudyn import Result
 
 
 @pytest.fixture(scope="module")
 def out(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("results")
-    assert main(["--quick", "--out", str(folder), "--workers", "2"]) == 0
-    return folder / study.STUDY
+    assert study.main(["--quick", "--out", str(folder), "--workers", "2"]) == 0
+    return folder
 
 
 @pytest.fixture(scope="module")

@@ -1,0 +1,211 @@
+"""Does the program agree with others on the field's benchmark, a slider-crank with a loose slider pin?
+
+Crank 50 mm at 5000 rpm, rod 120 mm, bearing 10 mm, journal 9.5 mm at the slider, steel, Lankarani-Nikravesh
+with restitution 0.9 and the stiffness of internal contact; start with the velocities of the ideal machine and
+the journal in the middle of its bore. Without friction, and with a coefficient of 0.03.
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from typing import Literal
+
+import numpy as np
+import numpy.typing as npt
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Circle
+from rich.console import Console
+from rich.table import Table
+
+from studies import style
+from studies.study import (
+    Number,
+    Options,
+    Pair,
+    options,
+    rounded,
+    run_main,
+    run_pairs,
+    write_summary,
+    write_table,
+)
+from support_exudyn import ClearancePin, Result, Scenario, SolverSettings, Steady, ravn_slider_crank
+from user_forces import (
+    Ambrosio,
+    Frictionless,
+    JournalBearing,
+    JournalContact,
+    LankaraniNikravesh,
+    Material,
+    TouchSpeed,
+    internal_contact_stiffness,
+)
+
+Series = npt.NDArray[np.float64]
+STUDY = "slider_crank"
+PIN = "slider_pin"
+SPEED = 5000.0 * 2.0 * math.pi / 60.0  # of the crank [rad/s]
+REVOLUTION = 2.0 * math.pi / SPEED  # [s]
+BEARING = JournalBearing(bore_radius=0.01, clearance=0.0005)
+STEEL = Material(name="steel", elastic_modulus=207e9, poisson_ratio=0.3, density=7800.0)
+IDEAL, SMOOTH, DRY = "ideal", "no friction", "friction 0.03"
+ONSETS = 12  # reported
+# an independent solution with two free coordinates and located onsets: time [us], approach speed [m/s]
+REFERENCE = (
+    (227.286, 4.385783),
+    (637.056, 2.756949),
+    (749.700, 1.826699),
+    (1085.947, 1.101851),
+    (1205.816, 0.823801),
+)
+# the ideal machine in closed form
+IDEAL_REFERENCE = {
+    "largest_slider_speed": 28.4113,
+    "largest_crank_moment": 138.5217,
+    "largest_pin_force": 2718.71,
+}
+
+
+def scenarios(quick: bool) -> dict[str, Scenario]:
+    """One revolution of the ideal machine and of both loose ones."""
+    base = Scenario(
+        machine=ravn_slider_crank(),
+        drive=Steady(rate=SPEED),
+        duration=REVOLUTION,
+        step=2e-6 if quick else 1e-6,
+        record_period=REVOLUTION / 3600,
+        gravity=(0.0, 0.0),
+        solver=SolverSettings(impact_steps=512 if quick else 1024),
+    )
+    stiffness = internal_contact_stiffness(BEARING, STEEL, STEEL)
+    normal = LankaraniNikravesh(stiffness=stiffness, restitution=0.9, damping_speed=TouchSpeed(floor=1e-3))
+    frictions = {SMOOTH: Frictionless(), DRY: Ambrosio(sliding_coefficient=0.03)}
+    loose = {
+        name: replace(
+            base,
+            pins={PIN: ClearancePin(contact=JournalContact(bearing=BEARING, normal=normal, friction=friction))},
+        )
+        for name, friction in frictions.items()
+    }
+    return loose | {IDEAL: base}
+
+
+# --- measures ---
+
+
+def measure(pairs: Mapping[str, Pair]) -> list[Number]:
+    """All numbers of the study."""
+    ideal: dict[str, tuple[str, Callable[[Result], float]]] = {
+        "largest_slider_speed": ("m/s", lambda r: float(np.abs(r["slider.velocity_x"]).max())),
+        "largest_crank_moment": ("N m", lambda r: float(r["crank.moment"].max())),
+        "largest_pin_force": ("N", lambda r: float(r[f"pin.{PIN}.force"].max())),
+    }
+    numbers = [
+        pairs[IDEAL].number(name, IDEAL, unit, get, IDEAL_REFERENCE[name])
+        for name, (unit, get) in ideal.items()
+    ]
+    for case in (SMOOTH, DRY):
+        pair = pairs[case]
+        numbers.append(
+            pair.number("largest_pin_force_any_step", case, "N", lambda r: float(r.largest_force[PIN]))
+        )
+        found = min(ONSETS, *(len(result.onsets[PIN]) for result in (pair.coarse, pair.fine)))
+        for n in range(found):
+            known = REFERENCE[n] if case == SMOOTH and n < len(REFERENCE) else (None, None)
+            numbers += [
+                pair.number(f"onset_{n + 1}_time", case, "us", _onset(n, "time", 1e6), known[0]),
+                pair.number(f"onset_{n + 1}_speed", case, "m/s", _onset(n, "speed", 1.0), known[1]),
+            ]
+    return numbers
+
+
+def _onset(n: int, field: Literal["time", "speed"], scale: float) -> Callable[[Result], float]:
+    return lambda r: scale * float(getattr(r.onsets[PIN][n], field))
+
+
+# --- figure ---
+
+
+def figure(results: Mapping[str, Result]) -> Figure:
+    """Pin force and guide force over the crank angle, and the journal's path in its bore."""
+    drawing = Figure(figsize=style.size(170, 130))
+    grid = drawing.add_gridspec(2, 2, height_ratios=(1.0, 1.15))
+    force = drawing.add_subplot(grid[0, :])
+    for case, colour in ((SMOOTH, style.SMOOTH), (DRY, style.LOOSE)):
+        _over_angle(force, results[case], colour, case)
+    _over_angle(force, results[IDEAL], style.IDEAL, "ideal pin")
+    force.set(xlim=(0, 360), ylim=(0, None), xlabel="crank angle [deg]", ylabel="pin force [kN]")
+    force.set_xticks(range(0, 361, 60))
+    force.set_title("a) force in the slider pin")
+    force.legend(loc="upper right", ncols=3)
+    for column, case in enumerate((SMOOTH, DRY)):
+        _path(
+            drawing.add_subplot(grid[1, column]),
+            results[case],
+            f"{'bc'[column]}) journal in its bore, {case} (blue: contact)",
+        )
+    drawing.suptitle("Slider-crank at 5000 rpm, 0.5 mm clearance in the slider pin")
+    return drawing
+
+
+def _over_angle(axes: Axes, result: Result, colour: str, label: str) -> None:
+    angle = np.degrees(SPEED * result.time)
+    axes.plot(angle, 1e-3 * result[f"pin.{PIN}.force"], color=colour, lw=0.9, label=label)
+
+
+def _path(axes: Axes, result: Result, title: str) -> None:
+    x, y = 1e3 * result[f"pin.{PIN}.eccentricity_x"], 1e3 * result[f"pin.{PIN}.eccentricity_y"]
+    touching = result[f"pin.{PIN}.depth"] > 0.0
+    axes.add_patch(Circle((0, 0), 1e3 * BEARING.clearance, fill=False, lw=0.8))
+    axes.plot(x, y, color="#999999", lw=0.6)
+    axes.plot(x[touching], y[touching], ".", ms=2, color=style.LOOSE)
+    axes.set(aspect="equal", xlabel="x [mm]", ylabel="y [mm]", xlim=(-0.65, 0.65), ylim=(-0.65, 0.65))
+    axes.set_title(title)
+
+
+def table(numbers: Sequence[Number]) -> Table:
+    """All numbers, a row each, beside the reference."""
+    shown = Table(title="Slider-crank at 5000 rpm")
+    for heading in ("case", "quantity", "unit", "here", "independent solution"):
+        shown.add_column(heading, justify="right" if heading in ("here", "independent solution") else "left")
+    for n in numbers:
+        other = "" if n.paper is None else f"{n.paper:.9g}"
+        shown.add_row(n.case, n.name.replace("_", " "), n.unit, rounded(n.value, n.numerical_error), other)
+    shown.caption = (
+        "± is the change when all steps are halved. Every touch multiplies the errors of the earlier ones;\n"
+        "after about a revolution the motion is chaotic and only statistics can be compared."
+    )
+    return shown
+
+
+# --- main ---
+
+
+def study(chosen: Options) -> None:
+    """Run, measure, draw and write everything into the output folder."""
+    started = time.perf_counter()
+    pairs = run_pairs(scenarios(chosen.quick), chosen.workers)
+    for name, pair in pairs.items():
+        pair.fine.save(chosen.out / "runs" / f"{name.replace(' ', '_').replace('.', 'p')}.h5")
+    numbers = measure(pairs)
+    with style.look():
+        style.save(figure({name: pair.fine for name, pair in pairs.items()}), chosen.out, "slider_crank")
+    shown = table(numbers)
+    Console(width=None if sys.stdout.isatty() else 120).print(shown)
+    write_table(chosen.out / "table.txt", shown, width=120)
+    write_summary(chosen.out, STUDY, numbers, time.perf_counter() - started)
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Entry of `python -m studies.slider_crank`."""
+    description = (__doc__ or "").splitlines()[0]
+    return run_main(study, options(STUDY, argv, description))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

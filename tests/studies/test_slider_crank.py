@@ -1,0 +1,45 @@
+"""The study of the slider-crank, on a part of a revolution."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from studies import slider_crank as study
+
+
+@pytest.fixture(scope="module")
+def numbers(tmp_path_factory: pytest.TempPathFactory) -> dict[tuple[str, str], dict[str, Any]]:
+    out = tmp_path_factory.mktemp("results")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(study, "REVOLUTION", study.REVOLUTION / 9.0)  # 1.33 ms
+        assert study.main(["--quick", "--out", str(out), "--workers", "2"]) == 0
+    assert (out / "slider_crank.png").read_bytes().startswith(b"\x89PNG")
+    assert "onset 5 speed" in Path(out / "table.txt").read_text(encoding="utf-8")
+    summary = json.loads((out / "summary.json").read_text(encoding="utf-8"))
+    assert summary["study"] == "slider_crank"
+    return {(n["name"], n["case"]): n for n in summary["numbers"]}
+
+
+def test_onsets_agree_with_the_independent_solution(
+    numbers: dict[tuple[str, str], dict[str, Any]],
+) -> None:
+    for n, (time, speed) in enumerate(study.REFERENCE):
+        found = numbers[f"onset_{n + 1}_time", study.SMOOTH], numbers[f"onset_{n + 1}_speed", study.SMOOTH]
+        assert [number["paper"] for number in found] == [time, speed]
+        # asked for
+        assert found[0]["value"] == pytest.approx(time, rel=1e-5)
+        assert found[1]["value"] == pytest.approx(speed, rel=1e-3)
+        # the error reported covers the one there is, or that is below the reference's print
+        for number, printed in zip(found, (5e-4, 5e-7), strict=True):
+            assert abs(number["value"] - number["paper"]) < 2.0 * number["numerical_error"] + printed
+
+
+def test_friction_changes_later_touches_only(numbers: dict[tuple[str, str], dict[str, Any]]) -> None:
+    first = [numbers["onset_1_speed", case]["value"] for case in (study.SMOOTH, study.DRY)]
+    second = [numbers["onset_2_speed", case]["value"] for case in (study.SMOOTH, study.DRY)]
+    assert first[0] == pytest.approx(first[1], rel=1e-9)  # in flight there is no friction
+    assert abs(second[0] - second[1]) > 0.1
