@@ -289,7 +289,7 @@ def permanent_figure(pairs: Mapping[str, Pair]) -> Figure:
     inside = [pairs[c].fine[FORCE][(pairs[c].fine.time > 0.5) & (pairs[c].fine.time < 1.5)] for c, *_ in curves]
     _fit(rest, [1e-3 * force for force in inside])
     whole.set_title("a) the fall into the bore")
-    rest.set_title("b) the pin rests, the canopy still swings")
+    rest.set_title("b) what is left of it")
     drawing.legend(*whole.get_legend_handles_labels(), loc="outside lower center", ncols=1)
     drawing.suptitle("Lankarani-Nikravesh in the support: a contact that does not part, three ways to damp it")
     return drawing
