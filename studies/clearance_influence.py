@@ -282,8 +282,8 @@ def table(numbers: Sequence[Number]) -> Table:
         unit = next(iter(row.values())).unit
         shown.add_row(name.replace("_", " "), unit, *cells, "" if printed is None else f"{printed:.9g}")
     shown.caption = (
-        "± is the change when all steps are halved. Means and spreads: 3 to 5 s, every 1 ms. The paper gives no\n"
-        "machine data: its numbers stand beside ours for orientation, not as a check."
+        "± is the change when all steps are halved. Means and spreads: 3 to 5 s, every 1 ms. The paper gives\n"
+        "no machine data: its numbers stand beside ours for orientation, not as a check."
     )
     return shown
 
