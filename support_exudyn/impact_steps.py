@@ -19,8 +19,8 @@ DURATIONS = 20
 # accelerations on, and a long step would turn what is left of the impact's last ones into speed.
 STEPS_APART = 4
 # A force that jumps at the touch is met with steps that begin this many times halved and then double: the first
-# step after a jump sees about half of it.
-HALVINGS = 7
+# step after a jump sees about half of it. (One more, and Newton's method meets rounding on the support.)
+HALVINGS = 6
 GROWTH = 1.5  # of the speed that is in an impact, at which its steps are chosen anew
 
 

@@ -137,7 +137,7 @@ class LoosePin:
     def begin_impact(self) -> None:
         """The drive's speed has jumped: the depth of a closed pin swings from now on."""
         if self.reached.depth > 0.0:
-            self.impact.begin(self.reached.depth, self.force.rate, self._mass)
+            self.impact.begin(self.reached.depth, self.reached.rate, self._mass)
 
     @property
     def _mass(self) -> float:

@@ -130,7 +130,8 @@ class Scene:
         for name, pin in self.loose_pins.items():
             memory = recalled(data[pin.slots].tolist())
             state = self._contact_state(name, pin, CURRENT)
-            data[pin.slots] = memory._replace(depth=state.depth, rate=state.rate, slip=state.slip)
+            memory = memory._replace(depth=state.depth, rate=state.rate, slip=state.slip)
+            data[pin.slots] = pin.reached = memory
         self.mbs.systemData.SetDataCoordinates(data)
 
     def _contact_state(self, name: str, pin: LoosePin, state: Any) -> ContactForce:

@@ -70,8 +70,8 @@ def test_restitution_cases_are_named_as_agreed_and_right(
     for case in cases:
         number = numbers["delivered_restitution", case]
         closed_form = numbers["closed_form_restitution", case]["value"]
-        # asked for: 1e-4; dashpots that jump at the touch leave 1e-5
-        assert number["value"] == pytest.approx(closed_form, abs=2e-5)
+        # asked for: 1e-4; dashpots that jump at the touch leave 2e-5
+        assert number["value"] == pytest.approx(closed_form, abs=3e-5)
         # the error reported is that of steps twice as long, about four times the one left
         assert number["numerical_error"] < 1e-4
         assert number["unit"] == "1"
