@@ -144,12 +144,8 @@ def figure(results: Mapping[str, Result]) -> Figure:
     force.set_title("a) force in the slider pin")
     force.legend(loc="upper right", ncols=3)
     for column, case in enumerate((SMOOTH, DRY)):
-        _path(
-            drawing.add_subplot(grid[1, column]),
-            results[case],
-            f"{'bc'[column]}) journal in its bore, {case} (blue: contact)",
-        )
-    drawing.suptitle("Slider-crank at 5000 rpm, 0.5 mm clearance in the slider pin")
+        _path(drawing.add_subplot(grid[1, column]), results[case], f"{'bc'[column]}) journal's path, {case}")
+    drawing.suptitle("Slider-crank at 5000 rpm, 0.5 mm clearance in the slider pin (b, c: blue in contact)")
     return drawing
 
 
