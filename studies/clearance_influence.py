@@ -15,7 +15,6 @@ import numpy as np
 import numpy.typing as npt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from rich.console import Console
 from rich.table import Table
 
 from studies import paper_machine, style
@@ -27,8 +26,8 @@ from studies.study import (
     rounded,
     run_main,
     run_pairs,
+    show_table,
     write_summary,
-    write_table,
 )
 from support_exudyn import Result, Scenario
 
@@ -302,9 +301,7 @@ def study(chosen: Options) -> None:
         for name, drawing in figures(results).items():
             style.save(drawing, chosen.out, name)
     numbers = measure(pairs)
-    shown = table(numbers)
-    Console(width=None if sys.stdout.isatty() else 150).print(shown)
-    write_table(chosen.out / "table.txt", shown)
+    show_table(chosen.out / "table.txt", table(numbers))
     write_summary(chosen.out, STUDY, numbers, time.perf_counter() - started)
 
 

@@ -17,7 +17,6 @@ import numpy.typing as npt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
-from rich.console import Console
 from rich.table import Table
 
 from studies import law_catalogue, paper_machine, style
@@ -38,8 +37,8 @@ from studies.study import (
     rounded,
     run_main,
     run_pairs,
+    show_table,
     write_summary,
-    write_table,
 )
 from support_exudyn import ClearancePin, Result, Scenario, SolverSettings
 from user_forces import (
@@ -369,10 +368,8 @@ def study(chosen: Options) -> None:
         for name, drawing in drawings.items():
             style.save(drawing, chosen.out, name)
     tables = [restitution_table(restitutions), rise_table(measured)]
-    console = Console(width=None if sys.stdout.isatty() else 200)
     for name, table in zip(("restitution_table", "rise_table"), tables, strict=True):
-        console.print(table)
-        write_table(chosen.out / f"{name}.txt", table, width=200)
+        show_table(chosen.out / f"{name}.txt", table, width=200)
     write_summary(chosen.out, STUDY, [*restitutions, *measured], time.perf_counter() - started)
 
 

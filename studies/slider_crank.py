@@ -19,7 +19,6 @@ import numpy.typing as npt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
-from rich.console import Console
 from rich.table import Table
 
 from studies import style
@@ -31,8 +30,8 @@ from studies.study import (
     rounded,
     run_main,
     run_pairs,
+    show_table,
     write_summary,
-    write_table,
 )
 from support_exudyn import ClearancePin, Result, Scenario, SolverSettings, Steady, ravn_slider_crank
 from user_forces import (
@@ -191,9 +190,7 @@ def study(chosen: Options) -> None:
     numbers = measure(pairs)
     with style.look():
         style.save(figure({name: pair.fine for name, pair in pairs.items()}), chosen.out, "slider_crank")
-    shown = table(numbers)
-    Console(width=None if sys.stdout.isatty() else 120).print(shown)
-    write_table(chosen.out / "table.txt", shown, width=120)
+    show_table(chosen.out / "table.txt", table(numbers), width=120)
     write_summary(chosen.out, STUDY, numbers, time.perf_counter() - started)
 
 

@@ -123,8 +123,9 @@ def write_summary(out: Path, study: str, numbers: Sequence[Number], wall_s: floa
     return path
 
 
-def write_table(path: Path, table: Table, width: int = 150) -> None:
-    """Write a table as text."""
+def show_table(path: Path, table: Table, width: int = 150) -> None:
+    """Print a table and write it as text, so many characters wide where there is no terminal."""
+    Console(width=None if sys.stdout.isatty() else width).print(table)
     with whole_file(path) as temporary, temporary.open("w", encoding="utf-8") as file:
         Console(file=file, width=width).print(table)
 
