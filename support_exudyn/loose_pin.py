@@ -159,8 +159,7 @@ class LoosePin:
     ) -> list[float]:
         """Force and moment of the connector, which act on the bore and, reversed, on the journal."""
         self.calls += 1
-        scale = displacement_scale(rotation[2])
-        x, y = scale * displacement[0], scale * displacement[1]
+        x, y = _offset(displacement, rotation)
         force = self._contact_force(x, y, velocity, angular_velocity)
         # the engine moves the force to the middle between both centres, eccentricity/2 from the journal's
         arm = force.journal_arm + 0.5 * math.hypot(x, y)
@@ -180,8 +179,7 @@ class LoosePin:
     ) -> list[float]:
         """[error, recommended step, new memory]: accept the step, repeat it, or ask for a shorter one."""
         start = recalled(data)
-        scale = displacement_scale(rotation[2])
-        x, y = scale * displacement[0], scale * displacement[1]
+        x, y = _offset(displacement, rotation)
         self.force = self._contact_force(x, y, velocity, angular_velocity)
         self._eccentricity = (x, y)
         self._tried_turn = (rotation[2], angular_velocity[2])
@@ -281,8 +279,7 @@ class LoosePin:
             rotation: list[float],
             *unused: Any,
         ) -> list[float]:
-            scale = displacement_scale(rotation[2])
-            x, y = scale * displacement[0], scale * displacement[1]
+            x, y = _offset(displacement, rotation)
             eccentricity = math.hypot(x, y)
             pull = stiffness()
             depth = self.contact.bearing.depth(eccentricity)
@@ -301,3 +298,9 @@ class LoosePin:
         finally:
             connector.set_force(self.symbolic.function if self.symbolic else self._connector_force)
             connector.set_after_newton(self._after_newton)
+
+
+def _offset(displacement: list[float], rotation: list[float]) -> Vector2:
+    """Journal's centre minus bore's centre [m] from what the engine hands to its user functions."""
+    scale = displacement_scale(rotation[2])
+    return scale * displacement[0], scale * displacement[1]
