@@ -9,6 +9,7 @@ One entry, `simulate`; everything else is a value that is handed in. SI units an
 """
 
 from support_exudyn.channels import Channel
+from support_exudyn.columns import ColumnModel, OilColumn, RigidColumn, bore_area
 from support_exudyn.drives import CubicStep, Drive, Held, Steady, Stroke, UniformSpeed
 from support_exudyn.errors import Failure, SimulationError
 from support_exudyn.impulse import Impulse
@@ -28,6 +29,7 @@ __all__ = [
     "Channel",
     "ClearancePin",
     "Column",
+    "ColumnModel",
     "Crank",
     "CubicStep",
     "Drive",
@@ -39,11 +41,13 @@ __all__ = [
     "Impulse",
     "Linkage",
     "Machine",
+    "OilColumn",
     "Onset",
     "Part",
     "Pin",
     "PinPlace",
     "Result",
+    "RigidColumn",
     "Scenario",
     "SimulationError",
     "Slide",
@@ -53,6 +57,7 @@ __all__ = [
     "Stroke",
     "TracePoint",
     "UniformSpeed",
+    "bore_area",
     "load_support",
     "ravn_slider_crank",
     "reference_support",

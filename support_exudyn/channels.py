@@ -10,6 +10,7 @@ import numpy as np
 from support_exudyn.connector import recalled
 from support_exudyn.loose_pin import LoosePin
 from support_exudyn.machine import GROUND
+from support_exudyn.oil import oil_force
 from support_exudyn.plane import rotated
 from support_exudyn.recorder import History
 from support_exudyn.scene import Scene
@@ -31,10 +32,10 @@ def channels(scene: Scene, history: History) -> dict[str, Channel]:
     found = {"time": Channel(history.time, "s", "time")}
     found |= _body_channels(scene, history)
     found |= _point_channels(scene, history)
-    found |= _column_channels(scene, history)
+    column_channels, stored = _column_channels(scene, history)
+    found |= column_channels
     found |= _crank_channels(scene, history)
     found |= _slide_channels(scene, history)
-    stored = np.zeros_like(history.time)
     for name in scene.linkage.pins:
         if name in scene.loose_pins:
             pin_channels, energy = _loose_pin_channels(scene, history, name)
@@ -94,20 +95,32 @@ def _point_channels(scene: Scene, history: History) -> dict[str, Channel]:
     return found
 
 
-def _column_channels(scene: Scene, history: History) -> dict[str, Channel]:
+def _column_channels(scene: Scene, history: History) -> tuple[dict[str, Channel], np.ndarray]:
+    """Channels of all columns, and the energy stored in their oil [J]."""
     found: dict[str, Channel] = {}
-    for name, item in scene.columns.items():
-        foot = _Motion(scene, history, item.column.foot, item.column.foot_point).position
-        head = _Motion(scene, history, item.column.head, item.column.head_point).position
-        dx, dy = (head - foot).T
-        # the multiplier of a distance is the tension
-        force = -history.multiplier[:, item.multiplier]
+    stored = np.zeros_like(history.time)
+    for name, column in scene.linkage.columns.items():
+        foot = _Motion(scene, history, column.foot, column.foot_point)
+        head = _Motion(scene, history, column.head, column.head_point)
+        dx, dy = (head.position - foot.position).T
+        length = np.hypot(dx, dy)
+        if name in scene.rigid_columns:
+            # the multiplier of a distance is the tension
+            force = -history.multiplier[:, scene.rigid_columns[name].multiplier]
+        else:
+            vx, vy = (head.velocity - foot.velocity).T
+            rate = (dx * vx + dy * vy) / length
+            drive = scene.scenario.drive
+            extension = np.array([drive.extension(float(t)) for t in history.time])
+            speed = np.array([drive.speed(float(t)) for t in history.time])
+            force, energy = oil_force(scene.oil_columns[name], length, rate, extension, speed)
+            stored = stored + energy
         found |= {
             f"{name}.angle": Channel(np.arctan2(dy, dx), "rad", "direction from foot to head, from +x"),
-            f"{name}.length": Channel(np.hypot(dx, dy), "m", "distance of its ends"),
+            f"{name}.length": Channel(length, "m", "distance of its ends"),
             f"{name}.force": Channel(force, "N", "pushes its ends apart if positive"),
         }
-    return found
+    return found, stored
 
 
 def _crank_channels(scene: Scene, history: History) -> dict[str, Channel]:
@@ -222,8 +235,10 @@ def _energy_channels(scene: Scene, history: History, stored: np.ndarray) -> dict
     return {
         "energy.kinetic": Channel(kinetic, "J", "kinetic energy of all bodies"),
         "energy.potential": Channel(potential, "J", "of weight, zero in the machine's start posture"),
-        "energy.elastic": Channel(stored, "J", "stored in the contacts"),
-        "energy.damping_loss": Channel(history.damping_loss, "J", "dissipated by normal damping so far"),
+        "energy.elastic": Channel(stored, "J", "stored in contacts and oil"),
+        "energy.damping_loss": Channel(
+            history.damping_loss, "J", "dissipated by damping in contacts and oil so far"
+        ),
         "energy.friction_loss": Channel(history.friction_loss, "J", "dissipated by friction so far"),
         "energy.work": Channel(history.work, "J", "work of the drive so far"),
         "energy.balance": Channel(balance, "J", "gain minus work plus loss; zero if computed exactly"),

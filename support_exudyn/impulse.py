@@ -1,7 +1,7 @@
 """What a jump of the drive's speed does: an impulse, and consistent velocities after it.
 
-With rigid columns the bodies' velocities jump too, see `kinetics`. Clearance pins transmit no impulse: their
-force is finite.
+With rigid columns the bodies' velocities jump too, see `kinetics`. Clearance pins and oil columns transmit no
+impulse: their force is finite.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from support_exudyn.scene import Scene
 class Impulse:
     """A jump of velocities.
 
-    time: [s]. columns: impulse of each column [N s], positive in compression. energy: given to the bodies
+    time: [s]. columns: impulse of each rigid column [N s], positive in compression. energy: given to the bodies
     by it [J]. cranks: angular impulse on each crank [N m s].
     """
 
@@ -40,7 +40,7 @@ def jump_velocities(scene: Scene, time: float, speed_jump: float) -> Impulse:
     driven = (-impulses[kinetics.driven()]).tolist()
     return Impulse(
         time,
-        dict(zip(scene.columns, driven, strict=False)),
+        dict(zip(scene.rigid_columns, driven, strict=False)),
         float(0.5 * (mass * after) @ after - 0.5 * (mass * before) @ before),
-        dict(zip(scene.cranks, driven[len(scene.columns) :], strict=True)),
+        dict(zip(scene.cranks, driven[len(scene.rigid_columns) :], strict=True)),
     )

@@ -1,7 +1,7 @@
 """Masses and constraints of a scene as matrices, for what happens at an instant.
 
-Mass matrix M and constraint Jacobian C (ideal pins, columns, cranks, slides) give the change of velocities dv
-and the impulses L under generalised impulses b and a change c of the constraints' rates:
+Mass matrix M and constraint Jacobian C (ideal pins, rigid columns, cranks, slides) give the change of
+velocities dv and the impulses L under generalised impulses b and a change c of the constraints' rates:
 
     M dv + C^T L = b,    C dv = c
 """
@@ -25,13 +25,14 @@ Matrix = npt.NDArray[np.float64]
 class Kinetics:
     """Matrices of a linkage whose bodies stand in the engine.
 
-    linkage: the mechanism. bodies: where each body's coordinates stand. ideal: names of the pins that are
-    closed, in the order of their rows.
+    linkage: the mechanism. bodies: where each body's coordinates stand. ideal, columns: names of the pins that
+    are closed and of the columns that are rigid, in the order of their rows.
     """
 
     linkage: Linkage
     bodies: dict[str, BodyItem]
     ideal: Sequence[str]
+    columns: Sequence[str]
 
     def mass(self) -> Matrix:
         """Diagonal of the mass matrix, shape (n,)."""
@@ -42,11 +43,11 @@ class Kinetics:
         return mass
 
     def rows(self, position: Matrix) -> Matrix:
-        """Jacobian C, shape (m, n): two rows an ideal pin, one a column, one a crank, two a slide."""
+        """Jacobian C, shape (m, n): two rows an ideal pin, one a rigid column, one a crank, two a slide."""
         rows: list[Matrix] = []
         for name in self.ideal:
             rows += list(self.relative(position, self.linkage.pins[name])[1])
-        for column in self.linkage.columns.values():
+        for column in (self.linkage.columns[name] for name in self.columns):
             foot, foot_rate = self.point(position, column.foot, column.foot_point)
             head, head_rate = self.point(position, column.head, column.head_point)
             along = (head - foot) / np.linalg.norm(head - foot)
@@ -65,9 +66,9 @@ class Kinetics:
         return row
 
     def driven(self) -> slice:
-        """Which of the rows are driven: columns, then cranks."""
+        """Which of the rows are driven: rigid columns, then cranks."""
         first = 2 * len(self.ideal)
-        return slice(first, first + len(self.linkage.columns) + len(self.linkage.cranks))
+        return slice(first, first + len(self.columns) + len(self.linkage.cranks))
 
     def point(self, position: Matrix, body: str, point: Vector2) -> tuple[Matrix, Matrix]:
         """Where a point of a body is (2,) and the matrix that turns all velocities into its own (2, n)."""

@@ -5,10 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+import exudyn
 import numpy as np
 
 from support_exudyn.energy import RunningIntegrals
+from support_exudyn.oil import oil_powers
 from support_exudyn.scene import Scene
+from support_exudyn.scene_items import OilColumnItem
 
 
 @dataclass(frozen=True)
@@ -37,10 +40,13 @@ class Recorder:
         self.energies = RunningIntegrals(3)  # work of the drive, losses by damping and by friction
         self._data = scene.mbs.systemData
         self._pins = tuple(scene.loose_pins.values())
-        self._driven = tuple(column.multiplier for column in scene.columns.values()) + tuple(
+        self._driven = tuple(column.multiplier for column in scene.rigid_columns.values()) + tuple(
             crank.multiplier for crank in scene.cranks.values()
         )
+        self._oil = tuple(scene.oil_columns.values())
+        self._mbs = scene.mbs
         self._speed = scene.scenario.drive.speed
+        self._extension = scene.scenario.drive.extension
         self._rows: list[tuple[Any, ...]] = []
 
     def after_step(self, t: float, kink: bool) -> None:
@@ -69,6 +75,14 @@ class Recorder:
             )
         )
 
+    def _length(self, item: OilColumnItem) -> tuple[float, float]:
+        """Length [m] of an oil column and its rate [m/s]."""
+        output = exudyn.OutputVariableType
+        distance = float(self._mbs.GetObjectOutput(item.object, output.Distance))
+        apart = self._mbs.GetObjectOutput(item.object, output.Displacement)
+        rate = self._mbs.GetObjectOutput(item.object, output.Velocity)
+        return distance, float(apart @ rate) / distance
+
     def history(self) -> History:
         """What has been recorded so far."""
         return History(*(np.array(column) for column in zip(*self._rows, strict=True)))
@@ -81,6 +95,10 @@ class Recorder:
             multipliers = self._data.GetAECoordinates()
             # the multiplier of a distance is the tension, that of a crank's angle the moment against it
             columns = -speed * sum(float(multipliers[n]) for n in self._driven)
+        for item in self._oil:
+            work, loss = oil_powers(item, *self._length(item), self._extension(t), speed)
+            columns += work
+            damping += loss
         for pin in self._pins:
             force = pin.force
             if force.depth > 0.0:

@@ -28,8 +28,8 @@ class Result:
 
     scenario: what was run. channels: quantities over time by name, see `result["tip.x"]`.
     onsets: for each clearance pin the beginnings of contact. largest_force: for each clearance pin the
-    largest force [N] at the end of any step, also between records. impulses: where the columns' speed
-    jumped. counts: what the solver did.
+    largest force [N] at the end of any step, also between records. impulses: where the speed of
+    rigid columns or cranks jumped. counts: what the solver did.
     wall_time: [s], of building, settling and integrating. provenance: versions and platform.
     """
 
@@ -62,7 +62,7 @@ class Result:
 
     @property
     def dissipated(self) -> float:
-        """Energy dissipated in the contacts over the run [J]."""
+        """Energy dissipated in contacts and oil over the run [J]."""
         return float(self["energy.damping_loss"][-1] + self["energy.friction_loss"][-1])
 
     @property

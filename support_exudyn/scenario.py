@@ -9,8 +9,9 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
+from support_exudyn.columns import ColumnModel, OilColumn
 from support_exudyn.drives import Drive, Held
-from support_exudyn.machine import Machine
+from support_exudyn.machine import Linkage, Machine
 from support_exudyn.pins import ClearancePin, Pin
 from user_forces.values import Fraction, Positive, Real, Value, Vector2, value
 
@@ -45,7 +46,8 @@ class Scenario(Value):
     Arguments:
         machine: what is simulated.
         pins: for each pin that is not ideal (or to say so), what it is, by name.
-        drive: how all driven parts move: columns extend [m], cranks turn [rad].
+        columns: for each column that is not rigid (or to say so), what it is, by name.
+        drive: how all driven parts move: columns extend [m], cranks turn [rad]. Into an oil column it lets oil.
         duration: end time [s], > 0; the run starts at 0.
         start: "concentric": every journal in the middle of its bore, velocities as the machine says and as
             the drive has them with ideal pins; "settled": at rest in static equilibrium under gravity.
@@ -58,6 +60,7 @@ class Scenario(Value):
 
     machine: Machine
     pins: Mapping[str, Pin] = field(default_factory=dict)
+    columns: Mapping[str, ColumnModel] = field(default_factory=dict)
     drive: Drive = field(default_factory=Held)
     duration: Positive
     start: Literal["concentric", "settled"] = "concentric"
@@ -68,7 +71,8 @@ class Scenario(Value):
 
     @model_validator(mode="after")
     def _fits_the_machine(self) -> Scenario:
-        places = self.machine.linkage().pins
+        linkage = self.machine.linkage()
+        places = linkage.pins
         for name in self.pins:
             if name not in places:
                 raise ValueError(
@@ -90,8 +94,18 @@ class Scenario(Value):
                 "start = 'settled': is at rest, but the drive moves from the start on "
                 f"({self.drive.initial_speed} per s); allowed with this drive: 'concentric'"
             )
+        self._check_columns(linkage)
         self.machine.check_extension(*self.drive.span(self.duration))
         return self
+
+    def _check_columns(self, linkage: Linkage) -> None:
+        for name, column in self.columns.items():
+            if name not in linkage.columns:
+                raise ValueError(
+                    f"columns.{name}: the machine has no such column; "
+                    f"allowed: {', '.join(linkage.columns) or 'none'}"
+                )
+            column.check_extension(self.drive.span(self.duration)[0], name)
 
     def refined(self, factor: int = 2) -> Scenario:
         """The same run with all steps, also those of impacts, so many times shorter.
@@ -106,3 +120,8 @@ class Scenario(Value):
     def clearance_pins(self) -> dict[str, ClearancePin]:
         """The pins that have clearance, by name."""
         return {name: pin for name, pin in self.pins.items() if isinstance(pin, ClearancePin)}
+
+    @property
+    def oil_columns(self) -> dict[str, OilColumn]:
+        """The columns that give, by name."""
+        return {name: column for name, column in self.columns.items() if isinstance(column, OilColumn)}

@@ -18,12 +18,14 @@ from exudyn.itemInterface import (
     NodeRigidBody2D,
     ObjectConnectorCoordinate,
     ObjectConnectorDistance,
+    ObjectConnectorSpringDamper,
     ObjectGround,
     ObjectJointPrismatic2D,
     ObjectJointRevolute2D,
     ObjectRigidBody2D,
 )
 
+from support_exudyn.columns import OilColumn
 from support_exudyn.connector import recalled
 from support_exudyn.kinetics import Kinetics
 from support_exudyn.loose_pin import LoosePin
@@ -31,7 +33,7 @@ from support_exudyn.machine import GROUND, Body, Column, Crank, Linkage, PinPlac
 from support_exudyn.onset import Mobility, PinMemory
 from support_exudyn.pins import ClearancePin
 from support_exudyn.scenario import Scenario
-from support_exudyn.scene_items import BodyItem, ColumnItem, CrankItem, IdealItem, SlideItem
+from support_exudyn.scene_items import BodyItem, ColumnItem, CrankItem, IdealItem, OilColumnItem, SlideItem
 from user_forces.contact import ContactForce
 from user_forces.values import Vector2
 
@@ -50,22 +52,36 @@ class Scene:
     bodies: dict[str, BodyItem]
     ideal_pins: dict[str, IdealItem]
     loose_pins: dict[str, LoosePin]
-    columns: dict[str, ColumnItem]
+    rigid_columns: dict[str, ColumnItem]
+    oil_columns: dict[str, OilColumnItem]
     cranks: dict[str, CrankItem]
     slides: dict[str, SlideItem]
 
-    def drive_to(self, extension: float) -> None:
-        """Make the columns longer than at the start by so much [m], turn the cranks by so much [rad]."""
-        for column in self.columns.values():
-            length = column.column.start_length + extension
-            self.mbs.SetObjectParameter(column.object, "distance", length)
+    def drive_to(self, extension: float, speed: float) -> None:
+        """Make the columns longer than at the start by so much [m], turn the cranks by so much [rad].
+
+        The speed [m/s] is only needed by what gives: oil columns.
+        """
+        for rigid in self.rigid_columns.values():
+            self.mbs.SetObjectParameter(rigid.object, "distance", rigid.column.start_length + extension)
+        for oil in self.oil_columns.values():
+            stiffness = oil.model.stiffness(extension)
+            self.mbs.SetObjectParameter(oil.object, "referenceLength", oil.natural_length(extension))
+            self.mbs.SetObjectParameter(oil.object, "velocityOffset", speed)
+            self.mbs.SetObjectParameter(oil.object, "stiffness", stiffness)
+            self.mbs.SetObjectParameter(oil.object, "damping", stiffness * oil.model.damping_time)
         for crank in self.cranks.values():
             self.mbs.SetObjectParameter(crank.object, "offset", extension)
 
     @cached_property
     def kinetics(self) -> Kinetics:
-        """Masses and constraints as matrices; clearance pins are free."""
-        return Kinetics(self.linkage, self.bodies, tuple(self.ideal_pins))
+        """Masses and constraints as matrices; clearance pins and oil columns are free."""
+        return Kinetics(self.linkage, self.bodies, tuple(self.ideal_pins), tuple(self.rigid_columns))
+
+    @cached_property
+    def closed_kinetics(self) -> Kinetics:
+        """The same with all pins ideal and all columns rigid."""
+        return Kinetics(self.linkage, self.bodies, tuple(self.linkage.pins), tuple(self.linkage.columns))
 
     def mobility(self, name: str, state: Any = CURRENT) -> Mobility:
         """Mobility of a clearance pin's journal, in the axes of its bore; see `Kinetics.pin_mobility`."""
@@ -97,7 +113,7 @@ class Scene:
         speed = self.scenario.drive.initial_speed
         if speed == 0.0:
             return
-        closed = Kinetics(self.linkage, self.bodies, tuple(self.linkage.pins))
+        closed = self.closed_kinetics
         data = self.mbs.systemData
         position, velocity = data.GetODE2Coordinates(INITIAL), data.GetODE2Coordinates_t(INITIAL)
         rows = closed.rows(position)
@@ -213,9 +229,20 @@ class _Builder:
             impact_steps=self.scenario.solver.impact_steps,
         )
 
-    def add_column(self, column: Column) -> Any:
-        markers = [self.marker(column.foot, column.foot_point), self.marker(column.head, column.head_point)]
-        return self.mbs.AddObject(ObjectConnectorDistance(markerNumbers=markers, distance=column.start_length))
+    def add_rigid_column(self, column: Column) -> Any:
+        return self.mbs.AddObject(
+            ObjectConnectorDistance(markerNumbers=self.ends(column), distance=column.start_length)
+        )
+
+    def add_oil_column(self, column: Column) -> Any:
+        # what it carries and how stiff it is follows once the machine is whole
+        return self.mbs.AddObject(
+            ObjectConnectorSpringDamper(markerNumbers=self.ends(column), referenceLength=column.start_length)
+        )
+
+    def ends(self, column: Column) -> list[Any]:
+        """Markers of foot and head."""
+        return [self.marker(column.foot, column.foot_point), self.marker(column.head, column.head_point)]
 
     def add_crank(self, crank: Crank) -> Any:
         fixed = self.mbs.AddNode(NodePointGround())
@@ -244,25 +271,36 @@ class _Builder:
             for name, pin in self.scenario.clearance_pins.items()
         }
         ideal = {name: self.add_ideal(place) for name, place in self.linkage.pins.items() if name not in loose}
-        columns = {name: self.add_column(column) for name, column in self.linkage.columns.items()}
+        oil = {name: self.add_oil_column(self.linkage.columns[name]) for name in self.scenario.oil_columns}
+        rigid = {
+            name: self.add_rigid_column(column)
+            for name, column in self.linkage.columns.items()
+            if name not in oil
+        }
         cranks = {name: self.add_crank(crank) for name, crank in self.linkage.cranks.items()}
         slides = {name: self.add_slide(slide) for name, slide in self.linkage.slides.items()}
         self.mbs.Assemble()
         data = self.mbs.systemData
+        bodies = {
+            name: BodyItem(item.body, item.node, item.object, int(data.GetNodeLTGODE2(item.node)[0]))
+            for name, item in self.bodies.items()
+        }
+        loads = self.static_column_forces(bodies) if oil else {}
         scene = Scene(
             scenario=self.scenario,
             linkage=self.linkage,
             container=self.container,
             mbs=self.mbs,
-            bodies={
-                name: BodyItem(item.body, item.node, item.object, int(data.GetNodeLTGODE2(item.node)[0]))
-                for name, item in self.bodies.items()
-            },
+            bodies=bodies,
             ideal_pins={name: IdealItem(o, int(data.GetObjectLTGAE(o)[0])) for name, o in ideal.items()},
             loose_pins=loose,
-            columns={
+            rigid_columns={
                 name: ColumnItem(self.linkage.columns[name], o, int(data.GetObjectLTGAE(o)[0]))
-                for name, o in columns.items()
+                for name, o in rigid.items()
+            },
+            oil_columns={
+                name: self.oil_item(name, self.scenario.oil_columns[name], o, loads[name])
+                for name, o in oil.items()
             },
             cranks={
                 name: CrankItem(self.linkage.cranks[name], o, int(data.GetObjectLTGAE(o)[0]))
@@ -272,9 +310,23 @@ class _Builder:
         )
         for name, pin in loose.items():
             pin.mobility = partial(scene.mobility, name)
+        scene.drive_to(0.0, self.scenario.drive.initial_speed)
         scene.start_moving()
         scene.reset_memory()
         return scene
+
+    def static_column_forces(self, bodies: dict[str, BodyItem]) -> dict[str, float]:
+        """What each column carries in the start posture with ideal pins [N], positive in compression."""
+        closed = Kinetics(self.linkage, bodies, tuple(self.linkage.pins), tuple(self.linkage.columns))
+        position = np.array(self.mbs.systemData.GetODE2Coordinates(INITIAL))
+        weight = np.zeros_like(position)
+        for item in bodies.values():
+            weight[item.first : item.first + 2] = item.body.mass * np.array(self.scenario.gravity)
+        tensions = closed.respond(position, weight, 0.0)[1][closed.driven()]
+        return {name: -float(t) for name, t in zip(self.linkage.columns, tensions, strict=False)}
+
+    def oil_item(self, name: str, model: OilColumn, item: Any, load: float) -> OilColumnItem:
+        return OilColumnItem(self.linkage.columns[name], model, item, load / model.stiffness(0.0))
 
 
 def build(scenario: Scenario) -> Scene:

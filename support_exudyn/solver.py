@@ -77,7 +77,7 @@ class Run:
         self.time = 0.0  # end of the last accepted step
         self.steps = self.cut_steps = self.failed_newton = 0
         self.trying = False  # a step has been tried and not accepted yet
-        self.extension = 0.0  # that the columns have in the engine [m]
+        self.driven = (0.0, scenario.drive.initial_speed)  # extension and speed that the engine has [m], [m/s]
 
     def go(self) -> Counts:
         """Integrate. Raises SimulationError if the run cannot be finished."""
@@ -120,10 +120,11 @@ class Run:
             else:
                 self.failed_newton += 1
         self.trying = True
-        extension = self.scene.scenario.drive.extension(t)
-        if extension != self.extension:
-            self.scene.drive_to(extension)
-            self.extension = extension
+        drive = self.scene.scenario.drive
+        driven = drive.extension(t), drive.speed(t)
+        if driven != self.driven:
+            self.scene.drive_to(*driven)
+            self.driven = driven
         if self.pins:
             data = self.data.GetDataCoordinates().tolist()
             step = float(self.solver.it.currentStepSize)
@@ -157,7 +158,8 @@ class Run:
         speed_jump = self.scene.scenario.drive.speed_jump(t)
         if speed_jump:
             impulse = jump_velocities(self.scene, t, speed_jump)
-            self.impulses.append(impulse)
+            if impulse.columns or impulse.cranks:  # where all columns give, nothing is struck
+                self.impulses.append(impulse)
             self.recorder.jump(t, impulse.energy)
             self.scene.refresh_memory()
             for pin in self.pins:

@@ -39,7 +39,9 @@ def cross(a: np.ndarray, b: np.ndarray) -> float:
 def kinetics(linkage: Linkage, *loose: str) -> Kinetics:
     """Of a linkage in which these pins have clearance, without the engine."""
     items = {name: BodyItem(body, None, None, 3 * n) for n, (name, body) in enumerate(linkage.bodies.items())}
-    return Kinetics(linkage, items, tuple(name for name in linkage.pins if name not in loose))
+    return Kinetics(
+        linkage, items, tuple(name for name in linkage.pins if name not in loose), tuple(linkage.columns)
+    )
 
 
 def pin_mass(system: Kinetics, position: np.ndarray, name: str, angle: float) -> float:

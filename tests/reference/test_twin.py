@@ -68,7 +68,7 @@ def twin_onsets() -> list[Seen]:
     depths: list[float] = []  # at the ends of steps
 
     def drive(mbs: object, t: float) -> bool:
-        scene.drive_to(CRANK_SPEED * t)
+        scene.drive_to(CRANK_SPEED * t, CRANK_SPEED)
         return True
 
     def watch(mbs: object, t: float) -> bool:

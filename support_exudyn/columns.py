@@ -1,0 +1,68 @@
+"""What a column can be: a rigid drive, or oil that gives. One field of the scenario chooses it."""
+
+from __future__ import annotations
+
+import math
+from abc import ABC
+
+from user_forces.values import InputError, NonNegative, Positive, Value, value
+
+
+class ColumnModel(Value, ABC):
+    """How a driven column holds its length."""
+
+    def check_extension(self, lowest: float, name: str) -> None:
+        """Raise InputError if the column cannot be drawn in so far [m]; by default any can."""
+        del lowest, name
+
+
+@value
+class RigidColumn(ColumnModel):
+    """A massless drive: the length is what the drive says, a constraint whose multiplier is the force."""
+
+
+@value
+class OilColumn(ColumnModel):
+    """A massless column on a cushion of oil, into which the drive lets oil.
+
+        F = k u + d du/dt,   k = B A / (h + extension),   d = k T
+
+    u is by how much the oil is compressed: length at the start + precompression + extension - length. The
+    precompression carries the static load of the start posture with ideal pins, so that a machine at rest
+    stays there. k is that of a closed volume of oil; steel, seals and hoses are taken as stiff.
+
+    Arguments:
+        bore_area: A, area of the piston, all columns of a pair together [m^2], > 0.
+        oil_length: h, length of the oil under the piston at the start [m], > 0.
+        bulk_modulus: B of the oil or emulsion [Pa], > 0.
+        damping_time: T [s], >= 0; a mass on the column that vibrates at w rad/s is damped by T w / 2 of the
+            critical damping.
+    """
+
+    bore_area: Positive
+    oil_length: Positive
+    bulk_modulus: Positive
+    damping_time: NonNegative = 1e-3
+
+    def stiffness(self, extension: float) -> float:
+        """k [N/m] at an extension from the start [m]."""
+        return self.bulk_modulus * self.bore_area / (self.oil_length + extension)
+
+    def stiffness_slope(self, extension: float) -> float:
+        """Derivative of k by the extension [N/m^2]."""
+        return -self.stiffness(extension) / (self.oil_length + extension)
+
+    def check_extension(self, lowest: float, name: str) -> None:
+        """Raise InputError if no oil would be left under the piston."""
+        if self.oil_length + lowest <= 0.0:
+            raise InputError(
+                f"columns.{name}.oil_length = {self.oil_length} m: the drive draws the column in by "
+                f"{-lowest:.4g} m and no oil is left; allowed: more than that"
+            )
+
+
+def bore_area(diameter: float, number: int = 1) -> float:
+    """Piston area [m^2] of so many cylinders of this bore diameter [m]."""
+    if not (math.isfinite(diameter) and diameter > 0.0 and number >= 1):
+        raise InputError(f"diameter = {diameter} m, number = {number}: allowed: > 0 and at least 1")
+    return number * math.pi / 4.0 * diameter**2
