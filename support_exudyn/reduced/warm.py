@@ -1,0 +1,31 @@
+"""Compiling ahead of time."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from support_exudyn.pins import ClearancePin
+from support_exudyn.reduced.coverage import PIN
+from support_exudyn.reduced.simulate import simulate_reduced
+from support_exudyn.scenario import Scenario
+from support_exudyn.supports import reference_support
+from user_forces.contact import JournalContact
+from user_forces.journal import JournalBearing
+from user_forces.normal.hertz import Hertz
+
+
+def warm_up() -> None:
+    """Compile everything in this process and keep it on disk, so that other processes only load it.
+
+    Two runs of a moment: compiled code does not depend on the numbers.
+    """
+    contact = JournalContact(
+        bearing=JournalBearing(bore_radius=0.0655, clearance=0.001), normal=Hertz(stiffness=1e10)
+    )
+    loose = Scenario(
+        machine=reference_support(),
+        pins={PIN: ClearancePin(contact=contact)},
+        duration=1e-3,
+    )
+    simulate_reduced(loose)
+    simulate_reduced(replace(loose, pins={}))

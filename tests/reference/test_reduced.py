@@ -1,0 +1,233 @@
+"""The reduced formulation against printed values of an independent integrator, and against the engine."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from support_exudyn import (
+    ClearancePin,
+    CubicStep,
+    Held,
+    Result,
+    Scenario,
+    SolverSettings,
+    UniformSpeed,
+    reference_support,
+    simulate,
+)
+from support_exudyn.reduced import ReducedResult, simulate_reduced
+from tests.reference.cases import FORCE, PIN, loose_support, paper_contact, support
+from user_forces import Ambrosio, DepthSpeed, Frictionless, JournalContact, LankaraniNikravesh, TouchSpeed
+
+# t [s]: pin force, its x, y [N], angular velocity [deg/s] and acceleration [deg/s^2] of the rear link
+IDEAL = {
+    1.00: (58778.944, -45034.073, 37774.284, 0.0, 0.0),
+    3.25: (59663.326, -45218.557, 38922.930, -5.752965, -20.222483),
+    3.50: (57528.298, -42249.062, 39045.125, -10.156832, -15.006264),
+    4.00: (51200.383, -33441.761, 38770.193, -14.754937, -2.718542),
+    4.50: (44955.553, -25005.249, 37359.594, -12.049091, 14.355602),
+}
+DROP = ((0.01744754, 0.17192479), (0.03958171, 0.07643214), (0.07192809, 0.07207929))  # [s], [m/s]
+# (clearance [mm], mu_d): mean and spread from 3 to 5 s, largest [N], spread of angular acceleration [deg/s^2]
+RISE = {
+    (1.5, 0.0): (51503.8, 6368.9, 444568.0, 17.36),
+    (1.5, 0.25): (52660.1, 6552.7, 443283.0, 70.16),
+    (0.5, 0.25): (52544.6, 6556.8, 274002.0, 113.5),
+}
+
+
+@pytest.fixture(scope="module")
+def run() -> Callable[[Scenario, float], ReducedResult]:
+    """Runs, each made once."""
+    made: dict[str, ReducedResult] = {}
+
+    def get(scenario: Scenario, tolerance: float) -> ReducedResult:
+        key = f"{scenario} {tolerance}"
+        if key not in made:
+            made[key] = simulate_reduced(scenario, tolerance)
+        return made[key]
+
+    return get
+
+
+Run = Callable[[Scenario, float], ReducedResult]
+
+
+def statistics(result: ReducedResult) -> np.ndarray:
+    """Mean and spread of the force, its largest value, spread of the angular acceleration."""
+    force = result[FORCE]
+    acceleration = np.degrees(result["rear_link.angular_acceleration"])
+    rise = result.time >= 3.0 - 1e-9
+    return np.array([force[rise].mean(), force[rise].std(), force.max(), acceleration[rise].std()])
+
+
+# --- printed values ---
+
+
+@pytest.mark.parametrize("t", IDEAL)
+def test_ideal_pins(run: Run, t: float) -> None:
+    result = run(support(), 1e-7)
+    n = round(t / 1e-3)
+    got = [result[FORCE + axis][n] for axis in ("", "_x", "_y")]
+    got += [np.degrees(result[f"rear_link.angular_{kind}"][n]) for kind in ("velocity", "acceleration")]
+    # both are exact; half of the last printed digit
+    np.testing.assert_allclose(got[:3], IDEAL[t][:3], rtol=0, atol=6e-4)
+    np.testing.assert_allclose(got[3:], IDEAL[t][3:], rtol=0, atol=6e-7)
+
+
+def test_onsets_of_the_drop() -> None:
+    result = simulate_reduced(loose_support(drive=Held(), duration=0.08), 1e-10)
+    # half of the last printed digit
+    np.testing.assert_allclose(result.onsets[PIN], DROP, rtol=0, atol=6e-9)
+
+
+@pytest.mark.parametrize(("clearance", "mu"), RISE)
+def test_statistics_of_the_rise(run: Run, clearance: float, mu: float) -> None:
+    got, printed = statistics(run(loose_support(clearance, mu), 1e-7)), np.array(RISE[clearance, mu])
+    if mu == 0.0:  # rounding of the print
+        assert (np.abs(got - printed) < [0.06, 0.06, 1.0, 0.02]).all()
+        return
+    # with friction the print has the contact point elsewhere in the overlap: 3e-5 in the mean, 2e-4 in the
+    # spread
+    wrong = np.abs(got / printed - 1.0)
+    assert (wrong < [1e-4, 5e-4, 1e-5, 5e-3]).all()
+
+
+def test_mean_with_friction_is_the_engines(run: Run) -> None:
+    # README: 52658.42 +- 0.09 N, 443282 +- 2 N; dissipated 363.315 +- 0.004 J
+    result = run(loose_support(1.5, 0.25), 1e-7)
+    mean, _, largest, _ = statistics(result)
+    assert mean == pytest.approx(52658.42, rel=1e-5)
+    assert largest == pytest.approx(443282.0, abs=4.0)
+    assert result.dissipated == pytest.approx(363.315, abs=4e-3)
+
+
+def test_dissipated_without_friction_is_the_engines(run: Run) -> None:
+    # README: 94.264 +- 0.002 J
+    assert run(loose_support(), 1e-7).dissipated == pytest.approx(94.264, abs=2e-3)
+
+
+@pytest.mark.parametrize("mu", [0.0, 0.25])
+def test_statistics_converge_with_the_tolerance(run: Run, mu: float) -> None:
+    finest = statistics(run(loose_support(1.5, mu), 1e-9))
+    coarse, fine = (np.abs(statistics(run(loose_support(1.5, mu), e)) / finest - 1.0) for e in (1e-7, 1e-8))
+    # measured at 1e-7: 9e-9, 2e-6, 1e-6, 9e-5; at 1e-8: 4e-9, 2e-7, 1e-7, 8e-6. (Without friction the pin
+    # grazes its bore at 0.24 s, and from 5e-7 on a touch there changes the damping ever after.)
+    assert (coarse < [1e-7, 1e-5, 5e-6, 5e-4]).all()
+    assert (fine < [3e-8, 1e-6, 1e-6, 5e-5]).all()
+
+
+# --- the engine ---
+
+
+def dropping(law: LankaraniNikravesh, mu: float, bore: str) -> Scenario:
+    """0.3 s of the drop; restitution 0.5, so that it comes to rest."""
+    friction = Ambrosio(sliding_coefficient=mu) if mu else Frictionless()
+    contact = JournalContact(bearing=paper_contact(1.5, 0.0).bearing, normal=law, friction=friction)
+    return Scenario(
+        machine=reference_support(),
+        pins={PIN: ClearancePin(contact=contact, bore=bore)},
+        duration=0.3,
+        solver=SolverSettings(impact_steps=256),
+    )
+
+
+def law(damping: TouchSpeed | DepthSpeed) -> LankaraniNikravesh:
+    return LankaraniNikravesh(stiffness=2.7130538e10, restitution=0.5, damping_speed=damping)
+
+
+@pytest.mark.parametrize("bore", ["first", "second"])
+@pytest.mark.parametrize("mu", [0.0, 0.25])
+@pytest.mark.parametrize("damping", [TouchSpeed(floor=1e-3), DepthSpeed()], ids=["touch", "depth"])
+def test_a_drop_is_the_engines(damping: TouchSpeed | DepthSpeed, mu: float, bore: str) -> None:
+    scenario = dropping(law(damping), mu, bore)
+    theirs, ours = simulate(scenario), simulate_reduced(scenario, 1e-8)
+    first, second = (np.array(result.onsets[PIN]) for result in (theirs, ours))
+    # the engine's errors at 256 steps an impact; each impact magnifies those of the last
+    assert first.shape == second.shape
+    np.testing.assert_allclose(first[0], second[0], rtol=2e-7)
+    np.testing.assert_allclose(first[1], second[1], rtol=1e-5)
+    np.testing.assert_allclose(first[2:], second[2:], rtol=1e-2)
+    for name, channel in ours.channels.items():
+        # 0.3 % after five impacts; a record beside a touch sees it before in one and after it in the other, and
+        # the engine's columns overshoot just after a touch: hence the median, and the final state
+        scale = np.abs(theirs[name]).max() + 1e-12
+        wrong = np.abs(channel - theirs[name]) / scale
+        assert np.median(wrong) < 1e-3, name
+        assert wrong[-1] < 5e-3, name
+        if name.startswith("pin.") and name.endswith(("force", "force_x", "force_y", "depth")):
+            assert wrong.max() < 1e-2, name
+
+
+def assert_same_channels(ours: ReducedResult, theirs: Result, median: float, last: float) -> None:
+    np.testing.assert_array_equal(ours.time, theirs.time)
+    for name, channel in ours.channels.items():
+        wrong = np.abs(channel - theirs[name]) / (np.abs(theirs[name]).max() + 1e-12)
+        assert np.median(wrong) < median, name
+        assert wrong[-1] < last, name
+
+
+def test_ideal_channels_are_the_engines() -> None:
+    scenario = support(step=1e-3, drive=CubicStep(start=0.1, end=1.2), duration=1.5)
+    # generalised alpha at 1e-3 s: 1e-6 in forces, 1e-5 in the canopy's small accelerations
+    assert_same_channels(simulate_reduced(scenario), simulate(scenario), 1e-4, 1e-4)
+
+
+@pytest.mark.parametrize("loose", [False, True])
+def test_jumps_of_the_columns_speed_are_the_engines(loose: bool) -> None:
+    drive = UniformSpeed(stroke=0.1, start=0.2, end=0.4)
+    # a period that does not divide the duration, and records that do not meet the jumps
+    pins = dropping(law(TouchSpeed(floor=1e-3)), 0.25, "first").pins if loose else {}
+    scenario = support(drive=drive, duration=0.45, step=5e-4, record_period=7e-3, pins=pins)
+    theirs, ours = simulate(scenario), simulate_reduced(scenario, 1e-9)
+    assert len(ours.impulses) == 2
+    # ideal: the engine's velocities before the second jump are right to 1e-9; loose: they carry its error of
+    # some impacts on, 1e-4
+    close = 1e-3 if loose else 1e-8
+    for got, expected in zip(ours.impulses, theirs.impulses, strict=True):
+        assert got.time == expected.time
+        assert got.columns == pytest.approx(expected.columns, rel=close)
+        assert got.energy == pytest.approx(expected.energy, rel=close)
+    assert_same_channels(ours, theirs, 1e-3 if loose else 1e-4, 5e-2 if loose else 1e-4)
+
+
+def test_velocities_after_a_jump_are_the_closed_form_ones() -> None:
+    machine, small = reference_support(), 1e-5
+    drive = UniformSpeed(stroke=0.5, start=0.0, end=2.0)
+    result = simulate_reduced(support(drive=drive, duration=0.1))
+    at = 0.25 * 0.1
+    lower, upper = machine.extended(at - small), machine.extended(at + small)
+    assert lower is not None
+    assert upper is not None
+    # central difference over 0.02 mm: 1e-9
+    for name, turn in (
+        ("rear_link", upper.rear_link - lower.rear_link),
+        ("canopy", upper.canopy - lower.canopy),
+    ):
+        rate = result[f"{name}.angular_velocity"][-1]
+        assert rate == pytest.approx(0.25 * turn / (2 * small), rel=1e-7)
+
+
+def test_a_loose_pin_transmits_no_impulse() -> None:
+    drive = UniformSpeed(stroke=0.5, start=0.0, end=2.0)
+    ideal, loose = (
+        simulate_reduced(scenario(drive=drive, duration=0.01)) for scenario in (support, loose_support)
+    )
+    (closed,), (free,) = ideal.impulses, loose.impulses
+    # Bertrand's theorem: with fewer constraints the same speeds of the columns take less energy
+    assert free.energy < closed.energy
+    assert free.energy == pytest.approx(0.5 * 0.25 * sum(free.columns.values()), rel=1e-12)  # from rest
+    assert closed.energy == pytest.approx(0.5 * 0.25 * sum(closed.columns.values()), rel=1e-12)
+
+
+def test_largest_force_is_that_of_the_peak_between_records() -> None:
+    scenario = loose_support(drive=Held(), duration=0.03)
+    result = simulate_reduced(scenario, 1e-9)
+    fine = simulate_reduced(replace(scenario, record_period=1e-6), 1e-9)
+    # the parabola through neighbours of the peak; 1 us of 5 ms
+    assert result.largest_force[PIN] == pytest.approx(fine[FORCE].max(), rel=1e-6)
+    assert result[FORCE].max() < result.largest_force[PIN]
