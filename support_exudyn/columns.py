@@ -29,7 +29,8 @@ class OilColumn(ColumnModel):
 
     u is by how much the oil is compressed: length at the start + precompression + extension - length. The
     precompression carries the static load of the start posture with ideal pins, so that a machine at rest
-    stays there. k is that of a closed volume of oil; steel, seals and hoses are taken as stiff.
+    stays there. k is that of a closed volume of oil; steel, seals and hoses are taken as stiff. The oil pulls
+    as well as it pushes: that a real one boils when it is pulled is not modelled.
 
     Arguments:
         bore_area: A, area of the piston, all columns of a pair together [m^2], > 0.

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import multiprocessing
 from collections.abc import Callable, Mapping
-from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
+from concurrent.futures import FIRST_COMPLETED, wait
 from typing import Any
 
 from support_exudyn.errors import Failure
 from support_exudyn.result import Result
 from support_exudyn.scenario import Scenario
 from support_exudyn.simulate import simulate
+from support_exudyn.workers import CONTEXT, worker_pool
 
 Shares = Callable[[Mapping[str, float]], None]  # is told the share done of every run, by name
 
@@ -47,24 +47,15 @@ def run_all(
         For each name its Result, or the Failure that says why there is none. Any other exception in a
         run (a bug, an interruption) ends all of them.
     """
-    context = multiprocessing.get_context("spawn")  # the engine does not survive a fork
-    shares = context.Array("d", len(scenarios), lock=False)
-    workers = max(1, min(workers, len(scenarios)))
-    strangers = set(multiprocessing.active_children())
-    with ProcessPoolExecutor(workers, context, _start_worker, (shares,)) as pool:
+    shares = CONTEXT.Array("d", len(scenarios), lock=False)
+    with worker_pool(max(1, min(workers, len(scenarios))), _start_worker, (shares,)) as pool:
         futures = {
             name: pool.submit(_run, place, scenario) for place, (name, scenario) in enumerate(scenarios.items())
         }
-        try:
-            waiting = set(futures.values())
-            while waiting:
-                done, waiting = wait(waiting, timeout=0.1, return_when=FIRST_COMPLETED)
-                for future in done:
-                    future.result()
-                progress(dict(zip(scenarios, shares, strict=True)))
-        except BaseException:
-            pool.shutdown(wait=False, cancel_futures=True)
-            for worker in set(multiprocessing.active_children()) - strangers:
-                worker.terminate()  # else it would finish its run first
-            raise
+        waiting = set(futures.values())
+        while waiting:
+            done, waiting = wait(waiting, timeout=0.1, return_when=FIRST_COMPLETED)
+            for future in done:
+                future.result()
+            progress(dict(zip(scenarios, shares, strict=True)))
         return {name: future.result() for name, future in futures.items()}

@@ -17,6 +17,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -150,6 +151,10 @@ class HydraulicSupport(Machine):
 
         Raises InputError with the reachable range if the linkage does not go there.
         """
+        return self._start
+
+    @cached_property
+    def _start(self) -> Posture:
         turns = np.radians(np.linspace(-60.0, 60.0, 241))
         heights = [closed[2][1] if (closed := self.four_bar(t)) else math.nan for t in turns]
         excess = np.array(heights) - self.start_hinge_height
