@@ -1,0 +1,77 @@
+"""The report on all studies: one page, report.html, and report.md for a terminal.
+
+`python -m studies.report` writes both again from the results that are there.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from studies.reporting.chapter import FILE
+from studies.reporting.content import Section, content
+from studies.reporting.html import page
+from studies.reporting.markdown_page import text
+from support_exudyn.files import whole_file
+from user_forces.values import InputError
+
+
+def write_report(out: Path, chapters: Sequence[Section], quick: bool) -> Path:
+    """Write report.html and report.md into `out`, each whole or not at all; returns the page's path.
+
+    Arguments:
+        out: folder; the pictures of the text version are linked relative to it.
+        chapters: in the order in which they are to be read.
+        quick: how those studies were run whose chapter does not say it.
+
+    Raises InputError or OSError; both files are then as they were before.
+    """
+    report = content(chapters, quick)
+    files = {out / "report.html": page(report), out / "report.md": text(report, out)}
+    for path, written in files.items():
+        with whole_file(path) as temporary:
+            temporary.write_text(written, encoding="utf-8")
+    return out / "report.html"
+
+
+def sections(out: Path, order: Sequence[str]) -> list[Section]:
+    """Chapters of all studies in the folders below `out`: those of `order` first, then others by name.
+
+    Raises InputError if there is none, or if something in one of them is wrong.
+    """
+    there = sorted(path.parent.name for path in out.glob(f"*/{FILE}"))
+    if not there:
+        raise InputError(f"{out}: no folder with a {FILE} in it; run python -m studies first")
+    names = [name for name in order if name in there] + [name for name in there if name not in order]
+    return [Section.load(out / name) for name in names]
+
+
+def rebuild(out: Path, order: Sequence[str], quick: bool = False) -> int:
+    """Write the report from the folders below `out` and print its path. Returns the exit code."""
+    try:
+        path = write_report(out, sections(out, order), quick)
+    except (InputError, OSError) as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 1
+    print(path)
+    return 0
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Entry of `python -m studies.report`."""
+    from studies.__main__ import STUDIES  # that module imports this one
+
+    parser = argparse.ArgumentParser(
+        prog="python -m studies.report", description="Write the report from the results that are there."
+    )
+    default = Path("results")
+    parser.add_argument(
+        "--out", type=Path, default=default, metavar="DIR", help=f"folder of results ({default})"
+    )
+    return rebuild(parser.parse_args(argv).out, list(STUDIES))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,1 @@
+"""How a study becomes a chapter of the report, and the chapters a page and a text."""

@@ -1,0 +1,133 @@
+"""All data that the studies put in, each marked as printed in the paper or assumed."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from studies import paper_machine
+from studies.reporting.chapter import Sheet
+from support_exudyn import CubicStep, HydraulicSupport, reference_support
+from support_exudyn.machine import Part, lumped
+from user_forces import STEEL, STEEL_35CRMO, Material
+from user_forces.values import Vector2
+
+PAPER, ASSUMED = "paper", "assumed"
+PIVOTS = {  # with the letters of the sketch in support_exudyn/linkages/hydraulic_support.py
+    "rear_base": "B, rear link on base (the loose pin)",
+    "front_base": "A, front link on base",
+    "rear_shield": "C, rear link on shield beam",
+    "front_shield": "D, front link on shield beam",
+    "hinge": "I, shield beam on canopy",
+    "front_foot": "F, front column on base",
+    "front_head": "E, front column on canopy",
+    "rear_foot": "H, rear column on base",
+    "rear_head": "G, rear column on canopy",
+    "tip": "T, tip of the canopy",
+}
+CLEARANCE_MM = 1.5  # that of section 3; all else in the contact data does not depend on it
+NOTES = (
+    "The paper prints the materials, the radii of the shaft, the stiffness coefficients and the drive. It "
+    "prints no dimensions of the support, no masses, no restitution and no friction.",
+    "Pivots are joint coordinates of a published 3-D model of a ZF18000 support, scaled by 0.65 and rounded to "
+    "1 mm; the scale is assumed. The tail beam's mass, a part of the shield, was tuned so that the mean static "
+    "force in the rear-link pin over the rise is near the paper's 51 kN: agreement in that mean confirms "
+    "nothing.",
+    "Motion is planar with both sides of the support lumped into one plane, bodies are rigid and columns "
+    "massless. Where a study departs from these data, its method says so.",
+)
+
+
+def sheets() -> tuple[Sheet, ...]:
+    """The reference support's pivots and parts, and the data of contact and drive."""
+    support = reference_support()
+    return pivots(support), masses(support), contact_and_drive()
+
+
+def pivots(support: HydraulicSupport) -> Sheet:
+    """Where the pivots are in the reference posture."""
+    rows = []
+    for name, meaning in PIVOTS.items():
+        point: Vector2 = getattr(support, name)
+        rows.append((meaning, ASSUMED, *(_mm(x) for x in point)))
+    return Sheet(
+        title="Pivots of the reference support, in its reference posture",
+        header=("pivot", "source", "x [mm]", "y [mm]"),
+        rows=tuple(rows),
+        caption=(
+            "x forward, towards the coal face; y up. The rise starts with the canopy level and pivot I at "
+            f"{_mm(support.start_hinge_height)} mm (assumed)."
+        ),
+        left=2,
+    )
+
+
+def masses(support: HydraulicSupport) -> Sheet:
+    """What the bodies are made of, and each body as a whole where it has several parts."""
+    rows = []
+    for body, parts in support.parts.items():
+        name = body.replace("_", " ")
+        if len(parts) > 1:
+            rows += [_part(f"{name}, part {n}", part) for n, part in enumerate(parts, 1)]
+            rows.append(_part(f"{name}, whole", lumped(parts)))
+        else:
+            rows.append(_part(name, parts[0]))
+    total = sum(part.mass for parts in support.parts.values() for part in parts)
+    return Sheet(
+        title="Masses of the reference support, centres in its reference posture",
+        header=("body", "source", "mass [kg]", "centre x [mm]", "centre y [mm]", "inertia [kg m²]"),
+        rows=tuple(rows),
+        caption=f"Inertia is about the own centre of mass. Together: {total:g} kg.",
+        left=2,
+    )
+
+
+def _part(name: str, part: Part) -> tuple[str, ...]:
+    centre = (f"{1e3 * x:.1f}" for x in part.centre)
+    return name, ASSUMED, f"{part.mass:g}", *centre, f"{part.inertia:.1f}"
+
+
+def contact_and_drive() -> Sheet:
+    """Materials, bearing, laws and drive."""
+    contact = paper_machine.loose_pin(CLEARANCE_MM, paper_machine.SLIDING_COEFFICIENT).contact
+    normal: Any = contact.normal
+    friction: Any = contact.friction
+    drive = CubicStep()
+    rows = (
+        *_material(STEEL, "bore"),
+        *_material(STEEL_35CRMO, "journal"),
+        ("bore radius (shaft radius and clearance of Table 2)", PAPER, "mm", _mm(contact.bearing.bore_radius)),
+        *(_stiffness(clearance) for clearance in paper_machine.STIFFNESS),
+        ("exponent of the normal force (Eq. 4)", PAPER, "1", f"{normal.exponent:g}"),
+        ("restitution", ASSUMED, "1", f"{normal.restitution:g}"),
+        ("smallest speed that damps a contact", ASSUMED, "mm/s", _mm(normal.damping_speed.floor)),
+        ("sliding friction coefficient mu_d (Eq. 7)", ASSUMED, "1", f"{friction.sliding_coefficient:g}"),
+        ("speed v_s below which there is no friction (Eq. 8)", ASSUMED, "mm/s", _mm(friction.static_speed)),
+        ("speed v_d above which it is full (Eq. 8)", ASSUMED, "mm/s", _mm(friction.dynamic_speed)),
+        ("stroke of the columns", PAPER, "mm", _mm(drive.stroke)),
+        ("stroke begins and ends", PAPER, "s", f"{drive.start:g}, {drive.end:g}"),
+        ("start: journal at rest, off the middle of its bore by", ASSUMED, "mm", "0"),
+    )
+    return Sheet(title="Contact and drive", header=("quantity", "source", "unit", "value"), rows=rows, left=3)
+
+
+def _material(material: Material, part: str) -> tuple[tuple[str, ...], ...]:
+    name = f"{material.name} ({part}, Table 1)"
+    return (
+        (f"elastic modulus, {name}", PAPER, "GPa", f"{material.elastic_modulus / 1e9:g}"),
+        (f"Poisson's ratio, {name}", PAPER, "1", f"{material.poisson_ratio:g}"),
+        (f"density, {name}; not used", PAPER, "kg/m³", f"{material.density:g}"),
+    )
+
+
+def _stiffness(clearance_mm: float) -> tuple[str, ...]:
+    value = paper_machine.stiffness(clearance_mm) / 1e3**1.5
+    return (
+        f"stiffness K at {clearance_mm:.1f} mm of radial clearance (Eq. 5)",
+        PAPER,
+        "N/mm^1.5",
+        f"{value:.3f}",
+    )
+
+
+def _mm(metres: float) -> str:
+    return f"{1e3 * metres:.6g}"

@@ -1,0 +1,174 @@
+"""Chapters and their tables: kept whole, read back as they were, and shown without taking text for markup."""
+
+from __future__ import annotations
+
+import json
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from rich.console import Console
+
+from studies.reporting.chapter import Chapter, Picture, Sheet
+from studies.reporting.markdown import bullets, escaped, paragraph
+from user_forces.values import InputError
+
+HOSTILE = "<script>alert('x')</script> | [red]no[/red] *a* `b`\n_c_ [d](http://e) &lt; back\\slash"
+SHEET = Sheet(
+    title="Forces",
+    header=("case", "force [N]", "[n]"),
+    rows=(("ideal", "51290.66 ± 0.01", "1"), (HOSTILE, "-0.5", "")),
+    caption="± is the change when all steps are halved.",
+)
+CHAPTER = Chapter(
+    study="forces",
+    title="Forces",
+    question="What holds?",
+    method=("One.", "Two."),
+    findings=("Three.",),
+    pictures=(Picture("force", "Force over time."),),
+    sheets=(SHEET, replace(SHEET, left=2), replace(SHEET, wide=True)),
+    quick=True,
+)
+
+
+def cells(line: str) -> list[str]:
+    """Cells of a line of a pipe table; an escaped pipe does not end a cell."""
+    assert line.startswith("| ")
+    assert line.endswith(" |")
+    return re.split(r"(?<!\\)\|", line)[1:-1]
+
+
+def test_a_chapter_is_read_back_as_it_was(tmp_path: Path) -> None:
+    assert CHAPTER.save(tmp_path) == tmp_path / "chapter.json"
+    assert Chapter.load(tmp_path) == CHAPTER
+    older = json.loads((tmp_path / "chapter.json").read_text(encoding="utf-8"))
+    del older["quick"], older["sheets"][0]["wide"]
+    (tmp_path / "chapter.json").write_text(json.dumps(older), encoding="utf-8")
+    assert Chapter.load(tmp_path) == replace(CHAPTER, quick=None)
+
+
+def test_a_chapter_is_written_whole_or_not_at_all(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    CHAPTER.save(tmp_path)
+
+    def half(path: Path, text: str, **_: str) -> None:
+        path.write_bytes(text[: len(text) // 2].encode())
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patch:
+        patch.setattr(Path, "write_text", half)
+        with pytest.raises(KeyboardInterrupt):
+            replace(CHAPTER, title="Other").save(tmp_path)
+    assert Chapter.load(tmp_path) == CHAPTER
+    assert [path.name for path in tmp_path.iterdir()] == ["chapter.json"]
+
+
+def test_a_missing_chapter_names_the_file(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"forces[/\\]chapter\.json: no such file"):
+        Chapter.load(tmp_path / "forces")
+
+
+@pytest.mark.parametrize(
+    ("change", "complaint"),
+    [
+        ({"title": 3}, "title: Input should be a valid string"),
+        ({"method": "One."}, "method: Input should be a valid"),
+        ({"colour": "red"}, "colour: Unexpected keyword argument"),
+        ({"pictures": [{"stem": "../x", "caption": ""}]}, "pictures.0: .*stem = '../x': allowed: a file name"),
+        (
+            {"sheets": [{"title": "", "header": ["a"], "rows": [["1", "2"]]}]},
+            "sheets.0: .*row 0 has 2 cells; allowed: 1",
+        ),
+    ],
+)
+def test_a_wrong_chapter_says_file_and_place(tmp_path: Path, change: dict[str, object], complaint: str) -> None:
+    path = CHAPTER.save(tmp_path)
+    path.write_text(json.dumps(json.loads(path.read_text(encoding="utf-8")) | change), encoding="utf-8")
+    with pytest.raises(InputError, match=f"{re.escape(str(path))}: {complaint}"):
+        Chapter.load(tmp_path)
+
+
+def test_a_torn_chapter_says_so(tmp_path: Path) -> None:
+    path = CHAPTER.save(tmp_path)
+    path.write_bytes(path.read_bytes()[:100])
+    with pytest.raises(InputError, match=f"{re.escape(str(path))}: Invalid JSON"):
+        Chapter.load(tmp_path)
+
+
+def test_a_sheet_refuses_rows_of_other_lengths() -> None:
+    with pytest.raises(ValueError, match="row 1 has 1 cells; allowed: 2"):
+        Sheet("t", ("a", "b"), (("1", "2"), ("3",)))
+    with pytest.raises(ValueError, match="header"):
+        Sheet("t", (), ())
+
+
+def test_the_terminal_shows_cells_as_they_are() -> None:
+    console = Console(width=300)
+    with console.capture() as shown:
+        console.print(SHEET.rich())
+    assert "<script>alert('x')</script> | [red]no[/red] *a* `b`" in shown.get()
+    assert "[n]" in shown.get()  # not taken for a style
+
+
+def test_a_pipe_table_is_well_formed() -> None:
+    title, table, caption = SHEET.markdown().rstrip("\n").split("\n\n")
+    assert title == "**Forces**"
+    assert caption == SHEET.caption
+    head, rule, *rows = (cells(line) for line in table.split("\n"))
+    assert [cell.strip() for cell in head] == ["case", "force [N]", "[n]"]
+    assert [bool(re.fullmatch(r" -+ ", cell)) for cell in rule] == [True, False, False]
+    assert all(re.fullmatch(r" -+: ", cell) for cell in rule[1:])
+    assert [len(row) for row in rows] == [3, 3]
+    assert len({len(line) for line in table.split("\n")}) == 1  # columns stand under each other
+    assert "\\<script>" in rows[1][0]
+
+
+def test_a_wide_sheet_is_a_list_if_its_rows_are_long() -> None:
+    wide = Sheet(
+        "Claims", ("claim", "verdict", "why"), (("A " * 60, "holds", "b " * 60), ("C", "", "d")), wide=True
+    )
+    lines = wide.markdown().split("\n")
+    assert not any(line.startswith("|") for line in lines)
+    assert "  - verdict: holds" in lines
+    assert max(map(len, lines[1:])) <= 160
+    assert "- **C**" in lines
+    narrow = replace(wide, rows=(("A", "holds", "b"),))
+    assert "| A     | holds   | b   |" in narrow.markdown()
+
+
+@pytest.mark.parametrize(
+    ("text", "shown"),
+    [
+        ("a | b", "a \\| b"),
+        ("a\nb", "a b"),
+        ("<b>", "\\<b>"),
+        ("mu_d and _this_", "mu_d and \\_this\\_"),
+        ("[a](b)", "[a]\\(b)"),
+        ("&lt; & you", "\\&lt; & you"),
+        ("pin force [N] -0.5", "pin force [N] -0.5"),
+    ],
+)
+def test_markdown_shows_text_as_it_is(text: str, shown: str) -> None:
+    assert escaped(text) == shown
+
+
+@pytest.mark.parametrize(
+    ("text", "shown"),
+    [
+        ("1. one", "1\\. one"),
+        ("# one", "\\# one"),
+        ("- one", "\\- one"),
+        ("-0.5 N", "-0.5 N"),
+        ("> one", "\\> one"),
+    ],
+)
+def test_a_paragraph_begins_nothing_else(text: str, shown: str) -> None:
+    assert paragraph(text) == shown
+
+
+def test_running_text_is_wrapped_but_a_number_keeps_its_error() -> None:
+    for length in range(80, 110):
+        text = bullets([f"{'x' * length} 1.5 ± 0.1 mm"])
+        assert "1.5 ± 0.1" in text
+        assert all(line.startswith("  ") for line in text.split("\n")[1:])
