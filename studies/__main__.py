@@ -1,4 +1,4 @@
-"""`python -m studies`: all studies, each into a folder of its own."""
+"""`python -m studies`: all studies, each into a folder of its own, and the report on them."""
 
 from __future__ import annotations
 
@@ -7,27 +7,33 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from studies import clearance_influence, contact_laws, slider_crank
+from studies import claims, clearance_influence, clearance_size, contact_laws, drive_mode, slider_crank
+from studies.report import rebuild
 from studies.study import Options, add_options, run_main
 
-STUDIES = {
+STUDIES = {  # in the order of the report
     clearance_influence.STUDY: clearance_influence.study,
+    clearance_size.STUDY: clearance_size.study,
+    drive_mode.STUDY: drive_mode.study,
+    claims.STUDY: claims.study,
     contact_laws.STUDY: contact_laws.study,
     slider_crank.STUDY: slider_crank.study,
 }
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run every study; the exit code is the first that is not zero."""
-    parser = argparse.ArgumentParser(prog="python -m studies", description="Run all studies.")
+    """Run every study and write the report; the exit code is the first that is not zero."""
+    parser = argparse.ArgumentParser(
+        prog="python -m studies", description="Run all studies and write the report."
+    )
     add_options(parser, Path("results"))
     given = parser.parse_args(argv)
     for name, study in STUDIES.items():
         print(f"study {name}", file=sys.stderr)
-        code = run_main(study, Options(given.out / name, given.quick, given.workers))
+        code = run_main(study, Options(given.out / name, given.quick, given.workers, given.machines))
         if code:
             return code
-    return 0
+    return rebuild(given.out, list(STUDIES), given.quick)
 
 
 if __name__ == "__main__":

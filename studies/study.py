@@ -14,8 +14,8 @@ from pathlib import Path
 
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
-from rich.table import Table
 
+from studies.reporting.chapter import Sheet
 from support_exudyn import Failure, Result, Scenario, SimulationError
 from support_exudyn.files import whole_file
 from support_exudyn.provenance import versions
@@ -26,11 +26,16 @@ MOST_BARS = 12  # more runs than that share one progress bar
 
 @dataclass(frozen=True)
 class Options:
-    """How a study is to be run: folder for its output, coarse steps for a quick look, processes."""
+    """How a study is to be run.
+
+    out: folder for its output. quick: coarse steps for a quick look. workers: processes. machines: number of
+    plausible machines of the study that draws them, None for its own choice.
+    """
 
     out: Path
     quick: bool
     workers: int
+    machines: int | None = None
 
 
 def options(study: str, argv: Sequence[str] | None, description: str) -> Options:
@@ -38,7 +43,7 @@ def options(study: str, argv: Sequence[str] | None, description: str) -> Options
     parser = argparse.ArgumentParser(prog=f"python -m studies.{study}", description=description)
     add_options(parser, Path("results") / study)
     given = parser.parse_args(argv)
-    return Options(given.out, given.quick, given.workers)
+    return Options(given.out, given.quick, given.workers, given.machines)
 
 
 def add_options(parser: argparse.ArgumentParser, out: Path) -> None:
@@ -46,8 +51,22 @@ def add_options(parser: argparse.ArgumentParser, out: Path) -> None:
     parser.add_argument("--out", type=Path, default=out, metavar="DIR", help=f"folder for output ({out})")
     parser.add_argument("--quick", action="store_true", help="coarser steps: a look in seconds, larger errors")
     parser.add_argument(
-        "--workers", type=int, default=os.cpu_count() or 1, metavar="N", help="processes (all cores)"
+        "--workers", type=count, default=os.cpu_count() or 1, metavar="N", help="processes (all cores)"
     )
+    parser.add_argument(
+        "--machines", type=count, metavar="N", help="plausible machines to judge claims by (256; 8 if quick)"
+    )
+
+
+def count(text: str) -> int:
+    """A number of things from the command line."""
+    try:
+        number = int(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r}: allowed: a whole number from 1 on") from None
+    if number < 1:
+        raise argparse.ArgumentTypeError(f"{number}: allowed: from 1 on")
+    return number
 
 
 @dataclass(frozen=True)
@@ -88,7 +107,15 @@ def run_pairs(cases: Mapping[str, Scenario], workers: int) -> dict[str, Pair]:
     """
     # the longest first, so that no process is left alone with a long run at the end
     runs = {f"{name}, half step": case.refined() for name, case in cases.items()}
-    runs |= dict(cases)
+    good = run_cases(runs | dict(cases), workers)
+    return {name: Pair(good[name], good[f"{name}, half step"]) for name in cases}
+
+
+def run_cases(runs: Mapping[str, Scenario], workers: int) -> dict[str, Result]:
+    """Run scenarios in parallel, in the order given, under a progress bar.
+
+    Raises SimulationError if a run fails.
+    """
     together = len(runs) > MOST_BARS
     columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.percentage:3.0f} %"))
     with Progress(*columns, TimeRemainingColumn(), console=Console(stderr=True)) as bars:
@@ -102,11 +129,12 @@ def run_pairs(cases: Mapping[str, Scenario], workers: int) -> dict[str, Pair]:
                 bars.update(task, completed=shares[name])
 
         results = run_all(runs, workers=workers, progress=show)
+    good: dict[str, Result] = {}
     for name, result in results.items():
         if isinstance(result, Failure):
             raise SimulationError(replace(result, reason=f"{name}: {result.reason}"))
-    good = {name: result for name, result in results.items() if isinstance(result, Result)}
-    return {name: Pair(good[name], good[f"{name}, half step"]) for name in cases}
+        good[name] = result
+    return good
 
 
 def write_summary(out: Path, study: str, numbers: Sequence[Number], wall_s: float) -> Path:
@@ -123,11 +151,12 @@ def write_summary(out: Path, study: str, numbers: Sequence[Number], wall_s: floa
     return path
 
 
-def show_table(path: Path, table: Table, width: int = 150) -> None:
+def show_table(path: Path, table: Sheet, width: int = 150) -> None:
     """Print a table and write it as text, so many characters wide where there is no terminal."""
-    Console(width=None if sys.stdout.isatty() else width).print(table)
+    shown = table.rich()
+    Console(width=None if sys.stdout.isatty() else width).print(shown)
     with whole_file(path) as temporary, temporary.open("w", encoding="utf-8") as file:
-        Console(file=file, width=width).print(table)
+        Console(file=file, width=width).print(shown)
 
 
 def rounded(value: float, error: float) -> str:
@@ -138,6 +167,14 @@ def rounded(value: float, error: float) -> str:
     if digits > 9:
         return f"{value:.6g} ± {error:.0e}"
     return f"{value:.{digits}f} ± {error:.{digits}f}"
+
+
+def brief(value: float, error: float) -> str:
+    """A number with its error in at most seven digits, for tables in which many stand side by side."""
+    if error == 0.0 or value == 0.0 or not math.isfinite(error):
+        return f"{value:.7g}"
+    digits = max(0, 6 - math.floor(math.log10(abs(value))))
+    return f"{value:.{digits}f} ± {error:.0e}" if error < 0.5 * 10.0**-digits else rounded(value, error)
 
 
 def run_main(main: Callable[[Options], None], chosen: Options) -> int:

@@ -1,0 +1,102 @@
+"""What a claim is judged by: measures of runs with their numerical error, and comparisons that know it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from itertools import pairwise
+
+Verdict = bool | None  # None: the numerical error leaves it open
+
+
+@dataclass(frozen=True)
+class Measured:
+    """A number and its numerical error, both finite, in the same unit."""
+
+    value: float
+    error: float = 0.0
+
+    def __add__(self, other: Measured) -> Measured:
+        return Measured(self.value + other.value, self.error + other.error)
+
+    def __sub__(self, other: Measured) -> Measured:
+        return Measured(self.value - other.value, self.error + other.error)
+
+    def times(self, factor: float) -> Measured:
+        """Product with a known factor."""
+        return Measured(factor * self.value, abs(factor) * self.error)
+
+    def over(self, other: Measured) -> Measured:
+        """Quotient; the error to first order."""
+        ratio = self.value / other.value
+        return Measured(ratio, (self.error + abs(ratio) * other.error) / abs(other.value))
+
+    def above(self, limit: Measured | float) -> Verdict:
+        """Whether it is larger than a number; None if the errors overlap."""
+        gap = self - (limit if isinstance(limit, Measured) else Measured(limit))
+        if abs(gap.value) <= gap.error:
+            return None
+        return gap.value > 0.0
+
+    def below(self, limit: Measured | float) -> Verdict:
+        """Whether it is smaller than a number; None if the errors overlap."""
+        larger = self.above(limit)
+        return None if larger is None else not larger
+
+    def said(self, digits: int = 4) -> str:
+        """To so many significant digits, fewer if the error does not leave them."""
+        size = max(abs(self.value), self.error)
+        if size == 0.0:
+            return "0"
+        places = digits - 1 - math.floor(math.log10(size))
+        if self.error > 0.0:
+            places = min(places, max(0, -math.floor(math.log10(self.error))))
+        text = f"{self.value:.{max(0, places)}f}"
+        return text.lstrip("-") if float(text) == 0.0 else text
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """All measures of one machine: by case (`CASES` in `plausible_runs`), then by name."""
+
+    measures: Mapping[str, Mapping[str, Measured]]
+
+    def __getitem__(self, place: tuple[str, str]) -> Measured:
+        case, name = place
+        return self.measures[case][name]
+
+    def row(self, name: str, cases: Iterable[str]) -> list[Measured]:
+        """One measure over several cases."""
+        return [self.measures[case][name] for case in cases]
+
+
+def every(verdicts: Iterable[Verdict]) -> Verdict:
+    """Whether all are true: false if one is, open if one is open and none false."""
+    found = list(verdicts)
+    if any(v is False for v in found):
+        return False
+    return None if any(v is None for v in found) else True
+
+
+def some(verdicts: Iterable[Verdict]) -> Verdict:
+    """Whether one is true at least."""
+    none = every(opposite(v) for v in verdicts)
+    return opposite(none)
+
+
+def opposite(verdict: Verdict) -> Verdict:
+    """The contrary; what is open stays open."""
+    return None if verdict is None else not verdict
+
+
+def rising(row: list[Measured]) -> Verdict:
+    """Whether each is larger than the one before."""
+    return every(after.above(before) for before, after in pairwise(row))
+
+
+def within(row: list[Measured], share: float, of: Measured | None = None) -> Verdict:
+    """Whether the largest and the smallest differ by less than a share of the first, or of `of`."""
+    scale = of or row[0]
+    span = max(row, key=lambda m: m.value) - min(row, key=lambda m: m.value)
+    return span.below(Measured(abs(scale.value), scale.error).times(share))

@@ -1,0 +1,116 @@
+"""Plausible machines, run one by one in parallel processes, each kept as soon as it is finished.
+
+A finished machine is a file DIR/machines/KEY.json, written whole by the process that ran it. The key is made
+of its inputs and of the program's sources: a run that was killed goes on where it stopped, and a changed
+program starts anew. A machine that cannot be run is a row too, with the reason.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Callable, Sequence
+from concurrent.futures import FIRST_COMPLETED, wait
+from dataclasses import dataclass
+from functools import cache
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import studies
+import support_exudyn
+import user_forces
+from studies.judging.plausible import Sample
+from studies.judging.plausible_runs import measures
+from support_exudyn import SimulationError
+from support_exudyn.files import whole_file
+from support_exudyn.reduced import warm_up
+from support_exudyn.workers import worker_pool
+from user_forces.values import InputError
+
+FOLDER = "machines"
+LIBRARIES = ("numpy", "scipy", "numba")  # whose versions may change a number
+
+Data = dict[str, dict[str, list[float]]]  # measures: case, name, [value, numerical error]
+
+
+@dataclass(frozen=True)
+class Row:
+    """A machine: its factors, and its measures or why there are none."""
+
+    sample: Sample
+    measures: Data | None
+    failure: str | None
+
+
+def run(samples: Sequence[Sample], out: Path, workers: int, progress: Callable[[int, int], None]) -> list[Row]:
+    """Rows of all samples, in their order; only those are run that DIR does not hold yet.
+
+    Arguments:
+        samples: the machines.
+        out: DIR.
+        workers: number of processes, >= 1.
+        progress: is told how many are done, of how many.
+    """
+    folder = out / FOLDER
+    folder.mkdir(parents=True, exist_ok=True)
+    _sweep_up(folder)
+    places = [folder / f"{key(sample)}.json" for sample in samples]
+    missing = {place: sample for place, sample in zip(places, samples, strict=True) if _read(place) is None}
+    progress(len(samples) - len(missing), len(samples))
+    if missing:
+        warm_up()  # compile once, for all processes
+        with worker_pool(max(1, min(workers, len(missing)))) as pool:
+            waiting = {pool.submit(_run_one, place, sample) for place, sample in missing.items()}
+            while waiting:
+                done, waiting = wait(waiting, return_when=FIRST_COMPLETED)
+                for future in done:
+                    future.result()
+                progress(len(samples) - len(waiting), len(samples))
+    rows = [_read(place) for place in places]
+    return [row for row in rows if row is not None]
+
+
+def key(sample: Sample) -> str:
+    """Name of a machine's file: a digest of its factors and of the program."""
+    text = json.dumps([dict(sample), _program()], sort_keys=True)
+    return hashlib.sha256(text.encode()).hexdigest()[:24]
+
+
+@cache
+def _program() -> str:
+    """Digest of all sources, and versions of what computes."""
+    digest = hashlib.sha256()
+    for package in (user_forces, support_exudyn, studies):
+        root = Path(package.__path__[0])
+        for path in sorted(root.rglob("*.py")) + sorted(root.rglob("*.toml")):
+            digest.update(path.relative_to(root).as_posix().encode())
+            digest.update(path.read_bytes())
+    return digest.hexdigest() + " ".join(version(name) for name in LIBRARIES)
+
+
+def _run_one(place: Path, sample: Sample) -> None:
+    """In a worker: run a machine and keep it."""
+    row: dict[str, Any] = {"sample": dict(sample), "measures": None, "failure": None}
+    try:
+        row["measures"] = measures(sample)
+    except (InputError, SimulationError) as error:
+        row["failure"] = str(error)
+    with whole_file(place) as temporary:
+        temporary.write_text(json.dumps(row, sort_keys=True, allow_nan=False) + "\n", encoding="utf-8")
+
+
+def _read(place: Path) -> Row | None:
+    """A row; None if it is not there or not whole."""
+    try:
+        data = json.loads(place.read_text(encoding="utf-8"))
+        return Row(data["sample"], data["measures"], data["failure"])
+    except (FileNotFoundError, json.JSONDecodeError, KeyError, TypeError, UnicodeDecodeError):
+        return None
+
+
+def _sweep_up(folder: Path) -> None:
+    """Remove what a killed run left half-written."""
+    for path in folder.iterdir():
+        if path.suffix != ".json":
+            path.unlink(missing_ok=True)

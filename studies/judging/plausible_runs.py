@@ -1,0 +1,145 @@
+"""What is run and measured of one plausible machine.
+
+Seven runs by the reduced formulation, each at two tolerances: the ideal pin and four clearances in drive mode
+2, the ideal pin and 1.5 mm in mode 1. The distance between the tolerances is the numerical error of every
+measure.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from studies import paper_machine, rise
+from studies.judging.evidence import Evidence, Measured
+from studies.judging.plausible import REFERENCE, Sample, machine, pin
+from support_exudyn import (
+    CubicStep,
+    Drive,
+    HydraulicSupport,
+    Scenario,
+    UniformSpeed,
+    reference_support,
+    simulate,
+)
+from support_exudyn.impulse import Impulse
+from support_exudyn.reduced import simulate_reduced
+
+SIZES_MM = (0.5, 1.0, 1.5, 2.0)
+IDEAL = "ideal"
+LOOSE = tuple(f"{size:.1f} mm" for size in SIZES_MM)
+MODE_1, MODE_1_IDEAL = "1.5 mm, mode 1", "ideal, mode 1"
+OIL, OIL_IDEAL = "1.5 mm, mode 1, oil", "ideal, mode 1, oil"
+CASES = (IDEAL, *LOOSE, MODE_1_IDEAL, MODE_1)
+TOLERANCES = (1e-6, 1e-8)  # of the reduced formulation: the second counts, the first tells its error
+Values = dict[str, float]
+
+
+def scenario(sample: Sample, case: str, support: HydraulicSupport) -> Scenario:
+    """A case of a sample and its machine. Raises InputError if the machine cannot rise by 500 mm."""
+    drive: Drive = UniformSpeed() if "mode 1" in case else CubicStep()
+    pins = {}
+    if not case.startswith("ideal"):
+        pins = {paper_machine.LOOSE_PIN: pin(sample, float(case.split()[0]))}
+    return Scenario(machine=support, drive=drive, duration=rise.END, pins=pins)
+
+
+def measures(sample: Sample) -> dict[str, dict[str, list[float]]]:
+    """All measures of a sample as plain data: case, name, [value, numerical error].
+
+    Raises InputError or SimulationError if a case cannot be run.
+    """
+    support = machine(sample)
+    scenarios = {case: scenario(sample, case, support) for case in CASES}
+    found = [_at_tolerance(scenarios, str(sample["window"]), tolerance) for tolerance in TOLERANCES]
+    return {
+        case: {name: [value, abs(value - found[0][case][name])] for name, value in found[1][case].items()}
+        for case in CASES
+    }
+
+
+def evidence(data: Mapping[str, Mapping[str, list[float]]]) -> Evidence:
+    """The same for judging."""
+    return Evidence(
+        {
+            case: {name: Measured(value, error) for name, (value, error) in row.items()}
+            for case, row in data.items()
+        }
+    )
+
+
+def reference_evidence(workers_measures: Mapping[str, Mapping[str, list[float]]]) -> Evidence:
+    """The reference support's, with the runs on columns of oil that only the engine makes."""
+    return evidence(dict(workers_measures) | oil_measures())
+
+
+def oil_measures() -> dict[str, dict[str, list[float]]]:
+    """Largest pin force in the first 0.4 s of mode 1 on columns of oil, of the reference support."""
+    drive = UniformSpeed(start=0.8, end=2.8)
+    found = {}
+    for case in (OIL_IDEAL, OIL):
+        base = replace(
+            scenario(REFERENCE, case, reference_support()),
+            drive=drive,
+            duration=1.2,
+            step=1e-3,
+            columns=paper_machine.oil_columns(),
+        )
+        base = replace(base, solver=replace(base.solver, impact_steps=64, backend="symbolic"))
+        coarse, fine = (
+            float(run[rise.FORCE][run.time >= 0.8].max()) for run in (simulate(base), simulate(base.refined()))
+        )
+        found[case] = {"largest_force": [fine, abs(fine - coarse)]}
+    return found
+
+
+def _at_tolerance(scenarios: Mapping[str, Scenario], window: str, tolerance: float) -> dict[str, Values]:
+    runs = {case: simulate_reduced(item, tolerance=tolerance) for case, item in scenarios.items()}
+    found = {}
+    for case, run in runs.items():
+        ideal = runs[MODE_1_IDEAL if "mode 1" in case else IDEAL]
+        found[case] = _run_measures(run, ideal, window)
+        if run.impulses:
+            found[case]["impulse"] = _struck(run.impulses[0])
+    return found
+
+
+def _struck(impulse: Impulse) -> float:
+    """Sum of magnitudes over the columns [N s]."""
+    return sum(abs(value) for value in impulse.columns.values())
+
+
+def _run_measures(run: rise.Run, ideal: rise.Run, window: str) -> Values:
+    """All measures of one run; forces in N, angles in degrees, lengths in mm."""
+    averaged = rise.in_rise(run) if window == "rise" else rise.between(run, 0.0, rise.END)
+    force, acceleration = run[rise.FORCE], rise.DEGREES * run[rise.ACCELERATION]
+    inside = rise.in_rise(run)
+    found = {
+        "mean_force": float(force[averaged].mean()),
+        "std_force": float(force[averaged].std()),
+        "largest_force": float(force[inside].max()),
+        "mean_acceleration": float(acceleration[averaged].mean()),
+        "mean_tip_shift": 1e3 * float(rise.departure(run, ideal, "tip.x").mean()),
+        "tip_range": 1e3 * float(np.ptp(run["tip.x"][inside])),
+    }
+    for name, channel, scale in (
+        ("force", rise.FORCE, 1.0),
+        ("speed", rise.SPEED, rise.DEGREES),
+        ("acceleration", rise.ACCELERATION, rise.DEGREES),
+    ):
+        found[f"ripple_{name}"] = scale * rise.ripple(run, run[channel])
+        found[f"shaking_{name}"] = scale * rise.ripple(run, run[channel], rise.START)
+        found[f"range_{name}"] = scale * float(np.ptp(run[channel][inside]))
+        found[f"likeness_{name}"] = rise.likeness(run, ideal, channel)
+    found["likeness_tip"] = min(rise.likeness(run, ideal, name) for name in ("tip.x", "tip.y"))
+    for stage, times in rise.STAGES.items():
+        found[f"ripple_speed_{stage}"] = rise.DEGREES * rise.ripple(run, run[rise.SPEED], *times)
+        found[f"speed_{stage}"] = rise.DEGREES * rise.stage_mean(run, rise.SPEED, stage)
+    for side in ("front", "rear"):
+        column = f"{side}_column"
+        found[f"{side}_angle"] = rise.DEGREES * float(rise.rearward_angle(run, column)[inside].mean())
+        found[f"{side}_lean"] = rise.DEGREES * float(rise.lean(run, column)[inside].mean())
+        found[f"{side}_upright"] = float(np.sin(run[f"{column}.angle"][inside]).mean())
+    return found

@@ -1,0 +1,82 @@
+"""From judgements of many machines to a verdict in words."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from scipy.stats import binomtest
+
+from studies.judging.claim_list import Claim
+from studies.judging.conditions import best_condition
+from studies.judging.evidence import Evidence, Verdict
+from studies.judging.plausible import Sample
+
+NEARLY_ALL = 0.95  # share of machines from which a claim holds; one less this: not supported
+TELLING = 0.85  # share of machines that a condition must get right to be named as the one that decides
+GAIN = 0.05  # by how much it must beat the same answer for all to be named at all
+ENOUGH = 64  # machines from which conditions are looked for; with fewer one would always be found
+
+
+@dataclass(frozen=True)
+class Ruling:
+    """A claim, judged.
+
+    reference: on the reference support. holds, fails, open: numbers of plausible machines. ours: our numbers,
+    on the reference support. verdict: in words.
+    """
+
+    claim: Claim
+    reference: Verdict
+    holds: int
+    fails: int
+    open: int
+    ours: str
+    verdict: str
+
+    @property
+    def share(self) -> float | None:
+        """Share of the plausible machines for which it holds, of those that are decided."""
+        decided = self.holds + self.fails
+        return self.holds / decided if decided else None
+
+    @property
+    def interval(self) -> tuple[float, float] | None:
+        """Between what shares the whole population lies with 95 % confidence (Wilson)."""
+        decided = self.holds + self.fails
+        if not decided:
+            return None
+        found = binomtest(self.holds, decided).proportion_ci(0.95, "wilson")
+        return float(found.low), float(found.high)
+
+
+def rule(claim: Claim, reference: Evidence, machines: Sequence[tuple[Sample, Evidence]]) -> Ruling:
+    """Judge a claim on the reference support and on all plausible machines."""
+    if claim.judge is None:
+        return Ruling(claim, None, 0, 0, 0, "", "cannot be judged")
+    on_reference = claim.judge(reference)
+    judge = claim.judge
+    judged = [(sample, judge(evidence)) for sample, evidence in machines] if not claim.alone else []
+    holds, fails, left = (sum(verdict is kind for _, verdict in judged) for kind in (True, False, None))
+    ours, verdict = claim.tell(reference), _words(on_reference, judged)
+    return Ruling(claim, on_reference, holds, fails, left, ours, verdict)
+
+
+def _words(reference: Verdict, judged: Sequence[tuple[Sample, Verdict]]) -> str:
+    decided = [(sample, verdict) for sample, verdict in judged if verdict is not None]
+    if not decided:
+        alone = {True: "holds", False: "not supported", None: "cannot be judged: within the numerical error"}
+        return alone[reference]
+    share = sum(verdict for _, verdict in decided) / len(decided)
+    if share >= NEARLY_ALL:
+        return "holds"
+    if share <= 1.0 - NEARLY_ALL:
+        return "not supported"
+    part = f"{100 * share:.0f} % of the machines"
+    condition = best_condition(decided) if len(decided) >= ENOUGH else None
+    if condition is None or condition.right < max(share, 1.0 - share) + GAIN:
+        return f"holds only for {part}"
+    right = f"right for {100 * condition.right:.0f} %"
+    if condition.right < TELLING:
+        return f"holds only for {part}; most telling: {condition.text} ({right})"
+    return f"holds only for {condition.text} ({right})"

@@ -1,0 +1,104 @@
+"""The verdicts, on the quick form of the study: eight machines."""
+
+from __future__ import annotations
+
+import csv
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from studies import claims as study
+from studies.judging.claim_list import CLAIMS
+from studies.reporting.chapter import Chapter
+
+
+@pytest.fixture(scope="module")
+def out(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("results")
+    assert study.main(["--quick", "--out", str(folder), "--workers", "2"]) == 0
+    return folder
+
+
+@pytest.fixture(scope="module")
+def rows(out: Path) -> dict[str, dict[str, str]]:
+    """Rows of the table of claims, by the claim's text."""
+    sheet = Chapter.load(out).sheets[0]
+    found = [dict(zip(sheet.header, row, strict=True)) for row in sheet.rows]
+    return {row["claim (where)"].rsplit(" (", 1)[0]: row for row in found}
+
+
+@pytest.fixture(scope="module")
+def numbers(out: Path) -> dict[tuple[str, str], dict[str, Any]]:
+    summary = json.loads((out / "summary.json").read_text(encoding="utf-8"))
+    return {(n["name"], n["case"]): n for n in summary["numbers"]}
+
+
+def test_every_claim_has_a_verdict(rows: dict[str, dict[str, str]]) -> None:
+    assert len(rows) == len(CLAIMS) > 20
+    for row in rows.values():
+        assert row["verdict"].startswith(study.KINDS)
+
+
+def test_posture_follows_from_geometry_on_every_machine(rows: dict[str, dict[str, str]]) -> None:
+    for claim in (
+        "Clearance shifts the path of the canopy's end towards the rear link.",
+        "The larger the clearance, the larger that shift.",
+        "Both columns tilt to the rear: their horizontal angles (Fig. 12) fall.",
+        "Clearance brings the front column nearer to the vertical.",
+        "Clearance takes the rear column away from the vertical.",
+    ):
+        assert rows[claim]["verdict"] == "holds"
+        assert rows[claim]["plausible machines"].startswith("100 %")
+
+
+def test_what_is_claimed_of_mean_accelerations_and_capacity_is_not_supported(
+    rows: dict[str, dict[str, str]],
+) -> None:
+    # four numbers next to zero are in the paper's order by chance, one time in 24
+    assert rows["The mean angular acceleration orders the clearances."]["verdict"] != "holds"
+    assert rows["That changes the supporting capacity of the columns noticeably."]["verdict"] == "not supported"
+    assert rows["Clearance makes the impact of the drive more pronounced."]["verdict"] == "not supported"
+
+
+def test_our_numbers_are_those_of_the_engine(numbers: dict[tuple[str, str], dict[str, Any]]) -> None:
+    # the engine at 0.5 ms and half of it, see clearance_size: 52658.42 and 6551.5 N; its error is 1e-5 and 2e-4
+    assert numbers["mean_force", "1.5 mm"]["value"] == pytest.approx(52658.42, rel=1e-5)
+    assert numbers["std_force", "1.5 mm"]["value"] == pytest.approx(6551.5, rel=3e-4)
+    assert numbers["mean_force", "ideal"]["value"] == pytest.approx(51290.66, rel=1e-6)
+    # mode 1, rigid columns: 294.95 and 859.99 N s
+    assert numbers["impulse", "1.5 mm, mode 1"]["value"] == pytest.approx(1154.94, rel=1e-4)
+
+
+def test_every_machine_is_a_row_with_its_data_and_judgements(out: Path) -> None:
+    with (out / "machines.csv").open(encoding="utf-8", newline="") as file:
+        machines = list(csv.DictReader(file))
+    assert len(machines) == study.QUICK_MACHINES
+    judged = [name for name in machines[0] if name.startswith("claim_")]
+    assert len(judged) == sum(c.judge is not None and not c.alone for c in CLAIMS)
+    for machine in machines:
+        assert float(machine["scale"]) > 0.5
+        assert all(machine[name] in ("holds", "fails", "open") for name in judged) or machine["failure"]
+
+
+def test_a_finished_hypercube_is_not_run_again(out: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    before = {path: path.stat().st_mtime_ns for path in (out / "machines").iterdir()}
+    text = (out / "table.txt").read_text(encoding="utf-8")
+    assert study.main(["--quick", "--out", str(out), "--workers", "1"]) == 0
+    assert {path: path.stat().st_mtime_ns for path in (out / "machines").iterdir()} == before
+    assert (out / "table.txt").read_text(encoding="utf-8") == text
+
+
+def test_the_number_of_machines_is_a_parameter(tmp_path: Path) -> None:
+    arguments = ["--quick", "--machines", "2", "--out", str(tmp_path), "--workers", "1"]
+    assert study.main(arguments) == 0
+    assert len(list((tmp_path / "machines").iterdir())) == 2
+
+
+@pytest.mark.parametrize("wrong", ["0", "-3", "many"])
+def test_a_wrong_number_of_machines_is_refused(wrong: str, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as stop:
+        study.main(["--machines", wrong])
+    assert stop.value.code == 2
+    assert "allowed" in capsys.readouterr().err

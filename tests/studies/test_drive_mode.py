@@ -1,0 +1,94 @@
+"""The findings on the drive modes, on the quick form of the study."""
+
+from __future__ import annotations
+
+import json
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from studies import drive_mode as study
+from studies.reporting.chapter import Chapter
+from support_exudyn import simulate
+
+IDEAL, LOOSE = study.PINS
+
+Numbers = dict[tuple[str, str], dict[str, Any]]
+
+
+@pytest.fixture(scope="module")
+def out(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("results")
+    assert study.main(["--quick", "--out", str(folder), "--workers", "2"]) == 0
+    return folder
+
+
+@pytest.fixture(scope="module")
+def numbers(out: Path) -> Numbers:
+    summary = json.loads((out / "summary.json").read_text(encoding="utf-8"))
+    return {(n["name"], n["case"]): n for n in summary["numbers"]}
+
+
+def test_the_gentle_drive_saves_most_of_the_shock(numbers: Numbers) -> None:
+    for columns in study.COLUMNS:
+        for name, share in (
+            ("largest_pin_force_in_rise", 0.5),  # 0.42 and 0.37
+            ("std_pin_force", 0.25),  # 0.17 and 0.19
+            ("ripple_pin_force", 0.1),  # 0.03
+            ("largest_angular_acceleration", 0.25),  # 0.12 and 0.09
+        ):
+            sudden, gentle = (
+                numbers[name, study.case_name(mode, LOOSE, columns)]["value"] for mode in study.MODES
+            )
+            assert gentle < share * sudden
+
+
+def test_the_sudden_start_strikes_rigid_columns_only(numbers: Numbers) -> None:
+    struck = {case for name, case in numbers if name.startswith("impulse")}
+    assert struck == {study.case_name("mode 1", pin, "rigid") for pin in study.PINS}
+    for pin in study.PINS:
+        case = study.case_name("mode 1", pin, "rigid")
+        for column in ("front_column", "rear_column"):
+            # pushed at the start, held back at the end
+            assert numbers[f"impulse_{column}_start", case]["value"] > 0.0
+            assert numbers[f"impulse_{column}_end", case]["value"] < 0.0
+
+
+def test_peaks_on_oil_have_a_limit(numbers: Numbers) -> None:
+    for pin in study.PINS:
+        for name in ("largest_pin_force_in_rise", "largest_rear_column_force"):
+            peak = numbers[name, study.case_name("mode 1", pin, "oil")]
+            # second order: at 1 ms 40 Hz has 25 steps a swing
+            assert peak["numerical_error"] < 0.02 * peak["value"]
+
+
+def test_the_peak_of_the_stock_recipe_doubles_when_its_step_is_halved() -> None:
+    peaks = [study.peak_acceleration(simulate(case)) for case in study.naive_scenarios().values()]
+    # the acceleration is the jump over the step; what is smooth beside it is a thousandth
+    assert [after / before for before, after in pairwise(peaks)] == pytest.approx([2.0, 2.0], rel=0.01)
+
+
+def test_clearance_does_not_make_the_first_peak_worse(numbers: Numbers) -> None:
+    loose, ideal = (
+        numbers["largest_pin_force_in_rise", study.case_name("mode 1", pin, "oil")] for pin in (LOOSE, IDEAL)
+    )
+    # 3 % less, and both within half a per cent
+    assert loose["value"] + loose["numerical_error"] < 1.01 * ideal["value"]
+
+
+def test_a_limit_is_told_from_none() -> None:
+    assert study.verdict([1.0, 1.1, 1.125]) == study.CONVERGES
+    assert study.verdict([1.0, 1.001, 1.003]) == study.CONVERGES  # below 1 %
+    assert study.verdict([1.0, 2.0, 4.0]) == "does not converge"
+    assert study.verdict([1.0, 2.0]) == "open: halved once only"
+
+
+def test_the_chapter_says_what_cannot_converge(out: Path) -> None:
+    chapter = Chapter.load(out)
+    assert any("Fig. 13 c and d" in text for text in chapter.findings)
+    for picture in chapter.pictures:
+        assert (out / f"{picture.stem}.png").read_bytes().startswith(b"\x89PNG")
+    assert "N s" in (out / "table_rigid.txt").read_text(encoding="utf-8")
+    assert len(list((out / "runs").iterdir())) == 8
