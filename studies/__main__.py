@@ -10,6 +10,7 @@ from pathlib import Path
 from studies import claims, clearance_influence, clearance_size, contact_laws, drive_mode, slider_crank
 from studies.report import rebuild
 from studies.study import Options, add_options, run_main
+from support_exudyn.workers import worker_pool
 
 STUDIES = {  # in the order of the report
     clearance_influence.STUDY: clearance_influence.study,
@@ -28,11 +29,15 @@ def main(argv: Sequence[str] | None = None) -> int:
     )
     add_options(parser, Path("results"))
     given = parser.parse_args(argv)
-    for name, study in STUDIES.items():
-        print(f"study {name}", file=sys.stderr)
-        code = run_main(study, Options(given.out / name, given.quick, given.workers, given.machines))
-        if code:
-            return code
+    try:
+        with worker_pool(given.workers) as pool:
+            for name, study in STUDIES.items():
+                print(f"study {name}", file=sys.stderr)
+                code = run_main(study, Options(given.out / name, given.quick, pool, given.machines))
+                if code:
+                    sys.exit(code)  # an exception, so that no process works on
+    except SystemExit as stop:
+        return int(str(stop.code))
     return rebuild(given.out, list(STUDIES), given.quick)
 
 

@@ -20,12 +20,12 @@ from studies import style
 from studies.claims_figures import figures, pictures
 from studies.judging import hypercube
 from studies.judging.claim_list import CLAIMS
-from studies.judging.evidence import Evidence
+from studies.judging.evidence import Evidence, Measured
 from studies.judging.plausible import FACTORS, REFERENCE, Sample, samples
-from studies.judging.plausible_runs import CASES, TOLERANCES, evidence, measures, reference_evidence
+from studies.judging.plausible_runs import CASES, TOLERANCES, evidence, largest_force, measures, oil_scenarios
 from studies.judging.verdicts import Ruling, rule
 from studies.reporting.chapter import Chapter, Sheet
-from studies.study import Number, Options, options, run_main, show_table, write_summary
+from studies.study import Number, Options, options, run_main, run_pairs, show_table, write_summary
 from support_exudyn.files import whole_file
 
 STUDY = "claims"
@@ -44,23 +44,16 @@ def claim_sheet(rulings: Sequence[Ruling]) -> Sheet:
     rows = []
     for n, ruling in enumerate(rulings, 1):
         claim = ruling.claim
+        numbers = f"{ruling.ours} (paper: {claim.paper})" if claim.paper else ruling.ours
         rows.append(
-            (
-                str(n),
-                f"{claim.text} ({claim.where})",
-                claim.reading,
-                claim.paper,
-                ruling.ours,
-                _share(ruling),
-                ruling.verdict,
-            )
+            (str(n), f"{claim.text} ({claim.where})", ruling.verdict, _share(ruling), numbers, claim.reading)
         )
     return Sheet(
         "The paper's claims",
-        ("no.", "claim (where)", "read as", "paper", "reference support", "plausible machines", "verdict"),
+        ("no.", "claim (where)", "verdict", "machines", "reference support (paper)", "read as"),
         tuple(rows),
         "Ours: four clearances in the order 0.5, 1.0, 1.5, 2.0 mm where four numbers stand; drive mode 2 "
-        "unless said; no digit is shown that the numerical error does not leave. Plausible machines: share "
+        "unless said; no digit is shown that the numerical error does not leave. Machines: share "
         "for which the claim holds, 95 % confidence interval, and how many the numerical error leaves open. "
         "Verdict: holds from 95 % on, not supported up to 5 %; in between, the bound on one datum, or two "
         "together, that foretells most judgements, if it is right for 85 %.",
@@ -156,11 +149,12 @@ def _unit(name: str) -> str:
 
 
 def _kinds(rulings: Sequence[Ruling]) -> Counter[str]:
-    return Counter(next(kind for kind in reversed(KINDS) if _is(ruling.verdict, kind)) for ruling in rulings)
+    return Counter(_kind(ruling) for ruling in rulings)
 
 
-def _is(verdict: str, kind: str) -> bool:
-    return verdict.startswith(kind)
+def _kind(ruling: Ruling) -> str:
+    """Which of KINDS a verdict is; the longest that it begins with."""
+    return max((kind for kind in KINDS if ruling.verdict.startswith(kind)), key=len)
 
 
 # --- words ---
@@ -206,10 +200,14 @@ def _findings(rulings: Sequence[Ruling], rows: Sequence[hypercube.Row], run: int
         f"{run} of {len(rows)} plausible machines could be run"
         + (f"; {failed} could not, for the reasons given in the last table." if failed else "."),
     ]
-    for kind in ("not supported", "holds only"):
-        listed = [f"no. {n}" for n, ruling in enumerate(rulings, 1) if _is(ruling.verdict, kind)]
+    told = list(enumerate(rulings, 1))
+    for kind in ("holds", "not supported", "cannot be judged"):
+        listed = [str(n) for n, ruling in told if _kind(ruling) == kind]
         if listed:
             found.append(f"{kind.capitalize()}: {', '.join(listed)}.")
+    for n, ruling in told:
+        if _kind(ruling) == "holds only":
+            found.append(f"No. {n}, {ruling.claim.text.rstrip('.')}: {ruling.verdict}.")
     return tuple(found)
 
 
@@ -222,12 +220,12 @@ def study(chosen: Options) -> None:
     number = chosen.machines or (QUICK_MACHINES if chosen.quick else MACHINES)
     rows = _run(samples(number, SEED), chosen)
     machines: Machines = [(row.sample, evidence(row.measures)) for row in rows if row.measures is not None]
-    reference = reference_evidence(measures(REFERENCE))
+    reference = reference_evidence(chosen)
     rulings = [rule(claim, reference, machines) for claim in CLAIMS]
     write_machines(chosen.out / "machines.csv", rows)
     with style.look():
         for name, drawing in figures(rulings, reference, machines).items():
-            style.save(drawing, chosen.out, name)
+            style.save(drawing, chosen.out, name, pdf=not chosen.quick)
     show_table(chosen.out / "table.txt", claim_sheet(rulings), width=200)
     said = chapter(rulings, rows, chosen.quick)
     for sheet, name in zip(said.sheets[1:], ("factors", "failures"), strict=False):
@@ -235,6 +233,17 @@ def study(chosen: Options) -> None:
     said.save(chosen.out)
     numbers = measure(rulings, reference, len(machines), len(rows) - len(machines))
     write_summary(chosen.out, STUDY, numbers, time.perf_counter() - started)
+
+
+def reference_evidence(chosen: Options) -> Evidence:
+    """The reference support's measures, with those of the runs on columns of oil."""
+    pairs = run_pairs(oil_scenarios(chosen.quick), chosen.workers)
+    known = {
+        case: {"largest_force": Measured(n.value, n.numerical_error)}
+        for case, pair in pairs.items()
+        for n in [pair.number("largest_force", case, "N", largest_force)]
+    }
+    return Evidence(dict(evidence(measures(REFERENCE)).measures) | known)
 
 
 def _run(chosen_samples: Sequence[Sample], chosen: Options) -> list[hypercube.Row]:

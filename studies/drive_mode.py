@@ -52,7 +52,7 @@ def case_name(mode: str, pin: str, columns: str) -> str:
 
 def scenarios(quick: bool) -> dict[str, Scenario]:
     """Both modes, both pins, both kinds of columns."""
-    step, steps = (2e-3, 32) if quick else (1e-3, 64)
+    step, steps = (2e-3, 16) if quick else (1e-3, 64)
     bases = {
         PINS[0]: paper_machine.ideal_rise(step),
         PINS[1]: paper_machine.loose_rise(CLEARANCE_MM, FRICTION, step, steps, symbolic=True),
@@ -357,7 +357,7 @@ def study(chosen: Options) -> None:
     numbers = measure(ladders)
     with style.look():
         for name, drawing in figures({case: ladder.finest for case, ladder in ladders.items()}).items():
-            style.save(drawing, chosen.out, name)
+            style.save(drawing, chosen.out, name, pdf=not chosen.quick)
     for columns in COLUMNS:
         show_table(chosen.out / f"table_{columns}.txt", mode_sheet(numbers, columns))
     show_table(chosen.out / "table_saving.txt", saving_sheet(numbers))

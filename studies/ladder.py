@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from studies.study import Number, run_cases
 from support_exudyn import Result, Scenario
+from support_exudyn.workers import Workers
 
 
 @dataclass(frozen=True)
@@ -26,7 +27,7 @@ class Ladder:
         return Number(name, case, value, unit, abs(value - measure(self.results[-2])))
 
 
-def run_ladders(cases: Mapping[str, Scenario], halvings: int, workers: int) -> dict[str, Ladder]:
+def run_ladders(cases: Mapping[str, Scenario], halvings: int, workers: int | Workers) -> dict[str, Ladder]:
     """Run every case at its step, and at steps halved so often, in parallel, under a progress bar.
 
     Raises SimulationError if a run fails.

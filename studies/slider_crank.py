@@ -19,9 +19,10 @@ import numpy.typing as npt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
-from rich.table import Table
 
 from studies import style
+from studies.reporting.chapter import Chapter, Picture, Sheet
+from studies.reporting.wording import by_case, how_sure, said
 from studies.study import (
     Number,
     Options,
@@ -76,10 +77,10 @@ def scenarios(quick: bool) -> dict[str, Scenario]:
         machine=ravn_slider_crank(),
         drive=Steady(rate=SPEED),
         duration=REVOLUTION,
-        step=2e-6 if quick else 1e-6,
-        record_period=REVOLUTION / 3600,
+        step=8e-6 if quick else 1e-6,
+        record_period=REVOLUTION / (1500 if quick else 3600),
         gravity=(0.0, 0.0),
-        solver=SolverSettings(impact_steps=512 if quick else 1024),
+        solver=SolverSettings(impact_steps=64 if quick else 256, backend="symbolic"),
     )
     stiffness = internal_contact_stiffness(BEARING, STEEL, STEEL)
     normal = LankaraniNikravesh(stiffness=stiffness, restitution=0.9, damping_speed=TouchSpeed(floor=1e-3))
@@ -163,19 +164,107 @@ def _path(axes: Axes, result: Result, title: str) -> None:
     axes.set_title(title)
 
 
-def table(numbers: Sequence[Number]) -> Table:
+def table(numbers: Sequence[Number]) -> Sheet:
     """All numbers, a row each, beside the reference."""
-    shown = Table(title="Slider-crank at 5000 rpm")
-    for heading in ("case", "quantity", "unit", "here", "independent solution"):
-        shown.add_column(heading, justify="right" if heading in ("here", "independent solution") else "left")
-    for n in numbers:
-        other = "" if n.paper is None else f"{n.paper:.9g}"
-        shown.add_row(n.case, n.name.replace("_", " "), n.unit, rounded(n.value, n.numerical_error), other)
-    shown.caption = (
-        "± is the change when all steps are halved. Every touch multiplies the errors of the earlier ones;\n"
-        "after about a revolution the motion is chaotic and only statistics can be compared."
+    return Sheet(
+        title="Slider-crank at 5000 rpm",
+        header=("case", "quantity", "unit", "here", "independent solution"),
+        rows=tuple(
+            (
+                n.case,
+                n.name.replace("_", " "),
+                n.unit,
+                rounded(n.value, n.numerical_error),
+                "" if n.paper is None else f"{n.paper:.9g}",
+            )
+            for n in numbers
+        ),
+        caption=(
+            "± is the change when all steps are halved. Every touch multiplies the errors of the earlier ones; "
+            "after about a revolution the motion is chaotic and only statistics can be compared."
+        ),
+        left=3,
     )
-    return shown
+
+
+# --- words ---
+
+
+def chapter(numbers: Sequence[Number], quick: bool) -> Chapter:
+    """The study as a chapter of the report."""
+    return Chapter(
+        study=STUDY,
+        title="The field's benchmark: a slider-crank with a loose slider pin",
+        question=(
+            "Does the program agree with others on the slider-crank with a loose slider pin (Ravn; Flores and "
+            "Ambrosio)?"
+        ),
+        method=_method(quick),
+        findings=_findings(numbers),
+        pictures=(
+            Picture(
+                "slider_crank",
+                "Force in the slider pin over the crank angle (a), and the journal's path in its bore without "
+                "friction (b) and with (c); blue where it is in contact.",
+            ),
+        ),
+        sheets=(table(numbers),),
+        quick=quick,
+    )
+
+
+def _method(quick: bool) -> tuple[str, ...]:
+    case = scenarios(quick)[SMOOTH]
+    return (
+        "A crank of 50 mm turns steadily at 5000 rpm and drives a slider by a rod of 120 mm; there is no "
+        f"gravity. The bearing at the slider has a radius of {1e3 * BEARING.bore_radius:g} mm, the journal is "
+        f"{1e3 * BEARING.clearance:g} mm smaller. Both are of steel; the contact force is that of Lankarani "
+        "and Nikravesh with a restitution of 0.9 and the stiffness of internal contact, friction is that of "
+        "Ambrosio.",
+        "The run begins with the velocities of the ideal machine and the journal in the middle of its bore, "
+        "and lasts one revolution. Touches are located in time, and compared with an independent solution of "
+        "the frictionless machine in two free coordinates; the ideal machine is compared with its closed form.",
+        f"The step is {1e6 * case.step:g} µs, and an impact takes {case.solver.impact_steps} steps. "
+        f"{how_sure(quick)}",
+    )
+
+
+def _findings(numbers: Sequence[Number]) -> tuple[str, ...]:
+    found = by_case(numbers)
+    sentences = []
+    touches = [n for n in range(1, len(REFERENCE) + 1) if (f"onset_{n}_time", SMOOTH) in found]
+    if touches:
+        times = [_off(found[f"onset_{n}_time", SMOOTH]) for n in touches]
+        speeds = [_off(found[f"onset_{n}_speed", SMOOTH]) for n in touches]
+        sentences.append(
+            f"Without friction the first {len(touches)} touches are within {max(times):.0e} (time) and "
+            f"{max(speeds):.0e} (approach speed) of the independent solution, relatively."
+        )
+    ideal = [found[name, IDEAL] for name in IDEAL_REFERENCE]
+    sentences.append(
+        "With ideal pins the largest slider speed, crank moment and pin force are "
+        f"{', '.join(said(n) for n in ideal)}; the closed form gives the same within "
+        f"{max(_off(n) for n in ideal):.0e}."
+    )
+    peaks = [found["largest_pin_force_any_step", case] for case in (SMOOTH, DRY)]
+    sentences.append(
+        f"With clearance the largest pin force is {said(peaks[0], 1e-3, 'kN')} without friction and "
+        f"{said(peaks[1], 1e-3, 'kN')} with; with ideal pins it is {said(ideal[-1], 1e-3, 'kN')}."
+    )
+    first, last = (found.get((f"onset_{n}_time", DRY)) for n in (1, ONSETS))
+    if first and last:
+        sentences.append(
+            f"With friction the error of a touch's time grows from {first.numerical_error:.0e} µs at the first "
+            f"to {last.numerical_error:.0e} µs at touch {ONSETS}: each touch multiplies the errors of the "
+            "earlier ones. The first few touches are results; the hundredth is not."
+        )
+    return tuple(sentences)
+
+
+def _off(number: Number) -> float:
+    """Relative distance from the other solution."""
+    assert number.paper is not None
+    return abs(number.value / number.paper - 1.0)
 
 
 # --- main ---
@@ -189,8 +278,14 @@ def study(chosen: Options) -> None:
         pair.fine.save(chosen.out / "runs" / f"{name.replace(' ', '_').replace('.', 'p')}.h5")
     numbers = measure(pairs)
     with style.look():
-        style.save(figure({name: pair.fine for name, pair in pairs.items()}), chosen.out, "slider_crank")
+        style.save(
+            figure({name: pair.fine for name, pair in pairs.items()}),
+            chosen.out,
+            "slider_crank",
+            pdf=not chosen.quick,
+        )
     show_table(chosen.out / "table.txt", table(numbers), width=120)
+    chapter(numbers, chosen.quick).save(chosen.out)
     write_summary(chosen.out, STUDY, numbers, time.perf_counter() - started)
 
 

@@ -20,6 +20,7 @@ from support_exudyn import Failure, Result, Scenario, SimulationError
 from support_exudyn.files import whole_file
 from support_exudyn.provenance import versions
 from support_exudyn.sweep import run_all
+from support_exudyn.workers import Workers
 
 MOST_BARS = 12  # more runs than that share one progress bar
 
@@ -28,13 +29,14 @@ MOST_BARS = 12  # more runs than that share one progress bar
 class Options:
     """How a study is to be run.
 
-    out: folder for its output. quick: coarse steps for a quick look. workers: processes. machines: number of
-    plausible machines of the study that draws them, None for its own choice.
+    out: folder for its output. quick: coarse steps for a quick look. workers: number of processes, or the pool
+    that all studies share. machines: number of plausible machines of the study that draws them, None for its
+    own choice.
     """
 
     out: Path
     quick: bool
-    workers: int
+    workers: int | Workers
     machines: int | None = None
 
 
@@ -100,7 +102,7 @@ class Pair:
         return Number(name, case, value, unit, abs(value - measure(self.coarse)), paper)
 
 
-def run_pairs(cases: Mapping[str, Scenario], workers: int) -> dict[str, Pair]:
+def run_pairs(cases: Mapping[str, Scenario], workers: int | Workers) -> dict[str, Pair]:
     """Run every case at its step and at half of it, in parallel, under a progress bar.
 
     Raises SimulationError if a run fails.
@@ -111,7 +113,7 @@ def run_pairs(cases: Mapping[str, Scenario], workers: int) -> dict[str, Pair]:
     return {name: Pair(good[name], good[f"{name}, half step"]) for name in cases}
 
 
-def run_cases(runs: Mapping[str, Scenario], workers: int) -> dict[str, Result]:
+def run_cases(runs: Mapping[str, Scenario], workers: int | Workers) -> dict[str, Result]:
     """Run scenarios in parallel, in the order given, under a progress bar.
 
     Raises SimulationError if a run fails.

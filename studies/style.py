@@ -47,10 +47,11 @@ def size(width_mm: float, height_mm: float) -> tuple[float, float]:
     return width_mm / 25.4, height_mm / 25.4
 
 
-def save(drawing: Figure, out: Path, name: str) -> list[Path]:
-    """Write a figure as PNG and PDF."""
-    paths = [out / f"{name}.png", out / f"{name}.pdf"]
+def save(drawing: Figure, out: Path, name: str, *, pdf: bool = True) -> list[Path]:
+    """Write a figure as PNG, and as PDF for print."""
+    paths = [out / f"{name}.png"] + ([out / f"{name}.pdf"] if pdf else [])
     for path in paths:
         with whole_file(path) as temporary:
             drawing.savefig(temporary, format=path.suffix[1:])
+        drawing.set_layout_engine("none")  # it is laid out now; once more would take as long as drawing it
     return paths

@@ -13,8 +13,9 @@ from support_exudyn.connector import PinConnector, displacement_scale, recalled
 from support_exudyn.impact_steps import ImpactSteps
 from support_exudyn.onset import Action, Mobility, Onset, PinMemory, Verdict, judge
 from support_exudyn.symbolic_force import SymbolicForce
-from user_forces.contact import ContactForce, JournalContact, SlipHistory
+from user_forces.contact import AT_REST, ContactForce, JournalContact, SlipHistory
 from user_forces.friction.frictionless import Frictionless
+from user_forces.normal.law import Touch
 from user_forces.values import Vector2
 
 REPEAT_ERROR = 1e6  # above any tolerance of the engine's discontinuous iteration: the step is repeated
@@ -69,6 +70,8 @@ class LoosePin:
         self._spin, self._spin_rate = 0.0, 0.0  # of the bore [rad/s], [rad/s^2]
         # the step being tried
         self.memory = PinMemory(False, 0.0, 0.0, 0.0)  # with which its force is computed
+        self._mobility = self.memory.mobility
+        self._history = AT_REST
         self.reached = self.memory  # at its end
         self.force: ContactForce = contact.force(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, None)
         self.onset: Onset | None = None
@@ -221,6 +224,8 @@ class LoosePin:
         self, x: float, y: float, velocity: list[float], angular_velocity: list[float]
     ) -> ContactForce:
         memory = self.memory
+        # as memory.touch says, which the engine asks for too often to make the mobility anew
+        touch = Touch(memory.approach_speed, self._mobility.mass(x, y)) if memory.in_contact else None
         bore_spin, journal_spin = self._spins(angular_velocity[2])
         return self.contact.force(
             x,
@@ -229,8 +234,8 @@ class LoosePin:
             velocity[1],
             bore_spin,
             journal_spin,
-            memory.touch(x, y),
-            SlipHistory(memory.deflection, memory.slip, self._step),
+            touch,
+            self._history,
         )
 
     def _spins(self, turning: float) -> tuple[float, float]:
@@ -258,6 +263,8 @@ class LoosePin:
 
     def _recall(self, memory: PinMemory) -> None:
         self.memory = memory
+        self._mobility = memory.mobility
+        self._history = SlipHistory(memory.deflection, memory.slip, self._step)
         if self.symbolic is not None:
             self.symbolic.load(memory, self._step, self._guessed_spin, self._guessed_turn)
 

@@ -75,10 +75,10 @@ def _bounds(samples: Sequence[Sample]) -> tuple[list[str], Mask]:
 def _bounds_on(factor: Factor, samples: Sequence[Sample]) -> list[tuple[str, Mask]]:
     if factor.choices:
         chosen = np.array([str(sample[factor.name]) for sample in samples])
-        return [(f"{factor.said}: {choice}", chosen == choice) for choice in factor.choices]
+        return [(factor.chosen(choice), chosen == choice) for choice in factor.choices]
     numbers = np.array([float(sample[factor.name]) for sample in samples])
     found = []
     for cut in np.unique(np.quantile(numbers, np.arange(1, CUTS) / CUTS)):
-        found.append((f"{factor.said} below {cut:.2g}", numbers < cut))
-        found.append((f"{factor.said} above {cut:.2g}", numbers >= cut))
+        found.append((factor.bound("below", cut), numbers < cut))
+        found.append((factor.bound("above", cut), numbers >= cut))
     return found

@@ -10,7 +10,6 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Callable, Sequence
-from concurrent.futures import FIRST_COMPLETED, wait
 from dataclasses import dataclass
 from functools import cache
 from importlib.metadata import version
@@ -25,7 +24,7 @@ from studies.judging.plausible_runs import measures
 from support_exudyn import SimulationError
 from support_exudyn.files import whole_file
 from support_exudyn.reduced import warm_up
-from support_exudyn.workers import worker_pool
+from support_exudyn.workers import Workers, worker_pool
 from user_forces.values import InputError
 
 FOLDER = "machines"
@@ -43,30 +42,28 @@ class Row:
     failure: str | None
 
 
-def run(samples: Sequence[Sample], out: Path, workers: int, progress: Callable[[int, int], None]) -> list[Row]:
+def run(
+    samples: Sequence[Sample], out: Path, workers: int | Workers, progress: Callable[[int, int], None]
+) -> list[Row]:
     """Rows of all samples, in their order; only those are run that DIR does not hold yet.
 
     Arguments:
         samples: the machines.
         out: DIR.
-        workers: number of processes, >= 1.
+        workers: number of processes, >= 1, or the pool to use.
         progress: is told how many are done, of how many.
     """
     folder = out / FOLDER
     folder.mkdir(parents=True, exist_ok=True)
     _sweep_up(folder)
     places = [folder / f"{key(sample)}.json" for sample in samples]
-    missing = {place: sample for place, sample in zip(places, samples, strict=True) if _read(place) is None}
-    progress(len(samples) - len(missing), len(samples))
+    missing = [(place, s) for place, s in zip(places, samples, strict=True) if _read(place) is None]
+    before = len(samples) - len(missing)
+    progress(before, len(samples))
     if missing:
         warm_up()  # compile once, for all processes
-        with worker_pool(max(1, min(workers, len(missing)))) as pool:
-            waiting = {pool.submit(_run_one, place, sample) for place, sample in missing.items()}
-            while waiting:
-                done, waiting = wait(waiting, return_when=FIRST_COMPLETED)
-                for future in done:
-                    future.result()
-                progress(len(samples) - len(waiting), len(samples))
+        with worker_pool(workers) as pool:
+            pool.run(missing, _run_one, lambda shares: progress(before + int(sum(shares)), len(samples)))
     rows = [_read(place) for place in places]
     return [row for row in rows if row is not None]
 
@@ -89,8 +86,9 @@ def _program() -> str:
     return digest.hexdigest() + " ".join(version(name) for name in LIBRARIES)
 
 
-def _run_one(place: Path, sample: Sample) -> None:
+def _run_one(number: int, place: Path, sample: Sample) -> None:
     """In a worker: run a machine and keep it."""
+    del number
     row: dict[str, Any] = {"sample": dict(sample), "measures": None, "failure": None}
     try:
         row["measures"] = measures(sample)

@@ -37,7 +37,10 @@ REFERENCE_SCALE = 0.65  # of the support whose pivots the reference support has
 
 @dataclass(frozen=True)
 class Factor:
-    """Something assumed: a range from low to high, evenly or in powers, or a list of choices."""
+    """Something assumed: a range from low to high, evenly or in powers, or a list of choices.
+
+    unit: of the range. phrase: a choice in a sentence.
+    """
 
     name: str
     meaning: str
@@ -46,6 +49,8 @@ class Factor:
     high: float = 0.0
     powers: bool = False
     choices: tuple[str, ...] = ()
+    unit: str = ""
+    phrase: str = ""
 
     def at(self, share: float) -> Choice:
         """The value at a share from 0 to 1 of the range."""
@@ -60,6 +65,14 @@ class Factor:
         """Its name in words."""
         return SYMBOLS.get(self.name, self.name.replace("_", " "))
 
+    def chosen(self, choice: str) -> str:
+        """A choice in words."""
+        return self.phrase.format(choice)
+
+    def bound(self, side: str, value: float) -> str:
+        """A bound in words; side: above or below."""
+        return f"{self.said} {side} {value:.2g} {self.unit}".rstrip()
+
     @property
     def span(self) -> str:
         """The range or the choices, in words."""
@@ -68,7 +81,7 @@ class Factor:
         return f"{self.low:g} to {self.high:g}" + (", even in powers" if self.powers else "")
 
 
-SYMBOLS = {"sliding_coefficient": "mu_d", "static_speed": "v_s", "dynamic_speed": "v_d", "bore": "bore in"}
+SYMBOLS = {"sliding_coefficient": "mu_d", "static_speed": "v_s", "dynamic_speed": "v_d"}
 MASS_REASON = "published supports of this size differ by about as much in the weight of their parts"
 CENTRE_REASON = "plate thickness and jacks are unknown; a tenth of the length either way"
 BODIES = {  # what a mass factor multiplies: body and which of its parts
@@ -128,24 +141,47 @@ FACTORS: tuple[Factor, ...] = (
         "of damping",
         "the name Lankarani-Nikravesh is printed, its factor is not",
         choices=tuple(POWER_LAWS),
+        phrase="the law {}",
     ),
-    Factor("damping_speed", "of a contact that does not part", "not given", choices=("last touch", "depth")),
+    Factor(
+        "damping_speed",
+        "of a contact that does not part",
+        "not given",
+        choices=("last touch", "depth"),
+        phrase="damping by the {}",
+    ),
     Factor(
         "stiffness",
         "of the contact",
         "Eq. 5 is for spheres side by side; the pin is inside",
         choices=("external", "internal"),
+        phrase="the {} stiffness",
     ),
     Factor("sliding_coefficient", "of friction [-]", "not given; greased to dry steel", 0.0, 0.4),
-    Factor("static_speed", "of friction [m/s]", "not given", 1e-5, 1e-3, True),
-    Factor("dynamic_speed", "of friction [m/s]", "not given; ADAMS' usual value is 0.01", 1.5e-3, 1e-1, True),
+    Factor("static_speed", "of friction [m/s]", "not given", 1e-5, 1e-3, True, unit="m/s"),
+    Factor(
+        "dynamic_speed",
+        "of friction [m/s]",
+        "not given; ADAMS' usual value is 0.01",
+        1.5e-3,
+        1e-1,
+        True,
+        unit="m/s",
+    ),
     Factor(
         "window",
         "over which forces and accelerations are averaged",
         "not given",
         choices=("rise", "rise and dwell"),
+        phrase="averages over the {}",
     ),
-    Factor("bore", "body that carries the bore", "not given", choices=("base", "rear link")),
+    Factor(
+        "bore",
+        "body that carries the bore",
+        "not given",
+        choices=("base", "rear link"),
+        phrase="the bore in the {}",
+    ),
 )
 
 REFERENCE: dict[str, Choice] = {

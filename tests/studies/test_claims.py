@@ -50,7 +50,7 @@ def test_posture_follows_from_geometry_on_every_machine(rows: dict[str, dict[str
         "Clearance takes the rear column away from the vertical.",
     ):
         assert rows[claim]["verdict"] == "holds"
-        assert rows[claim]["plausible machines"].startswith("100 %")
+        assert rows[claim]["machines"].startswith("100 %")
 
 
 def test_what_is_claimed_of_mean_accelerations_and_capacity_is_not_supported(

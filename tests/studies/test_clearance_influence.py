@@ -11,6 +11,7 @@ import h5py
 import pytest
 
 from studies import clearance_influence as study
+from studies.reporting.chapter import Chapter
 from support_exudyn import Result
 
 
@@ -48,7 +49,6 @@ def test_every_file_is_there(out: Path) -> None:
     stems = ("fig3_angular_velocity", "fig4_angular_acceleration", "fig5_pin_force")
     for stem in stems:
         assert (out / f"{stem}.png").read_bytes().startswith(b"\x89PNG")
-        assert (out / f"{stem}.pdf").read_bytes().startswith(b"%PDF")
     assert "mean pin force" in (out / "table.txt").read_text(encoding="utf-8")
     assert sorted(p.name for p in (out / "runs").iterdir()) == [
         "1p5mm_mu0.h5",
@@ -58,6 +58,20 @@ def test_every_file_is_there(out: Path) -> None:
     with h5py.File(out / "runs" / "ideal.h5") as file:
         assert file["channels/tip.x"].attrs["unit"] == "m"
     assert Result.load(out / "runs" / "ideal.h5").time[-1] == 5.0
+
+
+def test_the_chapter_says_what_was_computed(out: Path, numbers: dict[tuple[str, str], dict[str, Any]]) -> None:
+    chapter = Chapter.load(out)
+    assert chapter.study == study.STUDY
+    assert chapter.quick is True
+    assert all(
+        (out / f"{picture.stem}.{kind}").is_file() for picture in chapter.pictures for kind in ("png", "pdf")
+    )
+    mean = next(text for text in chapter.findings if text.startswith("Mean pin force"))
+    for case in study.CASES:
+        value = numbers["mean_pin_force", case]
+        assert f"{value['value'] / 1e3:.3f} kN" in mean  # its error is below 1 N
+    assert len(chapter.sheets[0].rows) == len({name for name, _ in numbers})
 
 
 def test_the_stiffness_is_the_papers_to_every_digit(

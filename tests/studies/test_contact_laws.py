@@ -13,20 +13,19 @@ import pytest
 import user_forces
 from studies import contact_laws as study
 from studies import law_catalogue
-from support_exudyn import Result
+from studies.free_impact import delivered_restitution, free_impact
+from studies.reporting.chapter import Chapter
+from support_exudyn import Result, simulate
 from user_forces import FrictionLaw, Frictionless, NormalLaw, TouchSpeed
 
-FEW = (0.1, 0.5, 0.9)
 RISES = ("exact", "lankarani_nikravesh")
 
 
 @pytest.fixture(scope="module")
 def out(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The study with three restitutions and four rises: the whole takes a minute."""
+    """The quick form with four rises."""
     folder = tmp_path_factory.mktemp("results")
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(study, "ASKED", FEW)
-        patch.setattr(study, "FEW", FEW)
         patch.setattr(study, "QUICK_RISE", RISES)
         assert study.main(["--quick", "--out", str(folder), "--workers", "2"]) == 0
     return folder
@@ -56,7 +55,7 @@ def test_every_law_rises_in_the_full_form_and_is_tried_in_impacts() -> None:
     rises = study.rises(quick=False)
     assert {type(case.pins[study.LOOSE].contact.normal) for case in rises.values()} == laws(NormalLaw)
     assert {type(case.pins[study.LOOSE].contact.friction) for case in rises.values()} == laws(FrictionLaw)
-    assert {type(law) for law, _ in study.impact_laws().values()} == laws(NormalLaw)
+    assert {type(law) for law, _ in study.impact_laws(quick=False).values()} == laws(NormalLaw)
     textbook = [rises[name].pins[study.LOOSE].contact.normal.damping_speed for name in study.TEXTBOOK]
     assert textbook == [TouchSpeed(floor=1e-3), TouchSpeed(floor=0.1)]
 
@@ -64,17 +63,37 @@ def test_every_law_rises_in_the_full_form_and_is_tried_in_impacts() -> None:
 def test_restitution_cases_are_named_as_agreed_and_right(
     numbers: dict[tuple[str, str], dict[str, Any]],
 ) -> None:
-    assert numbers["delivered_restitution", "exact e=0.9"]["value"] == pytest.approx(0.9, abs=1e-5)
+    assert numbers["delivered_restitution", "exact e=0.9"]["value"] == pytest.approx(0.9, abs=3e-5)
     cases = [case for name, case in numbers if name == "delivered_restitution"]
-    assert len(cases) == (len(law_catalogue.POWER_LAWS) + len(law_catalogue.CYLINDER_LAWS) + 1) * len(FEW) + 7
+    laws_asked = len(law_catalogue.POWER_LAWS) + len(law_catalogue.CYLINDER_LAWS) + 1
+    assert len(cases) == laws_asked * len(study.QUICK_ASKED) + 7
     for case in cases:
         number = numbers["delivered_restitution", case]
         closed_form = numbers["closed_form_restitution", case]["value"]
-        # asked for: 1e-4; dashpots that jump at the touch leave 2e-5
-        assert number["value"] == pytest.approx(closed_form, abs=3e-5)
+        # asked for: 1e-4
+        assert number["value"] == pytest.approx(closed_form, abs=5e-5)
         # the error reported is that of steps twice as long, about four times the one left
-        assert number["numerical_error"] < 1e-4
+        assert number["numerical_error"] < 2e-4
         assert number["unit"] == "1"
+
+
+@pytest.mark.parametrize("case", ["exact e=0.05", "flores e=0.5", "johnson e=0.9", "kelvin_voigt zeta=0.05"])
+def test_the_full_form_delivers_what_the_closed_form_says(case: str) -> None:
+    _check_full_form(case)
+
+
+@pytest.mark.parametrize("asked", study.FEW)
+def test_dashpots_do_so_in_the_full_form(asked: float) -> None:
+    # their force jumps at the touch
+    _check_full_form(f"anagnostopoulos e={asked:g}")
+
+
+def _check_full_form(case: str) -> None:
+    law, closed_form = study.impact_laws(quick=False)[case]
+    impact = free_impact(law, study.SPEED, study.IMPACT_STEPS[False])
+    coarse, fine = (delivered_restitution(simulate(run)) for run in (impact, impact.refined()))
+    assert fine == pytest.approx(closed_form, abs=3e-5)
+    assert abs(fine - closed_form) < abs(fine - coarse) < 1e-4
 
 
 def test_the_way_a_resting_contact_is_damped_matters(numbers: dict[tuple[str, str], dict[str, Any]]) -> None:
@@ -89,8 +108,18 @@ def test_the_way_a_resting_contact_is_damped_matters(numbers: dict[tuple[str, st
 def test_every_file_is_there(out: Path) -> None:
     for stem in ("delivered_restitution", "force_depth_loops", "rise_under_each_law", "permanent_contact"):
         assert (out / f"{stem}.png").read_bytes().startswith(b"\x89PNG")
-        assert (out / f"{stem}.pdf").read_bytes().startswith(b"%PDF")
     assert "Lankarani-Nikravesh" in (out / "restitution_table.txt").read_text(encoding="utf-8")
     assert "clamped steps" in (out / "rise_table.txt").read_text(encoding="utf-8")
     assert len(list((out / "runs").iterdir())) == len(RISES) + len(study.TEXTBOOK)
     assert Result.load(out / "runs" / "exact.h5").time[-1] == 5.0
+
+
+def test_the_chapter_says_what_was_computed(out: Path, numbers: dict[tuple[str, str], dict[str, Any]]) -> None:
+    chapter = Chapter.load(out)
+    assert chapter.study == study.STUDY
+    assert all((out / f"{picture.stem}.png").is_file() for picture in chapter.pictures)
+    delivered = numbers["delivered_restitution", "lankarani_nikravesh e=0.1"]["value"]
+    assert any(f"{delivered:.3f} for 0.1" in text for text in chapter.findings)
+    restitution, rise = chapter.sheets
+    assert len(restitution.rows) == len({case.split(" ")[0] for name, case in numbers if "restitution" in name})
+    assert len(rise.rows) == len(RISES) + len(study.TEXTBOOK)

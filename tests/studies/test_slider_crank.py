@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 from studies import slider_crank as study
+from studies.reporting.chapter import Chapter
 
 
 @pytest.fixture(scope="module")
@@ -16,9 +17,12 @@ def numbers(tmp_path_factory: pytest.TempPathFactory) -> dict[tuple[str, str], d
     out = tmp_path_factory.mktemp("results")
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(study, "REVOLUTION", study.REVOLUTION / 9.0)  # 1.33 ms
-        assert study.main(["--quick", "--out", str(out), "--workers", "2"]) == 0
+        assert study.main(["--out", str(out), "--workers", "2"]) == 0
     assert (out / "slider_crank.png").read_bytes().startswith(b"\x89PNG")
     assert "onset 5 speed" in Path(out / "table.txt").read_text(encoding="utf-8")
+    chapter = Chapter.load(out)
+    assert chapter.findings[0].startswith("Without friction the first 5 touches are within ")
+    assert [picture.stem for picture in chapter.pictures] == ["slider_crank"]
     summary = json.loads((out / "summary.json").read_text(encoding="utf-8"))
     assert summary["study"] == "slider_crank"
     return {(n["name"], n["case"]): n for n in summary["numbers"]}
