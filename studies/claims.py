@@ -23,7 +23,7 @@ from studies.judging.claim_list import CLAIMS
 from studies.judging.evidence import Evidence, Measured
 from studies.judging.plausible import FACTORS, REFERENCE, Sample, samples
 from studies.judging.plausible_runs import CASES, TOLERANCES, evidence, largest_force, measures, oil_scenarios
-from studies.judging.verdicts import Ruling, rule
+from studies.judging.verdicts import Ruling, percent, rule
 from studies.reporting.chapter import Chapter, Sheet
 from studies.study import Number, Options, options, run_main, run_pairs, show_table, write_summary
 from support_exudyn.files import whole_file
@@ -52,11 +52,12 @@ def claim_sheet(rulings: Sequence[Ruling]) -> Sheet:
         "The paper's claims",
         ("no.", "claim (where)", "verdict", "machines", "reference support (paper)", "read as"),
         tuple(rows),
-        "Ours: four clearances in the order 0.5, 1.0, 1.5, 2.0 mm where four numbers stand; drive mode 2 "
-        "unless said; no digit is shown that the numerical error does not leave. Machines: share "
-        "for which the claim holds, 95 % confidence interval, and how many the numerical error leaves open. "
-        "Verdict: holds from 95 % on, not supported up to 5 %; in between, the bound on one datum, or two "
-        "together, that foretells most judgements, if it is right for 85 %.",
+        "Four numbers: clearances of 0.5, 1.0, 1.5, 2.0 mm; drive mode 2 unless said; no digit is shown that the "
+        "numerical error does not leave. Machines: share of the plausible machines for which the claim holds, "
+        "95 % confidence interval, and how many the numerical error leaves open. Verdict: holds from 95 % on, "
+        "not supported up to 5 %; in between, the bound on one datum, or two together, that foretells most "
+        "judgements. Right for: machines that were not used to find the bound; below 85 % it is called most "
+        "telling.",
         wide=True,
     )
 
@@ -66,7 +67,7 @@ def _share(ruling: Ruling) -> str:
         return ruling.claim.alone
     low, high = (100.0 * bound for bound in ruling.interval)
     left = f", {ruling.open} open" if ruling.open else ""
-    return f"{100.0 * ruling.share:.0f} % ({low:.0f} to {high:.0f}){left}"
+    return f"{percent(ruling.share)} % ({low:.0f} to {high:.0f}){left}"
 
 
 def factor_sheet() -> Sheet:

@@ -173,10 +173,15 @@ def rounded(value: float, error: float) -> str:
 
 def brief(value: float, error: float) -> str:
     """A number with its error in at most seven digits, for tables in which many stand side by side."""
-    if error == 0.0 or value == 0.0 or not math.isfinite(error):
+    if error == 0.0 or not math.isfinite(error):
         return f"{value:.7g}"
+    if value == 0.0:
+        return f"0 ± {error:.0e}"
     digits = max(0, 6 - math.floor(math.log10(abs(value))))
-    return f"{value:.{digits}f} ± {error:.0e}" if error < 0.5 * 10.0**-digits else rounded(value, error)
+    if error < 0.5 * 10.0**-digits:
+        return f"{value:.{digits}f} ± {error:.0e}"
+    left = max(0, 1 - math.floor(math.log10(error)))
+    return f"{value:.{digits}f} ± {error:.{digits}f}" if digits < left else rounded(value, error)
 
 
 def run_main(main: Callable[[Options], None], chosen: Options) -> int:

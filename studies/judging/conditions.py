@@ -19,10 +19,15 @@ Mask = npt.NDArray[np.bool_]
 
 @dataclass(frozen=True)
 class Condition:
-    """When a claim holds, in words, and the share of machines for which that is right."""
+    """When a claim holds, in words.
+
+    right: share of the machines for which that is so. unseen: the same for what is found on one half of the
+    machines, judged on the other half; by chance alone it is no better than one answer for all.
+    """
 
     text: str
     right: float
+    unseen: float
 
 
 def best_condition(decided: Sequence[tuple[Sample, bool]]) -> Condition | None:
@@ -35,30 +40,44 @@ def best_condition(decided: Sequence[tuple[Sample, bool]]) -> Condition | None:
     if holds.all() or not holds.any():
         return None
     texts, met = _bounds([sample for sample, _ in decided])
-    single = max(_best(texts, met, holds, ""), _best(texts, met, ~holds, OTHER_THAN), key=_right)
-    double = max(_best_pair(texts, met, holds, ""), _best_pair(texts, met, ~holds, OTHER_THAN), key=_right)
-    return double if double.right >= single.right + PAIR_GAIN else single
+    places, other, right = _search(met, holds)
+    text = (OTHER_THAN if other else "") + " and ".join(texts[place] for place in places)
+    one = np.arange(len(holds)) % 2 == 0
+    unseen = [_right_elsewhere(met, holds, half) for half in (one, ~one)]
+    return Condition(text, right, float(np.mean(unseen)))
 
 
-def _right(condition: Condition) -> float:
-    return condition.right
+def _right_elsewhere(met: Mask, holds: Mask, half: Mask) -> float:
+    """Share of the other half of the machines for which what is found on this half is right."""
+    places, other, _ = _search(met[:, half], holds[half])
+    foretold = met[list(places)].all(axis=0) != other
+    return float((foretold == holds)[~half].mean())
 
 
-def _best(texts: Sequence[str], met: Mask, goal: Mask, prefix: str) -> Condition:
+def _search(met: Mask, holds: Mask) -> tuple[tuple[int, ...], bool, float]:
+    """Places of the best bound or two, whether they say where it does not hold, and how often that is right."""
+    single = max((_best(met, holds != other, other) for other in (False, True)), key=_right)
+    double = max((_best_pair(met, holds != other, other) for other in (False, True)), key=_right)
+    return double if _right(double) >= _right(single) + PAIR_GAIN else single
+
+
+def _right(found: tuple[tuple[int, ...], bool, float]) -> float:
+    return found[2]
+
+
+def _best(met: Mask, goal: Mask, other: bool) -> tuple[tuple[int, ...], bool, float]:
     right = (met == goal).mean(axis=1)
     best = int(np.argmax(right))
-    return Condition(prefix + texts[best], float(right[best]))
+    return (best,), other, float(right[best])
 
 
-def _best_pair(texts: Sequence[str], met: Mask, goal: Mask, prefix: str) -> Condition:
+def _best_pair(met: Mask, goal: Mask, other: bool) -> tuple[tuple[int, ...], bool, float]:
     """The same for two bounds that are both met."""
-    count = len(goal)
     ones = met.astype(float)
-    both = ones @ ones.T
-    hits = (ones * goal) @ ones.T
-    right = (hits + (count - both - (goal.sum() - hits))) / count
-    one, other = divmod(int(np.argmax(right)), len(texts))
-    return Condition(f"{prefix}{texts[one]} and {texts[other]}", float(right[one, other]))
+    # right: met and to be, or neither
+    right = ((ones * (2.0 * goal - 1.0)) @ ones.T + (~goal).sum()) / len(goal)
+    one, two = divmod(int(np.argmax(right)), len(met))
+    return (one, two), other, float(right[one, two])
 
 
 def _bounds(samples: Sequence[Sample]) -> tuple[list[str], Mask]:

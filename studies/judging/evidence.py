@@ -49,10 +49,10 @@ class Measured:
         size = max(abs(self.value), self.error)
         if size == 0.0:
             return "0"
-        places = digits - 1 - math.floor(math.log10(size))
+        places = max(0, digits - 1 - math.floor(math.log10(size)))
         if self.error > 0.0:
-            places = min(places, max(0, -math.floor(math.log10(self.error))))
-        text = f"{self.value:.{max(0, places)}f}"
+            places = min(places, -math.floor(math.log10(self.error)))  # below 0: tens, hundreds
+        text = f"{round(self.value, places):.{max(0, places)}f}"
         return text.lstrip("-") if float(text) == 0.0 else text
 
 

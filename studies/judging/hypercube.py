@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
@@ -65,6 +66,9 @@ def run(
         with worker_pool(workers) as pool:
             pool.run(missing, _run_one, lambda shares: progress(before + int(sum(shares)), len(samples)))
     rows = [_read(place) for place in places]
+    gone = [place.name for place, row in zip(places, rows, strict=True) if row is None]
+    if gone:
+        raise OSError(f"{folder}: {', '.join(gone)} vanished while others were run; run the study once more")
     return [row for row in rows if row is not None]
 
 
@@ -91,9 +95,15 @@ def _run_one(number: int, place: Path, sample: Sample) -> None:
     del number
     row: dict[str, Any] = {"sample": dict(sample), "measures": None, "failure": None}
     try:
-        row["measures"] = measures(sample)
+        row["measures"] = found = measures(sample)
+        for case, named in found.items():
+            for name, pair in named.items():
+                if not all(math.isfinite(value) for value in pair):
+                    raise InputError(
+                        f"{name} of {case} = {pair}: allowed: numbers; the run is good for nothing"
+                    )
     except (InputError, SimulationError) as error:
-        row["failure"] = str(error)
+        row["measures"], row["failure"] = None, str(error)
     with whole_file(place) as temporary:
         temporary.write_text(json.dumps(row, sort_keys=True, allow_nan=False) + "\n", encoding="utf-8")
 
@@ -110,5 +120,5 @@ def _read(place: Path) -> Row | None:
 def _sweep_up(folder: Path) -> None:
     """Remove what a killed run left half-written."""
     for path in folder.iterdir():
-        if path.suffix != ".json":
+        if path.name.startswith(".") or path.suffix != ".json":
             path.unlink(missing_ok=True)

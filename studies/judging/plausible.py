@@ -71,7 +71,7 @@ class Factor:
 
     def bound(self, side: str, value: float) -> str:
         """A bound in words; side: above or below."""
-        return f"{self.said} {side} {value:.2g} {self.unit}".rstrip()
+        return f"{self.said} {side} {value:.3g} {self.unit}".rstrip()
 
     @property
     def span(self) -> str:

@@ -13,9 +13,10 @@ from studies.judging.evidence import Evidence, Verdict
 from studies.judging.plausible import Sample
 
 NEARLY_ALL = 0.95  # share of machines from which a claim holds; one less this: not supported
-TELLING = 0.85  # share of machines that a condition must get right to be named as the one that decides
+# share that a condition must get right, of machines not used to find it, to be the one that decides
+TELLING = 0.85
 GAIN = 0.05  # by how much it must beat the same answer for all to be named at all
-ENOUGH = 64  # machines from which conditions are looked for; with fewer one would always be found
+ENOUGH = 128  # machines from which conditions are looked for; with fewer chance looks like one
 
 
 @dataclass(frozen=True)
@@ -72,11 +73,18 @@ def _words(reference: Verdict, judged: Sequence[tuple[Sample, Verdict]]) -> str:
         return "holds"
     if share <= 1.0 - NEARLY_ALL:
         return "not supported"
-    part = f"{100 * share:.0f} % of the machines"
+    part = f"{percent(share)} % of the machines"
     condition = best_condition(decided) if len(decided) >= ENOUGH else None
-    if condition is None or condition.right < max(share, 1.0 - share) + GAIN:
+    if condition is None or condition.unseen < max(share, 1.0 - share) + GAIN:
         return f"holds only for {part}"
-    right = f"right for {100 * condition.right:.0f} %"
-    if condition.right < TELLING:
+    right = f"right for {100 * condition.unseen:.0f} %"
+    if condition.unseen < TELLING:
         return f"holds only for {part}; most telling: {condition.text} ({right})"
     return f"holds only for {condition.text} ({right})"
+
+
+def percent(share: float) -> str:
+    """A share in per cent, not rounded onto the bounds that decide."""
+    text = f"{100.0 * share:.0f}"
+    bounds = (100.0 * NEARLY_ALL, 100.0 * (1.0 - NEARLY_ALL))
+    return f"{100.0 * share:.1f}" if any(abs(float(text) - bound) < 0.5 for bound in bounds) else text

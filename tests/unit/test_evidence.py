@@ -1,0 +1,237 @@
+"""Numbers with errors: what may be said of them, and what the errors leave open."""
+
+from __future__ import annotations
+
+import itertools
+import math
+
+import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
+
+from studies.judging.evidence import (
+    Evidence,
+    Measured,
+    Verdict,
+    every,
+    opposite,
+    rising,
+    some,
+    within,
+)
+
+TRUTHS: tuple[Verdict, ...] = (True, None, False)
+RANK = {False: 0, None: 1, True: 2}  # by Kleene: and is the least, or the greatest, not the mirror image
+
+# whole numbers: sums and differences are exact, so that bounds of errors can be asked for without tolerance
+wholes = st.integers(-(10**6), 10**6).map(float)
+errors = st.integers(0, 10**4).map(float)
+measured = st.builds(Measured, wholes, errors)
+rows = st.lists(measured, min_size=1, max_size=5)
+sizes = st.floats(1e-9, 1e9)
+signed = sizes | sizes.map(lambda x: -x)
+
+
+def possible(m: Measured) -> tuple[float, float]:
+    """Between what bounds the number lies."""
+    return m.value - m.error, m.value + m.error
+
+
+def ends(one: Measured, other: Measured) -> list[tuple[float, float]]:
+    """The corners of what two numbers can be."""
+    return list(itertools.product(possible(one), possible(other)))
+
+
+# --- arithmetic ---
+
+
+@given(one=measured, other=measured)
+def test_the_errors_of_a_sum_and_a_difference_cover_all_that_can_be(one: Measured, other: Measured) -> None:
+    assert possible(one + other)[1] == max(a + b for a, b in ends(one, other))
+    assert possible(one + other)[0] == min(a + b for a, b in ends(one, other))
+    assert possible(one - other)[1] == max(a - b for a, b in ends(one, other))
+    assert possible(one - other)[0] == min(a - b for a, b in ends(one, other))
+
+
+@given(one=measured, factor=st.integers(-100, 100))
+def test_a_product_carries_its_error_along(one: Measured, factor: int) -> None:
+    product = one.times(factor)
+    assert product.value == factor * one.value
+    assert possible(product) == (
+        min(factor * x for x in possible(one)),
+        max(factor * x for x in possible(one)),
+    )
+    assert product.error >= 0.0
+
+
+@given(one=st.builds(Measured, signed, st.just(0.0)), other=signed, shares=st.tuples(*2 * [st.floats(0, 1e-4)]))
+def test_the_error_of_a_quotient_is_right_to_first_order(
+    one: Measured, other: float, shares: tuple[float, float]
+) -> None:
+    top = Measured(one.value, shares[0] * abs(one.value))
+    bottom = Measured(other, shares[1] * abs(other))
+    ratio = top.over(bottom)
+    assert ratio.value == top.value / bottom.value
+    farthest = max(abs(a / b - ratio.value) for a, b in ends(top, bottom))
+    # what is left out is of second order: a share of the error as small as the errors' shares; and rounding
+    rounding = 4e-16 * abs(ratio.value)
+    assert ratio.error == pytest.approx(farthest, rel=3e-4, abs=rounding)
+
+
+# --- comparisons ---
+
+
+@given(one=measured, other=measured | wholes)
+def test_above_and_below_are_contrary_or_both_open(one: Measured, other: Measured | float) -> None:
+    assert one.below(other) is opposite(one.above(other))
+
+
+@given(one=measured, other=measured)
+def test_a_comparison_is_decided_if_nothing_possible_contradicts_it(one: Measured, other: Measured) -> None:
+    verdict = one.above(other)
+    if verdict is True:
+        assert all(a > b for a, b in ends(one, other))
+    elif verdict is False:
+        assert all(a < b for a, b in ends(one, other))
+    else:
+        assert possible(one)[0] <= possible(other)[1]
+        assert possible(other)[0] <= possible(one)[1]
+    assert other.below(one) is verdict
+
+
+@given(one=measured, limit=wholes)
+def test_a_plain_number_has_no_error(one: Measured, limit: float) -> None:
+    assert one.above(limit) is one.above(Measured(limit, 0.0))
+    assert one.below(limit) is one.below(Measured(limit, 0.0))
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "above"),
+    [
+        (Measured(2.0), 1.0, True),
+        (Measured(1.0), 2.0, False),
+        (Measured(2.0, 0.5), Measured(1.0, 0.25), True),
+        (Measured(2.0, 0.5), Measured(1.0, 0.5), None),  # they touch
+        (Measured(-1.0, 0.5), Measured(1.0, 0.25), False),
+    ],
+)
+def test_comparisons_as_known(one: Measured, other: Measured | float, above: Verdict) -> None:
+    assert one.above(other) is above
+
+
+# --- logic ---
+
+
+@given(verdicts=st.lists(st.sampled_from(TRUTHS), max_size=5))
+def test_every_and_some_obey_kleenes_logic(verdicts: list[Verdict]) -> None:
+    ranks = [RANK[v] for v in verdicts]
+    assert RANK[every(verdicts)] == min(ranks, default=2)
+    assert RANK[some(verdicts)] == max(ranks, default=0)
+    assert every(iter(verdicts)) is every(verdicts)
+    assert some(iter(verdicts)) is some(verdicts)
+
+
+@pytest.mark.parametrize("verdict", TRUTHS)
+def test_the_contrary_is_the_mirror_image(verdict: Verdict) -> None:
+    assert RANK[opposite(verdict)] == 2 - RANK[verdict]
+
+
+# --- rows ---
+
+
+@given(row=rows)
+def test_a_row_rises_if_each_step_does(row: list[Measured]) -> None:
+    steps = [RANK[b.above(a)] for a, b in itertools.pairwise(row)]
+    assert RANK[rising(row)] == min(steps, default=2)
+
+
+def test_rows_as_known() -> None:
+    assert rising([Measured(1.0), Measured(2.0), Measured(3.0)]) is True
+    assert rising([Measured(1.0), Measured(3.0), Measured(2.0)]) is False
+    assert rising([Measured(1.0), Measured(2.0, 1.5), Measured(3.0)]) is None
+    assert rising([Measured(3.0), Measured(2.0, 0.5), Measured(1.0, 10.0)]) is False
+    assert within([Measured(100.0), Measured(103.0), Measured(98.0)], 0.06) is True
+    assert within([Measured(100.0), Measured(103.0), Measured(98.0)], 0.04) is False
+    assert within([Measured(100.0, 1.0), Measured(103.0), Measured(98.0, 1.0)], 0.05) is None
+    assert within([Measured(-100.0), Measured(-103.0)], 0.05) is True  # a share of the size, not of the sign
+    assert within([Measured(1.0), Measured(2.0)], 0.05, Measured(100.0)) is True
+    assert within([Measured(1.0), Measured(2.0)], 0.05, Measured(-10.0)) is False
+
+
+@given(row=rows, share=st.sampled_from([0.25, 0.5, 1.0]), of=st.none() | measured)
+def test_a_row_is_within_a_share_if_its_span_is_below_it(
+    row: list[Measured], share: float, of: Measured | None
+) -> None:
+    low, high = min(m.value for m in row), max(m.value for m in row)
+    scale = of or row[0]
+    verdict = within(row, share, of)
+    if verdict is True:
+        assert high - low < share * abs(scale.value)
+    elif verdict is False:
+        assert high - low > share * abs(scale.value)
+    elif all(m.error == 0.0 for m in (*row, scale)):
+        assert high - low == share * abs(scale.value)  # without errors only a tie is open
+
+
+def test_a_row_of_evidence_is_in_the_order_of_the_cases() -> None:
+    known = Evidence({case: {"force": Measured(n), "other": Measured(-1.0)} for n, case in enumerate("abc")})
+    assert [m.value for m in known.row("force", "cab")] == [2, 0, 1]
+    assert known["b", "force"] == Measured(1)
+
+
+# --- in words ---
+
+
+@given(value=signed | st.just(0.0), error=sizes, digits=st.integers(1, 9))
+@example(value=51503.8, error=255.0, digits=5)
+@example(value=3.0, error=20.0, digits=4)
+@example(value=-0.0004, error=0.003, digits=3)
+@example(value=9.9996, error=0.001, digits=4)
+def test_no_digit_is_said_that_the_error_does_not_leave(value: float, error: float, digits: int) -> None:
+    text = Measured(value, error).said(digits)
+    place = math.floor(math.log10(error))  # of the error's first digit
+    decimals = len(text.partition(".")[2])
+    assert decimals <= max(0, -place)
+    # in front of the decimal point zeros stand for digits that are not known
+    assert place <= 0 or int(text) % 10**place == 0
+    # what is said is right to half of its last place, or of the place asked for; rounding aside
+    last = max(float(place), math.floor(math.log10(max(abs(value), error))) + 1.0 - digits)
+    assert abs(float(text) - value) <= 0.5 * 10.0**last * (1.0 + 1e-9) + 1e-15 * abs(value)
+
+
+@given(value=signed, digits=st.integers(1, 9))
+def test_without_an_error_the_digits_asked_for_are_said(value: float, digits: int) -> None:
+    text = Measured(value).said(digits)
+    # half a unit of the last digit asked for; rounding aside
+    unit = 10.0 ** (math.floor(math.log10(abs(value))) + 1 - digits)
+    assert abs(float(text) - value) <= 0.5 * unit * (1.0 + 1e-9) + 1e-15 * abs(value)
+    if abs(value) < 10.0 ** (digits - 1):
+        shown = text.lstrip("-0.").replace(".", "")
+        assert len(shown) - digits in (0, 1)  # one more if rounding carries: 9.9996 is 10.000
+
+
+@given(value=signed | st.sampled_from([0.0, -0.0]), error=sizes | st.just(0.0))
+def test_zero_has_no_sign(value: float, error: float) -> None:
+    text = Measured(value, error).said()
+    assert not (text.startswith("-") and float(text) == 0.0)
+    assert text.startswith("-") == (float(text) < 0.0)
+
+
+@pytest.mark.parametrize(
+    ("value", "error", "digits", "text"),
+    [
+        (0.0, 0.0, 4, "0"),
+        (-0.0, 0.0, 4, "0"),
+        (51.37561, 0.0, 5, "51.376"),
+        (51.37561, 0.02, 5, "51.38"),
+        (51.37561, 3.0, 5, "51"),
+        (-3.690176, 0.0, 4, "-3.690"),
+        (-0.0004, 0.001, 4, "0.000"),
+        (0.0004, 3.0, 4, "0"),
+        (0.00012345, 0.0, 3, "0.000123"),
+        (1154.9386, 5e-7, 4, "1155"),
+        (51503.8, 255.0, 5, "51500"),
+    ],
+)
+def test_numbers_in_words_as_known(value: float, error: float, digits: int, text: str) -> None:
+    assert Measured(value, error).said(digits) == text

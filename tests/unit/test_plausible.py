@@ -1,0 +1,295 @@
+"""Plausible machines: how they are drawn, and what follows from a sample."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from studies import paper_machine
+from studies.judging import plausible
+from studies.judging.plausible import (
+    BODIES,
+    FACTORS,
+    MEMBERS,
+    REFERENCE,
+    REFERENCE_SCALE,
+    Factor,
+    machine,
+    pin,
+    samples,
+)
+from studies.law_catalogue import POWER_LAWS
+from support_exudyn import HydraulicSupport, reference_support
+from support_exudyn.machine import lumped
+from user_forces import STEEL, STEEL_35CRMO, DepthSpeed, InputError, TouchSpeed, internal_contact_stiffness
+
+BY_NAME = {factor.name: factor for factor in FACTORS}
+RANGES = [factor for factor in FACTORS if not factor.choices]
+LISTS = [factor for factor in FACTORS if factor.choices]
+PIVOTS = (
+    "rear_base",
+    "front_base",
+    "rear_shield",
+    "front_shield",
+    "hinge",
+    "front_foot",
+    "front_head",
+    "rear_foot",
+    "rear_head",
+    "tip",
+)
+EXACT = 1e-13  # rounding of a few products
+
+
+def changed(**values: plausible.Choice) -> dict[str, plausible.Choice]:
+    """The reference support's sample, changed."""
+    assert set(values) <= set(REFERENCE)
+    return REFERENCE | values
+
+
+def mass(support: HydraulicSupport) -> float:
+    return sum(part.mass for parts in support.parts.values() for part in parts)
+
+
+def centre(support: HydraulicSupport, body: str) -> np.ndarray:
+    return np.array(lumped(support.parts[body]).centre)
+
+
+def can_be_built(sample: plausible.Sample) -> bool:
+    try:
+        machine(sample)
+    except InputError:
+        return False
+    return True
+
+
+# --- drawing ---
+
+
+@pytest.mark.parametrize("factor", RANGES, ids=lambda f: f.name)
+@pytest.mark.parametrize("number", [1, 8, 37, 128])
+def test_every_stratum_of_every_range_has_one_machine(factor: Factor, number: int) -> None:
+    drawn = sorted(float(sample[factor.name]) for sample in samples(number, 11))
+    if factor.powers:
+        shares = [math.log(x / factor.low) / math.log(factor.high / factor.low) for x in drawn]
+    else:
+        shares = [(x - factor.low) / (factor.high - factor.low) for x in drawn]
+    for n, share in enumerate(shares):
+        # rounding may carry a value over the border of its stratum
+        assert n / number - 1e-12 <= share <= (n + 1) / number + 1e-12
+    assert factor.low <= drawn[0] <= drawn[-1] <= factor.high
+
+
+@pytest.mark.parametrize("factor", LISTS, ids=lambda f: f.name)
+@pytest.mark.parametrize("number", [24, 128, 256])
+def test_every_choice_occurs_equally_often(factor: Factor, number: int) -> None:
+    drawn = Counter(sample[factor.name] for sample in samples(number, 11))
+    assert set(drawn) == set(factor.choices)
+    for times in drawn.values():
+        # a choice covers so many whole strata, and parts of one at either end
+        assert abs(times - number / len(factor.choices)) < 2.0
+
+
+def test_factors_are_drawn_independently() -> None:
+    drawn = np.array([[float(sample[f.name]) for f in RANGES] for sample in samples(256, 11)])
+    off = np.abs(np.corrcoef(drawn, rowvar=False) - np.eye(len(RANGES)))
+    # correlations of 256 independent draws have a standard deviation of 1/16; none of 136 is beyond five of it
+    assert off.max() < 5 / 16
+
+
+def test_the_same_number_and_seed_give_the_same_machines() -> None:
+    assert samples(16, 3) == samples(16, 3)
+    assert samples(16, 3) != samples(16, 4)
+    assert [*samples(16, 3)[0]] == [factor.name for factor in FACTORS]
+
+
+@pytest.mark.parametrize("number", [0, -1])
+def test_no_machines_at_all_are_refused(number: int) -> None:
+    with pytest.raises(InputError, match=rf"machines = {number}: allowed: at least 1"):
+        samples(number, 1)
+
+
+@given(place=st.integers(0, len(FACTORS) - 1), share=st.floats(0.0, 1.0))
+def test_a_share_of_a_factor_is_one_of_its_values(place: int, share: float) -> None:
+    factor = FACTORS[place]
+    value = factor.at(share)
+    if factor.choices:
+        assert value in factor.choices
+    else:
+        # rounding at the upper end
+        assert factor.low <= value <= factor.high * (1 + EXACT) + EXACT * abs(factor.low)
+
+
+def test_powers_have_their_middle_at_the_geometric_mean() -> None:
+    factor = BY_NAME["dynamic_speed"]
+    assert factor.at(0.5) == pytest.approx(math.sqrt(factor.low * factor.high), rel=EXACT)
+    assert BY_NAME["sliding_coefficient"].at(0.5) == pytest.approx(0.2, rel=EXACT)
+    assert BY_NAME["bore"].at(0.49) == "base"
+    assert BY_NAME["bore"].at(0.51) == BY_NAME["bore"].at(1.0) == "rear link"
+
+
+def test_all_that_the_requirement_names_is_varied() -> None:
+    assert len(BY_NAME) == len(FACTORS)
+    assert set(REFERENCE) == set(BY_NAME)
+    asked = {"scale", "start_height", "restitution", "law", "stiffness", "sliding_coefficient"}
+    assert asked | {"static_speed", "dynamic_speed", "window"} <= set(BY_NAME)
+    for factor in FACTORS:
+        assert factor.meaning
+        assert factor.reason
+
+
+@pytest.mark.parametrize("factor", FACTORS, ids=lambda f: f.name)
+def test_the_reference_support_is_one_of_the_plausible_machines(factor: Factor) -> None:
+    value = REFERENCE[factor.name]
+    if factor.choices:
+        assert value in factor.choices
+    else:
+        assert factor.low <= float(value) <= factor.high
+
+
+# --- the machine of a sample ---
+
+
+def test_the_reference_sample_is_the_reference_support_to_the_last_bit() -> None:
+    # scale and factors are exactly 1 and shifts exactly 0: nothing is left to rounding
+    assert machine(REFERENCE) == reference_support()
+
+
+@given(scale=st.floats(0.6, 1.0))
+def test_masses_go_with_the_cube_of_the_scale(scale: float) -> None:
+    support, base, ratio = machine(changed(scale=scale)), reference_support(), scale / REFERENCE_SCALE
+    assert mass(support) == pytest.approx(ratio**3 * mass(base), rel=EXACT)
+    assert support.start_hinge_height == pytest.approx(ratio * base.start_hinge_height, rel=EXACT)
+    for name in PIVOTS:
+        assert getattr(support, name) == pytest.approx(ratio * np.array(getattr(base, name)), rel=EXACT)
+    for body in MEMBERS:
+        ours, its = lumped(support.parts[body]), lumped(base.parts[body])
+        assert ours.mass == pytest.approx(ratio**3 * its.mass, rel=EXACT)
+        assert ours.centre == pytest.approx(ratio * np.array(its.centre), rel=EXACT)
+        assert ours.inertia == pytest.approx(ratio**5 * its.inertia, rel=10 * EXACT)  # a longer sum
+    # the same shape: the same posture at the start
+    assert support.start().rear_link == pytest.approx(base.start().rear_link, abs=1e-11)  # of a root search
+
+
+@pytest.mark.parametrize("name", BODIES)
+def test_a_mass_factor_multiplies_its_parts_alone(name: str) -> None:
+    body, places = BODIES[name]
+    support, base = machine(changed(**{f"mass_{name}": 1.5})), reference_support()
+    for other, parts in base.parts.items():
+        for place, part in enumerate(parts):
+            factor = 1.5 if other == body and place in places else 1.0
+            ours = support.parts[other][place]
+            assert ours.mass == pytest.approx(factor * part.mass, rel=EXACT)
+            assert ours.inertia == pytest.approx(factor * part.inertia, rel=EXACT)
+            assert ours.centre == part.centre
+
+
+def test_every_part_has_a_mass_factor() -> None:
+    named = sorted((body, place) for body, places in BODIES.values() for place in places)
+    parts = reference_support().parts
+    assert named == sorted((body, place) for body in parts for place in range(len(parts[body])))
+    assert set(MEMBERS) == set(parts)
+
+
+@pytest.mark.parametrize("scale", [REFERENCE_SCALE, 0.9])
+@pytest.mark.parametrize("body", MEMBERS)
+def test_a_centre_is_shifted_along_its_member(body: str, scale: float) -> None:
+    support, base = (machine(changed(scale=scale, **{f"centre_along_{body}": share})) for share in (0.07, 0.0))
+    a, b = (np.array(getattr(base, pivot)) for pivot in MEMBERS[body])
+    # positions of some metres; shifts of some centimetres
+    np.testing.assert_allclose(centre(support, body) - centre(base, body), 0.07 * (b - a), atol=1e-14)
+    assert lumped(support.parts[body]).inertia == pytest.approx(lumped(base.parts[body]).inertia, rel=1e-12)
+    assert {other for other in MEMBERS if support.parts[other] != base.parts[other]} == {body}
+
+
+@pytest.mark.parametrize("scale", [REFERENCE_SCALE, 0.9])
+@pytest.mark.parametrize("body", ["shield", "canopy"])
+def test_a_centre_is_shifted_across_its_member(body: str, scale: float) -> None:
+    support, base = (machine(changed(scale=scale, **{f"centre_across_{body}": share})) for share in (0.07, 0.0))
+    a, b = (np.array(getattr(base, pivot)) for pivot in MEMBERS[body])
+    shift = centre(support, body) - centre(base, body)
+    assert shift @ (b - a) == pytest.approx(0.0, abs=1e-13)  # rounding of centres of some metres
+    assert np.hypot(*shift) == pytest.approx(0.07 * np.hypot(*(b - a)), rel=1e-12)
+    assert (b - a)[0] * shift[1] - (b - a)[1] * shift[0] > 0.0  # to the left of its direction
+
+
+def test_the_start_height_is_a_share_of_the_assumed() -> None:
+    height = machine(changed(scale=0.8, start_height=0.95)).start_hinge_height
+    assert height == pytest.approx(0.95 * 0.8 / REFERENCE_SCALE * 1.8, rel=EXACT)
+
+
+def test_nearly_every_sample_can_be_built() -> None:
+    built = sum(can_be_built(sample) for sample in samples(64, 5))
+    assert built >= 60  # ranges that leave out more were ill chosen
+
+
+def test_a_machine_that_cannot_be_closed_is_refused() -> None:
+    with pytest.raises(InputError, match=r"start_hinge_height = .*cannot bring the hinge there; allowed:"):
+        machine(changed(start_height=5.0))
+
+
+@pytest.mark.parametrize("name", ["scale", "restitution"])
+def test_words_for_a_number_are_refused(name: str) -> None:
+    with pytest.raises(InputError, match=f"{name} = 'large': allowed: a number"):
+        pin(changed(**{name: "large"}), 1.5) if name == "restitution" else machine(changed(**{name: "large"}))
+
+
+# --- the pin of a sample ---
+
+
+@pytest.mark.parametrize("size", [0.5, 1.0, 1.5, 2.0])
+def test_the_reference_pin_is_the_papers(size: float) -> None:
+    assert pin(REFERENCE, size) == paper_machine.loose_pin(size, paper_machine.SLIDING_COEFFICIENT)
+
+
+def test_a_sample_decides_law_stiffness_friction_and_bore() -> None:
+    sample = changed(
+        law="flores",
+        restitution=0.4,
+        damping_speed="depth",
+        stiffness="internal",
+        bore="rear link",
+        sliding_coefficient=0.11,
+        static_speed=2e-5,
+        dynamic_speed=3e-3,
+    )
+    loose = pin(sample, 1.0)
+    normal, friction = loose.contact.normal, loose.contact.friction
+    assert type(normal) is POWER_LAWS["flores"]
+    assert normal.restitution == 0.4
+    assert type(normal.damping_speed) is DepthSpeed
+    bearing = paper_machine.bearing(1.0)
+    assert normal.stiffness == internal_contact_stiffness(bearing, STEEL, STEEL_35CRMO)
+    assert loose.contact.bearing == bearing
+    assert loose.bore == "second"
+    assert (friction.sliding_coefficient, friction.static_speed, friction.dynamic_speed) == (0.11, 2e-5, 3e-3)
+    assert type(pin(REFERENCE, 1.0).contact.normal.damping_speed) is TouchSpeed
+
+
+def test_every_sample_has_a_pin() -> None:
+    laws = {type(pin(sample, 2.0).contact.normal) for sample in samples(32, 5)}
+    assert laws == set(POWER_LAWS.values())
+
+
+# --- words ---
+
+
+def test_factors_are_said_in_words() -> None:
+    assert BY_NAME["sliding_coefficient"].said == "mu_d"
+    assert BY_NAME["mass_tail_beam"].said == "mass tail beam"
+    assert BY_NAME["scale"].span == "0.6 to 1"
+    assert BY_NAME["static_speed"].span == "1e-05 to 0.001, even in powers"
+    assert BY_NAME["bore"].span == "base, rear link"
+    assert BY_NAME["bore"].chosen("base") == "the bore in the base"
+    assert BY_NAME["dynamic_speed"].bound("below", 0.012) == "v_d below 0.012 m/s"
+    assert BY_NAME["sliding_coefficient"].bound("above", 0.2) == "mu_d above 0.2"
+    phrases = [factor.chosen(choice) for factor in LISTS for choice in factor.choices]
+    assert len(set(phrases)) == len(phrases)
+    said = sorted(factor.said for factor in FACTORS)
+    assert all(one != other for one, other in pairwise(said))

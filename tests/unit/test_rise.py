@@ -1,0 +1,217 @@
+"""What is measured of a rise, against closed forms for known courses."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+import numpy.typing as npt
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from studies import rise
+
+Series = npt.NDArray[np.float64]
+BEGIN, END = rise.START + rise.EDGE, rise.END - rise.EDGE
+PERIODS = (1e-3, 2e-3)  # of the records [s]
+
+
+@dataclass(frozen=True)
+class Record:
+    """A run that is known in closed form."""
+
+    period: float = 1e-3
+    courses: dict[str, Callable[[Series], Series]] = field(default_factory=dict)
+
+    @property
+    def time(self) -> Series:
+        return np.arange(round(5.0 / self.period) + 1) * self.period
+
+    def __getitem__(self, name: str) -> Series:
+        return self.courses[name](self.time)
+
+
+def response(frequency: float, period: float) -> float:
+    """What a centred mean over so many records leaves of a sine of a frequency [Hz]: Dirichlet's kernel."""
+    records = 2 * round(0.05 / period) + 1
+    phase = np.pi * frequency * period
+    return float(np.sin(records * phase) / (records * np.sin(phase)))
+
+
+def rms(values: Series) -> float:
+    return float(np.sqrt(np.mean(values**2)))
+
+
+# --- masks ---
+
+
+@pytest.mark.parametrize("period", PERIODS)
+def test_masks_take_in_both_ends(period: float) -> None:
+    run = Record(period)
+    inside = run.time[rise.between(run, 3.1, 3.6)]
+    assert inside[[0, -1]] == pytest.approx([3.1, 3.6], abs=1e-12)  # rounding of the times
+    assert inside.size == round(0.5 / period) + 1
+    whole = run.time[rise.in_rise(run)]
+    assert (whole[0], whole[-1]) == (3.0, 5.0)
+    assert whole.size == round(2.0 / period) + 1
+
+
+def test_the_stages_lie_in_the_rise_and_leave_the_edges_out() -> None:
+    times = [time for stage in rise.STAGES.values() for time in stage]
+    assert list(rise.STAGES) == ["early", "middle", "late"]
+    assert times == sorted(times)
+    assert times[0] >= BEGIN
+    assert times[-1] <= END
+    # of one length, so that ripples can be compared; rounding of the differences
+    assert [b - a for a, b in rise.STAGES.values()] == pytest.approx([0.5] * 3, abs=1e-12)
+
+
+# --- trend and ripple ---
+
+
+@pytest.mark.parametrize("period", PERIODS)
+@pytest.mark.parametrize("frequency", [4.0, 12.0, 20.0, 37.0])
+def test_the_ripple_of_a_sine_on_a_slope_is_known(period: float, frequency: float) -> None:
+    def sine(time: Series) -> Series:
+        return 0.3 * np.sin(2 * np.pi * frequency * time + 0.4)
+
+    run = Record(period, {"x": lambda time: 50.0 - 7.0 * time + sine(time)})
+    left = (1.0 - response(frequency, period)) * rms(sine(run.time[rise.between(run, BEGIN, END)]))
+    # a slope is its own moving mean; rounding of the moving sum over values of 50
+    assert rise.ripple(run, run["x"]) == pytest.approx(left, abs=1e-11)
+
+
+@pytest.mark.parametrize("period", PERIODS)
+def test_the_ripple_hardly_depends_on_how_often_is_recorded(period: float) -> None:
+    run = Record(period, {"x": lambda time: np.sin(2 * np.pi * 20.0 * time)})
+    # at 20 Hz the window holds two whole periods, and one record: the whole sine is ripple
+    assert rise.ripple(run, run["x"]) == pytest.approx(np.sqrt(0.5), rel=0.025)
+
+
+@pytest.mark.parametrize("period", PERIODS)
+def test_a_bend_leaves_a_known_rest(period: float) -> None:
+    records = 2 * round(0.05 / period) + 1
+    run = Record(period, {"x": lambda time: 3.0 * (time - 4.0) ** 2})
+    rest = 3.0 * period**2 * (records**2 - 1) / 12  # mean of the squares of a centred window's times
+    # rounding of the moving sum over values of 3
+    assert rise.ripple(run, run["x"]) == pytest.approx(rest, abs=1e-12)
+
+
+@pytest.mark.parametrize("period", PERIODS)
+@given(value=st.floats(-1e6, 1e6), slope=st.floats(-1e3, 1e3))
+def test_nothing_fluctuates_if_nothing_shakes(period: float, value: float, slope: float) -> None:
+    size = abs(value) + 5.0 * abs(slope)
+    run = Record(period, {"still": lambda t: np.full_like(t, value), "x": lambda t: value + slope * t})
+    # rounding of the moving sum: a unit in the last place for each of up to 2001 records that it passed
+    for begin in (rise.START, BEGIN):
+        assert rise.ripple(run, run["still"], begin) <= 2001 * 2.3e-16 * size
+    assert rise.ripple(run, run["x"]) <= 2001 * 2.3e-16 * size
+
+
+@pytest.mark.parametrize("begin", [rise.START, BEGIN])
+def test_what_was_before_the_rise_does_not_enter(begin: float) -> None:
+    def course(time: Series) -> Series:
+        return np.sin(40.0 * time) * time
+
+    calm = Record(courses={"x": lambda t: np.where(t < 3.0, 0.0, course(t))})
+    wild = Record(courses={"x": lambda t: np.where(t < 3.0, 1e3 * np.cos(50.0 * t), course(t))})
+    assert rise.ripple(calm, calm["x"], begin) == rise.ripple(wild, wild["x"], begin)
+    assert rise.likeness(calm, wild, "x") == pytest.approx(1.0, abs=1e-12)  # rounding
+
+
+def test_only_what_is_between_the_times_counts() -> None:
+    run = Record(courses={"x": lambda t: np.where((t > 3.7) & (t < 4.3), np.sin(2 * np.pi * 20.0 * t), 0.0)})
+    shaking = rise.ripple(run, run["x"], *rise.STAGES["middle"])
+    assert shaking == pytest.approx(np.sqrt(0.5), rel=0.02)  # one record in the window is more than two periods
+    assert rise.ripple(run, run["x"], *rise.STAGES["early"]) <= 1e-15  # rounding of sums of zeros
+    assert rise.ripple(run, run["x"], *rise.STAGES["late"]) <= 1e-13  # of what the moving sum has passed
+    # six of 18 tenths of a second shake, ten records of 600 more or less where the trend sees the borders
+    assert rise.ripple(run, run["x"]) == pytest.approx(np.sqrt(0.5 / 3.0), rel=0.05)
+
+
+def test_a_blow_at_the_start_counts_only_if_it_is_asked_for() -> None:
+    run = Record(courses={"x": lambda t: np.where((t >= 3.0) & (t < 3.02), 1.0, 0.0)})
+    assert rise.ripple(run, run["x"]) <= 1e-13  # rounding of the moving sum
+    assert rise.ripple(run, run["x"], rise.START) > 0.05
+
+
+@pytest.mark.parametrize("period", PERIODS)
+def test_the_trend_follows_a_slope_and_flattens_a_sine(period: float) -> None:
+    run = Record(period)
+    inner = slice(60, -60)  # no window fits at the ends
+    slope = 2.0 + 3.0 * run.time
+    np.testing.assert_allclose(rise.trend(run, slope)[inner], slope[inner], rtol=1e-12)  # rounding
+    sine = np.sin(2 * np.pi * 20.0 * run.time)
+    # one record in the window is more than two periods: 1 % or, every 2 ms, 2 %
+    assert np.abs(rise.trend(run, sine)[inner]).max() < 11.0 * period
+
+
+# --- likeness ---
+
+
+def test_the_same_course_is_alike_whatever_its_size_and_shaking() -> None:
+    plain = Record(courses={"x": lambda t: np.sin(t)})
+    other = Record(courses={"x": lambda t: 5.0 - 3.0 * np.sin(t)})
+    shaken = Record(courses={"x": lambda t: 2.0 * np.sin(t) + 0.3 * np.sin(2 * np.pi * 20.0 * t)})
+    assert rise.likeness(plain, plain, "x") == pytest.approx(1.0, abs=1e-12)  # rounding
+    assert rise.likeness(plain, other, "x") == pytest.approx(-1.0, abs=1e-12)
+    # of the shaking the trend keeps 1 %, 0.003, of a course whose standard deviation is 0.66
+    assert rise.likeness(plain, shaken, "x") == pytest.approx(1.0, abs=1e-4)
+    assert rise.likeness(shaken, plain, "x") == rise.likeness(plain, shaken, "x")
+
+
+def test_courses_at_right_angles_are_not_alike() -> None:
+    # over the 1.8 s that count these are one whole period
+    one = Record(courses={"x": lambda t: np.sin(2 * np.pi * (t - BEGIN) / 1.8)})
+    other = Record(courses={"x": lambda t: np.cos(2 * np.pi * (t - BEGIN) / 1.8)})
+    # one record more than a period: 1 of 1801
+    assert rise.likeness(one, other, "x") == pytest.approx(0.0, abs=2e-3)
+
+
+# --- means, departures, angles ---
+
+
+@pytest.mark.parametrize("stage", rise.STAGES)
+def test_the_mean_of_a_stage_is_of_magnitudes(stage: str) -> None:
+    begin, end = rise.STAGES[stage]
+    run = Record(courses={"x": lambda t: -2.0 * t, "y": lambda t: np.sign(t - 0.5 * (begin + end) + 1e-6)})
+    assert rise.stage_mean(run, "x", stage) == pytest.approx(begin + end, rel=1e-12)  # rounding
+    assert rise.stage_mean(run, "y", stage) == 1.0
+
+
+def test_a_departure_is_taken_record_by_record_in_the_rise() -> None:
+    loose = Record(courses={"x": lambda t: np.where(t < 3.0, 99.0, t**2)})
+    ideal = Record(courses={"x": lambda t: np.where(t < 3.0, -1.0, t)})
+    rising = rise.departure(loose, ideal, "x")
+    time = np.linspace(3.0, 5.0, 2001)
+    np.testing.assert_allclose(rising, time**2 - time, rtol=1e-12)  # rounding of the times
+
+
+def test_angles_are_those_of_figure_12() -> None:
+    # a column that leans forward by 0.2, and one that leans to the rear by 0.2; x points forward
+    run = Record(
+        courses={
+            "front_column.angle": lambda t: np.full_like(t, 0.5 * np.pi - 0.2),
+            "rear_column.angle": lambda t: np.full_like(t, 0.5 * np.pi + 0.2),
+        }
+    )
+    # from the rearward horizontal; rounding
+    assert rise.rearward_angle(run, "front_column") == pytest.approx(0.5 * np.pi + 0.2, rel=1e-15)
+    assert rise.rearward_angle(run, "rear_column") == pytest.approx(0.5 * np.pi - 0.2, rel=1e-15)
+    assert rise.lean(run, "front_column") == pytest.approx(0.2, rel=1e-14)
+    assert rise.lean(run, "rear_column") == pytest.approx(0.2, rel=1e-14)
+
+
+@given(angle=st.floats(0.0, np.pi), tilt=st.floats(1e-3, 0.1))
+def test_tilting_to_the_rear_makes_both_angles_smaller(angle: float, tilt: float) -> None:
+    before = Record(courses={"front_column.angle": lambda t: np.full_like(t, angle)})
+    after = Record(courses={"front_column.angle": lambda t: np.full_like(t, angle + tilt)})
+    change = rise.rearward_angle(after, "front_column") - rise.rearward_angle(before, "front_column")
+    assert change == pytest.approx(-tilt, rel=1e-10)  # rounding of angles about 3
+    nearer = rise.lean(after, "front_column") < rise.lean(before, "front_column")
+    if angle + tilt <= 0.5 * np.pi:
+        assert nearer.all()
+    elif angle >= 0.5 * np.pi:
+        assert not nearer.any()
