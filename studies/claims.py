@@ -52,12 +52,12 @@ def claim_sheet(rulings: Sequence[Ruling]) -> Sheet:
         "The paper's claims",
         ("no.", "claim (where)", "verdict", "machines", "reference support (paper)", "read as"),
         tuple(rows),
-        "Four numbers: clearances of 0.5, 1.0, 1.5, 2.0 mm; drive mode 2 unless said; no digit is shown that the "
-        "numerical error does not leave. Machines: share of the plausible machines for which the claim holds, "
-        "95 % confidence interval, and how many the numerical error leaves open. Verdict: holds from 95 % on, "
-        "not supported up to 5 %; in between, the bound on one datum, or two together, that foretells most "
-        "judgements. Right for: machines that were not used to find the bound; below 85 % it is called most "
-        "telling.",
+        "Four numbers: clearances of 0.5, 1.0, 1.5, 2.0 mm; drive mode 2 unless said; no digit is shown that "
+        "the numerical error does not leave. Machines: share of the plausible machines for which the claim "
+        "holds, 95 % confidence interval, and how many the numerical error leaves open. Verdict: holds from "
+        "95 % on, not supported up to 5 %; in between, the bound on one datum, or two together, that "
+        "foretells most judgements. Right for: machines that were not used to find the bound; below 85 % it "
+        "is called most telling.",
         wide=True,
     )
 
