@@ -17,7 +17,7 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
 from studies.reporting.chapter import Sheet
 from support_exudyn import Failure, Result, Scenario, SimulationError
-from support_exudyn.files import whole_file
+from support_exudyn.files import remove_leftovers, whole_file
 from support_exudyn.provenance import versions
 from support_exudyn.sweep import run_all
 from support_exudyn.workers import Workers
@@ -189,6 +189,7 @@ def run_main(main: Callable[[Options], None], chosen: Options) -> int:
     try:
         started = time.perf_counter()
         chosen.out.mkdir(parents=True, exist_ok=True)  # better to fail now than after the work
+        remove_leftovers(chosen.out)  # of a run that was killed
         main(chosen)
         print(f"{chosen.out}: done in {time.perf_counter() - started:.1f} s", file=sys.stderr)
     except (SimulationError, OSError) as error:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -13,11 +14,12 @@ from pathlib import Path
 def whole_file(path: str | Path) -> Iterator[Path]:
     """A temporary path beside `path` to write to; it takes the place of `path` if nothing goes wrong.
 
-    Missing folders are made. After an error or an interruption `path` is as it was before.
+    Missing folders are made. After an error or an interruption `path` is as it was before; of a process that is
+    killed a temporary file stays, see `remove_leftovers`.
     """
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(prefix=f".{path.stem}-", suffix=path.suffix, dir=path.parent)
+    handle, name = tempfile.mkstemp(prefix=f".{path.stem}-{os.getpid()}-", suffix=path.suffix, dir=path.parent)
     os.close(handle)
     temporary = Path(name)
     try:
@@ -26,6 +28,30 @@ def whole_file(path: str | Path) -> Iterator[Path]:
         temporary.replace(path)
     finally:
         temporary.unlink(missing_ok=True)
+
+
+LEFTOVER = re.compile(r"\..+-(\d+)-\w+(\.\w+)?")  # name of a temporary file, with the process that made it
+
+
+def remove_leftovers(folder: Path) -> None:
+    """Remove temporary files of `whole_file` in a folder whose process is gone."""
+    for path in list(folder.iterdir()):
+        found = LEFTOVER.fullmatch(path.name)
+        if found and not _is_alive(int(found.group(1))):
+            path.unlink(missing_ok=True)
+
+
+def _is_alive(process: int) -> bool:
+    """Whether a process runs; yes where that cannot be asked without harm."""
+    if os.name != "posix":
+        return True
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    except OSError:
+        pass
+    return True
 
 
 def _umask() -> int:

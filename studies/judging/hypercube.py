@@ -23,7 +23,7 @@ import user_forces
 from studies.judging.plausible import Sample
 from studies.judging.plausible_runs import measures
 from support_exudyn import SimulationError
-from support_exudyn.files import whole_file
+from support_exudyn.files import remove_leftovers, whole_file
 from support_exudyn.reduced import warm_up
 from support_exudyn.workers import Workers, worker_pool
 from user_forces.values import InputError
@@ -56,7 +56,7 @@ def run(
     """
     folder = out / FOLDER
     folder.mkdir(parents=True, exist_ok=True)
-    _sweep_up(folder)
+    remove_leftovers(folder)
     places = [folder / f"{key(sample)}.json" for sample in samples]
     missing = [(place, s) for place, s in zip(places, samples, strict=True) if _read(place) is None]
     before = len(samples) - len(missing)
@@ -115,10 +115,3 @@ def _read(place: Path) -> Row | None:
         return Row(data["sample"], data["measures"], data["failure"])
     except (FileNotFoundError, json.JSONDecodeError, KeyError, TypeError, UnicodeDecodeError):
         return None
-
-
-def _sweep_up(folder: Path) -> None:
-    """Remove what a killed run left half-written."""
-    for path in folder.iterdir():
-        if path.name.startswith(".") or path.suffix != ".json":
-            path.unlink(missing_ok=True)

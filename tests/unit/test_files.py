@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from support_exudyn.files import whole_file
+from support_exudyn.files import remove_leftovers, whole_file
 
 
 def names(folder: Path) -> list[str]:
@@ -75,3 +75,22 @@ def test_file_may_be_read_like_any_other_new_file(tmp_path: Path) -> None:
     with whole_file(tmp_path / "whole") as temporary:
         temporary.write_text("")
     assert (tmp_path / "whole").stat().st_mode == (tmp_path / "plain").stat().st_mode
+
+
+@pytest.mark.skipif(os.name == "nt", reason="other processes cannot be asked for on Windows")
+def test_leftovers_of_dead_processes_are_removed_and_nothing_else(tmp_path: Path) -> None:
+    gone = 2**22 + 1  # no process has such a number
+    leftover = tmp_path / f".run-{gone}-ab_1cd.json"
+    bare = tmp_path / f".whole-{gone}-abcd"
+    kept = [tmp_path / "run.json", tmp_path / f".run-{os.getpid()}-ab1cd.json", tmp_path / ".gitignore"]
+    for path in (leftover, bare, *kept):
+        path.write_text("")
+    remove_leftovers(tmp_path)
+    assert names(tmp_path) == sorted(path.name for path in kept)
+
+
+def test_a_leftover_can_be_told_by_its_name(tmp_path: Path) -> None:
+    with whole_file(tmp_path / "a-run.json") as temporary:
+        remove_leftovers(tmp_path)  # its process is this one
+        assert f"-{os.getpid()}-" in temporary.name
+        assert temporary.exists()
