@@ -7,19 +7,10 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from studies import claims, clearance_influence, clearance_size, contact_laws, drive_mode, slider_crank
+from studies.catalogue import STUDIES
 from studies.report import rebuild
 from studies.study import Options, add_options, run_main
 from support_exudyn.workers import worker_pool
-
-STUDIES = {  # in the order of the report
-    clearance_influence.STUDY: clearance_influence.study,
-    clearance_size.STUDY: clearance_size.study,
-    drive_mode.STUDY: drive_mode.study,
-    claims.STUDY: claims.study,
-    contact_laws.STUDY: contact_laws.study,
-    slider_crank.STUDY: slider_crank.study,
-}
 
 
 def main(argv: Sequence[str] | None = None) -> int:

@@ -12,11 +12,10 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Literal
 
 import numpy as np
-import numpy.typing as npt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from studies import paper_machine, style
+from studies import paper_machine, rise, style
 from studies.reporting.chapter import Chapter, Picture, Sheet
 from studies.reporting.wording import against, by_case, how_sure, percent, said
 from studies.study import (
@@ -32,16 +31,12 @@ from studies.study import (
 )
 from support_exudyn import Result, Scenario
 
-Series = npt.NDArray[np.float64]
-DEGREES = 180.0 / np.pi
 STUDY = "clearance_influence"
 CLEARANCE_MM = 1.5
 IDEAL = "ideal"
 DRY = f"{CLEARANCE_MM} mm, mu_d = {paper_machine.SLIDING_COEFFICIENT}"
 SMOOTH = f"{CLEARANCE_MM} mm, mu_d = 0"
 CASES = (IDEAL, SMOOTH, DRY)
-FORCE = f"pin.{paper_machine.LOOSE_PIN}.force"
-RISE_START, RISE_END = 3.0, 5.0  # [s]
 WINDOWS = {"early": (3.0, 3.12), "middle": (4.0, 4.12), "late": (4.6, 4.72)}  # enlarged in Fig. 3 [s]
 
 
@@ -62,19 +57,14 @@ def scenarios(quick: bool) -> dict[str, Scenario]:
 # --- measures ---
 
 
-def in_rise(result: Result) -> npt.NDArray[np.bool_]:
-    """Mask of the records from 3 to 5 s."""
-    return (result.time >= RISE_START - 1e-9) & (result.time <= RISE_END + 1e-9)
-
-
-def velocity_deg(result: Result) -> Series:
+def velocity_deg(result: Result) -> rise.Series:
     """Angular velocity of the rear link [deg/s]."""
-    return DEGREES * result["rear_link.angular_velocity"]
+    return rise.DEGREES * result[rise.SPEED]
 
 
-def acceleration_deg(result: Result) -> Series:
+def acceleration_deg(result: Result) -> rise.Series:
     """Angular acceleration of the rear link [deg/s^2]."""
-    return DEGREES * result["rear_link.angular_acceleration"]
+    return rise.DEGREES * result[rise.ACCELERATION]
 
 
 def measure(pairs: Mapping[str, Pair]) -> list[Number]:
@@ -105,33 +95,33 @@ def _rise_numbers(case: str, pair: Pair) -> list[Number]:
         (
             "mean_pin_force",
             "N",
-            lambda r: float(r[FORCE][in_rise(r)].mean()),
+            lambda r: float(r[rise.FORCE][rise.in_rise(r)].mean()),
             paper_machine.MEAN_FORCE[CLEARANCE_MM],
         ),
         (
             "std_pin_force",
             "N",
-            lambda r: float(r[FORCE][in_rise(r)].std()),
+            lambda r: float(r[rise.FORCE][rise.in_rise(r)].std()),
             paper_machine.FORCE_SPREAD[CLEARANCE_MM],
         ),
-        ("largest_pin_force", "N", lambda r: float(r[FORCE].max()), None),
-        ("largest_pin_force_in_rise", "N", lambda r: float(r[FORCE][in_rise(r)].max()), None),
+        ("largest_pin_force", "N", lambda r: float(r[rise.FORCE].max()), None),
+        ("largest_pin_force_in_rise", "N", lambda r: float(r[rise.FORCE][rise.in_rise(r)].max()), None),
         (
             "largest_angular_speed_in_rise",
             "deg/s",
-            lambda r: float(np.abs(velocity_deg(r)[in_rise(r)]).max()),
+            lambda r: float(np.abs(velocity_deg(r)[rise.in_rise(r)]).max()),
             None,
         ),
         (
             "mean_angular_acceleration",
             "deg/s^2",
-            lambda r: float(acceleration_deg(r)[in_rise(r)].mean()),
+            lambda r: float(acceleration_deg(r)[rise.in_rise(r)].mean()),
             paper_machine.MEAN_ACCELERATION[CLEARANCE_MM],
         ),
         (
             "std_angular_acceleration",
             "deg/s^2",
-            lambda r: float(acceleration_deg(r)[in_rise(r)].std()),
+            lambda r: float(acceleration_deg(r)[rise.in_rise(r)].std()),
             None,
         ),
     ]
@@ -144,11 +134,11 @@ def _rise_numbers(case: str, pair: Pair) -> list[Number]:
 def _comparison_numbers(case: str, pair: Pair, ideal: Pair) -> list[Number]:
     """What the clearance changes against the ideal pin, record by record, from 3 to 5 s."""
 
-    def departure(channel: str, scale: float) -> Callable[[Result], Series]:
-        return lambda r: scale * (r[channel] - ideal.fine[channel])[in_rise(r)]
+    def departure(channel: str, scale: float) -> Callable[[Result], rise.Series]:
+        return lambda r: scale * (r[channel] - ideal.fine[channel])[rise.in_rise(r)]
 
-    force = departure(FORCE, 1.0)
-    speed = departure("rear_link.angular_velocity", DEGREES)
+    force = departure(rise.FORCE, 1.0)
+    speed = departure(rise.SPEED, rise.DEGREES)
     tip = departure("tip.x", 1e3)
     return [
         pair.number("rms_pin_force_departure", case, "N", lambda r: _rms(force(r))),
@@ -182,7 +172,7 @@ def _energy_numbers(case: str, pair: Pair) -> list[Number]:
     return numbers
 
 
-def _rms(values: Series) -> float:
+def _rms(values: rise.Series) -> float:
     return float(np.sqrt(np.mean(values**2)))
 
 
@@ -201,12 +191,18 @@ def figures(results: Mapping[str, Result]) -> dict[str, Figure]:
             "Angular acceleration of the rear link (paper: Fig. 4)",
         ),
         "fig5_pin_force": _line_figure(
-            results, lambda r: r[FORCE], 1e-3, "pin force [kN]", "Force in the rear-link pin (paper: Fig. 5)"
+            results,
+            lambda r: r[rise.FORCE],
+            1e-3,
+            "pin force [kN]",
+            "Force in the rear-link pin (paper: Fig. 5)",
         ),
     }
 
 
-def _draw(axes: Axes, results: Mapping[str, Result], get: Callable[[Result], Series], scale: float) -> None:
+def _draw(
+    axes: Axes, results: Mapping[str, Result], get: Callable[[Result], rise.Series], scale: float
+) -> None:
     """The three cases, the most restless one undermost."""
     curves = [
         (DRY, style.LOOSE, 0.9, "-", f"{CLEARANCE_MM} mm, friction {paper_machine.SLIDING_COEFFICIENT}"),
@@ -236,18 +232,18 @@ def _velocity_figure(results: Mapping[str, Result]) -> Figure:
 
 
 def _line_figure(
-    results: Mapping[str, Result], get: Callable[[Result], Series], scale: float, label: str, title: str
+    results: Mapping[str, Result], get: Callable[[Result], rise.Series], scale: float, label: str, title: str
 ) -> Figure:
     """The whole run above, the rise alone below on its own scale: the first impacts dwarf the rest."""
     drawing = Figure(figsize=style.size(170, 125))
-    whole, rise = drawing.subplots(2, 1)
-    for axes in (whole, rise):
+    whole, part = drawing.subplots(2, 1)
+    for axes in (whole, part):
         _draw(axes, results, get, scale)
         axes.set(xlabel="time [s]", ylabel=label)
     whole.set(xlim=(0.0, 5.0), title="a) 0 to 5 s, start with the journal in the middle of its bore")
-    rise.set(xlim=(RISE_START, RISE_END), title="b) the rise, 3 to 5 s")
+    part.set(xlim=(rise.START, rise.END), title="b) the rise, 3 to 5 s")
     values = [scale * get(results[c]) for c in CASES]
-    _fit_height(rise, (RISE_START + 1e-3, RISE_END - 1e-3), values, results[IDEAL].time)
+    _fit_height(part, (rise.START + 1e-3, rise.END - 1e-3), values, results[IDEAL].time)
     _legend(drawing, whole)
     drawing.suptitle(title)
     return drawing
@@ -258,7 +254,9 @@ def _legend(drawing: Figure, axes: Axes) -> None:
     drawing.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=3)
 
 
-def _fit_height(axes: Axes, window: tuple[float, float], curves: Sequence[Series], times: Series) -> None:
+def _fit_height(
+    axes: Axes, window: tuple[float, float], curves: Sequence[rise.Series], times: rise.Series
+) -> None:
     inside = (times >= window[0]) & (times <= window[1])
     low = min(curve[inside].min() for curve in curves)
     high = max(curve[inside].max() for curve in curves)

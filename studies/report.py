@@ -10,6 +10,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from studies.catalogue import STUDIES
 from studies.reporting.chapter import FILE
 from studies.reporting.content import Section, content
 from studies.reporting.html import page
@@ -61,8 +62,6 @@ def rebuild(out: Path, order: Sequence[str], quick: bool = False) -> int:
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Entry of `python -m studies.report`."""
-    from studies.__main__ import STUDIES  # that module imports this one
-
     parser = argparse.ArgumentParser(
         prog="python -m studies.report", description="Write the report from the results that are there."
     )

@@ -11,8 +11,8 @@ from typing import Any
 import pytest
 
 import user_forces
+from studies import contact_law_cases, law_catalogue
 from studies import contact_laws as study
-from studies import law_catalogue
 from studies.free_impact import delivered_restitution, free_impact
 from studies.reporting.chapter import Chapter
 from support_exudyn import Result, simulate
@@ -26,7 +26,7 @@ def out(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The quick form with four rises."""
     folder = tmp_path_factory.mktemp("results")
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(study, "QUICK_RISE", RISES)
+        patch.setattr(contact_law_cases, "QUICK_RISE", RISES)
         assert study.main(["--quick", "--out", str(folder), "--workers", "2"]) == 0
     return folder
 
@@ -52,11 +52,18 @@ def test_the_catalogue_holds_every_law() -> None:
 
 
 def test_every_law_rises_in_the_full_form_and_is_tried_in_impacts() -> None:
-    rises = study.rises(quick=False)
-    assert {type(case.pins[study.LOOSE].contact.normal) for case in rises.values()} == laws(NormalLaw)
-    assert {type(case.pins[study.LOOSE].contact.friction) for case in rises.values()} == laws(FrictionLaw)
-    assert {type(law) for law, _ in study.impact_laws(quick=False).values()} == laws(NormalLaw)
-    textbook = [rises[name].pins[study.LOOSE].contact.normal.damping_speed for name in study.TEXTBOOK]
+    rises = contact_law_cases.rises(quick=False)
+    assert {type(case.pins[contact_law_cases.LOOSE].contact.normal) for case in rises.values()} == laws(
+        NormalLaw
+    )
+    assert {type(case.pins[contact_law_cases.LOOSE].contact.friction) for case in rises.values()} == laws(
+        FrictionLaw
+    )
+    assert {type(law) for law, _ in contact_law_cases.impact_laws(quick=False).values()} == laws(NormalLaw)
+    textbook = [
+        rises[name].pins[contact_law_cases.LOOSE].contact.normal.damping_speed
+        for name in contact_law_cases.TEXTBOOK
+    ]
     assert textbook == [TouchSpeed(floor=1e-3), TouchSpeed(floor=0.1)]
 
 
@@ -66,7 +73,7 @@ def test_restitution_cases_are_named_as_agreed_and_right(
     assert numbers["delivered_restitution", "exact e=0.9"]["value"] == pytest.approx(0.9, abs=3e-5)
     cases = [case for name, case in numbers if name == "delivered_restitution"]
     laws_asked = len(law_catalogue.POWER_LAWS) + len(law_catalogue.CYLINDER_LAWS) + 1
-    assert len(cases) == laws_asked * len(study.QUICK_ASKED) + 7
+    assert len(cases) == laws_asked * len(contact_law_cases.QUICK_ASKED) + 7
     for case in cases:
         number = numbers["delivered_restitution", case]
         closed_form = numbers["closed_form_restitution", case]["value"]
@@ -82,22 +89,24 @@ def test_the_full_form_delivers_what_the_closed_form_says(case: str) -> None:
     _check_full_form(case)
 
 
-@pytest.mark.parametrize("asked", study.FEW)
+@pytest.mark.parametrize("asked", contact_law_cases.FEW)
 def test_dashpots_do_so_in_the_full_form(asked: float) -> None:
     # their force jumps at the touch
     _check_full_form(f"anagnostopoulos e={asked:g}")
 
 
 def _check_full_form(case: str) -> None:
-    law, closed_form = study.impact_laws(quick=False)[case]
-    impact = free_impact(law, study.SPEED, study.IMPACT_STEPS[False])
+    law, closed_form = contact_law_cases.impact_laws(quick=False)[case]
+    impact = free_impact(law, contact_law_cases.SPEED, contact_law_cases.IMPACT_STEPS[False])
     coarse, fine = (delivered_restitution(simulate(run)) for run in (impact, impact.refined()))
     assert fine == pytest.approx(closed_form, abs=3e-5)
     assert abs(fine - closed_form) < abs(fine - coarse) < 1e-4
 
 
 def test_the_way_a_resting_contact_is_damped_matters(numbers: dict[tuple[str, str], dict[str, Any]]) -> None:
-    depth, *textbook = (numbers["std_pin_force", case] for case in ("lankarani_nikravesh", *study.TEXTBOOK))
+    depth, *textbook = (
+        numbers["std_pin_force", case] for case in ("lankarani_nikravesh", *contact_law_cases.TEXTBOOK)
+    )
     # by depth: the same for all steps; by the last touch: it hangs on which touch that was
     assert depth["numerical_error"] < 1e-4 * depth["value"]
     assert max(n["value"] for n in textbook) > 1.01 * depth["value"]
@@ -110,7 +119,7 @@ def test_every_file_is_there(out: Path) -> None:
         assert (out / f"{stem}.png").read_bytes().startswith(b"\x89PNG")
     assert "Lankarani-Nikravesh" in (out / "restitution_table.txt").read_text(encoding="utf-8")
     assert "clamped steps" in (out / "rise_table.txt").read_text(encoding="utf-8")
-    assert len(list((out / "runs").iterdir())) == len(RISES) + len(study.TEXTBOOK)
+    assert len(list((out / "runs").iterdir())) == len(RISES) + len(contact_law_cases.TEXTBOOK)
     assert Result.load(out / "runs" / "exact.h5").time[-1] == 5.0
 
 
@@ -122,4 +131,4 @@ def test_the_chapter_says_what_was_computed(out: Path, numbers: dict[tuple[str, 
     assert any(f"{delivered:.3f} for 0.1" in text for text in chapter.findings)
     restitution, rise = chapter.sheets
     assert len(restitution.rows) == len({case.split(" ")[0] for name, case in numbers if "restitution" in name})
-    assert len(rise.rows) == len(RISES) + len(study.TEXTBOOK)
+    assert len(rise.rows) == len(RISES) + len(contact_law_cases.TEXTBOOK)

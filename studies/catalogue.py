@@ -1,0 +1,17 @@
+"""All studies, in the order of the report. A new one is its file and a line here."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from studies import claims, clearance_influence, clearance_size, contact_laws, drive_mode, slider_crank
+from studies.study import Options
+
+STUDIES: dict[str, Callable[[Options], None]] = {
+    clearance_influence.STUDY: clearance_influence.study,
+    clearance_size.STUDY: clearance_size.study,
+    drive_mode.STUDY: drive_mode.study,
+    claims.STUDY: claims.study,
+    contact_laws.STUDY: contact_laws.study,
+    slider_crank.STUDY: slider_crank.study,
+}
