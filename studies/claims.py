@@ -25,7 +25,7 @@ from studies.judging.plausible import FACTORS, REFERENCE, Sample, samples
 from studies.judging.plausible_runs import CASES, TOLERANCES, evidence, largest_force, measures, oil_scenarios
 from studies.judging.verdicts import Ruling, percent, rule
 from studies.reporting.chapter import Chapter, Sheet
-from studies.study import Number, Options, options, run_main, run_pairs, show_table, write_summary
+from studies.study import Number, Options, options, run_main, run_pairs, save_figures, show_table, write_summary
 from support_exudyn.files import whole_file
 
 STUDY = "claims"
@@ -225,8 +225,8 @@ def study(chosen: Options) -> None:
     rulings = [rule(claim, reference, machines) for claim in CLAIMS]
     write_machines(chosen.out / "machines.csv", rows)
     with style.look():
-        for name, drawing in figures(rulings, reference, machines).items():
-            style.save(drawing, chosen.out, name, pdf=not chosen.quick)
+        drawings = figures(rulings, reference, machines)
+    save_figures(chosen, drawings)
     show_table(chosen.out / "table.txt", claim_sheet(rulings), width=200)
     said = chapter(rulings, rows, chosen.quick)
     for sheet, name in zip(said.sheets[1:], ("factors", "failures"), strict=False):

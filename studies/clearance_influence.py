@@ -26,6 +26,7 @@ from studies.study import (
     rounded,
     run_main,
     run_pairs,
+    save_figures,
     show_table,
     write_summary,
 )
@@ -397,8 +398,8 @@ def study(chosen: Options) -> None:
     for name, result in results.items():
         result.save(chosen.out / "runs" / f"{_file_name(name)}.h5")
     with style.look():
-        for name, drawing in figures(results).items():
-            style.save(drawing, chosen.out, name, pdf=not chosen.quick)
+        drawings = figures(results)
+    save_figures(chosen, drawings)
     numbers = measure(pairs)
     show_table(chosen.out / "table.txt", table(numbers))
     chapter(numbers, chosen.quick).save(chosen.out)

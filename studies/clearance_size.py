@@ -25,6 +25,7 @@ from studies.study import (
     options,
     run_main,
     run_pairs,
+    save_figures,
     show_table,
     write_summary,
 )
@@ -294,8 +295,8 @@ def study(chosen: Options) -> None:
         result.save(chosen.out / "runs" / f"{_file_name(name)}.h5")
     numbers = measure(pairs)
     with style.look():
-        for name, drawing in figures(results, numbers).items():
-            style.save(drawing, chosen.out, name, pdf=not chosen.quick)
+        drawings = figures(results, numbers)
+    save_figures(chosen, drawings)
     show_table(chosen.out / "table_3.txt", force_sheet(numbers))
     show_table(chosen.out / "table_2.txt", stiffness_sheet(numbers))
     for friction in FRICTIONS:

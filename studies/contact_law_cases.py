@@ -35,7 +35,7 @@ SPEED = 0.2  # of free impacts [m/s]
 # by whether the form is the quick one: of the coarser of the two runs of a case
 IMPACT_STEPS = {False: 192, True: 96}  # of a free impact
 RISE_IMPACT_STEPS = {False: 64, True: 32}  # of an impact in a rise
-RISE_STEP = {False: 1e-3, True: 4e-3}  # of a rise between impacts, and time between records [s]
+RISE_STEP = {False: 2e-3, True: 4e-3}  # of a rise between impacts, and time between records [s]
 LOOP_RESTITUTION = 0.5
 CLEARANCE_MM = 1.5
 RESTITUTION = paper_machine.RESTITUTION

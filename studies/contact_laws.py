@@ -53,6 +53,7 @@ from studies.study import (
     run_cases,
     run_main,
     run_pairs,
+    save_figures,
     show_table,
     write_summary,
 )
@@ -284,8 +285,7 @@ def study(chosen: Options) -> None:
             "rise_under_each_law": rise_figure(measured),
             "permanent_contact": permanent_figure(pairs),
         }
-        for name, drawing in drawings.items():
-            style.save(drawing, chosen.out, name, pdf=not chosen.quick)
+    save_figures(chosen, drawings)
     tables = [restitution_table(restitutions), rise_table(measured, chosen.quick)]
     for name, table in zip(("restitution_table", "rise_table"), tables, strict=True):
         show_table(chosen.out / f"{name}.txt", table, width=200)

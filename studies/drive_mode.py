@@ -20,7 +20,17 @@ from studies.drive_mode_figures import figures, pictures
 from studies.ladder import Ladder, run_ladders
 from studies.reporting.chapter import Chapter, Sheet
 from studies.reporting.wording import by_case
-from studies.study import Number, Options, brief, options, run_cases, run_main, show_table, write_summary
+from studies.study import (
+    Number,
+    Options,
+    brief,
+    options,
+    run_cases,
+    run_main,
+    save_figures,
+    show_table,
+    write_summary,
+)
 from support_exudyn import CubicStep, Drive, Result, Scenario, UniformSpeed
 from user_forces import value
 
@@ -356,8 +366,8 @@ def study(chosen: Options) -> None:
     naive = run_cases(naive_scenarios(), chosen.workers)
     numbers = measure(ladders)
     with style.look():
-        for name, drawing in figures({case: ladder.finest for case, ladder in ladders.items()}).items():
-            style.save(drawing, chosen.out, name, pdf=not chosen.quick)
+        drawings = figures({case: ladder.finest for case, ladder in ladders.items()})
+    save_figures(chosen, drawings)
     for columns in COLUMNS:
         show_table(chosen.out / f"table_{columns}.txt", mode_sheet(numbers, columns))
     show_table(chosen.out / "table_saving.txt", saving_sheet(numbers))

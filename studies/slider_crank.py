@@ -31,6 +31,7 @@ from studies.study import (
     rounded,
     run_main,
     run_pairs,
+    save_figures,
     show_table,
     write_summary,
 )
@@ -278,12 +279,8 @@ def study(chosen: Options) -> None:
         pair.fine.save(chosen.out / "runs" / f"{name.replace(' ', '_').replace('.', 'p')}.h5")
     numbers = measure(pairs)
     with style.look():
-        style.save(
-            figure({name: pair.fine for name, pair in pairs.items()}),
-            chosen.out,
-            "slider_crank",
-            pdf=not chosen.quick,
-        )
+        drawings = {"slider_crank": figure({name: pair.fine for name, pair in pairs.items()})}
+    save_figures(chosen, drawings)
     show_table(chosen.out / "table.txt", table(numbers), width=120)
     chapter(numbers, chosen.quick).save(chosen.out)
     write_summary(chosen.out, STUDY, numbers, time.perf_counter() - started)

@@ -12,9 +12,11 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
+from matplotlib.figure import Figure
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
+from studies import style
 from studies.reporting.chapter import Sheet
 from support_exudyn import Failure, Result, Scenario, SimulationError
 from support_exudyn.files import remove_leftovers, whole_file
@@ -151,6 +153,22 @@ def write_summary(out: Path, study: str, numbers: Sequence[Number], wall_s: floa
     with whole_file(path) as temporary:
         temporary.write_text(json.dumps(summary, indent=1, allow_nan=False) + "\n", encoding="utf-8")
     return path
+
+
+def save_figures(chosen: Options, drawings: Mapping[str, Figure]) -> None:
+    """Write a study's figures into its folder, as PDF too in the full form; side by side if there is a pool."""
+    jobs = [(drawing, chosen.out, name, not chosen.quick) for name, drawing in drawings.items()]
+    if isinstance(chosen.workers, Workers):
+        chosen.workers.run(jobs, _save_figure, lambda shares: None)
+    else:  # starting a pool takes longer
+        for place, job in enumerate(jobs):
+            _save_figure(place, *job)
+
+
+def _save_figure(place: int, drawing: Figure, out: Path, name: str, pdf: bool) -> None:
+    del place
+    with style.look():
+        style.save(drawing, out, name, pdf=pdf)
 
 
 def show_table(path: Path, table: Sheet, width: int = 150) -> None:
