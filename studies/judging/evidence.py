@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import pairwise
 
 Verdict = bool | None  # None: the numerical error leaves it open
@@ -68,7 +68,24 @@ class Evidence:
 
     def row(self, name: str, cases: Iterable[str]) -> list[Measured]:
         """One measure over several cases."""
-        return [self.measures[case][name] for case in cases]
+        return [self[case, name] for case in cases]
+
+
+@dataclass(frozen=True)
+class NotedEvidence(Evidence):
+    """Evidence that notes what it is asked for."""
+
+    asked: list[Measured] = field(default_factory=list)
+
+    def __getitem__(self, place: tuple[str, str]) -> Measured:
+        found = super().__getitem__(place)
+        self.asked.append(found)
+        return found
+
+    @property
+    def largest_error(self) -> float | None:
+        """Largest numerical error of what was asked for, as a share of its value; None if nothing was."""
+        return max((m.error / abs(m.value) if m.value else math.inf for m in self.asked), default=None)
 
 
 def every(verdicts: Iterable[Verdict]) -> Verdict:

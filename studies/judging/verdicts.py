@@ -9,7 +9,7 @@ from scipy.stats import binomtest
 
 from studies.judging.claim_list import Claim
 from studies.judging.conditions import best_condition
-from studies.judging.evidence import Evidence, Verdict
+from studies.judging.evidence import Evidence, NotedEvidence, Verdict
 from studies.judging.plausible import Sample
 
 NEARLY_ALL = 0.95  # share of machines from which a claim holds; one less this: not supported
@@ -24,7 +24,8 @@ class Ruling:
     """A claim, judged.
 
     reference: on the reference support. holds, fails, open: numbers of plausible machines. ours: our numbers,
-    on the reference support. verdict: in words.
+    on the reference support. verdict: in words. error: the largest numerical error of our numbers, as a share of
+    the number; None for closed forms and where nothing is judged.
     """
 
     claim: Claim
@@ -34,6 +35,7 @@ class Ruling:
     open: int
     ours: str
     verdict: str
+    error: float | None = None
 
     @property
     def share(self) -> float | None:
@@ -59,8 +61,9 @@ def rule(claim: Claim, reference: Evidence, machines: Sequence[tuple[Sample, Evi
     judge = claim.judge
     judged = [(sample, judge(evidence)) for sample, evidence in machines] if not claim.alone else []
     holds, fails, left = (sum(verdict is kind for _, verdict in judged) for kind in (True, False, None))
-    ours, verdict = claim.tell(reference), _words(on_reference, judged)
-    return Ruling(claim, on_reference, holds, fails, left, ours, verdict)
+    noted = NotedEvidence(reference.measures)
+    ours, verdict = claim.tell(noted), _words(on_reference, judged)
+    return Ruling(claim, on_reference, holds, fails, left, ours, verdict, noted.largest_error)
 
 
 def _words(reference: Verdict, judged: Sequence[tuple[Sample, Verdict]]) -> str:

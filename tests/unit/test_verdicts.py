@@ -6,6 +6,7 @@ import math
 import random
 import re
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 
 import pytest
 from hypothesis import given
@@ -165,3 +166,16 @@ def test_judgements_by_chance_have_no_condition(number: int, share: float) -> No
     coin = random.Random(f"{number} {share}")
     verdicts = [judged_by(lambda _: coin.random() < share, number).verdict for _ in range(5)]
     assert sum("right for" in verdict for verdict in verdicts) <= 1
+
+
+def test_the_error_is_the_largest_of_the_numbers_told() -> None:
+    evidence = Evidence(
+        {"ideal": {"a": Measured(100.0, 1.0), "b": Measured(1.0, 0.02), "c": Measured(1.0, 0.5)}}
+    )
+    claim = replace(
+        CLAIM, judge=lambda e: True, tell=lambda e: f"{e['ideal', 'a'].value} {e['ideal', 'b'].value}"
+    )
+    # c is not told
+    assert rule(claim, evidence, []).error == pytest.approx(0.02)
+    closed = replace(claim, tell=lambda e: "exact")
+    assert rule(closed, evidence, []).error is None
