@@ -24,8 +24,8 @@ class Ruling:
     """A claim, judged.
 
     reference: on the reference support. holds, fails, open: numbers of plausible machines. ours: our numbers,
-    on the reference support. verdict: in words. error: the largest numerical error of our numbers, as a share of
-    the number; None for closed forms and where nothing is judged.
+    on the reference support. verdict: in words. error: the largest numerical error of our numbers, as a share
+    of the number; None for closed forms and where nothing is judged.
     """
 
     claim: Claim
