@@ -18,6 +18,7 @@ NOTHING, TOUCH, PARTING, RETURN, CUT, TOO_LONG = range(6)
 SAMPLES = 8  # of a cubic, when a change of sign is looked for
 PARTS = 4  # of a step in free flight
 SHORT = 1e-9  # [s]: a contact that ends within so short a step is let go at its end
+CUT_MET = 1e-9  # PUSH, of the order of 1, at which a cut of tension is met; the force has only a kink there
 AT_ZERO = 1e-13  # depth [m] that is a touch or parting just made; those are met to a tenth of it
 Found = tuple[int, float, float]  # what, and fractions of the step between which it happens
 
@@ -143,7 +144,8 @@ def event(
 ) -> Found:
     """The first thing that happens to the contact in a step, see `in_flight` for the arguments."""
     if memory[TOUCHING] != 0.0:
-        if (start[PUSH] < 0.0) != (end[PUSH] < 0.0):
+        # a step that begins on a cut and ends beyond it only grazes it; landing would go back to its start
+        if abs(start[PUSH]) > CUT_MET and (start[PUSH] < 0.0) != (end[PUSH] < 0.0):
             return CUT, 0.0, 1.0
         depth = max(start[DEPTH], 0.0)
         return in_contact(p[BY_DEPTH] != 0.0, depth, start[RATE], end[DEPTH], end[RATE], h)

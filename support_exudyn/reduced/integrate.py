@@ -8,7 +8,7 @@ import numpy as np
 
 from support_exudyn.reduced.compiled import compiled, entry
 from support_exudyn.reduced.equations import approach, evaluate, freeze_mobility
-from support_exudyn.reduced.events import CUT, NOTHING, PARTING, RETURN, TOO_LONG, TOUCH, event
+from support_exudyn.reduced.events import CUT, CUT_MET, NOTHING, PARTING, RETURN, TOO_LONG, TOUCH, event
 from support_exudyn.reduced.layout import (
     BEGIN,
     BY_DEPTH,
@@ -40,7 +40,6 @@ ORDER = 0.2 - 0.75 * STEADY
 SMALLEST_STEP = 1e-13  # [s]
 LANDED = 1e-14  # depth [m] at which a touch or parting is met; rounding of the posture is some 1e-16
 LANDINGS = 12
-CUT_MET = 1e-9  # PUSH, of the order of 1, at which a cut of tension is met; the force has only a kink there
 SMALLEST_SINE = 0.01  # of the angles that vanish at a dead centre: nearer to it the run is given up
 SHARE_OF_WAY = 0.5  # of the way to a dead centre is the longest step, so that none is stepped over
 CLOSE = 1e-12  # [s]: a record that lies so little behind the end of a step belongs to it
