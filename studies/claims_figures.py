@@ -11,8 +11,9 @@ from matplotlib.figure import Figure
 from studies import paper_machine, style
 from studies.judging.evidence import Evidence
 from studies.judging.plausible import REFERENCE, Sample
-from studies.judging.plausible_runs import LOOSE, SIZES_MM
+from studies.judging.plausible_runs import LOOSE
 from studies.judging.verdicts import NEARLY_ALL, Ruling
+from studies.paper_machine import SIZES_MM
 from studies.reporting.chapter import Picture
 
 COLOURS = {"holds only": style.SMOOTH, "holds": style.THIRD, "not supported": "#D55E00", "cannot": "#999999"}

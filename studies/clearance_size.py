@@ -15,6 +15,7 @@ import numpy as np
 
 from studies import paper_machine, rise, style
 from studies.clearance_size_figures import figures, pictures
+from studies.paper_machine import SIZES_MM, case_name
 from studies.reporting.chapter import Chapter, Sheet
 from studies.reporting.wording import by_case, how_sure, said
 from studies.study import (
@@ -33,15 +34,9 @@ from support_exudyn import Result, Scenario
 from support_exudyn.reduced import simulate_reduced
 
 STUDY = "clearance_size"
-SIZES_MM = (0.5, 1.0, 1.5, 2.0)
 IDEAL = "ideal"
 QUICK_SMOOTH_MM = (0.5, 2.0)  # tried without friction in the quick form
 FRICTIONS = (paper_machine.SLIDING_COEFFICIENT, 0.0)
-
-
-def case_name(clearance_mm: float, friction: float) -> str:
-    """Name of a case with clearance."""
-    return f"{clearance_mm:.1f} mm, mu_d = {friction:g}"
 
 
 def scenarios(quick: bool) -> dict[str, Scenario]:

@@ -9,20 +9,16 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from studies import paper_machine, rise, style
+from studies.paper_machine import SIZES_MM, case_name
 from studies.reporting.chapter import Picture
 from studies.reporting.wording import by_case
 from studies.study import Number
 from support_exudyn import Result
 
-SIZES_MM = (0.5, 1.0, 1.5, 2.0)
 COLOURS = {0.5: "#009E73", 1.0: "#E69F00", 1.5: "#0072B2", 2.0: "#CC79A7"}  # Okabe and Ito
 DASHES = {0.5: "-", 1.0: (0, (5, 1)), 1.5: (0, (3, 1, 1, 1)), 2.0: "-"}  # for grey prints
 WINDOWS = {"early": (3.0, 3.12), "middle": (4.0, 4.12), "late": (4.6, 4.72)}  # enlarged in Fig. 6 [s]
 MU = paper_machine.SLIDING_COEFFICIENT
-
-
-def _case(size: float, friction: float = MU) -> str:
-    return f"{size:.1f} mm, mu_d = {friction:g}"
 
 
 def figures(results: Mapping[str, Result], numbers: Sequence[Number]) -> dict[str, Figure]:
@@ -86,8 +82,8 @@ def panel_figure(results: Mapping[str, Result], channel: str, scale: float, labe
     span = rise.START + 2e-3, rise.END - 2e-3
     for axes, letter, size in zip(panels.flat, "abcd", reversed(SIZES_MM), strict=True):
         for case, colour, width, name in (
-            (_case(size), COLOURS[size], 0.8, f"friction {MU}"),
-            (_case(size, 0.0), "#777777", 0.8, "no friction"),
+            (case_name(size, MU), COLOURS[size], 0.8, f"friction {MU}"),
+            (case_name(size, 0.0), "#777777", 0.8, "no friction"),
             ("ideal", style.IDEAL, 0.8, "ideal pin"),
         ):
             if case not in results:
@@ -186,8 +182,8 @@ def trend_figure(numbers: Sequence[Number]) -> Figure:
     ]
     for axes, letter, (name, scale, label) in zip(panels.flat, "abcdef", shown, strict=True):
         for friction, colour, mark in ((MU, style.LOOSE, "o"), (0.0, "#777777", "s")):
-            sizes = [size for size in SIZES_MM if (name, _case(size, friction)) in found]
-            row = [found[name, _case(size, friction)] for size in sizes]
+            sizes = [size for size in SIZES_MM if (name, case_name(size, friction)) in found]
+            row = [found[name, case_name(size, friction)] for size in sizes]
             label_here = f"friction {friction:g}" if friction else "no friction"
             axes.errorbar(
                 sizes, [scale * n.value for n in row], yerr=[scale * n.numerical_error for n in row],
@@ -209,7 +205,9 @@ def trend_figure(numbers: Sequence[Number]) -> Figure:
 
 def _cases() -> list[tuple[str, str, object, str]]:
     """Case, colour, dashes and label of the curves, the largest clearance undermost."""
-    loose = [(_case(size), COLOURS[size], DASHES[size], f"{size:.1f} mm") for size in reversed(SIZES_MM)]
+    loose = [
+        (case_name(size, MU), COLOURS[size], DASHES[size], f"{size:.1f} mm") for size in reversed(SIZES_MM)
+    ]
     return [*loose, ("ideal", style.IDEAL, (0, (4, 2)), "ideal pin")]
 
 

@@ -38,11 +38,18 @@ OIL_SAID = (
     "1 ms, which is 6 % of critical damping at 20 Hz."
 )
 
+SIZES_MM = (0.5, 1.0, 1.5, 2.0)  # the paper's clearances
+
 # printed values
 STIFFNESS = {0.5: 861300.557, 1.0: 859629.849, 1.5: 857942.947, 2.0: 856239.607}  # Table 2, N/mm^1.5
 MEAN_FORCE = {0.5: 51375.609, 1.0: 51491.566, 1.5: 51649.027, 2.0: 51795.195}  # Table 3, N
 FORCE_SPREAD = {0.5: 6114.940, 1.0: 5938.103, 1.5: 6013.112, 2.0: 6188.895}  # Table 3, N
 MEAN_ACCELERATION = {0.5: 0.0030, 1.0: -0.0515, 1.5: -0.2733, 2.0: -0.3219}  # section 4.1, deg/s^2
+
+
+def case_name(clearance_mm: float, sliding_coefficient: float) -> str:
+    """What studies call a case with clearance."""
+    return f"{clearance_mm:.1f} mm, mu_d = {sliding_coefficient:g}"
 
 
 def bearing(clearance_mm: float) -> JournalBearing:

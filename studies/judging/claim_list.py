@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from studies import paper_machine
 from studies.judging.evidence import Evidence, Measured, Verdict, every, opposite, rising, some, within
-from studies.judging.plausible_runs import IDEAL, LOOSE, MODE_1, MODE_1_IDEAL, OIL, OIL_IDEAL, SIZES_MM
+from studies.judging.plausible_runs import IDEAL, LOOSE, MODE_1, MODE_1_IDEAL, OIL, OIL_IDEAL
 
 VISIBLE = 0.005  # of a curve's range over the rise: the width of a printed line
 GREAT = 0.05  # of it
@@ -136,7 +136,7 @@ def _mode_said(name: str, unit: str, scale: float = 1.0) -> Tell:
     )
 
 
-_STIFFNESSES = [paper_machine.stiffness(size) / 1e3**1.5 for size in SIZES_MM]
+_STIFFNESSES = [paper_machine.stiffness(size) / 1e3**1.5 for size in paper_machine.SIZES_MM]
 _PRINTED = list(paper_machine.STIFFNESS.values())
 
 NO_MEASURE = "no measure of it is given, and none follows from a simulation of rigid bodies"

@@ -28,9 +28,8 @@ from support_exudyn import (
 from support_exudyn.impulse import Impulse
 from support_exudyn.reduced import simulate_reduced
 
-SIZES_MM = (0.5, 1.0, 1.5, 2.0)
 IDEAL = "ideal"
-LOOSE = tuple(f"{size:.1f} mm" for size in SIZES_MM)
+LOOSE = tuple(f"{size:.1f} mm" for size in paper_machine.SIZES_MM)
 MODE_1, MODE_1_IDEAL = "1.5 mm, mode 1", "ideal, mode 1"
 OIL, OIL_IDEAL = "1.5 mm, mode 1, oil", "ideal, mode 1, oil"
 CASES = (IDEAL, *LOOSE, MODE_1_IDEAL, MODE_1)
