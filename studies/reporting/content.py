@@ -21,7 +21,7 @@ SUMMARY = (
     "multibody program Exudyn. The paper prints no dimensions, masses, restitution or friction; those used "
     "here are assumed, and listed below. Directions, orderings and shapes can therefore be compared with the "
     "paper; values cannot. Every computed number comes with its numerical error: how much it changes when all "
-    "steps are halved."
+    "steps are halved, or tolerances tightened."
 )
 QUICK = "This is a quick report: some or all studies were run with coarse steps, and their errors are larger."
 VERDICT = "verdict"  # the heading of the column that is coloured
