@@ -19,6 +19,10 @@ class Expression:
     those cost at every `isinstance` would double the time of a law.)
     """
 
+    def __bool__(self) -> bool:
+        """Not known yet: a law that branches on it would take one branch for all times."""
+        raise TypeError("a law must not branch with `if`, `and`, `or` or `not` on its arguments; use `where`")
+
     def function(self, name: str) -> Expression:
         """The function of this name of it: sqrt, exp, log, tanh, abs or sign."""
         raise NotImplementedError

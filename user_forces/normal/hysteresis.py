@@ -7,11 +7,9 @@ from abc import abstractmethod
 from dataclasses import field
 from functools import cached_property
 
-from scipy.optimize import brentq
-from scipy.special import lambertw
-
 from user_forces.normal.damping_speed import DampingSpeed, DepthSpeed
 from user_forces.normal.law import NormalLaw, Touch
+from user_forces.roots import bracketed_root
 from user_forces.values import Fraction, value
 
 
@@ -67,6 +65,8 @@ def delivered_restitution(damping_factor: float) -> float:
 
     which is the root of chi (1 + e) = ln((1 + chi)/(1 - chi e)); see `Hysteresis`.
     """
+    from scipy.special import lambertw  # a third of what importing this package takes
+
     chi = damping_factor
     if chi < 1e-5:  # the next term is smaller than 1e-10
         return 1.0 - 2.0 / 3.0 * chi
@@ -88,12 +88,13 @@ def exact_damping_factor(restitution: float) -> float:
         return 1.5 * (1.0 - e)
     if e > 0.5:
         # chi = 0 is a root too, so look above the first-order value 3/2 (1 - e), which is always smaller
-        return float(brentq(_imbalance, 1.4 * (1.0 - e), 3.0 * (1.0 - e), args=(e,), xtol=1e-15, rtol=1e-14))
+        low, high = 1.4 * (1.0 - e), 3.0 * (1.0 - e)
+        return bracketed_root(lambda chi: _imbalance(chi, e), low, high, xtol=1e-15, rtol=1e-14)
 
     def imbalance(chi: float) -> float:
         return chi * e - 1.0 + (1.0 + chi) * math.exp(-chi * (1.0 + e))
 
-    return float(brentq(imbalance, 1.0, (1.0 + 1e-15) / e, xtol=1e-15, rtol=1e-14))
+    return bracketed_root(imbalance, 1.0, (1.0 + 1e-15) / e, xtol=1e-15, rtol=1e-14)
 
 
 def _imbalance(chi: float, e: float) -> float:

@@ -7,8 +7,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable
 from typing import NamedTuple
 
-from scipy.optimize import brentq
-
+from user_forces.roots import bracketed_root
 from user_forces.values import InputError, Value
 
 
@@ -116,4 +115,8 @@ class NormalLaw(Value, ABC):
             if high >= limit:
                 return limit
             low, high = high, min(2.0 * high, limit)
-        return float(brentq(lambda depth: rising(depth) - wanted if depth else -wanted, low, high, xtol=1e-18))
+
+        def excess(depth: float) -> float:
+            return rising(depth) - wanted if depth else -wanted
+
+        return bracketed_root(excess, low, high, xtol=1e-18)
