@@ -1,0 +1,111 @@
+"""How fast a scene moves, as known before it runs: what its steps have to follow."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from support_exudyn.drives import Stroke
+from support_exudyn.kinetics import Kinetics, Matrix
+from support_exudyn.machine import Linkage
+from support_exudyn.scenario import Scenario
+from support_exudyn.scene_items import BodyItem
+from user_forces.normal.law import LoadError, NormalLaw
+
+SMALLEST_MOBILITY = 1e-15  # [1/kg]
+SLOWEST_FALL = 1e-3  # [m/s^2]; a scene in which nothing pulls a journal moves as slowly as one likes
+
+
+@dataclass(frozen=True)
+class Timescales:
+    """Shortest times of a scene [s]; infinite where there is no such motion.
+
+    flight: of a journal across its clearance. resting: of a loaded contact's vibration, one over its angular
+    frequency. drive: of the drive, its stroke or one over a crank's speed.
+    """
+
+    flight: float
+    resting: float
+    drive: float
+
+
+def timescales(scenario: Scenario) -> Timescales:
+    """The shortest times of a scene.
+
+        flight = sqrt(2 c / a),    resting = sqrt(m / k),  k the contact's stiffness at the static load
+
+    a is gravity's acceleration and that of the fastest body of a machine that runs already; m the mass that
+    moves with the journal in the start posture along the load, which is that of the weight on ideal pins, or
+    the smallest mass times a if there is no weight.
+    """
+    linkage = scenario.linkage
+    closed = _kinetics(linkage, tuple(linkage.pins))
+    pull = math.hypot(*scenario.gravity) + _running(scenario, closed)
+    loads = _static_loads(scenario, closed)
+    flights, rests = [math.inf], [math.inf]
+    for name, pin in scenario.clearance_pins.items():
+        flights.append(math.sqrt(2.0 * pin.contact.bearing.clearance / max(pull, SLOWEST_FALL)))
+        mobility = _mobility(scenario, name)
+        load = float(np.linalg.norm(loads[name]))
+        if load > 0.0:
+            along = loads[name] / load
+            mass = 1.0 / max(float(along @ mobility @ along), SMALLEST_MOBILITY)
+        else:
+            mass = 1.0 / max(float(np.linalg.eigvalsh(mobility).max()), SMALLEST_MOBILITY)
+            load = mass * pull
+        slope = _slope(pin.contact.normal, load) if load > 0.0 else 0.0
+        rests.append(math.sqrt(mass / slope) if slope > 0.0 else math.inf)
+    return Timescales(min(flights), min(rests), _drive_time(scenario, linkage))
+
+
+def _slope(law: NormalLaw, load: float) -> float:
+    """Stiffness of a contact at rest under a load [N/m]; 0 if the law cannot hold it: the run will tell."""
+    try:
+        depth = law.resting_depth(load)
+        return (law.elastic_force(depth) - law.elastic_force(0.99 * depth)) / (0.01 * depth)
+    except LoadError:
+        return 0.0
+
+
+def _kinetics(linkage: Linkage, ideal: tuple[str, ...]) -> Kinetics:
+    bodies = {name: BodyItem(body, None, None, 3 * n) for n, (name, body) in enumerate(linkage.bodies.items())}
+    return Kinetics(linkage, bodies, ideal, tuple(linkage.columns))
+
+
+def _static_loads(scenario: Scenario, closed: Kinetics) -> dict[str, Matrix]:
+    """What the weight puts on every pin in the start posture, all of them ideal [N]."""
+    linkage = closed.linkage
+    gx, gy = scenario.gravity
+    weight = np.concatenate([[b.mass * gx, b.mass * gy, 0.0] for b in linkage.bodies.values()])
+    reactions = closed.respond(np.zeros(weight.size), weight, 0.0)[1]
+    return {name: reactions[2 * n : 2 * n + 2] for n, name in enumerate(linkage.pins)}
+
+
+def _running(scenario: Scenario, closed: Kinetics) -> float:
+    """Acceleration of the fastest body of a machine whose cranks turn from the start on [m/s^2]."""
+    speed = scenario.drive.initial_speed
+    if speed == 0.0 or not closed.linkage.cranks:
+        return 0.0
+    size = 3 * len(closed.bodies)
+    rates = np.zeros(len(closed.rows(np.zeros(size))))
+    rates[closed.driven()] = speed
+    velocity = closed.respond(np.zeros(size), np.zeros(size), rates)[0]
+    return abs(speed) * float(np.hypot(velocity[0::3], velocity[1::3]).max())
+
+
+def _mobility(scenario: Scenario, name: str) -> Matrix:
+    """Mobility of a journal in the start posture, ground's axes (2, 2) [1/kg]."""
+    linkage = scenario.linkage
+    ideal = tuple(pin for pin in linkage.pins if pin not in scenario.clearance_pins)
+    size = 3 * len(linkage.bodies)
+    return _kinetics(linkage, ideal).pin_mobility(np.zeros(size), name)
+
+
+def _drive_time(scenario: Scenario, linkage: Linkage) -> float:
+    drive = scenario.drive
+    if isinstance(drive, Stroke):
+        return drive.end - drive.start
+    speed = abs(drive.initial_speed)
+    return 1.0 / speed if speed > 0.0 and linkage.cranks else math.inf

@@ -1,0 +1,284 @@
+"""Errors from the distances of three runs, on results whose numbers follow a known law."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from support_exudyn import Estimate, Held, Onset, Result
+from support_exudyn.estimate import FASTEST, ONSETS, ROUNDING, SLOWEST
+from support_exudyn.estimate import SAFETY as SAFETY_OF
+from tests.reduced import simulate_reduced
+from tests.reference.cases import FORCE, PIN, loose_support
+from user_forces import InputError
+
+SAFETY = SAFETY_OF["reduced"]  # which is what runs here
+ROUND_OFF = 1e-15  # of a number; distances of two lose as much in the absolute
+rates = st.floats(FASTEST, SLOWEST)
+shares = st.floats(-6.0, -1.0).map(lambda x: 10.0**x)
+signs = st.sampled_from([-1.0, 1.0])
+
+
+@cache
+def exact() -> Result:
+    """A short fall with three touches; it stands for the exact one."""
+    return simulate_reduced(loose_support(drive=Held(), duration=0.08), 1e-6)
+
+
+def scaled(factor: float) -> Result:
+    """The same with every number so many times as large, but time."""
+    run = exact()
+    channels = {
+        name: channel if name == "time" else replace(channel, values=factor * channel.values)
+        for name, channel in run.channels.items()
+    }
+    onsets = {pin: tuple(Onset(factor * t, factor * v) for t, v in row) for pin, row in run.onsets.items()}
+    largest = {pin: factor * force for pin, force in run.largest_force.items()}
+    return replace(run, channels=channels, onsets=onsets, largest_force=largest)
+
+
+def three(a: Result, b: Result, c: Result, goal: float = 1e-3) -> Result:
+    """Three runs as a run to an accuracy leaves them: c the finest."""
+    return replace(c, coarser=replace(b, coarser=a), goal=goal)
+
+
+def falling(share: float, r: float) -> Result:
+    """Numbers off by a share of what they tend to, and r times that, and r times that."""
+    return three(*(scaled(1.0 + share * r**n) for n in range(3)))
+
+
+def without(run: Result, number: int) -> Result:
+    """With only so many touches."""
+    return replace(run, onsets={PIN: run.onsets[PIN][:number]})
+
+
+def with_force(run: Result, factor: float) -> Result:
+    """With the loose pin's force alone so many times as large."""
+    channel = run.channels[FORCE]
+    return replace(run, channels={**run.channels, FORCE: replace(channel, values=factor * channel.values)})
+
+
+# --- numbers that fall as they should ---
+
+
+@given(share=shares, sign=signs, r=rates)
+def test_the_fall_is_that_of_the_numbers(share: float, sign: float, r: float) -> None:
+    # two distances, each with the rounding of numbers that are so many times larger
+    assert falling(sign * share, r).fall == pytest.approx(r, rel=20.0 * ROUND_OFF / (share * r) + 1e-12)
+
+
+@given(share=shares, sign=signs, r=rates)
+def test_an_estimate_is_so_many_times_the_true_error(share: float, sign: float, r: float) -> None:
+    run = falling(sign * share, r)
+    lost = 100.0 * ROUND_OFF / (share * r**2 * (1.0 - r)) + 1e-12
+    for name, number in run.numbers().items():
+        largest = known_size(name)
+        true = share * r**2 * abs(known_value(name))
+        # what no estimate is below is added
+        floor = ROUNDING * max(abs(number.value), largest * abs(1.0 + sign * share * r**2))
+        assert SAFETY * true * (1.0 - lost) <= number.error <= SAFETY * true * (1.0 + lost) + 1.01 * floor, name
+
+
+@cache
+def values() -> dict[str, float]:
+    return {name: number.value for name, number in three(exact(), exact(), exact()).numbers().items()}
+
+
+def known_value(name: str) -> float:
+    return values()[name]
+
+
+def known_size(name: str) -> float:
+    """The largest number of the kind, of those that have one: turning bodies, and places of points."""
+    if name.endswith(".angular_acceleration.spread"):
+        return max(np.abs(exact()[n]).max() for n in exact().channels if n.endswith(".angular_acceleration"))
+    if name.startswith("tip."):
+        return float(np.abs([exact()["tip.x"], exact()["tip.y"]]).max())
+    return 0.0
+
+
+@pytest.mark.parametrize(("r", "taken"), [(1e-3, FASTEST), (0.99, SLOWEST), (3.0, SLOWEST)])
+def test_a_fall_that_three_runs_cannot_tell_is_not_believed(r: float, taken: float) -> None:
+    assert falling(1e-3, r).fall == taken
+
+
+def test_two_runs_alone_say_nothing_of_the_fall() -> None:
+    run = replace(scaled(1.0), coarser=scaled(1.01), goal=1e-3)
+    assert run.fall == SLOWEST
+    distance = 0.01 * run[FORCE].mean()
+    # 1e-10 of it is added
+    assert run.numbers()[f"{FORCE}.mean"].error == pytest.approx(SAFETY * 4.0 * distance, rel=1e-6)
+
+
+@given(r=rates)
+def test_a_number_of_ones_own_is_estimated_by_the_fall_of_all(r: float) -> None:
+    run = falling(1e-2, r)
+
+    def median(result: Result) -> float:
+        return float(np.median(result["tip.y"]))
+
+    found = run.estimate(median, "m")
+    assert (found.value, found.unit) == (median(run), "m")
+    # 1e-10 of it is added, to an error of 1e-4 at least
+    assert found.error == pytest.approx(SAFETY * 1e-2 * r**2 * median(exact()), rel=1e-5)
+    assert run.estimate(median).unit == ""
+
+
+# --- numbers that do not ---
+
+
+def test_two_runs_that_agree_by_chance_are_not_taken_as_exact() -> None:
+    r = 0.25
+    last = falling(1e-2, r)
+    middle, first = last.coarser, last.coarser.coarser  # type: ignore[union-attr]
+    assert middle is not None
+    assert first is not None
+    middle = with_force(middle, (1.0 + 1e-2 * r**2) / (1.0 + 1e-2 * r))
+    run = three(first, middle, last)
+    # one number of many: the median of all knows better
+    assert run.fall == pytest.approx(r, rel=1e-9)
+    before = 1e-2 * (1.0 - r**2) * exact()[FORCE].mean()
+    # 1e-10 of it is added
+    expected = SAFETY * r * before * r / (1.0 - r)
+    assert run.numbers()[f"{FORCE}.mean"].error == pytest.approx(expected, rel=1e-5)
+
+
+def test_runs_that_are_all_the_same_are_right_to_rounding() -> None:
+    run = three(exact(), exact(), exact())
+    assert run.fall == FASTEST
+    for name, number in run.numbers().items():
+        assert number.error == pytest.approx(ROUNDING * max(abs(number.value), known_size(name))), name
+    # of a spread that means something; ten thousand times the rounding of forces that hardly vary
+    assert run.worst_error < 1e-6
+    assert run.met
+
+
+@pytest.mark.parametrize("fewer", [0, 1])
+def test_a_touch_that_a_coarser_run_misses_has_no_error_that_is_known(fewer: int) -> None:
+    runs = [exact(), exact(), exact()]
+    runs[fewer] = without(runs[fewer], 1)
+    found = three(*runs).numbers()
+    assert math.isfinite(found[f"pin.{PIN}.onset_1.speed"].error)
+    for field in ("time", "speed"):
+        assert found[f"pin.{PIN}.onset_2.{field}"].error == math.inf
+        assert math.isfinite(found[f"pin.{PIN}.onset_2.{field}"].value)
+    # it does not disturb what is known of the others
+    assert math.isfinite(three(*runs).worst_error)
+
+
+def test_only_the_touches_of_the_run_itself_are_numbers() -> None:
+    assert len(exact().onsets[PIN]) >= ONSETS
+    run = three(exact(), exact(), without(exact(), 1))
+    assert f"pin.{PIN}.onset_1.time" in run.numbers()
+    assert f"pin.{PIN}.onset_2.time" not in run.numbers()
+    assert f"pin.{PIN}.onset_{ONSETS + 1}.time" not in three(exact(), exact(), exact()).numbers()
+
+
+def test_a_number_that_is_none_has_an_infinite_error() -> None:
+    run = falling(1e-3, 0.25)
+    assert run.estimate(lambda result: math.nan).error == math.inf
+    assert run.estimate(lambda result: math.nan if result is run else 1.0).error == math.inf
+
+
+# --- what an accuracy is of ---
+
+
+@pytest.mark.parametrize("r", [0.25, 0.5])
+def test_the_worst_error_is_that_of_forces_and_paths(r: float) -> None:
+    share = 1e-4
+    run = falling(share, r)
+    path = np.array([exact()["tip.x"], exact()["tip.y"]])
+    extent = max(float(np.hypot(*np.ptp(path, axis=1))), 1.5e-3)
+    # the tip is 4 m from the origin and moves by millimetres, so that a share of its place is the worst
+    off = share * r**2 * np.hypot(*path).max() / extent
+    # extent and clearance are those of the finest run, off by that share itself
+    assert run.worst_error == pytest.approx(SAFETY * off, rel=1e-3)
+    goal = run.worst_error
+    assert replace(run, goal=goal).met
+    assert not replace(run, goal=0.99 * goal).met
+
+
+def test_the_worst_error_of_a_force_is_relative() -> None:
+    r, runs = 0.25, [with_force(exact(), 1.0 + 1e-2 * 0.25**n) for n in range(3)]
+    run = three(*runs)
+    # all others are constants: the median of those that are none is theirs
+    assert run.fall == pytest.approx(r, rel=1e-9)
+    assert run.worst_error == pytest.approx(SAFETY * 1e-2 * r**2, rel=2e-3)  # of the finest run's force
+
+
+# --- which numbers there are ---
+
+
+def test_names_and_units() -> None:
+    found = falling(1e-3, 0.25).numbers()
+    units = {name: number.unit for name, number in found.items()}
+    assert units[f"{FORCE}.mean"] == units[f"{FORCE}.spread"] == units[f"{FORCE}.largest"] == "N"
+    assert units["front_column.force.mean"] == "N"
+    assert units["rear_link.angular_acceleration.spread"] == "rad/s^2"
+    assert units["tip.x.mean"] == units["tip.y.mean"] == "m"
+    assert units[f"pin.{PIN}.largest_force"] == "N"
+    assert units[f"pin.{PIN}.onset_1.time"] == "s"
+    assert units[f"pin.{PIN}.onset_3.speed"] == "m/s"
+    assert all(number.error >= 0.0 for number in found.values())
+
+
+Statistic = Callable[[np.ndarray], float]
+
+
+@pytest.mark.parametrize(("word", "statistic"), [("mean", np.mean), ("spread", np.std), ("largest", np.max)])
+@pytest.mark.parametrize(("after", "until"), [(0.0, math.inf), (0.02, math.inf), (0.0, 0.05), (0.02, 0.05)])
+def test_statistics_are_those_of_the_records_asked_for(
+    word: str, statistic: Statistic, after: float, until: float
+) -> None:
+    run = falling(1e-3, 0.25)
+    # records at both ends count, whatever their rounding
+    inside = [round(t / 1e-3) * 1e-3 for t in run.time]
+    chosen = np.array([after - 1e-12 <= t <= until + 1e-12 for t in inside])
+    number = run.numbers(after, until)[f"{FORCE}.{word}"]
+    assert number.value == statistic(run[FORCE][chosen])
+
+
+def test_touches_and_the_largest_force_are_those_of_the_whole_run() -> None:
+    run = falling(1e-3, 0.25)
+    whole, late = run.numbers(), run.numbers(after=0.06)
+    for name in whole:
+        if "onset" in name or "largest_force" in name:
+            assert late[name] == whole[name]
+
+
+@pytest.mark.parametrize("window", [(1.0, math.inf), (0.05, 0.02), (0.0101, 0.0109), (math.nan, math.inf)])
+def test_times_without_a_record_are_refused(window: tuple[float, float]) -> None:
+    with pytest.raises(InputError, match=r"after = .* s, until = .* s: .*allowed: .* from 0 to 0\.08 s"):
+        falling(1e-3, 0.25).numbers(*window)
+
+
+def test_a_run_without_an_accuracy_says_what_to_do() -> None:
+    run = exact()
+    advice = r"nothing to estimate errors by; allowed: runs with an accuracy, .*accuracy='standard'"
+    for ask in (
+        run.numbers,
+        lambda: run.estimate(lambda r: 1.0),
+        lambda: run.worst_error,
+    ):
+        with pytest.raises(InputError, match=advice):
+            ask()
+    assert not run.met
+
+
+@pytest.mark.parametrize(
+    ("number", "text"),
+    [
+        (Estimate(51503.8323, 0.0088, "N"), "51503.8323 ± 0.009 N"),
+        (Estimate(0.0174475432, 2e-9, "s"), "0.0174475432 ± 2e-09 s"),
+        (Estimate(1.0, math.inf, "m/s"), "1 ± inf m/s"),
+    ],
+)
+def test_an_estimate_reads_as_a_number_with_its_error(number: Estimate, text: str) -> None:
+    assert str(number) == text
