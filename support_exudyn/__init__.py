@@ -12,6 +12,7 @@ from support_exudyn.channels import Channel
 from support_exudyn.columns import ColumnModel, OilColumn, RigidColumn, bore_area
 from support_exudyn.drives import CubicStep, Drive, Held, Steady, Stroke, UniformSpeed
 from support_exudyn.errors import Failure, SimulationError
+from support_exudyn.estimate import Estimate
 from support_exudyn.impulse import Impulse
 from support_exudyn.linkages.hydraulic_support import HydraulicSupport
 from support_exudyn.linkages.impact_stand import ImpactStand
@@ -33,6 +34,7 @@ __all__ = [
     "Crank",
     "CubicStep",
     "Drive",
+    "Estimate",
     "Failure",
     "Held",
     "HydraulicSupport",

@@ -51,7 +51,16 @@ def _is_alive(process: int) -> bool:
         return False
     except OSError:
         pass
-    return True
+    return not _has_ended(process)
+
+
+def _has_ended(process: int) -> bool:
+    """Whether a process has ended, though nobody has waited for it; no where the system does not tell."""
+    try:
+        text = Path(f"/proc/{process}/stat").read_text(encoding="utf-8", errors="replace")
+    except OSError:
+        return False
+    return text.rpartition(")")[2].split()[:1] in (["Z"], ["X"])  # the name before it may hold anything
 
 
 def _umask() -> int:

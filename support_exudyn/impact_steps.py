@@ -66,10 +66,20 @@ class ImpactSteps:
         self._opening, self._deepest, self._depth = False, depth, depth
         self._choose(depth, rate, mass)
 
+    def calm(self, depth: float) -> bool:
+        """Whether nothing is in an impact, nor is it after a step to this depth [m]."""
+        return self._length == math.inf and not (depth > 0.0 and abs(depth - self._depth) > QUIET * depth)
+
     def follow(self, depth: float, rate: float, mass: float) -> None:
         """A step has been accepted, without a touch at its end; state and moving mass at its end."""
-        self._halvings = max(0, self._halvings - 1)
-        change, self._depth = abs(depth - self._depth), depth
+        if self._halvings:
+            self._halvings -= 1
+        calm, self._depth = self.calm(depth), depth
+        if calm:
+            return
+        if self._length == math.inf:
+            self.begin(depth, rate, mass)
+            return
         if depth <= 0.0:
             self._steps_apart += 1
             if self._steps_apart > STEPS_APART:
@@ -80,10 +90,7 @@ class ImpactSteps:
             self._swung(depth)
         elif rate < 0.0:
             self._opening = True
-        if self._length < math.inf:
-            self._go_on(depth, rate, mass)
-        elif change > QUIET * depth:
-            self.begin(depth, rate, mass)
+        self._go_on(depth, rate, mass)
 
     def _swung(self, depth: float) -> None:
         """The depth is at its smallest: a swing is complete."""

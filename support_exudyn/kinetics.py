@@ -91,14 +91,17 @@ class Kinetics:
         return second - first, second_rate - first_rate
 
     def respond(self, position: Matrix, impulse: Matrix, jump: Matrix | float) -> tuple[Matrix, Matrix]:
-        """Change of velocities dv (n,) and impulses L (m,) under impulses b (n,) and a jump c (m,)."""
+        """Change of velocities dv (n,) and impulses L (m,) under impulses b (n,) and a jump c (m,).
+
+        Of several at once, b (n, k) with c a number: (n, k) and (m, k).
+        """
         rows = self.rows(position)
         size, count = position.size, len(rows)
         system = np.zeros((size + count, size + count))
         system[:size, :size] = np.diag(self.mass())
         system[:size, size:] = rows.T
         system[size:, :size] = rows
-        right = np.concatenate([impulse, np.broadcast_to(jump, (count,))])
+        right = np.concatenate([impulse, np.broadcast_to(jump, (count, *impulse.shape[1:]))])
         try:
             solution = np.linalg.solve(system, right)
         except np.linalg.LinAlgError:  # constraints that repeat each other
@@ -114,5 +117,5 @@ class Kinetics:
         impact along n feels. Other clearance pins transmit no impulse.
         """
         rate = self.relative(position, self.linkage.pins[name])[1]
-        answers = [rate @ self.respond(position, row, 0.0)[0] for row in rate]
-        return np.array(answers)
+        answers: Matrix = (rate @ self.respond(position, rate.T, 0.0)[0]).T
+        return answers

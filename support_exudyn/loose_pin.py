@@ -9,31 +9,30 @@ from typing import Any
 
 import exudyn
 
-from support_exudyn.connector import PinConnector, displacement_scale, recalled
+from support_exudyn.attachment import Attachment, Relative, attachment
+from support_exudyn.connector import PinConnector, displacement_scale
 from support_exudyn.impact_steps import ImpactSteps
-from support_exudyn.onset import Action, Mobility, Onset, PinMemory, Verdict, judge
+from support_exudyn.onset import Action, Mobility, Onset, PinMemory, Verdict, goes_on, judge, judge_at_ends
+from support_exudyn.pin_motion import Motion, PinMotion
+from support_exudyn.python_force import PythonForce
 from support_exudyn.symbolic_force import SymbolicForce
-from user_forces.contact import AT_REST, ContactForce, JournalContact, SlipHistory
-from user_forces.friction.frictionless import Frictionless
-from user_forces.normal.law import Touch
+from user_forces.contact import ContactForce, JournalContact
+from user_forces.flat import flat_force
 from user_forces.values import Vector2
 
-REPEAT_ERROR = 1e6  # above any tolerance of the engine's discontinuous iteration: the step is repeated
 SPIN_ERROR = 1e-13  # of slip [m/s] by a bore's spin that had to be guessed, above which a step is repeated
 SPIN_REPEATS = 4
 
 
 class LoosePin:
-    """One clearance pin of a scene. Its memory lives in a data node of the engine, which puts it back
-    when a step is rejected; what is kept here is a copy of it for the step being tried.
+    """One clearance pin of a scene.
 
     Arguments:
         mbs: the engine's system.
         contact: bearing and laws.
         bore, journal: the engine's body and the centre on it, in the body's axes [m].
         turn: of the journal's body relative to the bore's [rad].
-        bore_node: node of the bore's body if both bodies move, else None.
-        bore_on_ground: the bore's body is the ground.
+        bore_node, journal_node: node of the body, None: it is the ground.
         symbolic: let the engine evaluate the force.
         impact_steps: number of steps in an impact, see SolverSettings.
     """
@@ -47,31 +46,40 @@ class LoosePin:
         journal: tuple[Any, Vector2],
         turn: float,
         bore_node: Any,
-        bore_on_ground: bool,
+        journal_node: Any,
         symbolic: bool,
         impact_steps: int,
     ) -> None:
         self.mbs = mbs
         self.contact = contact
-        self.bore_on_ground = bore_on_ground
         self.bore_node = bore_node
-        self.needs_spin = bore_node is not None and not isinstance(contact.friction, Frictionless)
+        self.at = at = attachment(contact, bore_node is None, journal_node is None)
+        self._on_line = at is Attachment.LINE
+        self.turns = at is Attachment.CENTRAL and bore_node is not None  # the bore, in the connector's axes
         self.impact = ImpactSteps(contact.normal, impact_steps)
-        self.connector = PinConnector(mbs, bore, journal, turn, self._after_newton)
-        self.symbolic = (
-            SymbolicForce(mbs, contact, bore_node is None and not bore_on_ground) if symbolic else None
+        self.connector = PinConnector(mbs, bore, journal, turn, at, contact.bearing.clearance)
+        self.engine_force: SymbolicForce | PythonForce = (
+            SymbolicForce(mbs, contact, at) if symbolic else PythonForce(contact, at, self._bore_spin)
         )
-        self.connector.set_force(self.symbolic.function if self.symbolic else self._connector_force)
+        self.connector.set_force(self.engine_force.function)
+        self._force = flat_force(contact)
+        # whether the force depends on more than the touch from step to step
+        self._changes = contact.friction.has_state or at is Attachment.MIDDLE or self.turns
+        self._touch: tuple[object, ...] = ()
         # set when the scene is whole
         self.mobility: Callable[[], Mobility] = lambda: Mobility(math.nan, math.nan, math.nan)  # as it is now
+        self.motion: PinMotion | None = None
         self.step_size: Callable[[], float] = lambda: math.nan  # of the step being tried [s]
+        self.locates = True  # touches and partings, see SolverSettings
         # at the last accepted step
+        self.kept = PinMemory(False, 0.0, 0.0, 0.0)
         self._turn, self._turn_rate = 0.0, 0.0  # between the marker frames [rad], [rad/s]
         self._spin, self._spin_rate = 0.0, 0.0  # of the bore [rad/s], [rad/s^2]
+        self._bore = (0.0, 0.0)  # angle and spin of a bore that turns in the connector's axes [rad], [rad/s]
         # the step being tried
-        self.memory = PinMemory(False, 0.0, 0.0, 0.0)  # with which its force is computed
-        self._mobility = self.memory.mobility
-        self._history = AT_REST
+        self.memory = self.kept  # with which its force is computed
+        self._here = self.memory.mobility  # the same in the axes of the connector's displacement
+        self._bore_angle = 0.0  # of the bore's axes in those of the connector, expected at its end [rad]
         self.reached = self.memory  # at its end
         self.force: ContactForce = contact.force(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, None)
         self.onset: Onset | None = None
@@ -79,138 +87,157 @@ class LoosePin:
         self.landing = math.inf  # where steps are to end, seen in one that was then cut [s]
         self._step = 0.0
         self._eccentricity = (0.0, 0.0)  # at its end [m]
+        self._mass = 1.0  # that moves as the depth does at its end, while in contact [kg]
         self._tried_turn = (0.0, 0.0)
         self._tried_spin = 0.0
+        self._tried_bore = self._bore
+        self._seen: tuple[Motion, Motion] | None = None  # of bore and journal at its end, if asked
         self._guessed_spin = 0.0  # of the bore at its end [rad/s]
         self._guessed_turn = 0.0  # between the marker frames at its end [rad]
         self._spin_repeats = 0
         # over the run
         self.onsets: list[Onset] = []
-        self.calls = 0
         self.clamped_steps = 0
         self.largest_force = 0.0
 
     @property
-    def slots(self) -> slice:
-        """Where the pin's memory stands in the engine's vector of data coordinates, once assembled."""
-        return self.connector.slots
+    def calls(self) -> int:
+        """Evaluations of the force in Python."""
+        return self.engine_force.calls
 
     # --- called by the solver ---
 
-    def start(self, turn: float) -> None:
-        """Before the first step: how far the journal's body has turned against the bore's [rad] by settling."""
-        self._turn = turn
-
-    def begin_try(self, data: list[float], step: float) -> None:
-        """Before a step is tried: take the memory from the engine, line up the frames.
+    def start(self, memory: PinMemory, turn: float, bore: tuple[float, float]) -> None:
+        """Before the first step.
 
         Arguments:
-            data: the pin's data coordinates, as the engine has them.
-            step: length of the step [s].
+            memory: of the pin.
+            turn: of the journal against the bore since the start posture [rad].
+            bore: angle and spin of the bore [rad], [rad/s].
         """
+        self.kept = memory
+        self._turn = turn
+        self._bore = bore
+
+    def plainly(self, touch_speed: float) -> None:
+        """Let the force act whenever there is depth, as for a touch with this speed [m/s].
+
+        For recipes that do without `begin_try`, `after_newton` and `accept`.
+        """
+        self._recall(self.kept._replace(in_contact=True, approach_speed=touch_speed))
+
+    def jumped(self, memory: PinMemory) -> None:
+        """Velocities have jumped after the last step; the memory since then."""
+        self.kept = self.reached = memory
+        self._seen = None
+        if self.turns:
+            self._bore = self._moving.now()[0][4:]
+
+    def begin_try(self, step: float) -> None:
+        """Before a step of this length [s] is tried: go back to the last accepted one, line up the frames."""
         self.onset = None
         self.wants_cut = False
         self._step = step
+        if self.at is Attachment.MIDDLE:
+            self._guess(step)
+        elif self.turns:
+            self._bore_angle = self._bore[0] + step * self._bore[1]
+        self._recall(self.kept)
+
+    def _guess(self, step: float) -> None:
+        """What the connector does not know of the step's end."""
         self._spin_repeats = 0
         self._guessed_spin = self._spin + self._spin_rate * step
         self._guessed_turn = self._turn + self._turn_rate * step
         if self.connector.line_up(self._guessed_turn):
             self._turn -= self._guessed_turn
             self._guessed_turn = 0.0
-        self._recall(recalled(data))
 
     def accept(self) -> None:
         """After a step has been accepted: keep what happened in it."""
-        self._turn, self._turn_rate = self._tried_turn
-        if self._step > 0.0:
-            self._spin_rate = (self._tried_spin - self._spin) / self._step
-        self._spin = self._tried_spin
-        state = self.reached.depth, self.reached.rate, self._mass
-        if self.onset is None:
-            self.impact.follow(*state)
-        else:
-            self.impact.touch(*state)
+        self.kept = reached = self.reached
+        if self.at is Attachment.MIDDLE:
+            self._turn, self._turn_rate = self._tried_turn
+            if self._step > 0.0:
+                self._spin_rate = (self._tried_spin - self._spin) / self._step
+            self._spin = self._tried_spin
+        self._bore = self._tried_bore
+        if self.locates:
+            after = self.impact.follow if self.onset is None else self.impact.touch
+            unknown = self._on_line and (self.onset is not None or not self.impact.calm(reached.depth))
+            after(reached.depth, reached.rate, self._moving_mass(reached) if unknown else self._mass)
+        if self.onset is not None:
             self.onsets.append(self.onset)
             self.onset = None
-        self.clamped_steps += bool(self.force.clamped)
-        self.largest_force = max(
-            self.largest_force, math.hypot(self.force.normal_force, self.force.friction_force)
-        )
+        force = self.force
+        if force.clamped:
+            self.clamped_steps += 1
+        if force.normal_force + abs(force.friction_force) > self.largest_force:
+            self.largest_force = max(self.largest_force, math.hypot(force.normal_force, force.friction_force))
 
     def begin_impact(self) -> None:
         """The drive's speed has jumped: the depth of a closed pin swings from now on."""
-        if self.reached.depth > 0.0:
-            self.impact.begin(self.reached.depth, self.reached.rate, self._mass)
+        if self.locates and self.reached.depth > 0.0:
+            self.impact.begin(self.reached.depth, self.reached.rate, self._moving_mass(self.reached))
 
-    @property
-    def _mass(self) -> float:
-        """Mass [kg] that moves as the depth does at the end of the last step."""
-        return self.reached.mobility.mass(*self._eccentricity)
+    def _moving_mass(self, memory: PinMemory) -> float:
+        """Mass [kg] that moves as the depth does, where the journal is now."""
+        return memory.mobility.mass(*self._place())
 
-    # --- called by the engine ---
+    def _place(self) -> Vector2:
+        """Where the journal is now in its bore, in the bore's axes [m]."""
+        (bx, by, _, _, angle, _), (x, y, *_) = self._seen or self._moving.now()
+        x, y = x - bx, y - by
+        if self.bore_node is None:
+            return x, y
+        c, s = math.cos(angle), math.sin(angle)
+        return c * x + s * y, c * y - s * x
 
-    def _connector_force(
-        self,
-        mbs: Any,
-        t: float,
-        item: int,
-        displacement: list[float],
-        rotation: list[float],
-        velocity: list[float],
-        angular_velocity: list[float],
-        *unused: Any,
-    ) -> list[float]:
-        """Force and moment of the connector, which act on the bore and, reversed, on the journal."""
-        self.calls += 1
-        x, y = _offset(displacement, rotation)
-        force = self._contact_force(x, y, velocity, angular_velocity)
-        # the engine moves the force to the middle between both centres, eccentricity/2 from the journal's
-        arm = force.journal_arm + 0.5 * math.hypot(x, y)
-        return [-force.force_x, -force.force_y, 0.0, 0.0, 0.0, -arm * force.friction_force]
+    def after_newton(self, t: float) -> float | None:
+        """A step that would end at t [s] has been solved: None if it may stand.
 
-    def _after_newton(
-        self,
-        mbs: Any,
-        t: float,
-        item: int,
-        data: list[float],
-        displacement: list[float],
-        rotation: list[float],
-        velocity: list[float],
-        angular_velocity: list[float],
-        *unused: Any,
-    ) -> list[float]:
-        """[error, recommended step, new memory]: accept the step, repeat it, or ask for a shorter one."""
-        start = recalled(data)
-        x, y = _offset(displacement, rotation)
-        self.force = self._contact_force(x, y, velocity, angular_velocity)
-        self._eccentricity = (x, y)
-        self._tried_turn = (rotation[2], angular_velocity[2])
-        if self._spin_was_wrong(math.hypot(x, y)):
-            return [REPEAT_ERROR, -1.0, *data]
-        verdict = judge(
-            start,
-            self.force.depth,
-            self.force.rate,
-            t,
-            self.step_size(),
-            lambda speed: self.impact.length(speed, self.mobility().mass(x, y)),
-            self.contact.normal.forgets,
-        )
+        Else with which length [s] it is to be repeated; infinite: with the same, for the force has changed.
+        """
+        start = self.memory
+        relative = self._relative()
+        self.force = force = self._contact_force(relative)
+        if self._spin_was_wrong():
+            return math.inf
+        depth, rate, slip = force[:3]
+        if goes_on(start, depth, rate):
+            self.reached = start.at(depth, rate, slip, force.deflection)
+            return None
+        return self._decided(start, self._verdict(start, t))
+
+    def _decided(self, start: PinMemory, verdict: Verdict) -> float | None:
+        """The answer to the engine that follows from a verdict."""
         if verdict.action is Action.CUT:
             self.wants_cut = True
             self.landing = verdict.landing
-            return [REPEAT_ERROR, verdict.step, *data]
-        memory = self._completed(verdict, start)
+            return verdict.step
+        memory = self._completed(verdict)
         if verdict.onset is not None:
             self.onset = verdict.onset
         if verdict.action is Action.REPEAT:
             self._recall(memory)
-            return [REPEAT_ERROR, -1.0, *memory]
+            return math.inf
         self.reached = memory
-        return [0.0, -1.0, *memory]
+        if not self._on_line:
+            self._mass = self._moving_mass(memory)
+        return None
 
-    def _completed(self, verdict: Verdict, start: PinMemory) -> PinMemory:
+    def _verdict(self, start: PinMemory, end_time: float) -> Verdict:
+        """Whether the step that has been tried may stand."""
+        step = (start, self.force.depth, self.force.rate, end_time, self.step_size())
+        if self.locates:
+            return judge(*step, self._impact_step, self.contact.normal.forgets)
+        return judge_at_ends(*step, self.contact.normal.forgets)
+
+    def _impact_step(self, speed: float) -> float:
+        """Length of the steps [s] in an impact of this speed [m/s] that begins where the journal is."""
+        return self.impact.length(speed, self.mobility().mass(*self._place()))
+
+    def _completed(self, verdict: Verdict) -> PinMemory:
         """The verdict's memory with what the laws need besides."""
         memory = verdict.memory
         if verdict.action is Action.REPEAT:
@@ -218,55 +245,97 @@ class LoosePin:
         if verdict.onset is not None or verdict.anew:
             memory = memory.with_mobility(self.mobility())
         sticks = memory.in_contact and verdict.onset is None
-        return memory._replace(slip=self.force.slip, deflection=self.force.deflection if sticks else 0.0)
+        return memory.slid(self.force.slip, self.force.deflection if sticks else 0.0)
 
-    def _contact_force(
-        self, x: float, y: float, velocity: list[float], angular_velocity: list[float]
-    ) -> ContactForce:
-        memory = self.memory
-        # as memory.touch says, which the engine asks for too often to make the mobility anew
-        touch = Touch(memory.approach_speed, self._mobility.mass(x, y)) if memory.in_contact else None
-        bore_spin, journal_spin = self._spins(angular_velocity[2])
-        return self.contact.force(
-            x,
-            y,
-            velocity[0],
-            velocity[1],
-            bore_spin,
-            journal_spin,
-            touch,
-            self._history,
+    def _recall(self, memory: PinMemory) -> None:
+        self.memory = memory
+        touch = memory[:2] + memory[6:]  # all but its motion
+        if touch != self._touch or self._changes:
+            self._touch = touch
+            self._here = self._turned(memory.mobility)
+            self.engine_force.load(memory, self._here, self._step, self._guessed_spin, self._guessed_turn)
+
+    def _turned(self, mobility: Mobility) -> Mobility:
+        """A mobility in the bore's axes, in those of the connector's displacement."""
+        return mobility.turned(self._bore_angle) if self.turns else mobility
+
+    # --- the motion at the end of the step that is being tried ---
+
+    def _relative(self) -> Relative:
+        """The journal in its bore in the axes of the connector's displacement."""
+        if isinstance(self.engine_force, SymbolicForce):
+            return self._from_coordinates()
+        # the residual that satisfied Newton's method was evaluated at this same state
+        if self._on_line:
+            depth, rate = self.engine_force.last
+            return Relative(depth + self.contact.bearing.clearance, 0.0, rate, 0.0)
+        displacement, velocity, *turning = self.engine_force.last
+        x, y, vx, vy = displacement[0], displacement[1], velocity[0], velocity[1]
+        if not turning:
+            if self.turns:
+                self._tried_bore = self._moving.now()[0][4:]
+            return Relative(x, y, vx, vy)
+        (_, _, turn), (_, _, spin) = turning
+        if self.at is not Attachment.MIDDLE:
+            return Relative(x, y, vx, vy, spin)
+        self._tried_turn = turn, spin
+        self._tried_spin = self._bore_spin()
+        scale = displacement_scale(turn)
+        return Relative(scale * x, scale * y, vx, vy, spin, self._tried_spin)
+
+    def _from_coordinates(self) -> Relative:
+        self._seen = self._moving.now()
+        (bx, by, bvx, bvy, bore_angle, bore_spin), journal = self._seen
+        x, y, vx, vy, journal_angle, spin = journal
+        x, y, vx, vy, turning = x - bx, y - by, vx - bvx, vy - bvy, spin - bore_spin
+        if self.bore_node is None:
+            return Relative(x, y, vx, vy, turning)
+        self._tried_bore = bore_angle, bore_spin
+        if self._on_line or self.turns:
+            return Relative(x, y, vx, vy, turning)
+        if self.at is Attachment.MIDDLE:
+            turn = math.remainder(journal_angle + self.connector.frame_turn - bore_angle, 2.0 * math.pi)
+            self._tried_turn, self._tried_spin = (turn, turning), bore_spin
+            bore_angle += 0.5 * turn  # the connector's axes are in the middle between both marker frames
+        c, s = math.cos(bore_angle), math.sin(bore_angle)
+        return Relative(c * x + s * y, c * y - s * x, c * vx + s * vy, c * vy - s * vx, turning, bore_spin)
+
+    @property
+    def _moving(self) -> PinMotion:
+        if self.motion is None:
+            raise RuntimeError("LoosePin.motion: is set by the scene")
+        return self.motion
+
+    def _contact_force(self, motion: Relative) -> ContactForce:
+        x, y, vx, vy, _, _ = motion
+        self._eccentricity = x, y
+        in_contact, approach_speed, _, _, slip, deflection, *_ = self.memory
+        if in_contact and not self._on_line:
+            self._mass = self._here.mass(x, y)
+        spins = motion.spins(self.at)
+        return self._force(
+            x, y, vx, vy, *spins, in_contact, approach_speed, self._mass, deflection, slip, self._step
         )
 
-    def _spins(self, turning: float) -> tuple[float, float]:
-        """Angular velocities of bore and journal [rad/s] from that of the journal against the bore."""
-        if self.needs_spin:
-            output = exudyn.OutputVariableType.Coordinates_t
-            self._tried_spin = float(self.mbs.GetNodeOutput(self.bore_node, output)[2])
-            return self._tried_spin, self._tried_spin + turning
-        return (0.0, turning) if self.bore_on_ground else (-turning, 0.0)
+    def _bore_spin(self) -> float:
+        return float(self.mbs.GetNodeOutput(self.bore_node, exudyn.OutputVariableType.Coordinates_t)[2])
 
-    def _spin_was_wrong(self, eccentricity: float) -> bool:
+    def _spin_was_wrong(self) -> bool:
         """Whether the engine's expression used another spin of the bore than came out; then set the right one.
 
         It is told the bore's own spin before a step, since the connector knows only that of both bodies
         against each other. The slip depends on it by spin times eccentricity.
         """
-        if self.symbolic is None or not self.needs_spin or self._spin_repeats >= SPIN_REPEATS:
+        if self.at is not Attachment.MIDDLE or isinstance(self.engine_force, PythonForce):
             return False
-        if abs(self._tried_spin - self._guessed_spin) * eccentricity < SPIN_ERROR:
+        if self._spin_repeats >= SPIN_REPEATS:
+            return False
+        if abs(self._tried_spin - self._guessed_spin) * math.hypot(*self._eccentricity) < SPIN_ERROR:
             return False
         self._spin_repeats += 1
         self._guessed_spin = self._tried_spin
         self._recall(self.memory)
         return True
-
-    def _recall(self, memory: PinMemory) -> None:
-        self.memory = memory
-        self._mobility = memory.mobility
-        self._history = SlipHistory(memory.deflection, memory.slip, self._step)
-        if self.symbolic is not None:
-            self.symbolic.load(memory, self._step, self._guessed_spin, self._guessed_turn)
 
     # --- static equilibrium ---
 
@@ -278,36 +347,13 @@ class LoosePin:
             stiffness: of the spring [N/m], asked at every evaluation.
         """
 
-        def force(
-            mbs: Any,
-            t: float,
-            item: int,
-            displacement: list[float],
-            rotation: list[float],
-            *unused: Any,
-        ) -> list[float]:
-            x, y = _offset(displacement, rotation)
-            eccentricity = math.hypot(x, y)
-            pull = stiffness()
+        def held(eccentricity: float) -> float:
             depth = self.contact.bearing.depth(eccentricity)
-            if depth > 0.0:
-                pull += self.contact.normal.elastic_force(depth) / eccentricity
-            return [pull * x, pull * y, 0.0, 0.0, 0.0, 0.0]
+            pressed = self.contact.normal.elastic_force(depth) / eccentricity if depth > 0.0 else 0.0
+            return stiffness() + pressed
 
-        def after_newton(mbs: Any, t: float, item: int, data: list[float], *unused: Any) -> list[float]:
-            return [0.0, -1.0, *data]
-
-        connector = self.connector
-        connector.set_force(force)
-        connector.set_after_newton(after_newton)
+        self.connector.set_spring(held)
         try:
             yield
         finally:
-            connector.set_force(self.symbolic.function if self.symbolic else self._connector_force)
-            connector.set_after_newton(self._after_newton)
-
-
-def _offset(displacement: list[float], rotation: list[float]) -> Vector2:
-    """Journal's centre minus bore's centre [m] from what the engine hands to its user functions."""
-    scale = displacement_scale(rotation[2])
-    return scale * displacement[0], scale * displacement[1]
+            self.connector.set_force(self.engine_force.function)

@@ -12,9 +12,8 @@ from collections.abc import Callable
 from enum import Enum
 from typing import NamedTuple
 
-from scipy.optimize import brentq
-
 from user_forces.normal.law import Touch
+from user_forces.roots import bracketed_root
 from user_forces.scalar import maximum
 
 # A step that ends within this share of an impact's step from a touch or a parting is taken as ending there, and
@@ -40,6 +39,14 @@ class Mobility(NamedTuple):
         along = self.xx * x * x + 2.0 * self.xy * x * y + self.yy * y * y
         return square / maximum(along, square / HEAVIEST)
 
+    def turned(self, angle: float) -> Mobility:
+        """The same in axes against which its own are turned by an angle [rad]."""
+        c, s = math.cos(angle), math.sin(angle)
+        xx, xy, yy = self
+        cross = c * s * (xx - yy) + (c * c - s * s) * xy
+        both = 2.0 * c * s * xy
+        return Mobility(c * c * xx + s * s * yy - both, cross, s * s * xx + c * c * yy + both)
+
 
 SMALLEST = 1e-30  # so that nothing is divided by zero [m^2]
 HEAVIEST = 1e15  # [kg], stands for a direction in which the joints leave no motion
@@ -58,6 +65,11 @@ class PinMemory(NamedTuple):
     mobility_xy: float = 0.0
     mobility_yy: float = 1.0
 
+    def at(self, depth: float, rate: float, slip: float, deflection: float) -> PinMemory:
+        """The same contact at another depth [m], rate [m/s], slip [m/s] and deflection [m]."""
+        in_contact, approach_speed, _, _, _, _, xx, xy, yy = self
+        return PinMemory(in_contact, approach_speed, depth, rate, slip, deflection, xx, xy, yy)
+
     @property
     def mobility(self) -> Mobility:
         """Mobility of the journal when the contact began, or was last pressed on again."""
@@ -67,13 +79,25 @@ class PinMemory(NamedTuple):
         """The same with another mobility."""
         return self._replace(mobility_xx=mobility.xx, mobility_xy=mobility.xy, mobility_yy=mobility.yy)
 
+    def moved(self, depth: float, rate: float) -> PinMemory:
+        """The same at another depth [m] and rate [m/s]. (`_replace` takes three times as long.)"""
+        return self.at(depth, rate, self.slip, self.deflection)
+
+    def slid(self, slip: float, deflection: float) -> PinMemory:
+        """The same with another slip [m/s] and deflection [m]."""
+        return self.at(self.depth, self.rate, slip, deflection)
+
     def touch(self, x: float, y: float) -> Touch | None:
         """What the laws are told at an eccentricity x, y [m]; None while the surfaces are apart."""
         return Touch(self.approach_speed, self.mobility.mass(x, y)) if self.in_contact else None
 
 
 class Onset(NamedTuple):
-    """The beginning of a contact."""
+    """The beginning of a contact.
+
+    If it is not located (`judge_at_ends`): time at which the straight line between the depths at both ends of
+    the step passes zero, speed at the end of the step.
+    """
 
     time: float  # [s]
     speed: float  # of approach at zero depth [m/s]
@@ -127,11 +151,17 @@ class DepthPath(NamedTuple):
 
     def turning_point(self) -> float:
         """The fraction at which the rate passes zero, its signs at both ends being different."""
-        return float(brentq(self.rate, 0.0, 1.0, xtol=1e-12))
+        change = 6.0 * (self.depth1 - self.depth0) / self.step
+        a = 3.0 * (self.rate0 + self.rate1) - change
+        b = change - 4.0 * self.rate0 - 2.0 * self.rate1
+        # of the two roots of a x^2 + b x + rate0 without cancellation, and the one within the step
+        q = -0.5 * (b + math.copysign(math.sqrt(max(0.0, b * b - 4.0 * a * self.rate0)), b))
+        roots = [root for root in (self.rate0 / q if q else 0.0, q / a if a else 1.0) if 0.0 <= root <= 1.0]
+        return roots[0] if roots else 0.5
 
     def crossing(self, a: float, b: float) -> float:
         """The fraction between a and b at which the depth passes zero, its signs there being different."""
-        return float(brentq(self.depth, a, b, xtol=1e-15))
+        return bracketed_root(self.depth, a, b, xtol=1e-15)
 
 
 def first_rise(path: DepthPath) -> float | None:
@@ -156,6 +186,16 @@ def last_return(path: DepthPath) -> float | None:
     return None
 
 
+def goes_on(start: PinMemory, depth: float, rate: float) -> bool:
+    """Whether in a step from `start` to this depth [m] and rate [m/s] surely nothing has happened to the pin.
+
+    It stayed closed without being pressed on anew, or apart without turning back. If not, `judge` says what.
+    """
+    if start.in_contact:
+        return depth > 0.0 and not start.rate < 0.0 <= rate
+    return depth <= 0.0 and start.depth <= 0.0 and not start.rate > 0.0 > rate
+
+
 def judge(
     start: PinMemory,
     depth: float,
@@ -176,7 +216,7 @@ def judge(
         forgets: whether a contact that is pressed on again begins anew (`NormalLaw.forgets`).
     """
     path = DepthPath(start.depth, start.rate, depth, rate, step)
-    end = start._replace(depth=depth, rate=rate)
+    end = start.moved(depth, rate)
     if start.in_contact:
         return _judge_contact(path, start, end, end_time, forgets)
     touch = first_rise(path)
@@ -207,10 +247,37 @@ def _judge_contact(
         if SHARE < parting < 1.0 - SHARE:  # else the last step would push too long or too hard
             return _cut(parting, SHARE, path, start, end_time)
         return Verdict(Action.ACCEPT, end._replace(in_contact=False, approach_speed=0.0))
+    return _gone_on(start, end, forgets)
+
+
+def _gone_on(start: PinMemory, end: PinMemory, forgets: bool) -> Verdict:
+    """The verdict on a step over which the contact goes on."""
     anew = start.rate < 0.0 <= end.rate
     if anew and forgets:
         end = end._replace(approach_speed=0.0)
     return Verdict(Action.ACCEPT, end, anew=anew)
+
+
+def judge_at_ends(
+    start: PinMemory, depth: float, rate: float, end_time: float, step: float, forgets: bool
+) -> Verdict:
+    """The same without locating anything, as plain recipes do: every step stands.
+
+    A touch or a parting counts from the end of the step in which it happens, so that a contact begins with some
+    depth, and with the speed it has there. What touches and parts within a step is missed.
+
+    Arguments: those of `judge`.
+    """
+    end = start.moved(depth, rate)
+    if start.in_contact:
+        if depth > 0.0:
+            return _gone_on(start, end, forgets)
+        return Verdict(Action.ACCEPT, end._replace(in_contact=False, approach_speed=0.0))
+    if depth <= 0.0:
+        return Verdict(Action.ACCEPT, end)
+    before = min(start.depth, 0.0)
+    onset = Onset(end_time - step * depth / (depth - before), max(0.0, rate))
+    return Verdict(Action.ACCEPT, end._replace(in_contact=True, approach_speed=onset.speed), onset)
 
 
 def _cut(

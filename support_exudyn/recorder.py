@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import exudyn
 import numpy as np
 
+from support_exudyn.between_records import StepEnd, between
 from support_exudyn.energy import RunningIntegrals
-from support_exudyn.oil import oil_powers
-from support_exudyn.scene import Scene
-from support_exudyn.scene_items import OilColumnItem
+from support_exudyn.onset import PinMemory
+from support_exudyn.scene import OilColumnItem, Scene
+from support_exudyn.trajectory import Series
 
 
 @dataclass(frozen=True)
@@ -19,7 +21,7 @@ class History:
     """Raw states at the records, one row each; see `channels` for what they mean.
 
     time (n,); position, velocity, acceleration (n, coordinates); multiplier (n, constraints);
-    memory (n, data coordinates); work, damping_loss, friction_loss (n,) [J].
+    memory (n, loose pins, fields of PinMemory); work, damping_loss, friction_loss (n,) [J].
     """
 
     time: np.ndarray
@@ -48,10 +50,13 @@ class Recorder:
         self._speed = scene.scenario.drive.speed
         self._extension = scene.scenario.drive.extension
         self._rows: list[tuple[Any, ...]] = []
+        self._powers_now = (0.0, 0.0, 0.0)  # [W]
+        self._start: StepEnd | None = None  # of the step going on
 
     def after_step(self, t: float, kink: bool) -> None:
         """Add a step that has been accepted; `kink`: an impact or a break of the drive lies at its end."""
-        self.energies.add(t, self._powers(t))
+        self._powers_now = self._powers(t)
+        self.energies.add(t, self._powers_now)
         if kink:
             self.energies.restart()
 
@@ -59,6 +64,32 @@ class Recorder:
         """The columns' speed has jumped at t [s], which gave the bodies this energy [J]."""
         self.energies.totals[0] += energy
         self.energies.jump(t)
+
+    def begin_step(self, t: float) -> None:
+        """A step that may pass over records begins at t [s]."""
+        self._start = self._state(t)
+
+    def record_between(self, t: float, end: float) -> None:
+        """Keep the state at time t [s] inside the step that has just ended at another [s]."""
+        if self._start is None:
+            raise RuntimeError("begin_step: was not called before the step")
+        state = between(self._start, self._state(end), t)
+        # in contact or not, with which touch: as over all of the step
+        state.memory[:, :2] = self._start.memory[:, :2]
+        self._rows.append((*state[:6], *state.totals.tolist()))
+
+    def _state(self, t: float) -> StepEnd:
+        data = self._data
+        return StepEnd(
+            t,
+            data.GetODE2Coordinates(),
+            data.GetODE2Coordinates_t(),
+            data.GetODE2Coordinates_tt(),
+            data.GetAECoordinates(),
+            _memories([pin.kept for pin in self._pins]),
+            np.array(self.energies.totals),
+            np.array(self._powers_now),
+        )
 
     def record(self, t: float) -> None:
         """Keep the state at time t [s]."""
@@ -70,7 +101,7 @@ class Recorder:
                 data.GetODE2Coordinates_t(),
                 data.GetODE2Coordinates_tt(),
                 data.GetAECoordinates(),
-                data.GetDataCoordinates(),
+                tuple(pin.kept for pin in self._pins),
                 *self.energies.totals,
             )
         )
@@ -85,7 +116,9 @@ class Recorder:
 
     def history(self) -> History:
         """What has been recorded so far."""
-        return History(*(np.array(column) for column in zip(*self._rows, strict=True)))
+        columns = [list(column) for column in zip(*self._rows, strict=True)]
+        columns[5] = [_memories(row) for row in columns[5]]
+        return History(*(np.array(column) for column in columns))
 
     def _powers(self, t: float) -> tuple[float, float, float]:
         """Power [W] of the drive, of damping and of friction at the end of a step."""
@@ -96,7 +129,7 @@ class Recorder:
             # the multiplier of a distance is the tension, that of a crank's angle the moment against it
             columns = -speed * sum(float(multipliers[n]) for n in self._driven)
         for item in self._oil:
-            work, loss = oil_powers(item, *self._length(item), self._extension(t), speed)
+            work, loss = item.filled.powers(*self._length(item), self._extension(t), speed)
             columns += work
             damping += loss
         for pin in self._pins:
@@ -106,3 +139,8 @@ class Recorder:
                 damping += (force.normal_force - elastic) * force.rate
                 friction -= force.friction_force * force.slip
         return columns, damping, friction
+
+
+def _memories(pins: Series | Sequence[PinMemory]) -> Series:
+    """Memory of all loose pins, shape (loose pins, fields of PinMemory)."""
+    return np.asarray(pins, dtype=np.float64).reshape(-1, len(PinMemory._fields))

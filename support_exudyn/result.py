@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+import math
+from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -12,14 +14,15 @@ import h5py
 import numpy as np
 
 from support_exudyn.channels import Channel
+from support_exudyn.counts import Counts
+from support_exudyn.estimate import Estimate, error, fall, measures, worst_error
 from support_exudyn.files import whole_file
 from support_exudyn.impulse import Impulse
 from support_exudyn.onset import Onset
 from support_exudyn.scenario import Scenario
-from support_exudyn.solver import Counts
 from user_forces.values import InputError, Value
 
-FORMAT = "support_exudyn result 2"
+FORMAT = "support_exudyn result 3"
 
 
 @dataclass(frozen=True)
@@ -30,7 +33,11 @@ class Result:
     onsets: for each clearance pin the beginnings of contact. largest_force: for each clearance pin the
     largest force [N] at the end of any step, also between records. impulses: where the speed of
     rigid columns or cranks jumped. counts: what the solver did.
-    wall_time: [s], of building, settling and integrating. provenance: versions and platform.
+    wall_time: [s], of building, settling and integrating, of all runs that an accuracy took.
+    provenance: versions and platform.
+    goal: the accuracy that was asked for, None if none was; `scenario` then has the settings that were chosen.
+    coarser: the same run with longer steps, which has one of its own; from their distances errors are
+    estimated.
     """
 
     scenario: Scenario
@@ -41,6 +48,8 @@ class Result:
     counts: Counts
     wall_time: float
     provenance: Mapping[str, str]
+    goal: float | None = None
+    coarser: Result | None = None
 
     def __getitem__(self, name: str) -> np.ndarray:
         """Values of a channel, shape (n,), in SI."""
@@ -70,23 +79,70 @@ class Result:
         """Largest amount by which the energy balance is not closed at any record [J]."""
         return float(np.abs(self["energy.balance"]).max())
 
+    # --- errors; of results that were run to an accuracy ---
+
+    def estimate(self, measure: Callable[[Result], float], unit: str = "") -> Estimate:
+        """A number of one's own with its estimated error.
+
+        Arguments:
+            measure: gives the number of a result, such as `lambda r: r["tip.x"].max()`.
+            unit: of it.
+
+        Raises InputError if the run was not made to an accuracy.
+        """
+        self._check()
+        return Estimate(measure(self), error(measure, self, self.fall), unit)
+
+    def numbers(self, after: float = 0.0, until: float = math.inf) -> dict[str, Estimate]:
+        """The usual numbers with their estimated errors, by names such as `pin.rear_base.force.mean`.
+
+        Of the records between two times [s]: mean, spread (standard deviation) and largest value of all forces,
+        spread of angular accelerations, mean place of traced points; and of loose pins the largest force at any
+        step and the first three touches.
+        """
+        self._check()
+        return {
+            name: Estimate(kind.measure(self), error(kind.measure, self, self.fall, kind.size), kind.unit)
+            for name, kind in measures(self, after, until).items()
+        }
+
+    @cached_property
+    def fall(self) -> float:
+        """By what factor the distances of its numbers fell from run to run: 1/4 for second order."""
+        return fall(self)
+
+    @property
+    def worst_error(self) -> float:
+        """Estimated error of what an accuracy is of: the largest, relative.
+
+        Mean, spread and largest value of the pin forces over the run; paths of traced points, of their extent
+        (at least the clearance).
+        """
+        self._check()
+        return worst_error(self, self.fall)
+
+    @property
+    def met(self) -> bool:
+        """Whether the estimated error is as small as was asked for."""
+        return self.goal is not None and self.worst_error <= self.goal
+
+    def _check(self) -> None:
+        if self.coarser is None:
+            raise InputError(
+                "the run has nothing to estimate errors by; allowed: runs with an accuracy, "
+                "simulate(scenario, accuracy='standard')"
+            )
+
+    # --- file ---
+
     def save(self, path: str | Path) -> Path:
-        """Write everything to one HDF5 file: /channels/NAME with units, and the rest as JSON attributes."""
+        """Write everything to one HDF5 file: /channels/NAME with units, and the rest as JSON attributes.
+
+        The run by which errors are estimated stands likewise in /coarser.
+        """
         with whole_file(path) as temporary, h5py.File(temporary, "w") as file:
             file.attrs["format"] = FORMAT
-            file.attrs["scenario"] = json.dumps(self.scenario.to_data())
-            file.attrs["impulses"] = json.dumps([asdict(impulse) for impulse in self.impulses])
-            file.attrs["counts"] = json.dumps(asdict(self.counts))
-            file.attrs["wall_time_s"] = self.wall_time
-            file.attrs["provenance"] = json.dumps(dict(self.provenance))
-            for name, channel in self.channels.items():
-                data = file.create_dataset(f"channels/{name}", data=channel.values)
-                data.attrs["unit"] = channel.unit
-                data.attrs["meaning"] = channel.meaning
-            for name, onsets in self.onsets.items():
-                data = file.create_dataset(f"onsets/{name}", data=np.array(onsets).reshape(-1, 2))
-                data.attrs["columns"] = "time [s], approach speed [m/s]"
-                data.attrs["largest_force_N"] = self.largest_force[name]
+            _write(file, self)
         return Path(path)
 
     @staticmethod
@@ -99,29 +155,51 @@ class Result:
             raise FileNotFoundError(f"{path}: no such file")
         try:
             with h5py.File(path, "r") as file:
+                if file.attrs.get("format") != FORMAT:
+                    raise KeyError(f"format is {file.attrs.get('format')!r}, expected {FORMAT!r}")
                 return _read(file)
-        except (OSError, KeyError, json.JSONDecodeError) as error:
+        except InputError as error:  # of a value that is not known or does not fit
+            raise InputError(f"{path}: {error}") from None
+        except (OSError, KeyError, AttributeError, TypeError, ValueError) as error:
             raise InputError(f"{path}: not a result file of this program, or damaged ({error})") from None
 
 
-def _read(file: h5py.File) -> Result:
-    if file.attrs.get("format") != FORMAT:
-        raise KeyError(f"format is {file.attrs.get('format')!r}, expected {FORMAT!r}")
+def _write(group: h5py.Group, result: Result) -> None:
+    group.attrs["scenario"] = json.dumps(result.scenario.to_data())
+    group.attrs["impulses"] = json.dumps([asdict(impulse) for impulse in result.impulses])
+    group.attrs["counts"] = json.dumps(asdict(result.counts))
+    group.attrs["wall_time_s"] = result.wall_time
+    group.attrs["provenance"] = json.dumps(dict(result.provenance))
+    group.attrs["goal"] = json.dumps(result.goal)
+    for name, channel in result.channels.items():
+        data = group.create_dataset(f"channels/{name}", data=channel.values)
+        data.attrs["unit"] = channel.unit
+        data.attrs["meaning"] = channel.meaning
+    for name, onsets in result.onsets.items():
+        data = group.create_dataset(f"onsets/{name}", data=np.array(onsets).reshape(-1, 2))
+        data.attrs["columns"] = "time [s], approach speed [m/s]"
+        data.attrs["largest_force_N"] = result.largest_force[name]
+    if result.coarser is not None:
+        _write(group.create_group("coarser"), result.coarser)
 
+
+def _read(group: h5py.Group) -> Result:
     def attribute(name: str) -> Any:
-        return json.loads(file.attrs[name])
+        return json.loads(group.attrs[name])
 
-    onsets = file.get("onsets", {})
+    onsets = group.get("onsets", {})
     return Result(
         scenario=Value.from_data(attribute("scenario")),
         channels={
             name: Channel(data[:], data.attrs["unit"], data.attrs["meaning"])
-            for name, data in file["channels"].items()
+            for name, data in group["channels"].items()
         },
         onsets={name: tuple(Onset(*row) for row in data[:].tolist()) for name, data in onsets.items()},
         largest_force={name: float(data.attrs["largest_force_N"]) for name, data in onsets.items()},
         impulses=tuple(Impulse(**item) for item in attribute("impulses")),
         counts=Counts(**attribute("counts")),
-        wall_time=float(file.attrs["wall_time_s"]),
+        wall_time=float(group.attrs["wall_time_s"]),
         provenance=attribute("provenance"),
+        goal=attribute("goal"),
+        coarser=_read(group["coarser"]) if "coarser" in group else None,
     )

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import field, replace
 from typing import Annotated, Literal
 
-from pydantic import Field, model_validator
+from pydantic import Field, field_validator, model_validator
 
 from support_exudyn.columns import ColumnModel, OilColumn
 from support_exudyn.drives import Drive, Held
@@ -15,28 +15,76 @@ from support_exudyn.machine import Linkage, Machine
 from support_exudyn.pins import ClearancePin, Pin
 from user_forces.values import Fraction, Positive, Real, Value, Vector2, value
 
+ACCURACIES = {"draft": 1e-2, "standard": 1e-3, "reference": 1e-5}
+Accuracy = Literal["draft", "standard", "reference"] | Real
+SMALLEST_GOAL, LARGEST_GOAL = 1e-8, 0.1
+SMALLEST_TOLERANCE = 1e-13  # rounding
+LARGEST_STEP = 0.1  # [s]
+MOST_IMPACT_STEPS = 10000
+ERROR_CONTROLLED = ("tree", "reduced")
+REFINED_TOLERANCE = 3  # power of the refinement by which the tolerance falls
+
 
 @value
 class SolverSettings(Value):
-    """Settings of the generalised-alpha solver.
+    """Settings of the time integration; all but `tolerance` and `backend` are of the redundant formulation.
 
     Arguments:
+        integrator: "generalised_alpha", or "trapezoidal", the engine's rule of that name, which has no
+            spectral radius and needs constraints of index 2.
+        constraint_index: 3: constraints hold the positions; 2: the velocities, so that pins drift apart (on the
+            support by 1e-9 m in a rise, 1e-6 m in a second of impacts). The engine's generalised alpha has 3
+            only. With 2 cranks follow the drive's speed, and rigid columns that move are refused: the engine's
+            have no speed.
         spectral_radius: rho at infinite frequency, from 0 (all high-frequency content damped out in a
             step) to 1 (none). At 0.5 the joint forces are quiet at small steps; at 0.9 rounding
             shows in them below a step of 0.2 ms.
         newton_tolerance: relative tolerance of Newton's residual, > 0.
+        newton: "modified", which keeps a Jacobian as long as it serves, or "full", a new one each iteration.
         impact_steps: how many steps an impact takes at least, from the touch to the parting of an undamped
             one of the same speed; 16 to 10000. Steps are so short from the touch until the surfaces part, or
             until the depth swings little any more. Errors are of second order; 512 delivers any
             restitution within 1e-5.
-        backend: what evaluates the force of clearance pins: "python", a Python function, or "symbolic", the
-            same law as an expression of the engine. Python still watches the contact once a step.
+        locate: whether steps are cut so that touches and partings lie at their ends, and refined in impacts.
+            Without, all steps lie on the grid, also after breaks of the drive, and a contact is noticed at
+            the end of the step in which it begins or ends, as plain recipes do. A law is then told the speed
+            there; `Onset.time` is interpolated.
+        growth: by what factor steps may grow beyond `step`, from 1 to 64, while loose pins are closed, nothing
+            is in an impact and accelerations hardly change. Records that a step passes over are interpolated.
+            16 saves nine tenths of the steps with ideal pins, a third with a loose one that comes to rest, few
+            with one that vibrates; errors stay those of `step` where impacts decide.
+        tolerance: of the formulations with error control, from 1e-13 to 1e-2. Reduced: largest error of a step
+            as a share of the clearance, and of the speed of a fall through half of it. Tree: of that speed;
+            1e-5 is enough for most.
+        backend: what evaluates the force of clearance pins. "python": a Python function. "symbolic": the same
+            law as an expression of the engine (redundant). "compiled": by numba, the extra [fast], for laws
+            K depth^n with hysteresis damping and Ambrosio's friction or none (reduced). "auto": compiled where
+            that can be done in the reduced formulation, else Python.
     """
 
+    integrator: Literal["generalised_alpha", "trapezoidal"] = "generalised_alpha"
+    constraint_index: Literal[2, 3] = 3
     spectral_radius: Fraction = 0.5
     newton_tolerance: Annotated[Real, Field(gt=0, le=1e-3)] = 1e-8
-    impact_steps: Annotated[int, Field(ge=16, le=10000)] = 512
-    backend: Literal["python", "symbolic"] = "python"
+    newton: Literal["modified", "full"] = "modified"
+    impact_steps: Annotated[int, Field(ge=16, le=MOST_IMPACT_STEPS)] = 512
+    locate: bool = True
+    growth: Annotated[Real, Field(ge=1, le=64)] = 1.0
+    tolerance: Annotated[Real, Field(ge=1e-13, le=1e-2)] = 1e-7
+    backend: Literal["auto", "python", "symbolic", "compiled"] = "auto"
+
+    @model_validator(mode="after")
+    def _fit_each_other(self) -> SolverSettings:
+        if self.integrator == "trapezoidal" and self.constraint_index != 2:
+            raise ValueError(
+                f"integrator = 'trapezoidal', constraint_index = {self.constraint_index}: allowed: 2 with this "
+                "integrator"
+            )
+        return self
+
+    def with_smaller_tolerance(self, factor: float) -> SolverSettings:
+        """A tolerance factor^3 times smaller, at least the smallest that can be asked for."""
+        return replace(self, tolerance=max(SMALLEST_TOLERANCE, self.tolerance / factor**REFINED_TOLERANCE))
 
 
 @value
@@ -52,8 +100,18 @@ class Scenario(Value):
         start: "concentric": every journal in the middle of its bore, velocities as the machine says and as
             the drive has them with ideal pins; "settled": at rest in static equilibrium under gravity.
         gravity: acceleration [m/s^2].
-        step: largest time step [s], > 0. Steps are equal parts of the time between two records; they are
-            cut at impacts.
+        accuracy: what is asked for instead of settings: the relative error of mean, spread and largest value
+            of the pin forces and of the paths of traced points, from 1e-8 to 0.1, or "draft" (1e-2), "standard"
+            (1e-3), "reference" (1e-5). `step` and `solver` are then chosen by the program, as is the
+            formulation if it is "auto"; it estimates its errors and refines until they are as asked.
+            None: the settings stand as they are.
+        formulation: "redundant": the engine's rigid bodies with constraints, generalised alpha; runs every
+            scene. "tree": the engine's minimal coordinates under an explicit method with error control; for
+            linkages that have no closed loop but through loose pins and oil columns. "reduced": the free
+            coordinates alone, without the engine; for machines whose posture is known in closed form. "auto":
+            redundant; with an accuracy the cheapest that covers the scene.
+        step: largest time step [s], > 0, of the redundant formulation. Steps are equal parts of the time
+            between two records; they are cut at impacts.
         record_period: time between records [s], > 0.
         solver: settings of the time integration.
     """
@@ -65,13 +123,26 @@ class Scenario(Value):
     duration: Positive
     start: Literal["concentric", "settled"] = "concentric"
     gravity: Vector2 = (0.0, -9.81)
-    step: Annotated[Real, Field(gt=0, le=0.1)] = 5e-4
+    accuracy: Accuracy | None = None
+    formulation: Literal["auto", "redundant", "tree", "reduced"] = "auto"
+    step: Annotated[Real, Field(gt=0, le=LARGEST_STEP)] = 5e-4
     record_period: Positive = 1e-3
     solver: SolverSettings = field(default_factory=SolverSettings)
 
+    @field_validator("accuracy", mode="before")
+    @classmethod
+    def _is_an_accuracy(cls, asked: object) -> object:
+        number = isinstance(asked, (int, float)) and SMALLEST_GOAL <= asked <= LARGEST_GOAL
+        if asked is None or (isinstance(asked, str) and asked in ACCURACIES) or number:
+            return asked
+        raise ValueError(
+            f"allowed: {', '.join(map(repr, ACCURACIES))}, None, or a number from {SMALLEST_GOAL} to "
+            f"{LARGEST_GOAL}"
+        )
+
     @model_validator(mode="after")
     def _fits_the_machine(self) -> Scenario:
-        linkage = self.machine.linkage()
+        linkage = self.linkage
         places = linkage.pins
         for name in self.pins:
             if name not in places:
@@ -107,14 +178,31 @@ class Scenario(Value):
                 )
             column.check_extension(self.drive.span(self.duration)[0], name)
 
-    def refined(self, factor: int = 2) -> Scenario:
+    def refined(self, factor: float = 2) -> Scenario:
         """The same run with all steps, also those of impacts, so many times shorter.
 
-        The difference between both runs is the numerical error that studies report.
+        The difference between both runs is the numerical error that studies report. Where the formulation
+        chooses its steps by a tolerance, that becomes factor^3 times smaller; where the scenario asks for an
+        accuracy in place of settings, that becomes factor^2 times smaller.
         """
-        finer = replace(self.solver, impact_steps=factor * self.solver.impact_steps)
+        if self.goal is not None:
+            return replace(self, accuracy=max(SMALLEST_GOAL, self.goal / factor**2))
+        if self.formulation in ERROR_CONTROLLED:
+            return replace(self, solver=self.solver.with_smaller_tolerance(factor))
+        finer = replace(self.solver, impact_steps=round(factor * self.solver.impact_steps))
         # steps never reach over a record
-        return replace(self, step=min(self.step, self.record_period) / factor, solver=finer)
+        step = min(self.step, self.record_period) / factor
+        return replace(self, step=step, solver=finer)
+
+    @property
+    def linkage(self) -> Linkage:
+        """The machine's mechanism in its start posture."""
+        return self.machine.linkage()
+
+    @property
+    def goal(self) -> float | None:
+        """The accuracy that is asked for, as a number; None if none is."""
+        return ACCURACIES[self.accuracy] if isinstance(self.accuracy, str) else self.accuracy
 
     @property
     def clearance_pins(self) -> dict[str, ClearancePin]:

@@ -25,20 +25,28 @@ from exudyn.itemInterface import (
     ObjectRigidBody2D,
 )
 
-from support_exudyn.columns import OilColumn
-from support_exudyn.connector import recalled
 from support_exudyn.kinetics import Kinetics
 from support_exudyn.loose_pin import LoosePin
 from support_exudyn.machine import GROUND, Body, Column, Crank, Linkage, PinPlace, Slide
+from support_exudyn.oil import FilledColumn, fill
 from support_exudyn.onset import Mobility, PinMemory
+from support_exudyn.pin_motion import PinEnd, PinMotion
 from support_exudyn.pins import ClearancePin
 from support_exudyn.scenario import Scenario
-from support_exudyn.scene_items import BodyItem, ColumnItem, CrankItem, IdealItem, OilColumnItem, SlideItem
+from support_exudyn.scene_items import BodyItem, ColumnItem, CrankItem, IdealItem, SlideItem
 from user_forces.contact import ContactForce
 from user_forces.values import Vector2
 
 INITIAL = exudyn.ConfigurationType.Initial
 CURRENT = exudyn.ConfigurationType.Current
+
+
+@dataclass(frozen=True)
+class OilColumnItem:
+    """A column of oil in the engine."""
+
+    filled: FilledColumn
+    object: Any
 
 
 @dataclass(frozen=True)
@@ -57,6 +65,14 @@ class Scene:
     cranks: dict[str, CrankItem]
     slides: dict[str, SlideItem]
 
+    def release(self) -> None:
+        """Let go of the engine's model: what its user functions know would never be freed."""
+        mbs: Any = self.mbs
+        mbs.SetPreStepUserFunction(0)
+        mbs.SetPostNewtonUserFunction(0)
+        mbs.SetPostStepUserFunction(0)
+        self.container.Reset()
+
     def drive_to(self, extension: float, speed: float) -> None:
         """Make the columns longer than at the start by so much [m], turn the cranks by so much [rad].
 
@@ -65,11 +81,11 @@ class Scene:
         for rigid in self.rigid_columns.values():
             self.mbs.SetObjectParameter(rigid.object, "distance", rigid.column.start_length + extension)
         for oil in self.oil_columns.values():
-            stiffness = oil.model.stiffness(extension)
-            self.mbs.SetObjectParameter(oil.object, "referenceLength", oil.natural_length(extension))
+            stiffness = oil.filled.model.stiffness(extension)
+            self.mbs.SetObjectParameter(oil.object, "referenceLength", oil.filled.natural_length(extension))
             self.mbs.SetObjectParameter(oil.object, "velocityOffset", speed)
             self.mbs.SetObjectParameter(oil.object, "stiffness", stiffness)
-            self.mbs.SetObjectParameter(oil.object, "damping", stiffness * oil.model.damping_time)
+            self.mbs.SetObjectParameter(oil.object, "damping", stiffness * oil.filled.model.damping_time)
         for crank in self.cranks.values():
             self.mbs.SetObjectParameter(crank.object, "offset", extension)
 
@@ -124,31 +140,41 @@ class Scene:
 
     def reset_memory(self) -> None:
         """Give every clearance pin the memory that belongs to the initial state of the bodies."""
-        data = self.mbs.systemData.GetDataCoordinates(INITIAL)
-        position = self.mbs.systemData.GetODE2Coordinates(INITIAL)
+        data = self.mbs.systemData
+        position, rates = data.GetODE2Coordinates(INITIAL), data.GetODE2Coordinates_t(INITIAL)
         for name, pin in self.loose_pins.items():
             state = self._contact_state(name, pin, INITIAL)
             touching = state.depth > 0.0
-            data[pin.slots] = PinMemory(
+            memory = PinMemory(
                 in_contact=touching,
                 approach_speed=max(0.0, state.rate) if touching else 0.0,
                 depth=state.depth,
                 rate=state.rate,
                 slip=state.slip,
             ).with_mobility(self.mobility(name, INITIAL))
-            bore, journal = (self._turn(b, position) for b in self._ends(name))
-            pin.start(journal - bore)
-        self.mbs.systemData.SetDataCoordinates(data, INITIAL)
+            bore, journal = self._ends(name)
+            turn = self._turn(journal, position) - self._turn(bore, position)
+            pin.start(memory, turn, (self.bore_angle(name, position), self._turn(bore, rates)))
 
     def refresh_memory(self) -> None:
         """Tell every clearance pin that velocities have jumped; contacts that go on go on."""
-        data = self.mbs.systemData.GetDataCoordinates()
         for name, pin in self.loose_pins.items():
-            memory = recalled(data[pin.slots].tolist())
             state = self._contact_state(name, pin, CURRENT)
-            memory = memory._replace(depth=state.depth, rate=state.rate, slip=state.slip)
-            data[pin.slots] = pin.reached = memory
-        self.mbs.systemData.SetDataCoordinates(data)
+            pin.jumped(pin.kept._replace(depth=state.depth, rate=state.rate, slip=state.slip))
+
+    def pin_motion(self, name: str) -> PinMotion:
+        """How the journal of a clearance pin moves in its bore."""
+        place = self.linkage.pins[name]
+        bore, journal = self._ends(name)
+        points = {place.first: place.first_point, place.second: place.second_point}
+
+        def end(body: str) -> PinEnd:
+            if body == GROUND:
+                return PinEnd(None, (0.0, 0.0), 0.0, points[body])
+            item = self.bodies[body]
+            return PinEnd(item.first, item.body.centre, item.body.angle, item.local(points[body]))
+
+        return PinMotion(self.mbs.systemData, end(bore), end(journal))
 
     def _contact_state(self, name: str, pin: LoosePin, state: Any) -> ContactForce:
         def relative(what: Any) -> tuple[float, float]:
@@ -167,7 +193,7 @@ class Scene:
 class _Builder:
     def __init__(self, scenario: Scenario) -> None:
         self.scenario = scenario
-        self.linkage = scenario.machine.linkage()
+        self.linkage = scenario.linkage
         self.container = exudyn.SystemContainer()
         self.mbs = self.container.AddSystem()
         self.ground = self.mbs.AddObject(ObjectGround())
@@ -216,15 +242,17 @@ class _Builder:
         def angle(body: str) -> float:
             return 0.0 if body == GROUND else self.bodies[body].body.angle
 
-        both_move = GROUND not in (bore, journal)
+        def node(body: str) -> Any:
+            return None if body == GROUND else self.bodies[body].node
+
         return LoosePin(
             self.mbs,
             pin.contact,
             bore=(item(bore), local(bore, bore_point)),
             journal=(item(journal), local(journal, journal_point)),
             turn=angle(journal) - angle(bore),
-            bore_node=self.bodies[bore].node if both_move else None,
-            bore_on_ground=bore == GROUND,
+            bore_node=node(bore),
+            journal_node=node(journal),
             symbolic=self.scenario.solver.backend == "symbolic",
             impact_steps=self.scenario.solver.impact_steps,
         )
@@ -285,7 +313,7 @@ class _Builder:
             name: BodyItem(item.body, item.node, item.object, int(data.GetNodeLTGODE2(item.node)[0]))
             for name, item in self.bodies.items()
         }
-        loads = self.static_column_forces(bodies) if oil else {}
+        filled = fill(self.linkage, self.scenario.oil_columns, self.scenario.gravity)
         scene = Scene(
             scenario=self.scenario,
             linkage=self.linkage,
@@ -298,10 +326,7 @@ class _Builder:
                 name: ColumnItem(self.linkage.columns[name], o, int(data.GetObjectLTGAE(o)[0]))
                 for name, o in rigid.items()
             },
-            oil_columns={
-                name: self.oil_item(name, self.scenario.oil_columns[name], o, loads[name])
-                for name, o in oil.items()
-            },
+            oil_columns={name: OilColumnItem(filled[name], o) for name, o in oil.items()},
             cranks={
                 name: CrankItem(self.linkage.cranks[name], o, int(data.GetObjectLTGAE(o)[0]))
                 for name, o in cranks.items()
@@ -310,23 +335,11 @@ class _Builder:
         )
         for name, pin in loose.items():
             pin.mobility = partial(scene.mobility, name)
+            pin.motion = scene.pin_motion(name)
         scene.drive_to(0.0, self.scenario.drive.initial_speed)
         scene.start_moving()
         scene.reset_memory()
         return scene
-
-    def static_column_forces(self, bodies: dict[str, BodyItem]) -> dict[str, float]:
-        """What each column carries in the start posture with ideal pins [N], positive in compression."""
-        closed = Kinetics(self.linkage, bodies, tuple(self.linkage.pins), tuple(self.linkage.columns))
-        position = np.array(self.mbs.systemData.GetODE2Coordinates(INITIAL))
-        weight = np.zeros_like(position)
-        for item in bodies.values():
-            weight[item.first : item.first + 2] = item.body.mass * np.array(self.scenario.gravity)
-        tensions = closed.respond(position, weight, 0.0)[1][closed.driven()]
-        return {name: -float(t) for name, t in zip(self.linkage.columns, tensions, strict=False)}
-
-    def oil_item(self, name: str, model: OilColumn, item: Any, load: float) -> OilColumnItem:
-        return OilColumnItem(self.linkage.columns[name], model, item, load / model.stiffness(0.0))
 
 
 def build(scenario: Scenario) -> Scene:

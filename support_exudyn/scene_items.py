@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from support_exudyn.columns import OilColumn
 from support_exudyn.machine import Body, Column, Crank
 from support_exudyn.plane import minus, rotated
 from user_forces.values import Vector2
@@ -40,20 +39,6 @@ class ColumnItem:
     column: Column
     object: Any
     multiplier: int
-
-
-@dataclass(frozen=True)
-class OilColumnItem:
-    """A column of oil in the engine: its object, and by how much its oil is compressed at the start [m]."""
-
-    column: Column
-    model: OilColumn
-    object: Any
-    precompression: float
-
-    def natural_length(self, extension: float) -> float:
-        """Length [m] at which the oil carries nothing."""
-        return self.column.start_length + self.precompression + extension
 
 
 @dataclass(frozen=True)

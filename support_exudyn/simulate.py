@@ -2,35 +2,44 @@
 
 from __future__ import annotations
 
-import time
+from dataclasses import replace
 from typing import Literal, overload
 
-from support_exudyn.channels import channels
 from support_exudyn.errors import Failure, SimulationError
-from support_exudyn.provenance import provenance
-from support_exudyn.recorder import Recorder
+from support_exudyn.progress import Progress, silent
 from support_exudyn.result import Result
-from support_exudyn.scenario import Scenario
-from support_exudyn.scene import build
-from support_exudyn.settle import settle
-from support_exudyn.solver import Progress, Run
-
-
-def _no_progress(share: float) -> None:
-    del share
+from support_exudyn.run_once import run_once
+from support_exudyn.scenario import Accuracy, Scenario
+from support_exudyn.to_accuracy import run_to_accuracy
 
 
 @overload
-def simulate(scenario: Scenario, *, progress: Progress = ..., throw: Literal[True] = ...) -> Result: ...
+def simulate(
+    scenario: Scenario,
+    *,
+    accuracy: Accuracy | None = ...,
+    progress: Progress = ...,
+    throw: Literal[True] = ...,
+) -> Result: ...
 @overload
-def simulate(scenario: Scenario, *, progress: Progress = ..., throw: bool) -> Result | Failure: ...
+def simulate(
+    scenario: Scenario, *, accuracy: Accuracy | None = ..., progress: Progress = ..., throw: bool
+) -> Result | Failure: ...
 
 
-def simulate(scenario: Scenario, *, progress: Progress = _no_progress, throw: bool = True) -> Result | Failure:
+def simulate(
+    scenario: Scenario,
+    *,
+    accuracy: Accuracy | None = None,
+    progress: Progress = silent,
+    throw: bool = True,
+) -> Result | Failure:
     """Run a scenario.
 
     Arguments:
-        scenario: machine, pins, drive, start and accuracy.
+        scenario: machine, pins, drive, start and how it is computed.
+        accuracy: in place of the scenario's own: "draft", "standard", "reference", or a number; see `Scenario`.
+            The result then carries the estimated error of every number.
         progress: called now and then with the share that is done, 0 to 1.
         throw: what to do if the run cannot be finished: raise SimulationError, or return its Failure
             (for sweeps, where one failed run is a row and not the end).
@@ -38,25 +47,12 @@ def simulate(scenario: Scenario, *, progress: Progress = _no_progress, throw: bo
     Returns:
         Result with all channels, onsets, counts, energy and provenance.
     """
-    began = time.perf_counter()
+    if accuracy is not None:
+        scenario = replace(scenario, accuracy=accuracy)
+    run = run_once if scenario.goal is None else run_to_accuracy
     try:
-        scene = build(scenario)
-        if scenario.start == "settled":
-            settle(scene)
-        recorder = Recorder(scene)
-        run = Run(scene, recorder, progress)
-        counts = run.go()
+        return run(scenario, progress)
     except SimulationError as error:
         if throw:
             raise
         return error.failure
-    return Result(
-        scenario=scenario,
-        channels=channels(scene, recorder.history()),
-        onsets={name: tuple(pin.onsets) for name, pin in scene.loose_pins.items()},
-        largest_force={name: pin.largest_force for name, pin in scene.loose_pins.items()},
-        impulses=tuple(run.impulses),
-        counts=counts,
-        wall_time=time.perf_counter() - began,
-        provenance=provenance(),
-    )

@@ -11,25 +11,25 @@ leave the grid.
 
 from __future__ import annotations
 
-import gc
 import math
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from dataclasses import dataclass
 from typing import Any
 
 import exudyn
 
+from support_exudyn.counts import Counts
+from support_exudyn.engine_settings import SMALLEST_STEP, engine_settings, quiet_engine
 from support_exudyn.errors import Failure, SimulationError
-from support_exudyn.impulse import Impulse, jump_velocities
+from support_exudyn.impulse import Impulse
 from support_exudyn.onset import SHARE
+from support_exudyn.progress import Progress
 from support_exudyn.recorder import Recorder
-from support_exudyn.scenario import SolverSettings
 from support_exudyn.scene import Scene
+from support_exudyn.smooth_steps import SmoothSteps
 from support_exudyn.steps import StepPlan
+from support_exudyn.velocity_jump import jump_velocities
 from user_forces.normal.law import LoadError
 
-SMALLEST_STEP = 1e-13  # [s]
+REPEAT_ERROR = 1e6  # above any tolerance of the engine's discontinuous iteration: the step is repeated
 SMALLEST_IMPACT_STEP = 1e-11  # [s], well above the rounding of times
 # The joint forces overshoot in the first steps after a jump of the columns' acceleration, by a factor that
 # falls with the spectral radius from step to step. The grid step that follows is divided so often, so that
@@ -39,25 +39,6 @@ ADVICE = (
     "Try a smaller step; if that does not help, look whether the posture is near a dead centre "
     "or a contact is far stiffer than the masses beside it allow."
 )
-Progress = Callable[[float], None]  # is told the share that is done, 0 to 1
-
-
-@dataclass(frozen=True)
-class Counts:
-    """What a run took.
-
-    steps: accepted; cut_steps: repeated shorter to land on an impact; newton_iterations, jacobians: of
-    the solver; user_function_calls: force evaluations in Python; failed_newton: steps repeated because
-    Newton's method did not converge; clamped_steps: steps at whose end a law asked for tension.
-    """
-
-    steps: int
-    cut_steps: int
-    newton_iterations: int
-    jacobians: int
-    user_function_calls: int
-    failed_newton: int
-    clamped_steps: int
 
 
 class Run:
@@ -73,23 +54,32 @@ class Run:
         self.plan = StepPlan(scenario.duration, scenario.record_period, scenario.step, scenario.drive.breaks)
         self.solver: Any = exudyn.MainSolverImplicitSecondOrder()  # its stubs lack self
         self.impulses: list[Impulse] = []
-        self.settings = _settings(scenario.solver, scenario.duration)
+        self.settings = engine_settings(scenario.solver, scenario.duration)
+        self.locates = scenario.solver.locate
+        self.smooth = _smooth_steps(scene) if scenario.solver.growth > 1.0 else None
         self.time = 0.0  # end of the last accepted step
         self.steps = self.cut_steps = self.failed_newton = 0
         self.trying = False  # a step has been tried and not accepted yet
+        self.repeated = False  # that step is tried again, shorter
         self.driven = (0.0, scenario.drive.initial_speed)  # extension and speed that the engine has [m], [m/s]
 
     def go(self) -> Counts:
         """Integrate. Raises SimulationError if the run cannot be finished."""
         mbs, it = self.scene.mbs, self.solver.it
-        data = mbs.systemData.GetDataCoordinates(exudyn.ConfigurationType.Initial).tolist()
         for pin in self.pins:
             pin.step_size = lambda: float(it.currentStepSize)
-            pin.begin_try(data[pin.slots], 0.0)
+            pin.locates = self.locates
+            pin.begin_try(0.0)
+        if self.scene.scenario.solver.constraint_index == 2:
+            for crank in self.scene.cranks.values():
+                mbs.SetObjectParameter(crank.object, "velocityLevel", True)
+            self._drive_to(*self.driven)
         mbs.SetPreStepUserFunction(self._before_try)
+        if self.pins:
+            mbs.SetPostNewtonUserFunction(self._after_newton)
         mbs.SetPostStepUserFunction(self._after_step)
         try:
-            with quiet_engine(), paused_collector():
+            with quiet_engine():
                 finished = self.solver.SolveSystem(mbs, self.settings)
         except exudyn.ExudynError as error:
             cause = error.__cause__  # set if a function of ours raised
@@ -115,6 +105,7 @@ class Run:
     def _before_try(self, mbs: Any, t: float) -> bool:
         """Before every attempt at a step that would end at t."""
         if self.trying:
+            self.repeated = True
             if any(pin.wants_cut for pin in self.pins):
                 self.cut_steps += 1
             else:
@@ -123,14 +114,30 @@ class Run:
         drive = self.scene.scenario.drive
         driven = drive.extension(t), drive.speed(t)
         if driven != self.driven:
-            self.scene.drive_to(*driven)
+            self._drive_to(*driven)
             self.driven = driven
         if self.pins:
-            data = self.data.GetDataCoordinates().tolist()
             step = float(self.solver.it.currentStepSize)
             for pin in self.pins:
-                pin.begin_try(data[pin.slots], step)
+                pin.begin_try(step)
         return True
+
+    def _drive_to(self, extension: float, speed: float) -> None:
+        self.scene.drive_to(extension, speed)
+        if self.scene.scenario.solver.constraint_index == 2:  # cranks follow a speed, not an angle
+            for crank in self.scene.cranks.values():
+                self.scene.mbs.SetObjectParameter(crank.object, "offset", speed)
+
+    def _after_newton(self, mbs: Any, t: float) -> list[float]:
+        """After a step that would end at t has been solved: [error, recommended step]."""
+        again, shortest = False, math.inf
+        for pin in self.pins:
+            step = pin.after_newton(t)
+            if step is not None:
+                again, shortest = True, min(shortest, step)
+        if not again:
+            return [0.0, -1.0]
+        return [REPEAT_ERROR, shortest if shortest < math.inf else -1.0]
 
     def _after_step(self, mbs: Any, t: float) -> bool:
         """After every accepted step, and once at the start."""
@@ -142,16 +149,32 @@ class Run:
             for pin in self.pins:
                 kink = kink or pin.onset is not None
                 pin.accept()
-        self.time = t
         self.recorder.after_step(t, kink)
+        if self.smooth is not None:
+            self._look_for_smoothness(t, self.smooth)
+        self.time = t
         if self.plan.is_record(t):
             self.recorder.record(t)
             self._check_finite()
             self.progress(t / self.plan.duration)
         if breaking is not None:
             self._jump(breaking)
-        self.solver.it.currentStepSize = max(SMALLEST_STEP, self._next_time(t) - t)
+        goal = self._next_time(t)
+        if self.smooth is not None:
+            self.recorder.begin_step(t)
+        self.solver.it.currentStepSize = max(SMALLEST_STEP, goal - t)
         return True
+
+    def _look_for_smoothness(self, t: float, smooth: SmoothSteps) -> None:
+        """A step has ended at t: may the next be longer? And the records that it has passed over."""
+        for passed in self.plan.records_between(self.time, t):
+            self.recorder.record_between(passed, t)
+        at_rest = all(pin.impact.step == math.inf and pin.reached.depth > 0.0 for pin in self.pins)
+        if at_rest and not self.repeated and not self.plan.follows_break(t):
+            smooth.follow(t - self.time, self.data.GetODE2Coordinates_tt())
+        else:
+            smooth.restart()
+        self.repeated = False
 
     def _jump(self, t: float) -> None:
         """Velocities after a break, if the columns' speed jumps there."""
@@ -167,18 +190,23 @@ class Run:
 
     def _next_time(self, t: float) -> float:
         """Where the step that starts at t is to end: on the grid, or at an impact seen coming [s]."""
-        largest = min((pin.impact.step for pin in self.pins), default=math.inf)
-        if self.plan.follows_break(t):
+        largest = math.inf
+        for pin in self.pins:
+            largest = min(largest, pin.impact.step)
+        if self.locates and self.plan.follows_break(t):
             largest = min(largest, self.plan.step / BREAK_REFINEMENT)
-        goal = self.plan.next_time(t, max(largest, SMALLEST_IMPACT_STEP))
+        if self.smooth is not None and largest == math.inf:
+            goal = self.plan.far_time(t, self.smooth.size)
+        else:
+            goal = self.plan.next_time(t, max(largest, SMALLEST_IMPACT_STEP))
         for pin in self.pins:
             if t + SHARE * (goal - t) < pin.landing < goal:
                 goal = pin.landing
         return goal
 
     def _check_finite(self) -> None:
-        total = float(self.data.GetODE2Coordinates_t().sum())
-        if not math.isfinite(total):
+        velocity = self.data.GetODE2Coordinates_t()
+        if not math.isfinite(velocity @ velocity):
             raise ArithmeticError("a velocity is no longer a finite number")
 
     def _failure(self, reason: str, advice: str = ADVICE) -> Failure:
@@ -198,45 +226,12 @@ class Run:
         )
 
 
-def _settings(chosen: SolverSettings, duration: float) -> Any:
-    settings = exudyn.SimulationSettings()
-    integration = settings.timeIntegration
-    integration.endTime = duration
-    integration.numberOfSteps = 1  # sizes are set before every step
-    integration.adaptiveStep = True  # else the engine computes times from a fixed step
-    integration.adaptiveStepRecoverySteps = 2**30  # the engine never lengthens a step by itself
-    integration.minimumStepSize = SMALLEST_STEP
-    integration.verboseMode = 0
-    integration.discontinuous.maxIterations = 8
-    integration.discontinuous.ignoreMaxIterations = False
-    integration.generalizedAlpha.spectralRadius = chosen.spectral_radius
-    integration.newton.relativeTolerance = chosen.newton_tolerance
-    integration.newton.modifiedNewtonContractivity = 0.1  # renew the Jacobian early: a fifth faster here
-    settings.solution.file.write = False
-    return settings
-
-
-@contextmanager
-def quiet_engine() -> Iterator[None]:
-    """Keep the engine from writing to the console; what it has to say comes as an exception."""
-    before = exudyn.config.printToConsole
-    exudyn.config.printToConsole = False
-    try:
-        yield
-    finally:
-        exudyn.config.printToConsole = before
-
-
-@contextmanager
-def paused_collector() -> Iterator[None]:
-    """Pause Python's search for reference cycles: a step makes none, and the search costs a fifth."""
-    before = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if before:
-            gc.enable()
+def _smooth_steps(scene: Scene) -> SmoothSteps:
+    scenario = scene.scenario
+    step = min(scenario.step, scenario.record_period)
+    longest = scenario.solver.growth * scenario.step
+    mass = sum(item.body.mass for item in scene.bodies.values())
+    return SmoothSteps(step, longest, scene.kinetics.mass(), math.sqrt(mass) * math.hypot(*scenario.gravity))
 
 
 def _first_line(error: BaseException) -> str:

@@ -5,6 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 
+import numpy as np
+import numpy.typing as npt
+
+Series = npt.NDArray[np.float64]
+
 CLOSE = 1e-9  # times closer than this share of a step are the same
 
 
@@ -22,17 +27,39 @@ class StepPlan:
         self.duration = duration
         self.record_period = record_period
         self.step = step
-        self.breaks = sorted(t for t in set(breaks) if 0.0 <= t < duration)
         # not below the rounding of times, else a long run of tiny steps would not advance
         self._tolerance = max(CLOSE * min(step, record_period), 4.0 * math.ulp(duration))
+        # one that differs from the end by rounding only is the end
+        self.breaks = sorted(t for t in set(breaks) if 0.0 <= t < duration - self._tolerance)
+        self._around = (math.inf, math.inf)  # the stops last asked for [s]
         self._after_breaks = [(b, self.next_time(b) - self._tolerance) for b in self.breaks]
 
     def next_time(self, t: float, largest: float = math.inf) -> float:
         """The next grid time after t [s]; on a finer grid if steps may not be larger than so [s]."""
+        return self._grid_time(t, min(self.step, largest))
+
+    def far_time(self, t: float, size: float) -> float:
+        """The last record that a step of this size [s] from t [s] reaches, not beyond a break.
+
+        The next time of a grid of such steps if it reaches none.
+        """
+        stop = min((b for b in self.breaks if b > t + self._tolerance), default=self.duration)
+        reached = math.floor((t + size + self._tolerance) / self.record_period) * self.record_period
+        if reached <= t + self._tolerance:
+            return self._grid_time(t, size)
+        return reached if reached < stop - self._tolerance else stop
+
+    def records_between(self, start: float, end: float) -> list[float]:
+        """The records after one time and before another [s], both excluded."""
+        first = math.floor((start + self._tolerance) / self.record_period) + 1
+        last = math.ceil((end - self._tolerance) / self.record_period)
+        return [n * self.record_period for n in range(first, last)]
+
+    def _grid_time(self, t: float, largest: float) -> float:
         if t >= self.duration - self._tolerance:
             return self.duration
         before, after = self._stops_around(t)
-        parts = max(1, math.ceil((after - before) / min(self.step, largest) - CLOSE))
+        parts = max(1, math.ceil((after - before) / largest - CLOSE))
         size = (after - before) / parts
         done = math.floor((t - before + self._tolerance) / size)
         return after if done + 1 >= parts else before + (done + 1) * size
@@ -57,6 +84,12 @@ class StepPlan:
 
     def _stops_around(self, t: float) -> tuple[float, float]:
         """The last stop (record or break) not after t, and the first after it [s]."""
+        before, after = self._around
+        if not before <= t < after - 2.0 * self._tolerance:
+            self._around = self._find_stops(t)
+        return self._around
+
+    def _find_stops(self, t: float) -> tuple[float, float]:
         n = math.floor((t + self._tolerance) / self.record_period)
         before, after = n * self.record_period, min((n + 1) * self.record_period, self.duration)
         for b in self.breaks:
@@ -67,3 +100,13 @@ class StepPlan:
         if self.duration - after <= self._tolerance:
             after = self.duration
         return before, after
+
+
+def record_times(duration: float, period: float) -> Series:
+    """Times of the records [s]: multiples of the period from 0 on, and the end."""
+    count = math.floor(duration / period + 1e-9)
+    times: Series = np.arange(count + 1, dtype=np.float64) * period
+    if duration - times[-1] > 1e-9 * period:
+        return np.append(times, duration)
+    times[-1] = duration
+    return times

@@ -8,18 +8,22 @@ expression, which Python sets before a step is tried.
 from __future__ import annotations
 
 import itertools
+import math
+from collections.abc import Callable, Iterable
 from typing import Any, cast
 
 import exudyn
 from exudyn.advancedUtilities import CreateSymbolicUserFunction
 
-from support_exudyn.connector import FORCE, displacement_scale
+from support_exudyn.attachment import Attachment, Relative, rough_force
+from support_exudyn.connector import displacement_scale, user_function
 from support_exudyn.onset import Mobility, PinMemory
 from user_forces.contact import SMALLEST, JournalContact, SlipHistory
 from user_forces.normal.law import Touch
 from user_forces.scalar import Expression, hypot, maximum, where
 
 engine: Any = getattr(exudyn, "symbolic")  # noqa: B009 - its stubs lack the module
+APART = 1e300  # [m], deeper than any pin
 _numbers = itertools.count()  # names of variables differ between all pins of all scenes of a process
 
 
@@ -109,60 +113,79 @@ class SymbolicForce:
     Arguments:
         mbs: the engine's system.
         contact: bearing and laws.
-        journal_on_ground: the journal's body is the ground.
+        at: what the force acts on.
     """
 
-    def __init__(self, mbs: Any, contact: JournalContact, journal_on_ground: bool) -> None:
+    calls = 0  # in Python
+
+    def __init__(self, mbs: Any, contact: JournalContact, at: Attachment) -> None:
         number = next(_numbers)
 
-        def variable(name: str) -> Any:
-            return engine.Real(f"pin{number}_{name}", 0.0)
+        def variable(name: str, value: float = 0.0) -> Any:
+            return engine.Real(f"pin{number}_{name}", value)
 
-        self._in_contact = variable("in_contact")
-        self._speed = variable("speed")
-        self._mobility = [variable(f"mobility_{axes}") for axes in ("xx", "xy", "yy")]
-        self._slip = variable("slip")
-        self._deflection = variable("deflection")
-        self._step = variable("step")
+        self._surface = variable("surface", APART)  # depth beyond which there is a force [m]
+        self._touch = [variable("speed"), *(variable(f"mobility_{axes}") for axes in ("xx", "xy", "yy"))]
+        self._history = [variable("deflection"), variable("slip"), variable("step")]
         self._bore_spin = variable("bore_spin")
-        self._scale = variable("scale")
+        self._scale = variable("scale", 1.0)
         self._contact = contact
-        self._journal_on_ground = journal_on_ground
+        self._at = at
+        self._loaded: tuple[object, ...] = ()
+        item, self.name = user_function(at)
         # kept alive here: the engine's function refers to it
-        self.function = CreateSymbolicUserFunction(
-            mbs, self._expression(), FORCE, itemTypeName="ObjectConnectorRigidBodySpringDamper"
-        )
+        self.function = CreateSymbolicUserFunction(mbs, self.expression(), self.name, itemTypeName=item)
 
-    def load(self, memory: PinMemory, step: float, bore_spin: float, turn: float) -> None:
+    def load(self, memory: PinMemory, mobility: Mobility, step: float, bore_spin: float, turn: float) -> None:
         """Set what the force depends on besides the motion.
 
         Arguments:
             memory: of the pin, at the start of the step.
+            mobility: its, in the axes of the connector's displacement.
             step: its length [s].
             bore_spin: expected at its end [rad/s].
             turn: between the marker frames, expected at its end [rad].
         """
-        self._scale.SetValue(displacement_scale(turn))
-        self._in_contact.SetValue(float(memory.in_contact))
-        self._speed.SetValue(memory.approach_speed)
-        for variable, item in zip(self._mobility, memory.mobility, strict=True):
-            variable.SetValue(item)
-        self._slip.SetValue(memory.slip)
-        self._deflection.SetValue(memory.deflection)
-        self._step.SetValue(step)
-        self._bore_spin.SetValue(bore_spin)
+        touch = (memory.in_contact, memory.approach_speed, *mobility)  # seldom changes, and setting takes time
+        if touch != self._loaded:
+            self._loaded = touch
+            self._surface.SetValue(0.0 if memory.in_contact else APART)
+            _set(self._touch, touch[1:])
+        if self._contact.friction.has_state:
+            _set(self._history, (memory.deflection, memory.slip, step))
+        if self._at is Attachment.MIDDLE:
+            self._scale.SetValue(displacement_scale(turn))
+            self._bore_spin.SetValue(bore_spin)
 
-    def _expression(self) -> Any:
-        """A function of the engine's signature, to be called once with the engine's symbols."""
-        contact = self._contact
-        speed = _unknown(self._speed)
-        mobility = Mobility(*(_unknown(variable) for variable in self._mobility))
-        history = SlipHistory(_unknown(self._deflection), _unknown(self._slip), _unknown(self._step))
-        scale = _unknown(self._scale)
-        in_contact, spin = _unknown(self._in_contact), _unknown(self._bore_spin)
-        journal_on_ground = self._journal_on_ground
+    def expression(self) -> Callable[..., Any]:
+        """A function of the engine's signature, to be called once with the engine's symbols.
 
-        def force(  # type: ignore[no-untyped-def]
+        The engine goes by the names and the number of its arguments. It evaluates an expression as often as it
+        stands in others; products with a vector keep that rare.
+        """
+        if self._at is Attachment.LINE:
+
+            def line(mbs, t, itemNumber, deltaL, deltaL_t, stiffness, damping, force):  # type: ignore[no-untyped-def] # noqa: N803
+                return self._line(deltaL, deltaL_t)
+
+            return line
+        if self._at is Attachment.CENTRAL:
+
+            def central(  # type: ignore[no-untyped-def]
+                mbs,
+                t,
+                itemNumber,  # noqa: N803
+                displacement,
+                velocity,
+                stiffness,
+                damping,
+                offset,
+            ):
+                return self._central(displacement, velocity)
+
+            return central
+
+        def rough(  # type: ignore[no-untyped-def]
             mbs,
             t,
             itemNumber,  # noqa: N803
@@ -176,25 +199,56 @@ class SymbolicForce:
             rotJ1,  # noqa: N803
             offset,
         ):
-            x, y = scale * _unknown(displacement[0]), scale * _unknown(displacement[1])
-            vx, vy = _unknown(velocity[0]), _unknown(velocity[1])
-            turning = _unknown(angularVelocity[2])
-            touch = Touch(speed, mobility.mass(x, y))
-            bore_spin = -turning if journal_on_ground else spin
-            found = contact.force(x, y, vx, vy, bore_spin, bore_spin + turning, touch, history)
-            eccentricity = hypot(x, y)
-            away = maximum(eccentricity, SMALLEST)
-            nx, ny = x / away, y / away
-            arm = found.journal_arm + 0.5 * eccentricity
-            # one product each, so that the engine evaluates normal force and friction once
-            along = engine.Vector([_real(nx), _real(ny), *_zeros(4)])
-            across = engine.Vector([_real(ny), _real(-nx), *_zeros(3), _real(-arm)])
-            closed = in_contact > 0.5
-            normal = where(closed, where(found.depth > 0.0, found.normal_force, 0.0), 0.0)
-            friction = where(closed, where(found.depth > 0.0, found.friction_force, 0.0), 0.0)
-            return along * _real(normal) + across * _real(friction)
+            return self._rough(displacement, velocity, angularVelocity)
 
-        return force
+        return rough
+
+    def _line(self, depth: Any, rate: Any) -> Any:
+        """The force from depth and rate alone."""
+        asked = self._contact.normal(_unknown(depth), _unknown(rate), Touch(self._speed, math.nan))
+        return _real(where(cast(Any, Symbol(depth) > _unknown(self._surface)), maximum(asked, 0.0), 0.0))
+
+    def _central(self, displacement: Any, velocity: Any) -> Any:
+        """The force along the line of centres."""
+        eccentricity = _unknown(displacement.NormL2())
+        depth = self._contact.bearing.depth(eccentricity)
+        rate = _unknown(displacement * velocity) / eccentricity
+        mass = self._mobility.mass(_unknown(displacement[0]), _unknown(displacement[1]))
+        asked = self._contact.normal(depth, rate, Touch(self._speed, mass))
+        pressed = cast(Any, depth) > _unknown(self._surface)
+        return _real(where(pressed, maximum(asked, 0.0) / eccentricity, 0.0)) * displacement
+
+    def _rough(self, displacement: Any, velocity: Any, angular_velocity: Any) -> Any:
+        """Force and moment with friction."""
+        x, y = _unknown(displacement[0]), _unknown(displacement[1])
+        if self._at is Attachment.MIDDLE:
+            x, y = _unknown(self._scale) * x, _unknown(self._scale) * y
+        vx, vy = _unknown(velocity[0]), _unknown(velocity[1])
+        motion = Relative(x, y, vx, vy, _unknown(angular_velocity[2]), _unknown(self._bore_spin))
+        touch = Touch(self._speed, self._mobility.mass(x, y))
+        history = SlipHistory(*(_unknown(variable) for variable in self._history))
+        found, arm = rough_force(self._contact, self._at, motion, touch, history)
+        away = maximum(hypot(x, y), SMALLEST)
+        nx, ny = x / away, y / away
+        along = engine.Vector([_real(nx), _real(ny), *_zeros(4)])
+        across = engine.Vector([_real(ny), _real(-nx), *_zeros(3), _real(-arm)])
+        pressed = cast(Any, found.depth) > _unknown(self._surface)
+        normal = where(pressed, found.normal_force, 0.0)
+        friction = where(pressed, found.friction_force, 0.0)
+        return along * _real(normal) + across * _real(friction)
+
+    @property
+    def _speed(self) -> float:
+        return _unknown(self._touch[0])
+
+    @property
+    def _mobility(self) -> Mobility:
+        return Mobility(*(_unknown(variable) for variable in self._touch[1:]))
+
+
+def _set(variables: Iterable[Any], values: Iterable[object]) -> None:
+    for variable, value in zip(variables, values, strict=True):
+        variable.SetValue(value)
 
 
 def _zeros(count: int) -> list[Any]:

@@ -22,7 +22,6 @@ from typing import NamedTuple
 
 import numpy as np
 from pydantic import model_validator
-from scipy.optimize import brentq, root
 
 from support_exudyn.machine import (
     GROUND,
@@ -36,6 +35,7 @@ from support_exudyn.machine import (
     pinned,
 )
 from support_exudyn.plane import circle_intersection, direction, distance, moved, side
+from user_forces.roots import bracketed_root
 from user_forces.values import InputError, Positive, Vector2, value
 
 BODIES = ("rear_link", "front_link", "shield", "canopy")
@@ -170,7 +170,8 @@ class HydraulicSupport(Machine):
             closed = self.four_bar(turn)
             return closed[2][1] - self.start_hinge_height if closed else math.nan
 
-        found = self.posture(float(brentq(height_error, turns[near], turns[near + 1], xtol=1e-15)), 0.0)
+        turn = bracketed_root(height_error, float(turns[near]), float(turns[near + 1]), xtol=1e-15)
+        found = self.posture(turn, 0.0)
         assert found is not None  # both ends of the bracket close
         return found
 
@@ -183,6 +184,8 @@ class HydraulicSupport(Machine):
 
         `near`: a posture to search from, the start by default; steps of some centimetres are safe.
         """
+        from scipy.optimize import root  # slow to import
+
         start = self.start()
         front, rear = (length + extension for length in self.column_lengths(start))
         near = near or start

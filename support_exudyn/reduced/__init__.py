@@ -1,16 +1,12 @@
-"""The hydraulic support in its two free coordinates: compiled, without the engine, for thousands of runs.
+"""The reduced formulation: a machine in its two free coordinates, without the engine.
 
-    from support_exudyn.reduced import simulate_reduced
-
-    result = simulate_reduced(scenario)
-    result["pin.rear_base.force"]  # newton, at result.time
-
-It covers one scene, see `simulate_reduced`, and is independent of the redundant formulation in everything but
-the parameters: posture in closed form, equations of motion by virtual power, an embedded Runge-Kutta method.
+It is independent of the redundant formulation in everything but the parameters: posture in closed form,
+equations of motion by virtual power, an explicit method with error control and located touches. Two ways to run
+it: in plain Python with scipy's DOP853 and any law, or compiled (extra [fast]) with the laws K depth^n.
 """
 
-from support_exudyn.reduced.result import ReducedResult
-from support_exudyn.reduced.simulate import simulate_reduced
+from support_exudyn.reduced.coverage import check
+from support_exudyn.reduced.run import run
 from support_exudyn.reduced.warm import warm_up
 
-__all__ = ["ReducedResult", "simulate_reduced", "warm_up"]
+__all__ = ["check", "run", "warm_up"]

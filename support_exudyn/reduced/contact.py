@@ -7,9 +7,11 @@ from __future__ import annotations
 
 import math
 
+from support_exudyn.compiled import inlined
 from support_exudyn.onset import HEAVIEST
 from support_exudyn.onset import SMALLEST as SMALLEST_SQUARE
-from support_exudyn.reduced.compiled import compiled
+from support_exudyn.reduced.drive import Vector
+from support_exudyn.reduced.free_motion import PinState
 from support_exudyn.reduced.layout import (
     BORE_RADIUS,
     BY_DEPTH,
@@ -22,11 +24,10 @@ from support_exudyn.reduced.layout import (
     FORCE_X,
     FORCE_Y,
     FRICTION,
-    JOURNAL_ON_LINK,
+    JOURNAL_ARM,
     MOBILITY_XX,
     MOBILITY_XY,
     MOBILITY_YY,
-    MOMENT,
     NORMAL,
     OFFSET_X,
     OFFSET_Y,
@@ -37,33 +38,33 @@ from support_exudyn.reduced.layout import (
     SPEED_FLOOR,
     STATIC_SPEED,
     STIFFNESS,
+    STORED,
     TOUCH_SPEED,
     TOUCHING,
 )
-from support_exudyn.reduced.posture import Posture, Rates, Vector
 from user_forces.contact import SMALLEST
 
 
-@compiled
-def moving_mass(p: Vector, memory: Vector, at: Posture, x: float, y: float) -> float:
-    """Mass [kg] that moves along the eccentricity x, y, by the remembered mobility (bore's axes)."""
-    if p[JOURNAL_ON_LINK] == 0.0:
-        x, y = at.cos_link * x + at.sin_link * y, at.cos_link * y - at.sin_link * x
+@inlined
+def moving_mass(memory: Vector, pin: PinState) -> float:
+    """Mass [kg] that moves along the eccentricity, by the remembered mobility (bore's axes)."""
+    x = pin.cos_bore * pin.x + pin.sin_bore * pin.y
+    y = pin.cos_bore * pin.y - pin.sin_bore * pin.x
     square = x * x + y * y + SMALLEST_SQUARE
     along = memory[MOBILITY_XX] * x * x + 2.0 * memory[MOBILITY_XY] * x * y + memory[MOBILITY_YY] * y * y
     return float(square / max(along, square / HEAVIEST))
 
 
-@compiled
-def damping_speed(p: Vector, memory: Vector, at: Posture, x: float, y: float, energy: float) -> float:
+@inlined
+def damping_speed(p: Vector, memory: Vector, pin: PinState, energy: float) -> float:
     """w [m/s] of the law with an energy [J] stored."""
     w = max(memory[TOUCH_SPEED], p[SPEED_FLOOR])
     if p[BY_DEPTH] != 0.0:
-        w = max(w, math.sqrt(2.0 * energy / moving_mass(p, memory, at, x, y)))
+        w = max(w, math.sqrt(2.0 * energy / moving_mass(memory, pin)))
     return float(w)
 
 
-@compiled
+@inlined
 def friction_force(p: Vector, slip: float, normal: float) -> float:
     """Ambrosio's tangential force [N]; a sliding coefficient of 0 is no friction."""
     ramp = (abs(slip) - p[STATIC_SPEED]) / (p[DYNAMIC_SPEED] - p[STATIC_SPEED])
@@ -71,36 +72,31 @@ def friction_force(p: Vector, slip: float, normal: float) -> float:
     return float(-size if slip > 0.0 else size)
 
 
-@compiled
-def contact_force(p: Vector, memory: Vector, at: Posture, rate: Rates, link_rate: float, out: Vector) -> None:
-    """Write state and forces of the contact into `out`, see `layout`; no force while the surfaces are apart."""
-    journal_on_link = p[JOURNAL_ON_LINK] != 0.0
-    sign = 1.0 if journal_on_link else -1.0
-    x, y, vx, vy = sign * at.offset_x, sign * at.offset_y, sign * rate.end_x, sign * rate.end_y
-    eccentricity = math.sqrt(x * x + y * y)
+@inlined
+def contact_force(p: Vector, memory: Vector, pin: PinState, out: Vector) -> None:
+    """Write state and force of the contact into `out`, see `layout`; no force while the surfaces are apart."""
+    eccentricity = math.sqrt(pin.x * pin.x + pin.y * pin.y)
     away = max(eccentricity, SMALLEST)
-    nx, ny = x / away, y / away
+    nx, ny = pin.x / away, pin.y / away
     depth = eccentricity - p[CLEARANCE]
-    speed = nx * vx + ny * vy
+    speed = nx * pin.vx + ny * pin.vy
     if eccentricity == 0.0:
-        speed = math.sqrt(vx * vx + vy * vy)
+        speed = math.sqrt(pin.vx * pin.vx + pin.vy * pin.vy)
     bore_arm = p[BORE_RADIUS] + 0.5 * depth
     journal_arm = bore_arm - depth - p[CLEARANCE]
-    slip = nx * vy - ny * vx + (link_rate * journal_arm if journal_on_link else -link_rate * bore_arm)
-    normal = friction = damping = 0.0
+    slip = nx * pin.vy - ny * pin.vx + pin.journal_spin * journal_arm - pin.bore_spin * bore_arm
+    normal = friction = damping = energy = 0.0
     push = 1.0
     if memory[TOUCHING] != 0.0:
         inside = max(depth, 0.0)
         elastic = p[STIFFNESS] * (inside * math.sqrt(inside) if p[EXPONENT] == 1.5 else inside ** p[EXPONENT])
         energy = elastic * inside / (p[EXPONENT] + 1.0)
-        w = damping_speed(p, memory, at, x, y, energy)
-        push = 1.0 + p[DAMPING_FACTOR] / w * speed
+        push = 1.0 + p[DAMPING_FACTOR] / damping_speed(p, memory, pin, energy) * speed
         normal = max(0.0, elastic * push)
         friction = friction_force(p, slip, normal)
         damping = (normal - elastic) * speed
     out[DEPTH], out[RATE], out[SLIP] = depth, speed, slip
     out[NORMAL], out[FRICTION], out[DAMPING], out[PUSH] = normal, friction, damping, push
-    out[OFFSET_X], out[OFFSET_Y] = x, y
-    out[FORCE_X] = sign * (-normal * nx - friction * ny)
-    out[FORCE_Y] = sign * (-normal * ny + friction * nx)
-    out[MOMENT] = journal_arm * friction if journal_on_link else -bore_arm * friction
+    out[OFFSET_X], out[OFFSET_Y], out[JOURNAL_ARM], out[STORED] = pin.x, pin.y, journal_arm, energy
+    out[FORCE_X] = -normal * nx - friction * ny
+    out[FORCE_Y] = -normal * ny + friction * nx

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import NoReturn
 
-from support_exudyn.drives import CubicStep, Held, UniformSpeed
-from support_exudyn.linkages.hydraulic_support import HydraulicSupport
+from support_exudyn.compiled import is_compiling
+from support_exudyn.reduced.models import MODELS, Model
 from support_exudyn.scenario import Scenario
 from user_forces.contact import JournalContact
 from user_forces.friction.ambrosio import Ambrosio
@@ -17,36 +17,62 @@ from user_forces.normal.law import NormalLaw
 from user_forces.normal.power_law import ElasticPower, PowerLaw
 from user_forces.values import InputError
 
-PIN = "rear_base"
-DRIVES = (Held, CubicStep, UniformSpeed)
+
+def model_of(scenario: Scenario) -> Model:
+    """The scenario's machine. Raises InputError if it is not covered."""
+    model = MODELS.get(type(scenario.machine))
+    if model is None:
+        allowed = ", ".join(machine.__name__ for machine in MODELS)
+        _refuse("machine", type(scenario.machine).__name__, allowed)
+    return model
 
 
-def check(scenario: Scenario) -> HydraulicSupport:
-    """The scenario's machine. Raises InputError if the reduced formulation does not cover the scenario."""
-    machine = scenario.machine
-    if not isinstance(machine, HydraulicSupport):
-        _refuse("machine", type(machine).__name__, HydraulicSupport.__name__)
-    if type(scenario.drive) not in DRIVES:
-        _refuse("drive", type(scenario.drive).__name__, ", ".join(drive.__name__ for drive in DRIVES))
+def check(scenario: Scenario) -> None:
+    """Raise InputError if the reduced formulation does not cover the scenario."""
+    model = model_of(scenario)
+    if type(scenario.drive) not in model.DRIVES:
+        allowed = ", ".join(drive.__name__ for drive in model.DRIVES)
+        _refuse("drive", type(scenario.drive).__name__, allowed)
     if scenario.start != "concentric":
         _refuse("start", repr(scenario.start), "'concentric'")
+    for name, column in scenario.oil_columns.items():
+        _refuse(f"columns.{name}", type(column).__name__, "RigidColumn, whose length is no free coordinate")
     for name, pin in scenario.clearance_pins.items():
-        if name != PIN:
-            _refuse(f"pins.{name}", type(pin).__name__, f"clearance in {PIN} only")
-        _check_contact(pin.contact)
-    return machine
+        if name != model.PIN:
+            _refuse(f"pins.{name}", type(pin).__name__, f"clearance in {model.PIN} only")
+        if pin.contact.friction.has_state:
+            friction = type(pin.contact.friction).__name__
+            _refuse(f"pins.{name}.contact.friction", friction, "laws without a state of their own")
+    _check_backend(scenario, model)
+    if scenario.linkage.cranks and model.PIN not in scenario.clearance_pins:
+        _refuse(f"pins.{model.PIN}", "IdealPin", "a loose pin: otherwise nothing is free to move")
 
 
-def _check_contact(contact: JournalContact) -> None:
-    where = f"pins.{PIN}.contact"
-    if not has_power_form(contact.normal):
-        allowed = (
-            f"{Hertz.__name__} and laws derived from {PowerLaw.__name__}, F = K depth^n (1 + chi rate / w)"
+def _check_backend(scenario: Scenario, model: Model) -> None:
+    """Raise InputError if what is to evaluate the contact cannot."""
+    backend = scenario.solver.backend
+    if backend == "symbolic":
+        _refuse("solver.backend", "'symbolic'", "'auto', 'python', 'compiled'")
+    pin = scenario.clearance_pins.get(model.PIN)
+    if backend == "compiled" and not is_compiling():
+        raise InputError(
+            "solver.backend = 'compiled': numba is not installed; allowed: 'auto', 'python', or install the "
+            "extra: pip install 'support-exudyn[fast]'"
         )
-        _refuse(f"{where}.normal", type(contact.normal).__name__, allowed)
-    if type(contact.friction) not in (Frictionless, Ambrosio):
-        allowed = f"{Frictionless.__name__}, {Ambrosio.__name__}"
-        _refuse(f"{where}.friction", type(contact.friction).__name__, allowed)
+    if backend == "compiled" and pin and not can_be_compiled(pin.contact):
+        laws = f"{type(pin.contact.normal).__name__}, {type(pin.contact.friction).__name__}"
+        _refuse(
+            "solver.backend",
+            f"'compiled' with the laws {laws}",
+            "'auto', 'python', or laws derived from ElasticPower with Frictionless or Ambrosio",
+        )
+
+
+def can_be_compiled(contact: JournalContact) -> bool:
+    """Whether the compiled functions know the laws of a contact, and there are compiled functions."""
+    return (
+        is_compiling() and has_power_form(contact.normal) and type(contact.friction) in (Frictionless, Ambrosio)
+    )
 
 
 def has_power_form(law: NormalLaw) -> bool:
@@ -64,6 +90,6 @@ def has_power_form(law: NormalLaw) -> bool:
 
 def _refuse(where: str, what: str, allowed: str) -> NoReturn:
     raise InputError(
-        f"{where} = {what}: not covered by the reduced formulation; allowed: {allowed}. "
-        "The redundant formulation, support_exudyn.simulate, covers it."
+        f"{where} = {what}: not covered by formulation = 'reduced'; allowed: {allowed}. "
+        "formulation = 'redundant' covers it."
     )

@@ -7,11 +7,11 @@ from __future__ import annotations
 
 import math
 
-from support_exudyn.reduced.compiled import compiled
+from support_exudyn.compiled import compiled
+from support_exudyn.reduced.drive import Matrix, Vector
 from support_exudyn.reduced.equations import observe
 from support_exudyn.reduced.layout import BY_DEPTH, CLEARANCE, DEPTH, OFFSET_X, OFFSET_Y, PUSH, RATE, TOUCHING
-from support_exudyn.reduced.posture import Vector
-from support_exudyn.reduced.runge_kutta import Matrix, within
+from support_exudyn.reduced.runge_kutta import within
 
 # RETURN: pressed on again without having parted. CUT: the law begins or ceases to ask for tension
 NOTHING, TOUCH, PARTING, RETURN, CUT, TOO_LONG = range(6)

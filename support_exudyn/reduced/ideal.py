@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import math
 
-from support_exudyn.reduced.compiled import compiled, entry
+from support_exudyn.compiled import compiled, entry
+from support_exudyn.reduced.drive import Drive, Matrix, Vector, driven
+from support_exudyn.reduced.free_motion import closing_force, closing_rates
 from support_exudyn.reduced.integrate import (
     CLOSE,
     EVALUATIONS,
@@ -14,18 +16,21 @@ from support_exudyn.reduced.integrate import (
     STOPPED_AT,
     STUCK,
 )
+from support_exudyn.reduced.jump import closed, jump
 from support_exudyn.reduced.layout import (
     BEGIN,
-    CANOPY,
-    CANOPY_RATE,
     END,
+    FIRST,
+    FIRST_RATE,
     JUMP,
-    LINK,
-    LINK_RATE,
+    SECOND,
+    SECOND_RATE,
+    WORK,
 )
-from support_exudyn.reduced.posture import Drive, Vector, driven, posture, rates
-from support_exudyn.reduced.records import held_still, jump, record_ideal
-from support_exudyn.reduced.runge_kutta import Matrix
+from support_exudyn.reduced.records import record
+from support_exudyn.reduced.support import pin_state, rear_pin
+from support_exudyn.reduced.support_dynamics import balance, column_forces, unforced
+from support_exudyn.reduced.support_posture import posture, rates
 
 ITERATIONS = 30
 CLOSED = 1e-14  # [m], some ten times the rounding of the posture
@@ -37,17 +42,17 @@ def close_pin(p: Vector, extension: float, y: Vector, report: Vector) -> bool:
     """Turn canopy and rear link of the state y until the pin closes; whether it did."""
     least = math.inf
     for _ in range(ITERATIONS):
-        at = posture(p, y[CANOPY], y[LINK], extension)
+        pin = pin_state(p, Drive(extension, 0.0, 0.0), y)
         report[EVALUATIONS] += 1
-        miss = math.hypot(at.offset_x, at.offset_y)
+        miss = math.hypot(pin.x, pin.y)
         if miss <= CLOSED or (miss < 1e-12 and miss >= least):
             return True
         if not miss < 1.0:
             return False
         least = miss
-        canopy, link = held_still(at, at.offset_x, at.offset_y)
-        y[CANOPY] += canopy
-        y[LINK] += link
+        canopy, link = closing_rates(pin, pin.x, pin.y)
+        y[FIRST] += canopy
+        y[SECOND] += link
     return False
 
 
@@ -58,37 +63,72 @@ def follow(p: Vector, drive: Drive, before: float, y: Vector, report: Vector) ->
     for n in range(1, parts + 1):
         if not close_pin(p, before + (drive.extension - before) * n / parts, y, report):
             return False
-    at = posture(p, y[CANOPY], y[LINK], drive.extension)
-    moved = rates(p, at, 0.0, 0.0, drive.extension, drive.speed)
-    y[CANOPY_RATE], y[LINK_RATE] = held_still(at, moved.end_x, moved.end_y)
+    y[FIRST_RATE] = y[SECOND_RATE] = 0.0
+    pin = pin_state(p, drive, y)
+    y[FIRST_RATE], y[SECOND_RATE] = closing_rates(pin, pin.vx, pin.vy)
     return True
+
+
+@compiled
+def power(p: Vector, drive: Drive, y: Vector) -> float:
+    """Power of the columns [W] in the state y, which belongs to the drive."""
+    at = posture(p, y[FIRST], y[SECOND], drive.extension)
+    rate = rates(p, at, y[FIRST_RATE], y[SECOND_RATE], drive.extension, drive.speed)
+    pin = rear_pin(p, at, rate, y[SECOND_RATE])
+    law = balance(p, at, rate, y[FIRST_RATE], y[SECOND_RATE], drive, 1.0)
+    canopy, link = closed(pin, at, unforced(p, at, rate, y[FIRST_RATE], drive), y[SECOND_RATE])
+    fx, fy = closing_force(pin, law, canopy, link)
+    front, rear = column_forces(p, at, rate, y[FIRST_RATE], y[SECOND_RATE], canopy, link, drive, 1.0, fx, fy)
+    return drive.speed * (front + rear)
 
 
 @entry
 def run_ideal(
-    p: Vector, segments: Matrix, times: Vector, y: Vector, rows: Matrix, jumps: Matrix, report: Vector
+    p: Vector,
+    segments: Matrix,
+    times: Vector,
+    y: Vector,
+    memory: Vector,
+    rows: Matrix,
+    jumps: Matrix,
+    report: Vector,
 ) -> int:
-    """Fill the records; FINISHED, or STUCK where the linkage does not close. Arguments as of `integrate`."""
-    record_ideal(p, segments[0], 0.0, y, rows, 0)
-    record, extension = 1, 0.0
+    """Fill the records; FINISHED, or STUCK where the linkage does not close. Arguments as of `integrate`.
+
+    The work of the drive is integrated by Simpson's rule from record to record.
+    """
+    # a drive that moves from the start on without a jump has been moving for long
+    if segments[0, JUMP] == 0.0 and not follow(p, driven(segments[0], 0.0), 0.0, y, report):
+        return STUCK
+    record(segments[0], memory, 0.0, y, rows, 0)
+    recorded, extension = 1, 0.0
     for n in range(segments.shape[0]):
         segment = segments[n]
         if segment[JUMP] != 0.0:
             jump(p, segment, y, True, jumps, int(report[JUMPS]))
             report[JUMPS] += 1
         t, stop = segment[BEGIN], segment[END]
+        drive = driven(segment, t)
+        if not follow(p, drive, extension, y, report):
+            return STUCK
+        first, extension = power(p, drive, y), drive.extension
         while t < stop:
-            t = stop
-            due = record < times.size and times[record] <= stop + CLOSE
+            begin, t = t, stop
+            due = recorded < times.size and times[recorded] <= stop + CLOSE
             if due:
-                t = times[record]
-            drive = driven(segment, t)
+                t = times[recorded]
             report[STOPPED_AT] = t
             report[STEPS] += 1
-            if not follow(p, drive, extension, y, report):
+            middle, drive = driven(segment, 0.5 * (begin + t)), driven(segment, t)
+            if not follow(p, middle, extension, y, report):
                 return STUCK
-            extension = drive.extension
+            between = power(p, middle, y)
+            if not follow(p, drive, middle.extension, y, report):
+                return STUCK
+            last, extension = power(p, drive, y), drive.extension
+            y[WORK] += (t - begin) * (first + 4.0 * between + last) / 6.0
+            first = last
             if due:
-                record_ideal(p, segment, t, y, rows, record)
-                record += 1
+                record(segment, memory, t, y, rows, recorded)
+                recorded += 1
     return FINISHED

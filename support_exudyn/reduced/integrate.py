@@ -6,9 +6,11 @@ import math
 
 import numpy as np
 
-from support_exudyn.reduced.compiled import compiled, entry
-from support_exudyn.reduced.equations import approach, evaluate, freeze_mobility
+from support_exudyn.compiled import compiled, entry
+from support_exudyn.reduced.drive import Matrix, Vector
+from support_exudyn.reduced.equations import approach, evaluate, freeze_mobility, move_with_the_drive
 from support_exudyn.reduced.events import CUT, CUT_MET, NOTHING, PARTING, RETURN, TOO_LONG, TOUCH, event
+from support_exudyn.reduced.jump import jump
 from support_exudyn.reduced.layout import (
     BEGIN,
     BY_DEPTH,
@@ -25,13 +27,13 @@ from support_exudyn.reduced.layout import (
     TOUCH_SPEED,
     TOUCHING,
 )
-from support_exudyn.reduced.posture import Vector
-from support_exudyn.reduced.records import jump, peak, record_loose, size
-from support_exudyn.reduced.runge_kutta import STAGES, Matrix, advance, fit, within
+from support_exudyn.reduced.records import peak, record, size
+from support_exudyn.reduced.runge_kutta import STAGES, advance, fit, within
 
 FINISHED, STUCK, TOO_MANY_STEPS, TOO_MANY_TOUCHES, DEAD_CENTRE = range(5)
 # what is reported of a run
-STEPS, EVALUATIONS, LARGEST, STOPPED_AT, TOUCHES, JUMPS, LAST_STEP, NOT_A_NUMBER, RECORDS, REPORT = range(10)
+STEPS, EVALUATIONS, LARGEST, STOPPED_AT, TOUCHES, JUMPS, LAST_STEP, NOT_A_NUMBER, RECORDS = range(9)
+ACCEPTED, CUTS, CLAMPED, REPORT = range(9, 13)  # steps: accepted, cut to end at an event, that end in tension
 
 SAFETY, SLOWEST, FASTEST = 0.9, 0.2, 8.0  # change of the step: margin, smallest and largest factor
 SHORTEN = 0.25  # factor for a step in which too much happens
@@ -155,7 +157,6 @@ def happen(what: int, t: float, rate: float, memory: Vector, onsets: Matrix, rep
 
 @compiled
 def write_records(
-    p: Vector,
     segment: Vector,
     memory: Vector,
     t: float,
@@ -165,14 +166,13 @@ def write_records(
     times: Vector,
     rows: Matrix,
     y: Vector,
-    there: Vector,
     report: Vector,
 ) -> None:
-    """Write the records within a step of h [s] from t, up to `until` [s]; y and there are overwritten."""
+    """Write the records within a step of h [s] from t, up to `until` [s]; y is overwritten."""
     n = int(report[RECORDS])
     while n < times.size and times[n] <= until:
         within(path, min(1.0, (times[n] - t) / h), y)
-        record_loose(p, segment, memory, times[n], y, there, rows, n)
+        record(segment, memory, times[n], y, rows, n)
         n += 1
     report[RECORDS] = n
 
@@ -241,8 +241,11 @@ def run_segment(
         if memory[TOUCHING] != 0.0:
             first, final = size(now), size(then)
             report[LARGEST] = peak(p, segment, memory, t, h, path, report[LARGEST], first, final, probe, there)
+        report[ACCEPTED] += 1
+        report[CUTS] += what not in (NOTHING, RETURN)
+        report[CLAMPED] += then[PUSH] < 0.0
         until = stop + CLOSE if last else t + h
-        write_records(p, segment, memory, t, h, until, path, times, rows, probe, there, report)
+        write_records(segment, memory, t, h, until, path, times, rows, probe, report)
         t = stop if last else t + h
         y[:] = end
         if what == NOTHING:
@@ -289,8 +292,11 @@ def integrate(
         rows, onsets, jumps, report: are filled.
     """
     h = first_step
+    # a drive that moves from the start on without a jump has been moving for long
+    if segments[0, JUMP] == 0.0:
+        move_with_the_drive(p, segments[0], 0.0, y)
     freeze_mobility(p, segments[0], memory, 0.0, y)
-    record_loose(p, segments[0], memory, 0.0, y, np.zeros(CONTACT), rows, 0)
+    record(segments[0], memory, 0.0, y, rows, 0)
     report[RECORDS] = 1
     for n in range(segments.shape[0]):
         segment = segments[n]

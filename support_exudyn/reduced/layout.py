@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-# Parameters of a run: one vector of floats, SI. Points of canopy and rear link are those of the reference
-# posture, from the hinge I and from C.
+# Parameters of a run: one vector of floats, SI. Points of canopy and rear link of a support are those of the
+# reference posture, from the hinge I and from C.
 (
+    MACHINE,  # SUPPORT or SLIDER_CRANK
     FRONT_HEAD_X,  # E from I
     FRONT_HEAD_Y,
     REAR_HEAD_X,  # G from I
@@ -43,6 +44,16 @@ from __future__ import annotations
     FRONT_LINK_INERTIA,
     REAR_LINK_MASS,
     REAR_LINK_INERTIA,
+    CRANK_LENGTH,  # of a slider-crank; centres of mass are in the middle
+    ROD_LENGTH,
+    CRANK_MASS,
+    CRANK_INERTIA,
+    ROD_MASS,
+    ROD_INERTIA,
+    SLIDER_MASS,
+    CRANK_ANGLE,  # at the start
+    ROD_ANGLE,
+    SLIDER_X,
     GRAVITY_X,
     GRAVITY_Y,
     CLEARANCE,
@@ -55,40 +66,41 @@ from __future__ import annotations
     SLIDING_COEFFICIENT,
     STATIC_SPEED,
     DYNAMIC_SPEED,
-    JOURNAL_ON_LINK,  # 1: bore in the base; 0: bore in the rear link
+    BORE_FIRST,  # 1: the pin's first body has the bore, see `Linkage.pins`; 0: the second
     PARAMETERS,  # how many there are
-) = range(52)
+) = range(63)
+
+SUPPORT, SLIDER_CRANK = 0.0, 1.0
 
 # A drive between two breaks: extension = A0 + A1 x + A2 x^2 + A3 x^3, x = (t - ORIGIN) / WIDTH
 BEGIN, END, JUMP, ORIGIN, WIDTH, A0, A1, A2, A3, SEGMENT = range(10)  # JUMP: of the speed at BEGIN
 
-# State: turns of canopy and rear link from the reference posture, their rates, energy lost so far
-CANOPY, LINK, CANOPY_RATE, LINK_RATE, DAMPING_LOSS, FRICTION_LOSS, STATES = range(7)
+# State: the two free coordinates, their rates, energy lost so far, work of the drive so far. Of a support the
+# turns of canopy and rear link from the reference posture; of a slider-crank the turn of the rod and the way of
+# the slider from the start.
+FIRST, SECOND, FIRST_RATE, SECOND_RATE, DAMPING_LOSS, FRICTION_LOSS, WORK, STATES = range(8)
+WEIGHED = WORK  # components before it count in the error of a step
 
 # What a clearance pin remembers
 TOUCHING, TOUCH_SPEED, MOBILITY_XX, MOBILITY_XY, MOBILITY_YY, MEMORY = range(6)
 
 # State of the contact. DAMPING: power lost by it. PUSH: the law's 1 + chi rate / w, below zero where tension is
-# cut; 1 while the surfaces are apart. FORCE: of the base on the rear link. MOMENT: about the link's pin centre.
+# cut; 1 while the surfaces are apart. FORCE: of the bore on the journal. OFFSET: journal's centre from bore's.
+# STORED: elastic energy.
 DEPTH, RATE, SLIP, NORMAL, FRICTION, DAMPING, PUSH = range(7)
-FORCE_X, FORCE_Y, MOMENT, OFFSET_X, OFFSET_Y, CONTACT = range(7, 13)
+FORCE_X, FORCE_Y, JOURNAL_ARM, OFFSET_X, OFFSET_Y, STORED, CONTACT = range(7, 14)
 
-# How near the linkage is to a dead centre: see `posture.dead_centre`
+# How near the linkage is to a dead centre: see `support_posture.dead_centre`
 SINE, SWIFTNESS, NEARNESS = range(3)
 
 # A record: one row each in an array of shape (ROWS, n)
 TIME = 0
-STATE_ROW = 1  # six rows
-CANOPY_ACCELERATION = STATE_ROW + STATES
-LINK_ACCELERATION = CANOPY_ACCELERATION + 1
-CONTACT_ROW = LINK_ACCELERATION + 1
-TOUCH_SPEED_ROW = CONTACT_ROW + CONTACT
-HINGE_X = TOUCH_SPEED_ROW + 1
-HINGE_Y = HINGE_X + 1
-FRONT_FORCE = HINGE_Y + 1
-REAR_FORCE = FRONT_FORCE + 1
-EXTENSION = REAR_FORCE + 1
-ROWS = EXTENSION + 1
+STATE_ROW = 1  # STATES rows
+MEMORY_ROW = STATE_ROW + STATES  # MEMORY rows
+EXTENSION = MEMORY_ROW + MEMORY  # of the drive
+SPEED = EXTENSION + 1
+ACCELERATION = SPEED + 1
+ROWS = ACCELERATION + 1
 
 # A jump of the drive's speed: time, impulse of front and rear column, energy given to the bodies
 JUMP_TIME, FRONT_IMPULSE, REAR_IMPULSE, JUMP_ENERGY, JUMP_ROW = range(5)

@@ -6,15 +6,11 @@ Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, section I
 
 from __future__ import annotations
 
-import numpy as np
-import numpy.typing as npt
-
-from support_exudyn.reduced.compiled import compiled
+from support_exudyn.compiled import compiled
+from support_exudyn.reduced.drive import Matrix, Vector
 from support_exudyn.reduced.equations import evaluate
-from support_exudyn.reduced.layout import DAMPING_LOSS, STATES
-from support_exudyn.reduced.posture import Vector
+from support_exudyn.reduced.layout import DAMPING_LOSS, STATES, WEIGHED
 
-Matrix = npt.NDArray[np.float64]
 STAGES = 7
 FREE = DAMPING_LOSS  # components before the energies lost, on which no rate depends
 
@@ -68,11 +64,11 @@ def advance(
         end[i] = y[i] + h * (B1 * k[0, i] + B3 * k[2, i] + B4 * k[3, i] + B5 * k[4, i] + B6 * k[5, i])
     evaluate(p, segment, memory, t + h, end, k[6], contact)
     square = 0.0
-    for i in range(STATES):
+    for i in range(WEIGHED):
         wrong = E1 * k[0, i] + E3 * k[2, i] + E4 * k[3, i] + E5 * k[4, i] + E6 * k[5, i] + E7 * k[6, i]
         part = h * wrong * weights[i]
         square += part * part
-    return float((square / STATES) ** 0.5)
+    return float((square / WEIGHED) ** 0.5)
 
 
 @compiled

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from support_exudyn.pins import ClearancePin
-from support_exudyn.reduced.coverage import PIN
-from support_exudyn.reduced.simulate import simulate_reduced
+from support_exudyn.progress import silent
+from support_exudyn.reduced.run import run
 from support_exudyn.scenario import Scenario
 from support_exudyn.supports import reference_support
 from user_forces.contact import JournalContact
@@ -24,8 +24,8 @@ def warm_up() -> None:
     )
     loose = Scenario(
         machine=reference_support(),
-        pins={PIN: ClearancePin(contact=contact)},
+        pins={"rear_base": ClearancePin(contact=contact)},
         duration=1e-3,
     )
-    simulate_reduced(loose)
-    simulate_reduced(replace(loose, pins={}))
+    run(loose, silent)
+    run(replace(loose, pins={}), silent)

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Callable
 from pathlib import Path
 
+import h5py
 import numpy as np
 import pytest
 
@@ -66,6 +68,111 @@ def test_a_damaged_file_is_refused(result: Result, tmp_path: Path, damage: str) 
     whole = path.read_bytes()
     path.write_bytes({"cut": whole[: len(whole) // 2], "text": b"not a result", "empty": b""}[damage])
     with pytest.raises(InputError, match="damaged"):
+        Result.load(path)
+
+
+# --- runs by which errors are estimated ---
+
+
+@pytest.fixture(scope="module")
+def estimated() -> Result:
+    return simulate(loose_support(1.5, 0.25, drive=Held(), duration=0.06), accuracy="draft")
+
+
+def test_the_runs_by_which_errors_are_estimated_come_back(estimated: Result, tmp_path: Path) -> None:
+    back = Result.load(estimated.save(tmp_path / "run.h5"))
+    one, other, depth = estimated, back, 0
+    while one.coarser is not None:
+        assert other.coarser is not None
+        assert (other.goal, other.scenario, other.onsets) == (one.goal, one.scenario, one.onsets)
+        assert (other.counts, other.wall_time) == (one.counts, one.wall_time)
+        one, other, depth = one.coarser, other.coarser, depth + 1
+        for name in one.channels:
+            np.testing.assert_array_equal(other[name], one[name])
+    assert other.coarser is None
+    assert depth == 2
+    # what is made of them, to the bit
+    assert back.numbers() == estimated.numbers()
+    assert back.numbers(0.02, 0.05) == estimated.numbers(0.02, 0.05)
+    assert (back.fall, back.worst_error, back.met) == (estimated.fall, estimated.worst_error, True)
+
+
+def test_without_an_accuracy_the_file_has_no_other_runs(result: Result, tmp_path: Path) -> None:
+    path = result.save(tmp_path / "run.h5")
+    with h5py.File(path) as file:
+        assert "coarser" not in file
+    assert (Result.load(path).coarser, Result.load(path).goal) == (None, None)
+
+
+def drop_channels(group: h5py.Group) -> None:
+    del group["channels"]
+
+
+def drop_scenario(group: h5py.Group) -> None:
+    del group.attrs["scenario"]
+
+
+def spoil_text(group: h5py.Group) -> None:
+    group.attrs["counts"] = "{"
+
+
+def add_a_count(group: h5py.Group) -> None:
+    group.attrs["counts"] = '{"steps": 1, "leaps": 2}'
+
+
+def spoil_scenario(group: h5py.Group) -> None:
+    group.attrs["scenario"] = '{"type": "Scenario", "duration": -1.0}'
+
+
+def drop_unit(group: h5py.Group) -> None:
+    del group["channels/time"].attrs["unit"]
+
+
+def widen_onsets(group: h5py.Group) -> None:
+    del group["onsets/rear_base"]
+    group.create_dataset("onsets/rear_base", data=np.zeros((2, 3))).attrs["largest_force_N"] = 1.0
+
+
+DAMAGES = [drop_channels, drop_scenario, spoil_text, add_a_count, drop_unit, widen_onsets]
+
+
+@pytest.mark.parametrize("group", ["/", "coarser", "coarser/coarser"])
+@pytest.mark.parametrize("damage", DAMAGES)
+def test_a_file_with_a_damaged_group_is_refused(
+    estimated: Result, tmp_path: Path, group: str, damage: Callable[[h5py.Group], None]
+) -> None:
+    path = estimated.save(tmp_path / "run.h5")
+    with h5py.File(path, "r+") as file:
+        damage(file[group])
+    with pytest.raises(InputError, match=r"run\.h5: not a result file of this program, or damaged"):
+        Result.load(path)
+
+
+@pytest.mark.parametrize("group", ["/", "coarser"])
+def test_a_file_with_a_value_that_does_not_fit_says_which(
+    estimated: Result, tmp_path: Path, group: str
+) -> None:
+    path = estimated.save(tmp_path / "run.h5")
+    with h5py.File(path, "r+") as file:
+        spoil_scenario(file[group])
+    with pytest.raises(InputError, match=r"run\.h5: Scenario\."):
+        Result.load(path)
+
+
+def test_a_coarser_run_that_is_no_group_is_refused(estimated: Result, tmp_path: Path) -> None:
+    path = estimated.save(tmp_path / "run.h5")
+    with h5py.File(path, "r+") as file:
+        del file["coarser"]
+        file["coarser"] = np.zeros(3)
+    with pytest.raises(InputError, match="damaged"):
+        Result.load(path)
+
+
+def test_a_file_of_an_older_program_says_so(result: Result, tmp_path: Path) -> None:
+    path = result.save(tmp_path / "run.h5")
+    with h5py.File(path, "r+") as file:
+        file.attrs["format"] = "support_exudyn result 2"
+    with pytest.raises(InputError, match=r"format is '.* result 2', expected '.* result 3'"):
         Result.load(path)
 
 

@@ -16,8 +16,10 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from support_exudyn import Body, ClearancePin, Held, Result, Scenario, SolverSettings, simulate
-from support_exudyn.connector import FORCE, displacement_scale
+from support_exudyn.attachment import Attachment, attachment
+from support_exudyn.connector import displacement_scale, user_function
 from support_exudyn.onset import Mobility, Onset, PinMemory
+from support_exudyn.python_force import PythonForce
 from support_exudyn.symbolic_force import SymbolicForce, engine
 from tests.reference.cases import PIN, Pair, loose_support
 from tests.unit.law_cases import (
@@ -52,8 +54,10 @@ from user_forces import (
 )
 
 Vector = tuple[float, float]
+Ground = Literal["bore", "journal"] | None  # what is on the ground
 CLEARANCE = BEARING.clearance
 SYSTEMS = exudyn.SystemContainer()  # expressions belong to a system of the engine
+SMOOTH = Frictionless()
 EXACT = Exact(stiffness=2.7e10, restitution=0.7)  # any normal law, for the friction laws
 TEXTBOOK = LankaraniNikravesh(stiffness=2.7e10, restitution=0.9, damping_speed=TouchSpeed())
 
@@ -126,103 +130,147 @@ def states(draw: st.DrawFn) -> State:
 
 
 @cache
-def expression(
-    normal: NormalLaw, friction: FrictionLaw, journal_on_ground: bool
-) -> Callable[[State], np.ndarray]:
+def expression(contact: JournalContact, ground: Ground) -> Callable[[State], np.ndarray]:
     """Force and moment of the engine's expression, as a function of the state."""
     system = SYSTEMS.AddSystem()
-    contact = JournalContact(bearing=BEARING, normal=normal, friction=friction)
-    force = SymbolicForce(system, contact, journal_on_ground)
-    made = ConvertFunctionToSymbolic(
-        system, force._expression(), FORCE, None, "ObjectConnectorRigidBodySpringDamper"
-    )
-    _, _, _, displacement, _, velocity, angular_velocity, *_ = made["argList"]
+    at = attachment(contact, ground == "bore", ground == "journal")
+    force = SymbolicForce(system, contact, at)
+    item, name = user_function(at)
+    made = ConvertFunctionToSymbolic(system, force.expression(), name, None, item)
+    _, _, _, *arguments = made["argList"]
 
     def evaluate(state: State) -> np.ndarray:
-        force.load(state.memory, state.step, state.bore_spin, state.turn)
-        displacement.SetVector(engine.Vector([*state.displacement, 0.0]))
-        velocity.SetVector(engine.Vector([*state.velocity, 0.0]))
-        angular_velocity.SetVector(engine.Vector([0.0, 0.0, state.turning]))
-        return np.array(made["returnValue"].Evaluate())
+        force.load(state.memory, state.memory.mobility, state.step, state.bore_spin, state.turn)
+        for argument, value in zip(arguments, handed_over(at, state), strict=False):
+            if isinstance(value, float):
+                argument.SetValue(value)
+            else:
+                argument.SetVector(engine.Vector(list(value)))
+        return np.atleast_1d(made["returnValue"].Evaluate())
 
     return evaluate
 
 
-def computed(normal: NormalLaw, friction: FrictionLaw, journal_on_ground: bool, state: State) -> np.ndarray:
+@cache
+def python_function(contact: JournalContact, ground: Ground) -> Callable[[State], np.ndarray]:
+    """The same of the user function in Python."""
+    at = attachment(contact, ground == "bore", ground == "journal")
+    spin = [0.0]
+    force = PythonForce(contact, at, lambda: spin[0])
+
+    def evaluate(state: State) -> np.ndarray:
+        force.load(state.memory, state.memory.mobility, state.step)
+        spin[0] = state.bore_spin
+        arguments = handed_over(at, state)
+        others = [0.0] * (force.function.__code__.co_argcount - 3 - len(arguments))
+        return np.atleast_1d(force.function(None, 0.0, 0, *arguments, *others))
+
+    return evaluate
+
+
+def handed_over(at: Attachment, state: State) -> list[Any]:
+    """The arguments of the engine's user function that are used."""
+    if at is Attachment.LINE:
+        eccentricity = math.hypot(*state.displacement)
+        rate = np.dot(state.displacement, state.velocity) / eccentricity if eccentricity else 0.0
+        return [BEARING.depth(eccentricity), float(rate)]
+    displacement, velocity = [*state.displacement, 0.0], [*state.velocity, 0.0]
+    if at is Attachment.CENTRAL:
+        return [displacement, velocity]
+    return [displacement, [0.0, 0.0, state.turn], velocity, [0.0, 0.0, state.turning]]
+
+
+def computed(contact: JournalContact, ground: Ground, state: State) -> np.ndarray:
     """The same by the contact in Python, and the convention of the engine's connector.
 
-    Force and moment act on the bore and, reversed, on the journal, at the middle between both centres.
+    Force and moment act on the bore and, reversed, on the journal.
     """
-    scale = displacement_scale(state.turn)
+    at = attachment(contact, ground == "bore", ground == "journal")
+    scale = displacement_scale(state.turn) if at is Attachment.MIDDLE else 1.0
     x, y = scale * state.displacement[0], scale * state.displacement[1]
-    spin = -state.turning if journal_on_ground else state.bore_spin
+    spin = {"bore": 0.0, "journal": -state.turning, None: state.bore_spin}[ground]
     memory = state.memory
-    found = JournalContact(bearing=BEARING, normal=normal, friction=friction).force(
-        x,
-        y,
-        *state.velocity,
-        spin,
-        spin + state.turning,
-        memory.touch(x, y),
-        SlipHistory(memory.deflection, memory.slip, state.step),
-    )
-    moment = -(found.journal_arm + 0.5 * math.hypot(x, y)) * found.friction_force
+    history = SlipHistory(memory.deflection, memory.slip, state.step)
+    spins = spin, spin + state.turning
+    found = contact.force(x, y, *state.velocity, *spins, memory.touch(x, y), history)
+    if at is Attachment.LINE:
+        return np.array([found.normal_force])
+    if at is Attachment.CENTRAL:
+        return np.array([-found.force_x, -found.force_y, 0.0])
+    # of the point of action from the journal's centre, against n: that centre, the bore's, the middle
+    share = {"bore": 0.0, "journal": 1.0, None: 0.5}[ground]
+    moment = -(found.journal_arm + share * math.hypot(x, y)) * found.friction_force
     return np.array([-found.force_x, -found.force_y, 0.0, 0.0, 0.0, moment])
 
 
-def assert_same(normal: NormalLaw, friction: FrictionLaw, journal_on_ground: bool, state: State) -> None:
-    got = expression(normal, friction, journal_on_ground)(state)
-    expected = computed(normal, friction, journal_on_ground, state)
+def assert_same(contact: JournalContact, ground: Ground, state: State) -> None:
+    expected = computed(contact, ground, state)
     depth = math.hypot(*state.displacement) - CLEARANCE
     # on the way out damping may nearly cancel the elastic force, whose rounding remains
-    elastic = normal.elastic_force(depth) if depth > 0.0 and state.memory.in_contact else 0.0
+    elastic = contact.normal.elastic_force(depth) if depth > 0.0 and state.memory.in_contact else 0.0
     largest = max(elastic, np.abs(expected).max())
-    # asked for; lengths of 1.5 mm are rounded to 2e-19 m, a part in 5e10 of the smallest depth
-    np.testing.assert_allclose(got, expected, rtol=0.0, atol=1e-9 * largest)
-    assert abs(got[5] - expected[5]) <= 1e-9 * BEARING.bore_radius * largest  # of the force's moment
+    for made in (expression, python_function):
+        got = made(contact, ground)(state)
+        # asked for; lengths of 1.5 mm are rounded to 2e-19 m, a part in 5e10 of the smallest depth
+        np.testing.assert_allclose(got, expected, rtol=0.0, atol=1e-9 * largest)
+        if len(got) == 6:  # the moment, in that of the force
+            assert abs(got[5] - expected[5]) <= 1e-9 * BEARING.bore_radius * largest
+
+
+def contact_of(normal: NormalLaw, friction: FrictionLaw = SMOOTH) -> JournalContact:
+    return JournalContact(bearing=BEARING, normal=normal, friction=friction)
+
+
+grounds = st.sampled_from(["bore", "journal", None])
 
 
 @pytest.mark.parametrize("normal", NORMAL_LAWS, ids=kind_of)
 @settings(max_examples=40, deadline=None)
-@given(state=states(), journal_on_ground=st.booleans())
-@example(state=MIDDLE, journal_on_ground=False)
-@example(state=PRESSED, journal_on_ground=False)
-def test_normal_law_is_the_same_in_both(normal: NormalLaw, state: State, journal_on_ground: bool) -> None:
-    assert_same(normal, Frictionless(), journal_on_ground, state)
+@given(state=states(), ground=grounds)
+@example(state=MIDDLE, ground=None)
+@example(state=PRESSED, ground=None)
+def test_normal_law_is_the_same_in_all(normal: NormalLaw, state: State, ground: Ground) -> None:
+    assert_same(contact_of(normal), ground, state)
 
 
 @pytest.mark.parametrize("friction", FRICTION_LAWS, ids=kind_of)
 @settings(max_examples=60, deadline=None)
-@given(state=states(), journal_on_ground=st.booleans())
-@example(state=MIDDLE, journal_on_ground=False)
-@example(state=PRESSED, journal_on_ground=False)
-def test_friction_law_is_the_same_in_both(friction: FrictionLaw, state: State, journal_on_ground: bool) -> None:
-    assert_same(EXACT, friction, journal_on_ground, state)
+@given(state=states(), ground=grounds)
+@example(state=MIDDLE, ground=None)
+@example(state=PRESSED, ground=None)
+def test_friction_law_is_the_same_in_all(friction: FrictionLaw, state: State, ground: Ground) -> None:
+    assert_same(contact_of(EXACT, friction), ground, state)
 
 
 @pytest.mark.parametrize("normal", [TEXTBOOK, NORMAL_LAWS[-1]], ids=kind_of)
+@pytest.mark.parametrize("friction", STATELESS_FRICTION[:2], ids=kind_of)
 @settings(max_examples=40, deadline=None)
-@given(state=states(), journal_on_ground=st.booleans())
-def test_other_damping_is_the_same_in_both(normal: NormalLaw, state: State, journal_on_ground: bool) -> None:
-    assert_same(normal, STATELESS_FRICTION[1], journal_on_ground, state)
+@given(state=states(), ground=grounds)
+def test_other_damping_is_the_same_in_all(
+    normal: NormalLaw, friction: FrictionLaw, state: State, ground: Ground
+) -> None:
+    assert_same(contact_of(normal, friction), ground, state)
 
 
 @pytest.mark.parametrize("friction", FRICTION_LAWS, ids=kind_of)
 @settings(max_examples=20, deadline=None)
-@given(state=states())
-def test_nothing_acts_while_the_surfaces_are_apart(friction: FrictionLaw, state: State) -> None:
+@given(state=states(), ground=grounds)
+def test_nothing_acts_while_the_surfaces_are_apart(friction: FrictionLaw, state: State, ground: Ground) -> None:
     apart = replace(state, memory=state.memory._replace(in_contact=False))
-    assert (expression(EXACT, friction, False)(apart) == 0.0).all()
     gap = replace(state, memory=state.memory._replace(in_contact=True))
-    if math.hypot(*state.displacement) < CLEARANCE:
-        assert (expression(EXACT, friction, False)(gap) == 0.0).all()
+    for made in (expression, python_function):
+        evaluate = made(contact_of(EXACT, friction), ground)
+        assert (evaluate(apart) == 0.0).all()
+        if math.hypot(*state.displacement) < CLEARANCE:
+            assert (evaluate(gap) == 0.0).all()
 
 
 @pytest.mark.parametrize("in_contact", [True, False])
 def test_nothing_acts_in_the_middle_of_the_bore(in_contact: bool) -> None:
     state = replace(MIDDLE, memory=MIDDLE.memory._replace(in_contact=in_contact))
     for friction in FRICTION_LAWS:
-        assert (expression(EXACT, friction, False)(state) == 0.0).all()
+        for made in (expression, python_function):
+            assert (made(contact_of(EXACT, friction), None)(state) == 0.0).all()
 
 
 # --- runs ---

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import os
+import sys
 from pathlib import Path
 
 import pytest
@@ -94,3 +95,18 @@ def test_a_leftover_can_be_told_by_its_name(tmp_path: Path) -> None:
         remove_leftovers(tmp_path)  # its process is this one
         assert f"-{os.getpid()}-" in temporary.name
         assert temporary.exists()
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="asks /proc")
+def test_what_a_process_left_behind_that_nobody_has_waited_for_is_removed(tmp_path: Path) -> None:
+    ended = os.fork()
+    if not ended:
+        os._exit(0)
+    left = tmp_path / f".row-{ended}-abc_1.json"
+    left.write_text("half", encoding="utf-8")
+    try:
+        os.waitid(os.P_PID, ended, os.WEXITED | os.WNOWAIT)  # it has ended, and stays in the list of processes
+        remove_leftovers(tmp_path)
+        assert not left.exists()
+    finally:
+        os.waitpid(ended, 0)

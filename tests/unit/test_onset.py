@@ -9,7 +9,17 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.polynomial import Polynomial
 
-from support_exudyn.onset import BEYOND, HEAVIEST, SHARE, Action, Mobility, PinMemory, Verdict, judge
+from support_exudyn.onset import (
+    BEYOND,
+    HEAVIEST,
+    SHARE,
+    Action,
+    Mobility,
+    PinMemory,
+    Verdict,
+    judge,
+    judge_at_ends,
+)
 from tests.analytic import fall_through
 from user_forces import Touch
 
@@ -500,3 +510,43 @@ def test_cutting_leads_to_the_parting_in_a_few_tries(depth: float, speed: float,
     assert last.verdict.onset is None
     time, _ = fall_through(depth, speed, pull)
     assert last.borders_on(time)
+
+
+# --- nothing located ---
+
+
+def at_ends(start: PinMemory, depth: float, rate: float, forgets: bool = False) -> Verdict:
+    return judge_at_ends(start, depth, rate, 2.0 * H, H, forgets)
+
+
+def test_a_touch_counts_from_the_end_of_its_step() -> None:
+    verdict = at_ends(memory_of(False, 0.0, -3e-4, 0.4), 1e-4, 0.5)
+    # the straight line from -0.3 to 0.1 mm passes zero after three quarters of the step; rounding
+    assert verdict.onset == pytest.approx((1.75 * H, 0.5), rel=1e-14)
+    assert verdict._replace(onset=None) == accepted(memory_of(True, 0.5, 1e-4, 0.5))
+
+
+def test_a_parting_counts_from_the_end_of_its_step() -> None:
+    assert at_ends(memory_of(True, 0.3, 1e-4, -0.3), -1e-4, -0.3) == accepted(
+        memory_of(False, 0.0, -1e-4, -0.3)
+    )
+
+
+def test_a_graze_within_one_step_is_missed() -> None:
+    assert at_ends(memory_of(False, 0.0, -1e-6, 1.0), -1e-6, -1.0) == accepted(
+        memory_of(False, 0.0, -1e-6, -1.0)
+    )
+
+
+@pytest.mark.parametrize("forgets", [False, True])
+def test_a_contact_goes_on_as_if_it_were_located(forgets: bool) -> None:
+    start, end = (1e-4, -0.1), (1e-4, 0.1)
+    assert at_ends(memory_of(True, 0.3, *start), *end, forgets) == gone_on(
+        (1.0, -0.1), (1.0, 0.1), forgets
+    )._replace(memory=memory_of(True, 0.0 if forgets else 0.3, *end))
+
+
+def test_the_speed_of_a_touch_that_is_noticed_late_is_not_negative() -> None:
+    verdict = at_ends(memory_of(False, 0.0, -1e-5, 1.0), 1e-5, -0.2)
+    assert verdict.onset is not None
+    assert verdict.onset.speed == 0.0

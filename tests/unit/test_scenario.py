@@ -3,6 +3,7 @@ from __future__ import annotations
 import dataclasses
 import json
 import math
+import re
 
 import pytest
 
@@ -128,6 +129,10 @@ def test_gravity_that_is_not_finite_is_refused() -> None:
         ("newton_tolerance", 0.1, "> 0 and <= 0.001"),
         ("impact_steps", 15, ">= 16 and <= 10000"),
         ("impact_steps", 10001, ">= 16 and <= 10000"),
+        ("growth", 0.5, ">= 1 and <= 64"),
+        ("growth", 65.0, ">= 1 and <= 64"),
+        ("tolerance", 1e-14, ">= 1e-13 and <= 0.01"),
+        ("tolerance", 0.1, ">= 1e-13 and <= 0.01"),
     ],
 )
 def test_solver_setting_out_of_range_is_refused(field: str, wrong: float, allowed: str) -> None:
@@ -136,8 +141,99 @@ def test_solver_setting_out_of_range_is_refused(field: str, wrong: float, allowe
 
 
 def test_unknown_backend_is_refused() -> None:
-    with pytest.raises(InputError, match=r"SolverSettings\.backend = 'fortran': .*'python' or 'symbolic'"):
+    with pytest.raises(
+        InputError, match=r"SolverSettings\.backend = 'fortran': .*'auto', 'python', 'symbolic' or"
+    ):
         SolverSettings(backend="fortran")
+
+
+@pytest.mark.parametrize(
+    ("field", "wrong", "allowed"),
+    [
+        ("integrator", "euler", "'generalised_alpha' or 'trapezoidal'"),
+        ("newton", "none", "'modified' or 'full'"),
+        ("constraint_index", 1, "2 or 3"),
+    ],
+)
+def test_unknown_choice_of_the_solver_is_refused(field: str, wrong: object, allowed: str) -> None:
+    with pytest.raises(InputError, match=rf"SolverSettings\.{field} = {wrong!r}: .*{allowed}"):
+        SolverSettings(**{field: wrong})
+
+
+def test_the_trapezoidal_rule_is_refused_with_constraints_of_positions() -> None:
+    with pytest.raises(
+        InputError, match=r"'trapezoidal', constraint_index = 3: allowed: 2 with this integrator"
+    ):
+        SolverSettings(integrator="trapezoidal")
+    assert SolverSettings(integrator="trapezoidal", constraint_index=2).constraint_index == 2
+
+
+# --- accuracy ---
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        "fast",
+        "",
+        "1e-3",
+        1.0,
+        0.11,
+        0,
+        0.0,
+        9e-9,
+        -1e-3,
+        math.nan,
+        math.inf,
+        True,
+        False,
+        [1e-3],
+        {"goal": 1e-3},
+    ],
+    ids=repr,
+)
+def test_an_accuracy_that_is_none_is_refused_with_what_is_allowed(wrong: object) -> None:
+    words = re.escape(f"Scenario.accuracy = {wrong!r}: ")
+    allowed = r"allowed: 'draft', 'standard', 'reference', None, or a number from 1e-08 to 0\.1$"
+    with pytest.raises(InputError, match=f"^{words}.*{allowed}"):
+        scenario(accuracy=wrong)
+
+
+@pytest.mark.parametrize(
+    ("accuracy", "goal"),
+    [
+        (None, None),
+        ("draft", 1e-2),
+        ("standard", 1e-3),
+        ("reference", 1e-5),
+        (0.1, 0.1),
+        (1e-8, 1e-8),
+        (3e-4, 3e-4),
+    ],
+)
+def test_an_accuracy_is_a_word_or_a_number(accuracy: str | float | None, goal: float | None) -> None:
+    one = scenario(accuracy=accuracy)
+    assert one.goal == goal
+    assert Value.from_data(json.loads(json.dumps(one.to_data()))) == one
+
+
+def test_of_a_scenario_with_an_accuracy_that_is_refined() -> None:
+    # errors are of second order in the steps; settings are chosen anew, so they stay
+    coarse = scenario(accuracy="draft", solver=SolverSettings(impact_steps=9000))
+    for formulation in ("auto", "redundant", "tree", "reduced"):
+        one = dataclasses.replace(coarse, formulation=formulation)
+        assert one.refined() == dataclasses.replace(one, accuracy=2.5e-3)
+    assert scenario(accuracy=2e-8).refined().accuracy == 1e-8
+
+
+def test_a_tolerance_is_refined_where_it_decides() -> None:
+    for formulation in ("tree", "reduced"):
+        one = scenario(formulation=formulation, solver=SolverSettings(tolerance=8e-7))
+        assert one.refined().solver.tolerance == pytest.approx(1e-7, rel=1e-12)
+        assert dataclasses.replace(one.refined(), solver=one.solver) == one
+        finest = dataclasses.replace(one, solver=SolverSettings(tolerance=2e-13)).refined()
+        assert finest.solver.tolerance == 1e-13
+        assert finest.refined() == finest
 
 
 def test_a_drive_is_refused_if_it_leaves_the_reach_only_late_in_the_run() -> None:
@@ -194,7 +290,10 @@ def test_few_and_many_steps_per_impact_are_taken(impact_steps: int) -> None:
 def test_settings_are_those_documented_unless_said_otherwise() -> None:
     plain = SolverSettings()
     assert (plain.spectral_radius, plain.newton_tolerance) == (0.5, 1e-8)
-    assert (plain.impact_steps, plain.backend) == (512, "python")
+    assert (plain.impact_steps, plain.backend) == (512, "auto")
+    assert (plain.integrator, plain.constraint_index, plain.newton) == ("generalised_alpha", 3, "modified")
+    assert (plain.locate, plain.growth, plain.tolerance) == (True, 1.0, 1e-7)
+    assert (scenario().accuracy, scenario().goal, scenario().formulation) == (None, None, "auto")
 
 
 # --- the same run with all steps shorter ---

@@ -8,7 +8,9 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from support_exudyn.reduced.compiled import compiled
+from support_exudyn.compiled import inlined
+from support_exudyn.reduced.drive import Drive, Vector
+from support_exudyn.reduced.free_motion import Balance
 from support_exudyn.reduced.layout import (
     CANOPY_INERTIA,
     CANOPY_MASS,
@@ -31,7 +33,7 @@ from support_exudyn.reduced.layout import (
     SHIELD_INERTIA,
     SHIELD_MASS,
 )
-from support_exudyn.reduced.posture import Drive, Posture, Rates, Vector
+from support_exudyn.reduced.support_posture import Posture, Rates
 
 
 class Arms(NamedTuple):
@@ -58,17 +60,7 @@ class Motion(NamedTuple):
     pin_y: float
 
 
-class Balance(NamedTuple):
-    """The two equations M q'' = Q: entries of M and Q."""
-
-    m11: float
-    m12: float
-    m22: float
-    q1: float
-    q2: float
-
-
-@compiled
+@inlined
 def arms(p: Vector, at: Posture) -> Arms:
     """Where the centres of mass are."""
     along, across = p[SHIELD_ALONG], p[SHIELD_ACROSS]
@@ -85,7 +77,7 @@ def arms(p: Vector, at: Posture) -> Arms:
     )
 
 
-@compiled
+@inlined
 def motion(at: Posture, rate: Rates, hinge_x: float, hinge_y: float) -> Motion:
     """Accelerations that belong to one of the hinge [m/s^2] at these velocities."""
     ss, ff = rate.shield * rate.shield, rate.link * rate.link
@@ -98,7 +90,7 @@ def motion(at: Posture, rate: Rates, hinge_x: float, hinge_y: float) -> Motion:
     return Motion(hinge_x, hinge_y, shield, front, cx, cy)
 
 
-@compiled
+@inlined
 def unforced(p: Vector, at: Posture, rate: Rates, canopy_rate: float, drive: Drive) -> Motion:
     """Accelerations while the rates of canopy and rear link do not change."""
     square = canopy_rate * canopy_rate
@@ -114,7 +106,7 @@ def unforced(p: Vector, at: Posture, rate: Rates, canopy_rate: float, drive: Dri
     return motion(at, rate, hx, hy)
 
 
-@compiled
+@inlined
 def balance(
     p: Vector, at: Posture, rate: Rates, canopy_rate: float, link_rate: float, drive: Drive, weight: float
 ) -> Balance:
@@ -154,34 +146,7 @@ def balance(
     return Balance(m11, m12, m22, q1, q2)
 
 
-@compiled
-def accelerations(at: Posture, law: Balance, fx: float, fy: float, moment: float) -> tuple[float, float]:
-    """q'' [rad/s^2] under a force [N] and a moment [N m] on the rear link's end."""
-    q1 = law.q1 + fx * at.pin_x + fy * at.pin_y
-    q2 = law.q2 + fy * at.bx - fx * at.by + moment
-    scale = 1.0 / (law.m11 * law.m22 - law.m12 * law.m12)
-    return (law.m22 * q1 - law.m12 * q2) * scale, (law.m11 * q2 - law.m12 * q1) * scale
-
-
-@compiled
-def closing_force(at: Posture, law: Balance, canopy: float, link: float) -> tuple[float, float]:
-    """Force [N] on the rear link's end under which these are the accelerations [rad/s^2]."""
-    q1 = law.m11 * canopy + law.m12 * link - law.q1
-    q2 = law.m12 * canopy + law.m22 * link - law.q2
-    # (pin_x, pin_y) . F = q1, (-by, bx) . F = q2
-    det = at.pin_x * at.bx + at.pin_y * at.by
-    return (q1 * at.bx - q2 * at.pin_y) / det, (q2 * at.pin_x + q1 * at.by) / det
-
-
-@compiled
-def mobility(at: Posture, law: Balance) -> tuple[float, float, float]:
-    """xx, xy, yy [1/kg] of the velocity that an impulse gives the rear link's end."""
-    ax, ay = accelerations(at, Balance(law.m11, law.m12, law.m22, 0.0, 0.0), 1.0, 0.0, 0.0)
-    bx, by = accelerations(at, Balance(law.m11, law.m12, law.m22, 0.0, 0.0), 0.0, 1.0, 0.0)
-    return at.pin_x * ax - at.by * ay, at.pin_x * bx - at.by * by, at.pin_y * bx + at.bx * by
-
-
-@compiled
+@inlined
 def column_forces(
     p: Vector,
     at: Posture,
@@ -228,7 +193,7 @@ def column_forces(
     return front * (p[FRONT_LENGTH] + drive.extension), rear * (p[REAR_LENGTH] + drive.extension)
 
 
-@compiled
+@inlined
 def kinetic_energy(p: Vector, at: Posture, rate: Rates, canopy_rate: float, link_rate: float) -> float:
     """Kinetic energy of all bodies [J]."""
     arm = arms(p, at)

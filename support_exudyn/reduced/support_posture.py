@@ -10,15 +10,9 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-import numpy as np
-import numpy.typing as npt
-
-from support_exudyn.reduced.compiled import compiled
+from support_exudyn.compiled import inlined
+from support_exudyn.reduced.drive import Vector
 from support_exudyn.reduced.layout import (
-    A0,
-    A1,
-    A2,
-    A3,
     FRONT_BASE_X,
     FRONT_BASE_Y,
     FRONT_FOOT_X,
@@ -28,7 +22,6 @@ from support_exudyn.reduced.layout import (
     FRONT_LENGTH,
     HINGE_SIDE,
     LINK_LENGTH,
-    ORIGIN,
     PIN_X,
     PIN_Y,
     REAR_BASE_X,
@@ -44,18 +37,7 @@ from support_exudyn.reduced.layout import (
     SHIELD_SIDE,
     SINE,
     SWIFTNESS,
-    WIDTH,
 )
-
-Vector = npt.NDArray[np.float64]
-
-
-class Drive(NamedTuple):
-    """Extension of both columns [m], its speed [m/s] and acceleration [m/s^2]."""
-
-    extension: float
-    speed: float
-    acceleration: float
 
 
 class Posture(NamedTuple):
@@ -111,18 +93,7 @@ class Rates(NamedTuple):
     end_y: float
 
 
-@compiled
-def driven(segment: Vector, t: float) -> Drive:
-    """What the drive does at time t [s] of a segment, see `layout`; also beyond its ends."""
-    width = segment[WIDTH]
-    x = (t - segment[ORIGIN]) / width
-    a1, a2, a3 = segment[A1], segment[A2], segment[A3]
-    extension = segment[A0] + x * (a1 + x * (a2 + x * a3))
-    speed = (a1 + x * (2.0 * a2 + 3.0 * a3 * x)) / width
-    return Drive(extension, speed, (2.0 * a2 + 6.0 * a3 * x) / (width * width))
-
-
-@compiled
+@inlined
 def meeting_point(
     ax: float, ay: float, ra: float, bx: float, by: float, rb: float, side: float
 ) -> tuple[float, float]:
@@ -134,7 +105,7 @@ def meeting_point(
     return ax + along * dx - across * dy, ay + along * dy + across * dx
 
 
-@compiled
+@inlined
 def posture(p: Vector, canopy: float, link: float, extension: float) -> Posture:
     """Posture for turns of canopy and rear link [rad] and an extension of the columns [m]; nan if none."""
     cc, sc = math.cos(canopy), math.sin(canopy)
@@ -195,7 +166,7 @@ def posture(p: Vector, canopy: float, link: float, extension: float) -> Posture:
     )
 
 
-@compiled
+@inlined
 def dead_centre(at: Posture, rate: Rates, canopy_rate: float, out: Vector) -> None:
     """Write into `out` how near the linkage is to a dead centre, where this formulation ends.
 
@@ -216,7 +187,7 @@ def dead_centre(at: Posture, rate: Rates, canopy_rate: float, out: Vector) -> No
     out[SWIFTNESS] = max(abs(rear - front) / columns, abs(rate.link - rate.shield) / bars)
 
 
-@compiled
+@inlined
 def hinge_driven(p: Vector, at: Posture, extension: float, front: float, rear: float) -> tuple[float, float]:
     """x, y with front column . (x, y) = front length times `front`, and the same for the rear one.
 
@@ -227,7 +198,7 @@ def hinge_driven(p: Vector, at: Posture, extension: float, front: float, rear: f
     return (a * at.rear_y - b * at.front_y) / at.columns, (b * at.front_x - a * at.rear_x) / at.columns
 
 
-@compiled
+@inlined
 def rates(
     p: Vector, at: Posture, canopy_rate: float, link_rate: float, extension: float, speed: float
 ) -> Rates:

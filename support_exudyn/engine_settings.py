@@ -1,0 +1,47 @@
+"""What the engine is told before a run: its settings, and to be quiet."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import exudyn
+
+from support_exudyn.scenario import SolverSettings
+
+SMALLEST_STEP = 1e-13  # [s]
+
+
+def engine_settings(chosen: SolverSettings, duration: float) -> Any:
+    """The engine's settings for a run of this duration [s]."""
+    settings = exudyn.SimulationSettings()
+    integration = settings.timeIntegration
+    integration.endTime = duration
+    integration.numberOfSteps = 1  # sizes are set before every step
+    integration.adaptiveStep = True  # else the engine computes times from a fixed step
+    integration.adaptiveStepRecoverySteps = 2**30  # the engine never lengthens a step by itself
+    integration.minimumStepSize = SMALLEST_STEP
+    integration.verboseMode = 0
+    integration.discontinuous.maxIterations = 8
+    integration.discontinuous.ignoreMaxIterations = False
+    integration.generalizedAlpha.spectralRadius = chosen.spectral_radius
+    # both together are the engine's TrapezoidalIndex2
+    integration.generalizedAlpha.useIndex2Constraints = chosen.constraint_index == 2
+    integration.generalizedAlpha.useNewmark = chosen.integrator == "trapezoidal"
+    integration.newton.relativeTolerance = chosen.newton_tolerance
+    integration.newton.useModifiedNewton = chosen.newton == "modified"
+    integration.newton.modifiedNewtonContractivity = 0.1  # renew the Jacobian early: a fifth faster here
+    settings.solution.file.write = False
+    return settings
+
+
+@contextmanager
+def quiet_engine() -> Iterator[None]:
+    """Keep the engine from writing to the console; what it has to say comes as an exception."""
+    before = exudyn.config.printToConsole
+    exudyn.config.printToConsole = False
+    try:
+        yield
+    finally:
+        exudyn.config.printToConsole = before

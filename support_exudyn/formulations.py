@@ -1,0 +1,46 @@
+"""The formulations by name. A new one is a module with `check` and `run`, and a line here.
+
+`check(scenario)` raises InputError, with what to do instead, if the formulation does not cover the scenario.
+`run(scenario, progress)` gives its Outcome; it raises SimulationError if the run cannot be finished.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Protocol, cast
+
+from support_exudyn.progress import Progress
+from support_exudyn.scenario import Scenario
+from support_exudyn.trajectory import Outcome
+from user_forces.values import InputError
+
+MODULES = {
+    "auto": "support_exudyn.redundant",
+    "redundant": "support_exudyn.redundant",
+    "tree": "support_exudyn.tree",
+    "reduced": "support_exudyn.reduced",
+}
+
+
+class Formulation(Protocol):
+    """What a module of a formulation offers."""
+
+    def check(self, scenario: Scenario) -> None:
+        """Raise InputError if the scenario is not covered."""
+
+    def run(self, scenario: Scenario, progress: Progress) -> Outcome:
+        """Run the scenario."""
+
+
+def formulation(name: str) -> Formulation:
+    """The formulation of this name; its module is imported at the first use."""
+    return cast(Formulation, import_module(MODULES[name]))
+
+
+def covers(name: str, scenario: Scenario) -> bool:
+    """Whether a formulation covers a scenario, whatever formulation that asks for."""
+    try:
+        formulation(name).check(scenario)
+    except InputError:
+        return False
+    return True

@@ -1,0 +1,93 @@
+"""What a competitor's run gives, and how its touches are found afterwards."""
+
+from __future__ import annotations
+
+import gc
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import exudyn
+import numpy as np
+import numpy.typing as npt
+
+Series = npt.NDArray[np.float64]
+
+
+class Touch(NamedTuple):
+    """The beginning of a contact."""
+
+    time: float  # [s]
+    speed: float  # of approach at zero depth [m/s]
+
+
+@dataclass(frozen=True)
+class PeerRun:
+    """Outcome of a competitor's run; all series at the scenario's records.
+
+    time: [s]. force: magnitude in the loose pin [N]. angular_velocity, angular_acceleration: of the link that
+    the loose pin ends (rear link, rod) [rad/s], [rad/s^2]. x, y: canopy tip or slider [m]. onsets: by
+    interpolation of the depth at the ends of steps. largest_force: at the end of any step [N]. wall_time: of
+    everything [s]; solve_time: of the solver alone [s]. steps: accepted. user_function_calls: of the force, in
+    Python; 0 where they are not counted.
+    newton_iterations, jacobians: of the solver, 0 if it has none.
+    """
+
+    time: Series
+    force: Series
+    angular_velocity: Series
+    angular_acceleration: Series
+    x: Series
+    y: Series
+    onsets: tuple[Touch, ...]
+    largest_force: float
+    wall_time: float
+    solve_time: float
+    steps: int
+    user_function_calls: int
+    newton_iterations: int
+    jacobians: int
+
+    def rise(self, start: float = 3.0, end: float = 5.0) -> tuple[float, float]:
+        """Mean and standard deviation of the force over the records between two times [s]."""
+        inside = (self.time >= start - 1e-9) & (self.time <= end + 1e-9)
+        return float(self.force[inside].mean()), float(self.force[inside].std())
+
+
+def touches(time: Sequence[float], depth: Sequence[float], rate: Sequence[float]) -> tuple[Touch, ...]:
+    """Touches from time [s], depth [m] and its rate [m/s] at the ends of all steps.
+
+    Between two steps the depth is the cubic that fits depth and rate at both; where it passes zero is found by
+    bisection, and its slope there is the speed.
+    """
+    t, d, r = (np.asarray(series, dtype=np.float64) for series in (time, depth, rate))
+    found = []
+    for n in np.flatnonzero((d[:-1] <= 0.0) & (d[1:] > 0.0)).tolist():
+        h = float(t[n + 1] - t[n])
+        a, b = float(d[n + 1] - d[n]), h * float(r[n])
+        c = h * float(r[n + 1])
+        cubic = np.array([b + c - 2.0 * a, 3.0 * a - 2.0 * b - c, b, float(d[n])])
+        low, high = 0.0, 1.0
+        for _ in range(60):
+            x = 0.5 * (low + high)
+            if np.polyval(cubic, x) > 0.0:
+                high = x
+            else:
+                low = x
+        found.append(Touch(float(t[n]) + high * h, float(np.polyval(np.polyder(cubic), high)) / h))
+    return tuple(found)
+
+
+@contextmanager
+def undisturbed() -> Iterator[None]:
+    """No output of the engine, no collection of garbage: neither is part of what is measured."""
+    printing, collecting = exudyn.config.printToConsole, gc.isenabled()
+    exudyn.config.printToConsole = False
+    gc.disable()
+    try:
+        yield
+    finally:
+        exudyn.config.printToConsole = printing
+        if collecting:
+            gc.enable()

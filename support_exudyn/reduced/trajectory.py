@@ -1,0 +1,118 @@
+"""From the records of a run to a Trajectory, for all of them at once."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from support_exudyn.body_motion import BodyMotion
+from support_exudyn.compiled import on_arrays
+from support_exudyn.contact_series import RelativeMotion, ends, series
+from support_exudyn.joint_forces import JointForces, PinForce, open_joint_forces
+from support_exudyn.onset import PinMemory
+from support_exudyn.pins import ClearancePin
+from support_exudyn.reduced import layout
+from support_exudyn.reduced.drive import Drive, Matrix, Vector
+from support_exudyn.reduced.equations import law_at, power_at
+from support_exudyn.reduced.free_motion import accelerations
+from support_exudyn.reduced.models import Model
+from support_exudyn.scenario import Scenario
+from support_exudyn.trajectory import ContactSeries, Trajectory
+
+_law_at, _accelerations, _power_at = on_arrays(law_at), on_arrays(accelerations), on_arrays(power_at)
+
+
+def trajectory(scenario: Scenario, model: Model, p: list[float], rows: Matrix) -> Trajectory:
+    """The run at its records.
+
+    Arguments:
+        p: parameters.
+        rows: of the records, see `layout`.
+    """
+    linkage = scenario.linkage
+    pin = scenario.clearance_pins.get(model.PIN)
+    contact = free = None
+    if pin is not None:
+        contact, free = _contact(p, pin, rows)
+    bodies = model.bodies(scenario.machine, linkage, p, rows, free)
+    motion = BodyMotion(linkage, bodies.position, bodies.velocity, bodies.acceleration)
+    if pin is not None and contact is not None:
+        known = _loose(motion, model.PIN, pin, contact)
+    else:
+        assert bodies.pin_force is not None
+        known = PinForce(np.column_stack(bodies.pin_force), _place(motion, model.PIN))
+    joints: JointForces = open_joint_forces(motion, scenario.gravity, bodies.columns, {model.PIN: known})
+    losses = rows[layout.STATE_ROW + layout.DAMPING_LOSS : layout.STATE_ROW + layout.WORK]
+    return Trajectory(
+        time=rows[layout.TIME],
+        position=motion.position,
+        velocity=motion.velocity,
+        acceleration=motion.acceleration,
+        ideal_pins={name: force for name, force in joints.pins.items() if name not in scenario.clearance_pins},
+        contacts={model.PIN: contact} if contact else {},
+        columns=bodies.columns,
+        cranks=joints.cranks,
+        slides=joints.slides,
+        oil_energy=np.zeros(rows.shape[1]),
+        work=rows[layout.STATE_ROW + layout.WORK],
+        damping_loss=losses[0],
+        friction_loss=losses[1],
+    )
+
+
+def _contact(p: list[float], pin: ClearancePin, rows: Matrix) -> tuple[ContactSeries, Matrix]:
+    """The contact, and accelerations of the free coordinates with the force of the bore on the journal."""
+    state = rows[layout.STATE_ROW : layout.STATE_ROW + layout.STATES]
+    drive = Drive(*rows[layout.EXTENSION : layout.ACCELERATION + 1])
+    at, law = _law_at(p, drive, state, 1.0)
+    count = rows.shape[1]
+    moving = RelativeMotion(*(np.broadcast_to(getattr(at, name), (count,)) for name in RelativeMotion._fields))
+    found = series(pin, moving, _memories(rows))
+    contact = np.zeros((layout.CONTACT, count))
+    contact[layout.FORCE_X], contact[layout.FORCE_Y] = found.force_x, found.force_y
+    contact[layout.FRICTION] = found.friction_force
+    contact[layout.JOURNAL_ARM] = pin.contact.bearing.journal_radius - 0.5 * found.depth
+    contact[layout.OFFSET_X], contact[layout.OFFSET_Y] = moving.x, moving.y
+    first, second = _accelerations(at, law, contact)
+    return found, np.array([first, second, found.force_x, found.force_y])
+
+
+def power(p: list[float], pin: ClearancePin, rows: Matrix) -> Vector:
+    """Power of the drive [W] at records, (n,)."""
+    _, (first, second, fx, fy) = _contact(p, pin, rows)
+    contact = np.zeros((layout.CONTACT, rows.shape[1]))
+    contact[layout.FORCE_X], contact[layout.FORCE_Y] = fx, fy
+    drive = Drive(*rows[layout.EXTENSION : layout.ACCELERATION + 1])
+    state = rows[layout.STATE_ROW : layout.STATE_ROW + layout.STATES]
+    watts: Vector = _power_at(p, drive, state, first, second, contact)
+    return watts
+
+
+def _memories(rows: Matrix) -> Vector:
+    """The pin's memory as PinMemory's fields, shape (n, 9)."""
+    memory = rows[layout.MEMORY_ROW : layout.MEMORY_ROW + layout.MEMORY]
+    still = np.zeros(rows.shape[1])
+    named = {
+        "in_contact": memory[layout.TOUCHING],
+        "approach_speed": memory[layout.TOUCH_SPEED],
+        "mobility_xx": memory[layout.MOBILITY_XX],
+        "mobility_xy": memory[layout.MOBILITY_XY],
+        "mobility_yy": memory[layout.MOBILITY_YY],
+    }
+    return np.column_stack([named.get(name, still) for name in PinMemory._fields])
+
+
+def _place(motion: BodyMotion, name: str) -> Vector:
+    """Where an ideal pin is."""
+    place = motion.linkage.pins[name]
+    return motion.point(place.second, place.second_point).position
+
+
+def _loose(motion: BodyMotion, name: str, pin: ClearancePin, contact: ContactSeries) -> PinForce:
+    """Force of the first body on the second, and where it acts."""
+    _, journal = ends(motion, motion.linkage.pins[name], pin)
+    force = np.column_stack([contact.force_x, contact.force_y])
+    offset = np.column_stack([contact.eccentricity_x, contact.eccentricity_y])
+    away = np.maximum(np.linalg.norm(offset, axis=1), 1e-300)  # there is no force in the middle
+    arm = (pin.contact.bearing.journal_radius - 0.5 * contact.depth) / away
+    where = journal.position + arm[:, None] * offset
+    return PinForce(force if pin.bore == "first" else -force, where)

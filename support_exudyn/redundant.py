@@ -1,0 +1,108 @@
+"""The redundant formulation: Exudyn's rigid bodies with constraints, generalised alpha, located impacts.
+
+It covers every scenario and is the reference for the others.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from support_exudyn.body_motion import BodyMotion
+from support_exudyn.contact_series import contact_series
+from support_exudyn.oil import oil_series
+from support_exudyn.progress import Progress
+from support_exudyn.recorder import History, Recorder
+from support_exudyn.scenario import Scenario
+from support_exudyn.scene import Scene, build
+from support_exudyn.settle import settle
+from support_exudyn.solver import Run
+from support_exudyn.trajectory import Outcome, Trajectory
+from user_forces.values import InputError
+
+
+def check(scenario: Scenario) -> None:
+    """Raise InputError if the settings do not fit the scenario."""
+    if scenario.solver.backend == "compiled":
+        raise InputError(
+            "solver.backend = 'compiled': only formulation = 'reduced' has it; "
+            "allowed: 'auto', 'python', 'symbolic'"
+        )
+    moves = scenario.drive.span(scenario.duration) != (0.0, 0.0)
+    rigid = [name for name in scenario.linkage.columns if name not in scenario.oil_columns]
+    if scenario.solver.constraint_index == 2 and scenario.solver.integrator != "trapezoidal":
+        raise InputError(
+            "solver.constraint_index = 2: the engine's generalised alpha has none of it; allowed: 3, or 2 with "
+            "integrator = 'trapezoidal'"
+        )
+    if scenario.solver.constraint_index == 2 and moves and rigid:
+        raise InputError(
+            f"solver.constraint_index = 2: {rigid[0]} is rigid and moves, and the engine's constraint knows no "
+            "speed; allowed: 3, or columns of oil"
+        )
+
+
+def run(scenario: Scenario, progress: Progress) -> Outcome:
+    """Run a scenario. Raises SimulationError if it cannot be finished."""
+    scene = build(scenario)
+    try:
+        if scenario.start == "settled":
+            settle(scene)
+        return _outcome(scene, progress)
+    finally:
+        scene.release()
+
+
+def _outcome(scene: Scene, progress: Progress) -> Outcome:
+    recorder = Recorder(scene)
+    solving = Run(scene, recorder, progress)
+    counts = solving.go()
+    return Outcome(
+        trajectory=trajectory(scene, recorder.history()),
+        onsets={name: tuple(pin.onsets) for name, pin in scene.loose_pins.items()},
+        largest_force={name: pin.largest_force for name, pin in scene.loose_pins.items()},
+        impulses=tuple(solving.impulses),
+        counts=counts,
+    )
+
+
+def trajectory(scene: Scene, history: History) -> Trajectory:
+    """What the records say, in the order of the linkage."""
+    order = np.concatenate([np.arange(item.first, item.first + 3) for item in scene.bodies.values()])
+    position, velocity = history.position[:, order], history.velocity[:, order]
+    motion = BodyMotion(scene.linkage, position, velocity, history.acceleration[:, order])
+    oil = {
+        name: oil_series(item.filled, motion, scene.scenario.drive, history.time)
+        for name, item in scene.oil_columns.items()
+    }
+    # the multiplier of a distance is the tension
+    columns = {name: -history.multiplier[:, item.multiplier] for name, item in scene.rigid_columns.items()}
+    return Trajectory(
+        time=history.time,
+        position=position,
+        velocity=velocity,
+        acceleration=motion.acceleration,
+        # the engine's joint equation is second minus first, so its multiplier acts on the second reversed
+        ideal_pins={
+            name: -history.multiplier[:, item.first : item.first + 2] for name, item in scene.ideal_pins.items()
+        },
+        contacts={
+            name: contact_series(
+                motion,
+                scene.linkage.pins[name],
+                scene.scenario.clearance_pins[name],
+                history.memory[:, n],
+            )
+            for n, name in enumerate(scene.loose_pins)
+        },
+        columns=columns | {name: series.force for name, series in oil.items()},
+        # the multiplier of a crank's angle is the moment against it
+        cranks={name: -history.multiplier[:, item.multiplier] for name, item in scene.cranks.items()},
+        slides={
+            name: np.abs(history.multiplier[:, item.first : item.first + 2])
+            for name, item in scene.slides.items()
+        },
+        oil_energy=sum((series.energy for series in oil.values()), np.zeros_like(history.time)),
+        work=history.work,
+        damping_loss=history.damping_loss,
+        friction_loss=history.friction_loss,
+    )

@@ -1,0 +1,33 @@
+"""One run of a scenario with the settings that it has."""
+
+from __future__ import annotations
+
+import time
+
+from support_exudyn.channels import channels
+from support_exudyn.collector import paused_collector
+from support_exudyn.formulations import formulation
+from support_exudyn.progress import Progress
+from support_exudyn.provenance import provenance
+from support_exudyn.result import Result
+from support_exudyn.scenario import Scenario
+
+
+def run_once(scenario: Scenario, progress: Progress) -> Result:
+    """Run a scenario. Raises InputError if its formulation does not cover it, SimulationError if it fails."""
+    chosen = formulation(scenario.formulation)
+    chosen.check(scenario)
+    began = time.perf_counter()
+    with paused_collector():
+        outcome = chosen.run(scenario, progress)
+        found = channels(scenario, outcome.trajectory)
+    return Result(
+        scenario=scenario,
+        channels=found,
+        onsets=outcome.onsets,
+        largest_force=outcome.largest_force,
+        impulses=outcome.impulses,
+        counts=outcome.counts,
+        wall_time=time.perf_counter() - began,
+        provenance=provenance(),
+    )

@@ -1,0 +1,63 @@
+"""The drive in pieces, on each of which it is a cubic of time, so that every stage of a step knows it."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from support_exudyn.drives import Drive
+from support_exudyn.tree.branches import Matrix
+
+LOOKED_AT = (0.13, 0.45, 0.55, 0.87)  # fractions of a piece at which the cubic is compared with the drive
+SHORTEST = 1e-6  # [s]
+# coefficients of the cubic through the values at 0, 1/3, 2/3 and 1; the drive's speed may jump at the ends
+THROUGH = np.array(
+    [[1.0, 0.0, 0.0, 0.0], [-5.5, 9.0, -4.5, 1.0], [9.0, -22.5, 18.0, -4.5], [-4.5, 13.5, -13.5, 4.5]]
+)
+
+
+class Piece(NamedTuple):
+    """A cubic of the drive.
+
+    begin, end: [s]. cubic: see `loads`, shape (5,).
+    """
+
+    begin: float
+    end: float
+    cubic: Matrix
+
+
+def pieces(drive: Drive, duration: float, allowed: float) -> list[Piece]:
+    """The drive from 0 to the end of a run [s], within an allowed error of extension [m]."""
+    inner = sorted({t for t in drive.breaks if 0.0 < t < duration})
+    found: list[Piece] = []
+    for begin, end in zip([0.0, *inner], [*inner, duration], strict=True):
+        found += _between(drive, begin, end, allowed)
+    return found
+
+
+def _between(drive: Drive, begin: float, end: float, allowed: float) -> list[Piece]:
+    """Pieces between two breaks: one if the drive is a cubic there, else halved until it nearly is."""
+    length = end - begin
+    values = np.array([drive.extension(begin + x * length) for x in (0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0)])
+    cubic = np.array([begin, *(THROUGH @ values / length ** np.arange(4))])
+    if length < SHORTEST or all(
+        abs(extension(cubic, begin + x * length) - drive.extension(begin + x * length)) <= allowed
+        for x in LOOKED_AT
+    ):
+        return [Piece(begin, end, cubic)]
+    middle = begin + 0.5 * length
+    return _between(drive, begin, middle, allowed) + _between(drive, middle, end, allowed)
+
+
+def extension(cubic: Matrix, t: float | Matrix) -> Matrix:
+    """Extension [m] at t [s] by a cubic (5,), or by one for every time (..., 5)."""
+    s = t - cubic[..., 0]
+    return np.asarray(cubic[..., 1] + s * (cubic[..., 2] + s * (cubic[..., 3] + s * cubic[..., 4])))
+
+
+def speed(cubic: Matrix, t: float | Matrix) -> Matrix:
+    """The same for its rate [m/s]."""
+    s = t - cubic[..., 0]
+    return np.asarray(cubic[..., 2] + s * (2.0 * cubic[..., 3] + s * 3.0 * cubic[..., 4]))

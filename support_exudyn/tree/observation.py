@@ -1,0 +1,158 @@
+"""All forces of a tree at chosen instants of a run, and what follows from them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from support_exudyn.body_motion import BodyMotion, PointMotion
+from support_exudyn.contact_series import contact_series, ends
+from support_exudyn.machine import PinPlace
+from support_exudyn.oil import FilledColumn
+from support_exudyn.pins import ClearancePin
+from support_exudyn.trajectory import ContactSeries
+from support_exudyn.tree.branches import Matrix
+from support_exudyn.tree.drive_pieces import extension, speed
+from support_exudyn.tree.dynamics import PointForce, Posture, accelerations
+from user_forces.arrays import as_number, values_of
+from user_forces.contact import SHALLOWEST
+from user_forces.values import Vector2
+
+
+class ColumnSeries(NamedTuple):
+    """A column of oil at m instants, shape (m,) each: force that pushes [N], energy [J], powers [W]."""
+
+    force: Matrix
+    energy: Matrix
+    drive: Matrix
+    loss: Matrix
+
+
+@dataclass(frozen=True)
+class Instants:
+    """Where and how the run is looked at.
+
+    time (m,) [s]. posture: at these times. cubic: of the drive (m, 5), see `loads`. memories: of loose pins, by
+    name (m, fields of PinMemory).
+    """
+
+    time: Matrix
+    posture: Posture
+    cubic: Matrix
+    memories: Mapping[str, Matrix]
+
+
+@dataclass(frozen=True)
+class Observation:
+    """What is to be seen at some instants.
+
+    Arguments:
+        at: the instants.
+        loose: loose pins, by name.
+        filled: columns, by name.
+        gravity: [m/s^2].
+    """
+
+    at: Instants
+    loose: Mapping[str, ClearancePin]
+    filled: Mapping[str, FilledColumn]
+    gravity: Vector2
+
+    @cached_property
+    def motion(self) -> BodyMotion:
+        """Of all bodies; accelerations are left out."""
+        return self.at.posture.motion()
+
+    @cached_property
+    def contacts(self) -> dict[str, ContactSeries]:
+        """Loose pins by name."""
+        return {
+            name: contact_series(self.motion, self._place(name), pin, self.at.memories[name])
+            for name, pin in self.loose.items()
+        }
+
+    @cached_property
+    def columns(self) -> dict[str, ColumnSeries]:
+        """Columns by name."""
+        return {name: self._column(filled) for name, filled in self.filled.items()}
+
+    @cached_property
+    def pin_forces(self) -> dict[str, PointForce]:
+        """Forces of loose pins, of the first body on the second, where they act."""
+        found = {}
+        for name, pin in self.loose.items():
+            place, contact = self._place(name), self.contacts[name]
+            journal = ends(self.motion, place, pin)[1].position
+            offset = np.column_stack([contact.eccentricity_x, contact.eccentricity_y])
+            away = np.maximum(np.linalg.norm(offset, axis=1), SHALLOWEST)
+            # the contact point, see `JournalBearing.contact_arms`
+            arm = pin.contact.bearing.journal_radius - 0.5 * contact.depth
+            force = np.column_stack([contact.force_x, contact.force_y])
+            if pin.bore == "second":
+                force = -force
+            found[name] = PointForce(place.first, place.second, force, journal + (arm / away)[:, None] * offset)
+        return found
+
+    def accelerations(self) -> Matrix:
+        """q'' [rad/s^2] by the equations of motion, shape (m, n)."""
+        return accelerations(self.at.posture, self.gravity, [*self.pin_forces.values(), *self._column_forces()])
+
+    def powers(self) -> Matrix:
+        """Of the drive, of damping and of friction [W], shape (3, m)."""
+        total = np.zeros((3, len(self.at.time)))
+        for column in self.columns.values():
+            total[0] += column.drive
+            total[1] += column.loss
+        for name, contact in self.contacts.items():
+            bore, journal = ends(self.motion, self._place(name), self.loose[name])
+            offset, relative = journal.position - bore.position, journal.velocity - bore.velocity
+            away = np.maximum(np.linalg.norm(offset, axis=1), SHALLOWEST)
+            rate = np.einsum("mx,mx->m", offset, relative) / away
+            pressed = (self.at.memories[name][:, 0] > 0.5) & (contact.depth > 0.0)
+            depth = as_number(np.maximum(contact.depth, SHALLOWEST))
+            elastic = values_of(self.loose[name].contact.normal.elastic_force(depth), len(rate))
+            total[1] += np.where(pressed, (contact.normal_force - elastic) * rate, 0.0)
+            total[2] -= contact.friction_force * contact.slip
+        return total
+
+    def _place(self, name: str) -> PinPlace:
+        return self.motion.linkage.pins[name]
+
+    def _column(self, filled: FilledColumn) -> ColumnSeries:
+        foot, head = self._column_ends(filled)
+        apart = head.position - foot.position
+        length = np.hypot(*apart.T)
+        rate = np.einsum("mx,mx->m", apart, head.velocity - foot.velocity) / length
+        let_in, let_in_speed = extension(self.at.cubic, self.at.time), speed(self.at.cubic, self.at.time)
+        model = filled.model
+        stiffness = model.bulk_modulus * model.bore_area / (model.oil_length + let_in)
+        compression = filled.natural_length(0.0) + let_in - length
+        closing = let_in_speed - rate
+        force = stiffness * (compression + model.damping_time * closing)
+        slope = -stiffness / (model.oil_length + let_in)
+        return ColumnSeries(
+            force,
+            0.5 * stiffness * compression**2,
+            force * let_in_speed + 0.5 * slope * let_in_speed * compression**2,  # as `FilledColumn.powers`
+            stiffness * model.damping_time * closing**2,
+        )
+
+    def _column_ends(self, filled: FilledColumn) -> tuple[PointMotion, PointMotion]:
+        column = filled.column
+        return (
+            self.motion.point(column.foot, column.foot_point),
+            self.motion.point(column.head, column.head_point),
+        )
+
+    def _column_forces(self) -> list[PointForce]:
+        found = []
+        for name, filled in self.filled.items():
+            foot, head = (end.position for end in self._column_ends(filled))
+            along = (head - foot) / np.linalg.norm(head - foot, axis=1)[:, None]
+            force = self.columns[name].force[:, None] * along
+            found.append(PointForce(filled.column.foot, filled.column.head, force, head))
+        return found
