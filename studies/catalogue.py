@@ -4,7 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from studies import claims, clearance_influence, clearance_size, contact_laws, drive_mode, slider_crank
+from studies import (
+    claims,
+    clearance_influence,
+    clearance_size,
+    contact_laws,
+    drive_mode,
+    slider_crank,
+    speed_accuracy,
+)
 from studies.study import Options
 
 STUDIES: dict[str, Callable[[Options], None]] = {
@@ -14,4 +22,5 @@ STUDIES: dict[str, Callable[[Options], None]] = {
     claims.STUDY: claims.study,
     contact_laws.STUDY: contact_laws.study,
     slider_crank.STUDY: slider_crank.study,
+    speed_accuracy.STUDY: speed_accuracy.study,
 }

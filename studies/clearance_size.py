@@ -30,8 +30,7 @@ from studies.study import (
     show_table,
     write_summary,
 )
-from support_exudyn import Result, Scenario
-from support_exudyn.reduced import simulate_reduced
+from support_exudyn import Result, Scenario, SolverSettings, simulate
 
 STUDY = "clearance_size"
 IDEAL = "ideal"
@@ -208,7 +207,9 @@ def formulation_sheet(pairs: Mapping[str, Pair]) -> Sheet:
     """The engine's statistics beside those of an independent formulation of the same scene."""
     rows = []
     for case, pair in pairs.items():
-        reduced = simulate_reduced(pair.fine.scenario, tolerance=1e-9)
+        scenario = pair.fine.scenario
+        finest = SolverSettings(tolerance=1e-9)
+        reduced = simulate(replace(scenario, formulation="reduced", solver=finest))
         cells = []
         for name in ("mean_pin_force", "std_pin_force", "ripple_pin_force"):
             get = MEASURES[name][1]

@@ -24,9 +24,9 @@ from support_exudyn import (
     SolverSettings,
     UniformSpeed,
     reference_support,
+    simulate,
 )
 from support_exudyn.impulse import Impulse
-from support_exudyn.reduced import simulate_reduced
 
 IDEAL = "ideal"
 LOOSE = tuple(f"{size:.1f} mm" for size in paper_machine.SIZES_MM)
@@ -96,7 +96,10 @@ def largest_force(run: Result) -> float:
 
 
 def _at_tolerance(scenarios: Mapping[str, Scenario], window: str, tolerance: float) -> dict[str, Values]:
-    runs = {case: simulate_reduced(item, tolerance=tolerance) for case, item in scenarios.items()}
+    solver = SolverSettings(tolerance=tolerance)
+    runs = {
+        case: simulate(replace(item, formulation="reduced", solver=solver)) for case, item in scenarios.items()
+    }
     found = {}
     for case, run in runs.items():
         ideal = runs[MODE_1_IDEAL if "mode 1" in case else IDEAL]

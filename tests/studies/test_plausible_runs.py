@@ -6,7 +6,7 @@ import pytest
 
 from studies.judging.plausible import Choice, machine
 from studies.judging.plausible_runs import scenario
-from support_exudyn.reduced import simulate_reduced
+from tests.reduced import simulate_reduced
 
 # no. 695 of 1024: the contact's force comes down to the cut of tension and turns there
 GRAZING: dict[str, Choice] = {
@@ -39,7 +39,7 @@ def test_a_contact_that_only_grazes_the_cut_of_tension_goes_on() -> None:
     case = scenario(GRAZING, "1.5 mm", machine(GRAZING))
     coarse, fine = (simulate_reduced(case, tolerance=tolerance) for tolerance in (1e-6, 1e-8))
     # landing on the cut went back and forth for ever; now 14000 steps
-    assert coarse.steps < 30_000
+    assert coarse.counts.steps < 30_000
     forces = [run["pin.rear_base.force"].mean() for run in (coarse, fine)]
     # contact vibration with friction, at tolerances a hundredfold apart
     assert forces[0] == pytest.approx(forces[1], rel=1e-5)

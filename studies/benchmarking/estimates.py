@@ -1,0 +1,106 @@
+"""Whether the errors that runs to an accuracy estimate are those that they have."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from studies.benchmarking.references import tight_runs
+from studies.benchmarking.scenes import SCENES, Scene
+from support_exudyn import Result, Scenario, SolverSettings, simulate
+from support_exudyn.estimate import measures
+from support_exudyn.scenario import Accuracy
+
+PRESETS: tuple[Accuracy, ...] = ("draft", "standard", "reference")
+NUMBERS: tuple[Accuracy, ...] = (1e-4,)  # that are asked for besides
+
+
+@dataclass(frozen=True)
+class Check:
+    """A run to an accuracy against the tight run of its scene.
+
+    asked: the accuracy. formulation: that ran. seconds: of all runs that it took. met: whether the program
+    says that it is as accurate as asked. true, estimated: errors of all its numbers. off: the worst relative
+    true error of mean, spread and largest value of the pin forces.
+    """
+
+    scene: str
+    asked: str
+    formulation: str
+    seconds: float
+    met: bool
+    true: np.ndarray
+    estimated: np.ndarray
+    off: float
+
+    @property
+    def covered(self) -> float:
+        """Share of the numbers whose error is not larger than estimated."""
+        return float(np.mean(self.true <= self.estimated))
+
+
+def overstatement(checks: Sequence[Check]) -> float:
+    """Median of estimated over true errors, of numbers that have an error."""
+    true, estimated = (
+        np.concatenate([getattr(check, name) for check in checks]) for name in ("true", "estimated")
+    )
+    some = true > 0.0
+    return float(np.median(estimated[some] / true[some]))
+
+
+def coverage(checks: Sequence[Check]) -> float:
+    """Share of all numbers whose error is not larger than estimated."""
+    return float(np.mean(np.concatenate([check.true <= check.estimated for check in checks])))
+
+
+def asked_for(quick: bool) -> Iterator[tuple[str, Scenario]]:
+    """Scenes and scenarios with an accuracy."""
+    for name, scene in SCENES.items():
+        if quick and scene.scenario.oil_columns:
+            continue  # its tight run takes long
+        for accuracy in PRESETS[:2] if quick else PRESETS + NUMBERS:
+            yield name, replace(scene.scenario, accuracy=accuracy)
+        if scene.is_short and not quick:
+            for accuracy in PRESETS[:2]:
+                yield name, replace(scene.scenario, accuracy=accuracy, formulation="redundant")
+            solver = replace(scene.scenario.solver, backend="python")
+            yield name, replace(scene.scenario, accuracy="standard", formulation="reduced", solver=solver)
+
+
+def check(name: str, scenario: Scenario, tight: Result) -> Check:
+    """Run a scenario to its accuracy and compare all its numbers with those of a tight run."""
+    scene = SCENES[name]
+    result = simulate(scenario)
+    found, known = result.numbers(scene.after), tight_numbers(scene, tight)
+    names = [name for name in found if name in known]
+    true = np.array([abs(found[name].value - known[name]) for name in names])
+    wrong = [
+        abs(found[name].value / known[name] - 1.0)
+        for name in names
+        if name.endswith(("force.mean", "force.spread", "force.largest")) and known[name]
+    ]
+    return Check(
+        name,
+        str(scenario.accuracy),
+        result.scenario.formulation + (", python" if scenario.solver.backend == "python" else ""),
+        result.wall_time,
+        result.met,
+        true,
+        np.array([found[name].error for name in names]),
+        max(wrong),
+    )
+
+
+def tight(scene: Scene) -> Result:
+    """A run of a scene that is far closer than any accuracy that is asked for here."""
+    if scene.scenario.oil_columns:
+        return simulate(replace(scene.scenario, formulation="tree", solver=SolverSettings(tolerance=1e-9)))
+    return simulate(tight_runs(scene)[1])
+
+
+def tight_numbers(scene: Scene, run: Result) -> Mapping[str, float]:
+    """The usual numbers of a run that has no estimate."""
+    found = measures(run, scene.after, float("inf"))
+    return {name: kind.measure(run) for name, kind in found.items()}

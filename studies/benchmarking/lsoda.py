@@ -1,0 +1,254 @@
+"""The slider-crank with a loose slider pin as anyone with scipy would do it: LSODA and its events.
+
+The crank is prescribed; the turn of the rod and the place of the slider are free. Between touches and
+partings, which `solve_ivp` locates, the equations are smooth and the approach speed is a constant. No friction,
+no gravity.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+from scipy.integrate import solve_ivp
+
+from support_exudyn import Scenario, SliderCrank, Steady
+from user_forces import Frictionless, LankaraniNikravesh, TouchSpeed
+from user_forces.values import InputError
+
+PIN = "slider_pin"
+LOOSEST, TIGHTEST = -5, -11  # decimal exponents of tolerances that are tried
+MOST_PIECES = 2000  # of a run, each ends with a touch or parting
+Series = npt.NDArray[np.float64]
+Rates = Callable[[float, Any], list[float]]
+
+
+class Touch(NamedTuple):
+    """The beginning of a contact."""
+
+    time: float  # [s]
+    speed: float  # of approach [m/s]
+
+
+class Numbers(NamedTuple):
+    """Crank's length and speed, rod's length, mass and inertia, slider's mass and place, contact."""
+
+    crank: float  # [m]
+    speed: float  # [rad/s]
+    angle: float  # at the start [rad]
+    rod: float  # [m]
+    rod_mass: float  # [kg]
+    rod_inertia: float  # about its pin at the crank [kg m^2]
+    slider_mass: float  # [kg]
+    clearance: float  # [m]
+    stiffness: float  # [N/m^1.5]
+    factor: float  # chi [-]
+    floor: float  # of the approach speed [m/s]
+
+
+@dataclass(frozen=True)
+class LsodaRun:
+    """Outcome: slider's place [m] at the asked times [s], touches, evaluations, seconds it took."""
+
+    time: Series
+    slider: Series
+    onsets: tuple[Touch, ...]
+    evaluations: int
+    seconds: float
+
+
+def run_lsoda(
+    scenario: Scenario, *, rtol: float, atol: float, times: Sequence[float] | Series | None = None
+) -> LsodaRun:
+    """Integrate a scenario.
+
+    Arguments:
+        scenario: SliderCrank driven by Steady, slider pin loose with its bore in the slider, no gravity, start
+            "concentric", LankaraniNikravesh with exponent 1.5 and TouchSpeed, no friction.
+        rtol, atol: of LSODA, for angle [rad], place [m] and their rates alike.
+        times: where the slider's place is wanted [s]; the scenario's records by default.
+
+    Raises InputError if the scenario is not covered, RuntimeError if LSODA gives up.
+    """
+    numbers = _numbers(scenario)
+    count = round(scenario.duration / scenario.record_period)
+    wanted = np.asarray(
+        np.arange(count + 1) * scenario.record_period if times is None else times, dtype=np.float64
+    )
+    began = time.perf_counter()
+    run = _Run(numbers, rtol, atol)
+    slider = run.go(scenario.duration, wanted)
+    return LsodaRun(wanted, slider, tuple(run.onsets), run.evaluations, time.perf_counter() - began)
+
+
+def loosest(scenario: Scenario, error: float, times: Sequence[float] | Series) -> tuple[float, LsodaRun]:
+    """The loosest tolerance (rtol = atol, a power of ten) at which and below which the slider is right.
+
+    Arguments:
+        scenario: see `run_lsoda`.
+        error: largest one allowed at any of the times, against the tightest tolerance [m].
+    """
+    exact = run_lsoda(scenario, rtol=10.0**TIGHTEST, atol=10.0**TIGHTEST, times=times).slider
+    found: tuple[float, LsodaRun] | None = None
+    for exponent in range(TIGHTEST + 1, LOOSEST + 1):
+        tolerance = 10.0**exponent
+        try:
+            run = run_lsoda(scenario, rtol=tolerance, atol=tolerance, times=times)
+        except RuntimeError:
+            break
+        if np.abs(run.slider - exact).max() > error:
+            break
+        found = tolerance, run
+    if found is None:
+        raise RuntimeError(f"no tolerance gives an error of {error} m")
+    return found
+
+
+class _Run:
+    """One run, from touch to parting to touch."""
+
+    def __init__(self, numbers: Numbers, rtol: float, atol: float) -> None:
+        self.numbers = numbers
+        self.rtol, self.atol = rtol, atol
+        self.onsets: list[Touch] = []
+        self.evaluations = 0
+
+    def go(self, end: float, wanted: Series) -> Series:
+        t, state, touching, speed = 0.0, _start(self.numbers), False, 0.0
+        pieces: list[Series] = []
+        while t < end:
+            if len(pieces) > MOST_PIECES:
+                raise RuntimeError(
+                    f"more than {MOST_PIECES} touches and partings by {t} s: tolerances are too loose"
+                )
+            inside = (
+                wanted[(wanted >= t) & (wanted <= end)]
+                if not pieces
+                else wanted[(wanted > t) & (wanted <= end)]
+            )
+            found = self._smooth(t, end, state, touching, speed, inside)
+            if not found.success:
+                raise RuntimeError(f"LSODA gave up at {t} s: {found.message}")
+            self.evaluations += int(found.nfev)
+            pieces.append(found.y[1] if len(found.y) else inside[:0])
+            if found.status == 0:
+                break
+            t, state = float(found.t_events[0][0]), found.y_events[0][0].tolist()
+            touching = not touching
+            if touching:
+                speed = max(0.0, _pin(self.numbers, t, state)[1])
+                self.onsets.append(Touch(t, speed))
+        return np.concatenate(pieces)
+
+    def _smooth(
+        self, t: float, end: float, state: list[float], touching: bool, speed: float, inside: Series
+    ) -> Any:
+        numbers = self.numbers
+        side = -1.0 if touching else 1.0
+        begin = t
+
+        # just after a change the depth is zero but for rounding: it must not be seen as the next change
+        def change(t: float, y: Any) -> float:
+            if t == begin and begin > 0.0:
+                return -side
+            return _pin(numbers, t, y.tolist())[0]
+
+        change.terminal = True  # type: ignore[attr-defined]
+        change.direction = side  # type: ignore[attr-defined]
+        return solve_ivp(
+            rates(numbers, max(speed, numbers.floor) if touching else 0.0),
+            (t, end),
+            np.array(state),
+            method="LSODA",
+            t_eval=inside,
+            events=change,
+            rtol=self.rtol,
+            atol=self.atol,
+        )
+
+
+def rates(n: Numbers, speed: float) -> Rates:
+    """Right-hand side for rod's angle, slider's place and their rates; speed of approach 0: apart."""
+    half, end_inertia = 0.5 * n.rod * n.rod_mass, n.rod_inertia
+    square = n.speed * n.speed
+    damping = n.factor / speed if speed else 0.0
+
+    def right(t: float, y: Any) -> list[float]:
+        turn, place, spin, velocity = y.tolist()
+        c, s = math.cos(turn), math.sin(turn)
+        angle = n.angle + n.speed * t
+        bx, by = n.crank * math.cos(angle), n.crank * math.sin(angle)
+        # moment of the rod's inertia in the acceleration of its pin, -speed^2 (bx, by)
+        moment = half * square * (c * by - s * bx)
+        push = 0.0
+        if speed:
+            x, z = bx + n.rod * c - place, by + n.rod * s
+            eccentricity = math.sqrt(x * x + z * z)
+            depth = eccentricity - n.clearance
+            if depth > 0.0:
+                x, z = x / eccentricity, z / eccentricity
+                vx = -n.speed * by - n.rod * s * spin - velocity
+                vz = n.speed * bx + n.rod * c * spin
+                force = n.stiffness * depth * math.sqrt(depth) * (1.0 + damping * (x * vx + z * vz))
+                if force > 0.0:
+                    moment -= n.rod * force * (c * z - s * x)
+                    push = force * x
+        return [spin, velocity, moment / end_inertia, push / n.slider_mass]
+
+    return right
+
+
+def _pin(n: Numbers, t: float, y: Sequence[float]) -> tuple[float, float]:
+    """Depth [m] and its rate [m/s]."""
+    turn, place, spin, velocity = y
+    angle = n.angle + n.speed * t
+    bx, by = n.crank * math.cos(angle), n.crank * math.sin(angle)
+    c, s = math.cos(turn), math.sin(turn)
+    x, z = bx + n.rod * c - place, by + n.rod * s
+    vx, vz = -n.speed * by - n.rod * s * spin - velocity, n.speed * bx + n.rod * c * spin
+    eccentricity = math.sqrt(x * x + z * z)
+    return eccentricity - n.clearance, (x * vx + z * vz) / (eccentricity or 1.0)
+
+
+def _start(n: Numbers) -> list[float]:
+    """State with an ideal pin."""
+    bx, by = n.crank * math.cos(n.angle), n.crank * math.sin(n.angle)
+    along = math.sqrt(n.rod**2 - by**2)
+    spin = -n.speed * bx / along
+    return [math.atan2(-by, along), bx + along, spin, -n.speed * by + spin * by]
+
+
+def _numbers(scenario: Scenario) -> Numbers:
+    machine, drive = scenario.machine, scenario.drive
+    if not isinstance(machine, SliderCrank) or not isinstance(drive, Steady):
+        raise InputError("this takes a SliderCrank and a Steady drive")
+    if tuple(scenario.clearance_pins) != (PIN,) or any(scenario.gravity) or scenario.start != "concentric":
+        raise InputError(f"this takes one loose pin, {PIN}, no gravity and start = 'concentric'")
+    contact = scenario.clearance_pins[PIN].contact
+    law = contact.normal
+    if (
+        not isinstance(contact.friction, Frictionless)
+        or not isinstance(law, LankaraniNikravesh)
+        or law.exponent != 1.5
+    ):
+        raise InputError("contact: allowed here: LankaraniNikravesh with exponent 1.5 and no friction")
+    if not isinstance(law.damping_speed, TouchSpeed):
+        raise InputError("damping_speed: allowed here: TouchSpeed")
+    return Numbers(
+        crank=machine.crank_length,
+        speed=drive.rate,
+        angle=machine.start_angle,
+        rod=machine.rod_length,
+        rod_mass=machine.rod_mass,
+        rod_inertia=machine.rod_inertia + 0.25 * machine.rod_mass * machine.rod_length**2,
+        slider_mass=machine.slider_mass,
+        clearance=contact.bearing.clearance,
+        stiffness=law.stiffness,
+        factor=law.damping_factor,
+        floor=law.damping_speed.floor,
+    )

@@ -1,0 +1,63 @@
+"""What is said of a process: the machine it ran on, its memory, and what importing the package takes."""
+
+from __future__ import annotations
+
+import os
+import platform
+import subprocess
+import sys
+from pathlib import Path
+
+from support_exudyn.provenance import versions
+
+IMPORT = "import time, exudyn; t = time.perf_counter(); import support_exudyn; print(time.perf_counter() - t)"
+GROW = """
+import sys
+from pathlib import Path
+from dataclasses import replace
+from studies.benchmarking.scenes import SCENES
+from support_exudyn import SolverSettings, simulate
+def peak():  # of this program alone; getrusage would tell that of the process which started it too
+    status = Path("/proc/self/status").read_text()
+    return int(status.split("VmHWM:")[1].split()[0]) / 1024
+scene = replace(SCENES["drop"].scenario, record_period=0.1, step=2e-3, formulation=sys.argv[1],
+                solver=SolverSettings(impact_steps=64, tolerance=1e-5))
+simulate(replace(scene, duration=2.0))
+before = peak()
+simulate(replace(scene, duration=float(sys.argv[2])))
+print(before, peak())
+"""
+
+
+def machine() -> str:
+    """Processor, Python and versions."""
+    name = platform.processor() or platform.machine()
+    cpuinfo = Path("/proc/cpuinfo")
+    if cpuinfo.exists():
+        models = [
+            line.partition(":")[2].strip() for line in cpuinfo.read_text().splitlines() if "model name" in line
+        ]
+        name = models[0] if models else name
+    packages = ", ".join(f"{package} {version}" for package, version in versions().items())
+    return f"{name}, {os.cpu_count()} cores. {packages}."
+
+
+def memory() -> str:
+    """Peak memory of a run and of one fifty times as long, with records every 0.1 s."""
+    if not Path("/proc/self/status").exists():
+        return "Peak memory: this system does not tell."
+    said = []
+    for formulation in ("redundant", "reduced"):
+        command = [sys.executable, "-c", GROW, formulation, "100"]
+        before, after = subprocess.run(command, capture_output=True, text=True, check=True).stdout.split()
+        said.append(f"{formulation} {float(before):.0f} MB after 2 s, {float(after):.0f} MB after 100 s")
+    return f"Peak memory of a process, records every 0.1 s: {'; '.join(said)}."
+
+
+def importing() -> str:
+    """What importing the package takes beyond the engine's import."""
+    times = [
+        float(subprocess.run([sys.executable, "-c", IMPORT], capture_output=True, text=True, check=True).stdout)
+        for _ in range(5)
+    ]
+    return f"Importing the package takes {min(times):.2f} s beyond exudyn's import (of five; asked: 0.5 s)."

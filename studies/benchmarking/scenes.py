@@ -1,0 +1,70 @@
+"""The scenes on which speed is set against accuracy."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+from studies import paper_machine, slider_crank
+from support_exudyn import Held, Scenario, SolverSettings
+
+CLEARANCE_MM = 1.5
+FRICTION = paper_machine.SLIDING_COEFFICIENT
+DROP_TIME = 0.6  # [s]; the journal has come to rest in its bore
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A scenario without settings, and what is looked at.
+
+    label: for people. scenario: what is run. pin: the loose pin. body: whose angular acceleration is looked at.
+    point: whose path. after: from when on force and acceleration are averaged [s]. step: default of the
+    redundant formulation [s].
+    """
+
+    label: str
+    scenario: Scenario
+    pin: str
+    body: str
+    point: str
+    after: float
+    step: float
+
+    @property
+    def is_short(self) -> bool:
+        """Whether it runs in a second or so, so that every knob can be turned on it."""
+        return self.scenario.duration < 1.0
+
+
+def _support(label: str, scenario: Scenario, after: float) -> Scene:
+    return Scene(label, scenario, paper_machine.LOOSE_PIN, "rear_link", "tip", after, 5e-4)
+
+
+def _scenes() -> dict[str, Scene]:
+    smooth = replace(paper_machine.loose_rise(CLEARANCE_MM, 0.0, 5e-4), solver=SolverSettings())
+    dry = replace(smooth, pins=paper_machine.loose_rise(CLEARANCE_MM, FRICTION, 5e-4).pins)
+    crank = slider_crank.scenarios(quick=False)[slider_crank.SMOOTH]
+    half = replace(
+        crank,
+        duration=0.5 * slider_crank.REVOLUTION,
+        record_period=slider_crank.REVOLUTION / 1200,
+        solver=SolverSettings(),
+    )
+    return {
+        "drop": _support(
+            "drop: held columns, 1.5 mm, no friction", replace(smooth, drive=Held(), duration=DROP_TIME), 0.0
+        ),
+        "rise": _support("rise: 1.5 mm, no friction", smooth, 3.0),
+        "rise, friction": _support("rise: 1.5 mm, friction 0.25", dry, 3.0),
+        "rise, oil": _support(
+            "rise on oil columns: 1.5 mm, no friction",
+            replace(smooth, columns=paper_machine.oil_columns()),
+            3.0,
+        ),
+        "slider-crank": Scene(
+            "slider-crank: half a revolution at 5000 rpm", half, slider_crank.PIN, "rod", "slider", 0.0, 1e-6
+        ),
+    }
+
+
+SCENES: Mapping[str, Scene] = _scenes()

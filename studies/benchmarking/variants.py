@@ -1,0 +1,175 @@
+"""Ways to compute a scene: every knob, one at a time, and what others do."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import Literal
+
+from studies.benchmarking.measures import ONSETS, Sample, of_result, sample
+from studies.benchmarking.scenes import Scene
+from support_exudyn import Scenario, SolverSettings, simulate
+from support_exudyn.peers.built_in import run_built_in
+from support_exudyn.peers.peer_run import PeerRun
+from support_exudyn.peers.stock import run_stock
+from user_forces import Frictionless
+
+LADDER = (4.0, 2.0, 1.0, 0.5, 0.25)  # times the scene's default step
+SHORT_LADDER = (2.0, 1.0, 0.5)
+TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
+IMPACT_STEPS = 512  # at the default step
+FIXED_STEPS = (2.0, 0.4, 0.1)  # times the default, of runs in which nothing is located
+FINEST_FIXED_STEP = 0.04  # tried besides where time allows
+STOCK, BUILT_IN = "stock recipe", "built-in contact"
+
+
+@dataclass(frozen=True)
+class Done:
+    """What a way gave: what is looked at of it, accepted steps, and contact forces evaluated in Python."""
+
+    sample: Sample
+    steps: int
+    calls: int
+
+
+@dataclass(frozen=True)
+class Way:
+    """A way to compute a scene.
+
+    family: of like ways, one line in a diagram. label: what is set. run: does it and looks at what came out.
+    bare: does it only, to be timed.
+    """
+
+    family: str
+    label: str
+    run: Callable[[], Done]
+    bare: Callable[[], object]
+
+
+def ways(scene: Scene, quick: bool) -> list[Way]:
+    """All ways to compute a scene; knobs that cost much are turned on short scenes only."""
+    if quick:
+        return list(_quick(scene))
+    short = scene.is_short
+    found = [*_error_controlled(scene, TOLERANCES, TOLERANCES if short else TOLERANCES[::2])]
+    found += _steps(scene, "symbolic", LADDER if short else SHORT_LADDER)
+    found += _steps(scene, "python", SHORT_LADDER if short else SHORT_LADDER[1:2])
+    found += _growing(scene)
+    if not scene.scenario.oil_columns:
+        found += _peers(scene, (*FIXED_STEPS, FINEST_FIXED_STEP) if short else FIXED_STEPS)
+    if short:
+        found += [*_knobs(scene), *_fixed(scene), *_index_2(scene)]
+    return found
+
+
+def _quick(scene: Scene) -> Iterator[Way]:
+    """Few ways, none of which takes long."""
+    yield from _error_controlled(scene, TOLERANCES[::2], TOLERANCES[:3:2] if scene.is_short else ())
+    if scene.is_short:
+        yield from _peers(scene, FIXED_STEPS[:2])
+        yield from _steps(scene, "symbolic", SHORT_LADDER[:1])
+
+
+def _error_controlled(scene: Scene, tolerances: Sequence[float], of_python: Sequence[float]) -> Iterator[Way]:
+    """Formulations that choose their steps by a tolerance; plain Python at other tolerances."""
+    if scene.scenario.oil_columns:
+        yield from (with_tolerance(scene, "tree", "auto", tolerance) for tolerance in tolerances)
+        return
+    yield from (with_tolerance(scene, "reduced", "python", tolerance) for tolerance in of_python)
+    yield from (with_tolerance(scene, "reduced", "compiled", tolerance) for tolerance in tolerances)
+
+
+def _steps(scene: Scene, backend: Literal["python", "symbolic"], shares: Sequence[float]) -> Iterator[Way]:
+    for share in shares:
+        yield redundant(scene, f"redundant, {backend}", f"step x {share:g}", share, backend=backend)
+
+
+def _growing(scene: Scene) -> Iterator[Way]:
+    """Steps that grow while the motion is smooth."""
+    for share in SHORT_LADDER[:2]:
+        label = f"growth 8, step x {share:g}"
+        yield redundant(scene, "redundant, growing steps", label, share, growth=8.0, backend="symbolic")
+
+
+def _knobs(scene: Scene) -> Iterator[Way]:
+    """Spectral radius and Newton's method at the default step."""
+    for radius in (0.0, 0.3, 0.7, 0.9):
+        yield redundant(scene, "spectral radius", f"spectral radius {radius:g}", 1.0, spectral_radius=radius)
+    for tolerance in (1e-5, 1e-6, 1e-10):
+        label = f"Newton tolerance {tolerance:.0e}"
+        yield redundant(scene, "Newton's method", label, 1.0, newton_tolerance=tolerance)
+    yield redundant(scene, "Newton's method", "full Newton", 1.0, newton="full")
+
+
+def _fixed(scene: Scene) -> Iterator[Way]:
+    """Our connector and solver, but nothing located."""
+    for share in FIXED_STEPS:
+        yield redundant(scene, "nothing located", f"fixed step x {share:g}", share, locate=False)
+
+
+def _index_2(scene: Scene) -> Iterator[Way]:
+    for share in SHORT_LADDER:
+        settings = {"constraint_index": 2, "integrator": "trapezoidal"}
+        yield redundant(scene, "trapezoidal, index 2", f"trapezoidal, step x {share:g}", share, **settings)
+
+
+def redundant(scene: Scene, family: str, label: str, share: float, **settings: object) -> Way:
+    """The redundant formulation at so many times the default step."""
+    chosen = {"impact_steps": round(IMPACT_STEPS / share), **settings}
+    solver = SolverSettings(**chosen)  # type: ignore[arg-type]
+    step = min(scene.step * share, scene.scenario.record_period)
+    scenario = replace(scene.scenario, formulation="redundant", step=step, solver=solver)
+    label = label or f"step {step:g} s, {solver.impact_steps} an impact, growth {solver.growth:g}"
+    return _way(family, label, scene, scenario)
+
+
+def with_tolerance(
+    scene: Scene,
+    formulation: Literal["tree", "reduced"],
+    backend: Literal["auto", "python", "compiled"],
+    tolerance: float,
+) -> Way:
+    """A formulation with error control."""
+    solver = SolverSettings(tolerance=tolerance, backend=backend)
+    scenario = replace(scene.scenario, formulation=formulation, solver=solver)
+    family = formulation if backend == "auto" else f"{formulation}, {backend}"
+    return _way(family, f"tolerance {tolerance:.0e}", scene, scenario)
+
+
+def _peers(scene: Scene, shares: Sequence[float]) -> Iterator[Way]:
+    """The stock recipe, and the engine's own contact in its place."""
+    for share in shares:
+        step = scene.step * share
+        yield peer(STOCK, f"fixed step x {share:g}", scene, run_stock, step)
+        if _is_smooth(scene):
+            yield peer(BUILT_IN, f"fixed step x {share:g}", scene, run_built_in, step)
+
+
+def _is_smooth(scene: Scene) -> bool:
+    return isinstance(scene.scenario.clearance_pins[scene.pin].contact.friction, Frictionless)
+
+
+def peer(family: str, label: str, scene: Scene, run: Callable[[Scenario, float], PeerRun], step: float) -> Way:
+    """A competitor at a step [s]."""
+
+    def done() -> Done:
+        found = run(scene.scenario, step)
+        speeds = [touch.speed for touch in found.onsets[:ONSETS]]
+        path = found.x, found.y
+        taken = sample(
+            scene, found.time, found.force, found.angular_acceleration, path, speeds, found.largest_force
+        )
+        return Done(taken, found.steps, found.user_function_calls)
+
+    return Way(family, label, done, partial(run, scene.scenario, step))
+
+
+def _way(family: str, label: str, scene: Scene, scenario: Scenario) -> Way:
+    """A run of ours."""
+
+    def done() -> Done:
+        result = simulate(scenario)
+        return Done(of_result(scene, result), result.counts.steps, result.counts.user_function_calls)
+
+    return Way(family, label, done, partial(simulate, scenario))

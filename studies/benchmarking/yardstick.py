@@ -1,0 +1,213 @@
+"""The support's rise by a compiled integrator written by hand: how fast the same answer can be had at all.
+
+`yardstick.c` has the formulas. Here it is compiled, told the machine, run and read.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from support_exudyn import CubicStep, HydraulicSupport, Scenario
+from support_exudyn.machine import lumped
+from user_forces import Ambrosio, Frictionless, JournalContact, LankaraniNikravesh, TouchSpeed
+from user_forces.values import InputError
+
+SOURCE = Path(__file__).with_name("yardstick.c")
+PIN = "rear_base"
+Point = tuple[float, float]
+Series = npt.NDArray[np.float64]
+
+
+class YardstickError(RuntimeError):
+    """The yardstick could not be compiled or run."""
+
+
+class Touch(NamedTuple):
+    """The beginning of a contact."""
+
+    time: float  # [s]
+    speed: float  # of approach [m/s]
+
+
+@dataclass(frozen=True)
+class Yardstick:
+    """Outcome of the yardstick.
+
+    seconds: of the best run [s]. mean, spread, largest: of the pin force at the records, the former two from
+    the start of the stroke on [N]. mean_acceleration, spread_acceleration: of the rear link [rad/s^2].
+    force, acceleration: at the records, empty if they were not asked for.
+    """
+
+    seconds: float
+    steps: int
+    evaluations: int
+    mean: float
+    spread: float
+    largest: float
+    largest_at_any_step: float
+    mean_acceleration: float
+    spread_acceleration: float
+    onsets: tuple[Touch, ...]
+    force: Series
+    acceleration: Series
+
+
+@contextmanager
+def compiled() -> Iterator[Path]:
+    """The program, in a temporary folder. Raises YardstickError if there is no C compiler or it refuses."""
+    compiler = shutil.which("cc") or shutil.which("gcc") or shutil.which("clang")
+    if compiler is None:
+        raise YardstickError("there is no C compiler: none of cc, gcc, clang is on the path")
+    with tempfile.TemporaryDirectory() as folder:
+        program = Path(folder) / "yardstick"
+        command = [compiler, "-O2", "-march=native", "-o", str(program), str(SOURCE), "-lm"]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        if done.returncode != 0:
+            raise YardstickError(f"{' '.join(command)}\n{done.stderr}")
+        yield program
+
+
+def run_yardstick(
+    scenario: Scenario, tolerance: float, *, program: Path, runs: int = 5, records: bool = False
+) -> Yardstick:
+    """Run the yardstick.
+
+    Arguments:
+        scenario: HydraulicSupport, rear-link pin loose, its bore in the base, CubicStep, start "concentric",
+            LankaraniNikravesh with exponent 1.5 and TouchSpeed, no friction or Ambrosio's.
+        tolerance: largest error of a step as a share of the clearance.
+        program: from `compiled`.
+        runs: of which the fastest is reported.
+        records: whether to read force and acceleration at the records.
+
+    Raises InputError if the scenario is not covered, YardstickError if the run fails.
+    """
+    text = "\n".join(repr(float(x)) for x in _numbers(scenario, tolerance)) + f"\n{runs}\n"
+    command = [str(program), *(["--records"] if records else [])]
+    done = subprocess.run(command, input=text, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        raise YardstickError(done.stderr.strip() or f"the program ended with {done.returncode}")
+    found = json.loads(done.stdout)
+    found["onsets"] = tuple(Touch(*touch) for touch in found["onsets"])
+    for name in ("force", "acceleration"):
+        found[name] = np.array(found.get(name, ()), dtype=np.float64)
+    return Yardstick(**found)
+
+
+# --- the machine in numbers, in the order of the C program ---
+
+
+def _numbers(scenario: Scenario, tolerance: float) -> list[float]:
+    machine, drive = scenario.machine, scenario.drive
+    if not isinstance(machine, HydraulicSupport) or not isinstance(drive, CubicStep):
+        raise InputError("the yardstick takes a HydraulicSupport and a CubicStep")
+    if tuple(scenario.clearance_pins) != (PIN,) or scenario.columns or scenario.start != "concentric":
+        raise InputError(f"the yardstick takes rigid columns, one loose pin, {PIN}, and start = 'concentric'")
+    pin = scenario.clearance_pins[PIN]
+    if pin.bore != "first":
+        raise InputError(f"pins.{PIN}.bore = {pin.bore!r}: allowed: 'first'")
+    start = machine.start()
+    lever = math.dist(start.rear_shield, machine.rear_base)
+    clearance = pin.contact.bearing.clearance
+    fall = math.sqrt(math.hypot(*scenario.gravity) * clearance)
+    return [
+        *_geometry(machine),
+        *_masses(machine),
+        *scenario.gravity,
+        *_contact(pin.contact),
+        drive.stroke,
+        drive.start,
+        drive.end,
+        scenario.duration,
+        scenario.record_period,
+        start.canopy,
+        start.rear_link,
+        lever / clearance / tolerance,
+        lever / fall / tolerance,
+    ]
+
+
+def _geometry(m: HydraulicSupport) -> list[float]:
+    start = m.start()
+    front, rear = m.column_lengths(start)
+    canopy, shield, front_link, rear_link = (
+        lumped(m.parts[name]).centre for name in ("canopy", "shield", "front_link", "rear_link")
+    )
+    # centres of the circles about which the hinge turns on the columns
+    about_front = _minus(m.front_foot, _minus(start.front_head, start.hinge))
+    about_rear = _minus(m.rear_foot, _minus(start.rear_head, start.hinge))
+    bar = _minus(m.front_shield, m.hinge)
+    return [
+        *_minus(m.front_head, m.hinge),
+        *_minus(m.rear_head, m.hinge),
+        *_minus(canopy, m.hinge),
+        *m.front_foot,
+        *m.rear_foot,
+        *m.front_base,
+        *m.rear_base,
+        front,
+        rear,
+        math.dist(m.hinge, m.front_shield),
+        math.dist(m.front_base, m.front_shield),
+        _side(about_front, about_rear, start.hinge),
+        _side(start.hinge, m.front_base, start.front_shield),
+        *_parts_of(_minus(m.rear_shield, m.hinge), bar),
+        *_parts_of(_minus(shield, m.hinge), bar),
+        *_parts_of(_minus(front_link, m.front_base), _minus(m.front_shield, m.front_base)),
+        *_minus(m.rear_base, m.rear_shield),
+        *_minus(rear_link, m.rear_shield),
+    ]
+
+
+def _masses(m: HydraulicSupport) -> list[float]:
+    lumps = [lumped(m.parts[name]) for name in ("canopy", "shield", "front_link", "rear_link")]
+    return [number for lump in lumps for number in (lump.mass, lump.inertia)]
+
+
+def _contact(contact: JournalContact) -> list[float]:
+    law, friction = contact.normal, contact.friction
+    if not isinstance(law, LankaraniNikravesh) or law.exponent != 1.5:
+        raise InputError("normal: allowed here: LankaraniNikravesh with exponent 1.5")
+    if not isinstance(law.damping_speed, TouchSpeed):
+        raise InputError("damping_speed: allowed here: TouchSpeed")
+    normal = [law.stiffness, law.damping_factor, law.damping_speed.floor]
+    if isinstance(friction, Ambrosio):
+        tangential = [
+            friction.sliding_coefficient,
+            friction.static_speed,
+            friction.dynamic_speed - friction.static_speed,
+        ]
+    elif isinstance(friction, Frictionless):
+        tangential = [0.0, 0.0, 1.0]
+    else:
+        raise InputError("friction: allowed here: Frictionless, Ambrosio")
+    return [contact.bearing.clearance, contact.bearing.bore_radius, *normal, *tangential]
+
+
+def _minus(a: Point, b: Point) -> Point:
+    return a[0] - b[0], a[1] - b[1]
+
+
+def _side(a: Point, b: Point, c: Point) -> float:
+    """+1 if c lies to the left of the line from a to b, else -1."""
+    (dx, dy), (ex, ey) = _minus(b, a), _minus(c, a)
+    return math.copysign(1.0, dx * ey - dy * ex)
+
+
+def _parts_of(vector: Sequence[float], base: Sequence[float]) -> Point:
+    """A vector in parts of another and of that turned by 90 degrees."""
+    square = base[0] ** 2 + base[1] ** 2
+    along = (vector[0] * base[0] + vector[1] * base[1]) / square
+    return along, (vector[1] * base[0] - vector[0] * base[1]) / square

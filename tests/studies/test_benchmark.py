@@ -1,0 +1,55 @@
+"""The benchmark's arithmetic; what it measures is not asserted anywhere."""
+
+from __future__ import annotations
+
+import time
+
+import pytest
+
+from studies.benchmark import Line, cheapest_way, in_turns, sheet
+from studies.benchmarking import process
+from studies.benchmarking.scenes import SCENES
+from studies.benchmarking.variants import with_tolerance
+from studies.benchmarking.yardstick import YardstickError, compiled, run_yardstick
+
+
+@pytest.mark.parametrize(("ours", "other", "ratio"), [(1.0, 8.0, "1/8"), (3.0, 2.0, "1.5"), (2.0, 2.0, "1/1")])
+def test_a_ratio_says_who_is_faster(ours: float, other: float, ratio: str) -> None:
+    line = Line("what", "how", ours, "against", other, "1/8")
+    assert line.ratio == ratio
+    assert ratio in sheet([line]).markdown()
+
+
+def test_ways_are_timed_in_turns_and_the_fastest_counts() -> None:
+    order: list[str] = []
+    waits = iter([0.03, 0.0, 0.0])
+
+    def one() -> None:
+        order.append("one")
+        time.sleep(next(waits))
+
+    found = in_turns(one, lambda: order.append("other"), turns=3)
+    assert order == ["one", "other"] * 3
+    assert max(found) < 0.03  # the first turn of `one` took that long
+
+
+def test_the_cheapest_way_meets_the_goal() -> None:
+    scene = SCENES["drop"]
+    tried = [with_tolerance(scene, "reduced", "compiled", t) for t in (1e-2, 1e-8)]
+    way = cheapest_way("drop", tried)
+    assert way is tried[1]
+    assert cheapest_way("drop", tried[:1]) is None
+
+
+def test_the_yardstick_integrates_the_same_machine() -> None:
+    try:
+        with compiled() as program:
+            found = run_yardstick(SCENES["rise"].scenario, 1e-9, program=program, runs=1)
+    except YardstickError as error:
+        pytest.skip(str(error))  # no C compiler
+    assert found.mean == pytest.approx(51503.83074, rel=1e-8)  # of `references.json`, at this tolerance
+    assert found.onsets[2].speed == pytest.approx(0.07207928559623947, rel=1e-6)
+
+
+def test_importing_is_timed_in_a_process_of_its_own() -> None:
+    assert "beyond exudyn's import" in process.importing()
