@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from scipy.integrate import solve_ivp
+from scipy.integrate import DOP853
+from scipy.optimize import brentq
 
 from user_forces import (
     AdamsImpact,
@@ -137,13 +138,15 @@ def rebound(force: Callable[[float, float], float], mass: float, speed: float, d
         push = max(0.0, force(max(y[0] * depth, 1e-30), y[1] * speed))
         return [y[1], -push * per_newton]
 
-    def parting(_: float, y: np.ndarray) -> float:
-        return float(y[0])
-
-    parting.terminal, parting.direction = True, -1.0  # type: ignore[attr-defined]
     # a hard dashpot stops a body in a small part of this unit and lets it creep out in thousands
-    found = solve_ivp(motion, (0.0, 1e6), [0.0, 1.0], "DOP853", events=parting, rtol=1e-10, atol=1e-13)
-    return -float(found.y_events[0][0][1])
+    solver = DOP853(motion, 0.0, [0.0, 1.0], 1e6, first_step=1e-4, rtol=1e-10, atol=1e-13)
+    while solver.y[0] > 0.0 or solver.t == 0.0:
+        # where tension is cut nothing is felt, and a long step would jump over the depth where force sets in again
+        solver.max_step = 0.05 * max(solver.y[0], 1e-3) / max(abs(solver.y[1]), 1e-9)
+        solver.step()
+    within = solver.dense_output()
+    end = brentq(lambda t: within(t)[0], solver.t_old, solver.t)
+    return -float(within(end)[1])
 
 
 def law_rebound(law: NormalLaw, mass: float, speed: float) -> float:
