@@ -15,6 +15,7 @@ from support_exudyn.scene_items import BodyItem
 from user_forces.normal.law import LoadError, NormalLaw
 
 SMALLEST_MOBILITY = 1e-15  # [1/kg]
+ROUNDING = 1e-9  # share of the weight below which a pin carries nothing: loads are of a linear solve
 SLOWEST_FALL = 1e-3  # [m/s^2]; a scene in which nothing pulls a journal moves as slowly as one likes
 
 
@@ -44,12 +45,13 @@ def timescales(scenario: Scenario) -> Timescales:
     closed = _kinetics(linkage, tuple(linkage.pins))
     pull = math.hypot(*scenario.gravity) + _running(scenario, closed)
     loads = _static_loads(scenario, closed)
+    weight = math.hypot(*scenario.gravity) * sum(body.mass for body in linkage.bodies.values())
     flights, rests = [math.inf], [math.inf]
     for name, pin in scenario.clearance_pins.items():
         flights.append(math.sqrt(2.0 * pin.contact.bearing.clearance / max(pull, SLOWEST_FALL)))
         mobility = _mobility(scenario, name)
         load = float(np.linalg.norm(loads[name]))
-        if load > 0.0:
+        if load > ROUNDING * weight:
             along = loads[name] / load
             mass = 1.0 / max(float(along @ mobility @ along), SMALLEST_MOBILITY)
         else:

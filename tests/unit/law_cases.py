@@ -141,7 +141,8 @@ def rebound(force: Callable[[float, float], float], mass: float, speed: float, d
     # a hard dashpot stops a body in a small part of this unit and lets it creep out in thousands
     solver = DOP853(motion, 0.0, [0.0, 1.0], 1e6, first_step=1e-4, rtol=1e-10, atol=1e-13)
     while solver.y[0] > 0.0 or solver.t == 0.0:
-        # where tension is cut nothing is felt, and a long step would jump over the depth where force sets in again
+        # where tension is cut nothing is felt, and a long step would jump over the depth where force
+        # sets in again
         solver.max_step = 0.05 * max(solver.y[0], 1e-3) / max(abs(solver.y[1]), 1e-9)
         solver.step()
     within = solver.dense_output()

@@ -119,8 +119,8 @@ def test_friction_laws(law: FrictionLaw, rows: list[tuple[float, ...]]) -> None:
     assert_same(law(slip, normal, stretch), expected, max(n for *_, n in rows))
 
 
-# how far the journal is beyond its clearance: depths are differences of numbers 1e-3, right to 2e-19 m, and from
-# 1e-9 m on to 1e-9 of themselves; below, a damped force that jumps at the touch is rounding's
+# how far the journal is beyond its clearance: depths are differences of numbers 1e-3, right to 2e-19 m, and
+# from 1e-9 m on to 1e-9 of themselves; below, a damped force that jumps at the touch is rounding's
 beyond_touch = st.floats(-2e-5, -1e-9) | st.floats(1e-9, 1.5e-4)
 
 
