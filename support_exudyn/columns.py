@@ -4,8 +4,14 @@ from __future__ import annotations
 
 import math
 from abc import ABC
+from typing import TypeVar
+
+import numpy as np
+import numpy.typing as npt
 
 from user_forces.values import InputError, NonNegative, Positive, Value, value
+
+Quantity = TypeVar("Quantity", float, npt.NDArray[np.float64])  # one, or one for every instant
 
 
 class ColumnModel(Value, ABC):
@@ -45,11 +51,11 @@ class OilColumn(ColumnModel):
     bulk_modulus: Positive
     damping_time: NonNegative = 1e-3
 
-    def stiffness(self, extension: float) -> float:
-        """k [N/m] at an extension from the start [m]."""
+    def stiffness(self, extension: Quantity) -> Quantity:
+        """k [N/m] at an extension from the start [m], or at many."""
         return self.bulk_modulus * self.bore_area / (self.oil_length + extension)
 
-    def stiffness_slope(self, extension: float) -> float:
+    def stiffness_slope(self, extension: Quantity) -> Quantity:
         """Derivative of k by the extension [N/m^2]."""
         return -self.stiffness(extension) / (self.oil_length + extension)
 

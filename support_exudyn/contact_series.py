@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from support_exudyn.body_motion import BodyMotion, PointMotion
+from support_exudyn.joint_forces import PinForce
 from support_exudyn.machine import PinPlace
 from support_exudyn.onset import Mobility, PinMemory
 from support_exudyn.pins import ClearancePin
@@ -79,6 +80,21 @@ def series(pin: ClearancePin, moving: RelativeMotion, memories: Series | Sequenc
         stored=np.where(depth > 0.0, stored, 0.0),
         deflection=where_pressed(force.deflection) if pin.contact.friction.has_state else None,
     )
+
+
+def acting(motion: BodyMotion, place: PinPlace, pin: ClearancePin, contact: ContactSeries) -> PinForce:
+    """A loose pin's force of the first body on the second, and where it acts: the contact point."""
+    _, journal = ends(motion, place, pin)
+    force = np.column_stack([contact.force_x, contact.force_y])
+    offset = np.column_stack([contact.eccentricity_x, contact.eccentricity_y])
+    away = np.maximum(np.linalg.norm(offset, axis=1), SHALLOWEST)  # there is no force in the middle
+    arm = journal_arm(pin, contact.depth) / away
+    return PinForce(force if pin.bore == "first" else -force, journal.position + arm[:, None] * offset)
+
+
+def journal_arm(pin: ClearancePin, depth: Series) -> Series:
+    """Distance of the contact point from the journal's centre [m]."""
+    return values_of(pin.contact.bearing.contact_arms(as_number(depth))[1], depth.size)
 
 
 def _force(pin: ClearancePin, moving: RelativeMotion, memory: dict[str, Series]) -> ContactForce:

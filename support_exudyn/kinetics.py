@@ -21,9 +21,18 @@ from user_forces.values import Vector2
 Matrix = npt.NDArray[np.float64]
 
 
+def kinetics_of(linkage: Linkage, ideal: Sequence[str] | None = None) -> Kinetics:
+    """Matrices of a linkage by itself, coordinates in the order of its bodies and all columns rigid.
+
+    ideal: names of the pins that are closed; all of them by default.
+    """
+    bodies = {name: BodyItem(body, None, None, 3 * n) for n, (name, body) in enumerate(linkage.bodies.items())}
+    return Kinetics(linkage, bodies, tuple(linkage.pins) if ideal is None else ideal, tuple(linkage.columns))
+
+
 @dataclass(frozen=True)
 class Kinetics:
-    """Matrices of a linkage whose bodies stand in the engine.
+    """Matrices of a linkage, whose bodies stand in the engine or not.
 
     linkage: the mechanism. bodies: where each body's coordinates stand. ideal, columns: names of the pins that
     are closed and of the columns that are rigid, in the order of their rows.
@@ -41,6 +50,13 @@ class Kinetics:
             body = item.body
             mass[item.first : item.first + 3] = body.mass, body.mass, body.inertia
         return mass
+
+    def weight(self, gravity: Vector2) -> Matrix:
+        """Forces of gravity [m/s^2] on all coordinates [N], shape (n,)."""
+        along = np.zeros(3 * len(self.bodies))
+        for item in self.bodies.values():
+            along[item.first : item.first + 2] = gravity
+        return self.mass() * along
 
     def rows(self, position: Matrix) -> Matrix:
         """Jacobian C, shape (m, n): two rows an ideal pin, one a rigid column, one a crank, two a slide."""

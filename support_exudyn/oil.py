@@ -8,12 +8,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from support_exudyn.body_motion import BodyMotion
-from support_exudyn.columns import OilColumn
+from support_exudyn.body_motion import BodyMotion, PointMotion
+from support_exudyn.columns import OilColumn, Quantity
 from support_exudyn.drives import Drive
-from support_exudyn.kinetics import Kinetics
+from support_exudyn.kinetics import kinetics_of
 from support_exudyn.machine import Column, Linkage
-from support_exudyn.scene_items import BodyItem
 from support_exudyn.trajectory import Series
 from user_forces.values import Vector2
 
@@ -26,41 +25,71 @@ class FilledColumn:
     model: OilColumn
     precompression: float
 
-    def natural_length(self, extension: float) -> float:
+    def natural_length(self, extension: Quantity) -> Quantity:
         """Length [m] at which the oil carries nothing."""
         return self.column.start_length + self.precompression + extension
 
-    def powers(self, length: float, rate: float, extension: float, speed: float) -> tuple[float, float]:
+    def force(self, length: Quantity, rate: Quantity, extension: Quantity, speed: Quantity) -> Quantity:
+        """Force that pushes the ends apart [N]."""
+        compression = self.natural_length(extension) - length
+        return self.model.stiffness(extension) * (compression + self.model.damping_time * (speed - rate))
+
+    def energy(self, length: Quantity, extension: Quantity) -> Quantity:
+        """Stored in the oil [J]."""
+        compression = self.natural_length(extension) - length
+        return 0.5 * self.model.stiffness(extension) * compression * compression
+
+    def powers(
+        self, length: Quantity, rate: Quantity, extension: Quantity, speed: Quantity
+    ) -> tuple[Quantity, Quantity]:
         """Power of the drive that lets oil in, and of the damping [W].
 
             drive = F speed + (dk/dextension) speed u^2 / 2,   damping = k T (du/dt)^2
 
         The second term of the drive is what the oil gives back because there is more of it to be compressed.
         """
-        stiffness = self.model.stiffness(extension)
         compression = self.natural_length(extension) - length
         closing = speed - rate
-        force = stiffness * (compression + self.model.damping_time * closing)
-        drive = force * speed + 0.5 * self.model.stiffness_slope(extension) * speed * compression**2
-        return drive, stiffness * self.model.damping_time * closing**2
+        force = self.force(length, rate, extension, speed)
+        more = 0.5 * self.model.stiffness_slope(extension) * speed * compression * compression
+        damping = self.model.stiffness(extension) * self.model.damping_time * closing * closing
+        return force * speed + more, damping
+
+    def ends(self, motion: BodyMotion) -> tuple[PointMotion, PointMotion]:
+        """Motions of foot and head."""
+        column = self.column
+        return motion.point(column.foot, column.foot_point), motion.point(column.head, column.head_point)
+
+    def series(self, motion: BodyMotion, extension: Series, speed: Series) -> OilSeries:
+        """The column over time, while the drive has these extensions [m] and speeds [m/s], shape (n,)."""
+        foot, head = self.ends(motion)
+        apart, relative = head.position - foot.position, head.velocity - foot.velocity
+        length = np.hypot(*apart.T)
+        rate = (apart * relative).sum(axis=1) / length
+        moving = length, rate, extension, speed
+        return OilSeries(self.force(*moving), self.energy(length, extension), *self.powers(*moving))
 
 
 class OilSeries(NamedTuple):
-    """Force that pushes the ends apart [N] and energy stored in the oil [J] over time, shape (n,)."""
+    """A column over time, shape (n,) each.
+
+    force: that pushes the ends apart [N]. energy: stored [J]. work, loss: power of the drive, and of the
+    damping [W].
+    """
 
     force: Series
     energy: Series
+    work: Series
+    loss: Series
 
 
 def fill(linkage: Linkage, models: Mapping[str, OilColumn], gravity: Vector2) -> dict[str, FilledColumn]:
     """Columns of oil that hold the machine in its start posture, all pins ideal and the others rigid."""
     if not models:
         return {}
-    bodies = {name: BodyItem(body, None, None, 3 * n) for n, (name, body) in enumerate(linkage.bodies.items())}
-    closed = Kinetics(linkage, bodies, tuple(linkage.pins), tuple(linkage.columns))
-    position = np.zeros(3 * len(bodies))
-    weight = np.concatenate([[b.mass * gravity[0], b.mass * gravity[1], 0.0] for b in linkage.bodies.values()])
-    tensions = closed.respond(position, weight, 0.0)[1][closed.driven()]
+    closed = kinetics_of(linkage)
+    weight = closed.weight(gravity)
+    tensions = closed.respond(np.zeros(weight.size), weight, 0.0)[1][closed.driven()]
     loads = {name: -float(tension) for name, tension in zip(linkage.columns, tensions, strict=False)}
     return {
         name: FilledColumn(linkage.columns[name], model, loads[name] / model.stiffness(0.0))
@@ -69,16 +98,7 @@ def fill(linkage: Linkage, models: Mapping[str, OilColumn], gravity: Vector2) ->
 
 
 def oil_series(filled: FilledColumn, motion: BodyMotion, drive: Drive, time: Series) -> OilSeries:
-    """Force and energy of a column over time."""
-    column = filled.column
-    foot = motion.point(column.foot, column.foot_point)
-    head = motion.point(column.head, column.head_point)
-    apart, relative = head.position - foot.position, head.velocity - foot.velocity
-    length = np.hypot(*apart.T)
-    rate = (apart * relative).sum(axis=1) / length
+    """A column over time [s]."""
     extension = np.array([drive.extension(t) for t in time.tolist()])
     speed = np.array([drive.speed(t) for t in time.tolist()])
-    stiffness = np.array([filled.model.stiffness(e) for e in extension.tolist()])
-    compression = np.array([filled.natural_length(e) for e in extension.tolist()]) - length
-    force = stiffness * (compression + filled.model.damping_time * (speed - rate))
-    return OilSeries(force, 0.5 * stiffness * compression**2)
+    return filled.series(motion, extension, speed)

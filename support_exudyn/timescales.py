@@ -8,10 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from support_exudyn.drives import Stroke
-from support_exudyn.kinetics import Kinetics, Matrix
+from support_exudyn.kinetics import Kinetics, Matrix, kinetics_of
 from support_exudyn.machine import Linkage
 from support_exudyn.scenario import Scenario
-from support_exudyn.scene_items import BodyItem
 from user_forces.normal.law import LoadError, NormalLaw
 
 SMALLEST_MOBILITY = 1e-15  # [1/kg]
@@ -42,7 +41,7 @@ def timescales(scenario: Scenario) -> Timescales:
     the smallest mass times a if there is no weight.
     """
     linkage = scenario.linkage
-    closed = _kinetics(linkage, tuple(linkage.pins))
+    closed = kinetics_of(linkage)
     pull = math.hypot(*scenario.gravity) + _running(scenario, closed)
     loads = _static_loads(scenario, closed)
     weight = math.hypot(*scenario.gravity) * sum(body.mass for body in linkage.bodies.values())
@@ -71,18 +70,11 @@ def _slope(law: NormalLaw, load: float) -> float:
         return 0.0
 
 
-def _kinetics(linkage: Linkage, ideal: tuple[str, ...]) -> Kinetics:
-    bodies = {name: BodyItem(body, None, None, 3 * n) for n, (name, body) in enumerate(linkage.bodies.items())}
-    return Kinetics(linkage, bodies, ideal, tuple(linkage.columns))
-
-
 def _static_loads(scenario: Scenario, closed: Kinetics) -> dict[str, Matrix]:
     """What the weight puts on every pin in the start posture, all of them ideal [N]."""
-    linkage = closed.linkage
-    gx, gy = scenario.gravity
-    weight = np.concatenate([[b.mass * gx, b.mass * gy, 0.0] for b in linkage.bodies.values()])
+    weight = closed.weight(scenario.gravity)
     reactions = closed.respond(np.zeros(weight.size), weight, 0.0)[1]
-    return {name: reactions[2 * n : 2 * n + 2] for n, name in enumerate(linkage.pins)}
+    return {name: reactions[2 * n : 2 * n + 2] for n, name in enumerate(closed.linkage.pins)}
 
 
 def _running(scenario: Scenario, closed: Kinetics) -> float:
@@ -102,7 +94,7 @@ def _mobility(scenario: Scenario, name: str) -> Matrix:
     linkage = scenario.linkage
     ideal = tuple(pin for pin in linkage.pins if pin not in scenario.clearance_pins)
     size = 3 * len(linkage.bodies)
-    return _kinetics(linkage, ideal).pin_mobility(np.zeros(size), name)
+    return kinetics_of(linkage, ideal).pin_mobility(np.zeros(size), name)
 
 
 def _drive_time(scenario: Scenario, linkage: Linkage) -> float:

@@ -1,1 +1,1 @@
-"""Yardsticks that owe nothing to the engine: hand-written integrators of the same two machines."""
+"""Speed against accuracy: scenes, tight references, ways to compute, and yardsticks that others set."""

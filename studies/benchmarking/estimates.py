@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -9,7 +10,7 @@ import numpy as np
 
 from studies.benchmarking.references import tight_runs
 from studies.benchmarking.scenes import SCENES, Scene
-from support_exudyn import Result, Scenario, SolverSettings, simulate
+from support_exudyn import Estimate, Result, Scenario, SolverSettings, simulate
 from support_exudyn.estimate import measures
 from support_exudyn.scenario import Accuracy
 
@@ -41,18 +42,24 @@ class Check:
         return float(np.mean(self.true <= self.estimated))
 
 
-def overstatement(checks: Sequence[Check]) -> float:
-    """Median of estimated over true errors, of numbers that have an error."""
+def overstatement(checks: Sequence[Check]) -> Estimate:
+    """Median of estimated over true errors, of numbers that have an error; its error is that of the sample."""
     true, estimated = (
         np.concatenate([getattr(check, name) for check in checks]) for name in ("true", "estimated")
     )
     some = true > 0.0
-    return float(np.median(estimated[some] / true[some]))
+    ratios = estimated[some] / true[some]
+    # of the middle of n values the rank is uncertain by sqrt(n) / 2
+    around = 0.5 / math.sqrt(ratios.size)
+    low, median, high = np.quantile(ratios, [max(0.0, 0.5 - around), 0.5, min(1.0, 0.5 + around)])
+    return Estimate(float(median), 0.5 * float(high - low), "1")
 
 
-def coverage(checks: Sequence[Check]) -> float:
-    """Share of all numbers whose error is not larger than estimated."""
-    return float(np.mean(np.concatenate([check.true <= check.estimated for check in checks])))
+def coverage(checks: Sequence[Check]) -> Estimate:
+    """Share of all numbers whose error is not larger than estimated; its error is that of the sample."""
+    covered = np.concatenate([check.true <= check.estimated for check in checks])
+    share = float(covered.mean())
+    return Estimate(share, math.sqrt(share * (1.0 - share) / covered.size), "1")
 
 
 def asked_for(quick: bool) -> Iterator[tuple[str, Scenario]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
@@ -12,8 +13,9 @@ from studies.benchmarking.measures import times_the_goal
 class Row:
     """A run.
 
-    scene, family, label: what was run and how. seconds: wall time. steps: accepted. calls: of contact forces in
-    Python. errors: by the names of `measures.GOALS`; none if it failed, and failure says why.
+    scene, family, label: what was run and how. seconds: wall time, the least if it was timed more than once.
+    steps: accepted. calls: of contact forces in Python. errors: by the names of `measures.GOALS`; none if it
+    failed, and failure says why. scatter: by how much its wall times differ [s]; nan if it was timed once.
     """
 
     scene: str
@@ -24,6 +26,7 @@ class Row:
     calls: int
     errors: dict[str, float] = field(default_factory=dict)
     failure: str = ""
+    scatter: float = math.nan
 
     @property
     def overall(self) -> float:

@@ -18,6 +18,7 @@ import numpy.typing as npt
 from scipy.integrate import solve_ivp
 
 from support_exudyn import Scenario, SliderCrank, Steady
+from support_exudyn.onset import Onset
 from user_forces import Frictionless, LankaraniNikravesh, TouchSpeed
 from user_forces.values import InputError
 
@@ -26,13 +27,6 @@ LOOSEST, TIGHTEST = -5, -11  # decimal exponents of tolerances that are tried
 MOST_PIECES = 2000  # of a run, each ends with a touch or parting
 Series = npt.NDArray[np.float64]
 Rates = Callable[[float, Any], list[float]]
-
-
-class Touch(NamedTuple):
-    """The beginning of a contact."""
-
-    time: float  # [s]
-    speed: float  # of approach [m/s]
 
 
 class Numbers(NamedTuple):
@@ -57,7 +51,7 @@ class LsodaRun:
 
     time: Series
     slider: Series
-    onsets: tuple[Touch, ...]
+    onsets: tuple[Onset, ...]
     evaluations: int
     seconds: float
 
@@ -115,7 +109,7 @@ class _Run:
     def __init__(self, numbers: Numbers, rtol: float, atol: float) -> None:
         self.numbers = numbers
         self.rtol, self.atol = rtol, atol
-        self.onsets: list[Touch] = []
+        self.onsets: list[Onset] = []
         self.evaluations = 0
 
     def go(self, end: float, wanted: Series) -> Series:
@@ -142,7 +136,7 @@ class _Run:
             touching = not touching
             if touching:
                 speed = max(0.0, _pin(self.numbers, t, state)[1])
-                self.onsets.append(Touch(t, speed))
+                self.onsets.append(Onset(t, speed))
         return np.concatenate(pieces)
 
     def _smooth(

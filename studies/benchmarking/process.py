@@ -1,4 +1,4 @@
-"""What is said of a process: the machine it ran on, its memory, and what importing the package takes."""
+"""What is said of a process: wall times, the machine, memory, and what importing the package takes."""
 
 from __future__ import annotations
 
@@ -6,6 +6,8 @@ import os
 import platform
 import subprocess
 import sys
+import time
+from collections.abc import Callable
 from pathlib import Path
 
 from support_exudyn.provenance import versions
@@ -27,6 +29,13 @@ before = peak()
 simulate(replace(scene, duration=float(sys.argv[2])))
 print(before, peak())
 """
+
+
+def timed(run: Callable[[], object]) -> float:
+    """Wall time of a run [s]."""
+    began = time.perf_counter()
+    run()
+    return time.perf_counter() - began
 
 
 def machine() -> str:

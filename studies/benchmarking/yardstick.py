@@ -10,35 +10,28 @@ import math
 import shutil
 import subprocess
 import tempfile
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from support_exudyn import CubicStep, HydraulicSupport, Scenario
 from support_exudyn.machine import lumped
+from support_exudyn.onset import Onset
+from support_exudyn.plane import minus, parts_of, side
 from user_forces import Ambrosio, Frictionless, JournalContact, LankaraniNikravesh, TouchSpeed
 from user_forces.values import InputError
 
 SOURCE = Path(__file__).with_name("yardstick.c")
 PIN = "rear_base"
-Point = tuple[float, float]
 Series = npt.NDArray[np.float64]
 
 
 class YardstickError(RuntimeError):
     """The yardstick could not be compiled or run."""
-
-
-class Touch(NamedTuple):
-    """The beginning of a contact."""
-
-    time: float  # [s]
-    speed: float  # of approach [m/s]
 
 
 @dataclass(frozen=True)
@@ -59,7 +52,7 @@ class Yardstick:
     largest_at_any_step: float
     mean_acceleration: float
     spread_acceleration: float
-    onsets: tuple[Touch, ...]
+    onsets: tuple[Onset, ...]
     force: Series
     acceleration: Series
 
@@ -100,7 +93,7 @@ def run_yardstick(
     if done.returncode != 0:
         raise YardstickError(done.stderr.strip() or f"the program ended with {done.returncode}")
     found = json.loads(done.stdout)
-    found["onsets"] = tuple(Touch(*touch) for touch in found["onsets"])
+    found["onsets"] = tuple(Onset(*touch) for touch in found["onsets"])
     for name in ("force", "acceleration"):
         found[name] = np.array(found.get(name, ()), dtype=np.float64)
     return Yardstick(**found)
@@ -146,13 +139,13 @@ def _geometry(m: HydraulicSupport) -> list[float]:
         lumped(m.parts[name]).centre for name in ("canopy", "shield", "front_link", "rear_link")
     )
     # centres of the circles about which the hinge turns on the columns
-    about_front = _minus(m.front_foot, _minus(start.front_head, start.hinge))
-    about_rear = _minus(m.rear_foot, _minus(start.rear_head, start.hinge))
-    bar = _minus(m.front_shield, m.hinge)
+    about_front = minus(m.front_foot, minus(start.front_head, start.hinge))
+    about_rear = minus(m.rear_foot, minus(start.rear_head, start.hinge))
+    bar = minus(m.front_shield, m.hinge)
     return [
-        *_minus(m.front_head, m.hinge),
-        *_minus(m.rear_head, m.hinge),
-        *_minus(canopy, m.hinge),
+        *minus(m.front_head, m.hinge),
+        *minus(m.rear_head, m.hinge),
+        *minus(canopy, m.hinge),
         *m.front_foot,
         *m.rear_foot,
         *m.front_base,
@@ -161,13 +154,13 @@ def _geometry(m: HydraulicSupport) -> list[float]:
         rear,
         math.dist(m.hinge, m.front_shield),
         math.dist(m.front_base, m.front_shield),
-        _side(about_front, about_rear, start.hinge),
-        _side(start.hinge, m.front_base, start.front_shield),
-        *_parts_of(_minus(m.rear_shield, m.hinge), bar),
-        *_parts_of(_minus(shield, m.hinge), bar),
-        *_parts_of(_minus(front_link, m.front_base), _minus(m.front_shield, m.front_base)),
-        *_minus(m.rear_base, m.rear_shield),
-        *_minus(rear_link, m.rear_shield),
+        side(about_front, about_rear, start.hinge),
+        side(start.hinge, m.front_base, start.front_shield),
+        *parts_of(minus(m.rear_shield, m.hinge), bar),
+        *parts_of(minus(shield, m.hinge), bar),
+        *parts_of(minus(front_link, m.front_base), minus(m.front_shield, m.front_base)),
+        *minus(m.rear_base, m.rear_shield),
+        *minus(rear_link, m.rear_shield),
     ]
 
 
@@ -194,20 +187,3 @@ def _contact(contact: JournalContact) -> list[float]:
     else:
         raise InputError("friction: allowed here: Frictionless, Ambrosio")
     return [contact.bearing.clearance, contact.bearing.bore_radius, *normal, *tangential]
-
-
-def _minus(a: Point, b: Point) -> Point:
-    return a[0] - b[0], a[1] - b[1]
-
-
-def _side(a: Point, b: Point, c: Point) -> float:
-    """+1 if c lies to the left of the line from a to b, else -1."""
-    (dx, dy), (ex, ey) = _minus(b, a), _minus(c, a)
-    return math.copysign(1.0, dx * ey - dy * ex)
-
-
-def _parts_of(vector: Sequence[float], base: Sequence[float]) -> Point:
-    """A vector in parts of another and of that turned by 90 degrees."""
-    square = base[0] ** 2 + base[1] ** 2
-    along = (vector[0] * base[0] + vector[1] * base[1]) / square
-    return along, (vector[1] * base[0] - vector[0] * base[1]) / square

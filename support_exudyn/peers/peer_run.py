@@ -6,20 +6,14 @@ import gc
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import exudyn
 import numpy as np
 import numpy.typing as npt
 
+from support_exudyn.onset import Onset
+
 Series = npt.NDArray[np.float64]
-
-
-class Touch(NamedTuple):
-    """The beginning of a contact."""
-
-    time: float  # [s]
-    speed: float  # of approach at zero depth [m/s]
 
 
 @dataclass(frozen=True)
@@ -40,7 +34,7 @@ class PeerRun:
     angular_acceleration: Series
     x: Series
     y: Series
-    onsets: tuple[Touch, ...]
+    onsets: tuple[Onset, ...]
     largest_force: float
     wall_time: float
     solve_time: float
@@ -55,7 +49,7 @@ class PeerRun:
         return float(self.force[inside].mean()), float(self.force[inside].std())
 
 
-def touches(time: Sequence[float], depth: Sequence[float], rate: Sequence[float]) -> tuple[Touch, ...]:
+def touches(time: Sequence[float], depth: Sequence[float], rate: Sequence[float]) -> tuple[Onset, ...]:
     """Touches from time [s], depth [m] and its rate [m/s] at the ends of all steps.
 
     Between two steps the depth is the cubic that fits depth and rate at both; where it passes zero is found by
@@ -75,7 +69,7 @@ def touches(time: Sequence[float], depth: Sequence[float], rate: Sequence[float]
                 high = x
             else:
                 low = x
-        found.append(Touch(float(t[n]) + high * h, float(np.polyval(np.polyder(cubic), high)) / h))
+        found.append(Onset(float(t[n]) + high * h, float(np.polyval(np.polyder(cubic), high)) / h))
     return tuple(found)
 
 

@@ -56,7 +56,7 @@ def bodies(
     assert accelerations is not None  # with an ideal pin nothing is free, and `check` refuses it
     rod_turn, way, rod_spin, slide_speed = rows[layout.STATE_ROW : layout.STATE_ROW + 4]
     turn, speed, speeding = rows[layout.EXTENSION : layout.ACCELERATION + 1]
-    rod_turning, slide_turning = accelerations[:2]
+    rod_turning, slide_speeding = accelerations[:2]
     still = np.zeros_like(turn)
     crank, rod = machine.start_angle + turn, p[layout.ROD_ANGLE] + rod_turn
     half = 0.5 * machine.crank_length
@@ -67,5 +67,5 @@ def bodies(
     half = 0.5 * machine.rod_length
     at_rod = moved(tip, (half * np.cos(rod), half * np.sin(rod)), rod_turn, rod_spin, rod_turning)
     x = p[layout.SLIDER_X] + way
-    at_slider = Place(x, still, still, slide_speed, still, still, slide_turning, still, still)
+    at_slider = Place(x, still, still, slide_speed, still, still, slide_speeding, still, still)
     return placed(linkage, [at_crank, at_rod, at_slider], {})

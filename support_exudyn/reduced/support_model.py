@@ -10,7 +10,7 @@ from support_exudyn.compiled import on_arrays
 from support_exudyn.drives import CubicStep, Held, Steady, UniformSpeed
 from support_exudyn.linkages.hydraulic_support import BODIES, HydraulicSupport, Posture
 from support_exudyn.machine import Linkage, Part, lumped
-from support_exudyn.plane import distance, minus, side
+from support_exudyn.plane import distance, minus, parts_of, side
 from support_exudyn.reduced import layout
 from support_exudyn.reduced.bodies import Bodies, moved, placed
 from support_exudyn.reduced.drive import Drive, Matrix, Vector
@@ -57,19 +57,12 @@ def _pair(name: str, vector: Vector2) -> dict[str, float]:
     return {f"{name}_X": vector[0], f"{name}_Y": vector[1]}
 
 
-def _parts_of(vector: Vector2, base: Vector2) -> tuple[float, float]:
-    """A vector in parts of another and of that turned by 90 degrees."""
-    square = base[0] ** 2 + base[1] ** 2
-    along = (vector[0] * base[0] + vector[1] * base[1]) / square
-    return along, (vector[1] * base[0] - vector[0] * base[1]) / square
-
-
 def _geometry(m: HydraulicSupport, start: Posture) -> Mapping[str, float]:
     front, rear = m.column_lengths(start)
     # centres of the circles about which the hinge turns on the columns
     about_front = minus(m.front_foot, minus(start.front_head, start.hinge))
     about_rear = minus(m.rear_foot, minus(start.rear_head, start.hinge))
-    along, across = _parts_of(minus(m.rear_shield, m.hinge), minus(m.front_shield, m.hinge))
+    along, across = parts_of(minus(m.rear_shield, m.hinge), minus(m.front_shield, m.hinge))
     return {
         **_pair("FRONT_HEAD", minus(m.front_head, m.hinge)),
         **_pair("REAR_HEAD", minus(m.rear_head, m.hinge)),
@@ -99,8 +92,8 @@ def _masses(m: HydraulicSupport) -> Mapping[str, float]:
         ("REAR_LINK", "rear_link"),
     ):
         found |= {f"{name}_MASS": lumps[body].mass, f"{name}_INERTIA": lumps[body].inertia}
-    shield = _parts_of(minus(lumps["shield"].centre, m.hinge), minus(m.front_shield, m.hinge))
-    link = _parts_of(minus(lumps["front_link"].centre, m.front_base), minus(m.front_shield, m.front_base))
+    shield = parts_of(minus(lumps["shield"].centre, m.hinge), minus(m.front_shield, m.hinge))
+    link = parts_of(minus(lumps["front_link"].centre, m.front_base), minus(m.front_shield, m.front_base))
     return {
         **found,
         **_pair("CANOPY", minus(lumps["canopy"].centre, m.hinge)),

@@ -6,7 +6,7 @@ import numpy as np
 
 from support_exudyn.body_motion import BodyMotion
 from support_exudyn.compiled import on_arrays
-from support_exudyn.contact_series import RelativeMotion, ends, series
+from support_exudyn.contact_series import RelativeMotion, acting, journal_arm, series
 from support_exudyn.joint_forces import JointForces, PinForce, open_joint_forces
 from support_exudyn.onset import PinMemory
 from support_exudyn.pins import ClearancePin
@@ -36,7 +36,7 @@ def trajectory(scenario: Scenario, model: Model, p: list[float], rows: Matrix) -
     bodies = model.bodies(scenario.machine, linkage, p, rows, free)
     motion = BodyMotion(linkage, bodies.position, bodies.velocity, bodies.acceleration)
     if pin is not None and contact is not None:
-        known = _loose(motion, model.PIN, pin, contact)
+        known = acting(motion, linkage.pins[model.PIN], pin, contact)
     else:
         assert bodies.pin_force is not None
         known = PinForce(np.column_stack(bodies.pin_force), _place(motion, model.PIN))
@@ -70,7 +70,7 @@ def _contact(p: list[float], pin: ClearancePin, rows: Matrix) -> tuple[ContactSe
     contact = np.zeros((layout.CONTACT, count))
     contact[layout.FORCE_X], contact[layout.FORCE_Y] = found.force_x, found.force_y
     contact[layout.FRICTION] = found.friction_force
-    contact[layout.JOURNAL_ARM] = pin.contact.bearing.journal_radius - 0.5 * found.depth
+    contact[layout.JOURNAL_ARM] = journal_arm(pin, found.depth)
     contact[layout.OFFSET_X], contact[layout.OFFSET_Y] = moving.x, moving.y
     first, second = _accelerations(at, law, contact)
     return found, np.array([first, second, found.force_x, found.force_y])
@@ -105,14 +105,3 @@ def _place(motion: BodyMotion, name: str) -> Vector:
     """Where an ideal pin is."""
     place = motion.linkage.pins[name]
     return motion.point(place.second, place.second_point).position
-
-
-def _loose(motion: BodyMotion, name: str, pin: ClearancePin, contact: ContactSeries) -> PinForce:
-    """Force of the first body on the second, and where it acts."""
-    _, journal = ends(motion, motion.linkage.pins[name], pin)
-    force = np.column_stack([contact.force_x, contact.force_y])
-    offset = np.column_stack([contact.eccentricity_x, contact.eccentricity_y])
-    away = np.maximum(np.linalg.norm(offset, axis=1), 1e-300)  # there is no force in the middle
-    arm = (pin.contact.bearing.journal_radius - 0.5 * contact.depth) / away
-    where = journal.position + arm[:, None] * offset
-    return PinForce(force if pin.bore == "first" else -force, where)

@@ -1,10 +1,12 @@
 """Who carries whom: bodies that hang on the ground by ideal pins.
 
-ground
-/      \
-    link 0   link 3       coordinate of a link: its turn against the one that carries it [rad], 0 at the start
-|
-link 1
+          ground
+         /      \
+    link 0      link 2
+      |
+    link 1
+
+Coordinate of a link: its turn against the one that carries it [rad], 0 at the start.
 """
 
 from __future__ import annotations

@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 
-from support_exudyn.body_motion import BodyMotion, PointMotion
-from support_exudyn.contact_series import contact_series, ends
+from support_exudyn.body_motion import BodyMotion
+from support_exudyn.contact_series import acting, contact_series, ends
 from support_exudyn.machine import PinPlace
-from support_exudyn.oil import FilledColumn
+from support_exudyn.oil import FilledColumn, OilSeries
 from support_exudyn.pins import ClearancePin
 from support_exudyn.trajectory import ContactSeries
 from support_exudyn.tree.branches import Matrix
@@ -21,15 +20,6 @@ from support_exudyn.tree.dynamics import PointForce, Posture, accelerations
 from user_forces.arrays import as_number, values_of
 from user_forces.contact import SHALLOWEST
 from user_forces.values import Vector2
-
-
-class ColumnSeries(NamedTuple):
-    """A column of oil at m instants, shape (m,) each: force that pushes [N], energy [J], powers [W]."""
-
-    force: Matrix
-    energy: Matrix
-    drive: Matrix
-    loss: Matrix
 
 
 @dataclass(frozen=True)
@@ -76,7 +66,7 @@ class Observation:
         }
 
     @cached_property
-    def columns(self) -> dict[str, ColumnSeries]:
+    def columns(self) -> dict[str, OilSeries]:
         """Columns by name."""
         return {name: self._column(filled) for name, filled in self.filled.items()}
 
@@ -85,16 +75,9 @@ class Observation:
         """Forces of loose pins, of the first body on the second, where they act."""
         found = {}
         for name, pin in self.loose.items():
-            place, contact = self._place(name), self.contacts[name]
-            journal = ends(self.motion, place, pin)[1].position
-            offset = np.column_stack([contact.eccentricity_x, contact.eccentricity_y])
-            away = np.maximum(np.linalg.norm(offset, axis=1), SHALLOWEST)
-            # the contact point, see `JournalBearing.contact_arms`
-            arm = pin.contact.bearing.journal_radius - 0.5 * contact.depth
-            force = np.column_stack([contact.force_x, contact.force_y])
-            if pin.bore == "second":
-                force = -force
-            found[name] = PointForce(place.first, place.second, force, journal + (arm / away)[:, None] * offset)
+            place = self._place(name)
+            push = acting(self.motion, place, pin, self.contacts[name])
+            found[name] = PointForce(place.first, place.second, push.force, push.point)
         return found
 
     def accelerations(self) -> Matrix:
@@ -105,7 +88,7 @@ class Observation:
         """Of the drive, of damping and of friction [W], shape (3, m)."""
         total = np.zeros((3, len(self.at.time)))
         for column in self.columns.values():
-            total[0] += column.drive
+            total[0] += column.work
             total[1] += column.loss
         for name, contact in self.contacts.items():
             bore, journal = ends(self.motion, self._place(name), self.loose[name])
@@ -122,36 +105,14 @@ class Observation:
     def _place(self, name: str) -> PinPlace:
         return self.motion.linkage.pins[name]
 
-    def _column(self, filled: FilledColumn) -> ColumnSeries:
-        foot, head = self._column_ends(filled)
-        apart = head.position - foot.position
-        length = np.hypot(*apart.T)
-        rate = np.einsum("mx,mx->m", apart, head.velocity - foot.velocity) / length
-        let_in, let_in_speed = extension(self.at.cubic, self.at.time), speed(self.at.cubic, self.at.time)
-        model = filled.model
-        stiffness = model.bulk_modulus * model.bore_area / (model.oil_length + let_in)
-        compression = filled.natural_length(0.0) + let_in - length
-        closing = let_in_speed - rate
-        force = stiffness * (compression + model.damping_time * closing)
-        slope = -stiffness / (model.oil_length + let_in)
-        return ColumnSeries(
-            force,
-            0.5 * stiffness * compression**2,
-            force * let_in_speed + 0.5 * slope * let_in_speed * compression**2,  # as `FilledColumn.powers`
-            stiffness * model.damping_time * closing**2,
-        )
-
-    def _column_ends(self, filled: FilledColumn) -> tuple[PointMotion, PointMotion]:
-        column = filled.column
-        return (
-            self.motion.point(column.foot, column.foot_point),
-            self.motion.point(column.head, column.head_point),
-        )
+    def _column(self, filled: FilledColumn) -> OilSeries:
+        let_in = extension(self.at.cubic, self.at.time), speed(self.at.cubic, self.at.time)
+        return filled.series(self.motion, *let_in)
 
     def _column_forces(self) -> list[PointForce]:
         found = []
         for name, filled in self.filled.items():
-            foot, head = (end.position for end in self._column_ends(filled))
+            foot, head = (end.position for end in filled.ends(self.motion))
             along = (head - foot) / np.linalg.norm(head - foot, axis=1)[:, None]
             force = self.columns[name].force[:, None] * along
             found.append(PointForce(filled.column.foot, filled.column.head, force, head))

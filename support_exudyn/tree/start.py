@@ -8,10 +8,9 @@ import numpy as np
 from scipy.optimize import root
 
 from support_exudyn.errors import Failure, SimulationError
-from support_exudyn.kinetics import Kinetics
+from support_exudyn.kinetics import kinetics_of
 from support_exudyn.onset import Mobility, PinMemory
 from support_exudyn.scenario import Scenario
-from support_exudyn.scene_items import BodyItem
 from support_exudyn.settle import CENTRING
 from support_exudyn.tree.branches import Matrix, Tree
 from support_exudyn.tree.dynamics import Posture, mass_moment
@@ -52,8 +51,7 @@ def _body_velocities(tree: Tree, scenario: Scenario) -> Matrix:
     velocity = np.concatenate([[*body.velocity, body.spin] for body in linkage.bodies.values()])
     if scenario.drive.initial_speed == 0.0:
         return velocity
-    items = {name: BodyItem(body, None, None, 3 * n) for n, (name, body) in enumerate(linkage.bodies.items())}
-    closed = Kinetics(linkage, items, tuple(linkage.pins), tuple(linkage.columns))
+    closed = kinetics_of(linkage)
     position = np.zeros_like(velocity)
     rows = closed.rows(position)
     wanted = np.zeros(len(rows))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import time
+from collections.abc import Callable, Iterator
 
 import pytest
 
@@ -20,17 +20,21 @@ def test_a_ratio_says_who_is_faster(ours: float, other: float, ratio: str) -> No
     assert ratio in sheet([line]).markdown()
 
 
-def test_ways_are_timed_in_turns_and_the_fastest_counts() -> None:
+def test_ways_are_timed_in_turns_and_the_fastest_counts(monkeypatch: pytest.MonkeyPatch) -> None:
     order: list[str] = []
-    waits = iter([0.03, 0.0, 0.0])
+    clock = [0.0]
+    monkeypatch.setattr(process.time, "perf_counter", lambda: clock[0])
 
-    def one() -> None:
-        order.append("one")
-        time.sleep(next(waits))
+    def job(name: str, seconds: Iterator[float]) -> Callable[[], None]:
+        def run() -> None:
+            order.append(name)
+            clock[0] += next(seconds)
 
-    found = in_turns(one, lambda: order.append("other"), turns=3)
+        return run
+
+    found = in_turns(job("one", iter([8.0, 2.0, 4.0])), job("other", iter([1.0, 1.0, 0.5])), turns=3)
     assert order == ["one", "other"] * 3
-    assert max(found) < 0.03  # the first turn of `one` took that long
+    assert found == [2.0, 0.5]
 
 
 def test_the_cheapest_way_meets_the_goal() -> None:

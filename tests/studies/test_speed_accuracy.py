@@ -190,6 +190,12 @@ def test_the_summary_says_how_good_estimates_are(written: Path) -> None:
     assert 1.0 < said["estimate_overstatement_median"] <= 10.0  # asked for
 
 
+def test_every_number_has_an_error(written: Path) -> None:
+    # but for a share of all, which has none
+    numbers = json.loads((written / "summary.json").read_text(encoding="utf-8"))["numbers"]
+    assert all(number["numerical_error"] > 0.0 for number in numbers if number["value"] < 1.0)
+
+
 # --- the check of estimates ---
 
 
@@ -201,7 +207,7 @@ def test_an_estimate_that_is_too_small_is_seen() -> None:
     planted = replace(honest, estimated=1e-3 * honest.estimated)
     assert honest.covered >= 0.95
     assert planted.covered < 0.5
-    assert estimates.overstatement([planted]) < 1.0
+    assert estimates.overstatement([planted]).value < 1.0
 
 
 def test_a_wrong_run_is_seen() -> None:

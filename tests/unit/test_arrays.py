@@ -119,15 +119,10 @@ def test_friction_laws(law: FrictionLaw, rows: list[tuple[float, ...]]) -> None:
     assert_same(law(slip, normal, stretch), expected, max(n for *_, n in rows))
 
 
-# how far the journal is beyond its clearance: depths are differences of numbers 1e-3, right to 2e-19 m, and
-# from 1e-9 m on to 1e-9 of themselves; below, a damped force that jumps at the touch is rounding's
-beyond_touch = st.floats(-2e-5, -1e-9) | st.floats(1e-9, 1.5e-4)
-
-
 @pytest.mark.parametrize("friction", FRICTION_LAWS, ids=kind_of)
 @given(
     rows=st.lists(
-        st.tuples(st.floats(0.0, 7.0), beyond_touch, speeds, speeds, speeds, speeds, touches),
+        st.tuples(st.floats(0.0, 7.0), st.floats(-2e-5, 1.5e-4), speeds, speeds, speeds, speeds, touches),
         min_size=1,
         max_size=8,
     )
@@ -144,25 +139,23 @@ def test_a_whole_contact(friction: FrictionLaw, rows: list[tuple[float, ...]]) -
         Touch(as_number(speed), as_number(np.full(len(rows), 700.0))),
         SlipHistory(as_number(np.full(len(rows), 1e-6)), as_number(np.full(len(rows), 1e-3)), 0.0),
     )
+    # places are known to their last digit, and a damped force that jumps at the touch hangs on it
     expected = [
-        contact.force(*motion, Touch(v, 700.0), still) for motion, v in zip(given_motion.T, speed, strict=True)
+        [
+            contact.force(near * x, near * y, *others, Touch(v, 700.0), still)
+            for near in (1.0 - 2.0**-51, 1.0, 1.0 + 2.0**-51)
+        ]
+        for (x, y, *others), v in zip(given_motion.T.tolist(), speed.tolist(), strict=True)
     ]
-    for name in (
-        "depth",
-        "rate",
-        "slip",
-        "normal_force",
-        "friction_force",
-        "force_x",
-        "force_y",
-        "journal_arm",
-    ):
-        want = [getattr(force, name) for force in expected]
+    names = ["depth", "rate", "slip", "normal_force", "friction_force", "force_x", "force_y", "journal_arm"]
+    for name in names:
+        want = np.array([[getattr(force, name) for force in near] for near in expected])
         # depths are differences of numbers 1e-3, so that forces are right to 1e-16/1e-5 and less of 1e5 N
-        scale = max([1.0, *(force.normal_force for force in expected)]) if "force" in name else 1.0
-        np.testing.assert_allclose(
-            values_of(getattr(result, name), len(rows)), want, rtol=1e-9, atol=1e-10 * scale, err_msg=name
-        )
+        scale = max([1.0, *(near[1].normal_force for near in expected)]) if "force" in name else 1.0
+        off = 1e-9 * np.abs(want[:, 1]) + 1e-10 * scale
+        got = values_of(getattr(result, name), len(rows))
+        assert (got >= want.min(axis=1) - off).all(), name
+        assert (got <= want.max(axis=1) + off).all(), name
 
 
 def test_beyond_its_range_a_law_is_a_number_on_arrays() -> None:
