@@ -62,6 +62,9 @@ SCENES = {
 ON_OIL = {
     "drop on oil": loose_support(1.0, 0.25, drive=Held(), duration=0.05, columns=BOTH),
     "rise on oil": loose_support(1.0, 0.0, drive=RISE, duration=0.06, columns=BOTH),
+    "rise on oil, damped by depth": support(
+        drive=RISE, duration=0.12, columns=BOTH, pins=pressed_apart(1.0, 0.0, "first")
+    ),
 }
 WAYS = {  # with settings that are ten times as fine as what is asserted needs
     "redundant": {"formulation": "redundant", "solver": SolverSettings(impact_steps=512)},

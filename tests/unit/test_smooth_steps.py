@@ -57,6 +57,18 @@ def test_restart_begins_with_the_shortest() -> None:
     followed(smooth, 0.0, 40)
     smooth.restart()
     assert smooth.size == 1.0
+    # and as from the start: nothing to compare the first step with, and four calm ones before they double
+    assert followed(smooth, 0.0, CALM_STEPS + 1) == [1.0] * CALM_STEPS + [2.0]
+
+
+def test_restart_forgets_the_acceleration_before() -> None:
+    smooth = steps()
+    followed(smooth, 0.0, CALM_STEPS)
+    smooth.restart()
+    smooth.follow(1.0, np.array([1e6, 0.0, 0.0]))  # another one, and yet no change over a step
+    for _ in range(CALM_STEPS):
+        smooth.follow(1.0, np.array([1e6, 0.0, 0.0]))
+    assert smooth.size == 2.0
 
 
 # --- states inside a step ---

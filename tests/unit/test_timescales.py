@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -18,6 +19,7 @@ from support_exudyn import (
     Steady,
     UniformSpeed,
 )
+from support_exudyn.kinetics import kinetics_of
 from support_exudyn.timescales import SLOWEST_FALL, timescales
 from tests.reference.cases import (
     CRANK_SPEED,
@@ -100,6 +102,16 @@ def test_where_nothing_pulls_a_flight_takes_long_but_has_an_end() -> None:
     assert found.drive == math.inf
 
 
+# --- weight ---
+
+
+def test_the_weight_is_that_of_all_bodies() -> None:
+    linkage = support().machine.linkage()
+    weight = kinetics_of(linkage).weight((3.0, -4.0)).reshape(-1, 3)
+    masses = [body.mass for body in linkage.bodies.values()]
+    np.testing.assert_allclose(weight, [[3.0 * m, -4.0 * m, 0.0] for m in masses], rtol=1e-15)
+
+
 # --- resting ---
 
 
@@ -109,6 +121,19 @@ def test_a_contact_rests_on_its_stiffness(mass: float, stiffness: float) -> None
     found = timescales(stand(spring(stiffness), (0.0, -9.81), mass)).resting
     # the slope is of a secant over a hundredth of the depth, of a line
     assert found == pytest.approx(math.sqrt(2.0 / 3.0 * mass / stiffness), rel=1e-6)
+
+
+def test_without_weight_the_lightest_direction_decides() -> None:
+    scene = loose_slider_crank(1e-3)  # crank and rod along x
+    bearing = scene.clearance_pins[SLIDER].contact.bearing
+    contact = JournalContact(bearing=bearing, normal=spring(1e8))
+    found = timescales(replace(scene, pins={SLIDER: ClearancePin(contact=contact)})).resting
+    m = scene.machine
+    # along the rod the slider alone moves, across it the rod's end about the crank's
+    end = m.rod_mass / 4.0 + m.rod_inertia / m.rod_length**2
+    assert end < m.slider_mass
+    # the slope is of a secant over a hundredth of the depth, of a line
+    assert found == pytest.approx(math.sqrt(end / 1e8), rel=1e-6)
 
 
 def test_of_a_law_that_stiffens_the_slope_at_rest_counts() -> None:

@@ -1,0 +1,73 @@
+"""When a run to an accuracy goes on, stops and gives up; runs whose errors are told stand in for real ones."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import count
+from typing import Any
+
+import pytest
+
+from support_exudyn import Held, Scenario, to_accuracy
+from support_exudyn.progress import silent
+from tests.reference.cases import loose_support
+
+GOAL = 1e-3
+
+
+@dataclass(frozen=True)
+class Told:
+    """A result whose number and error are given."""
+
+    number: int
+    worst_error: float
+    scenario: Scenario
+    wall_time: float = 1.0
+    goal: float | None = None
+    coarser: Any = None
+
+
+def run(monkeypatch: pytest.MonkeyPatch, errors: Sequence[float]) -> tuple[Told, int]:
+    """The result that is chosen, and how many runs were made, if the third, fourth ... have these errors."""
+    numbers = count()
+    known = [float("inf"), float("inf"), *errors, *[errors[-1]] * 10]
+    made = []
+
+    def once(scenario: Scenario, progress: object) -> Told:
+        number = next(numbers)
+        made.append(number)
+        return Told(number, known[number], scenario)
+
+    monkeypatch.setattr(to_accuracy, "run_once", once)
+    scenario = loose_support(drive=Held(), duration=0.05, accuracy=GOAL, formulation="reduced")
+    found: Any = to_accuracy.run_to_accuracy(scenario, silent)
+    assert found.wall_time == len(made)
+    return found, len(made)
+
+
+@pytest.mark.parametrize(
+    ("errors", "chosen", "runs"),
+    [
+        ([0.9 * GOAL], 2, 3),  # met at once
+        ([8e-3, 4e-3, 0.5 * GOAL], 4, 5),  # met later
+        ([8e-3, 7e-3, 6e-3, GOAL], 4, 5),  # twice in a row hardly smaller: given up
+        ([8e-3, 7e-3, 4e-3, 3.9e-3, GOAL], 6, 7),  # hardly smaller twice, but not in a row
+        ([4e-3, 5e-3, 6e-3], 2, 5),  # rounding makes it worse: the best is kept
+        ([8e-3, 5e-3, 9e-3, 9e-3], 3, 6),
+    ],
+)
+def test_it_goes_on_while_it_helps_and_keeps_the_best(
+    monkeypatch: pytest.MonkeyPatch, errors: list[float], chosen: int, runs: int
+) -> None:
+    found, made = run(monkeypatch, errors)
+    assert (found.number, made) == (chosen, runs)
+    # the two before it are kept, and no more
+    assert (found.coarser.number, found.coarser.coarser.number) == (chosen - 1, chosen - 2)
+    assert found.coarser.coarser.coarser is None
+
+
+def test_there_is_a_most_number_of_runs(monkeypatch: pytest.MonkeyPatch) -> None:
+    found, made = run(monkeypatch, [0.1 * 0.69**n for n in range(20)])
+    assert made == to_accuracy.MOST_RUNS
+    assert found.number == made - 1
