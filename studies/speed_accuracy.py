@@ -37,7 +37,7 @@ from studies.study import (
     write_summary,
 )
 from support_exudyn import SimulationError
-from support_exudyn.reduced import warm_up
+from support_exudyn.warm import warm_up
 from user_forces import InputError
 
 STUDY = "speed_accuracy"
@@ -284,9 +284,9 @@ def study(chosen: Options) -> None:
     with style.look():
         drawings = {
             speed_accuracy_figures.stem(name): speed_accuracy_figures.figure(
-                [row for row in found if row.scene == name]
+                scene.label, [row for row in found if row.scene == name]
             )
-            for name in SCENES
+            for name, scene in SCENES.items()
         }
     save_figures(chosen, drawings)
     show_table(chosen.out / "accuracies.txt", accuracy_table(checked), width=130)
@@ -299,7 +299,7 @@ def study(chosen: Options) -> None:
 def main(argv: Sequence[str] | None = None) -> int:
     """Entry of `python -m studies.speed_accuracy`."""
     description = (__doc__ or "").splitlines()[0]
-    return run_main(study, options(STUDY, argv, description))
+    return run_main(study, options(STUDY, argv, description, taken=("quick",)))
 
 
 if __name__ == "__main__":

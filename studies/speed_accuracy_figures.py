@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import LogLocator, NullLocator
+from matplotlib.ticker import LogFormatter, LogLocator, NullFormatter, NullLocator
 
 from studies import style
 from studies.benchmarking.front import Row, front
@@ -46,7 +47,7 @@ def stem(scene: str) -> str:
     return f"work_{scene.replace(', ', '_').replace('-', '_').replace(' ', '_')}"
 
 
-def figure(rows: Sequence[Row]) -> Figure:
+def figure(title: str, rows: Sequence[Row]) -> Figure:
     """Errors of all ways of a scene over their costs; a cost that none has is left out."""
     good = [row for row in rows if not row.failure]
     costs = {cost: spent for cost, spent in COSTS.items() if any(spent(row) > 0.0 for row in good)}
@@ -56,11 +57,12 @@ def figure(rows: Sequence[Row]) -> Figure:
         for n, (ax, (name, error)) in enumerate(zip(line, PANELS.items(), strict=True)):
             _panel(ax, good, spent, error)
             if cost == next(iter(costs)):
-                ax.set_title(f"{'abcdef'[n]}  {name}")
-            ax.set_xlabel(cost if n == 0 else "")
-        line[0].set_ylabel("error")
+                ax.set_title(f"{'abcdef'[n]}) {name}")
+        line[len(PANELS) // 2].set_xlabel(cost, x=0.0)  # in the middle of the row
+        line[0].set_ylabel("relative error, path: in m", fontsize=8)
     handles, labels = axes[0][0].get_legend_handles_labels()
-    drawing.legend(handles, labels, loc="outside lower center", ncols=6, fontsize=8)
+    drawing.suptitle(title)
+    drawing.legend(handles, labels, loc="outside lower center", ncols=7, fontsize=8)
     return drawing
 
 
@@ -86,9 +88,25 @@ def _panel(ax: Axes, rows: Sequence[Row], spent: Callable[[Row], float], error: 
             markerfacecolor="none",
             color="#AA0000",
             markeredgewidth=0.7,
+            clip_on=False,
+            label="the front",
         )
     ax.set_xscale("log")
     ax.set_yscale("log")
-    for axis in (ax.xaxis, ax.yaxis):
-        axis.set_major_locator(LogLocator(numticks=6))
-        axis.set_minor_locator(NullLocator())
+    ax.margins(x=0.1)
+    ax.yaxis.set_major_locator(LogLocator(numticks=6))
+    ax.yaxis.set_minor_locator(NullLocator())
+    _label_costs(ax, [spent(row) for row in rows if spent(row) > 0.0])
+
+
+def _label_costs(ax: Axes, costs: Sequence[float]) -> None:
+    """Ticks at powers of ten, as many as there is room for; at parts of them too if there is but one."""
+    decades = math.log10(max(costs) / min(costs)) if costs else 1.0
+    if decades < 2.0:
+        ax.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if decades < 1.0 else (1.0, 3.0)))
+        ax.xaxis.set_major_formatter(LogFormatter(minor_thresholds=(math.inf, math.inf)))
+    else:
+        ax.xaxis.set_major_locator(LogLocator(numticks=4))
+    ax.xaxis.set_minor_locator(NullLocator())
+    ax.xaxis.set_minor_formatter(NullFormatter())
+    ax.tick_params(axis="x", labelsize=7.5)

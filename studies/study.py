@@ -7,6 +7,7 @@ import json
 import math
 import os
 import sys
+import tempfile
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
@@ -42,24 +43,38 @@ class Options:
     machines: int | None = None
 
 
-def options(study: str, argv: Sequence[str] | None, description: str) -> Options:
-    """Options of a study from the command line."""
+ALL_OPTIONS = ("quick", "workers", "machines")
+
+
+def options(
+    study: str, argv: Sequence[str] | None, description: str, taken: Sequence[str] = ALL_OPTIONS
+) -> Options:
+    """Options of a study from the command line; taken: which it has a use for, besides the folder."""
     parser = argparse.ArgumentParser(prog=f"python -m studies.{study}", description=description)
-    add_options(parser, Path("results") / study)
+    add_options(parser, Path("results") / study, taken)
     given = parser.parse_args(argv)
     return Options(given.out, given.quick, given.workers, given.machines)
 
 
-def add_options(parser: argparse.ArgumentParser, out: Path) -> None:
-    """The options that every study takes."""
+def add_options(parser: argparse.ArgumentParser, out: Path, taken: Sequence[str] = ALL_OPTIONS) -> None:
+    """Options of a study; those that it has no use for keep their defaults."""
+    parser.set_defaults(quick=False, workers=1, machines=None)
     parser.add_argument("--out", type=Path, default=out, metavar="DIR", help=f"folder for output ({out})")
-    parser.add_argument("--quick", action="store_true", help="coarser steps: a look in seconds, larger errors")
-    parser.add_argument(
-        "--workers", type=count, default=os.cpu_count() or 1, metavar="N", help="processes (all cores)"
-    )
-    parser.add_argument(
-        "--machines", type=count, metavar="N", help="plausible machines to judge claims by (256; 8 if quick)"
-    )
+    if "quick" in taken:
+        parser.add_argument(
+            "--quick", action="store_true", help="coarser steps: a look in seconds, larger errors"
+        )
+    if "workers" in taken:
+        parser.add_argument(
+            "--workers", type=count, default=os.cpu_count() or 1, metavar="N", help="processes (all cores)"
+        )
+    if "machines" in taken:
+        parser.add_argument(
+            "--machines",
+            type=count,
+            metavar="N",
+            help="plausible machines to judge claims by (256; 8 if quick)",
+        )
 
 
 def count(text: str) -> int:
@@ -202,12 +217,24 @@ def brief(value: float, error: float) -> str:
     return f"{value:.{digits}f} ± {error:.{digits}f}" if digits < left else rounded(value, error)
 
 
+def _make_ready(out: Path) -> None:
+    """Make the output folder: better to fail now than after the work."""
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+        remove_leftovers(out)  # of a run that was killed
+        with tempfile.TemporaryFile(dir=out):
+            pass
+    except OSError as error:
+        raise OSError(
+            f"--out {out}: {error.strerror}; allowed: a folder that can be made and written to"
+        ) from None
+
+
 def run_main(main: Callable[[Options], None], chosen: Options) -> int:
     """Run a study; what the user can mend is said in a sentence. Returns the exit code."""
     try:
         started = time.perf_counter()
-        chosen.out.mkdir(parents=True, exist_ok=True)  # better to fail now than after the work
-        remove_leftovers(chosen.out)  # of a run that was killed
+        _make_ready(chosen.out)
         main(chosen)
         print(f"{chosen.out}: done in {time.perf_counter() - started:.1f} s", file=sys.stderr)
     except (SimulationError, OSError) as error:

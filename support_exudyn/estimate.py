@@ -142,7 +142,9 @@ def error(measure: Measure, result: Result, r: float, size: float = 0.0) -> floa
     distance = abs(value - other)
     if result.coarser.coarser is not None:
         distance = float(np.maximum(distance, r * abs(other - measure(result.coarser.coarser))))  # keeps nan
-    found = SAFETY[result.scenario.formulation] * distance * r / (1.0 - r) + ROUNDING * max(abs(value), size)
+    found = SAFETY[result.scenario.formulation] * float(distance) * r / (1.0 - r) + ROUNDING * max(
+        abs(value), size
+    )
     return found if math.isfinite(found) else math.inf
 
 

@@ -18,8 +18,13 @@ def whole_file(path: str | Path) -> Iterator[Path]:
     killed a temporary file stays, see `remove_leftovers`.
     """
     path = Path(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(prefix=f".{path.stem}-{os.getpid()}-", suffix=path.suffix, dir=path.parent)
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        handle, name = tempfile.mkstemp(
+            prefix=f".{path.stem}-{os.getpid()}-", suffix=path.suffix, dir=path.parent
+        )
+    except OSError as error:  # of a name that nobody has given
+        raise type(error)(error.errno, f"{error.strerror}; it cannot be written here", str(path)) from None
     os.close(handle)
     temporary = Path(name)
     try:

@@ -5,17 +5,26 @@ from __future__ import annotations
 import platform
 from datetime import datetime, timezone
 from functools import cache
-from importlib.metadata import version
+from importlib.metadata import PackageNotFoundError, version
 
 PACKAGES = ("support-exudyn", "exudyn", "numpy", "scipy", "matplotlib", "meshio", "h5py", "pydantic")
+OPTIONAL = ("numba",)
 
 
-_version = cache(version)  # asking the packages' metadata takes longer than a short run
+@cache  # asking the packages' metadata takes longer than a short run
+def installed(name: str) -> str | None:
+    """Version of a package; None if it is not installed."""
+    try:
+        return version(name)
+    except PackageNotFoundError:
+        return None
 
 
 def versions() -> dict[str, str]:
-    """Versions of Python and of the packages that make the numbers."""
-    return {"python": platform.python_version()} | {name: _version(name) for name in PACKAGES}
+    """Versions of Python and of the packages that make the numbers; of optional ones if they are installed."""
+    found = {name: installed(name) or "not installed" for name in PACKAGES}
+    found |= {name: known for name in OPTIONAL if (known := installed(name))}
+    return {"python": platform.python_version()} | found
 
 
 def provenance() -> dict[str, str]:

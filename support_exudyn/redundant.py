@@ -24,14 +24,14 @@ def check(scenario: Scenario) -> None:
     """Raise InputError if the settings do not fit the scenario."""
     if scenario.solver.backend == "compiled":
         raise InputError(
-            "solver.backend = 'compiled': only formulation = 'reduced' has it; "
-            "allowed: 'auto', 'python', 'symbolic'"
+            "solver.backend = 'compiled': only formulation = 'reduced' has it; allowed: 'auto', 'python', "
+            "'symbolic', or 'compiled' with formulation = 'reduced'"
         )
     moves = scenario.drive.span(scenario.duration) != (0.0, 0.0)
     rigid = [name for name in scenario.linkage.columns if name not in scenario.oil_columns]
     if scenario.solver.constraint_index == 2 and scenario.solver.integrator != "trapezoidal":
         raise InputError(
-            "solver.constraint_index = 2: the engine's generalised alpha has none of it; allowed: 3, or 2 with "
+            "solver.constraint_index = 2: the engine's generalised alpha takes 3 only; allowed: 3, or 2 with "
             "integrator = 'trapezoidal'"
         )
     if scenario.solver.constraint_index == 2 and moves and rigid:

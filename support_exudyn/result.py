@@ -6,6 +6,7 @@ import json
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
+from difflib import get_close_matches
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -51,6 +52,11 @@ class Result:
     goal: float | None = None
     coarser: Result | None = None
 
+    def __repr__(self) -> str:
+        """In a line; all else is asked for by name."""
+        said = f"{len(self.channels)} channels, {self.time.size} records from 0 to {self.time[-1]:g} s"
+        return f"<Result of {type(self.scenario.machine).__name__}, {self.scenario.formulation}: {said}>"
+
     def __getitem__(self, name: str) -> np.ndarray:
         """Values of a channel, shape (n,), in SI."""
         return self._channel(name).values
@@ -61,7 +67,11 @@ class Result:
 
     def _channel(self, name: str) -> Channel:
         if name not in self.channels:
-            raise KeyError(f"{name!r}: no such channel; there are {', '.join(self.channels)}")
+            near = get_close_matches(name, self.channels, 3, 0.4) or list(self.channels)[:3]
+            raise KeyError(
+                f"{name!r}: no such channel; there are {len(self.channels)}, see `channels`, among them "
+                f"{', '.join(near)}"
+            )
         return self.channels[name]
 
     @property
@@ -91,14 +101,16 @@ class Result:
         Raises InputError if the run was not made to an accuracy.
         """
         self._check()
-        return Estimate(measure(self), error(measure, self, self.fall), unit)
+        return Estimate(float(measure(self)), float(error(measure, self, self.fall)), unit)
 
     def numbers(self, after: float = 0.0, until: float = math.inf) -> dict[str, Estimate]:
         """The usual numbers with their estimated errors, by names such as `pin.rear_base.force.mean`.
 
         Of the records between two times [s]: mean, spread (standard deviation) and largest value of all forces,
         spread of angular accelerations, mean place of traced points; and of loose pins the largest force at any
-        step and the first three touches.
+        step (`pin.NAME.largest_force`, not only of the records) and the first three touches.
+
+        Errors are those of the steps: that a mean over few records is not the mean over time is not among them.
         """
         self._check()
         return {

@@ -13,7 +13,7 @@ from support_exudyn.columns import ColumnModel, OilColumn
 from support_exudyn.drives import Drive, Held
 from support_exudyn.machine import Linkage, Machine
 from support_exudyn.pins import ClearancePin, Pin
-from user_forces.values import Fraction, Positive, Real, Value, Vector2, value
+from user_forces.values import Fraction, InputError, Positive, Real, Value, Vector2, value
 
 ACCURACIES = {"draft": 1e-2, "standard": 1e-3, "reference": 1e-5}
 Accuracy = Literal["draft", "standard", "reference"] | Real
@@ -68,7 +68,7 @@ class SolverSettings(Value):
     newton_tolerance: Annotated[Real, Field(gt=0, le=1e-3)] = 1e-8
     newton: Literal["modified", "full"] = "modified"
     impact_steps: Annotated[int, Field(ge=16, le=MOST_IMPACT_STEPS)] = 512
-    locate: bool = True
+    locate: Annotated[bool, Field(strict=True)] = True
     growth: Annotated[Real, Field(ge=1, le=64)] = 1.0
     tolerance: Annotated[Real, Field(ge=1e-13, le=1e-2)] = 1e-7
     backend: Literal["auto", "python", "symbolic", "compiled"] = "auto"
@@ -136,7 +136,7 @@ class Scenario(Value):
         if asked is None or (isinstance(asked, str) and asked in ACCURACIES) or number:
             return asked
         raise ValueError(
-            f"allowed: {', '.join(map(repr, ACCURACIES))}, None, or a number from {SMALLEST_GOAL} to "
+            f"allowed: {', '.join(map(repr, ACCURACIES))}, None, or a relative error from {SMALLEST_GOAL} to "
             f"{LARGEST_GOAL}"
         )
 
@@ -184,7 +184,11 @@ class Scenario(Value):
         The difference between both runs is the numerical error that studies report. Where the formulation
         chooses its steps by a tolerance, that becomes factor^3 times smaller; where the scenario asks for an
         accuracy in place of settings, that becomes factor^2 times smaller.
+
+        factor: > 0. Raises InputError if it is not, or if a setting leaves its range.
         """
+        if not 0.0 < factor < math.inf:
+            raise InputError(f"factor = {factor}: allowed: > 0")
         if self.goal is not None:
             return replace(self, accuracy=max(SMALLEST_GOAL, self.goal / factor**2))
         if self.formulation in ERROR_CONTROLLED:

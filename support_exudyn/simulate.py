@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import reprlib
 from dataclasses import replace
 from typing import Literal, overload
 
@@ -11,6 +12,7 @@ from support_exudyn.result import Result
 from support_exudyn.run_once import run_once
 from support_exudyn.scenario import Accuracy, Scenario
 from support_exudyn.to_accuracy import run_to_accuracy
+from user_forces.values import InputError
 
 
 @overload
@@ -47,6 +49,8 @@ def simulate(
     Returns:
         Result with all channels, onsets, counts, energy and provenance.
     """
+    if not isinstance(scenario, Scenario):
+        raise InputError(f"scenario = {reprlib.repr(scenario)}: allowed: a Scenario")
     if accuracy is not None:
         scenario = replace(scenario, accuracy=accuracy)
     run = run_once if scenario.goal is None else run_to_accuracy

@@ -117,6 +117,9 @@ def value(cls: type[T]) -> type[T]:
     return made  # type: ignore[no-any-return]
 
 
+OUT_OF_BOUNDS = ("greater_than", "greater_than_equal", "less_than", "less_than_equal")  # pydantic's names
+
+
 def _sentence(cls: Any, error: Mapping[str, Any]) -> str:
     """One line for one pydantic error: where, the value, what is wrong, what is allowed."""
     path = ".".join(str(part) for part in error["loc"])
@@ -129,6 +132,10 @@ def _sentence(cls: Any, error: Mapping[str, Any]) -> str:
     if error["type"] == "value_error" and not path:  # a check of ours over several fields
         return f"{where}: {error['ctx']['error']}"
     allowed = _allowed(cls, error["loc"])
+    if error["type"] == "value_error":  # a check of ours of one field
+        return f"{where} = {_short(error['input'])}: {error['ctx']['error']}"
+    if allowed and error["type"] in OUT_OF_BOUNDS:
+        return f"{where} = {_short(error['input'])}: allowed: {allowed}"
     return f"{where} = {_short(error['input'])}: {error['msg']}" + (f"; allowed: {allowed}" if allowed else "")
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from studies.benchmarking.references import tight_runs
 from studies.benchmarking.scenes import SCENES, Scene
 from support_exudyn import Estimate, Result, Scenario, SolverSettings, simulate
+from support_exudyn.compiled import is_compiling
 from support_exudyn.estimate import measures
 from support_exudyn.scenario import Accuracy
 
@@ -104,7 +105,8 @@ def tight(scene: Scene) -> Result:
     """A run of a scene that is far closer than any accuracy that is asked for here."""
     if scene.scenario.oil_columns:
         return simulate(replace(scene.scenario, formulation="tree", solver=SolverSettings(tolerance=1e-9)))
-    return simulate(tight_runs(scene)[1])
+    plain, compiled = tight_runs(scene)
+    return simulate(compiled if is_compiling() else plain)
 
 
 def tight_numbers(scene: Scene, run: Result) -> Mapping[str, float]:

@@ -13,7 +13,6 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +23,8 @@ from studies.judging.plausible import Sample
 from studies.judging.plausible_runs import measures
 from support_exudyn import SimulationError
 from support_exudyn.files import remove_leftovers, whole_file
-from support_exudyn.reduced import warm_up
+from support_exudyn.provenance import installed
+from support_exudyn.warm import warm_up
 from support_exudyn.workers import Workers, worker_pool
 from user_forces.values import InputError
 
@@ -87,7 +87,7 @@ def _program() -> str:
         for path in sorted(root.rglob("*.py")) + sorted(root.rglob("*.toml")):
             digest.update(path.relative_to(root).as_posix().encode())
             digest.update(path.read_bytes())
-    return digest.hexdigest() + " ".join(version(name) for name in LIBRARIES)
+    return digest.hexdigest() + " ".join(str(installed(name)) for name in LIBRARIES)
 
 
 def _run_one(number: int, place: Path, sample: Sample) -> None:

@@ -7,6 +7,5 @@ it: in plain Python with scipy's DOP853 and any law, or compiled (extra [fast]) 
 
 from support_exudyn.reduced.coverage import check
 from support_exudyn.reduced.run import run
-from support_exudyn.reduced.warm import warm_up
 
-__all__ = ["check", "run", "warm_up"]
+__all__ = ["check", "run"]

@@ -8,7 +8,7 @@ from support_exudyn.scenario import Scenario
 from support_exudyn.tree.branches import LoopError, LooseError, branches
 from user_forces.values import InputError
 
-INSTEAD = 'formulation = "redundant" covers it.'
+INSTEAD = "formulation = 'redundant' covers it."
 
 
 def check(scenario: Scenario) -> None:
@@ -36,4 +36,4 @@ def check(scenario: Scenario) -> None:
 
 
 def _refuse(where: str, what: str, allowed: str) -> NoReturn:
-    raise InputError(f"{where} = {what}: not covered by the tree formulation; allowed: {allowed}. {INSTEAD}")
+    raise InputError(f"{where} = {what}: not covered by formulation = 'tree'; allowed: {allowed}. {INSTEAD}")

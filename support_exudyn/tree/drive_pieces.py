@@ -11,6 +11,7 @@ from support_exudyn.tree.branches import Matrix
 
 LOOKED_AT = (0.13, 0.45, 0.55, 0.87)  # fractions of a piece at which the cubic is compared with the drive
 SHORTEST = 1e-6  # [s]
+ROUNDING = 1e-14  # [m]; a cubic of half a metre cannot be told from the drive within less
 # coefficients of the cubic through the values at 0, 1/3, 2/3 and 1; the drive's speed may jump at the ends
 THROUGH = np.array(
     [[1.0, 0.0, 0.0, 0.0], [-5.5, 9.0, -4.5, 1.0], [9.0, -22.5, 18.0, -4.5], [-4.5, 13.5, -13.5, 4.5]]
@@ -29,11 +30,11 @@ class Piece(NamedTuple):
 
 
 def pieces(drive: Drive, duration: float, allowed: float) -> list[Piece]:
-    """The drive from 0 to the end of a run [s], within an allowed error of extension [m]."""
+    """The drive from 0 to the end of a run [s], within an allowed error of extension [m] (and rounding)."""
     inner = sorted({t for t in drive.breaks if 0.0 < t < duration})
     found: list[Piece] = []
     for begin, end in zip([0.0, *inner], [*inner, duration], strict=True):
-        found += _between(drive, begin, end, allowed)
+        found += _between(drive, begin, end, max(allowed, ROUNDING))
     return found
 
 

@@ -22,7 +22,7 @@ def main() -> None:
     """Until there are no more lines."""
     from studies.judging import hypercube, plausible
     from support_exudyn import workers
-    from support_exudyn.reduced import warm_up
+    from support_exudyn.warm import warm_up
 
     hypercube._program = lambda: PROGRAM  # type: ignore[assignment]
     warm_up()

@@ -18,6 +18,8 @@ def test_a_ratio_says_who_is_faster(ours: float, other: float, ratio: str) -> No
     line = Line("what", "how", ours, "against", other, "1/8")
     assert line.ratio == ratio
     assert ratio in sheet([line]).markdown()
+    assert line.is_missed is (ours > other / 8.0)
+    assert not Line("what", "how", ours, "against", other, "").is_missed
 
 
 def test_ways_are_timed_in_turns_and_the_fastest_counts(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -411,7 +411,7 @@ def test_the_key_changes_with_the_program(tmp_path: Path, monkeypatch: pytest.Mo
     seen.append(digest())
     source.rename(tmp_path / "other.py")
     seen.append(digest())
-    monkeypatch.setattr(hypercube, "version", lambda name: "0.0")
+    monkeypatch.setattr(hypercube, "installed", lambda name: "0.0")
     seen.append(digest())
     assert len(set(seen)) == len(seen)
 

@@ -140,7 +140,7 @@ SCRIPT = """
 import json, sys
 sys.modules["numba"] = None  # as if it were not installed: importing it fails
 from support_exudyn import compiled
-from support_exudyn.reduced import warm_up
+from support_exudyn.warm import warm_up
 from support_exudyn import CubicStep
 from tests.reduced import simulate_reduced
 from tests.unit.test_plain import scene
@@ -158,7 +158,7 @@ try:
     simulate_reduced(scene(), backend="compiled")
 except InputError as error:
     found["refused"] = str(error)
-warm_up()  # has nothing to do, and does no harm
+warm_up()  # has nothing to compile, and does no harm
 print(json.dumps(found))
 """
 

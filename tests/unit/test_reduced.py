@@ -29,13 +29,14 @@ from support_exudyn import (
     ravn_slider_crank,
 )
 from support_exudyn.compiled import plain
-from support_exudyn.reduced import layout, support_model, warm_up
+from support_exudyn.reduced import layout, support_model
 from support_exudyn.reduced.contact import contact_force
 from support_exudyn.reduced.drive import driven
 from support_exudyn.reduced.free_motion import PinState
 from support_exudyn.reduced.parameters import parameters, segments
 from support_exudyn.reduced.records import peak
 from support_exudyn.steps import record_times
+from support_exudyn.warm import warm_up
 from tests.reduced import simulate_reduced
 from tests.unit.cases import contact, support
 from tests.unit.law_cases import LUGRE, cylinder_law

@@ -194,7 +194,7 @@ def test_the_trapezoidal_rule_is_refused_with_constraints_of_positions() -> None
 )
 def test_an_accuracy_that_is_none_is_refused_with_what_is_allowed(wrong: object) -> None:
     words = re.escape(f"Scenario.accuracy = {wrong!r}: ")
-    allowed = r"allowed: 'draft', 'standard', 'reference', None, or a number from 1e-08 to 0\.1$"
+    allowed = r"allowed: 'draft', 'standard', 'reference', None, or a relative error from 1e-08 to 0\.1$"
     with pytest.raises(InputError, match=f"^{words}.*{allowed}"):
         scenario(accuracy=wrong)
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from support_exudyn import reduced, tree
+from support_exudyn.columns import OilColumn
 from support_exudyn.pins import ClearancePin
 from support_exudyn.progress import silent
-from support_exudyn.reduced.run import run
 from support_exudyn.scenario import Scenario
 from support_exudyn.supports import reference_support
 from user_forces.contact import JournalContact
@@ -17,7 +18,7 @@ from user_forces.normal.hertz import Hertz
 def warm_up() -> None:
     """Compile everything in this process and keep it on disk, so that other processes only load it.
 
-    Two runs of a moment: compiled code does not depend on the numbers.
+    Runs of a moment: compiled code does not depend on the numbers.
     """
     contact = JournalContact(
         bearing=JournalBearing(bore_radius=0.0655, clearance=0.001), normal=Hertz(stiffness=1e10)
@@ -27,5 +28,7 @@ def warm_up() -> None:
         pins={"rear_base": ClearancePin(contact=contact)},
         duration=1e-3,
     )
-    run(loose, silent)
-    run(replace(loose, pins={}), silent)
+    reduced.run(loose, silent)
+    reduced.run(replace(loose, pins={}), silent)
+    oil = OilColumn(bore_area=0.1, oil_length=0.5, bulk_modulus=1.5e9)
+    tree.run(replace(loose, columns=dict.fromkeys(loose.linkage.columns, oil)), silent)
