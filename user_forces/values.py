@@ -132,11 +132,11 @@ def _sentence(cls: Any, error: Mapping[str, Any]) -> str:
     if error["type"] == "value_error" and not path:  # a check of ours over several fields
         return f"{where}: {error['ctx']['error']}"
     allowed = _allowed(cls, error["loc"])
-    if error["type"] == "value_error":  # a check of ours of one field
-        return f"{where} = {_short(error['input'])}: {error['ctx']['error']}"
     if allowed and error["type"] in OUT_OF_BOUNDS:
         return f"{where} = {_short(error['input'])}: allowed: {allowed}"
-    return f"{where} = {_short(error['input'])}: {error['msg']}" + (f"; allowed: {allowed}" if allowed else "")
+    # of a check of ours, without pydantic's words before it
+    said = error["ctx"]["error"] if error["type"] == "value_error" else error["msg"]
+    return f"{where} = {_short(error['input'])}: {said}" + (f"; allowed: {allowed}" if allowed else "")
 
 
 def _allowed(cls: Any, loc: tuple[Any, ...]) -> str:
