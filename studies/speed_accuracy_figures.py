@@ -50,7 +50,8 @@ def stem(scene: str) -> str:
 def figure(title: str, rows: Sequence[Row]) -> Figure:
     """Errors of all ways of a scene over their costs; a cost that none has is left out."""
     good = [row for row in rows if not row.failure]
-    costs = {cost: spent for cost, spent in COSTS.items() if any(spent(row) > 0.0 for row in good)}
+    asked = {cost: spent for cost, spent in COSTS.items() if any(spent(row) > 0.0 for row in good)}
+    costs = asked or dict(list(COSTS.items())[:1])  # empty panels where every run has failed
     drawing = Figure(figsize=style.size(260, 20 + 53 * len(costs)))
     axes = drawing.subplots(len(costs), len(PANELS), sharex="row", sharey="col", squeeze=False)
     for line, (cost, spent) in zip(axes, costs.items(), strict=True):

@@ -10,6 +10,7 @@ from typing import Literal
 from studies.benchmarking.measures import ONSETS, Sample, of_result, sample
 from studies.benchmarking.scenes import Scene
 from support_exudyn import Scenario, SolverSettings, simulate
+from support_exudyn.compiled import is_compiling
 from support_exudyn.peers.built_in import run_built_in
 from support_exudyn.peers.peer_run import PeerRun
 from support_exudyn.peers.stock import run_stock
@@ -72,12 +73,18 @@ def _quick(scene: Scene) -> Iterator[Way]:
 
 
 def _error_controlled(scene: Scene, tolerances: Sequence[float], of_python: Sequence[float]) -> Iterator[Way]:
-    """Formulations that choose their steps by a tolerance; plain Python at other tolerances."""
+    """Formulations that choose their steps by a tolerance; plain Python at other tolerances.
+
+    Where nothing is compiled, plain Python is all there is.
+    """
     if scene.scenario.oil_columns:
         yield from (with_tolerance(scene, "tree", "auto", tolerance) for tolerance in tolerances)
         return
-    yield from (with_tolerance(scene, "reduced", "python", tolerance) for tolerance in of_python)
-    yield from (with_tolerance(scene, "reduced", "compiled", tolerance) for tolerance in tolerances)
+    compiles = is_compiling()
+    plain = of_python if compiles or of_python else tolerances
+    yield from (with_tolerance(scene, "reduced", "python", tolerance) for tolerance in plain)
+    if compiles:
+        yield from (with_tolerance(scene, "reduced", "compiled", tolerance) for tolerance in tolerances)
 
 
 def _steps(scene: Scene, backend: Literal["python", "symbolic"], shares: Sequence[float]) -> Iterator[Way]:

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from studies import speed_accuracy
+from studies import speed_accuracy, speed_accuracy_figures
 from studies.benchmarking import estimates, variants
 from studies.benchmarking.front import Row, cheapest, front
 from studies.benchmarking.measures import GOALS, Sample, errors, of_result, thinned, times_the_goal
@@ -117,6 +117,21 @@ def test_every_scene_has_its_formulations(name: str) -> None:
     else:
         assert {"reduced, python", "reduced, compiled", STOCK} <= families
     assert {"redundant, python", "redundant, symbolic", "redundant, growing steps"} <= families
+
+
+def test_where_nothing_is_compiled_plain_python_is_left(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(variants, "is_compiling", lambda: False)
+    for name, quick in (("rise", True), ("rise", False), ("drop", True)):
+        families = [way.family for way in ways(SCENES[name], quick)]
+        assert "reduced, compiled" not in families
+        assert "reduced, python" in families
+
+
+def test_a_scene_of_which_every_run_failed_is_drawn_too() -> None:
+    failed = Row("drop", "a", "b", math.nan, 0, 0, failure="gave up")
+    drawing = speed_accuracy_figures.figure("nothing", [failed])
+    assert len(drawing.axes) == len(speed_accuracy_figures.PANELS)
+    drawing.canvas.draw()
 
 
 def test_short_scenes_turn_every_knob() -> None:
