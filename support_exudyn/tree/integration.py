@@ -132,7 +132,7 @@ class Integration:
         first, where = 1.0, None
         for name, pin in self.pins.items():
             pin.end = pin.place()
-            found = event(pin.memory.in_contact, pin.forgets, pin.start, pin.end, self._tried, pin.clearance)
+            found = event(pin.memory.in_contact, pin.renews, pin.start, pin.end, self._tried, pin.clearance)
             if found is not None and found.kind is Kind.UNCLEAR:
                 return self._repeat(SHORTEN)
             if found is not None and found.fraction >= 1.0:
@@ -204,7 +204,9 @@ class Integration:
         largest = math.inf
         for name, kind in self._happened.items():
             pin = self.pins[name]
-            memory = pin.memory._replace(approach_speed=0.0)
+            memory = pin.memory
+            if kind is not Kind.RETURN or pin.forgets:
+                memory = memory._replace(approach_speed=0.0)
             if kind is Kind.PARTING:
                 pin.remember(memory._replace(in_contact=False))
                 continue

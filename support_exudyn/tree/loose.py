@@ -55,6 +55,8 @@ class LoosePin:
         self._bore_angle = bore_angle
         self._axes = math.cos(bore_angle), math.sin(bore_angle)  # of a bore in the ground
         self.forgets = pin.contact.normal.forgets
+        # where a contact is pressed on again something changes
+        self.renews = self.forgets or self._asks_for_mass
         self.start = self.end = Place(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)  # of the step being tried
         self.memory = PinMemory(False, 0.0, 0.0, 0.0)
         self._mobility = self.memory.mobility

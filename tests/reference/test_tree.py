@@ -32,7 +32,16 @@ from support_exudyn import (
 from support_exudyn.machine import GROUND, pinned
 from support_exudyn.tree.integration import Integration
 from tests.reference.cases import FORCE, PIN, loose_slider_crank, loose_support, paper_contact, support
-from user_forces import InputError, LankaraniNikravesh, LoadError, LuGre, Touch, value
+from user_forces import (
+    Anagnostopoulos,
+    DepthSpeed,
+    InputError,
+    LankaraniNikravesh,
+    LoadError,
+    LuGre,
+    Touch,
+    value,
+)
 
 OIL = OilColumn(bore_area=bore_area(0.25, number=2), oil_length=0.5, bulk_modulus=1.5e9)
 BOTH = {"front_column": OIL, "rear_column": OIL}
@@ -390,3 +399,23 @@ def test_nothing_of_a_run_stays_behind() -> None:
     gc.collect()
     # the engine would keep what its user functions refer to, and the collector does not see through it
     assert not [item for item in gc.get_objects() if isinstance(item, Integration)]
+
+
+# --- contacts that are pressed on again ---
+
+PRESSED_AGAIN = {
+    "forgets": replace(paper_contact(1.5, 0.0).normal, restitution=0.5, damping_speed=DepthSpeed()),
+    "asks for the mass": Anagnostopoulos(stiffness=1e9, restitution=0.7),
+}
+
+
+@pytest.mark.parametrize("bore", ["first", "second"])
+@pytest.mark.parametrize("law", PRESSED_AGAIN)
+def test_a_contact_that_is_pressed_on_again_renews_what_it_remembers(law: str, bore: str) -> None:
+    pin = ClearancePin(contact=replace(paper_contact(1.5, 0.0), normal=PRESSED_AGAIN[law]), bore=bore)
+    scene = tree(1e-9, drive=Held(), duration=0.08, pins={PIN: pin})
+    ours = simulate(scene)
+    finest = SolverSettings(impact_steps=512)
+    theirs = simulate(replace(scene, formulation="redundant", step=1e-4, solver=finest))
+    # the redundant formulation's steps of impacts; measured 5e-5, and 2e-3 with the mass of the first touch
+    assert ours.dissipated == pytest.approx(theirs.dissipated, rel=2e-4)

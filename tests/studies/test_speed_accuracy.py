@@ -55,7 +55,17 @@ def test_a_touch_that_is_missing_is_infinitely_wrong() -> None:
     assert times_the_goal(errors(missing, EXACT)) == math.inf
 
 
-@pytest.mark.parametrize(("name", "allowed"), [("mean", 1e-4), ("peak", 1e-3), ("onset_3", 1e-2)])
+@pytest.mark.parametrize(
+    ("name", "allowed"),
+    [
+        ("mean", 1e-4),
+        ("spread", 1e-3),
+        ("peak", 1e-3),
+        ("onset_1", 1e-3),
+        ("onset_2", 1e-3),
+        ("onset_3", 1e-2),
+    ],
+)
 def test_the_goal_is_that_of_the_benchmark(name: str, allowed: float) -> None:
     # the sum 1 + share is rounded
     assert times_the_goal(errors(sample_off_by(**{name: allowed}), EXACT)) == pytest.approx(1.0, rel=1e-10)
@@ -79,6 +89,7 @@ def test_the_front_is_what_nobody_beats() -> None:
 def test_the_cheapest_meets_the_goal() -> None:
     assert cheapest([row(1.0, 2.0), row(3.0, 0.5), row(2.0, 0.9)]) == row(2.0, 0.9)
     assert cheapest([row(1.0, 2.0)]) is None
+    assert cheapest([row(1.0, 1.0)]) == row(1.0, 1.0)  # just met is met
 
 
 def test_a_run_that_failed_is_neither() -> None:

@@ -282,3 +282,31 @@ def test_a_run_without_an_accuracy_says_what_to_do() -> None:
 )
 def test_an_estimate_reads_as_a_number_with_its_error(number: Estimate, text: str) -> None:
     assert str(number) == text
+
+
+# --- numbers that are next to nothing ---
+
+
+def with_channel(run: Result, name: str, values: np.ndarray) -> Result:
+    """The same with other values of a channel."""
+    return replace(run, channels={**run.channels, name: replace(run.channels[name], values=values)})
+
+
+def test_rounding_beside_far_larger_numbers_tells_no_fall() -> None:
+    still = np.ones_like(exact().time)
+    runs = [with_channel(exact(), "tip.x", x * still) for x in (0.0, 1e-12, 4e-12)]
+    assert three(*runs).fall == FASTEST
+
+
+def test_a_force_that_hardly_varies_has_no_spread_to_be_wrong() -> None:
+    noise = np.random.default_rng(1).normal(size=(3, exact().time.size))
+    runs = [with_channel(exact(), FORCE, 5e4 + 1e-6 * row) for row in noise]
+    assert three(*runs).worst_error < 1e-5
+
+
+def test_a_path_that_goes_nowhere_is_measured_by_the_clearance() -> None:
+    along = np.arange(exact().time.size) / exact().time.size
+    still = with_channel(exact(), "tip.x", np.ones_like(along))
+    runs = [with_channel(still, "tip.y", 2.0 + x * along) for x in (1.75e-9, 1.25e-9, 1e-9)]
+    # 0.5 nm apart, of a clearance of 1.5 mm
+    assert three(*runs).worst_error < 1e-5

@@ -17,6 +17,7 @@ from support_exudyn.tree.drive_pieces import extension, pieces, speed
 from support_exudyn.tree.dynamics import Posture, accelerations, mass_matrix, mass_moment, pin_mobility
 from support_exudyn.tree.events import Event, Kind, event
 from support_exudyn.tree.forces import Forces
+from support_exudyn.tree.from_scenario import largest_error
 from support_exudyn.tree.integration import growth
 from support_exudyn.tree.loads import SPEED_X, SPEED_Y, X, Y
 from support_exudyn.tree.loose import Place
@@ -308,3 +309,52 @@ def test_steps_grow_with_the_fifth_root_of_the_error() -> None:
 def test_the_end_is_a_record() -> None:
     assert record_times(1.0, 0.4).tolist() == pytest.approx([0.0, 0.4, 0.8, 1.0])
     assert record_times(0.3, 0.1).tolist() == [0.0, 0.1, 0.2, 0.3]
+
+
+# --- what planted faults showed to be untested ---
+
+
+def test_a_touch_that_is_over_at_once_is_looked_at_more_closely() -> None:
+    assert event(True, False, place(C, 0.1), place(C - 9e-5, -1.9), 1e-4, C) == Event(Kind.UNCLEAR, 0.0)
+
+
+def test_a_bulge_between_two_inward_ends_touches() -> None:
+    found = event(False, False, place(0.95e-3, -0.8), place(0.95e-3, -0.8), 1e-3, C)
+    assert found is not None
+    assert found.kind is Kind.TOUCH
+    assert 0.5 < found.fraction < 0.79
+
+
+def test_what_grazes_the_wall_and_leaves_does_not_touch() -> None:
+    assert event(False, False, place(0.9e-3, 2.0), place(C - 1e-12, -1e-7), 1e-4, C) is None
+
+
+def test_after_a_parting_the_surfaces_must_be_seen_apart() -> None:
+    start, end = place(C + 5e-11, -1e-4), place(C + 1e-5, 0.3)
+    assert event(False, False, start, end, 1e-4, C) == Event(Kind.UNCLEAR, 0.0)
+    assert event(False, False, start, end, 1e-10, C) == Event(Kind.TOUCH, 1.0)
+
+
+def test_the_error_of_a_step_moves_no_journal_by_more_than_the_tolerance() -> None:
+    pin = TREE.linkage.pins[PIN]
+    apart = []
+    for unit in np.eye(len(TREE.links)):
+        motion = Posture(TREE, np.zeros((1, unit.size)), unit[None]).motion()
+        one, other = motion.point(pin.first, pin.first_point), motion.point(pin.second, pin.second_point)
+        apart.append(float(np.linalg.norm(one.velocity - other.velocity)))
+    speed = math.sqrt(9.81 * 1.5e-3)  # of a fall through half the clearance
+    expected = SCENE.solver.tolerance * speed / max(apart) / math.sqrt(2.0 * len(TREE.links))
+    assert largest_error(TREE, SCENE) == pytest.approx(expected, rel=1e-9)
+
+
+@pytest.mark.parametrize("top", [0.05, 0.3, 0.6, 0.9, 0.97])
+def test_the_top_of_a_parabola_is_found_wherever_it_is(top: float) -> None:
+    assert largest(np.array([7.0 - 3.0 * (POINTS - top) ** 2])) == pytest.approx(7.0, rel=1e-12)
+
+
+def test_a_drive_that_its_cubic_meets_in_the_middle_is_cut_all_the_same() -> None:
+    class Wave(Held):
+        def extension(self, t: float) -> float:
+            return 0.1 * math.sin(2.0 * math.pi * t)
+
+    assert len(pieces(Wave(), 1.0, 1e-9)) > 10
