@@ -8,6 +8,8 @@ between both centres if both move, so that they act at one point on both bodies.
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from enum import Enum
 from typing import NamedTuple
 
@@ -25,13 +27,18 @@ class Attachment(Enum):
     CENTRAL = "both centres, without a moment"
     JOURNAL = "the journal's centre; the bore is on the ground"
     BORE = "the bore's centre; the journal is on the ground"
+    SPACE = "both centres, without a moment; bodies move in space"
     MIDDLE = "both bodies, in the middle between the centres"
 
 
-def attachment(contact: JournalContact, bore_on_ground: bool, journal_on_ground: bool) -> Attachment:
+def attachment(
+    contact: JournalContact, bore_on_ground: bool, journal_on_ground: bool, in_space: bool = False
+) -> Attachment:
     """What the force of a contact acts on."""
     if isinstance(contact.friction, Frictionless):
-        return Attachment.CENTRAL if asks_for_mass(contact) else Attachment.LINE
+        if not asks_for_mass(contact):
+            return Attachment.LINE
+        return Attachment.SPACE if in_space else Attachment.CENTRAL
     if bore_on_ground:
         return Attachment.JOURNAL
     return Attachment.BORE if journal_on_ground else Attachment.MIDDLE
@@ -58,6 +65,23 @@ class Relative(NamedTuple):
         if at is Attachment.MIDDLE:
             return self.bore_spin, self.bore_spin + self.turning
         return 0.0, self.turning
+
+
+def in_plane(displacement: Sequence[float], velocity: Sequence[float]) -> tuple[float, float, float, float]:
+    """Displacement and velocity in space as ones across the bore's axis, with the same distance and rate.
+
+    Sections of a tilted journal lie a little beside those of the bore, by less than the square of the tilt times
+    the length; their distance is that of their centres.
+    """
+    x, y, z = displacement
+    vx, vy, vz = velocity
+    across = math.hypot(x, y)
+    if across == 0.0:
+        return x, y, vx, vy
+    distance = math.hypot(across, z)
+    rate = (x * vx + y * vy + z * vz) / distance - (x * vx + y * vy) / across
+    stretch = distance / across
+    return stretch * x, stretch * y, vx + rate * x / across, vy + rate * y / across
 
 
 def rough_force(

@@ -15,6 +15,7 @@ import math
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
 from exudyn.itemInterface import (
     MarkerBodyRigid,
     ObjectConnectorCartesianSpringDamper,
@@ -30,13 +31,17 @@ from user_forces.values import Vector2
 FRAME_TURN = 1e-4
 
 
+Frame = list[list[float]]
+
+
 class PinConnector:
     """Markers and connector of one clearance pin in the engine.
 
     Arguments:
         mbs: the engine's system.
-        bore, journal: the engine's body and the centre on it, in the body's axes [m].
-        turn: of the journal's body relative to the bore's [rad].
+        bore, journal: the engine's body, and the frame of the bore or journal on it, in the body's axes (4 x 4):
+            its centre, and its axis as z.
+        turn: of the journal's frame relative to the bore's about the axis [rad].
         at: what the force acts on.
         clearance: [m].
     """
@@ -44,8 +49,8 @@ class PinConnector:
     def __init__(
         self,
         mbs: Any,
-        bore: tuple[Any, Vector2],
-        journal: tuple[Any, Vector2],
+        bore: tuple[Any, Frame],
+        journal: tuple[Any, Frame],
         turn: float,
         at: Attachment,
         clearance: float,
@@ -53,9 +58,9 @@ class PinConnector:
         self.mbs = mbs
         self._clearance = clearance
         self.at = at
-        self._arm = journal[1]
+        self._journal = np.array(journal[1])
         self.frame_turn = -turn if at is Attachment.MIDDLE else 0.0  # of the journal's frame on its body [rad]
-        self.bore_marker = mbs.AddMarker(MarkerBodyRigid(bodyNumber=bore[0], localPosition=[*bore[1], 0.0]))
+        self.bore_marker = mbs.AddMarker(MarkerBodyRigid(bodyNumber=bore[0], localHT=bore[1]))
         self.journal_marker = mbs.AddMarker(MarkerBodyRigid(bodyNumber=journal[0], localHT=self._frame()))
         self.object = mbs.AddObject(self._connector([self.bore_marker, self.journal_marker]))
 
@@ -101,10 +106,16 @@ class PinConnector:
         self.mbs.SetMarkerParameter(self.journal_marker, "localHT", self._frame())
         return True
 
-    def _frame(self) -> list[list[float]]:
-        c, s = math.cos(self.frame_turn), math.sin(self.frame_turn)
-        x, y = self._arm
-        return [[c, -s, 0.0, x], [s, c, 0.0, y], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]]
+    def _frame(self) -> Frame:
+        turned: list[list[float]] = (self._journal @ frame((0.0, 0.0), self.frame_turn)).tolist()
+        return turned
+
+
+def frame(centre: Vector2, turn: float = 0.0) -> Frame:
+    """A frame in the plane, turned by an angle [rad], as the engine wants it (4 x 4)."""
+    c, s = math.cos(turn), math.sin(turn)
+    x, y = centre
+    return [[c, -s, 0.0, x], [s, c, 0.0, y], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]]
 
 
 def user_function(at: Attachment) -> tuple[str, str]:

@@ -9,8 +9,8 @@ from typing import Any
 
 import exudyn
 
-from support_exudyn.attachment import Attachment, Relative, attachment
-from support_exudyn.connector import PinConnector, displacement_scale
+from support_exudyn.attachment import Attachment, Relative, attachment, in_plane
+from support_exudyn.connector import Frame, PinConnector, displacement_scale
 from support_exudyn.impact_steps import ImpactSteps
 from support_exudyn.onset import Action, Mobility, Onset, PinMemory, Verdict, goes_on, judge, judge_at_ends
 from support_exudyn.pin_motion import Motion, PinMotion
@@ -30,9 +30,10 @@ class LoosePin:
     Arguments:
         mbs: the engine's system.
         contact: bearing and laws.
-        bore, journal: the engine's body and the centre on it, in the body's axes [m].
-        turn: of the journal's body relative to the bore's [rad].
+        bore, journal: the engine's body and the frame on it, see `PinConnector`.
+        turn: of the journal's frame relative to the bore's [rad].
         bore_node, journal_node: node of the body, None: it is the ground.
+        in_space: the bodies move in space.
         symbolic: let the engine evaluate the force.
         impact_steps: number of steps in an impact, see SolverSettings.
     """
@@ -42,18 +43,19 @@ class LoosePin:
         mbs: Any,
         contact: JournalContact,
         *,
-        bore: tuple[Any, Vector2],
-        journal: tuple[Any, Vector2],
+        bore: tuple[Any, Frame],
+        journal: tuple[Any, Frame],
         turn: float,
         bore_node: Any,
         journal_node: Any,
+        in_space: bool = False,
         symbolic: bool,
         impact_steps: int,
     ) -> None:
         self.mbs = mbs
         self.contact = contact
         self.bore_node = bore_node
-        self.at = at = attachment(contact, bore_node is None, journal_node is None)
+        self.at = at = attachment(contact, bore_node is None, journal_node is None, in_space)
         self._on_line = at is Attachment.LINE
         self.turns = at is Attachment.CENTRAL and bore_node is not None  # the bore, in the connector's axes
         self.impact = ImpactSteps(contact.normal, impact_steps)
@@ -270,6 +272,8 @@ class LoosePin:
             depth, rate = self.engine_force.last
             return Relative(depth + self.contact.bearing.clearance, 0.0, rate, 0.0)
         displacement, velocity, *turning = self.engine_force.last
+        if self.at is Attachment.SPACE:
+            return Relative(*in_plane(displacement, velocity))
         x, y, vx, vy = displacement[0], displacement[1], velocity[0], velocity[1]
         if not turning:
             if self.turns:

@@ -9,9 +9,11 @@ from dataclasses import field
 
 from pydantic import model_validator
 
+from support_exudyn.width import Width
 from user_forces.values import NonNegative, Positive, Real, Value, Vector2, value
 
 GROUND = "ground"
+Moments = tuple[Real, Real, Real]
 
 
 @value
@@ -22,17 +24,30 @@ class Part(Value):
         mass: [kg], > 0.
         centre: centre of mass [m].
         inertia: about the centre of mass [kg m^2], >= 0 (0: a point mass).
+        moments: integrals of x^2, y^2 and x y over its mass [kg m^2], from its centre; the first two add up to the
+            inertia. Only the spatial model asks. None: the inertia in equal halves, as of a disc.
     """
 
     mass: Positive
     centre: Vector2
     inertia: NonNegative = 0.0
+    moments: Moments | None = None
+
+    @property
+    def second_moments(self) -> Moments:
+        """`moments`, or what stands for them."""
+        return self.moments or (0.5 * self.inertia, 0.5 * self.inertia, 0.0)
 
 
 def bar(mass: float, a: Vector2, b: Vector2) -> Part:
     """A uniform slender bar from a to b: centre in the middle, inertia m l^2 / 12."""
-    length = math.hypot(a[0] - b[0], a[1] - b[1])
-    return Part(mass=mass, centre=((a[0] + b[0]) / 2, (a[1] + b[1]) / 2), inertia=mass * length**2 / 12)
+    dx, dy = b[0] - a[0], b[1] - a[1]
+    return Part(
+        mass=mass,
+        centre=((a[0] + b[0]) / 2, (a[1] + b[1]) / 2),
+        inertia=mass * math.hypot(dx, dy) ** 2 / 12,
+        moments=(mass * dx * dx / 12, mass * dy * dy / 12, mass * dx * dy / 12),
+    )
 
 
 def lumped(parts: Iterable[Part]) -> Part:
@@ -42,7 +57,18 @@ def lumped(parts: Iterable[Part]) -> Part:
     x = sum(p.mass * p.centre[0] for p in parts) / mass
     y = sum(p.mass * p.centre[1] for p in parts) / mass
     inertia = sum(p.inertia + p.mass * ((p.centre[0] - x) ** 2 + (p.centre[1] - y) ** 2) for p in parts)
-    return Part(mass=mass, centre=(x, y), inertia=inertia)
+    xx = sum(p.second_moments[0] + p.mass * (p.centre[0] - x) ** 2 for p in parts)
+    yy = sum(p.second_moments[1] + p.mass * (p.centre[1] - y) ** 2 for p in parts)
+    xy = sum(p.second_moments[2] + p.mass * (p.centre[0] - x) * (p.centre[1] - y) for p in parts)
+    return Part(mass=mass, centre=(x, y), inertia=inertia, moments=(xx, yy, xy))
+
+
+def turned_moments(moments: Moments, angle: float) -> Moments:
+    """Second moments of a body that has turned by an angle [rad]."""
+    xx, yy, xy = moments
+    c, s = math.cos(angle), math.sin(angle)
+    cross = 2.0 * c * s * xy
+    return c * c * xx + s * s * yy - cross, s * s * xx + c * c * yy + cross, c * s * (xx - yy) + (c * c - s * s) * xy
 
 
 @value
@@ -56,6 +82,7 @@ class Body(Value):
         angle: orientation [rad] of the line by which the machine measures this body.
         velocity: of the centre of mass [m/s].
         spin: angular velocity [rad/s].
+        moments: integrals of x^2, y^2 and x y over its mass, as of a `Part`, in the start posture.
     """
 
     mass: Positive
@@ -64,6 +91,7 @@ class Body(Value):
     angle: Real = 0.0
     velocity: Vector2 = (0.0, 0.0)
     spin: Real = 0.0
+    moments: Moments | None = None
 
 
 @value
@@ -196,6 +224,10 @@ class Machine(Value, ABC):
     @abstractmethod
     def linkage(self) -> Linkage:
         """The mechanism in its start posture."""
+
+    def widths(self) -> Width | None:
+        """Its lateral dimensions; None if it is known in its plane only."""
+        return None
 
     def check_extension(self, lowest: float, highest: float) -> None:
         """Raise InputError if the drive cannot be extended over this range from the start.

@@ -36,8 +36,10 @@ class PythonForce:
         formulas = traceable(contact)
         if at is Attachment.LINE:
             source = _line(formulas)
+        elif at is Attachment.CENTRAL:
+            source = _central(formulas)
         else:
-            source = _central(formulas) if at is Attachment.CENTRAL else _rough(formulas, at)
+            source = _space(formulas) if at is Attachment.SPACE else _rough(formulas, at)
         known = dict.fromkeys(MEMORY, 0.0)
         self._names = compiled(
             source, contact, find_spin=bore_spin, in_contact=False, last=(), calls=0, **known
@@ -111,6 +113,31 @@ def _central(contact: JournalContact) -> list[str]:
         "    vx, vy, _ = velocity",
         *pressed,
         f"    return [{share} * x, {share} * y, 0.0]",
+    ]
+
+
+def _space(contact: JournalContact) -> list[str]:
+    """Source of the force along the line between both centres in space."""
+    formulas, (x, y, z, vx, vy, vz, speed, xx, xy, yy) = lines(["x", "y", "z", "vx", "vy", "vz", *MEMORY[:4]])
+    eccentricity = hypot(hypot(x, y), z)
+    depth = contact.bearing.depth(eccentricity)
+    rate = (x * vx + y * vy + z * vz) / eccentricity
+    asked = contact.normal(depth, rate, Touch(speed, Mobility(xx, xy, yy).mass(x, y)))
+    share = text(maximum(asked, 0.0) / eccentricity)
+    apart, pressed = _parts(contact, formulas, text(depth), share)
+    nothing = "return [0.0, 0.0, 0.0, 0.0, 0.0, 0.0]"
+    return [
+        "def force(mbs, t, item, displacement, rotation, velocity, angular_velocity, k, d, j0, j1, o):",
+        "    global calls, last",
+        "    calls += 1",
+        "    last = displacement, velocity",
+        f"    if not in_contact: {nothing}",
+        "    x, y, z = displacement",
+        *apart,
+        f"    if {text(depth)} <= 0.0: {nothing}",
+        "    vx, vy, vz = velocity",
+        *pressed,
+        f"    return [{share} * x, {share} * y, {share} * z, 0.0, 0.0, 0.0]",
     ]
 
 

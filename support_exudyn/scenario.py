@@ -60,6 +60,8 @@ class SolverSettings(Value):
             law as an expression of the engine (redundant). "compiled": by numba, the extra [fast], for laws
             K depth^n with hysteresis damping and Ambrosio's friction or none (reduced). "auto": compiled where
             that can be done in the reduced formulation, else Python.
+        sections: in how many places along its axis the contact of a loose pin is evaluated in space, 2 to 64, the
+            edges among them.
     """
 
     integrator: Literal["generalised_alpha", "trapezoidal"] = "generalised_alpha"
@@ -72,6 +74,7 @@ class SolverSettings(Value):
     growth: Annotated[Real, Field(ge=1, le=64)] = 1.0
     tolerance: Annotated[Real, Field(ge=1e-13, le=1e-2)] = 1e-7
     backend: Literal["auto", "python", "symbolic", "compiled"] = "auto"
+    sections: Annotated[int, Field(ge=2, le=64)] = 5
 
     @model_validator(mode="after")
     def _fit_each_other(self) -> SolverSettings:

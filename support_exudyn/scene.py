@@ -25,6 +25,7 @@ from exudyn.itemInterface import (
     ObjectRigidBody2D,
 )
 
+from support_exudyn.connector import frame
 from support_exudyn.kinetics import Kinetics
 from support_exudyn.loose_pin import LoosePin
 from support_exudyn.machine import GROUND, Body, Column, Crank, Linkage, PinPlace, Slide
@@ -248,8 +249,8 @@ class _Builder:
         return LoosePin(
             self.mbs,
             pin.contact,
-            bore=(item(bore), local(bore, bore_point)),
-            journal=(item(journal), local(journal, journal_point)),
+            bore=(item(bore), frame(local(bore, bore_point))),
+            journal=(item(journal), frame(local(journal, journal_point))),
             turn=angle(journal) - angle(bore),
             bore_node=node(bore),
             journal_node=node(journal),

@@ -199,6 +199,9 @@ class SymbolicForce:
             rotJ1,  # noqa: N803
             offset,
         ):
+            if self._at is Attachment.SPACE:
+                pull = self._central(displacement, velocity)
+                return engine.Vector([pull[0], pull[1], pull[2], *_zeros(3)])
             return self._rough(displacement, velocity, angularVelocity)
 
         return rough

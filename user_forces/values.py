@@ -35,6 +35,7 @@ NonNegative = Annotated[Real, Field(ge=0)]
 Fraction = Annotated[Real, Field(ge=0, le=1)]
 Restitution = Annotated[Real, Field(gt=0, le=1)]
 Vector2 = tuple[Real, Real]
+Vector3 = tuple[Real, Real, Real]
 
 
 class InputError(ValueError):

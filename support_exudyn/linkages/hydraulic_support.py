@@ -33,8 +33,10 @@ from support_exudyn.machine import (
     TracePoint,
     lumped,
     pinned,
+    turned_moments,
 )
 from support_exudyn.plane import circle_intersection, direction, distance, moved, side
+from support_exudyn.width import Width
 from user_forces.roots import bracketed_root
 from user_forces.values import InputError, Positive, Vector2, value
 
@@ -71,6 +73,7 @@ class HydraulicSupport(Machine):
         parts: for each of rear_link, front_link, shield and canopy the parts it is made of, in the
             reference posture.
         start_hinge_height: y of the hinge at the start [m], with the canopy level.
+        width: lateral dimensions, for the spatial model; None: there are none.
     """
 
     rear_base: Vector2
@@ -85,6 +88,7 @@ class HydraulicSupport(Machine):
     tip: Vector2
     parts: Mapping[str, tuple[Part, ...]]
     start_hinge_height: Positive
+    width: Width | None = None
 
     @model_validator(mode="after")
     def _can_be_built(self) -> HydraulicSupport:
@@ -232,6 +236,10 @@ class HydraulicSupport(Machine):
 
     # --- layout ---
 
+    def widths(self) -> Width | None:
+        """Its lateral dimensions, if they are known."""
+        return self.width
+
     def linkage(self) -> Linkage:
         """The support as four moving bodies, five pins, two columns and the canopy tip."""
         p = self.start()
@@ -252,7 +260,13 @@ class HydraulicSupport(Machine):
         for name in BODIES:
             lump = lumped(self.parts[name])
             centre = moved(lump.centre, *anchors[name], turned[name])
-            bodies[name] = Body(mass=lump.mass, inertia=lump.inertia, centre=centre, angle=lines[name])
+            bodies[name] = Body(
+                mass=lump.mass,
+                inertia=lump.inertia,
+                centre=centre,
+                angle=lines[name],
+                moments=turned_moments(lump.second_moments, turned[name]),
+            )
         return Linkage(
             bodies=bodies,
             pins={

@@ -1,0 +1,227 @@
+"""One section of a loose bearing over a run: a pin with clearance like those of the plane, and how it moves."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any, NamedTuple
+
+import exudyn
+import numpy as np
+
+from support_exudyn.attachment import in_plane
+from support_exudyn.impact_steps import ImpactSteps
+from support_exudyn.loose_pin import LoosePin
+from support_exudyn.onset import Mobility, PinMemory
+from support_exudyn.pin_motion import Motion
+from support_exudyn.spatial.constraints import frame_of
+from support_exudyn.spatial.sections import End, Section
+from user_forces.contact import JournalContact
+from user_forces.normal.part import PartOf
+from user_forces.values import Vector2, Vector3
+
+Vector = tuple[float, float, float]
+
+
+class BodyState(NamedTuple):
+    """A body at an instant, from the engine's coordinates: rows of its rotation, centre, velocity, spin."""
+
+    rows: tuple[Vector, Vector, Vector]
+    centre: Vector
+    velocity: Vector
+    spin: Vector
+
+    @staticmethod
+    def of(centre: Vector3, q: list[float], v: list[float]) -> BodyState:
+        """From where the centre is at the start [m] and the body's seven coordinates and their rates."""
+        a, b, c, d = 1.0 + q[3], q[4], q[5], q[6]
+        ta, tb, tc, td = v[3:7]
+        rows = (
+            (a * a + b * b - c * c - d * d, 2.0 * (b * c - a * d), 2.0 * (b * d + a * c)),
+            (2.0 * (b * c + a * d), a * a - b * b + c * c - d * d, 2.0 * (c * d - a * b)),
+            (2.0 * (b * d - a * c), 2.0 * (c * d + a * b), a * a - b * b - c * c + d * d),
+        )
+        spin = (
+            2.0 * (-b * ta + a * tb - d * tc + c * td),
+            2.0 * (-c * ta + d * tb + a * tc - b * td),
+            2.0 * (-d * ta - c * tb + b * tc + a * td),
+        )
+        return BodyState(rows, (centre[0] + q[0], centre[1] + q[1], centre[2] + q[2]), (v[0], v[1], v[2]), spin)
+
+    def turned(self, vector: Vector3) -> Vector:
+        """A vector of the body's axes, in the ground's."""
+        x, y, z = vector
+        (a, b, c), (d, e, f), (g, h, i) = self.rows
+        return a * x + b * y + c * z, d * x + e * y + f * z, g * x + h * y + i * z
+
+    def point(self, arm: Vector3) -> tuple[Vector, Vector]:
+        """Position and velocity of a point, its arm in the body's axes."""
+        ax, ay, az = self.turned(arm)
+        (x, y, z), (vx, vy, vz), (wx, wy, wz) = self.centre, self.velocity, self.spin
+        return (x + ax, y + ay, z + az), (vx + wy * az - wz * ay, vy + wz * ax - wx * az, vz + wx * ay - wy * ax)
+
+
+GROUND_STATE = BodyState(((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)), (0.0,) * 3, (0.0,) * 3, (0.0,) * 3)
+
+
+class SectionEnd(NamedTuple):
+    """Centre of a section on a body: the body's first coordinate in the vector of all (None: the ground), its
+    centre at the start, the arm from there and the axes across and along, all in the body's axes."""
+
+    first: int | None
+    centre: Vector3
+    arm: Vector3
+    across: tuple[Vector3, Vector3]
+    along: Vector3
+
+    def state(self, position: list[float], velocity: list[float]) -> BodyState:
+        """Of its body."""
+        if self.first is None:
+            return GROUND_STATE
+        which = slice(self.first, self.first + 7)
+        return BodyState.of(self.centre, position[which], velocity[which])
+
+
+class SectionMover(NamedTuple):
+    """The motion of a section's journal in its bore, in the bore's axes. data: the engine's."""
+
+    data: Any
+    bore: SectionEnd
+    journal: SectionEnd
+
+    def now(self) -> tuple[Motion, Motion]:
+        """The present motions of bore and journal, the bore's centre and axes being those of the plane."""
+        position = self.data.GetODE2Coordinates().tolist()
+        velocity = self.data.GetODE2Coordinates_t().tolist()
+        return self.at(position, velocity)
+
+    def at(self, position: list[float], velocity: list[float]) -> tuple[Motion, Motion]:
+        """The same at other coordinates."""
+        bore, journal = self.bore.state(position, velocity), self.journal.state(position, velocity)
+        (bx, by, bz), (bvx, bvy, bvz) = bore.point(self.bore.arm)
+        (jx, jy, jz), (jvx, jvy, jvz) = journal.point(self.journal.arm)
+        axes = (*map(bore.turned, self.bore.across), bore.turned(self.bore.along))
+        apart = [a[0] * (jx - bx) + a[1] * (jy - by) + a[2] * (jz - bz) for a in axes]
+        rates = [a[0] * (jvx - bvx) + a[1] * (jvy - bvy) + a[2] * (jvz - bvz) for a in axes]
+        x, y, vx, vy = in_plane(apart, rates)
+        own = journal.turned(self.journal.across[0])
+        turn = math.atan2(dot(own, axes[1]), dot(own, axes[0]))
+        spins = dot(bore.spin, axes[2]), dot(journal.spin, axes[2])
+        return (0.0, 0.0, 0.0, 0.0, 0.0, spins[0]), (x, y, vx, vy, turn, spins[1])
+
+
+def dot(a: Vector, b: Vector) -> float:
+    """Inner product."""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+class Journal:
+    """What the sections of one loose bearing share: where its middle is and how it answers impulses.
+
+    Both are asked for by every section in every step of an impact, and found once.
+    """
+
+    def __init__(self) -> None:
+        # set when the scene is whole
+        self.find_mobility: Callable[[], Mobility] = lambda: Mobility(math.nan, math.nan, math.nan)
+        self.mover: SectionMover | None = None
+        self.leader: SectionPin | None = None  # the section that is asked first
+        self._mobility: Mobility | None = None
+        self._place: Vector2 | None = None
+
+    def moved(self) -> None:
+        """The bodies are elsewhere now."""
+        self._mobility = self._place = None
+
+    def mobility(self) -> Mobility:
+        """Of the middle of the journal, in the axes of its bore."""
+        if self._mobility is None:
+            self._mobility = self.find_mobility()
+        return self._mobility
+
+    def place(self) -> Vector2:
+        """Of the middle of the journal in its bore, in the bore's axes [m]."""
+        if self._place is None:
+            assert self.mover is not None  # set by the scene
+            _, (x, y, *_) = self.mover.now()
+            self._place = x, y
+        return self._place
+
+
+class SectionPin(LoosePin):
+    """One section of a loose bearing.
+
+    Arguments:
+        mbs: the engine's system.
+        contact: of the whole pin.
+        whole: what it shares with the other sections.
+        section: its place and share.
+        bore, journal: their ends; items: the engine's bodies, nodes: of them (None: the ground); centres: of the
+            bodies' mass.
+        symbolic, impact_steps: as of LoosePin.
+    """
+
+    def __init__(
+        self,
+        mbs: Any,
+        contact: JournalContact,
+        whole: Journal,
+        section: Section,
+        bore: End,
+        journal: End,
+        *,
+        items: tuple[Any, Any],
+        nodes: tuple[Any, Any],
+        centres: tuple[Vector3, Vector3],
+        symbolic: bool,
+        impact_steps: int,
+    ) -> None:
+        self.section = section
+        self.whole = whole
+        frames = [marker_frame(end, section.place, centre) for end, centre in zip((bore, journal), centres, strict=True)]
+        self._bore_axis = bore.axis
+        super().__init__(
+            mbs,
+            replace(contact, normal=PartOf(law=contact.normal, share=section.share)),
+            bore=(items[0], frames[0]),
+            journal=(items[1], frames[1]),
+            turn=0.0,
+            bore_node=nodes[0],
+            journal_node=nodes[1],
+            in_space=True,
+            symbolic=symbolic,
+            impact_steps=impact_steps,
+        )
+        self.impact = ImpactSteps(contact.normal, impact_steps)  # steps of the whole
+        self.ends = bore, journal
+        self.mover: SectionMover | None = None  # set when the scene is whole
+        self.mobility = whole.mobility
+
+    def after_newton(self, t: float) -> float | None:
+        """See `LoosePin`."""
+        if self is self.whole.leader:
+            self.whole.moved()
+        return super().after_newton(t)
+
+    def jumped(self, memory: PinMemory) -> None:
+        """See `LoosePin`."""
+        if self is self.whole.leader:
+            self.whole.moved()
+        super().jumped(memory)
+
+    def _place(self) -> Vector2:
+        return self.whole.place()
+
+    def _bore_spin(self) -> float:
+        spin = self.mbs.GetNodeOutput(self.bore_node, exudyn.OutputVariableType.AngularVelocityLocal)
+        return float(spin @ np.array(self._bore_axis))
+
+
+def marker_frame(end: End, place: float, centre: Vector3) -> list[list[float]]:
+    """Frame of a section on its body, in the body's axes (4 x 4), its z along the bearing."""
+    frame = np.eye(4)
+    frame[:3, :3] = frame_of(end.axis)
+    frame[:3, 3] = np.array(end.centre(place)) - np.array(centre)
+    found: list[list[float]] = frame.tolist()
+    return found

@@ -1,0 +1,53 @@
+"""A part of a contact: one section of a journal of finite length."""
+
+from __future__ import annotations
+
+from user_forces.normal.law import NormalLaw, Touch
+from user_forces.values import Fraction, value
+
+
+@value
+class PartOf(NormalLaw):
+    """A share of the force of a law, and nothing else changed.
+
+    Of a journal in its bore the law gives the force per whole length. Cut across the axis, each section has its
+    share of it at its own depth. Speed and mass of the touch stay those of the whole, so that sections at the
+    same depth add up to the law.
+
+    Arguments:
+        law: of the whole.
+        share: of the section, from 0 to 1.
+    """
+
+    law: NormalLaw
+    share: Fraction
+
+    def __call__(self, depth: float, rate: float, touch: Touch) -> float:
+        """Normal force [N] of the section."""
+        return self.share * self.law(depth, rate, touch)
+
+    def elastic_force(self, depth: float) -> float:
+        """Force [N] at rest."""
+        return self.share * self.law.elastic_force(depth)
+
+    def elastic_energy(self, depth: float) -> float:
+        """Energy [J] stored."""
+        return self.share * self.law.elastic_energy(depth)
+
+    @property
+    def forgets(self) -> bool:
+        """As the whole does."""
+        return self.law.forgets
+
+    @property
+    def largest_depth(self) -> float:
+        """Of the whole [m]."""
+        return self.law.largest_depth
+
+    def impact_time(self, touch: Touch) -> float:
+        """Duration [s] of an impact of the whole."""
+        return self.law.impact_time(touch)
+
+    def touch_force(self, touch: Touch) -> float:
+        """Force [N] just after the touch."""
+        return self.share * self.law.touch_force(touch)
