@@ -8,7 +8,7 @@ velocities dv and the impulses L under generalised impulses b and a change c of 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -82,9 +82,15 @@ class Kinetics:
         return row
 
     def driven(self) -> slice:
-        """Which of the rows are driven: rigid columns, then cranks."""
+        """Which of the rows can be driven: rigid columns, then cranks."""
         first = 2 * len(self.ideal)
         return slice(first, first + len(self.columns) + len(self.linkage.cranks))
+
+    def rates(self, speed: Callable[[str], float]) -> Matrix:
+        """Rates of all rows, shape (m,): of rigid columns and cranks as told by name [m/s], [rad/s], else 0."""
+        rates = np.zeros(self.driven().stop + 2 * len(self.linkage.slides))
+        rates[self.driven()] = [speed(name) for name in (*self.columns, *self.linkage.cranks)]
+        return rates
 
     def point(self, position: Matrix, body: str, point: Vector2) -> tuple[Matrix, Matrix]:
         """Where a point of a body is (2,) and the matrix that turns all velocities into its own (2, n)."""

@@ -6,8 +6,9 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Mapping
 from dataclasses import field
+from typing import Annotated
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from support_exudyn.width import Width
 from user_forces.values import NonNegative, Positive, Real, Value, Vector2, value
@@ -123,12 +124,14 @@ class Column(Value):
     Arguments:
         foot, head: names of the bodies, one of them may be "ground".
         foot_point, head_point: its ends [m], start posture.
+        driven: whether it follows a drive; one that does not keeps its length, or its oil.
     """
 
     foot: str
     head: str
     foot_point: Vector2
     head_point: Vector2
+    driven: Annotated[bool, Field(strict=True)] = True
 
     @property
     def start_length(self) -> float:
@@ -182,7 +185,7 @@ class Linkage(Value):
     Arguments:
         bodies: moving bodies by name.
         pins: pins by name.
-        columns: driven columns by name.
+        columns: driven columns and struts by name.
         points: traced points by name.
         cranks: driven cranks by name.
         slides: straight guides by name.
@@ -194,6 +197,11 @@ class Linkage(Value):
     points: Mapping[str, TracePoint] = field(default_factory=dict)
     cranks: Mapping[str, Crank] = field(default_factory=dict)
     slides: Mapping[str, Slide] = field(default_factory=dict)
+
+    @property
+    def driven(self) -> tuple[str, ...]:
+        """Names of all parts that follow a drive: columns, then cranks."""
+        return *(name for name, column in self.columns.items() if column.driven), *self.cranks
 
     @model_validator(mode="after")
     def _names_are_known(self) -> Linkage:

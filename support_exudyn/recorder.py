@@ -10,9 +10,10 @@ import exudyn
 import numpy as np
 
 from support_exudyn.between_records import StepEnd, between
+from support_exudyn.driven_parts import OilColumnItem
 from support_exudyn.energy import RunningIntegrals
 from support_exudyn.onset import PinMemory
-from support_exudyn.scene import OilColumnItem, Scene
+from support_exudyn.scene import Scene
 from support_exudyn.trajectory import Series
 
 
@@ -42,13 +43,8 @@ class Recorder:
         self.energies = RunningIntegrals(3)  # work of the drive, losses by damping and by friction
         self._data = scene.mbs.systemData
         self._pins = tuple(scene.loose_pins.values())
-        self._driven = tuple(column.multiplier for column in scene.rigid_columns.values()) + tuple(
-            crank.multiplier for crank in scene.cranks.values()
-        )
-        self._oil = tuple(scene.oil_columns.values())
+        self._driven = tuple((parts.drive, parts.multipliers, parts.oil) for parts in scene.driven)
         self._mbs = scene.mbs
-        self._speed = scene.scenario.drive.speed
-        self._extension = scene.scenario.drive.extension
         self._rows: list[tuple[Any, ...]] = []
         self._powers_now = (0.0, 0.0, 0.0)  # [W]
         self._start: StepEnd | None = None  # of the step going on
@@ -123,15 +119,16 @@ class Recorder:
     def _powers(self, t: float) -> tuple[float, float, float]:
         """Power [W] of the drive, of damping and of friction at the end of a step."""
         columns = damping = friction = 0.0
-        speed = self._speed(t)
-        if speed != 0.0 and self._driven:
-            multipliers = self._data.GetAECoordinates()
-            # the multiplier of a distance is the tension, that of a crank's angle the moment against it
-            columns = -speed * sum(float(multipliers[n]) for n in self._driven)
-        for item in self._oil:
-            work, loss = item.filled.powers(*self._length(item), self._extension(t), speed)
-            columns += work
-            damping += loss
+        for drive, struts, oil in self._driven:
+            speed = drive.speed(t)
+            if speed != 0.0 and struts:
+                multipliers = self._data.GetAECoordinates()
+                # the multiplier of a distance is the tension, that of a crank's angle the moment against it
+                columns -= speed * sum(float(multipliers[n]) for n in struts)
+            for item in oil:
+                work, loss = item.filled.powers(*self._length(item), drive.extension(t), speed)
+                columns += work
+                damping += loss
         for pin in self._pins:
             force = pin.force
             if force.depth > 0.0:

@@ -27,14 +27,17 @@ def check(scenario: Scenario) -> None:
             "solver.backend = 'compiled': only formulation = 'reduced' has it; allowed: 'auto', 'python', "
             "'symbolic', or 'compiled' with formulation = 'reduced'"
         )
-    moves = scenario.drive.span(scenario.duration) != (0.0, 0.0)
-    rigid = [name for name in scenario.linkage.columns if name not in scenario.oil_columns]
+    rigid = [
+        name
+        for name in scenario.linkage.columns
+        if name not in scenario.oil_columns and scenario.drive_of(name).span(scenario.duration) != (0.0, 0.0)
+    ]
     if scenario.solver.constraint_index == 2 and scenario.solver.integrator != "trapezoidal":
         raise InputError(
             "solver.constraint_index = 2: the engine's generalised alpha takes 3 only; allowed: 3, or 2 with "
             "integrator = 'trapezoidal'"
         )
-    if scenario.solver.constraint_index == 2 and moves and rigid:
+    if scenario.solver.constraint_index == 2 and rigid:
         raise InputError(
             f"solver.constraint_index = 2: {rigid[0]} is rigid and moves, and the engine's constraint knows no "
             "speed; allowed: 3, or columns of oil"
@@ -71,7 +74,7 @@ def trajectory(scene: Scene, history: History) -> Trajectory:
     position, velocity = history.position[:, order], history.velocity[:, order]
     motion = BodyMotion(scene.linkage, position, velocity, history.acceleration[:, order])
     oil = {
-        name: oil_series(item.filled, motion, scene.scenario.drive, history.time)
+        name: oil_series(item.filled, motion, scene.scenario.drive_of(name), history.time)
         for name, item in scene.oil_columns.items()
     }
     # the multiplier of a distance is the tension

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import field, replace
+from functools import cached_property
 from typing import Annotated, Literal
 
 from pydantic import Field, field_validator, model_validator
@@ -99,6 +100,7 @@ class Scenario(Value):
         pins: for each pin that is not ideal (or to say so), what it is, by name.
         columns: for each column that is not rigid (or to say so), what it is, by name.
         drive: how all driven parts move: columns extend [m], cranks turn [rad]. Into an oil column it lets oil.
+        drives: for each driven part, a column or crank, that moves otherwise, how it does, by name.
         duration: end time [s], > 0; the run starts at 0.
         start: "concentric": every journal in the middle of its bore, velocities as the machine says and as
             the drive has them with ideal pins; "settled": at rest in static equilibrium under gravity.
@@ -123,6 +125,7 @@ class Scenario(Value):
     pins: Mapping[str, Pin] = field(default_factory=dict)
     columns: Mapping[str, ColumnModel] = field(default_factory=dict)
     drive: Drive = field(default_factory=Held)
+    drives: Mapping[str, Drive] = field(default_factory=dict)
     duration: Positive
     start: Literal["concentric", "settled"] = "concentric"
     gravity: Vector2 = (0.0, -9.81)
@@ -163,13 +166,8 @@ class Scenario(Value):
             raise ValueError(
                 f"record_period = {self.record_period} s: allowed: at most the duration, {self.duration} s"
             )
-        if self.start == "settled" and self.drive.initial_speed != 0.0:
-            raise ValueError(
-                "start = 'settled': is at rest, but the drive moves from the start on "
-                f"({self.drive.initial_speed} per s); allowed with this drive: 'concentric'"
-            )
         self._check_columns(linkage)
-        self.machine.check_extension(*self.drive.span(self.duration))
+        self._check_drives(linkage)
         return self
 
     def _check_columns(self, linkage: Linkage) -> None:
@@ -179,7 +177,24 @@ class Scenario(Value):
                     f"columns.{name}: the machine has no such column; "
                     f"allowed: {', '.join(linkage.columns) or 'none'}"
                 )
-            column.check_extension(self.drive.span(self.duration)[0], name)
+            column.check_extension(self.drive_of(name).span(self.duration)[0], name)
+
+    def _check_drives(self, linkage: Linkage) -> None:
+        for name in self.drives:
+            if name not in linkage.driven:
+                raise ValueError(
+                    f"drives.{name}: the machine has no such driven part; "
+                    f"allowed: {', '.join(linkage.driven) or 'none'}"
+                )
+        for drive in self.drives_in_use:
+            if self.start == "settled" and drive.initial_speed != 0.0:
+                raise ValueError(
+                    "start = 'settled': is at rest, but the drive moves from the start on "
+                    f"({drive.initial_speed} per s); allowed with this drive: 'concentric'"
+                )
+        spans = [drive.span(self.duration) for drive in self.drives_in_use]
+        # where parts are driven apart, all of them over the range of all: what the machine can answer
+        self.machine.check_extension(min(low for low, _ in spans), max(high for _, high in spans))
 
     def refined(self, factor: float = 2) -> Scenario:
         """The same run with all steps, also those of impacts, so many times shorter.
@@ -201,10 +216,30 @@ class Scenario(Value):
         step = min(self.step, self.record_period) / factor
         return replace(self, step=step, solver=finer)
 
-    @property
+    @cached_property
     def linkage(self) -> Linkage:
         """The machine's mechanism in its start posture."""
         return self.machine.linkage()
+
+    def drive_of(self, name: str) -> Drive:
+        """The drive that a column or crank of the linkage follows; `Held` for a column that is not driven."""
+        if name in self.linkage.columns and not self.linkage.columns[name].driven:
+            return Held()
+        return self.drives.get(name, self.drive)
+
+    @cached_property
+    def drives_in_use(self) -> tuple[Drive, ...]:
+        """All different drives of driven parts; `drive` if the machine has none."""
+        found: list[Drive] = []
+        for name in self.linkage.driven:
+            if (drive := self.drive_of(name)) not in found:
+                found.append(drive)
+        return tuple(found) or (self.drive,)
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """Breaks of all drives in use [s], sorted."""
+        return tuple(sorted({t for drive in self.drives_in_use for t in drive.breaks}))
 
     @property
     def goal(self) -> float | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property, partial
-from typing import Any
+from typing import Any, TypeVar
 
 import exudyn
 import numpy as np
@@ -26,10 +26,12 @@ from exudyn.itemInterface import (
 )
 
 from support_exudyn.connector import frame
+from support_exudyn.driven_parts import DrivenParts, OilColumnItem
+from support_exudyn.drives import Drive
 from support_exudyn.kinetics import Kinetics
 from support_exudyn.loose_pin import LoosePin
 from support_exudyn.machine import GROUND, Body, Column, Crank, Linkage, PinPlace, Slide
-from support_exudyn.oil import FilledColumn, fill
+from support_exudyn.oil import fill
 from support_exudyn.onset import Mobility, PinMemory
 from support_exudyn.pin_motion import PinEnd, PinMotion
 from support_exudyn.pins import ClearancePin
@@ -40,14 +42,7 @@ from user_forces.values import Vector2
 
 INITIAL = exudyn.ConfigurationType.Initial
 CURRENT = exudyn.ConfigurationType.Current
-
-
-@dataclass(frozen=True)
-class OilColumnItem:
-    """A column of oil in the engine."""
-
-    filled: FilledColumn
-    object: Any
+Item = TypeVar("Item")
 
 
 @dataclass(frozen=True)
@@ -65,6 +60,7 @@ class Scene:
     oil_columns: dict[str, OilColumnItem]
     cranks: dict[str, CrankItem]
     slides: dict[str, SlideItem]
+    driven: tuple[DrivenParts, ...]  # all columns and cranks, by the drive that they follow
 
     def release(self) -> None:
         """Let go of the engine's model: what its user functions know would never be freed."""
@@ -74,21 +70,10 @@ class Scene:
         mbs.SetPostStepUserFunction(0)
         self.container.Reset()
 
-    def drive_to(self, extension: float, speed: float) -> None:
-        """Make the columns longer than at the start by so much [m], turn the cranks by so much [rad].
-
-        The speed [m/s] is only needed by what gives: oil columns.
-        """
-        for rigid in self.rigid_columns.values():
-            self.mbs.SetObjectParameter(rigid.object, "distance", rigid.column.start_length + extension)
-        for oil in self.oil_columns.values():
-            stiffness = oil.filled.model.stiffness(extension)
-            self.mbs.SetObjectParameter(oil.object, "referenceLength", oil.filled.natural_length(extension))
-            self.mbs.SetObjectParameter(oil.object, "velocityOffset", speed)
-            self.mbs.SetObjectParameter(oil.object, "stiffness", stiffness)
-            self.mbs.SetObjectParameter(oil.object, "damping", stiffness * oil.filled.model.damping_time)
-        for crank in self.cranks.values():
-            self.mbs.SetObjectParameter(crank.object, "offset", extension)
+    def drive_to(self, t: float) -> None:
+        """Set every column and crank to where its drive has it at time t [s]."""
+        for parts in self.driven:
+            parts.move_to(t)
 
     @cached_property
     def kinetics(self) -> Kinetics:
@@ -127,16 +112,14 @@ class Scene:
 
     def start_moving(self) -> None:
         """Give the bodies the velocities that the drive has at the start, with ideal pins."""
-        speed = self.scenario.drive.initial_speed
-        if speed == 0.0:
+        if all(drive.initial_speed == 0.0 for drive in self.scenario.drives_in_use):
             return
         closed = self.closed_kinetics
         data = self.mbs.systemData
         position, velocity = data.GetODE2Coordinates(INITIAL), data.GetODE2Coordinates_t(INITIAL)
-        rows = closed.rows(position)
-        rates = np.zeros(len(rows))
-        rates[closed.driven()] = speed
-        change, _ = closed.respond(position, np.zeros_like(velocity), rates - rows @ velocity)
+        rates = closed.rates(lambda name: self.scenario.drive_of(name).initial_speed)
+        missing = rates - closed.rows(position) @ velocity
+        change, _ = closed.respond(position, np.zeros_like(velocity), missing)
         data.SetODE2Coordinates_t(velocity + change, INITIAL)
 
     def reset_memory(self) -> None:
@@ -294,6 +277,22 @@ class _Builder:
             )
         )
 
+    def by_drive(
+        self, rigid: dict[str, ColumnItem], oil: dict[str, OilColumnItem], cranks: dict[str, CrankItem]
+    ) -> tuple[DrivenParts, ...]:
+        """All that can be driven, by drive."""
+        drives: list[Drive] = []
+        for name in (*rigid, *oil, *cranks):
+            if (drive := self.scenario.drive_of(name)) not in drives:
+                drives.append(drive)
+
+        def of(drive: Drive, items: dict[str, Item]) -> tuple[Item, ...]:
+            return tuple(item for name, item in items.items() if self.scenario.drive_of(name) == drive)
+
+        return tuple(
+            DrivenParts(self.mbs, one, of(one, rigid), of(one, oil), of(one, cranks)) for one in drives
+        )
+
     def build(self) -> Scene:
         loose = {
             name: self.add_loose(self.linkage.pins[name], pin)
@@ -315,6 +314,15 @@ class _Builder:
             for name, item in self.bodies.items()
         }
         filled = fill(self.linkage, self.scenario.oil_columns, self.scenario.gravity)
+        rigid_columns = {
+            name: ColumnItem(self.linkage.columns[name], o, int(data.GetObjectLTGAE(o)[0]))
+            for name, o in rigid.items()
+        }
+        oil_columns = {name: OilColumnItem(filled[name], o) for name, o in oil.items()}
+        crank_items = {
+            name: CrankItem(self.linkage.cranks[name], o, int(data.GetObjectLTGAE(o)[0]))
+            for name, o in cranks.items()
+        }
         scene = Scene(
             scenario=self.scenario,
             linkage=self.linkage,
@@ -323,21 +331,16 @@ class _Builder:
             bodies=bodies,
             ideal_pins={name: IdealItem(o, int(data.GetObjectLTGAE(o)[0])) for name, o in ideal.items()},
             loose_pins=loose,
-            rigid_columns={
-                name: ColumnItem(self.linkage.columns[name], o, int(data.GetObjectLTGAE(o)[0]))
-                for name, o in rigid.items()
-            },
-            oil_columns={name: OilColumnItem(filled[name], o) for name, o in oil.items()},
-            cranks={
-                name: CrankItem(self.linkage.cranks[name], o, int(data.GetObjectLTGAE(o)[0]))
-                for name, o in cranks.items()
-            },
+            rigid_columns=rigid_columns,
+            oil_columns=oil_columns,
+            cranks=crank_items,
             slides={name: SlideItem(o, int(data.GetObjectLTGAE(o)[0])) for name, o in slides.items()},
+            driven=self.by_drive(rigid_columns, oil_columns, crank_items),
         )
         for name, pin in loose.items():
             pin.mobility = partial(scene.mobility, name)
             pin.motion = scene.pin_motion(name)
-        scene.drive_to(0.0, self.scenario.drive.initial_speed)
+        scene.drive_to(0.0)
         scene.start_moving()
         scene.reset_memory()
         return scene

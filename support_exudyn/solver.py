@@ -51,7 +51,7 @@ class Run:
         self.data = scene.mbs.systemData
         self.recorder = recorder
         self.progress = progress
-        self.plan = StepPlan(scenario.duration, scenario.record_period, scenario.step, scenario.drive.breaks)
+        self.plan = StepPlan(scenario.duration, scenario.record_period, scenario.step, scenario.breaks)
         self.solver: Any = exudyn.MainSolverImplicitSecondOrder()  # its stubs lack self
         self.impulses: list[Impulse] = []
         self.settings = engine_settings(scenario.solver, scenario.duration)
@@ -61,7 +61,6 @@ class Run:
         self.steps = self.cut_steps = self.failed_newton = 0
         self.trying = False  # a step has been tried and not accepted yet
         self.repeated = False  # that step is tried again, shorter
-        self.driven = (0.0, scenario.drive.initial_speed)  # extension and speed that the engine has [m], [m/s]
 
     def go(self) -> Counts:
         """Integrate. Raises SimulationError if the run cannot be finished."""
@@ -71,9 +70,8 @@ class Run:
             pin.locates = self.locates
             pin.begin_try(0.0)
         if self.scene.scenario.solver.constraint_index == 2:
-            for crank in self.scene.cranks.values():
-                mbs.SetObjectParameter(crank.object, "velocityLevel", True)
-            self._drive_to(*self.driven)
+            for parts in self.scene.driven:
+                parts.follow_speed()
         mbs.SetPreStepUserFunction(self._before_try)
         if self.pins:
             mbs.SetPostNewtonUserFunction(self._after_newton)
@@ -111,22 +109,12 @@ class Run:
             else:
                 self.failed_newton += 1
         self.trying = True
-        drive = self.scene.scenario.drive
-        driven = drive.extension(t), drive.speed(t)
-        if driven != self.driven:
-            self._drive_to(*driven)
-            self.driven = driven
+        self.scene.drive_to(t)
         if self.pins:
             step = float(self.solver.it.currentStepSize)
             for pin in self.pins:
                 pin.begin_try(step)
         return True
-
-    def _drive_to(self, extension: float, speed: float) -> None:
-        self.scene.drive_to(extension, speed)
-        if self.scene.scenario.solver.constraint_index == 2:  # cranks follow a speed, not an angle
-            for crank in self.scene.cranks.values():
-                self.scene.mbs.SetObjectParameter(crank.object, "offset", speed)
 
     def _after_newton(self, mbs: Any, t: float) -> list[float]:
         """After a step that would end at t has been solved: [error, recommended step]."""
@@ -177,13 +165,12 @@ class Run:
         self.repeated = False
 
     def _jump(self, t: float) -> None:
-        """Velocities after a break, if the columns' speed jumps there."""
-        speed_jump = self.scene.scenario.drive.speed_jump(t)
-        if speed_jump:
-            impulse = jump_velocities(self.scene, t, speed_jump)
-            if impulse.columns or impulse.cranks:  # where all columns give, nothing is struck
+        """Velocities after a break, if the speed of a drive jumps there."""
+        if any(drive.speed_jump(t) for drive in self.scene.scenario.drives_in_use):
+            impulse = jump_velocities(self.scene, t)
+            if impulse is not None:
                 self.impulses.append(impulse)
-            self.recorder.jump(t, impulse.energy)
+            self.recorder.jump(t, 0.0 if impulse is None else impulse.energy)
             self.scene.refresh_memory()
             for pin in self.pins:
                 pin.begin_impact()

@@ -79,14 +79,14 @@ def _static_loads(scenario: Scenario, closed: Kinetics) -> dict[str, Matrix]:
 
 def _running(scenario: Scenario, closed: Kinetics) -> float:
     """Acceleration of the fastest body of a machine whose cranks turn from the start on [m/s^2]."""
-    speed = scenario.drive.initial_speed
-    if speed == 0.0 or not closed.linkage.cranks:
+    speeds = {name: scenario.drive_of(name).initial_speed for name in closed.linkage.cranks}
+    fastest = max(map(abs, speeds.values()), default=0.0)
+    if fastest == 0.0:
         return 0.0
     size = 3 * len(closed.bodies)
-    rates = np.zeros(len(closed.rows(np.zeros(size))))
-    rates[closed.driven()] = speed
+    rates = closed.rates(lambda name: scenario.drive_of(name).initial_speed)
     velocity = closed.respond(np.zeros(size), np.zeros(size), rates)[0]
-    return abs(speed) * float(np.hypot(velocity[0::3], velocity[1::3]).max())
+    return fastest * float(np.hypot(velocity[0::3], velocity[1::3]).max())
 
 
 def _mobility(scenario: Scenario, name: str) -> Matrix:
@@ -98,8 +98,11 @@ def _mobility(scenario: Scenario, name: str) -> Matrix:
 
 
 def _drive_time(scenario: Scenario, linkage: Linkage) -> float:
-    drive = scenario.drive
-    if isinstance(drive, Stroke):
-        return drive.end - drive.start
-    speed = abs(drive.initial_speed)
-    return 1.0 / speed if speed > 0.0 and linkage.cranks else math.inf
+    times = [math.inf]
+    for drive in scenario.drives_in_use:
+        speed = abs(drive.initial_speed)
+        if isinstance(drive, Stroke):
+            times.append(drive.end - drive.start)
+        elif speed > 0.0 and linkage.cranks:
+            times.append(1.0 / speed)
+    return min(times)

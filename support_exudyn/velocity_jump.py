@@ -12,13 +12,17 @@ from support_exudyn.impulse import Impulse
 from support_exudyn.scene import Scene
 
 
-def jump_velocities(scene: Scene, time: float, speed_jump: float) -> Impulse:
-    """Give the bodies the velocities that belong to a drive whose speed has jumped by so much."""
+def jump_velocities(scene: Scene, time: float) -> Impulse | None:
+    """Give the bodies the velocities that belong to drives whose speed has jumped at a break [s].
+
+    None if nothing is struck, because all that jumps gives.
+    """
     data, kinetics = scene.mbs.systemData, scene.kinetics
+    jump = kinetics.rates(lambda name: scene.scenario.drive_of(name).speed_jump(time))
+    if not jump.any():
+        return None
     position, before = data.GetODE2Coordinates(), data.GetODE2Coordinates_t()
     mass = kinetics.mass()
-    jump = np.zeros(len(kinetics.rows(position)))
-    jump[kinetics.driven()] = speed_jump
     change, impulses = kinetics.respond(position, np.zeros_like(before), jump)
     after = before + change
     data.SetODE2Coordinates_t(after)

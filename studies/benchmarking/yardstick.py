@@ -106,8 +106,10 @@ def _numbers(scenario: Scenario, tolerance: float) -> list[float]:
     machine, drive = scenario.machine, scenario.drive
     if not isinstance(machine, HydraulicSupport) or not isinstance(drive, CubicStep):
         raise InputError("the yardstick takes a HydraulicSupport and a CubicStep")
-    if tuple(scenario.clearance_pins) != (PIN,) or scenario.columns or scenario.start != "concentric":
-        raise InputError(f"the yardstick takes rigid columns, one loose pin, {PIN}, and start = 'concentric'")
+    if scenario.columns or scenario.drives:
+        raise InputError("the yardstick takes rigid columns and one drive")
+    if tuple(scenario.clearance_pins) != (PIN,) or scenario.start != "concentric":
+        raise InputError(f"the yardstick takes one loose pin, {PIN}, and start = 'concentric'")
     pin = scenario.clearance_pins[PIN]
     if pin.bore != "first":
         raise InputError(f"pins.{PIN}.bore = {pin.bore!r}: allowed: 'first'")

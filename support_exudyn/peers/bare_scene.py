@@ -78,8 +78,13 @@ def loose_contact(scenario: Scenario) -> tuple[str, JournalContact, str]:
     """Name, contact and body of the bore ("first" or "second") of the one loose pin; InputError otherwise."""
     if not isinstance(scenario.machine, (HydraulicSupport, SliderCrank)):
         raise InputError(f"machine = {type(scenario.machine).__name__}: allowed: HydraulicSupport, SliderCrank")
-    if len(scenario.clearance_pins) != 1 or scenario.columns or scenario.start != "concentric":
-        raise InputError("a competitor takes one loose pin, rigid columns and start = 'concentric'")
+    if (
+        len(scenario.clearance_pins) != 1
+        or scenario.columns
+        or scenario.drives
+        or scenario.start != "concentric"
+    ):
+        raise InputError("a competitor takes one loose pin, rigid columns, one drive and start = 'concentric'")
     ((name, pin),) = scenario.clearance_pins.items()
     return name, pin.contact, pin.bore
 

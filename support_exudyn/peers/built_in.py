@@ -224,7 +224,7 @@ def _fit_ours(backend: Literal["python", "symbolic"], scenario: Scenario, step: 
             pin.plainly(rate if closed else UNDAMPED)
 
     def assembled() -> None:
-        ours.drive_to(0.0, scenario.drive.initial_speed)
+        ours.drive_to(0.0)
         ours.start_moving()
         ours.reset_memory()
         pin.plainly(UNDAMPED)

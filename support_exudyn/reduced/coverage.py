@@ -33,6 +33,9 @@ def check(scenario: Scenario) -> None:
     if type(scenario.drive) not in model.DRIVES:
         allowed = ", ".join(drive.__name__ for drive in model.DRIVES)
         _refuse("drive", type(scenario.drive).__name__, allowed)
+    for name, drive in scenario.drives.items():
+        if drive != scenario.drive:
+            _refuse(f"drives.{name}", type(drive).__name__, "one drive for all parts")
     if scenario.start != "concentric":
         _refuse("start", repr(scenario.start), "'concentric'")
     for name, column in scenario.oil_columns.items():

@@ -1,7 +1,8 @@
-"""The drive in pieces, on each of which it is a cubic of time, so that every stage of a step knows it."""
+"""The drives in pieces, on each of which all are cubics of time, so that every stage of a step knows them."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -19,9 +20,9 @@ THROUGH = np.array(
 
 
 class Piece(NamedTuple):
-    """A cubic of the drive.
+    """A cubic of each of c drives.
 
-    begin, end: [s]. cubic: see `loads`, shape (5,).
+    begin, end: [s]. cubic: see `loads`, shape (c, 5).
     """
 
     begin: float
@@ -29,27 +30,33 @@ class Piece(NamedTuple):
     cubic: Matrix
 
 
-def pieces(drive: Drive, duration: float, allowed: float) -> list[Piece]:
-    """The drive from 0 to the end of a run [s], within an allowed error of extension [m] (and rounding)."""
-    inner = sorted({t for t in drive.breaks if 0.0 < t < duration})
+def pieces(drives: Sequence[Drive], duration: float, allowed: float) -> list[Piece]:
+    """Drives from 0 to the end of a run [s], within an allowed error of extension [m] (and rounding)."""
+    inner = sorted({t for drive in drives for t in drive.breaks if 0.0 < t < duration})
     found: list[Piece] = []
     for begin, end in zip([0.0, *inner], [*inner, duration], strict=True):
-        found += _between(drive, begin, end, max(allowed, ROUNDING))
+        found += _between(drives, begin, end, max(allowed, ROUNDING))
     return found
 
 
-def _between(drive: Drive, begin: float, end: float, allowed: float) -> list[Piece]:
-    """Pieces between two breaks: one if the drive is a cubic there, else halved until it nearly is."""
+def _between(drives: Sequence[Drive], begin: float, end: float, allowed: float) -> list[Piece]:
+    """Pieces between two breaks: one if all drives are cubics there, else halved until they nearly are."""
     length = end - begin
-    values = np.array([drive.extension(begin + x * length) for x in (0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0)])
-    cubic = np.array([begin, *(THROUGH @ values / length ** np.arange(4))])
+    cubics = [_cubic(drive, begin, length) for drive in drives]
     if length < SHORTEST or all(
         abs(extension(cubic, begin + x * length) - drive.extension(begin + x * length)) <= allowed
+        for cubic, drive in zip(cubics, drives, strict=True)
         for x in LOOKED_AT
     ):
-        return [Piece(begin, end, cubic)]
+        return [Piece(begin, end, np.array(cubics).reshape(-1, 5))]
     middle = begin + 0.5 * length
-    return _between(drive, begin, middle, allowed) + _between(drive, middle, end, allowed)
+    return _between(drives, begin, middle, allowed) + _between(drives, middle, end, allowed)
+
+
+def _cubic(drive: Drive, begin: float, length: float) -> Matrix:
+    """The cubic through a drive from a time on [s], shape (5,)."""
+    values = np.array([drive.extension(begin + x * length) for x in (0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0)])
+    return np.array([begin, *(THROUGH @ values / length ** np.arange(4))])
 
 
 def extension(cubic: Matrix, t: float | Matrix) -> Matrix:

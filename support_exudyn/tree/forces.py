@@ -40,7 +40,7 @@ class Forces:
         self.links = _links(tree)
         self.points = _points(tree, [end for pair in ends for end in pair])
         self.columns = np.array([_column(filled) for filled in columns.values()]).reshape(-1, 4)
-        self.cubic: Matrix = np.zeros(5)  # of the drive, see `loads`
+        self.cubic: Matrix = np.zeros((len(columns), 5))  # of their drives, see `loads`
         self.work: Matrix = np.zeros((len(self.links) + len(self.points), WIDTH))
         arrays = self.links, self.points, self.work
         self.pins = {

@@ -32,7 +32,8 @@ def run(scenario: Scenario, progress: Progress) -> Outcome:
     filled = fill(linkage, scenario.oil_columns, scenario.gravity)
     forces = Forces(tree, scenario, filled)
     smallest = min((pin.contact.bearing.clearance for pin in loose.values()), default=CLEARANCE)
-    drive = pieces(scenario.drive, scenario.duration, OF_THE_DRIVE * scenario.solver.tolerance * smallest)
+    drives = [scenario.drive_of(name) for name in filled]
+    drive = pieces(drives, scenario.duration, OF_THE_DRIVE * scenario.solver.tolerance * smallest)
     forces.cubic[:] = drive[0].cubic
     velocity = rates(tree, scenario)
     position = np.zeros_like(velocity)

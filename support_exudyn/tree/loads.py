@@ -5,7 +5,7 @@ All functions of this file work on these arrays:
     links (n, 3): number of the carrier (-1: ground), joint from the carrier's joint, at the start [m]
     points (p, 3): number of the link (-1: ground), point from its joint, at the start [m]
     columns (c, 4): bulk modulus times area [N], oil length [m], damping time [s], natural length [m]
-    drive (5,): a time [s], and coefficients of the cubic by which the columns extend after it [m/s^k]
+    drive (c, 5): a time [s], and coefficients of the cubic by which the column extends after it [m/s^k]
     work (n + p, 9): of joints, then of points: the quantities below
 
 Points come in pairs: first bore and journal of each loose pin, then foot and head of each column.
@@ -79,11 +79,11 @@ def evaluate(
 ) -> None:
     """Motion and forces of columns at t [s] in a state: all coordinates [rad], then all rates [rad/s]."""
     move(links, points, work, state)
-    after = t - drive[0]
-    extension = drive[1] + after * (drive[2] + after * (drive[3] + after * drive[4]))
-    speed = drive[2] + after * (2.0 * drive[3] + after * 3.0 * drive[4])
     pins = points.shape[0] // 2 - columns.shape[0]
     for c in range(columns.shape[0]):
+        after = t - drive[c, 0]
+        extension = drive[c, 1] + after * (drive[c, 2] + after * (drive[c, 3] + after * drive[c, 4]))
+        speed = drive[c, 2] + after * (2.0 * drive[c, 3] + after * 3.0 * drive[c, 4])
         pair = pins + c
         foot = links.shape[0] + 2 * pair
         head = foot + 1

@@ -26,8 +26,8 @@ from user_forces.values import Vector2
 class Instants:
     """Where and how the run is looked at.
 
-    time (m,) [s]. posture: at these times. cubic: of the drive (m, 5), see `loads`. memories: of loose pins, by
-    name (m, fields of PinMemory).
+    time (m,) [s]. posture: at these times. cubic: of the drives of all columns (m, c, 5), see `loads`.
+    memories: of loose pins, by name (m, fields of PinMemory).
     """
 
     time: Matrix
@@ -68,7 +68,7 @@ class Observation:
     @cached_property
     def columns(self) -> dict[str, OilSeries]:
         """Columns by name."""
-        return {name: self._column(filled) for name, filled in self.filled.items()}
+        return {name: self._column(n, filled) for n, (name, filled) in enumerate(self.filled.items())}
 
     @cached_property
     def pin_forces(self) -> dict[str, PointForce]:
@@ -105,8 +105,9 @@ class Observation:
     def _place(self, name: str) -> PinPlace:
         return self.motion.linkage.pins[name]
 
-    def _column(self, filled: FilledColumn) -> OilSeries:
-        let_in = extension(self.at.cubic, self.at.time), speed(self.at.cubic, self.at.time)
+    def _column(self, number: int, filled: FilledColumn) -> OilSeries:
+        cubic = self.at.cubic[:, number]
+        let_in = extension(cubic, self.at.time), speed(cubic, self.at.time)
         return filled.series(self.motion, *let_in)
 
     def _column_forces(self) -> list[PointForce]:

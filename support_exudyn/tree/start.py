@@ -49,14 +49,13 @@ def _body_velocities(tree: Tree, scenario: Scenario) -> Matrix:
     """Velocities of all bodies at the start, (3 b,) in the order of the linkage, with the drive's."""
     linkage = tree.linkage
     velocity = np.concatenate([[*body.velocity, body.spin] for body in linkage.bodies.values()])
-    if scenario.drive.initial_speed == 0.0:
+    if all(drive.initial_speed == 0.0 for drive in scenario.drives_in_use):
         return velocity
     closed = kinetics_of(linkage)
     position = np.zeros_like(velocity)
-    rows = closed.rows(position)
-    wanted = np.zeros(len(rows))
-    wanted[closed.driven()] = scenario.drive.initial_speed
-    change, _ = closed.respond(position, np.zeros_like(velocity), wanted - rows @ velocity)
+    wanted = closed.rates(lambda name: scenario.drive_of(name).initial_speed)
+    missing = wanted - closed.rows(position) @ velocity
+    change, _ = closed.respond(position, np.zeros_like(velocity), missing)
     return np.asarray(velocity + change)
 
 

@@ -16,7 +16,7 @@ from exudyn.itemInterface import MarkerBodyRigid, NodeGenericData, ObjectContact
 from support_exudyn import SolverSettings, simulate
 from support_exudyn.scene import build
 from support_exudyn.solver import quiet_engine
-from tests.reference.cases import CRANK_SPEED, SLIDER_PIN, loose_slider_crank, slider_crank_contact
+from tests.reference.cases import SLIDER_PIN, loose_slider_crank, slider_crank_contact
 
 DURATION = 1.3e-3  # five impacts [s]
 STEP = 1e-8  # [s], in which the approach speed changes by up to 5e-4 m/s
@@ -68,7 +68,7 @@ def twin_onsets() -> list[Seen]:
     depths: list[float] = []  # at the ends of steps
 
     def drive(mbs: object, t: float) -> bool:
-        scene.drive_to(CRANK_SPEED * t, CRANK_SPEED)
+        scene.drive_to(t)
         return True
 
     def watch(mbs: object, t: float) -> bool:

@@ -14,6 +14,7 @@ from support_exudyn import (
     IdealPin,
     Linkage,
     Machine,
+    OilColumn,
     PinPlace,
     Scenario,
     SolverSettings,
@@ -21,6 +22,7 @@ from support_exudyn import (
     UniformSpeed,
 )
 from support_exudyn.machine import Body, Part
+from support_exudyn.reduced.coverage import check
 from tests.unit.cases import contact, support
 from user_forces import InputError, JournalBearing, Value, value
 
@@ -68,7 +70,8 @@ def test_negative_step_is_refused() -> None:
 
 def test_unknown_field_is_refused() -> None:
     with pytest.raises(
-        InputError, match=r"Scenario\.speed = 3: unknown field; the fields are machine, pins, columns, drive"
+        InputError,
+        match=r"Scenario\.speed = 3: unknown field; the fields are machine, pins, columns, drive, drives",
     ):
         scenario(speed=3)
 
@@ -367,3 +370,49 @@ def test_an_ideal_pin_must_be_closed_at_the_start() -> None:
 def test_a_moving_drive_cannot_start_settled() -> None:
     with pytest.raises(InputError, match="start = 'settled': is at rest, but the drive moves"):
         scenario(drive=Steady(rate=0.02), start="settled")
+
+
+# --- drives of single parts ---
+
+
+def test_a_drive_of_an_unknown_part_is_refused() -> None:
+    with pytest.raises(
+        InputError,
+        match=r"drives\.jack: the machine has no such driven part; allowed: front_column, rear_column",
+    ):
+        scenario(drives={"jack": Held()})
+
+
+def test_every_part_follows_the_drive_unless_said_otherwise() -> None:
+    front, rear = CubicStep(stroke=0.1), CubicStep(stroke=0.2, start=1.0)
+    plain = scenario(drive=front)
+    assert plain.drives == {}
+    assert plain.breaks == front.breaks
+    apart = scenario(drive=front, drives={"rear_column": rear})
+    assert (apart.drive_of("front_column"), apart.drive_of("rear_column")) == (front, rear)
+    assert apart.breaks == (1.0, 3.0, 5.0)
+
+
+def test_each_drive_must_stay_within_reach() -> None:
+    with pytest.raises(InputError, match=r"column extension = 5\.0 m"):
+        scenario(drives={"rear_column": CubicStep(stroke=5.0)})
+
+
+def test_no_drive_may_move_from_a_settled_start() -> None:
+    with pytest.raises(InputError, match=r"start = 'settled'.*0\.01 per s"):
+        scenario(drives={"rear_column": Steady(rate=0.01)}, start="settled")
+
+
+def test_oil_is_checked_against_the_drive_of_its_own_column() -> None:
+    oil = OilColumn(bore_area=0.1, oil_length=0.1, bulk_modulus=1e9)
+    lowers = {"rear_column": CubicStep(stroke=-0.2)}
+    assert scenario(columns={"front_column": oil}, drives=lowers).drives == lowers
+    with pytest.raises(InputError, match=r"columns\.rear_column\.oil_length = 0\.1 m"):
+        scenario(columns={"rear_column": oil}, drives=lowers)
+
+
+def test_the_reduced_formulation_takes_one_drive() -> None:
+    one = CubicStep()
+    check(scenario(drive=one, drives={"rear_column": one}))
+    with pytest.raises(InputError, match=r"drives\.rear_column = Held: not covered by .*'reduced'"):
+        check(scenario(drive=one, drives={"rear_column": Held()}))

@@ -157,12 +157,12 @@ def pin_rows(posture: Posture) -> np.ndarray:
 
 @pytest.mark.parametrize("drive", [Held(), CubicStep(), UniformSpeed(), Steady(rate=0.1)])
 def test_drives_that_are_cubics_are_met_exactly(drive: Drive) -> None:
-    found = pieces(drive, 6.0, 1e-18)  # less than rounding, which is not looked for
+    found = pieces([drive], 6.0, 1e-18)  # less than rounding, which is not looked for
     assert [p.begin for p in found] == [0.0, *drive.breaks]
     for piece in found:
         for t in np.linspace(piece.begin, piece.end, 7)[1:-1].tolist():
-            assert extension(piece.cubic, t) == pytest.approx(drive.extension(t), abs=1e-14)
-            assert speed(piece.cubic, t) == pytest.approx(drive.speed(t), abs=1e-14)
+            assert extension(piece.cubic[0], t) == pytest.approx(drive.extension(t), abs=1e-14)
+            assert speed(piece.cubic[0], t) == pytest.approx(drive.speed(t), abs=1e-14)
 
 
 def test_other_drives_are_cut_into_cubics() -> None:
@@ -170,11 +170,11 @@ def test_other_drives_are_cut_into_cubics() -> None:
         def extension(self, t: float) -> float:
             return 0.1 * math.sin(10.0 * t)
 
-    found = pieces(Swaying(), 1.0, 1e-9)
+    found = pieces([Swaying()], 1.0, 1e-9)
     assert [p.end for p in found[:-1]] == [p.begin for p in found[1:]]
     t = np.linspace(0.0, 1.0, 1001)[:-1]
     number = np.searchsorted([p.end for p in found], t, side="right")
-    cubics = np.array([p.cubic for p in found])[number]
+    cubics = np.array([p.cubic[0] for p in found])[number]
     # between the points that are looked at the error is a little larger
     np.testing.assert_allclose(extension(cubics, t), 0.1 * np.sin(10.0 * t), atol=2e-9)
 
@@ -357,4 +357,4 @@ def test_a_drive_that_its_cubic_meets_in_the_middle_is_cut_all_the_same() -> Non
         def extension(self, t: float) -> float:
             return 0.1 * math.sin(2.0 * math.pi * t)
 
-    assert len(pieces(Wave(), 1.0, 1e-9)) > 10
+    assert len(pieces([Wave()], 1.0, 1e-9)) > 10
