@@ -6,12 +6,15 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Mapping
 from dataclasses import field
-from typing import Annotated
+from typing import TYPE_CHECKING,  Annotated
 
 from pydantic import Field, model_validator
 
 from support_exudyn.width import Width
-from user_forces.values import NonNegative, Positive, Real, Value, Vector2, value
+from user_forces.values import InputError, NonNegative, Positive, Real, Value, Vector2, value
+
+if TYPE_CHECKING:
+    from support_exudyn.spatial.layout import SpatialLinkage
 
 GROUND = "ground"
 Moments = tuple[Real, Real, Real]
@@ -236,6 +239,18 @@ class Machine(Value, ABC):
     def widths(self) -> Width | None:
         """Its lateral dimensions; None if it is known in its plane only."""
         return None
+
+    def in_space(self, linkage: Linkage) -> SpatialLinkage:
+        """The mechanism in space, from that in the plane and the lateral dimensions.
+
+        Raises InputError if there are none.
+        """
+        from support_exudyn.spatial.lift import lift  # which is made of what stands here
+
+        width = self.widths()
+        if width is None:
+            raise InputError(f"{type(self).__name__}: knows no lateral dimensions; allowed: machines with a Width")
+        return lift(linkage, width)
 
     def check_extension(self, lowest: float, highest: float) -> None:
         """Raise InputError if the drive cannot be extended over this range from the start.

@@ -13,7 +13,7 @@ from support_exudyn.between_records import StepEnd, between
 from support_exudyn.driven_parts import OilColumnItem
 from support_exudyn.energy import RunningIntegrals
 from support_exudyn.onset import PinMemory
-from support_exudyn.scene import Scene
+from support_exudyn.engine_scene import EngineScene
 from support_exudyn.trajectory import Series
 
 
@@ -39,7 +39,7 @@ class History:
 class Recorder:
     """Collects a History while a run goes on."""
 
-    def __init__(self, scene: Scene) -> None:
+    def __init__(self, scene: EngineScene) -> None:
         self.energies = RunningIntegrals(3)  # work of the drive, losses by damping and by friction
         self._data = scene.mbs.systemData
         self._pins = tuple(scene.loose_pins.values())

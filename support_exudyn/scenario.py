@@ -14,6 +14,7 @@ from support_exudyn.columns import ColumnModel, OilColumn
 from support_exudyn.drives import Drive, Held
 from support_exudyn.machine import Linkage, Machine
 from support_exudyn.pins import ClearancePin, Pin
+from support_exudyn.spatial.layout import SpatialLinkage
 from user_forces.values import Fraction, InputError, Positive, Real, Value, Vector2, value
 
 ACCURACIES = {"draft": 1e-2, "standard": 1e-3, "reference": 1e-5}
@@ -102,6 +103,9 @@ class Scenario(Value):
         drive: how all driven parts move: columns extend [m], cranks turn [rad]. Into an oil column it lets oil.
         drives: for each driven part, a column or crank, that moves otherwise, how it does, by name.
         duration: end time [s], > 0; the run starts at 0.
+        dimensions: 2: in the plane, both sides of a machine lumped; 3: in space, for machines that know their
+            lateral dimensions. Parts that there are two of are then driven by names such as `front_column_left`
+            if not both alike.
         start: "concentric": every journal in the middle of its bore, velocities as the machine says and as
             the drive has them with ideal pins; "settled": at rest in static equilibrium under gravity.
         gravity: acceleration [m/s^2].
@@ -127,6 +131,7 @@ class Scenario(Value):
     drive: Drive = field(default_factory=Held)
     drives: Mapping[str, Drive] = field(default_factory=dict)
     duration: Positive
+    dimensions: Literal[2, 3] = 2
     start: Literal["concentric", "settled"] = "concentric"
     gravity: Vector2 = (0.0, -9.81)
     accuracy: Accuracy | None = None
@@ -149,6 +154,8 @@ class Scenario(Value):
     @model_validator(mode="after")
     def _fits_the_machine(self) -> Scenario:
         linkage = self.linkage
+        if self.dimensions == 3:
+            self._check_space()
         places = linkage.pins
         for name in self.pins:
             if name not in places:
@@ -170,6 +177,17 @@ class Scenario(Value):
         self._check_drives(linkage)
         return self
 
+    def _check_space(self) -> None:
+        try:
+            space = self.space
+        except InputError as error:
+            raise ValueError(f"dimensions = 3: {error}") from None
+        if self.formulation in ERROR_CONTROLLED:
+            raise ValueError(
+                f"formulation = {self.formulation!r}: is planar; allowed with dimensions = 3: 'auto', 'redundant'"
+            )
+        del space
+
     def _check_columns(self, linkage: Linkage) -> None:
         for name, column in self.columns.items():
             if name not in linkage.columns:
@@ -180,11 +198,11 @@ class Scenario(Value):
             column.check_extension(self.drive_of(name).span(self.duration)[0], name)
 
     def _check_drives(self, linkage: Linkage) -> None:
+        allowed = tuple(dict.fromkeys((*linkage.driven, *self.driven)))
         for name in self.drives:
-            if name not in linkage.driven:
+            if name not in allowed:
                 raise ValueError(
-                    f"drives.{name}: the machine has no such driven part; "
-                    f"allowed: {', '.join(linkage.driven) or 'none'}"
+                    f"drives.{name}: the machine has no such driven part; allowed: {', '.join(allowed) or 'none'}"
                 )
         for drive in self.drives_in_use:
             if self.start == "settled" and drive.initial_speed != 0.0:
@@ -221,17 +239,33 @@ class Scenario(Value):
         """The machine's mechanism in its start posture."""
         return self.machine.linkage()
 
+    @cached_property
+    def space(self) -> SpatialLinkage:
+        """The machine's mechanism in space. Raises InputError if it is known in its plane only."""
+        return self.machine.in_space(self.linkage)
+
     def drive_of(self, name: str) -> Drive:
-        """The drive that a column or crank of the linkage follows; `Held` for a column that is not driven."""
-        if name in self.linkage.columns and not self.linkage.columns[name].driven:
+        """The drive that a column or crank follows; `Held` for a column that is not driven."""
+        whole = name
+        if self.dimensions == 3 and name in self.space.columns:
+            whole = self.space.columns[name].column
+        if whole in self.linkage.columns and not self.linkage.columns[whole].driven:
             return Held()
-        return self.drives.get(name, self.drive)
+        return self.drives.get(name, self.drives.get(whole, self.drive))
+
+    @property
+    def driven(self) -> tuple[str, ...]:
+        """Names of all parts that follow a drive: columns, then cranks."""
+        if self.dimensions == 2:
+            return self.linkage.driven
+        columns = self.space.columns.items()
+        return tuple(name for name, column in columns if self.linkage.columns[column.column].driven)
 
     @cached_property
     def drives_in_use(self) -> tuple[Drive, ...]:
         """All different drives of driven parts; `drive` if the machine has none."""
         found: list[Drive] = []
-        for name in self.linkage.driven:
+        for name in self.driven:
             if (drive := self.drive_of(name)) not in found:
                 found.append(drive)
         return tuple(found) or (self.drive,)

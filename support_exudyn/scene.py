@@ -28,7 +28,9 @@ from exudyn.itemInterface import (
 from support_exudyn.connector import frame
 from support_exudyn.driven_parts import DrivenParts, OilColumnItem
 from support_exudyn.drives import Drive
-from support_exudyn.kinetics import Kinetics
+from support_exudyn.engine_scene import CURRENT, INITIAL
+from support_exudyn.impulse import Impulse
+from support_exudyn.kinetics import Kinetics, Matrix
 from support_exudyn.loose_pin import LoosePin
 from support_exudyn.machine import GROUND, Body, Column, Crank, Linkage, PinPlace, Slide
 from support_exudyn.oil import fill
@@ -37,11 +39,10 @@ from support_exudyn.pin_motion import PinEnd, PinMotion
 from support_exudyn.pins import ClearancePin
 from support_exudyn.scenario import Scenario
 from support_exudyn.scene_items import BodyItem, ColumnItem, CrankItem, IdealItem, SlideItem
+from support_exudyn.velocity_jump import jump_velocities
 from user_forces.contact import ContactForce
 from user_forces.values import Vector2
 
-INITIAL = exudyn.ConfigurationType.Initial
-CURRENT = exudyn.ConfigurationType.Current
 Item = TypeVar("Item")
 
 
@@ -121,6 +122,19 @@ class Scene:
         missing = rates - closed.rows(position) @ velocity
         change, _ = closed.respond(position, np.zeros_like(velocity), missing)
         data.SetODE2Coordinates_t(velocity + change, INITIAL)
+
+    def jump(self, time: float) -> Impulse | None:
+        """See `velocity_jump`."""
+        return jump_velocities(self, time)
+
+    def spins(self) -> dict[str, float]:
+        """Angular velocity of every body [rad/s]."""
+        velocity = self.mbs.systemData.GetODE2Coordinates_t()
+        return {name: float(velocity[item.first + 2]) for name, item in self.bodies.items()}
+
+    def coordinate_masses(self) -> Matrix:
+        """Mass or inertia of every coordinate [kg], [kg m^2]."""
+        return self.kinetics.mass()
 
     def reset_memory(self) -> None:
         """Give every clearance pin the memory that belongs to the initial state of the bodies."""

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol
 
-from support_exudyn.machine import Body, Column, Crank
+from support_exudyn.machine import Body, Crank
 from support_exudyn.plane import minus, rotated
 from user_forces.values import Vector2
 
@@ -32,11 +32,20 @@ class IdealItem:
     first: int
 
 
+class Strut(Protocol):
+    """A column of the plane or of space."""
+
+    @property
+    def start_length(self) -> float:
+        """Distance of its ends at the start [m]."""
+        ...
+
+
 @dataclass(frozen=True)
 class ColumnItem:
     """A rigid driven column in the engine: its object and its multiplier."""
 
-    column: Column
+    column: Strut
     object: Any
     multiplier: int
 

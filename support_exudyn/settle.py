@@ -10,14 +10,14 @@ import exudyn
 
 from support_exudyn.engine_settings import quiet_engine
 from support_exudyn.errors import Failure, SimulationError
-from support_exudyn.scene import INITIAL, Scene
+from support_exudyn.engine_scene import INITIAL, EngineScene
 
 # A journal in the middle of its bore has no stiffness. A centring spring in every loose pin is there at
 # first, stiff enough to hold the weight of the machine within the clearance, and is then taken away.
 CENTRING = (1.0, 0.3, 0.1, 0.03, 0.01, 1e-3, 1e-4, 1e-6, 0.0)
 
 
-def settle(scene: Scene) -> None:
+def settle(scene: EngineScene) -> None:
     """Make the static equilibrium under gravity the initial state of the scene, at rest.
 
     Elastic contact without friction. Velocities the machine asks for are set to zero.
@@ -41,7 +41,7 @@ def settle(scene: Scene) -> None:
     scene.reset_memory()
 
 
-def _solve(scene: Scene) -> None:
+def _solve(scene: EngineScene) -> None:
     solver: Any = exudyn.MainSolverStatic()
     settings: Any = exudyn.SimulationSettings()
     settings.solution.file.write = False

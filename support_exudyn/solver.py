@@ -23,10 +23,9 @@ from support_exudyn.impulse import Impulse
 from support_exudyn.onset import SHARE
 from support_exudyn.progress import Progress
 from support_exudyn.recorder import Recorder
-from support_exudyn.scene import Scene
+from support_exudyn.engine_scene import EngineScene
 from support_exudyn.smooth_steps import SmoothSteps
 from support_exudyn.steps import StepPlan
-from support_exudyn.velocity_jump import jump_velocities
 from user_forces.normal.law import LoadError
 
 REPEAT_ERROR = 1e6  # above any tolerance of the engine's discontinuous iteration: the step is repeated
@@ -44,7 +43,7 @@ ADVICE = (
 class Run:
     """One integration of a scene from 0 to its duration."""
 
-    def __init__(self, scene: Scene, recorder: Recorder, progress: Progress) -> None:
+    def __init__(self, scene: EngineScene, recorder: Recorder, progress: Progress) -> None:
         scenario = scene.scenario
         self.scene = scene
         self.pins = tuple(scene.loose_pins.values())
@@ -167,7 +166,7 @@ class Run:
     def _jump(self, t: float) -> None:
         """Velocities after a break, if the speed of a drive jumps there."""
         if any(drive.speed_jump(t) for drive in self.scene.scenario.drives_in_use):
-            impulse = jump_velocities(self.scene, t)
+            impulse = self.scene.jump(t)
             if impulse is not None:
                 self.impulses.append(impulse)
             self.recorder.jump(t, 0.0 if impulse is None else impulse.energy)
@@ -198,9 +197,8 @@ class Run:
 
     def _failure(self, reason: str, advice: str = ADVICE) -> Failure:
         state: dict[str, float] = {"step": float(self.solver.it.currentStepSize)}
-        velocity = self.data.GetODE2Coordinates_t()
-        for name, item in self.scene.bodies.items():
-            state[f"{name}.angular_velocity"] = float(velocity[item.first + 2])
+        for name, spin in self.scene.spins().items():
+            state[f"{name}.angular_velocity"] = spin
         for name, pin in self.scene.loose_pins.items():
             state[f"pin.{name}.depth"] = pin.memory.depth
             state[f"pin.{name}.rate"] = pin.memory.rate
@@ -213,12 +211,12 @@ class Run:
         )
 
 
-def _smooth_steps(scene: Scene) -> SmoothSteps:
+def _smooth_steps(scene: EngineScene) -> SmoothSteps:
     scenario = scene.scenario
     step = min(scenario.step, scenario.record_period)
     longest = scenario.solver.growth * scenario.step
     mass = sum(item.body.mass for item in scene.bodies.values())
-    return SmoothSteps(step, longest, scene.kinetics.mass(), math.sqrt(mass) * math.hypot(*scenario.gravity))
+    return SmoothSteps(step, longest, scene.coordinate_masses(), math.sqrt(mass) * math.hypot(*scenario.gravity))
 
 
 def _first_line(error: BaseException) -> str:

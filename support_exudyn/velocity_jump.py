@@ -6,10 +6,14 @@ impulse: their force is finite.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from support_exudyn.impulse import Impulse
-from support_exudyn.scene import Scene
+
+if TYPE_CHECKING:
+    from support_exudyn.scene import Scene
 
 
 def jump_velocities(scene: Scene, time: float) -> Impulse | None:

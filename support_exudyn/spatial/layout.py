@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import field
 from typing import Annotated, Literal
@@ -85,6 +86,11 @@ class SpatialColumn(Value):
     head_point: Vector3
     column: str
     share: Share = 1.0
+
+    @property
+    def start_length(self) -> float:
+        """Distance of its ends at the start [m]."""
+        return math.dist(self.foot_point, self.head_point)
 
 
 @value

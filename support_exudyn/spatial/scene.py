@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from typing import Any
@@ -21,25 +21,25 @@ from exudyn.itemInterface import (
 )
 
 from support_exudyn.columns import OilColumn
+from support_exudyn.driven_parts import DrivenParts, OilColumnItem
 from support_exudyn.drives import Drive
+from support_exudyn.engine_scene import CURRENT, INITIAL
 from support_exudyn.impulse import Impulse
 from support_exudyn.machine import GROUND
 from support_exudyn.oil import FilledColumn, fill
 from support_exudyn.onset import Mobility, PinMemory
 from support_exudyn.scenario import Scenario
+from support_exudyn.scene_items import ColumnItem
 from support_exudyn.spatial.constraints import Kind, Row, all_rows, independent, matrix
 from support_exudyn.spatial.joints import joint
 from support_exudyn.spatial.kinetics import SpatialKinetics
 from support_exudyn.spatial.layout import Bearing, SpatialBody, SpatialColumn, SpatialLinkage
 from support_exudyn.spatial.motion import COORDINATES, SpatialMotion, motion_of, parameter_rates
+from support_exudyn.spatial.reactions import reactions
 from support_exudyn.spatial.section_pin import Journal, SectionEnd, SectionMover, SectionPin, marker_frame
 from support_exudyn.spatial.sections import End, ends, sections
 from support_exudyn.trajectory import Series
 from user_forces.values import Vector3
-
-INITIAL = exudyn.ConfigurationType.Initial
-CURRENT = exudyn.ConfigurationType.Current
-
 
 @dataclass(frozen=True)
 class BodyItem:
@@ -49,23 +49,6 @@ class BodyItem:
     node: Any
     object: Any
     first: int
-
-
-@dataclass(frozen=True)
-class RigidItem:
-    """A rigid column in the engine: its object, length at the start [m] and multiplier."""
-
-    object: Any
-    start_length: float
-    multiplier: int
-
-
-@dataclass(frozen=True)
-class OilItem:
-    """A column of oil in the engine."""
-
-    filled: FilledColumn
-    object: Any
 
 
 @dataclass(frozen=True)
@@ -84,9 +67,9 @@ class SpatialScene:
     all_rows: Sequence[Row]
     loose_pins: dict[str, SectionPin]
     sections: dict[str, list[SectionPin]]  # of every loose bearing
-    rigid_columns: dict[str, RigidItem]
-    oil_columns: dict[str, OilItem]
-    cranks: dict[str, Any]
+    rigid_columns: dict[str, ColumnItem]
+    oil_columns: dict[str, OilColumnItem]
+    driven: tuple[DrivenParts, ...]  # all columns, by the drive that they follow
 
     def release(self) -> None:
         """Let go of the engine's model: what its user functions know would never be freed."""
@@ -96,16 +79,29 @@ class SpatialScene:
         mbs.SetPostStepUserFunction(0)
         self.container.Reset()
 
-    def drive_to(self, extension: float, speed: float) -> None:
-        """Make the columns longer than at the start by so much [m]."""
-        for rigid in self.rigid_columns.values():
-            self.mbs.SetObjectParameter(rigid.object, "distance", rigid.start_length + extension)
-        for oil in self.oil_columns.values():
-            stiffness = oil.filled.model.stiffness(extension)
-            self.mbs.SetObjectParameter(oil.object, "referenceLength", oil.filled.natural_length(extension))
-            self.mbs.SetObjectParameter(oil.object, "velocityOffset", speed)
-            self.mbs.SetObjectParameter(oil.object, "stiffness", stiffness)
-            self.mbs.SetObjectParameter(oil.object, "damping", stiffness * oil.filled.model.damping_time)
+    def drive_to(self, t: float) -> None:
+        """Set every column to where its drive has it at time t [s]."""
+        for parts in self.driven:
+            parts.move_to(t)
+
+    @property
+    def gravity(self) -> Vector3:
+        """Acceleration [m/s^2]."""
+        return (*self.scenario.gravity, 0.0)
+
+    def coordinate_masses(self) -> Series:
+        """A mass for each of the engine's coordinates [kg], [kg m^2], by which accelerations are weighed."""
+        found = np.zeros(COORDINATES * len(self.bodies))
+        for item in self.bodies.values():
+            found[item.first : item.first + 3] = item.body.mass
+            # the spin is twice the rate of the Euler parameters
+            found[item.first + 3 : item.first + COORDINATES] = 4.0 * sum(item.body.inertia[:3]) / 3.0
+        return found
+
+    def spins(self) -> dict[str, float]:
+        """Angular velocity of every body [rad/s]."""
+        motion = self.motion()
+        return {name: float(np.linalg.norm(motion.spin[0, n])) for n, name in enumerate(self.bodies)}
 
     @cached_property
     def order(self) -> Series:
@@ -142,17 +138,35 @@ class SpatialScene:
             rates[item.first + 3 : item.first + COORDINATES] = parameter_rates(p, spin)
         data.SetODE2Coordinates_t(rates, state)
 
-    def jump_velocities(self, time: float, jumps: dict[str, float], state: Any = CURRENT) -> Impulse:
-        """Give the bodies the velocities that belong to columns whose speeds have jumped by so much [m/s]."""
-        kinetics = self.kinetics(state)
+    def start_moving(self) -> None:
+        """Give the bodies the velocities that the drives have at the start, with ideal pins."""
+        speeds = {name: self.scenario.drive_of(name).initial_speed for name in self.linkage.columns}
+        if not any(speeds.values()):
+            return
+        motion = self.motion(INITIAL)
+        held = all_rows(self.linkage, (), list(self.linkage.columns))
+        closed = SpatialKinetics(motion, independent(held, matrix(motion, held)[0]))
+        before = velocities(motion)
+        wanted = rates(closed.rows, speeds) - matrix(motion, closed.rows)[0] @ before
+        self.set_velocities(before + closed.respond(np.zeros_like(before), wanted)[0], INITIAL)
+
+    def jump(self, time: float) -> Impulse | None:
+        """Give the bodies the velocities that belong to drives whose speed has jumped at a break [s].
+
+        None if nothing is struck, because all that jumps gives.
+        """
+        kinetics = self.kinetics()
+        speeds = {name: self.scenario.drive_of(name).speed_jump(time) for name in self.rigid_columns}
+        if not any(speeds.values()):
+            return None
         before = velocities(kinetics.motion)
-        jump = np.array([jumps.get(row.name, 0.0) if row.kind == "column" else 0.0 for row in self.rows])
-        change, impulses = kinetics.respond(np.zeros_like(before), jump)
+        change, _ = kinetics.respond(np.zeros_like(before), rates(self.rows, speeds))
         after, mass = before + change, kinetics.mass()
-        self.set_velocities(after, state)
+        self.set_velocities(after)
+        struck = reactions(kinetics.motion, self.all_rows, (mass @ change).reshape(1, -1, 6))[0]
         return Impulse(
             time,
-            {row.name: -float(i) for row, i in zip(self.rows, impulses, strict=True) if row.kind == "column"},
+            {row.name: float(i) for row, i in zip(self.all_rows, struck, strict=True) if row.kind == "column"},
             float(0.5 * after @ mass @ after - 0.5 * before @ mass @ before),
             {},
         )
@@ -187,6 +201,11 @@ class SpatialScene:
     def _force(self, pin: SectionPin, position: list[float], velocity: list[float]) -> Any:
         bore, (x, y, vx, vy, _, spin) = pin.mover.at(position, velocity)
         return pin.contact.force(x, y, vx, vy, bore[5], spin, None)
+
+
+def rates(rows: Sequence[Row], speeds: Mapping[str, float]) -> Series:
+    """Rates of all rows: of columns as told [m/s], else 0."""
+    return np.array([speeds[row.name] if row.kind == "column" else 0.0 for row in rows])
 
 
 def velocities(motion: SpatialMotion) -> Series:
@@ -266,12 +285,12 @@ class _Builder:
 
     def add_rigid(self, column: SpatialColumn) -> Any:
         return self.mbs.AddObject(
-            ObjectConnectorDistance(markerNumbers=self.column_ends(column), distance=length(column))
+            ObjectConnectorDistance(markerNumbers=self.column_ends(column), distance=column.start_length)
         )
 
     def add_oil(self, column: SpatialColumn) -> Any:
         return self.mbs.AddObject(
-            ObjectConnectorSpringDamper(markerNumbers=self.column_ends(column), referenceLength=length(column))
+            ObjectConnectorSpringDamper(markerNumbers=self.column_ends(column), referenceLength=column.start_length)
         )
 
     def column_ends(self, column: SpatialColumn) -> list[Any]:
@@ -303,6 +322,11 @@ class _Builder:
         bodies = {
             name: replace(item, first=int(data.GetNodeLTGODE2(item.node)[0])) for name, item in self.bodies.items()
         }
+        rigid_items: dict[str, ColumnItem] = {
+            name: ColumnItem(linkage.columns[name], item, int(data.GetObjectLTGAE(item)[0]))
+            for name, item in rigid.items()
+        }
+        oil_items = {name: OilColumnItem(filled, oil[name]) for name, filled in self.filled(oil).items()}
         scene = SpatialScene(
             scenario=scenario,
             linkage=linkage,
@@ -313,12 +337,9 @@ class _Builder:
             all_rows=candidates,
             loose_pins={f"{name}[{n}]": pin for name, group in groups.items() for n, pin in enumerate(group)},
             sections=groups,
-            rigid_columns={
-                name: RigidItem(item, length(linkage.columns[name]), int(data.GetObjectLTGAE(item)[0]))
-                for name, item in rigid.items()
-            },
-            oil_columns={name: OilItem(filled, oil[name]) for name, filled in self.filled(oil).items()},
-            cranks={},
+            rigid_columns=rigid_items,
+            oil_columns=oil_items,
+            driven=self.by_drive(rigid_items, oil_items),
         )
         for name, group in groups.items():
             whole = group[0].whole
@@ -327,9 +348,33 @@ class _Builder:
             whole.mover = self.mover(scene, group[0].ends, 0.0)
             for pin in group:
                 pin.mover = pin.motion = self.mover(scene, pin.ends, pin.section.place)
-        scene.drive_to(0.0, scenario.drive.initial_speed)
+        scene.drive_to(0.0)
+        scene.start_moving()
         scene.reset_memory()
         return scene
+
+    def by_drive(
+        self, rigid: dict[str, ColumnItem], oil: dict[str, OilColumnItem]
+    ) -> tuple[DrivenParts, ...]:
+        """All columns, by drive."""
+        drives: list[Drive] = []
+        for name in (*rigid, *oil):
+            if (drive := self.scenario.drive_of(name)) not in drives:
+                drives.append(drive)
+
+        def follows(name: str, drive: Drive) -> bool:
+            return self.scenario.drive_of(name) == drive
+
+        return tuple(
+            DrivenParts(
+                self.mbs,
+                one,
+                tuple(item for name, item in rigid.items() if follows(name, one)),
+                tuple(item for name, item in oil.items() if follows(name, one)),
+                (),
+            )
+            for one in drives
+        )
 
     def filled(self, oil: dict[str, Any]) -> dict[str, FilledColumn]:
         """Oil columns that hold the machine: those of the plane, each side with its share of the area."""
@@ -353,17 +398,6 @@ class _Builder:
 
         bore, journal = pair
         return SectionMover(self.mbs.systemData, end(bore), end(journal))
-
-
-def length(column: SpatialColumn) -> float:
-    """Distance of a column's ends at the start [m]."""
-    return float(np.linalg.norm(np.array(column.head_point) - np.array(column.foot_point)))
-
-
-def drive_of(scenario: Scenario, name: str) -> Drive:
-    """The drive that a column of the spatial model follows."""
-    del name
-    return scenario.drive
 
 
 def build(scenario: Scenario, linkage: SpatialLinkage) -> SpatialScene:

@@ -1,0 +1,84 @@
+"""What the solver needs of a model in the engine, be it in the plane or in space."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, Protocol
+
+import exudyn
+
+from support_exudyn.driven_parts import DrivenParts
+from support_exudyn.impulse import Impulse
+from support_exudyn.loose_pin import LoosePin
+from support_exudyn.scenario import Scenario
+from support_exudyn.trajectory import Series
+
+INITIAL = exudyn.ConfigurationType.Initial
+CURRENT = exudyn.ConfigurationType.Current
+
+
+class Massive(Protocol):
+    """A body that has a mass."""
+
+    @property
+    def mass(self) -> float:
+        """[kg]."""
+        ...
+
+
+class MassiveItem(Protocol):
+    """A body in the engine."""
+
+    @property
+    def body(self) -> Massive:
+        """Its data."""
+        ...
+
+
+class EngineScene(Protocol):
+    """The model of one scenario, assembled and ready for the solver."""
+
+    @property
+    def scenario(self) -> Scenario:
+        """What is modelled."""
+        ...
+
+    @property
+    def mbs(self) -> Any:
+        """The engine's system."""
+        ...
+
+    @property
+    def bodies(self) -> Mapping[str, MassiveItem]:
+        """All that move, by name."""
+        ...
+
+    @property
+    def loose_pins(self) -> Mapping[str, LoosePin]:
+        """Everything that may touch and part, by name."""
+        ...
+
+    @property
+    def driven(self) -> tuple[DrivenParts, ...]:
+        """All columns and cranks, by the drive that they follow."""
+        ...
+
+    def drive_to(self, t: float) -> None:
+        """Set every column and crank to where its drive has it at time t [s]."""
+
+    def jump(self, time: float) -> Impulse | None:
+        """Give the bodies the velocities that belong to drives whose speed has jumped at a break [s]."""
+
+    def refresh_memory(self) -> None:
+        """Tell every loose pin that velocities have jumped."""
+
+    def reset_memory(self) -> None:
+        """Give every loose pin the memory that belongs to the initial state of the bodies."""
+
+    def spins(self) -> dict[str, float]:
+        """Angular velocity of every body [rad/s]."""
+        ...
+
+    def coordinate_masses(self) -> Series:
+        """A mass for each of the engine's coordinates [kg], [kg m^2]."""
+        ...

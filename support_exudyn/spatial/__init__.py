@@ -1,0 +1,1 @@
+"""Machines in space: rigid bodies with Euler parameters, bearings of finite length, columns with spherical ends."""
