@@ -32,6 +32,8 @@ SLIDING_COEFFICIENT = 0.25  # assumed: dry steel on steel
 # oil of the columns, assumed: four columns of 250 mm bore (380 mm of the ZF18000 times 0.65), two to a pair;
 # an emulsion of oil in water with the air and the hoses that come with it
 OIL_BORE, OIL_LENGTH, BULK_MODULUS = 0.25, 0.5, 1.5e9  # [m], [m] at the start of the rise, [Pa]
+# jack of the tail beam as a closed cushion of oil, assumed: one cylinder
+JACK = OilColumn(bore_area=bore_area(0.14), oil_length=0.3, bulk_modulus=BULK_MODULUS)
 OIL_SAID = (
     "Assumed: two columns of 250 mm bore to a pair, 0.5 m of emulsion under the pistons at the start, bulk "
     "modulus 1.5 GPa: 295 kN/mm for a pair at the start of the rise, 147 kN/mm at its end; a damping time of "

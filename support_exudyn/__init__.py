@@ -9,7 +9,7 @@ One entry, `simulate`; everything else is a value that is handed in. SI units an
 """
 
 from support_exudyn.channels import Channel
-from support_exudyn.columns import ColumnModel, OilColumn, RigidColumn, bore_area
+from support_exudyn.columns import ColumnModel, OilColumn, RigidColumn, TwoBodyColumn, bore_area
 from support_exudyn.drives import CubicStep, Drive, Held, Steady, Stroke, UniformSpeed
 from support_exudyn.errors import Failure, SimulationError
 from support_exudyn.estimate import Estimate
@@ -19,11 +19,12 @@ from support_exudyn.linkages.impact_stand import ImpactStand
 from support_exudyn.linkages.slider_crank import SliderCrank, ravn_slider_crank
 from support_exudyn.machine import Body, Column, Crank, Linkage, Machine, Part, PinPlace, Slide, TracePoint
 from support_exudyn.onset import Onset
+from support_exudyn.parts import Lumped, OwnBody, PartModel
 from support_exudyn.pins import ClearancePin, IdealPin, Pin
 from support_exudyn.result import Result
 from support_exudyn.scenario import Scenario, SolverSettings
 from support_exudyn.simulate import simulate
-from support_exudyn.supports import load_support, reference_support
+from support_exudyn.supports import load_support, reference_support, two_body_columns
 
 __all__ = [
     "Body",
@@ -42,10 +43,13 @@ __all__ = [
     "ImpactStand",
     "Impulse",
     "Linkage",
+    "Lumped",
     "Machine",
     "OilColumn",
     "Onset",
+    "OwnBody",
     "Part",
+    "PartModel",
     "Pin",
     "PinPlace",
     "Result",
@@ -58,10 +62,12 @@ __all__ = [
     "Steady",
     "Stroke",
     "TracePoint",
+    "TwoBodyColumn",
     "UniformSpeed",
     "bore_area",
     "load_support",
     "ravn_slider_crank",
     "reference_support",
     "simulate",
+    "two_body_columns",
 ]

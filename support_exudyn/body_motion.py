@@ -64,6 +64,10 @@ class BodyMotion:
             self._known[body] = np.cos(turn), np.sin(turn)
         return self._known[body]
 
+    def turn(self, body: str) -> Series:
+        """A body's rotation since the start posture (n,) [rad]."""
+        return np.zeros(len(self.position)) if body == GROUND else self.position[:, self.first(body) + 2]
+
     def point(self, body: str, point: Vector2) -> PointMotion:
         """Motion of a point of the start posture."""
         rows = len(self.position)

@@ -1,9 +1,10 @@
-"""What a column can be: a rigid drive, or oil that gives. One field of the scenario chooses it."""
+"""What a column can be: a rigid drive, oil that gives, or two bodies. One field of the scenario chooses it."""
 
 from __future__ import annotations
 
 import math
 from abc import ABC
+from dataclasses import field
 from typing import TypeVar
 
 import numpy as np
@@ -20,6 +21,11 @@ class ColumnModel(Value, ABC):
     def check_extension(self, lowest: float, name: str) -> None:
         """Raise InputError if the column cannot be drawn in so far [m]; by default any can."""
         del lowest, name
+
+    @property
+    def oil(self) -> OilColumn | None:
+        """The oil that holds its length; None if nothing gives."""
+        return None
 
 
 @value
@@ -59,6 +65,11 @@ class OilColumn(ColumnModel):
         """Derivative of k by the extension [N/m^2]."""
         return -self.stiffness(extension) / (self.oil_length + extension)
 
+    @property
+    def oil(self) -> OilColumn:
+        """Itself."""
+        return self
+
     def check_extension(self, lowest: float, name: str) -> None:
         """Raise InputError if no oil would be left under the piston."""
         if self.oil_length + lowest <= 0.0:
@@ -66,6 +77,41 @@ class OilColumn(ColumnModel):
                 f"columns.{name}.oil_length = {self.oil_length} m: the drive draws the column in by "
                 f"{-lowest:.4g} m and no oil is left; allowed: more than that"
             )
+
+
+@value
+class TwoBodyColumn(ColumnModel):
+    """A column with mass: a cylinder on the foot's pin and a rod on the head's, which slides in the cylinder.
+
+    The drive acts between both, so that the forces in the pins of foot and head differ from it by weight and
+    inertia. Centres of mass are on the line from foot to head. `two_bodies` names bodies and pins.
+
+    Arguments:
+        cylinder_mass: [kg], > 0, all cylinders of a pair together.
+        cylinder_centre: distance of its centre of mass from the foot [m], >= 0.
+        cylinder_inertia: about its centre of mass [kg m^2], > 0.
+        rod_mass: [kg], > 0.
+        rod_centre: distance of its centre of mass from the head [m], >= 0.
+        rod_inertia: about its centre of mass [kg m^2], > 0.
+        drive: what holds the length: a constraint or oil.
+    """
+
+    cylinder_mass: Positive
+    cylinder_centre: NonNegative
+    cylinder_inertia: Positive
+    rod_mass: Positive
+    rod_centre: NonNegative
+    rod_inertia: Positive
+    drive: RigidColumn | OilColumn = field(default_factory=RigidColumn)
+
+    @property
+    def oil(self) -> OilColumn | None:
+        """That of its drive."""
+        return self.drive.oil
+
+    def check_extension(self, lowest: float, name: str) -> None:
+        """Raise InputError if its drive cannot be drawn in so far [m]."""
+        self.drive.check_extension(lowest, f"{name}.drive")
 
 
 def bore_area(diameter: float, number: int = 1) -> float:

@@ -119,9 +119,15 @@ def _next(motion: BodyMotion, waiting: Mapping[str, tuple[str, str]]) -> tuple[s
 
 def _guides(left: _Balance, found: JointForces) -> None:
     """Force and moment of straight guides, whose bodies have no other unknown joint."""
-    for name, slide in left.motion.linkage.slides.items():
-        across = np.array([-np.sin(slide.direction), np.cos(slide.direction)])
-        where = left.motion.point(slide.body, slide.point).position
-        force = left.force[slide.body] @ across
+    motion = left.motion
+    for name, slide in motion.linkage.slides.items():
+        angle = slide.direction + motion.turn(slide.against)
+        across = np.column_stack([-np.sin(angle), np.cos(angle)])
+        where = motion.point(slide.body, slide.point).position
+        force = np.einsum("nx,nx->n", left.force[slide.body], across)
         left.take(slide.body, force[:, None] * across, where)
-        found.slides[name] = np.abs(np.column_stack([force, left.moment[slide.body]]))
+        moment = left.moment[slide.body]
+        if slide.against != GROUND:
+            left.take(slide.against, -force[:, None] * across, where)
+            left.moment[slide.against] = left.moment[slide.against] + moment
+        found.slides[name] = np.abs(np.column_stack([force, moment]))

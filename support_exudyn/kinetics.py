@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from support_exudyn.machine import GROUND, Linkage, PinPlace
+from support_exudyn.machine import GROUND, Linkage, PinPlace, Slide
 from support_exudyn.scene_items import BodyItem
 from user_forces.values import Vector2
 
@@ -70,15 +70,26 @@ class Kinetics:
             rows.append(along @ (head_rate - foot_rate))
         rows += [self._turning(position.size, crank.body) for crank in self.linkage.cranks.values()]
         for slide in self.linkage.slides.values():
-            across = np.array([-np.sin(slide.direction), np.cos(slide.direction)])
-            rows.append(across @ self.point(position, slide.body, slide.point)[1])
-            rows.append(self._turning(position.size, slide.body))
+            rows += self._guided(position, slide)
         return np.array(rows).reshape(-1, position.size)
 
+    def _guided(self, position: Matrix, slide: Slide) -> list[Matrix]:
+        """Rows of a slide: rate of the point's distance from the line, which may turn, and of the angle."""
+        point, rate = self.point(position, slide.body, slide.point)
+        origin, origin_rate = self.point(position, slide.against, slide.point)
+        carrier = self._turning(position.size, slide.against)
+        turn = 0.0 if slide.against == GROUND else position[self.bodies[slide.against].first + 2]
+        angle = slide.direction + turn
+        along, across = np.array([np.cos(angle), np.sin(angle)]), np.array([-np.sin(angle), np.cos(angle)])
+        # as the line turns, what is along it comes to lie across it
+        distance = across @ (rate - origin_rate) - (along @ (point - origin)) * carrier
+        return [distance, self._turning(position.size, slide.body) - carrier]
+
     def _turning(self, size: int, body: str) -> Matrix:
-        """The row that gives a body's angular velocity."""
+        """The row that gives a body's angular velocity; that of the ground is none."""
         row = np.zeros(size)
-        row[self.bodies[body].first + 2] = 1.0
+        if body != GROUND:
+            row[self.bodies[body].first + 2] = 1.0
         return row
 
     def driven(self) -> slice:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import field
-from typing import TYPE_CHECKING,  Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from pydantic import Field, model_validator
 
@@ -30,11 +30,13 @@ class Part(Value):
         inertia: about the centre of mass [kg m^2], >= 0 (0: a point mass).
         moments: integrals of x^2, y^2 and x y over its mass [kg m^2], from its centre; the first two add up to the
             inertia. Only the spatial model asks. None: the inertia in equal halves, as of a disc.
+        name: by which a machine knows it where a scenario models it otherwise.
     """
 
     mass: Positive
     centre: Vector2
     inertia: NonNegative = 0.0
+    name: str = ""
     moments: Moments | None = None
 
     @property
@@ -155,17 +157,19 @@ class Crank(Value):
 
 @value
 class Slide(Value):
-    """A straight guide of the ground: a point of a body stays on a line, and the body does not turn.
+    """A straight guide: a point of a body stays on a line of another, against which the body does not turn.
 
     Arguments:
         body: name of the body.
         point: the point, start posture [m].
-        direction: of the line [rad], from +x.
+        direction: of the line [rad], from +x, start posture.
+        against: name of the body that carries the line, which moves and turns with it; or "ground".
     """
 
     body: str
     point: Vector2
     direction: Real = 0.0
+    against: str = GROUND
 
 
 @value
@@ -210,11 +214,14 @@ class Linkage(Value):
     def _names_are_known(self) -> Linkage:
         if GROUND in self.bodies:
             raise ValueError(f"bodies.{GROUND}: the name of what does not move; call the body otherwise")
-        for name, pin in self.pins.items():
-            if pin.first == pin.second:
-                raise ValueError(f"pins.{name} = {pin.first!r} twice: allowed: two different bodies")
+        pairs = [(f"pins.{k}", p.first, p.second) for k, p in self.pins.items()]
+        pairs += [(f"slides.{k}", s.body, s.against) for k, s in self.slides.items()]
+        for where, first, second in pairs:
+            if first == second:
+                raise ValueError(f"{where} = {first!r} twice: allowed: two different bodies")
         used = [(f"pins.{k}", b) for k, p in self.pins.items() for b in (p.first, p.second)]
         used += [(f"columns.{k}", b) for k, c in self.columns.items() for b in (c.foot, c.head)]
+        used += [(f"slides.{k}.against", s.against) for k, s in self.slides.items()]
         used += [(f"points.{k}", p.body) for k, p in self.points.items()]
         moving = [(f"cranks.{k}", c.body) for k, c in self.cranks.items()]
         moving += [(f"slides.{k}", s.body) for k, s in self.slides.items()]
@@ -251,6 +258,23 @@ class Machine(Value, ABC):
         if width is None:
             raise InputError(f"{type(self).__name__}: knows no lateral dimensions; allowed: machines with a Width")
         return lift(linkage, width)
+    @property
+    def jacks(self) -> Mapping[str, str]:
+        """Parts that can be bodies of their own, each with the name of the jack that locks it; here none."""
+        return {}
+
+    def detailed(self, columns: Collection[str], parts: Collection[str]) -> Linkage:
+        """The mechanism for a scenario that models more of it.
+
+        Arguments:
+            columns: names of those that get a mass of their own: the parts that stand for it are left out.
+            parts: names of those, among `jacks`, that are to be bodies with a hinge and a jack, which is a
+                column that is not driven.
+
+        By default the same as `linkage`. Raises InputError if the machine lacks data for it.
+        """
+        del columns, parts
+        return self.linkage()
 
     def check_extension(self, lowest: float, highest: float) -> None:
         """Raise InputError if the drive cannot be extended over this range from the start.

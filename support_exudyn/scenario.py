@@ -10,11 +10,13 @@ from typing import Annotated, Literal
 
 from pydantic import Field, field_validator, model_validator
 
-from support_exudyn.columns import ColumnModel, OilColumn
+from support_exudyn.columns import ColumnModel, OilColumn, TwoBodyColumn
 from support_exudyn.drives import Drive, Held
 from support_exudyn.machine import Linkage, Machine
+from support_exudyn.parts import OwnBody, PartModel
 from support_exudyn.pins import ClearancePin, Pin
 from support_exudyn.spatial.layout import SpatialLinkage
+from support_exudyn.two_bodies import with_two_bodies
 from user_forces.values import Fraction, InputError, Positive, Real, Value, Vector2, value
 
 ACCURACIES = {"draft": 1e-2, "standard": 1e-3, "reference": 1e-5}
@@ -99,7 +101,8 @@ class Scenario(Value):
     Arguments:
         machine: what is simulated.
         pins: for each pin that is not ideal (or to say so), what it is, by name.
-        columns: for each column that is not rigid (or to say so), what it is, by name.
+        columns: for each column that is not rigid and massless (or to say so), what it is, by name.
+        parts: for each part that is not fixed to its body (or to say so), what it is, by name.
         drive: how all driven parts move: columns extend [m], cranks turn [rad]. Into an oil column it lets oil.
         drives: for each driven part, a column or crank, that moves otherwise, how it does, by name.
         duration: end time [s], > 0; the run starts at 0.
@@ -128,6 +131,7 @@ class Scenario(Value):
     machine: Machine
     pins: Mapping[str, Pin] = field(default_factory=dict)
     columns: Mapping[str, ColumnModel] = field(default_factory=dict)
+    parts: Mapping[str, PartModel] = field(default_factory=dict)
     drive: Drive = field(default_factory=Held)
     drives: Mapping[str, Drive] = field(default_factory=dict)
     duration: Positive
@@ -153,6 +157,12 @@ class Scenario(Value):
 
     @model_validator(mode="after")
     def _fits_the_machine(self) -> Scenario:
+        for name in self.parts:
+            if name not in self.machine.jacks:
+                raise ValueError(
+                    f"parts.{name}: the machine has no such part on a jack; "
+                    f"allowed: {', '.join(self.machine.jacks) or 'none'}"
+                )
         linkage = self.linkage
         if self.dimensions == 3:
             self._check_space()
@@ -189,11 +199,11 @@ class Scenario(Value):
         del space
 
     def _check_columns(self, linkage: Linkage) -> None:
+        driven = [name for name, column in linkage.columns.items() if column.driven]
         for name, column in self.columns.items():
-            if name not in linkage.columns:
+            if name not in driven:
                 raise ValueError(
-                    f"columns.{name}: the machine has no such column; "
-                    f"allowed: {', '.join(linkage.columns) or 'none'}"
+                    f"columns.{name}: the machine has no such column; allowed: {', '.join(driven) or 'none'}"
                 )
             column.check_extension(self.drive_of(name).span(self.duration)[0], name)
 
@@ -236,8 +246,15 @@ class Scenario(Value):
 
     @cached_property
     def linkage(self) -> Linkage:
-        """The machine's mechanism in its start posture."""
-        return self.machine.linkage()
+        """The machine's mechanism in its start posture, as far as it is modelled."""
+        heavy = {name: column for name, column in self.columns.items() if isinstance(column, TwoBodyColumn)}
+        if not heavy and not self.own_bodies:
+            return self.machine.linkage()
+        linkage = self.machine.detailed(tuple(heavy), tuple(self.own_bodies))
+        for name, model in heavy.items():
+            if name in linkage.columns and linkage.columns[name].driven:
+                linkage = with_two_bodies(linkage, name, model)
+        return linkage
 
     @cached_property
     def space(self) -> SpatialLinkage:
@@ -287,5 +304,11 @@ class Scenario(Value):
 
     @property
     def oil_columns(self) -> dict[str, OilColumn]:
-        """The columns that give, by name."""
-        return {name: column for name, column in self.columns.items() if isinstance(column, OilColumn)}
+        """The columns that give, and jacks that do, by name."""
+        jacks = {self.machine.jacks[name]: part.jack for name, part in self.own_bodies.items()}
+        return {name: oil for name, column in {**self.columns, **jacks}.items() if (oil := column.oil)}
+
+    @property
+    def own_bodies(self) -> dict[str, OwnBody]:
+        """The parts that are bodies of their own, by name."""
+        return {name: part for name, part in self.parts.items() if isinstance(part, OwnBody)}

@@ -279,10 +279,11 @@ class _Builder:
         return self.mbs.AddObject(ObjectConnectorCoordinate(markerNumbers=markers))
 
     def add_slide(self, slide: Slide) -> Any:
-        # the moment is about the first marker, which therefore is the body's
-        markers = [self.marker(slide.body, slide.point), self.marker(GROUND, slide.point)]
-        turn = self.bodies[slide.body].body.angle
-        along, across = slide.direction - turn, slide.direction + 0.5 * math.pi
+        # the moment is about the first marker, which therefore is the body's; the normal is the second one's
+        markers = [self.marker(slide.body, slide.point), self.marker(slide.against, slide.point)]
+        carrier = 0.0 if slide.against == GROUND else self.bodies[slide.against].body.angle
+        along = slide.direction - self.bodies[slide.body].body.angle
+        across = slide.direction + 0.5 * math.pi - carrier
         return self.mbs.AddObject(
             ObjectJointPrismatic2D(
                 markerNumbers=markers,

@@ -227,7 +227,7 @@ def machine(sample: Sample) -> HydraulicSupport:
         name: _scaled(getattr(base, name), scale)
         for name in (
             "rear_base", "front_base", "rear_shield", "front_shield", "hinge", "front_foot", "front_head",
-            "rear_foot", "rear_head", "tip",
+            "rear_foot", "rear_head", "tip", "tail_hinge", "tail_jack_foot", "tail_jack_head",
         )
     }  # fmt: skip
     parts = {name: _parts(name, base, sample, scale) for name in base.parts}
@@ -253,7 +253,7 @@ def _parts(body: str, base: HydraulicSupport, sample: Sample, scale: float) -> t
         mass = part.mass * scale**3 * factors[place]
         centre = (part.centre[0] + float(shift[0]), part.centre[1] + float(shift[1]))
         inertia = part.inertia * scale**5 * factors[place]
-        shifted.append(Part(mass=mass, centre=_scaled(centre, scale), inertia=inertia))
+        shifted.append(replace(part, mass=mass, centre=_scaled(centre, scale), inertia=inertia))
     return tuple(shifted)
 
 

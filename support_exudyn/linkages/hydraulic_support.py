@@ -16,7 +16,8 @@ the four-bar has one degree of freedom and the canopy on its hinge another.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
+from dataclasses import replace
 from functools import cached_property
 from typing import NamedTuple
 
@@ -41,6 +42,9 @@ from user_forces.roots import bracketed_root
 from user_forces.values import InputError, Positive, Vector2, value
 
 BODIES = ("rear_link", "front_link", "shield", "canopy")
+TAIL = "tail_beam"  # part of the shield, and the body that it can be
+TAIL_PLACES = ("tail_hinge", "tail_jack_foot", "tail_jack_head")
+RODS = "_rods"  # after a column's name: parts that stand for its mass as long as it has none
 
 
 class Posture(NamedTuple):
@@ -69,9 +73,13 @@ class HydraulicSupport(Machine):
         front_foot, front_head: F and E, ends of the front column.
         rear_foot, rear_head: H and G, ends of the rear column.
         tip: foremost point of the canopy.
+        tail_hinge: tail beam on shield beam.
+        tail_jack_foot, tail_jack_head: ends of the tail beam's jack, on the shield beam and on the tail beam;
+            these and the hinge are only needed where the tail beam is a body of its own.
             All of these in one reference posture.
         parts: for each of rear_link, front_link, shield and canopy the parts it is made of, in the
-            reference posture.
+            reference posture. Those named COLUMN_rods stand for a massless column's mass; that named tail_beam,
+            of the shield, can be a body of its own.
         start_hinge_height: y of the hinge at the start [m], with the canopy level.
         width: lateral dimensions, for the spatial model; None: there are none.
     """
@@ -89,6 +97,9 @@ class HydraulicSupport(Machine):
     parts: Mapping[str, tuple[Part, ...]]
     start_hinge_height: Positive
     width: Width | None = None
+    tail_hinge: Vector2 | None = None
+    tail_jack_foot: Vector2 | None = None
+    tail_jack_head: Vector2 | None = None
 
     @model_validator(mode="after")
     def _can_be_built(self) -> HydraulicSupport:
@@ -242,7 +253,20 @@ class HydraulicSupport(Machine):
 
     def linkage(self) -> Linkage:
         """The support as four moving bodies, five pins, two columns and the canopy tip."""
+        return self.detailed((), ())
+
+    @property
+    def jacks(self) -> Mapping[str, str]:
+        """The tail beam's."""
+        return {TAIL: "tail_jack"}
+
+    def detailed(self, columns: Collection[str], parts: Collection[str]) -> Linkage:
+        """The same without the parts that stand for the mass of columns, and with the tail beam as a body.
+
+        Raises InputError if nothing is left of a body, or data of the tail beam are missing.
+        """
         p = self.start()
+        left_out = {*(column + RODS for column in columns), *parts}
         turned = {"rear_link": p.rear_link, "front_link": p.front_link, "shield": p.shield, "canopy": p.canopy}
         anchors = {  # a point of each body: where it is in the reference posture and at the start
             "rear_link": (self.rear_base, self.rear_base),
@@ -258,7 +282,7 @@ class HydraulicSupport(Machine):
         }
         bodies = {}
         for name in BODIES:
-            lump = lumped(self.parts[name])
+            lump = self._lump(name, left_out)
             centre = moved(lump.centre, *anchors[name], turned[name])
             bodies[name] = Body(
                 mass=lump.mass,
@@ -267,7 +291,7 @@ class HydraulicSupport(Machine):
                 angle=lines[name],
                 moments=turned_moments(lump.second_moments, turned[name]),
             )
-        return Linkage(
+        linkage = Linkage(
             bodies=bodies,
             pins={
                 "rear_base": pinned(GROUND, "rear_link", self.rear_base),
@@ -285,6 +309,44 @@ class HydraulicSupport(Machine):
                 ),
             },
             points={"tip": TracePoint(body="canopy", point=p.tip)},
+        )
+        return self._with_tail(linkage) if TAIL in parts else linkage
+
+    def _lump(self, body: str, left_out: Collection[str]) -> Part:
+        """A body as one part, reference posture."""
+        kept = [part for part in self.parts[body] if part.name not in left_out]
+        if not kept or lumped(kept).inertia <= 0.0:
+            named = ", ".join(part.name for part in self.parts[body] if part.name in left_out)
+            raise InputError(f"parts.{body}: nothing with inertia is left without {named}; allowed: > 0 kg m^2")
+        return lumped(kept)
+
+    def _with_tail(self, linkage: Linkage) -> Linkage:
+        """The tail beam on its hinge on the shield beam, and its jack between both."""
+        hinge, foot, head = self.tail_hinge, self.tail_jack_foot, self.tail_jack_head
+        tail = [part for part in self.parts["shield"] if part.name == TAIL]
+        if hinge is None or foot is None or head is None or not tail:
+            missing = [name for name in TAIL_PLACES if getattr(self, name) is None]
+            missing += [] if tail else [f"a part of parts.shield named {TAIL}"]
+            raise InputError(f"parts.{TAIL}: the machine lacks {', '.join(missing)}; allowed: Lumped")
+        p, lump = self.start(), lumped(tail)
+
+        def at_start(point: Vector2) -> Vector2:
+            return moved(point, self.rear_shield, p.rear_shield, p.shield)
+
+        body = Body(
+            mass=lump.mass,
+            inertia=lump.inertia,
+            centre=at_start(lump.centre),
+            angle=direction(at_start(hinge), at_start(lump.centre)),
+        )
+        jack = Column(
+            foot="shield", head=TAIL, foot_point=at_start(foot), head_point=at_start(head), driven=False
+        )
+        return replace(
+            linkage,
+            bodies={**linkage.bodies, TAIL: body},
+            pins={**linkage.pins, "shield_tail": pinned("shield", TAIL, at_start(hinge))},
+            columns={**linkage.columns, self.jacks[TAIL]: jack},
         )
 
 

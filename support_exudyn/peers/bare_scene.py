@@ -82,6 +82,7 @@ def loose_contact(scenario: Scenario) -> tuple[str, JournalContact, str]:
         len(scenario.clearance_pins) != 1
         or scenario.columns
         or scenario.drives
+        or scenario.own_bodies
         or scenario.start != "concentric"
     ):
         raise InputError("a competitor takes one loose pin, rigid columns, one drive and start = 'concentric'")

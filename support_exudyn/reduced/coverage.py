@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import NoReturn
 
+from support_exudyn.columns import RigidColumn
 from support_exudyn.compiled import is_compiling
 from support_exudyn.reduced.models import MODELS, Model
 from support_exudyn.scenario import Scenario
@@ -38,8 +39,11 @@ def check(scenario: Scenario) -> None:
             _refuse(f"drives.{name}", type(drive).__name__, "one drive for all parts")
     if scenario.start != "concentric":
         _refuse("start", repr(scenario.start), "'concentric'")
-    for name, column in scenario.oil_columns.items():
-        _refuse(f"columns.{name}", type(column).__name__, "RigidColumn, whose length is no free coordinate")
+    for name, column in scenario.columns.items():
+        if not isinstance(column, RigidColumn):
+            _refuse(f"columns.{name}", type(column).__name__, "RigidColumn, whose length is no free coordinate")
+    for name, part in scenario.own_bodies.items():
+        _refuse(f"parts.{name}", type(part).__name__, "Lumped")
     for name, pin in scenario.clearance_pins.items():
         if name != model.PIN:
             _refuse(f"pins.{name}", type(pin).__name__, f"clearance in {model.PIN} only")

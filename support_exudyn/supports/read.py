@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import sys
+from contextlib import AbstractContextManager
+from dataclasses import replace
 from importlib import resources
 from pathlib import Path
 from typing import Any
 
+from support_exudyn.columns import OilColumn, RigidColumn, TwoBodyColumn
 from support_exudyn.linkages.hydraulic_support import HydraulicSupport
 from support_exudyn.machine import Part, bar
 from user_forces.values import InputError, Vector2
@@ -16,13 +19,14 @@ if sys.version_info >= (3, 11):
 else:
     import tomli as tomllib
 
-PART_KEYS = {"mass_kg", "between", "centre_mm", "length_mm"}
-FILE_KEYS = {"name", "start_hinge_height_mm", "pivots_mm", "parts"}
+PART_KEYS = {"name", "mass_kg", "between", "centre_mm", "length_mm"}
+FILE_KEYS = {"name", "start_hinge_height_mm", "pivots_mm", "parts", "columns"}
+COLUMN_KEYS = ("cylinder_mass_kg", "cylinder_length_mm", "rod_mass_kg", "rod_length_mm")
 
 
 def reference_support() -> HydraulicSupport:
     """The reference support that comes with the package."""
-    with resources.as_file(resources.files("support_exudyn.supports") / "reference.toml") as path:
+    with _reference() as path:
         return load_support(path)
 
 
@@ -31,12 +35,62 @@ def load_support(path: str | Path) -> HydraulicSupport:
 
     Raises InputError, naming file and key, for anything that does not fit; OSError if there is no file.
     """
-    path = Path(path)
+    return _read(Path(path))[0]
+
+
+def two_body_columns(
+    drive: RigidColumn | OilColumn | None = None, path: str | Path | None = None
+) -> dict[str, TwoBodyColumn]:
+    """Columns with mass, by name, for `Scenario.columns`: cylinder and rod each a uniform bar from its pin on.
+
+    Arguments:
+        drive: what holds their lengths; rigid if nothing is said.
+        path: of the machine data file whose `[columns.NAME]` say masses and lengths; by default that of the
+            reference support.
+
+    Raises as `load_support` does.
+    """
+    if path is None:
+        with _reference() as reference:
+            return two_body_columns(drive, reference)
+    columns = _read(Path(path))[1]
+    return columns if drive is None else {name: replace(item, drive=drive) for name, item in columns.items()}
+
+
+def _reference() -> AbstractContextManager[Path]:
+    return resources.as_file(resources.files("support_exudyn.supports") / "reference.toml")
+
+
+def _read(path: Path) -> tuple[HydraulicSupport, dict[str, TwoBodyColumn]]:
     try:
         data = tomllib.loads(path.read_text(encoding="utf-8"))
-        return _support(data)
+        return _support(data), _columns(data.get("columns", {}))
     except (tomllib.TOMLDecodeError, UnicodeDecodeError, InputError) as error:
         raise InputError(f"{path}: {error}") from None
+
+
+def _columns(data: Any) -> dict[str, TwoBodyColumn]:
+    if not (isinstance(data, dict) and all(isinstance(item, dict) for item in data.values())):
+        raise InputError(f"columns = {data!r}: allowed: tables, each begun with [columns.NAME]")
+    return {name: _column(item, f"columns.{name}") for name, item in data.items()}
+
+
+def _column(item: dict[str, Any], where: str) -> TwoBodyColumn:
+    _only(item, set(COLUMN_KEYS), where + ".")
+    for key in COLUMN_KEYS:
+        if key not in item:
+            raise InputError(f"{where}.{key}: missing; it has no default")
+        if _number(item[key], f"{where}.{key}") <= 0.0:
+            raise InputError(f"{where}.{key} = {item[key]}: allowed: > 0")
+    cylinder, cylinder_length, rod, rod_length = (float(item[key]) for key in COLUMN_KEYS)
+    return TwoBodyColumn(
+        cylinder_mass=cylinder,
+        cylinder_centre=0.5 * cylinder_length / 1e3,
+        cylinder_inertia=cylinder * (cylinder_length / 1e3) ** 2 / 12,
+        rod_mass=rod,
+        rod_centre=0.5 * rod_length / 1e3,
+        rod_inertia=rod * (rod_length / 1e3) ** 2 / 12,
+    )
 
 
 def _support(data: dict[str, Any]) -> HydraulicSupport:
@@ -67,15 +121,18 @@ def _part(item: dict[str, Any], pivots: dict[str, Vector2], where: str) -> Part:
     if "mass_kg" not in item:
         raise InputError(f"{where}.mass_kg: missing; it has no default")
     mass = _number(item["mass_kg"], f"{where}.mass_kg")
+    name = item.get("name", "")
+    if not isinstance(name, str):
+        raise InputError(f"{where}.name = {name!r}: allowed: a text")
     try:
         if "between" in item:
             a, b = _ends(item["between"], pivots, f"{where}.between")
-            return bar(mass, a, b)
+            return replace(bar(mass, a, b), name=name)
         if "centre_mm" not in item:
             raise InputError("centre_mm or between: missing; a part needs one of them")
         length = _number(item.get("length_mm", 0.0), f"{where}.length_mm") / 1e3
         centre = _metres(item["centre_mm"], f"{where}.centre_mm")
-        return Part(mass=mass, centre=centre, inertia=mass * length**2 / 12)
+        return Part(mass=mass, centre=centre, inertia=mass * length**2 / 12, name=name)
     except InputError as error:
         raise InputError(str(error) if str(error).startswith(where) else f"{where}: {error}") from None
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import NoReturn
 
+from support_exudyn.columns import TwoBodyColumn
 from support_exudyn.scenario import Scenario
 from support_exudyn.tree.branches import LoopError, LooseError, branches
 from user_forces.values import InputError
@@ -16,6 +17,12 @@ def check(scenario: Scenario) -> None:
     if scenario.solver.backend in ("symbolic", "compiled"):
         # setting the variables of an expression and asking for it takes longer than calling the law
         _refuse("solver.backend", repr(scenario.solver.backend), "'auto', 'python'")
+    for name, column in scenario.columns.items():
+        if isinstance(column, TwoBodyColumn):
+            _refuse(f"columns.{name}", "TwoBodyColumn, whose slide closes a loop", "OilColumn")
+    for name, part in scenario.own_bodies.items():
+        if part.jack.oil is None:
+            _refuse(f"parts.{name}.jack", "rigid, a constraint that closes a loop", "OilColumn")
     linkage = scenario.linkage
     for kind, items in (("slides", linkage.slides), ("cranks", linkage.cranks)):
         for name in items:

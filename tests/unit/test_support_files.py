@@ -130,7 +130,9 @@ def test_a_file_that_is_not_toml_is_refused(tmp_path: Path) -> None:
 
 def test_an_unknown_key_is_refused(tmp_path: Path) -> None:
     message = refusal(tmp_path, 'name = "a support"', 'title = "a support"')
-    assert message.startswith("title: unknown key; allowed: name, parts, pivots_mm, start_hinge_height_mm")
+    assert message.startswith(
+        "title: unknown key; allowed: columns, name, parts, pivots_mm, start_hinge_height_mm"
+    )
 
 
 def test_a_missing_key_is_refused(tmp_path: Path) -> None:
