@@ -13,6 +13,7 @@ from support_exudyn.columns import ColumnModel, OilColumn
 from support_exudyn.drives import Drive, Held
 from support_exudyn.machine import Linkage, Machine
 from support_exudyn.pins import ClearancePin, Pin
+from support_exudyn.recipes import Recipe, check_patterns, recipes
 from user_forces.values import Fraction, InputError, Positive, Real, Value, Vector2, value
 
 ACCURACIES = {"draft": 1e-2, "standard": 1e-3, "reference": 1e-5}
@@ -23,6 +24,7 @@ LARGEST_STEP = 0.1  # [s]
 MOST_IMPACT_STEPS = 10000
 ERROR_CONTROLLED = ("tree", "reduced")
 REFINED_TOLERANCE = 3  # power of the refinement by which the tolerance falls
+ALL_CHANNELS = ("*",)
 
 
 @value
@@ -113,6 +115,10 @@ class Scenario(Value):
         step: largest time step [s], > 0, of the redundant formulation. Steps are equal parts of the time
             between two records; they are cut at impacts.
         record_period: time between records [s], > 0.
+        channels: what is recorded: names of channels, or patterns of them as in a shell, case-sensitive,
+            such as "tip.*"; all by default. `time` always is. What nothing asks for is neither kept nor
+            computed. A run to an accuracy also records what its errors are estimated by: all forces, angular
+            accelerations and traced points.
         solver: settings of the time integration.
     """
 
@@ -127,6 +133,7 @@ class Scenario(Value):
     formulation: Literal["auto", "redundant", "tree", "reduced"] = "auto"
     step: Annotated[Real, Field(gt=0, le=LARGEST_STEP)] = 5e-4
     record_period: Positive = 1e-3
+    channels: tuple[str, ...] = ALL_CHANNELS
     solver: SolverSettings = field(default_factory=SolverSettings)
 
     @field_validator("accuracy", mode="before")
@@ -166,6 +173,8 @@ class Scenario(Value):
                 f"({self.drive.initial_speed} per s); allowed with this drive: 'concentric'"
             )
         self._check_columns(linkage)
+        if self.channels != ALL_CHANNELS:
+            check_patterns(self.recipes, self.channels)
         self.machine.check_extension(*self.drive.span(self.duration))
         return self
 
@@ -202,6 +211,11 @@ class Scenario(Value):
     def linkage(self) -> Linkage:
         """The machine's mechanism in its start posture."""
         return self.machine.linkage()
+
+    @property
+    def recipes(self) -> dict[str, Recipe]:
+        """All channels that could be asked for, by name."""
+        return recipes(self.linkage, self.clearance_pins, self.oil_columns)
 
     @property
     def goal(self) -> float | None:
