@@ -68,6 +68,14 @@ class BodyMotion:
         """A body's rotation since the start posture (n,) [rad]."""
         return np.zeros(len(self.position)) if body == GROUND else self.position[:, self.first(body) + 2]
 
+    def place(self, body: str, point: Vector2) -> Series:
+        """Where a point of the start posture is (n, 2) [m]; velocities may be missing."""
+        if body == GROUND:
+            return np.tile(point, (len(self.position), 1))
+        i = self.first(body)
+        place: Series = self.position[:, i : i + 2] + np.array(self.linkage.bodies[body].centre)
+        return place + self.arm(body, point)
+
     def point(self, body: str, point: Vector2) -> PointMotion:
         """Motion of a point of the start posture."""
         rows = len(self.position)

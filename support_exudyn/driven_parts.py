@@ -39,6 +39,10 @@ class DrivenParts:
         """Of rigid columns and cranks."""
         return (*(item.multiplier for item in self.rigid), *(item.multiplier for item in self.cranks))
 
+    def moves(self, duration: float) -> bool:
+        """Whether anything moves within this time [s]."""
+        return self.drive.span(duration) != (0.0, 0.0)
+
     def move_to(self, t: float) -> None:
         """Let the engine have lengths and angles of time t [s], unless it has them already."""
         drive = self.drive

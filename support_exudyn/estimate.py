@@ -24,6 +24,7 @@ from user_forces.values import InputError
 
 if TYPE_CHECKING:
     from support_exudyn.result import Result
+    from support_exudyn.scenario import Scenario
 
 Series = npt.NDArray[np.float64]
 # Errors of a method that chooses its steps fall faster than FASTEST, but less regularly.
@@ -31,6 +32,7 @@ SAFETY = {"auto": 4.0, "redundant": 4.0, "tree": 1.75, "reduced": 1.75}  # by fo
 FASTEST, SLOWEST = 0.25, 0.8  # r: three runs tell nothing beyond
 ROUNDING = 1e-10  # share of a number, or of the largest of its kind, that no estimate is below
 SMALLEST_SPREAD = 1e-3  # of the mean
+FORCE, ANGULAR_ACCELERATION = ".force", ".angular_acceleration"  # how names of channels end
 ONSETS = 3  # of every loose pin that are reported; each multiplies the errors of those before
 
 
@@ -43,6 +45,14 @@ class Estimate(NamedTuple):
 
     def __str__(self) -> str:
         return f"{self.value:.9g} ± {self.error:.1g} {self.unit}"
+
+
+def measured(scenario: Scenario) -> tuple[str, ...]:
+    """Names of the channels that the numbers of `measures`, and so all estimates, are taken from."""
+    points = {f"{point}.{axis}" for point in scenario.linkage.points for axis in ("x", "y")}
+    return tuple(
+        name for name in scenario.recipes if name.endswith((FORCE, ANGULAR_ACCELERATION)) or name in points
+    )
 
 
 Measure = Callable[["Result"], float]
@@ -68,10 +78,10 @@ def measures(result: Result, after: float, until: float) -> Mapping[str, Kind]:
             f"one, from {first:g} to {last:g} s"
         )
     found: dict[str, Kind] = {}
-    turning = [name for name in result.channels if name.endswith(".angular_acceleration")]
+    turning = [name for name in result.channels if name.endswith(ANGULAR_ACCELERATION)]
     fastest = max((float(np.abs(result[name]).max()) for name in turning), default=0.0)
     for name, channel in result.channels.items():
-        if name.endswith(".force"):
+        if name.endswith(FORCE):
             for word, statistic in (("mean", np.mean), ("spread", np.std), ("largest", np.max)):
                 found[f"{name}.{word}"] = Kind(channel.unit, _over(name, statistic, after, until))
         elif name in turning:

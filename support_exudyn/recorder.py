@@ -14,7 +14,11 @@ from support_exudyn.driven_parts import OilColumnItem
 from support_exudyn.energy import RunningIntegrals
 from support_exudyn.onset import PinMemory
 from support_exudyn.engine_scene import EngineScene
+from support_exudyn.recipes import EVERYTHING, Part
 from support_exudyn.trajectory import Series
+
+# of a StepEnd after its time
+STATE = (Part.POSITION, Part.VELOCITY, Part.ACCELERATION, Part.JOINTS, Part.CONTACTS)
 
 
 @dataclass(frozen=True)
@@ -22,7 +26,8 @@ class History:
     """Raw states at the records, one row each; see `channels` for what they mean.
 
     time (n,); position, velocity, acceleration (n, coordinates); multiplier (n, constraints);
-    memory (n, loose pins, fields of PinMemory); work, damping_loss, friction_loss (n,) [J].
+    memory (n, loose pins, fields of PinMemory); work, damping_loss, friction_loss (n,) [J]. What was not to be
+    kept has rows without columns; integrals that were not are zero.
     """
 
     time: np.ndarray
@@ -37,9 +42,19 @@ class History:
 
 
 class Recorder:
-    """Collects a History while a run goes on."""
+    """Collects a History while a run goes on.
 
-    def __init__(self, scene: EngineScene) -> None:
+    Arguments:
+        scene: that is run.
+        needs: what is to be kept, see `recipes`.
+    """
+
+    def __init__(self, scene: EngineScene, needs: Part = EVERYTHING) -> None:
+        duration = scene.scenario.duration
+        # rigid columns that are held and ideal pins neither work nor lose anything
+        works = any(parts.oil or (parts.multipliers and parts.moves(duration)) for parts in scene.driven)
+        self.integrates = Part.INTEGRALS in needs and bool(works or scene.loose_pins)
+        self._kept = tuple(part in needs for part in STATE)
         self.energies = RunningIntegrals(3)  # work of the drive, losses by damping and by friction
         self._data = scene.mbs.systemData
         self._pins = tuple(scene.loose_pins.values())
@@ -51,6 +66,8 @@ class Recorder:
 
     def after_step(self, t: float, kink: bool) -> None:
         """Add a step that has been accepted; `kink`: an impact or a break of the drive lies at its end."""
+        if not self.integrates:
+            return
         self._powers_now = self._powers(t)
         self.energies.add(t, self._powers_now)
         if kink:
@@ -72,7 +89,8 @@ class Recorder:
         state = between(self._start, self._state(end), t)
         # in contact or not, with which touch: as over all of the step
         state.memory[:, :2] = self._start.memory[:, :2]
-        self._rows.append((*state[:6], *state.totals.tolist()))
+        kept = (part if keep else () for part, keep in zip(state[1:6], self._kept, strict=True))
+        self._rows.append((t, *kept, *state.totals.tolist()))
 
     def _state(self, t: float) -> StepEnd:
         data = self._data
@@ -90,14 +108,15 @@ class Recorder:
     def record(self, t: float) -> None:
         """Keep the state at time t [s]."""
         data = self._data
+        position, velocity, acceleration, multiplier, memory = self._kept
         self._rows.append(
             (
                 t,
-                data.GetODE2Coordinates(),
-                data.GetODE2Coordinates_t(),
-                data.GetODE2Coordinates_tt(),
-                data.GetAECoordinates(),
-                tuple(pin.kept for pin in self._pins),
+                data.GetODE2Coordinates() if position else (),
+                data.GetODE2Coordinates_t() if velocity else (),
+                data.GetODE2Coordinates_tt() if acceleration else (),
+                data.GetAECoordinates() if multiplier else (),
+                tuple(pin.kept for pin in self._pins) if memory else (),
                 *self.energies.totals,
             )
         )

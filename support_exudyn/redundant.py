@@ -8,15 +8,19 @@ from __future__ import annotations
 import numpy as np
 
 from support_exudyn.body_motion import BodyMotion
+from support_exudyn.channels import needs
 from support_exudyn.contact_series import contact_series
+from support_exudyn.joint_forces import JointForces
 from support_exudyn.oil import oil_series
 from support_exudyn.progress import Progress
+from support_exudyn.recipes import Part
 from support_exudyn.recorder import History, Recorder
 from support_exudyn.scenario import Scenario
 from support_exudyn.scene import Scene, build
 from support_exudyn.settle import settle
 from support_exudyn.solver import Run
-from support_exudyn.trajectory import Outcome, Trajectory
+from support_exudyn.spatial.run import run as run_in_space
+from support_exudyn.trajectory import Outcome, Series, Trajectory
 from user_forces.values import InputError
 
 
@@ -46,6 +50,8 @@ def check(scenario: Scenario) -> None:
 
 def run(scenario: Scenario, progress: Progress) -> Outcome:
     """Run a scenario. Raises SimulationError if it cannot be finished."""
+    if scenario.dimensions == 3:
+        return run_in_space(scenario, progress)
     scene = build(scenario)
     try:
         if scenario.start == "settled":
@@ -56,11 +62,12 @@ def run(scenario: Scenario, progress: Progress) -> Outcome:
 
 
 def _outcome(scene: Scene, progress: Progress) -> Outcome:
-    recorder = Recorder(scene)
+    needed = needs(scene.scenario)
+    recorder = Recorder(scene, needed)
     solving = Run(scene, recorder, progress)
     counts = solving.go()
     return Outcome(
-        trajectory=trajectory(scene, recorder.history()),
+        trajectory=trajectory(scene, recorder.history(), needed),
         onsets={name: tuple(pin.onsets) for name, pin in scene.loose_pins.items()},
         largest_force={name: pin.largest_force for name, pin in scene.loose_pins.items()},
         impulses=tuple(solving.impulses),
@@ -68,44 +75,63 @@ def _outcome(scene: Scene, progress: Progress) -> Outcome:
     )
 
 
-def trajectory(scene: Scene, history: History) -> Trajectory:
-    """What the records say, in the order of the linkage."""
+def trajectory(scene: Scene, history: History, needed: Part) -> Trajectory:
+    """What the records say, in the order of the linkage; what is not needed is left out."""
     order = np.concatenate([np.arange(item.first, item.first + 3) for item in scene.bodies.values()])
-    position, velocity = history.position[:, order], history.velocity[:, order]
-    motion = BodyMotion(scene.linkage, position, velocity, history.acceleration[:, order])
+
+    def ordered(series: Series, part: Part) -> Series:
+        return series[:, order] if part in needed else series
+
+    motion = BodyMotion(
+        scene.linkage,
+        ordered(history.position, Part.POSITION),
+        ordered(history.velocity, Part.VELOCITY),
+        ordered(history.acceleration, Part.ACCELERATION),
+    )
     oil = {
         name: oil_series(item.filled, motion, scene.scenario.drive_of(name), history.time)
         for name, item in scene.oil_columns.items()
+        if Part.OIL in needed
+    }
+    contacts = {
+        name: contact_series(
+            motion, scene.linkage.pins[name], scene.scenario.clearance_pins[name], history.memory[:, n]
+        )
+        for n, name in enumerate(scene.loose_pins)
+        if Part.CONTACTS in needed
     }
     # the multiplier of a distance is the tension
-    columns = {name: -history.multiplier[:, item.multiplier] for name, item in scene.rigid_columns.items()}
+    columns = {
+        name: -history.multiplier[:, item.multiplier]
+        for name, item in scene.rigid_columns.items()
+        if Part.JOINTS in needed
+    }
+    joints = _joint_forces(scene, history.multiplier) if Part.JOINTS in needed else JointForces()
     return Trajectory(
         time=history.time,
-        position=position,
-        velocity=velocity,
+        position=motion.position,
+        velocity=motion.velocity,
         acceleration=motion.acceleration,
-        # the engine's joint equation is second minus first, so its multiplier acts on the second reversed
-        ideal_pins={
-            name: -history.multiplier[:, item.first : item.first + 2] for name, item in scene.ideal_pins.items()
-        },
-        contacts={
-            name: contact_series(
-                motion,
-                scene.linkage.pins[name],
-                scene.scenario.clearance_pins[name],
-                history.memory[:, n],
-            )
-            for n, name in enumerate(scene.loose_pins)
-        },
+        ideal_pins=joints.pins,
+        contacts=contacts,
         columns=columns | {name: series.force for name, series in oil.items()},
-        # the multiplier of a crank's angle is the moment against it
-        cranks={name: -history.multiplier[:, item.multiplier] for name, item in scene.cranks.items()},
-        slides={
-            name: np.abs(history.multiplier[:, item.first : item.first + 2])
-            for name, item in scene.slides.items()
-        },
+        cranks=joints.cranks,
+        slides=joints.slides,
         oil_energy=sum((series.energy for series in oil.values()), np.zeros_like(history.time)),
         work=history.work,
         damping_loss=history.damping_loss,
         friction_loss=history.friction_loss,
+    )
+
+
+def _joint_forces(scene: Scene, multiplier: Series) -> JointForces:
+    """Forces of ideal pins, cranks and slides from the multipliers (n, constraints)."""
+    return JointForces(
+        # the engine's joint equation is second minus first, so its multiplier acts on the second reversed
+        pins={name: -multiplier[:, item.first : item.first + 2] for name, item in scene.ideal_pins.items()},
+        # the multiplier of a crank's angle is the moment against it
+        cranks={name: -multiplier[:, item.multiplier] for name, item in scene.cranks.items()},
+        slides={
+            name: np.abs(multiplier[:, item.first : item.first + 2]) for name, item in scene.slides.items()
+        },
     )

@@ -66,6 +66,11 @@ class Result:
         return self._channel(name).unit
 
     def _channel(self, name: str) -> Channel:
+        if name not in self.channels and name in self.scenario.recipes:
+            raise KeyError(
+                f"{name!r}: was not recorded, for the scenario asks for channels = {self.scenario.channels}; "
+                "allowed: runs of a scenario that asks for it too"
+            )
         if name not in self.channels:
             near = get_close_matches(name, self.channels, 3, 0.4) or list(self.channels)[:3]
             raise KeyError(

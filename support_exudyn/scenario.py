@@ -15,7 +15,9 @@ from support_exudyn.drives import Drive, Held
 from support_exudyn.machine import Linkage, Machine
 from support_exudyn.parts import OwnBody, PartModel
 from support_exudyn.pins import ClearancePin, Pin
+from support_exudyn.recipes import Recipe, check_patterns, recipes
 from support_exudyn.spatial.layout import SpatialLinkage
+from support_exudyn.spatial.recipes import recipes as spatial_recipes
 from support_exudyn.two_bodies import with_two_bodies
 from user_forces.values import Fraction, InputError, Positive, Real, Value, Vector2, value
 
@@ -27,6 +29,7 @@ LARGEST_STEP = 0.1  # [s]
 MOST_IMPACT_STEPS = 10000
 ERROR_CONTROLLED = ("tree", "reduced")
 REFINED_TOLERANCE = 3  # power of the refinement by which the tolerance falls
+ALL_CHANNELS = ("*",)
 
 
 @value
@@ -125,6 +128,10 @@ class Scenario(Value):
         step: largest time step [s], > 0, of the redundant formulation. Steps are equal parts of the time
             between two records; they are cut at impacts.
         record_period: time between records [s], > 0.
+        channels: what is recorded: names of channels, or patterns of them as in a shell, case-sensitive,
+            such as "tip.*"; all by default. `time` always is. What nothing asks for is neither kept nor
+            computed. A run to an accuracy also records what its errors are estimated by: all forces, angular
+            accelerations and traced points.
         solver: settings of the time integration.
     """
 
@@ -142,6 +149,7 @@ class Scenario(Value):
     formulation: Literal["auto", "redundant", "tree", "reduced"] = "auto"
     step: Annotated[Real, Field(gt=0, le=LARGEST_STEP)] = 5e-4
     record_period: Positive = 1e-3
+    channels: tuple[str, ...] = ALL_CHANNELS
     solver: SolverSettings = field(default_factory=SolverSettings)
 
     @field_validator("accuracy", mode="before")
@@ -185,6 +193,8 @@ class Scenario(Value):
             )
         self._check_columns(linkage)
         self._check_drives(linkage)
+        if self.channels != ALL_CHANNELS:
+            check_patterns(self.recipes, self.channels)
         return self
 
     def _check_space(self) -> None:
@@ -291,6 +301,13 @@ class Scenario(Value):
     def breaks(self) -> tuple[float, ...]:
         """Breaks of all drives in use [s], sorted."""
         return tuple(sorted({t for drive in self.drives_in_use for t in drive.breaks}))
+
+    @property
+    def recipes(self) -> dict[str, Recipe]:
+        """All channels that could be asked for, by name."""
+        if self.dimensions == 3:
+            return spatial_recipes(self.space, self.clearance_pins, self.oil_columns)
+        return recipes(self.linkage, self.clearance_pins, self.oil_columns)
 
     @property
     def goal(self) -> float | None:

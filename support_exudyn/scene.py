@@ -11,7 +11,6 @@ import exudyn
 import numpy as np
 from exudyn.itemInterface import (
     LoadForceVector,
-    MarkerBodyPosition,
     MarkerBodyRigid,
     MarkerNodeCoordinate,
     NodePointGround,
@@ -194,8 +193,20 @@ class _Builder:
         self.linkage = scenario.linkage
         self.container = exudyn.SystemContainer()
         self.mbs = self.container.AddSystem()
-        self.ground = self.mbs.AddObject(ObjectGround())
+        self._markers: dict[tuple[str, Vector2], Any] = {}  # by body and point of the start posture
         self.bodies = {name: self.add_body(body) for name, body in self.linkage.bodies.items()}
+
+    @cached_property
+    def ground(self) -> Any:
+        """The engine's body that does not move, made if something stands on it."""
+        return self.mbs.AddObject(ObjectGround())
+
+    @cached_property
+    def fixed(self) -> Any:
+        """A coordinate that stays zero, made if there is a crank."""
+        return self.mbs.AddMarker(
+            MarkerNodeCoordinate(nodeNumber=self.mbs.AddNode(NodePointGround()), coordinate=0)
+        )
 
     def add_body(self, body: Body) -> BodyItem:
         node = self.mbs.AddNode(
@@ -205,21 +216,22 @@ class _Builder:
             )
         )
         item = self.mbs.AddObject(ObjectRigidBody2D(mass=body.mass, inertia=body.inertia, nodeNumber=node))
-        gx, gy = self.scenario.gravity
-        if gx or gy:
-            centre = self.mbs.AddMarker(MarkerBodyPosition(bodyNumber=item, localPosition=[0, 0, 0]))
-            weight = [body.mass * gx, body.mass * gy, 0.0]
-            self.mbs.AddLoad(LoadForceVector(markerNumber=centre, loadVector=weight))
         return BodyItem(body, node, item, first=-1)
 
+    def add_weight(self, name: str, body: Body) -> None:
+        gx, gy = self.scenario.gravity
+        weight = [body.mass * gx, body.mass * gy, 0.0]
+        self.mbs.AddLoad(LoadForceVector(markerNumber=self.marker(name, body.centre), loadVector=weight))
+
     def marker(self, body: str, point: Vector2) -> Any:
-        """A marker on a body at a point of the start posture."""
-        if body == GROUND:
-            return self.mbs.AddMarker(MarkerBodyRigid(bodyNumber=self.ground, localPosition=[*point, 0.0]))
-        item = self.bodies[body]
-        return self.mbs.AddMarker(
-            MarkerBodyRigid(bodyNumber=item.object, localPosition=[*item.local(point), 0.0])
-        )
+        """The marker on a body at a point of the start posture; parts that meet there share it."""
+        if (body, point) not in self._markers:
+            on_ground = body == GROUND
+            item = self.ground if on_ground else self.bodies[body].object
+            place = point if on_ground else self.bodies[body].local(point)
+            marker = MarkerBodyRigid(bodyNumber=item, localPosition=[*place, 0.0])
+            self._markers[body, point] = self.mbs.AddMarker(marker)
+        return self._markers[body, point]
 
     def add_ideal(self, place: PinPlace) -> Any:
         markers = [self.marker(place.first, place.first_point), self.marker(place.second, place.second_point)]
@@ -271,9 +283,8 @@ class _Builder:
         return [self.marker(column.foot, column.foot_point), self.marker(column.head, column.head_point)]
 
     def add_crank(self, crank: Crank) -> Any:
-        fixed = self.mbs.AddNode(NodePointGround())
         markers = [
-            self.mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=fixed, coordinate=0)),
+            self.fixed,
             self.mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=self.bodies[crank.body].node, coordinate=2)),
         ]
         return self.mbs.AddObject(ObjectConnectorCoordinate(markerNumbers=markers))
@@ -322,6 +333,9 @@ class _Builder:
         }
         cranks = {name: self.add_crank(crank) for name, crank in self.linkage.cranks.items()}
         slides = {name: self.add_slide(slide) for name, slide in self.linkage.slides.items()}
+        if any(self.scenario.gravity):
+            for name, body in self.linkage.bodies.items():
+                self.add_weight(name, body)
         self.mbs.Assemble()
         data = self.mbs.systemData
         bodies = {

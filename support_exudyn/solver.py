@@ -2,7 +2,8 @@
 
 Steps lie on the grid of a StepPlan. A step in which a clearance pin touches is cut so that it ends at
 the touch, and the remainder of the grid step follows. The engine's own step control is left out of it:
-the size of every step is set here before it is tried.
+the size of every step is set here before it is tried. Where nothing can touch, the engine runs by itself
+from record to record, see `stretches`.
 
 Two traps of Exudyn 1.13.6 that this avoids: a rejected step loses the algorithmic accelerations of
 generalised alpha if `discontinuous.maxIterations` is 1 or used up; and its recovery of step sizes would
@@ -26,6 +27,7 @@ from support_exudyn.recorder import Recorder
 from support_exudyn.engine_scene import EngineScene
 from support_exudyn.smooth_steps import SmoothSteps
 from support_exudyn.steps import StepPlan
+from support_exudyn.stretches import Stretch, solve_in_stretches
 from user_forces.normal.law import LoadError
 
 REPEAT_ERROR = 1e6  # above any tolerance of the engine's discontinuous iteration: the step is repeated
@@ -60,6 +62,10 @@ class Run:
         self.steps = self.cut_steps = self.failed_newton = 0
         self.trying = False  # a step has been tried and not accepted yet
         self.repeated = False  # that step is tried again, shorter
+        # whether anything of the model has to follow a drive, and whether Python has to see every step
+        self.follows = any(parts.moves(scenario.duration) for parts in scene.driven)
+        self.watches = bool(self.pins) or self.smooth is not None
+        self.audited = -math.inf  # end of the last step that the recorder has been told of [s]
 
     def go(self) -> Counts:
         """Integrate. Raises SimulationError if the run cannot be finished."""
@@ -71,13 +77,13 @@ class Run:
         if self.scene.scenario.solver.constraint_index == 2:
             for parts in self.scene.driven:
                 parts.follow_speed()
-        mbs.SetPreStepUserFunction(self._before_try)
-        if self.pins:
-            mbs.SetPostNewtonUserFunction(self._after_newton)
-        mbs.SetPostStepUserFunction(self._after_step)
+        self.connect()
         try:
             with quiet_engine():
-                finished = self.solver.SolveSystem(mbs, self.settings)
+                if self.watches:
+                    finished = self.solver.SolveSystem(mbs, self.settings)
+                else:
+                    finished = self._go_in_stretches()
         except exudyn.ExudynError as error:
             cause = error.__cause__  # set if a function of ours raised
             if isinstance(cause, LoadError):
@@ -97,6 +103,39 @@ class Run:
             clamped_steps=sum(pin.clamped_steps for pin in self.pins),
         )
 
+    def connect(self) -> None:
+        """Have the engine call what has to see every step, and nothing else."""
+        mbs = self.scene.mbs
+        if self.watches:
+            mbs.SetPreStepUserFunction(self._before_try)
+            if self.pins:
+                mbs.SetPostNewtonUserFunction(self._after_newton)
+            mbs.SetPostStepUserFunction(self._after_step)
+            return
+        if self.follows:
+            mbs.SetPreStepUserFunction(self._follow)
+        if self.recorder.integrates:
+            mbs.SetPostStepUserFunction(self._audit)
+
+    def _go_in_stretches(self) -> bool:
+        """Integrate where nothing is to be decided between one record or break and the next."""
+        finished = solve_in_stretches(self.solver, self.scene.mbs, self.settings, self._stretch, self._arrive)
+        # every attempt at a step is one iteration; without contacts there are no others
+        self.failed_newton = int(self.solver.it.discontinuousIterationsCount) - self.steps
+        return finished
+
+    def _stretch(self, t: float) -> Stretch | None:
+        """The equal steps from t [s] on."""
+        if t >= self.plan.duration * (1.0 - 1e-12):
+            return None
+        refined = self.locates and self.plan.follows_break(t)
+        return Stretch(*self.plan.stretch(t, self.plan.step / BREAK_REFINEMENT if refined else math.inf))
+
+    def _arrive(self, t: float, steps: int) -> None:
+        """A stretch of so many steps has ended at t [s]."""
+        self.steps += steps
+        self._at_stop(t, self.plan.break_at(t))
+
     # --- called by the engine ---
 
     def _before_try(self, mbs: Any, t: float) -> bool:
@@ -113,6 +152,18 @@ class Run:
             step = float(self.solver.it.currentStepSize)
             for pin in self.pins:
                 pin.begin_try(step)
+        return True
+
+    def _follow(self, mbs: Any, t: float) -> bool:
+        """Set driven parts to where they are at t [s], the end of a step."""
+        self.scene.drive_to(t)
+        return True
+
+    def _audit(self, mbs: Any, t: float) -> bool:
+        """After a step that is only looked at for its energies; the start of a stretch is told once more."""
+        if t > self.audited:
+            self.audited = t
+            self.recorder.after_step(t, self.plan.break_at(t) is not None)
         return True
 
     def _after_newton(self, mbs: Any, t: float) -> list[float]:
@@ -139,6 +190,15 @@ class Run:
         self.recorder.after_step(t, kink)
         if self.smooth is not None:
             self._look_for_smoothness(t, self.smooth)
+        self._at_stop(t, breaking)
+        goal = self._next_time(t)
+        if self.smooth is not None:
+            self.recorder.begin_step(t)
+        self.solver.it.currentStepSize = max(SMALLEST_STEP, goal - t)
+        return True
+
+    def _at_stop(self, t: float, breaking: float | None) -> None:
+        """A step has ended at t: it may be a record, or a break of the drive."""
         self.time = t
         if self.plan.is_record(t):
             self.recorder.record(t)
@@ -146,11 +206,6 @@ class Run:
             self.progress(t / self.plan.duration)
         if breaking is not None:
             self._jump(breaking)
-        goal = self._next_time(t)
-        if self.smooth is not None:
-            self.recorder.begin_step(t)
-        self.solver.it.currentStepSize = max(SMALLEST_STEP, goal - t)
-        return True
 
     def _look_for_smoothness(self, t: float, smooth: SmoothSteps) -> None:
         """A step has ended at t: may the next be longer? And the records that it has passed over."""

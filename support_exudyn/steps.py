@@ -59,10 +59,32 @@ class StepPlan:
         if t >= self.duration - self._tolerance:
             return self.duration
         before, after = self._stops_around(t)
-        parts = max(1, math.ceil((after - before) / largest - CLOSE))
-        size = (after - before) / parts
+        parts, size = self._parts(before, after, largest)
         done = math.floor((t - before + self._tolerance) / size)
         return after if done + 1 >= parts else before + (done + 1) * size
+
+    def stretch(self, t: float, largest: float = math.inf) -> tuple[float, int]:
+        """End [s] of the equal steps that begin at t [s], and their number: up to a record or a break.
+
+        With steps not larger than so [s], as after a break, up to where the first grid step after it ends.
+        """
+        before, after = self._stops_around(t)
+        parts, size = self._parts(before, after, min(self.step, largest))
+        done = math.floor((t - before + self._tolerance) / size)
+        if abs(t - before - done * size) > self._tolerance:  # not on this grid
+            return self.next_time(t, largest), 1
+        end = min((end for b, end in self._after_breaks if b - self._tolerance <= t < end), default=math.inf)
+        if largest < self.step and end < after - 2.0 * self._tolerance:
+            steps = math.ceil((end - t) / size)
+            if done + steps < parts:
+                return before + (done + steps) * size, steps
+        return after, parts - done
+
+    @staticmethod
+    def _parts(before: float, after: float, largest: float) -> tuple[int, float]:
+        """Number and size [s] of the equal steps between two stops [s]."""
+        parts = max(1, math.ceil((after - before) / largest - CLOSE))
+        return parts, (after - before) / parts
 
     def follows_break(self, t: float) -> bool:
         """Whether t [s] lies in the first grid step after a break, its end excluded."""

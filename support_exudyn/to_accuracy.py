@@ -7,10 +7,11 @@ from dataclasses import replace
 import numpy as np
 
 from support_exudyn.choose import settings_for
+from support_exudyn.estimate import measured
 from support_exudyn.progress import Progress
 from support_exudyn.result import Result
 from support_exudyn.run_once import run_once
-from support_exudyn.scenario import Scenario
+from support_exudyn.scenario import ALL_CHANNELS, Scenario
 from user_forces.values import InputError
 
 FACTOR = 2.0  # by which steps are shorter from run to run
@@ -31,7 +32,7 @@ def run_to_accuracy(scenario: Scenario, progress: Progress) -> Result:
     """
     goal = scenario.goal
     assert goal is not None
-    chosen = settings_for(scenario, goal)
+    chosen = _with_measured(settings_for(scenario, goal))
     last = best = run_once(chosen, _part(progress, 0))
     wall_time, off, least, in_vain = last.wall_time, np.inf, np.inf, 0
     for n in range(1, MOST_RUNS):
@@ -51,6 +52,14 @@ def run_to_accuracy(scenario: Scenario, progress: Progress) -> Result:
             break
     progress(1.0)
     return replace(best if best.coarser else last, wall_time=wall_time)
+
+
+def _with_measured(scenario: Scenario) -> Scenario:
+    """The same that also records what errors are estimated by: they then do not depend on what is asked."""
+    if scenario.channels == ALL_CHANNELS:
+        return scenario
+    missing = [name for name in measured(scenario) if name not in scenario.channels]
+    return replace(scenario, channels=(*scenario.channels, *missing))
 
 
 def _without_oldest(result: Result) -> Result:

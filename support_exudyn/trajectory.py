@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 import numpy.typing as npt
@@ -64,6 +65,15 @@ class Trajectory:
     friction_loss: Series
 
 
+class Observed(Protocol):
+    """A run that is known otherwise, such as one in space, from which its own recipes compute channels."""
+
+    @property
+    def time(self) -> Series:
+        """Of the records (n,) [s]."""
+        ...
+
+
 @dataclass(frozen=True)
 class Outcome:
     """A finished run of a formulation.
@@ -73,7 +83,7 @@ class Outcome:
     counts: what the solver did.
     """
 
-    trajectory: Trajectory
+    trajectory: Trajectory | Observed
     onsets: Mapping[str, tuple[Onset, ...]]
     largest_force: Mapping[str, float]
     impulses: tuple[Impulse, ...]

@@ -41,6 +41,7 @@ from support_exudyn.width import Width
 from user_forces.roots import bracketed_root
 from user_forces.values import InputError, Positive, Vector2, value
 
+PINS = ("rear_base", "front_base", "rear_shield", "front_shield", "shield_canopy")
 BODIES = ("rear_link", "front_link", "shield", "canopy")
 TAIL = "tail_beam"  # part of the shield, and the body that it can be
 TAIL_PLACES = ("tail_hinge", "tail_jack_foot", "tail_jack_head")
@@ -110,11 +111,27 @@ class HydraulicSupport(Machine):
                 raise ValueError(f"parts.{name} = (): allowed: at least one part")
             if lumped(parts).inertia <= 0.0:
                 raise ValueError(f"parts.{name}: total inertia is 0 kg m^2; allowed: > 0")
+        if self.width is not None:
+            self._check_width(self.width)
         try:
             self.start()
         except InputError as error:
             raise ValueError(str(error)) from None
         return self
+
+    def _check_width(self, width: Width) -> None:
+        columns = ("front_column", "rear_column")
+        known = {
+            "spreads": (*BODIES, TAIL),
+            "pairs": ("front_link",),
+            "columns": columns,
+            "lengths": (*PINS, "shield_tail"),
+            "points": ("tip",),
+        }
+        for kind, names in known.items():
+            for name in getattr(width, kind):
+                if name not in names:
+                    raise ValueError(f"width.{kind}.{name}: there is none; allowed: {', '.join(names)}")
 
     # --- posture, closed form ---
 

@@ -5,11 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from support_exudyn.body_motion import BodyMotion
+from support_exudyn.channels import needs
 from support_exudyn.compiled import on_arrays
 from support_exudyn.contact_series import RelativeMotion, acting, journal_arm, series
 from support_exudyn.joint_forces import JointForces, PinForce, open_joint_forces
 from support_exudyn.onset import PinMemory
 from support_exudyn.pins import ClearancePin
+from support_exudyn.recipes import Part
 from support_exudyn.reduced import layout
 from support_exudyn.reduced.drive import Drive, Matrix, Vector
 from support_exudyn.reduced.equations import law_at, power_at
@@ -22,7 +24,7 @@ _law_at, _accelerations, _power_at = on_arrays(law_at), on_arrays(accelerations)
 
 
 def trajectory(scenario: Scenario, model: Model, p: list[float], rows: Matrix) -> Trajectory:
-    """The run at its records.
+    """The run at its records; forces of joints only if a channel needs them.
 
     Arguments:
         p: parameters.
@@ -35,12 +37,14 @@ def trajectory(scenario: Scenario, model: Model, p: list[float], rows: Matrix) -
         contact, free = _contact(p, pin, rows)
     bodies = model.bodies(scenario.machine, linkage, p, rows, free)
     motion = BodyMotion(linkage, bodies.position, bodies.velocity, bodies.acceleration)
-    if pin is not None and contact is not None:
-        known = acting(motion, linkage.pins[model.PIN], pin, contact)
-    else:
-        assert bodies.pin_force is not None
-        known = PinForce(np.column_stack(bodies.pin_force), _place(motion, model.PIN))
-    joints: JointForces = open_joint_forces(motion, scenario.gravity, bodies.columns, {model.PIN: known})
+    joints = JointForces()
+    if Part.JOINTS in needs(scenario):
+        if pin is not None and contact is not None:
+            known = acting(motion, linkage.pins[model.PIN], pin, contact)
+        else:
+            assert bodies.pin_force is not None
+            known = PinForce(np.column_stack(bodies.pin_force), _place(motion, model.PIN))
+        joints = open_joint_forces(motion, scenario.gravity, bodies.columns, {model.PIN: known})
     losses = rows[layout.STATE_ROW + layout.DAMPING_LOSS : layout.STATE_ROW + layout.WORK]
     return Trajectory(
         time=rows[layout.TIME],

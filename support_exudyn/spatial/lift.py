@@ -23,7 +23,7 @@ Copy = tuple[str, float, float]  # suffix of its name, z [m], share
 def lift(linkage: Linkage, width: Width) -> SpatialLinkage:
     """The machine in space.
 
-    Raises InputError if the linkage has cranks or guides, or the width names what it does not have.
+    Raises InputError if the linkage has cranks or guides, or a body has no width.
     """
     _check(linkage, width)
     return SpatialLinkage(
@@ -53,17 +53,9 @@ def _check(linkage: Linkage, width: Width) -> None:
     for kind, items in (("cranks", linkage.cranks), ("slides", linkage.slides)):
         for name in items:
             raise InputError(f"{kind}.{name}: not covered in space; allowed: pins and columns")
-    known = {
-        "spreads": linkage.bodies,
-        "pairs": linkage.bodies,
-        "columns": linkage.columns,
-        "lengths": linkage.pins,
-        "points": linkage.points,
-    }
-    for kind, there in known.items():
-        for name in getattr(width, kind):
-            if name not in there:
-                raise InputError(f"width.{kind}.{name}: there is none; allowed: {', '.join(there)}")
+    for name in linkage.bodies:
+        if width.spreads.get(name, 0.0) <= 0.0:
+            raise InputError(f"width.spreads.{name}: missing; allowed: > 0, without which nothing resists its roll")
     for name, column in linkage.columns.items():
         for body in (column.foot, column.head):
             if body in width.pairs:

@@ -343,7 +343,7 @@ class _Builder:
         )
         for name, group in groups.items():
             whole = group[0].whole
-            whole.leader = group[0]
+            whole.sections = group
             whole.find_mobility = partial(scene.mobility, name)
             whole.mover = self.mover(scene, group[0].ends, 0.0)
             for pin in group:
@@ -400,6 +400,6 @@ class _Builder:
         return SectionMover(self.mbs.systemData, end(bore), end(journal))
 
 
-def build(scenario: Scenario, linkage: SpatialLinkage) -> SpatialScene:
+def build(scenario: Scenario) -> SpatialScene:
     """The engine's model of a scenario in space at its start, before any settling."""
-    return _Builder(scenario, linkage).build()
+    return _Builder(scenario, scenario.space).build()

@@ -13,7 +13,7 @@ import numpy as np
 from support_exudyn.attachment import in_plane
 from support_exudyn.impact_steps import ImpactSteps
 from support_exudyn.loose_pin import LoosePin
-from support_exudyn.onset import Mobility, PinMemory
+from support_exudyn.onset import Mobility, Onset, PinMemory
 from support_exudyn.pin_motion import Motion
 from support_exudyn.spatial.constraints import frame_of
 from support_exudyn.spatial.sections import End, Section
@@ -126,9 +126,12 @@ class Journal:
         # set when the scene is whole
         self.find_mobility: Callable[[], Mobility] = lambda: Mobility(math.nan, math.nan, math.nan)
         self.mover: SectionMover | None = None
-        self.leader: SectionPin | None = None  # the section that is asked first
         self._mobility: Mobility | None = None
         self._place: Vector2 | None = None
+        self.sections: list[SectionPin] = []
+        self.onsets: list[Onset] = []  # of the journal, which was all apart
+        self.largest_force = 0.0  # [N], at the end of any step
+        self._before: list[tuple[bool, Onset | None]] = []  # of each section: in contact before the step, touch in it
 
     def moved(self) -> None:
         """The bodies are elsewhere now."""
@@ -147,6 +150,32 @@ class Journal:
             _, (x, y, *_) = self.mover.now()
             self._place = x, y
         return self._place
+
+
+    def accepted(self, was_in_contact: bool, onset: Onset | None) -> None:
+        """A section has kept a step: was it in contact before, and the touch in it, if there was one."""
+        self._before.append((was_in_contact, onset))
+        if len(self._before) < len(self.sections):
+            return
+        touches = [touch for _, touch in self._before if touch is not None]
+        # a journal touches when all that was in contact before has parted
+        if touches and all(touch is not None for was, touch in self._before if was):
+            self.onsets.append(min(touches))
+        self._before.clear()
+        forces = [pin.force for pin in self.sections]
+        if sum(f.normal_force + abs(f.friction_force) for f in forces) > self.largest_force:
+            self.largest_force = max(self.largest_force, self._resultant())
+
+    def _resultant(self) -> float:
+        """Magnitude of the force of all sections together [N]."""
+        total_x = total_y = 0.0
+        for pin in self.sections:
+            _, (x, y, *_) = pin.moving_now()
+            away = math.hypot(x, y) or 1.0
+            normal, friction = pin.force.normal_force, pin.force.friction_force
+            total_x += (-normal * x - friction * y) / away
+            total_y += (-normal * y + friction * x) / away
+        return math.hypot(total_x, total_y)
 
 
 class SectionPin(LoosePin):
@@ -200,15 +229,25 @@ class SectionPin(LoosePin):
 
     def after_newton(self, t: float) -> float | None:
         """See `LoosePin`."""
-        if self is self.whole.leader:
+        if self is self.whole.sections[0]:
             self.whole.moved()
         return super().after_newton(t)
 
     def jumped(self, memory: PinMemory) -> None:
         """See `LoosePin`."""
-        if self is self.whole.leader:
+        if self is self.whole.sections[0]:
             self.whole.moved()
         super().jumped(memory)
+
+    def accept(self) -> None:
+        """See `LoosePin`."""
+        before = self.kept.in_contact, self.onset
+        super().accept()
+        self.whole.accepted(*before)
+
+    def moving_now(self) -> tuple[Motion, Motion]:
+        """Motions of bore and journal."""
+        return self._moving.now()
 
     def _place(self) -> Vector2:
         return self.whole.place()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import sys
 from contextlib import AbstractContextManager
 from dataclasses import replace
@@ -12,6 +13,7 @@ from typing import Any
 from support_exudyn.columns import OilColumn, RigidColumn, TwoBodyColumn
 from support_exudyn.linkages.hydraulic_support import HydraulicSupport
 from support_exudyn.machine import Part, bar
+from support_exudyn.width import Width
 from user_forces.values import InputError, Vector2
 
 if sys.version_info >= (3, 11):
@@ -19,8 +21,9 @@ if sys.version_info >= (3, 11):
 else:
     import tomli as tomllib
 
-PART_KEYS = {"name", "mass_kg", "between", "centre_mm", "length_mm"}
-FILE_KEYS = {"name", "start_hinge_height_mm", "pivots_mm", "parts", "columns"}
+PART_KEYS = {"name", "mass_kg", "between", "centre_mm", "length_mm", "direction_deg"}
+FILE_KEYS = {"name", "start_hinge_height_mm", "pivots_mm", "parts", "columns", "width_mm"}
+WIDTH_KEYS = {"bodies", "pairs", "columns", "pins", "points"}
 COLUMN_KEYS = ("cylinder_mass_kg", "cylinder_length_mm", "rod_mass_kg", "rod_length_mm")
 
 
@@ -107,7 +110,27 @@ def _support(data: dict[str, Any]) -> HydraulicSupport:
         for body, items in data["parts"].items()
     }
     height = _number(data["start_hinge_height_mm"], "start_hinge_height_mm")
-    return HydraulicSupport(parts=parts, start_hinge_height=height / 1e3, **pivots)
+    width = _width(data["width_mm"]) if "width_mm" in data else None
+    return HydraulicSupport(parts=parts, start_hinge_height=height / 1e3, width=width, **pivots)
+
+
+def _width(data: Any) -> Width:
+    """Lateral dimensions: widths of bodies, distances of pairs, lengths of pins [mm]."""
+    if not (isinstance(data, dict) and all(isinstance(item, dict) for item in data.values())):
+        raise InputError(f"width_mm = {data!r}: allowed: tables, each begun with [width_mm.NAME]")
+    _only(data, WIDTH_KEYS, "width_mm.")
+
+    def table(key: str, scale: float) -> dict[str, float]:
+        items = data.get(key, {}).items()
+        return {name: scale * _number(item, f"width_mm.{key}.{name}") / 1e3 for name, item in items}
+
+    return Width(
+        spreads=table("bodies", 1.0 / math.sqrt(12.0)),
+        pairs=table("pairs", 0.5),
+        columns=table("columns", 0.5),
+        lengths=table("pins", 1.0),
+        points=table("points", 0.5),
+    )
 
 
 def _tables(items: Any, body: str) -> list[dict[str, Any]]:
@@ -132,7 +155,10 @@ def _part(item: dict[str, Any], pivots: dict[str, Vector2], where: str) -> Part:
             raise InputError("centre_mm or between: missing; a part needs one of them")
         length = _number(item.get("length_mm", 0.0), f"{where}.length_mm") / 1e3
         centre = _metres(item["centre_mm"], f"{where}.centre_mm")
-        return Part(mass=mass, centre=centre, inertia=mass * length**2 / 12, name=name)
+        along = math.radians(_number(item.get("direction_deg", 0.0), f"{where}.direction_deg"))
+        half = 0.5 * length * math.cos(along), 0.5 * length * math.sin(along)
+        # not its ends: rounding would move its centre
+        return replace(bar(mass, (-half[0], -half[1]), half), name=name, centre=centre)
     except InputError as error:
         raise InputError(str(error) if str(error).startswith(where) else f"{where}: {error}") from None
 

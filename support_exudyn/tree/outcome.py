@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from support_exudyn.body_motion import BodyMotion
+from support_exudyn.channels import needs
 from support_exudyn.counts import Counts
-from support_exudyn.joint_forces import PinForce, open_joint_forces
+from support_exudyn.joint_forces import JointForces, PinForce, open_joint_forces
 from support_exudyn.oil import FilledColumn
+from support_exudyn.recipes import Part
 from support_exudyn.scenario import Scenario
 from support_exudyn.steps import record_times
 from support_exudyn.trajectory import Outcome, Trajectory
@@ -48,10 +51,11 @@ class Aftermath:
     def outcome(self) -> Outcome:
         """Everything that is asked of a run."""
         run, steps = self.run, np.arange(len(self.step))
+        needed = needs(self.scenario)
         inside = self._within(np.repeat(steps, len(POINTS)), np.tile(POINTS, len(steps)))
         pins = run.pins.values()
         return Outcome(
-            trajectory=self._trajectory(inside.powers().reshape(3, -1, len(POINTS))),
+            trajectory=self._trajectory(inside, needed),
             onsets={name: tuple(pin.onsets) for name, pin in run.pins.items()},
             largest_force={
                 name: largest(np.hypot(c.normal_force, c.friction_force).reshape(-1, len(POINTS)))
@@ -67,31 +71,42 @@ class Aftermath:
             ),
         )
 
-    def _trajectory(self, powers: Matrix) -> Trajectory:
+    def _trajectory(self, inside: Observation, needed: Part) -> Trajectory:
+        """At the records; what is not needed is left out. inside: at the points of quadrature of all steps."""
         time = record_times(self.scenario.duration, self.scenario.record_period)
         number = np.clip(np.searchsorted(self.time, time - CLOSE) - 1, 0, len(self.step) - 1)
         fraction = np.clip((time - self.time[number]) / self.step[number], 0.0, 1.0)
-        work, damping_loss, friction_loss = running(powers, self.step, number, fraction)
+        integrals = np.zeros((3, len(time)))
+        if Part.INTEGRALS in needed:
+            powers = inside.powers().reshape(3, -1, len(POINTS))
+            integrals = running(powers, self.step, number, fraction)
         seen = self._within(number, fraction)
-        motion = seen.at.posture.motion(seen.accelerations())
-        columns = {name: column.force for name, column in seen.columns.items()}
-        known = {name: PinForce(pin.force, pin.point) for name, pin in seen.pin_forces.items()}
-        joints = open_joint_forces(motion, self.scenario.gravity, columns, known)
+        motion, joints = seen.motion, JointForces()
+        if needed & (Part.ACCELERATION | Part.JOINTS):
+            motion = seen.at.posture.motion(seen.accelerations())
+        if Part.JOINTS in needed:
+            joints = self._joint_forces(seen, motion)
+        oil = seen.columns if Part.OIL in needed else {}
         return Trajectory(
             time=time,
             position=motion.position,
             velocity=motion.velocity,
             acceleration=motion.acceleration,
-            ideal_pins={name: force for name, force in joints.pins.items() if name not in known},
-            contacts=seen.contacts,
-            columns=columns,
+            ideal_pins={n: force for n, force in joints.pins.items() if n not in self.scenario.clearance_pins},
+            contacts=seen.contacts if Part.CONTACTS in needed else {},
+            columns={name: column.force for name, column in oil.items()},
             cranks={},
             slides={},
-            oil_energy=sum((column.energy for column in seen.columns.values()), np.zeros_like(time)),
-            work=work,
-            damping_loss=damping_loss,
-            friction_loss=friction_loss,
+            oil_energy=sum((column.energy for column in oil.values()), np.zeros_like(time)),
+            work=integrals[0],
+            damping_loss=integrals[1],
+            friction_loss=integrals[2],
         )
+
+    def _joint_forces(self, seen: Observation, motion: BodyMotion) -> JointForces:
+        columns = {name: column.force for name, column in seen.columns.items()}
+        known = {name: PinForce(pin.force, pin.point) for name, pin in seen.pin_forces.items()}
+        return open_joint_forces(motion, self.scenario.gravity, columns, known)
 
     def _end_of_steps(self, fraction: float, position: Matrix, velocity: Matrix) -> Ends:
         each = np.arange(len(self.step))

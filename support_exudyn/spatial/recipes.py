@@ -1,0 +1,230 @@
+"""Channels of a run in space by name, see `support_exudyn.recipes`.
+
+Names are those of the plane where they mean the same. A pin that there are two of has the channels of each, and the
+force of both under the planar name.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from support_exudyn.recipes import CONTACT, MOTION, OIL, Part, Recipe, Recipes
+from support_exudyn.spatial.layout import SpatialBody, SpatialLinkage
+from support_exudyn.trajectory import Series
+
+if TYPE_CHECKING:
+    from support_exudyn.spatial.observation import Observation, SectionSeries
+
+REACTION = CONTACT | OIL | Part.ACCELERATION
+AXES = ("x", "y", "z")
+TOWARDS = ("forward", "up", "to the right")
+
+
+def recipes(linkage: SpatialLinkage, loose: Collection[str], oil: Collection[str]) -> Recipes:
+    """All channels of a linkage in which these planar pins are loose and these planar columns on oil."""
+    found: Recipes = {"time": Recipe("s", "time", Part.NOTHING, lambda seen: seen.time)}
+    for n, (name, body) in enumerate(linkage.bodies.items()):
+        found |= _of_body(name, body, n)
+    for name in linkage.points:
+        found |= _of_point(name)
+    for name, column in linkage.columns.items():
+        found |= _of_column(name, column.column in oil)
+    for column in dict.fromkeys(c.column for c in linkage.columns.values()):
+        parts = [name for name, c in linkage.columns.items() if c.column == column]
+        if parts != [column]:
+            needs = OIL if column in oil else REACTION
+            found[f"{column}.force"] = Recipe("N", "of both together", needs, _sum_of_columns(parts))
+    for name, bearing in linkage.bearings.items():
+        found |= _of_bearing(name, bearing.pin in loose)
+    for pin in dict.fromkeys(b.pin for b in linkage.bearings.values()):
+        parts = list(linkage.parts_of_pin(pin))
+        if parts != [pin]:
+            found |= _forces(f"pin.{pin}", REACTION, lambda seen, parts=parts: _sum_of_bearings(seen, parts))
+    return found | _of_energy()
+
+
+def _of_body(name: str, body: SpatialBody, n: int) -> Recipes:
+    found: Recipes = {}
+    for k, (axis, towards) in enumerate(zip(AXES, TOWARDS, strict=True)):
+        found |= {
+            f"{name}.{axis}": _recipe(
+                "m", f"centre of mass, {towards}", Part.POSITION, _place_of(n, k, body.centre[k])
+            ),
+            f"{name}.velocity_{axis}": _recipe(
+                "m/s", f"velocity of the centre of mass, {towards}", MOTION, _entry("velocity", n, k)
+            ),
+        }
+    turned = Part.POSITION
+    return found | {
+        f"{name}.angle": _recipe(
+            "rad", "orientation about z from +x", turned, lambda seen: body.angle + _turn(seen, n, 1, 0)
+        ),
+        f"{name}.roll": _recipe("rad", "turn about x, the right side up", turned, lambda seen: _turn(seen, n, 2, 1)),
+        f"{name}.yaw": _recipe("rad", "turn about y, to the left", turned, lambda seen: _turn(seen, n, 0, 2)),
+        f"{name}.angular_velocity": _recipe("rad/s", "angular velocity about z", MOTION, _entry("spin", n, 2)),
+        f"{name}.angular_velocity_x": _recipe("rad/s", "angular velocity about x", MOTION, _entry("spin", n, 0)),
+        f"{name}.angular_velocity_y": _recipe("rad/s", "angular velocity about y", MOTION, _entry("spin", n, 1)),
+        f"{name}.angular_acceleration": _recipe(
+            "rad/s^2", "angular acceleration about z", MOTION | Part.ACCELERATION, _entry("spin_rate", n, 2)
+        ),
+    }
+
+
+def _recipe(unit: str, meaning: str, needs: Part, values: Callable[[Observation], Series]) -> Recipe:
+    return Recipe(unit, meaning, needs, values)
+
+
+def _place_of(n: int, k: int, start: float) -> Callable[[Observation], Series]:
+    return lambda seen: start + seen.motion.displacement[:, n, k]
+
+
+def _entry(what: str, n: int, k: int) -> Callable[[Observation], Series]:
+    return lambda seen: np.asarray(getattr(seen.motion, what)[:, n, k])
+
+
+def _turn(seen: Observation, n: int, row: int, column: int) -> Series:
+    """Angle by which an axis of the body has turned towards another of the ground (n,) [rad]."""
+    turn = seen.motion.turn[:, n]
+    return np.unwrap(np.arctan2(turn[:, row, column], turn[:, column, column]))
+
+
+def _of_point(name: str) -> Recipes:
+    def path(k: int) -> Callable[[Observation], Series]:
+        def place(seen: Observation) -> Series:
+            point = seen.scene.linkage.points[name]
+            return seen.motion.point(point.body, point.point).position[:, k]
+
+        return place
+
+    return {
+        f"{name}.{axis}": _recipe("m", f"position, {towards}", Part.POSITION, path(k))
+        for k, (axis, towards) in enumerate(zip(AXES, TOWARDS, strict=True))
+    }
+
+
+def _of_column(name: str, oil: bool) -> Recipes:
+    def angle(seen: Observation) -> Series:
+        apart, _ = seen.span(name)
+        return np.asarray(np.arctan2(apart[:, 1], apart[:, 0]))
+
+    def length(seen: Observation) -> Series:
+        return np.asarray(np.linalg.norm(seen.span(name)[0], axis=1))
+
+    return {
+        f"{name}.angle": _recipe("rad", "direction from foot to head in the plane, from +x", Part.POSITION, angle),
+        f"{name}.length": _recipe("m", "distance of its ends", Part.POSITION, length),
+        f"{name}.force": _recipe(
+            "N", "pushes its ends apart if positive", OIL if oil else REACTION, lambda seen: seen.column_force(name)
+        ),
+    }
+
+
+def _sum_of_columns(parts: list[str]) -> Callable[[Observation], Series]:
+    return lambda seen: np.sum([seen.column_force(part) for part in parts], axis=0)
+
+
+def _sum_of_bearings(seen: Observation, parts: list[str]) -> Series:
+    return np.sum([seen.loads[part][0] for part in parts], axis=0)
+
+
+def _forces(prefix: str, needs: Part, force: Callable[[Observation], Series]) -> Recipes:
+    """Of a pin; force: of the first body on the second (n, 3) [N]."""
+    found = {
+        f"{prefix}.force": _recipe(
+            "N", "magnitude of the pin force", needs, lambda seen: np.linalg.norm(force(seen), axis=1)
+        )
+    }
+    for k, (axis, towards) in enumerate(zip(AXES, TOWARDS, strict=True)):
+        found[f"{prefix}.force_{axis}"] = _recipe(
+            "N", f"force of the first body on the second, {towards}", needs, _component(force, k)
+        )
+    return found
+
+
+def _component(vector: Callable[[Observation], Series], k: int) -> Callable[[Observation], Series]:
+    return lambda seen: vector(seen)[:, k]
+
+
+def _of_bearing(name: str, loose: bool) -> Recipes:
+    prefix = f"pin.{name}"
+    found = _forces(prefix, REACTION, lambda seen: seen.loads[name][0])
+    for k, axis in enumerate(AXES[:2]):
+        found[f"{prefix}.moment_{axis}"] = _recipe(
+            "N m",
+            f"of the first body on the second about {axis} through the middle of the bearing",
+            REACTION,
+            _component(lambda seen: seen.loads[name][1], k),
+        )
+    return found | _of_loose(name) if loose else found
+
+
+def _of_loose(name: str) -> Recipes:
+    prefix = f"pin.{name}"
+
+    def said(
+        what: str, unit: str, meaning: str, values: Callable[[list[SectionSeries]], Series], needs: Part = CONTACT
+    ) -> Recipes:
+        return {f"{prefix}.{what}": _recipe(unit, meaning, needs, lambda seen: values(seen.sections[name]))}
+
+    found = said("normal_force", "N", "normal contact forces of all sections", _sum("normal_force"))
+    found |= said("friction_force", "N", "friction of all sections, on the journal", _sum("friction_force"))
+    found |= said("depth", "m", "depth where it is largest; negative: gap", _deepest)
+    for place, edge, side in ((0, "left", "at the left edge"), (-1, "right", "at the right edge")):
+        found |= said(f"{edge}_depth", "m", f"depth {side}; negative: gap", _of_section("depth", place))
+        found |= said(f"{edge}_eccentricity_x", "m", f"journal's centre from the bore's {side}, first axis across", _x(place))
+        found |= said(f"{edge}_eccentricity_y", "m", f"journal's centre from the bore's {side}, second axis across", _y(place))
+    found |= said("eccentricity_x", "m", "journal's middle from the bore's, first axis across", _middle(_x))
+    found |= said("eccentricity_y", "m", "journal's middle from the bore's, second axis across", _middle(_y))
+    return found
+
+
+def _sum(what: str) -> Callable[[list[SectionSeries]], Series]:
+    return lambda sections: np.sum([getattr(s.contact, what) for s in sections], axis=0)
+
+
+def _deepest(sections: list[SectionSeries]) -> Series:
+    return np.max([s.contact.depth for s in sections], axis=0)
+
+
+def _of_section(what: str, place: int) -> Callable[[list[SectionSeries]], Series]:
+    return lambda sections: np.asarray(getattr(sections[place].contact, what))
+
+
+def _x(place: int) -> Callable[[list[SectionSeries]], Series]:
+    return lambda sections: sections[place].motion.x
+
+
+def _y(place: int) -> Callable[[list[SectionSeries]], Series]:
+    return lambda sections: sections[place].motion.y
+
+
+def _middle(
+    axis: Callable[[int], Callable[[list[SectionSeries]], Series]],
+) -> Callable[[list[SectionSeries]], Series]:
+    """The journal is straight: its middle is between its edges."""
+    return lambda sections: 0.5 * (axis(0)(sections) + axis(-1)(sections))
+
+
+def _of_energy() -> Recipes:
+    integrals = Part.INTEGRALS
+    stored = CONTACT | OIL
+
+    def kept(what: str) -> Callable[[Observation], Series]:
+        return lambda seen: np.asarray(getattr(seen.history, what))
+
+    def known(what: str) -> Callable[[Observation], Series]:
+        return lambda seen: np.asarray(getattr(seen, what))
+
+    table: dict[str, tuple[str, Part, Any]] = {
+        "kinetic": ("kinetic energy of all bodies", MOTION, known("kinetic")),
+        "potential": ("of weight, zero in the machine's start posture", Part.POSITION, known("potential")),
+        "elastic": ("stored in contacts and oil", stored, known("stored")),
+        "damping_loss": ("dissipated by damping in contacts and oil so far", integrals, kept("damping_loss")),
+        "friction_loss": ("dissipated by friction so far", integrals, kept("friction_loss")),
+        "work": ("work of the drive so far", integrals, kept("work")),
+        "balance": ("gain minus work plus loss; zero if computed exactly", stored | integrals, known("balance")),
+    }
+    return {f"energy.{name}": Recipe("J", *parts) for name, parts in table.items()}

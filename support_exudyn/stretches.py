@@ -1,0 +1,47 @@
+"""Integration in stretches of equal steps, in which the engine calls nothing of ours unless it has to.
+
+The engine's own loop over steps is entered once a stretch. What generalised alpha keeps from step to step stays
+in the solver, so that this is one integration: only where its steps end is told anew.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+
+class Stretch(NamedTuple):
+    """Equal steps: where the last ends [s], and how many they are."""
+
+    end: float
+    steps: int
+
+
+def solve_in_stretches(
+    solver: Any,
+    mbs: Any,
+    settings: Any,
+    following: Callable[[float], Stretch | None],
+    arrive: Callable[[float, int], None],
+) -> bool:
+    """Integrate from 0; whether it could be finished.
+
+    Arguments:
+        solver: the engine's; mbs: its system; settings: of the run, whose steps are set here.
+        following: the stretch that begins at a time [s], None: the run ends there.
+        arrive: is called at the start and after every stretch with the time [s] and the number of steps taken.
+    """
+    if not solver.InitializeSolver(mbs, settings):
+        return False
+    it = solver.it
+    t = 0.0
+    arrive(t, 0)
+    while (stretch := following(t)) is not None:
+        it.endTime = stretch.end
+        it.maxStepSize = it.currentStepSize = (stretch.end - t) / stretch.steps
+        if not solver.SolveSteps(mbs, settings):
+            return False
+        t = float(it.currentTime)
+        arrive(t, int(it.currentStepIndex) - 1)  # the engine counts from 1 in every stretch
+    solver.FinalizeSolver(mbs, settings)
+    return True
