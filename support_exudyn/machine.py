@@ -214,11 +214,9 @@ class Linkage(Value):
     def _names_are_known(self) -> Linkage:
         if GROUND in self.bodies:
             raise ValueError(f"bodies.{GROUND}: the name of what does not move; call the body otherwise")
-        pairs = [(f"pins.{k}", p.first, p.second) for k, p in self.pins.items()]
-        pairs += [(f"slides.{k}", s.body, s.against) for k, s in self.slides.items()]
-        for where, first, second in pairs:
-            if first == second:
-                raise ValueError(f"{where} = {first!r} twice: allowed: two different bodies")
+        for name, pin in self.pins.items():
+            if pin.first == pin.second:
+                raise ValueError(f"pins.{name} = {pin.first!r} twice: allowed: two different bodies")
         used = [(f"pins.{k}", b) for k, p in self.pins.items() for b in (p.first, p.second)]
         used += [(f"columns.{k}", b) for k, c in self.columns.items() for b in (c.foot, c.head)]
         used += [(f"slides.{k}.against", s.against) for k, s in self.slides.items()]
@@ -233,6 +231,9 @@ class Linkage(Value):
         for where, body in moving:
             if body not in self.bodies:
                 raise ValueError(f"{where} = {body!r}: no such moving body; allowed: {', '.join(self.bodies)}")
+        for name, slide in self.slides.items():
+            if slide.body == slide.against:
+                raise ValueError(f"slides.{name} = {slide.body!r} twice: allowed: two different bodies")
         return self
 
 

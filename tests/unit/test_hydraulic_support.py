@@ -9,7 +9,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from support_exudyn import CubicStep, HydraulicSupport, Part
+from support_exudyn import CubicStep, HydraulicSupport, Part, reference_support
 from support_exudyn.linkages.hydraulic_support import Posture
 from support_exudyn.machine import lumped
 from tests.unit.cases import PARTS, PIVOTS, PIVOTS_MM, support
@@ -431,3 +431,45 @@ def test_tip_of_the_canopy_is_traced() -> None:
     assert trace.body == "canopy"
     # half of the last printed digit
     assert trace.point == pytest.approx((3.195903, 1.95), abs=5e-7)
+
+
+# --- in more detail ---
+
+
+def test_parts_that_stand_for_columns_leave_the_canopy() -> None:
+    machine = reference_support()
+    plain, detailed = machine.linkage(), machine.detailed(("front_column",), ())
+    assert plain.bodies["canopy"].mass - detailed.bodies["canopy"].mass == 200.0
+    assert {name: plain.bodies[name] == body for name, body in detailed.bodies.items()} == {
+        "rear_link": True, "front_link": True, "shield": True, "canopy": False,
+    }  # fmt: skip
+    assert machine.detailed((), ()) == plain
+
+
+def test_the_tail_beam_leaves_the_shield_beam() -> None:
+    machine = reference_support()
+    plain, detailed = machine.linkage(), machine.detailed((), ("tail_beam",))
+    shield, tail = detailed.bodies["shield"], detailed.bodies["tail_beam"]
+    whole = plain.bodies["shield"]
+    assert (shield.mass, tail.mass) == (1500.0, 1080.0)
+    together = lumped([Part(mass=b.mass, centre=b.centre, inertia=b.inertia) for b in (shield, tail)])
+    # rounding
+    assert together.centre == pytest.approx(whole.centre, abs=1e-14)
+    assert together.inertia == pytest.approx(whole.inertia, rel=1e-13)
+    assert not detailed.columns["tail_jack"].driven
+    assert detailed.driven == plain.driven
+    # the hinge is on the beam, a bar of 1050 mm: half of that from its centre, to 1 mm of the data
+    hinge = detailed.pins["shield_tail"].first_point
+    assert math.dist(hinge, tail.centre) == pytest.approx(0.525, abs=2e-3)
+
+
+def test_a_support_without_data_of_the_tail_beam_says_what_it_lacks() -> None:
+    lacks = "tail_hinge, tail_jack_foot, tail_jack_head, a part of parts.shield named tail_beam"
+    with pytest.raises(InputError, match=rf"parts\.tail_beam: the machine lacks {lacks}; allowed: Lumped"):
+        SUPPORT.detailed((), ("tail_beam",))
+
+
+def test_a_body_of_which_nothing_would_be_left_is_refused() -> None:
+    rods = (Part(mass=200.0, centre=PIVOTS["rear_head"], inertia=1.0, name="rear_column_rods"),)
+    with pytest.raises(InputError, match=r"parts\.canopy: nothing with inertia is left without rear_column"):
+        support(parts={**PARTS, "canopy": rods}).detailed(("rear_column",), ())

@@ -109,6 +109,44 @@ def test_a_guide_takes_what_is_across_it_and_what_turns(
     np.testing.assert_allclose(found.slides["guide"][0], np.abs([needed, moment]), atol=1e-12)
 
 
+@given(beam=motions, way=rates, speeding=rates, direction=angles)
+def test_a_guide_on_a_moving_body_pushes_that_back(
+    beam: Triple, way: float, speeding: float, direction: float
+) -> None:
+    # a beam on a pivot and a driven crank; on it slides a block, pushed along by a known force in a pin
+    linkage = Linkage(
+        bodies={
+            "beam": Body(mass=3.0, inertia=0.5, centre=(1.0, 0.0)),
+            "block": Body(mass=2.0, inertia=0.1, centre=(0.0, 0.0)),
+        },
+        pins={"pivot": pinned(GROUND, "beam", (0.0, 0.0)), "push": pinned("block", GROUND, (0.3, 0.4))},
+        cranks={"drive": Crank(body="beam")},
+        slides={"guide": Slide(body="block", point=(0.0, 0.0), direction=direction, against="beam")},
+    )
+    turn, _, turning = beam
+    unit = np.array([math.cos(turn + direction), math.sin(turn + direction)])
+    across = np.array([-unit[1], unit[0]])
+    block, block_acceleration = way * unit, speeding * unit + 1.3 * way * across
+    beam_at, beam_acceleration = along(1.0, beam)
+    states = (beam_at, beam_acceleration, beam), (block, block_acceleration, beam)
+    motion = motion_of(linkage, *states)
+    needed = 2.0 * (block_acceleration - np.array(GRAVITY))
+    push = (needed @ unit) * unit  # on the block: all that is along the guide
+    c, s = math.cos(turn), math.sin(turn)
+    arm = np.array([0.3 * c - 0.4 * s, 0.3 * s + 0.4 * c])
+    found = open_joint_forces(motion, GRAVITY, {}, {"push": PinForce(-push[None], (block + arm)[None])})
+    moment = 0.1 * turning - (arm[0] * push[1] - arm[1] * push[0])
+    # rounding of some hundred N
+    np.testing.assert_allclose(found.slides["guide"][0], np.abs([needed @ across, moment]), atol=1e-10)
+    # of both together: momentum and angular momentum about the pivot
+    beam_needed = 3.0 * (beam_acceleration - np.array(GRAVITY))
+    np.testing.assert_allclose(found.pins["pivot"][0], beam_needed + needed - push, atol=1e-10)
+    total = 0.6 * turning + beam_at[0] * beam_needed[1] - beam_at[1] * beam_needed[0]
+    total += block[0] * needed[1] - block[1] * needed[0]
+    total -= (block + arm)[0] * push[1] - (block + arm)[1] * push[0]
+    assert found.cranks["drive"][0] == pytest.approx(total, abs=1e-10)
+
+
 def test_a_column_pushes_both_of_its_ends() -> None:
     # a beam of 10 kg held level by a pin at its left end and a column under its right end
     linkage = Linkage(

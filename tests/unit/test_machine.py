@@ -123,6 +123,32 @@ def test_a_slide_of_a_body_that_does_not_move_is_refused(body: str) -> None:
         Linkage(bodies={"a": BODY}, slides={"s": Slide(body=body, point=(0.0, 0.0))})
 
 
+def test_a_slide_against_an_unknown_body_is_refused() -> None:
+    with pytest.raises(InputError, match=r"slides\.s\.against = 'b': no such body; allowed: ground, a"):
+        Linkage(bodies={"a": BODY}, slides={"s": Slide(body="a", point=(0.0, 0.0), against="b")})
+
+
+def test_a_slide_of_a_body_against_itself_is_refused() -> None:
+    with pytest.raises(InputError, match=r"slides\.s = 'a' twice: allowed: two different bodies"):
+        Linkage(bodies={"a": BODY}, slides={"s": Slide(body="a", point=(0.0, 0.0), against="a")})
+
+
+def test_columns_that_are_not_driven_are_no_driven_parts() -> None:
+    ends = {"foot": "ground", "head": "a", "foot_point": (0.0, 0.0), "head_point": (1.0, 0.0)}
+    columns = {"jack": Column(**ends), "strut": Column(**ends, driven=False)}
+    linkage = Linkage(bodies={"a": BODY}, columns=columns, cranks={"c": Crank(body="a")})
+    assert linkage.driven == ("jack", "c")
+
+
+def test_a_machine_has_no_details_unless_it_says_so() -> None:
+    class Plain(Machine):
+        def linkage(self) -> Linkage:
+            return Linkage(bodies={"a": BODY})
+
+    assert Plain().jacks == {}
+    assert Plain().detailed(("column",), ()) == Plain().linkage()
+
+
 def test_a_slide_is_along_x_unless_said_otherwise() -> None:
     assert Slide(body="a", point=(0.0, 0.0)).direction == 0.0
 

@@ -4,6 +4,8 @@ import dataclasses
 import json
 import math
 import re
+from collections.abc import Collection
+from typing import Any
 
 import pytest
 
@@ -11,18 +13,23 @@ from support_exudyn import (
     ClearancePin,
     CubicStep,
     Held,
+    HydraulicSupport,
     IdealPin,
     Linkage,
     Machine,
     OilColumn,
+    OwnBody,
     PinPlace,
     Scenario,
     SolverSettings,
     Steady,
     UniformSpeed,
+    reference_support,
+    two_body_columns,
 )
 from support_exudyn.machine import Body, Part
-from support_exudyn.reduced.coverage import check
+from support_exudyn.reduced import coverage as reduced_coverage
+from support_exudyn.tree import coverage as tree_coverage
 from tests.unit.cases import contact, support
 from user_forces import InputError, JournalBearing, Value, value
 
@@ -413,6 +420,101 @@ def test_oil_is_checked_against_the_drive_of_its_own_column() -> None:
 
 def test_the_reduced_formulation_takes_one_drive() -> None:
     one = CubicStep()
-    check(scenario(drive=one, drives={"rear_column": one}))
+    reduced_coverage.check(scenario(drive=one, drives={"rear_column": one}))
     with pytest.raises(InputError, match=r"drives\.rear_column = Held: not covered by .*'reduced'"):
-        check(scenario(drive=one, drives={"rear_column": Held()}))
+        reduced_coverage.check(scenario(drive=one, drives={"rear_column": Held()}))
+
+
+# --- levels of detail ---
+
+HEAVY = two_body_columns()
+
+
+def test_columns_of_two_bodies_bring_bodies_pins_and_a_guide() -> None:
+    plain, detailed = scenario().linkage, scenario(columns={"front_column": HEAVY["front_column"]}).linkage
+    assert set(detailed.bodies) - set(plain.bodies) == {"front_column_cylinder", "front_column_rod"}
+    assert set(detailed.pins) - set(plain.pins) == {"front_column_foot", "front_column_head"}
+    assert set(detailed.slides) == {"front_column_guide"}
+    column = detailed.columns["front_column"]
+    assert (column.foot, column.head) == ("front_column_cylinder", "front_column_rod")
+    assert column.start_length == plain.columns["front_column"].start_length
+    assert detailed.columns["rear_column"] == plain.columns["rear_column"]
+
+
+def test_a_detailed_scenario_comes_back_from_json() -> None:
+    one = Scenario(
+        machine=reference_support(),
+        columns=HEAVY,
+        parts={"tail_beam": OwnBody(jack=OilColumn(bore_area=0.01, oil_length=0.3, bulk_modulus=1e9))},
+        drives={"rear_column": CubicStep(stroke=0.2)},
+        duration=5.0,
+    )
+    assert Value.from_data(json.loads(json.dumps(one.to_data()))) == one
+    assert sorted(one.oil_columns) == ["tail_jack"]
+    assert one.drive_of("tail_jack") == Held()
+
+
+def test_oil_in_a_column_of_two_bodies_is_oil() -> None:
+    oil = OilColumn(bore_area=0.1, oil_length=0.1, bulk_modulus=1e9)
+    columns = two_body_columns(oil)
+    assert scenario(columns=columns).oil_columns == {"front_column": oil, "rear_column": oil}
+    with pytest.raises(InputError, match=r"columns\.front_column\.drive\.oil_length = 0\.1 m"):
+        scenario(columns=columns, drive=CubicStep(stroke=-0.2))
+
+
+def test_a_part_that_the_machine_does_not_have_is_refused() -> None:
+    with pytest.raises(InputError, match=r"parts\.side_shield: .*no such part on a jack; allowed: tail_beam"):
+        scenario(parts={"side_shield": OwnBody()})
+
+
+def test_a_part_that_the_machine_has_no_data_of_is_refused() -> None:
+    with pytest.raises(InputError, match=r"parts\.tail_beam: the machine lacks tail_hinge"):
+        scenario(parts={"tail_beam": OwnBody()})
+
+
+@pytest.mark.parametrize("name", ["jack", "tail_jack"])
+def test_only_driven_columns_are_columns_of_the_scenario(name: str) -> None:
+    said = rf"columns\.{name}: the machine has no such column; allowed: front_column, rear_column"
+    for column in (OilColumn(bore_area=0.1, oil_length=0.1, bulk_modulus=1e9), HEAVY["front_column"]):
+        with pytest.raises(InputError, match=said):
+            Scenario(
+                machine=reference_support(),
+                columns={name: column},
+                parts={"tail_beam": OwnBody()},
+                duration=1.0,
+            )
+
+
+def test_a_jack_follows_no_drive() -> None:
+    with pytest.raises(InputError, match=r"drives\.tail_jack: .*allowed: front_column, rear_column"):
+        Scenario(
+            machine=reference_support(),
+            parts={"tail_beam": OwnBody()},
+            drives={"tail_jack": Held()},
+            duration=1.0,
+        )
+
+
+def test_a_name_that_is_taken_is_refused() -> None:
+    @value
+    class Taken(HydraulicSupport):
+        def detailed(self, columns: Collection[str], parts: Collection[str]) -> Linkage:
+            linkage = super().detailed(columns, parts)
+            return dataclasses.replace(
+                linkage, bodies={**linkage.bodies, "rear_column_rod": linkage.bodies["shield"]}
+            )
+
+    fields = {f.name: getattr(SUPPORT, f.name) for f in dataclasses.fields(SUPPORT)}
+    with pytest.raises(InputError, match=r"columns\.rear_column: rear_column_rod is a name of the machine"):
+        scenario(machine=Taken(**fields), columns=HEAVY)
+
+
+@pytest.mark.parametrize("formulation", [tree_coverage, reduced_coverage])
+def test_columns_of_two_bodies_and_rigid_jacks_need_the_redundant_formulation(formulation: Any) -> None:
+    with pytest.raises(InputError, match=r"columns\.front_column = TwoBodyColumn.*'redundant' covers it"):
+        formulation.check(scenario(columns=HEAVY))
+    oil = OilColumn(bore_area=0.1, oil_length=0.5, bulk_modulus=1e9)
+    columns = dict.fromkeys(HEAVY, oil) if formulation is tree_coverage else {}
+    own = Scenario(machine=reference_support(), columns=columns, parts={"tail_beam": OwnBody()}, duration=1.0)
+    with pytest.raises(InputError, match=r"parts\.tail_beam.*'redundant' covers it"):
+        formulation.check(own)

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from support_exudyn import load_support, reference_support
+from support_exudyn import OilColumn, RigidColumn, load_support, reference_support, two_body_columns
 from support_exudyn.machine import lumped
 from tests.unit.cases import PARTS, PIVOTS, PIVOTS_MM, support
 from user_forces import InputError
@@ -214,3 +214,69 @@ def test_a_file_that_is_not_text_is_refused(tmp_path: Path) -> None:
     path.write_bytes(b"\xff\xfe\x00")
     with pytest.raises(InputError, match=re.escape(str(path))):
         load_support(path)
+
+
+# --- columns with mass, and the tail beam ---
+
+COLUMN = """
+[columns.front_column]
+cylinder_mass_kg = 300
+cylinder_length_mm = 900
+rod_mass_kg = 200
+rod_length_mm = 800
+"""
+
+
+def test_columns_of_the_reference_support_are_uniform_bars() -> None:
+    columns = two_body_columns()
+    assert sorted(columns) == ["front_column", "rear_column"]
+    for column in columns.values():
+        assert (column.cylinder_mass, column.rod_mass, column.drive) == (300.0, 200.0, RigidColumn())
+        # one rounding from mm to m
+        assert (column.cylinder_centre, column.rod_centre) == pytest.approx((0.45, 0.45), rel=1e-15)
+        assert column.cylinder_inertia == pytest.approx(300.0 * 0.81 / 12.0, rel=1e-14)
+        assert column.rod_inertia == pytest.approx(200.0 * 0.81 / 12.0, rel=1e-14)
+
+
+def test_rods_have_the_mass_that_they_have_on_the_canopy() -> None:
+    canopy = {part.name: part.mass for part in reference_support().parts["canopy"]}
+    for name, column in two_body_columns().items():
+        assert canopy[f"{name}_rods"] == column.rod_mass
+
+
+def test_columns_take_the_drive_they_are_given() -> None:
+    oil = OilColumn(bore_area=0.1, oil_length=0.5, bulk_modulus=1e9)
+    assert all(column.drive == oil and column.oil == oil for column in two_body_columns(oil).values())
+
+
+def test_columns_are_read_from_a_file(tmp_path: Path) -> None:
+    path = written(tmp_path, 'name = "a support"', 'name = "a support"')
+    assert two_body_columns(path=path) == {}
+    path.write_text(FILE + COLUMN, encoding="utf-8")
+    (column,) = two_body_columns(path=path).values()
+    assert column.rod_centre == pytest.approx(0.4, rel=1e-15)
+    assert load_support(path).tail_hinge is None
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("rod_mass_kg = 200", "", "columns.front_column.rod_mass_kg: missing"),
+        ("rod_mass_kg = 200", "rod_mass_kg = 0", "columns.front_column.rod_mass_kg = 0: allowed: > 0"),
+        ("rod_mass_kg = 200", "rod_mass_t = 0.2", "columns.front_column.rod_mass_t: unknown key"),
+        ("[columns.front_column]", "[[columns]]", "columns = "),
+    ],
+)
+def test_columns_that_do_not_fit_are_refused(tmp_path: Path, old: str, new: str, said: str) -> None:
+    path = written(tmp_path)
+    path.write_text(FILE + COLUMN.replace(old, new), encoding="utf-8")
+    with pytest.raises(InputError, match=re.escape(said)):
+        load_support(path)
+
+
+def test_a_part_may_have_a_name(tmp_path: Path) -> None:
+    assert load_support(written(tmp_path, "mass_kg = 200", 'mass_kg = 200\nname = "rods"')).parts["canopy"][
+        1
+    ].name == ("rods")
+    message = refusal(tmp_path, "mass_kg = 200", "mass_kg = 200\nname = 3")
+    assert message.startswith("parts.canopy[1].name = 3: allowed: a text")
