@@ -70,8 +70,8 @@ class Relative(NamedTuple):
 def in_plane(displacement: Sequence[float], velocity: Sequence[float]) -> tuple[float, float, float, float]:
     """Displacement and velocity in space as ones across the bore's axis, with the same distance and rate.
 
-    Sections of a tilted journal lie a little beside those of the bore, by less than the square of the tilt times
-    the length; their distance is that of their centres.
+    Sections of a tilted journal lie a little beside those of the bore, by less than the square of the tilt
+    times the length; their distance is that of their centres.
     """
     x, y, z = displacement
     vx, vy, vz = velocity

@@ -39,8 +39,8 @@ class PinConnector:
 
     Arguments:
         mbs: the engine's system.
-        bore, journal: the engine's body, and the frame of the bore or journal on it, in the body's axes (4 x 4):
-            its centre, and its axis as z.
+        bore, journal: the engine's body, and the frame of the bore or journal on it, in the body's axes
+            (4 x 4): its centre, and its axis as z.
         turn: of the journal's frame relative to the bore's about the axis [rad].
         at: what the force acts on.
         clearance: [m].

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 GROUND = "ground"
 Moments = tuple[Real, Real, Real]
+ROUNDING = 1e-9
 
 
 @value
@@ -28,8 +29,8 @@ class Part(Value):
         mass: [kg], > 0.
         centre: centre of mass [m].
         inertia: about the centre of mass [kg m^2], >= 0 (0: a point mass).
-        moments: integrals of x^2, y^2 and x y over its mass [kg m^2], from its centre; the first two add up to the
-            inertia. Only the spatial model asks. None: the inertia in equal halves, as of a disc.
+        moments: integrals of x^2, y^2 and x y over its mass [kg m^2], from its centre; the first two add up to
+            the inertia. Only the spatial model asks. None: the inertia in equal halves, as of a disc.
         name: by which a machine knows it where a scenario models it otherwise.
     """
 
@@ -39,10 +40,28 @@ class Part(Value):
     name: str = ""
     moments: Moments | None = None
 
+    @model_validator(mode="after")
+    def _moments_fit(self) -> Part:
+        check_moments(self.moments, self.inertia)
+        return self
+
     @property
     def second_moments(self) -> Moments:
         """`moments`, or what stands for them."""
         return self.moments or (0.5 * self.inertia, 0.5 * self.inertia, 0.0)
+
+
+def check_moments(moments: Moments | None, inertia: float) -> None:
+    """Raise ValueError unless second moments are those of a body in the plane with this inertia."""
+    if moments is None:
+        return
+    xx, yy, xy = moments
+    slack = ROUNDING * inertia
+    if abs(xx + yy - inertia) > slack or min(xx, yy) < -slack or xy * xy > xx * yy + slack * inertia:
+        raise ValueError(
+            f"moments = {moments}: allowed: xx and yy >= 0 that add up to the inertia, {inertia} kg m^2, and "
+            "xy^2 <= xx yy"
+        )
 
 
 def bar(mass: float, a: Vector2, b: Vector2) -> Part:
@@ -74,7 +93,11 @@ def turned_moments(moments: Moments, angle: float) -> Moments:
     xx, yy, xy = moments
     c, s = math.cos(angle), math.sin(angle)
     cross = 2.0 * c * s * xy
-    return c * c * xx + s * s * yy - cross, s * s * xx + c * c * yy + cross, c * s * (xx - yy) + (c * c - s * s) * xy
+    return (
+        c * c * xx + s * s * yy - cross,
+        s * s * xx + c * c * yy + cross,
+        c * s * (xx - yy) + (c * c - s * s) * xy,
+    )
 
 
 @value
@@ -98,6 +121,11 @@ class Body(Value):
     velocity: Vector2 = (0.0, 0.0)
     spin: Real = 0.0
     moments: Moments | None = None
+
+    @model_validator(mode="after")
+    def _moments_fit(self) -> Body:
+        check_moments(self.moments, self.inertia)
+        return self
 
 
 @value
@@ -257,8 +285,11 @@ class Machine(Value, ABC):
 
         width = self.widths()
         if width is None:
-            raise InputError(f"{type(self).__name__}: knows no lateral dimensions; allowed: machines with a Width")
+            raise InputError(
+                f"{type(self).__name__}: knows no lateral dimensions; allowed: machines with a Width"
+            )
         return lift(linkage, width)
+
     @property
     def jacks(self) -> Mapping[str, str]:
         """Parts that can be bodies of their own, each with the name of the jack that locks it; here none."""

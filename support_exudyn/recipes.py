@@ -114,7 +114,7 @@ class Seen:
 
 @dataclass(frozen=True)
 class Recipe:
-    """A channel before its run: unit, meaning, the parts it needs, and its values (n,) from what was seen of it."""
+    """A channel before its run: unit, meaning, the parts it needs, and its values (n,) from what was seen."""
 
     unit: str
     meaning: str

@@ -12,8 +12,8 @@ import numpy as np
 from support_exudyn.between_records import StepEnd, between
 from support_exudyn.driven_parts import OilColumnItem
 from support_exudyn.energy import RunningIntegrals
-from support_exudyn.onset import PinMemory
 from support_exudyn.engine_scene import EngineScene
+from support_exudyn.onset import PinMemory
 from support_exudyn.recipes import EVERYTHING, Part
 from support_exudyn.trajectory import Series
 

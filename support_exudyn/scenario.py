@@ -67,8 +67,9 @@ class SolverSettings(Value):
             law as an expression of the engine (redundant). "compiled": by numba, the extra [fast], for laws
             K depth^n with hysteresis damping and Ambrosio's friction or none (reduced). "auto": compiled where
             that can be done in the reduced formulation, else Python.
-        sections: in how many places along its axis the contact of a loose pin is evaluated in space, 2 to 64, the
-            edges among them.
+        sections: in how many places along its axis the contact of a loose pin is evaluated in space, 2 to 64,
+            the edges among them. Where a pin is not tilted any number gives the same; a tilted one on oil
+            columns driven unequally by 2 % is right to 2 % with 5 and to 4e-4 with 9.
     """
 
     integrator: Literal["generalised_alpha", "trapezoidal"] = "generalised_alpha"
@@ -204,9 +205,18 @@ class Scenario(Value):
             raise ValueError(f"dimensions = 3: {error}") from None
         if self.formulation in ERROR_CONTROLLED:
             raise ValueError(
-                f"formulation = {self.formulation!r}: is planar; allowed with dimensions = 3: 'auto', 'redundant'"
+                f"formulation = {self.formulation!r}: is planar; allowed in space: 'auto', 'redundant'"
             )
-        del space
+        self._check_pairs(space)
+
+    def _check_pairs(self, space: SpatialLinkage) -> None:
+        """Rigid columns of a pair cannot be driven apart: what they stand under is rigid, too."""
+        for name, column in space.columns.items():
+            if column.column not in self.oil_columns and self.drive_of(name) != self.drive_of(column.column):
+                raise ValueError(
+                    f"drives.{name}: is not the drive of {column.column}, and a rigid column; allowed for one "
+                    "of a pair of rigid columns: the drive of both, or columns of oil"
+                )
 
     def _check_columns(self, linkage: Linkage) -> None:
         driven = [name for name, column in linkage.columns.items() if column.driven]
@@ -222,7 +232,8 @@ class Scenario(Value):
         for name in self.drives:
             if name not in allowed:
                 raise ValueError(
-                    f"drives.{name}: the machine has no such driven part; allowed: {', '.join(allowed) or 'none'}"
+                    f"drives.{name}: the machine has no such driven part; "
+                    f"allowed: {', '.join(allowed) or 'none'}"
                 )
         for drive in self.drives_in_use:
             if self.start == "settled" and drive.initial_speed != 0.0:
@@ -274,7 +285,7 @@ class Scenario(Value):
     def drive_of(self, name: str) -> Drive:
         """The drive that a column or crank follows; `Held` for a column that is not driven."""
         whole = name
-        if self.dimensions == 3 and name in self.space.columns:
+        if self.dimensions == 3 and name in self.space.columns:  # one of a pair
             whole = self.space.columns[name].column
         if whole in self.linkage.columns and not self.linkage.columns[whole].driven:
             return Held()

@@ -8,9 +8,9 @@ from typing import Any
 
 import exudyn
 
+from support_exudyn.engine_scene import INITIAL, EngineScene
 from support_exudyn.engine_settings import quiet_engine
 from support_exudyn.errors import Failure, SimulationError
-from support_exudyn.engine_scene import INITIAL, EngineScene
 
 # A journal in the middle of its bore has no stiffness. A centring spring in every loose pin is there at
 # first, stiff enough to hold the weight of the machine within the clearance, and is then taken away.

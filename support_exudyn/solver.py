@@ -18,13 +18,13 @@ from typing import Any
 import exudyn
 
 from support_exudyn.counts import Counts
+from support_exudyn.engine_scene import EngineScene
 from support_exudyn.engine_settings import SMALLEST_STEP, engine_settings, quiet_engine
 from support_exudyn.errors import Failure, SimulationError
 from support_exudyn.impulse import Impulse
 from support_exudyn.onset import SHARE
 from support_exudyn.progress import Progress
 from support_exudyn.recorder import Recorder
-from support_exudyn.engine_scene import EngineScene
 from support_exudyn.smooth_steps import SmoothSteps
 from support_exudyn.steps import StepPlan
 from support_exudyn.stretches import Stretch, solve_in_stretches
@@ -271,7 +271,9 @@ def _smooth_steps(scene: EngineScene) -> SmoothSteps:
     step = min(scenario.step, scenario.record_period)
     longest = scenario.solver.growth * scenario.step
     mass = sum(item.body.mass for item in scene.bodies.values())
-    return SmoothSteps(step, longest, scene.coordinate_masses(), math.sqrt(mass) * math.hypot(*scenario.gravity))
+    return SmoothSteps(
+        step, longest, scene.coordinate_masses(), math.sqrt(mass) * math.hypot(*scenario.gravity)
+    )
 
 
 def _first_line(error: BaseException) -> str:

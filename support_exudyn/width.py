@@ -26,3 +26,17 @@ class Width(Value):
     columns: Mapping[str, Positive] = field(default_factory=dict)
     lengths: Mapping[str, Positive] = field(default_factory=dict)
     points: Mapping[str, Positive] = field(default_factory=dict)
+
+    def scaled(self, factor: float) -> Width:
+        """The same machine larger by a factor."""
+
+        def larger(lengths: Mapping[str, float]) -> dict[str, float]:
+            return {name: factor * length for name, length in lengths.items()}
+
+        return Width(
+            spreads=larger(self.spreads),
+            pairs=larger(self.pairs),
+            columns=larger(self.columns),
+            lengths=larger(self.lengths),
+            points=larger(self.points),
+        )

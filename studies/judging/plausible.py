@@ -223,7 +223,7 @@ def machine(sample: Sample) -> HydraulicSupport:
     """
     base = reference_support()
     scale = number(sample, "scale") / REFERENCE_SCALE
-    pivots = {
+    pivots: dict[str, Any] = {
         name: _scaled(getattr(base, name), scale)
         for name in (
             "rear_base", "front_base", "rear_shield", "front_shield", "hinge", "front_foot", "front_head",
@@ -232,7 +232,8 @@ def machine(sample: Sample) -> HydraulicSupport:
     }  # fmt: skip
     parts = {name: _parts(name, base, sample, scale) for name in base.parts}
     height = base.start_hinge_height * scale * number(sample, "start_height")
-    return replace(base, **pivots, parts=parts, start_hinge_height=height)
+    width = base.width and base.width.scaled(scale)
+    return replace(base, **pivots, parts=parts, start_hinge_height=height, width=width)
 
 
 def _parts(body: str, base: HydraulicSupport, sample: Sample, scale: float) -> tuple[Part, ...]:
@@ -252,8 +253,17 @@ def _parts(body: str, base: HydraulicSupport, sample: Sample, scale: float) -> t
     for place, part in enumerate(base.parts[body]):
         mass = part.mass * scale**3 * factors[place]
         centre = (part.centre[0] + float(shift[0]), part.centre[1] + float(shift[1]))
-        inertia = part.inertia * scale**5 * factors[place]
-        shifted.append(replace(part, mass=mass, centre=_scaled(centre, scale), inertia=inertia))
+        heavier = scale**5 * factors[place]
+        moments = part.moments and (
+            part.moments[0] * heavier,
+            part.moments[1] * heavier,
+            part.moments[2] * heavier,
+        )
+        shifted.append(
+            replace(
+                part, mass=mass, centre=_scaled(centre, scale), inertia=part.inertia * heavier, moments=moments
+            )
+        )
     return tuple(shifted)
 
 

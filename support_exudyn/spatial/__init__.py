@@ -1,1 +1,1 @@
-"""Machines in space: rigid bodies with Euler parameters, bearings of finite length, columns with spherical ends."""
+"""Machines in space: bodies with Euler parameters, bearings of finite length, columns with spherical ends."""

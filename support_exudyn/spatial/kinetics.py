@@ -79,7 +79,7 @@ class SpatialKinetics:
         return answers
 
     def _rate(self, bore: End, journal: End, axis: int) -> Series:
-        """The row that gives the velocity of the journal's middle against the bore's along an axis of the bore."""
+        """The row that gives the velocity of the journal's middle against the bore's along one of its axes."""
         direction = self.motion.carried(bore.body, frame_of(bore.axis)[:, axis])[0]
         found = np.zeros(6 * len(self.motion.linkage.bodies))
         for end, sign in ((journal, 1.0), (bore, -1.0)):

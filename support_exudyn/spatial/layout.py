@@ -126,7 +126,9 @@ class SpatialLinkage(Value):
         used += [(f"points.{k}", p.body) for k, p in self.points.items()]
         for where, body in used:
             if body != GROUND and body not in self.bodies:
-                raise ValueError(f"{where} = {body!r}: no such body; allowed: {GROUND}, {', '.join(self.bodies)}")
+                raise ValueError(
+                    f"{where} = {body!r}: no such body; allowed: {GROUND}, {', '.join(self.bodies)}"
+                )
         return self
 
     def parts_of_pin(self, pin: str) -> dict[str, Bearing]:

@@ -55,11 +55,15 @@ def _check(linkage: Linkage, width: Width) -> None:
             raise InputError(f"{kind}.{name}: not covered in space; allowed: pins and columns")
     for name in linkage.bodies:
         if width.spreads.get(name, 0.0) <= 0.0:
-            raise InputError(f"width.spreads.{name}: missing; allowed: > 0, without which nothing resists its roll")
+            raise InputError(
+                f"width.spreads.{name}: missing; allowed: > 0, without which nothing resists its roll"
+            )
     for name, column in linkage.columns.items():
         for body in (column.foot, column.head):
             if body in width.pairs:
-                raise InputError(f"columns.{name} on {body}, which is a pair: not covered; allowed: single bodies")
+                raise InputError(
+                    f"columns.{name} on {body}, which is a pair: not covered; allowed: single bodies"
+                )
 
 
 def at(point: Vector2, z: float) -> Vector3:
@@ -85,7 +89,9 @@ def _bearings(linkage: Linkage, width: Width, name: str) -> Iterator[tuple[str, 
     paired = [body for body in (place.first, place.second) if body in width.pairs]
     distances = {width.pairs[body] for body in paired}
     if len(distances) > 1:
-        raise InputError(f"pins.{name}: joins pairs {' and '.join(paired)} at different distances; allowed: one")
+        raise InputError(
+            f"pins.{name}: joins pairs {' and '.join(paired)} at different distances; allowed: one"
+        )
     holds: frozenset[Literal["tilt", "along"]] = frozenset({"tilt", "along"})
     if any(_first_pin(linkage, body) != name for body in paired):
         holds = frozenset()
@@ -128,7 +134,9 @@ def _column(name: str, column: Column, z: float, share: float) -> SpatialColumn:
 def _points(linkage: Linkage, width: Width, name: str) -> Iterator[tuple[str, SpatialPoint]]:
     traced: TracePoint = linkage.points[name]
     if traced.body != GROUND and traced.body in width.pairs:
-        raise InputError(f"points.{name} on {traced.body}, which is a pair: not covered; allowed: single bodies")
+        raise InputError(
+            f"points.{name} on {traced.body}, which is a pair: not covered; allowed: single bodies"
+        )
     yield name, SpatialPoint(body=traced.body, point=at(traced.point, 0.0))
     if name in width.points:
         for side, z, _ in copies(width.points[name]):

@@ -43,11 +43,12 @@ def turning_matrix(p: Series) -> Series:
 
 def parameter_rates(p: Series, spin: Series) -> Series:
     """Rates (..., 4) of Euler parameters that belong to an angular velocity (..., 3): G^T omega / 2."""
-    return 0.5 * np.einsum("...ij,...i->...j", turning_matrix(p), spin)
+    rates: Series = 0.5 * np.einsum("...ij,...i->...j", turning_matrix(p), spin)
+    return rates
 
 
 class PointMotion(NamedTuple):
-    """A point of a body over time, (n, 3) each: position [m], velocity [m/s], arm from the body's centre [m]."""
+    """A point of a body over time, (n, 3) each: position, velocity, arm from the body's centre; SI."""
 
     position: Series
     velocity: Series
@@ -58,8 +59,8 @@ class PointMotion(NamedTuple):
 class SpatialMotion:
     """All bodies of a linkage.
 
-    displacement, velocity, acceleration: of the centres (n, b, 3). turn: rotation since the start (n, b, 3, 3).
-    spin, spin_rate: (n, b, 3), ground's axes.
+    displacement, velocity, acceleration: of the centres (n, b, 3). turn: rotation since the start
+    (n, b, 3, 3). spin, spin_rate: (n, b, 3), ground's axes.
     """
 
     linkage: SpatialLinkage

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -27,8 +27,8 @@ from user_forces.friction.frictionless import Frictionless
 class SectionSeries:
     """A section of a loose bearing over time.
 
-    motion: of its journal. contact: depths and forces in the axes of the bore. force: of the bore on the journal
-    (n, 3) [N], ground's axes. point: where it acts (n, 3) [m].
+    motion: of its journal. contact: depths and forces in the axes of the bore. force: of the bore on the
+    journal (n, 3) [N], ground's axes. point: where it acts (n, 3) [m].
     """
 
     motion: SectionMotion
@@ -148,7 +148,7 @@ class Observation:
         return self.oil[name].force if name in self.oil else self.held[Row(name, "column")]
 
     def bearing_load(self, name: str) -> tuple[Series, Series]:
-        """Force of the first body on the second [N], and moment about the middle of its bearing [N m], (n, 3)."""
+        """Force of the first body on the second [N], moment about the bearing's middle [N m], (n, 3) each."""
         bearing = self.scene.linkage.bearings[name]
         force, moment = np.zeros((2, self.motion.count, 3))
         middle = self.motion.point(bearing.second, bearing.second_point).position
@@ -202,4 +202,5 @@ class Observation:
         """Gain minus work plus loss [J]."""
         total = self.kinetic + self.potential + self.stored
         history = self.history
-        return total - total[0] + (history.damping_loss + history.friction_loss) - history.work
+        found: Series = total - total[0] + (history.damping_loss + history.friction_loss) - history.work
+        return found

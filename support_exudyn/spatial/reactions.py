@@ -4,9 +4,9 @@ Newton's and Euler's equations say what the constraints together do to every bod
 
     C^T lambda = M a + omega x J omega - all other forces
 
-Where constraints repeat each other many lambda do that, and rigid bodies cannot tell them apart. Taken are those
-with the least sum of squares (moments count as forces at 1 m), which load alike what is alike: two parallel
-links half each.
+Where constraints repeat each other many lambda do that, and rigid bodies cannot tell them apart. Taken are
+those with the least sum of squares (moments count as forces at 1 m), which load alike what is alike: two
+parallel links half each.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ from support_exudyn.spatial.kinetics import inertias
 from support_exudyn.spatial.motion import SpatialMotion
 from support_exudyn.trajectory import Series
 
-# The rows repeat each other, so C C^T has no inverse. A small share of its size is added to its diagonal, and what
-# that changes is taken back in a few rounds, each of which leaves this share (over that of the smallest row) of it.
+# The rows repeat each other, so C C^T has no inverse. A small share of its size is added to its diagonal, and
+# what that changes is taken back in a few rounds, each of which leaves about this share of it.
 LIFT = 1e-9
 ROUNDS = 3
 
@@ -48,7 +48,7 @@ def reactions(motion: SpatialMotion, rows: Sequence[Row], left: Series) -> Serie
     square = c @ np.swapaxes(c, 1, 2)
     size = np.einsum("nrr->n", square) / len(rows)
     lifted = square + LIFT * size[:, None, None] * np.eye(len(rows))
-    found = np.zeros_like(wanted)
+    found: Series = np.zeros_like(wanted)
     for _ in range(ROUNDS):
         rest = wanted - np.einsum("nrk,nk->nr", square, found)
         found += np.linalg.solve(lifted, rest[..., None])[..., 0]

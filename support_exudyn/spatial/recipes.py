@@ -1,7 +1,7 @@
 """Channels of a run in space by name, see `support_exudyn.recipes`.
 
-Names are those of the plane where they mean the same. A pin that there are two of has the channels of each, and the
-force of both under the planar name.
+Names are those of the plane where they mean the same. A pin or column that there are two of has the channels of
+each, and under the planar name the force of both, and the mean of lengths and angles.
 """
 
 from __future__ import annotations
@@ -32,17 +32,16 @@ def recipes(linkage: SpatialLinkage, loose: Collection[str], oil: Collection[str
         found |= _of_point(name)
     for name, column in linkage.columns.items():
         found |= _of_column(name, column.column in oil)
-    for column in dict.fromkeys(c.column for c in linkage.columns.values()):
-        parts = [name for name, c in linkage.columns.items() if c.column == column]
-        if parts != [column]:
-            needs = OIL if column in oil else REACTION
-            found[f"{column}.force"] = Recipe("N", "of both together", needs, _sum_of_columns(parts))
+    for whole in dict.fromkeys(column.column for column in linkage.columns.values()):
+        parts = [name for name, column in linkage.columns.items() if column.column == whole]
+        if parts != [whole]:
+            found |= _of_pair(whole, parts, found)
     for name, bearing in linkage.bearings.items():
         found |= _of_bearing(name, bearing.pin in loose)
     for pin in dict.fromkeys(b.pin for b in linkage.bearings.values()):
         parts = list(linkage.parts_of_pin(pin))
         if parts != [pin]:
-            found |= _forces(f"pin.{pin}", REACTION, lambda seen, parts=parts: _sum_of_bearings(seen, parts))
+            found |= _forces(f"pin.{pin}", REACTION, _sum_of_bearings(parts))
     return found | _of_energy()
 
 
@@ -62,11 +61,17 @@ def _of_body(name: str, body: SpatialBody, n: int) -> Recipes:
         f"{name}.angle": _recipe(
             "rad", "orientation about z from +x", turned, lambda seen: body.angle + _turn(seen, n, 1, 0)
         ),
-        f"{name}.roll": _recipe("rad", "turn about x, the right side up", turned, lambda seen: _turn(seen, n, 2, 1)),
+        f"{name}.roll": _recipe(
+            "rad", "turn about x, the right side up", turned, lambda seen: _turn(seen, n, 2, 1)
+        ),
         f"{name}.yaw": _recipe("rad", "turn about y, to the left", turned, lambda seen: _turn(seen, n, 0, 2)),
         f"{name}.angular_velocity": _recipe("rad/s", "angular velocity about z", MOTION, _entry("spin", n, 2)),
-        f"{name}.angular_velocity_x": _recipe("rad/s", "angular velocity about x", MOTION, _entry("spin", n, 0)),
-        f"{name}.angular_velocity_y": _recipe("rad/s", "angular velocity about y", MOTION, _entry("spin", n, 1)),
+        f"{name}.angular_velocity_x": _recipe(
+            "rad/s", "angular velocity about x", MOTION, _entry("spin", n, 0)
+        ),
+        f"{name}.angular_velocity_y": _recipe(
+            "rad/s", "angular velocity about y", MOTION, _entry("spin", n, 1)
+        ),
         f"{name}.angular_acceleration": _recipe(
             "rad/s^2", "angular acceleration about z", MOTION | Part.ACCELERATION, _entry("spin_rate", n, 2)
         ),
@@ -88,7 +93,7 @@ def _entry(what: str, n: int, k: int) -> Callable[[Observation], Series]:
 def _turn(seen: Observation, n: int, row: int, column: int) -> Series:
     """Angle by which an axis of the body has turned towards another of the ground (n,) [rad]."""
     turn = seen.motion.turn[:, n]
-    return np.unwrap(np.arctan2(turn[:, row, column], turn[:, column, column]))
+    return np.asarray(np.unwrap(np.arctan2(turn[:, row, column], turn[:, column, column])))
 
 
 def _of_point(name: str) -> Recipes:
@@ -114,20 +119,45 @@ def _of_column(name: str, oil: bool) -> Recipes:
         return np.asarray(np.linalg.norm(seen.span(name)[0], axis=1))
 
     return {
-        f"{name}.angle": _recipe("rad", "direction from foot to head in the plane, from +x", Part.POSITION, angle),
+        f"{name}.angle": _recipe(
+            "rad", "direction from foot to head in the plane, from +x", Part.POSITION, angle
+        ),
         f"{name}.length": _recipe("m", "distance of its ends", Part.POSITION, length),
         f"{name}.force": _recipe(
-            "N", "pushes its ends apart if positive", OIL if oil else REACTION, lambda seen: seen.column_force(name)
+            "N",
+            "pushes its ends apart if positive",
+            OIL if oil else REACTION,
+            lambda seen: seen.column_force(name),
         ),
     }
 
 
-def _sum_of_columns(parts: list[str]) -> Callable[[Observation], Series]:
-    return lambda seen: np.sum([seen.column_force(part) for part in parts], axis=0)
+def _of_pair(whole: str, parts: list[str], known: Recipes) -> Recipes:
+    """Of a pair of columns, from the channels of each."""
+
+    def together(what: str, unite: Callable[..., Series], said: str) -> Recipes:
+        each = [known[f"{part}.{what}"] for part in parts]
+        return {
+            f"{whole}.{what}": Recipe(
+                each[0].unit,
+                said,
+                each[0].needs,
+                lambda seen: unite([one.values(seen) for one in each], axis=0),
+            )
+        }
+
+    return (
+        together("angle", np.mean, "direction from foot to head, mean of both")
+        | together("length", np.mean, "distance of its ends, mean of both")
+        | together("force", np.sum, "pushes its ends apart if positive, both together")
+    )
 
 
-def _sum_of_bearings(seen: Observation, parts: list[str]) -> Series:
-    return np.sum([seen.loads[part][0] for part in parts], axis=0)
+def _sum_of_bearings(parts: list[str]) -> Callable[[Observation], Series]:
+    def force(seen: Observation) -> Series:
+        return np.asarray(np.sum([seen.loads[part][0] for part in parts], axis=0))
+
+    return force
 
 
 def _forces(prefix: str, needs: Part, force: Callable[[Observation], Series]) -> Recipes:
@@ -165,7 +195,11 @@ def _of_loose(name: str) -> Recipes:
     prefix = f"pin.{name}"
 
     def said(
-        what: str, unit: str, meaning: str, values: Callable[[list[SectionSeries]], Series], needs: Part = CONTACT
+        what: str,
+        unit: str,
+        meaning: str,
+        values: Callable[[list[SectionSeries]], Series],
+        needs: Part = CONTACT,
     ) -> Recipes:
         return {f"{prefix}.{what}": _recipe(unit, meaning, needs, lambda seen: values(seen.sections[name]))}
 
@@ -174,19 +208,29 @@ def _of_loose(name: str) -> Recipes:
     found |= said("depth", "m", "depth where it is largest; negative: gap", _deepest)
     for place, edge, side in ((0, "left", "at the left edge"), (-1, "right", "at the right edge")):
         found |= said(f"{edge}_depth", "m", f"depth {side}; negative: gap", _of_section("depth", place))
-        found |= said(f"{edge}_eccentricity_x", "m", f"journal's centre from the bore's {side}, first axis across", _x(place))
-        found |= said(f"{edge}_eccentricity_y", "m", f"journal's centre from the bore's {side}, second axis across", _y(place))
+        found |= said(
+            f"{edge}_eccentricity_x",
+            "m",
+            f"journal's centre from the bore's {side}, first axis across",
+            _x(place),
+        )
+        found |= said(
+            f"{edge}_eccentricity_y",
+            "m",
+            f"journal's centre from the bore's {side}, second axis across",
+            _y(place),
+        )
     found |= said("eccentricity_x", "m", "journal's middle from the bore's, first axis across", _middle(_x))
     found |= said("eccentricity_y", "m", "journal's middle from the bore's, second axis across", _middle(_y))
     return found
 
 
 def _sum(what: str) -> Callable[[list[SectionSeries]], Series]:
-    return lambda sections: np.sum([getattr(s.contact, what) for s in sections], axis=0)
+    return lambda sections: np.asarray(np.sum([getattr(s.contact, what) for s in sections], axis=0))
 
 
 def _deepest(sections: list[SectionSeries]) -> Series:
-    return np.max([s.contact.depth for s in sections], axis=0)
+    return np.asarray(np.max([s.contact.depth for s in sections], axis=0))
 
 
 def _of_section(what: str, place: int) -> Callable[[list[SectionSeries]], Series]:
@@ -225,6 +269,10 @@ def _of_energy() -> Recipes:
         "damping_loss": ("dissipated by damping in contacts and oil so far", integrals, kept("damping_loss")),
         "friction_loss": ("dissipated by friction so far", integrals, kept("friction_loss")),
         "work": ("work of the drive so far", integrals, kept("work")),
-        "balance": ("gain minus work plus loss; zero if computed exactly", stored | integrals, known("balance")),
+        "balance": (
+            "gain minus work plus loss; zero if computed exactly",
+            stored | integrals,
+            known("balance"),
+        ),
     }
     return {f"energy.{name}": Recipe("J", *parts) for name, parts in table.items()}

@@ -31,7 +31,9 @@ def _outcome(scene: SpatialScene, progress: Progress) -> Outcome:
     solving = Run(scene, recorder, progress)
     counts = solving.go()
     groups = scene.sections.items()
-    edges = {f"{name}.{side}": group[n] for name, group in groups for side, n in EDGES.items() if len(group) > 1}
+    edges = {
+        f"{name}.{side}": group[n] for name, group in groups for side, n in EDGES.items() if len(group) > 1
+    }
     return Outcome(
         trajectory=Observation(scene, recorder.history()),
         onsets={name: tuple(group[0].whole.onsets) for name, group in groups}

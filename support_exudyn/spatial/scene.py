@@ -1,4 +1,4 @@
-"""From a scenario to a model in space: rigid bodies with Euler parameters, bearings, columns with spherical ends."""
+"""From a scenario to a model in space: bodies with Euler parameters, bearings, columns with spherical ends."""
 
 from __future__ import annotations
 
@@ -41,9 +41,10 @@ from support_exudyn.spatial.sections import End, ends, sections
 from support_exudyn.trajectory import Series
 from user_forces.values import Vector3
 
+
 @dataclass(frozen=True)
 class BodyItem:
-    """A moving body in the engine: its node, object and first coordinate (three of its centre and four follow)."""
+    """A moving body in the engine: its node, object and the first of its seven coordinates."""
 
     body: SpatialBody
     node: Any
@@ -187,7 +188,7 @@ class SpatialScene:
                     rate=force.rate,
                     slip=force.slip,
                 ).with_mobility(mobility)
-                bore, journal = pin.mover.at(*at)
+                bore, journal = pin.moving.at(*at)
                 pin.start(memory, journal[4], (0.0, bore[5]))
 
     def refresh_memory(self) -> None:
@@ -199,7 +200,7 @@ class SpatialScene:
             pin.jumped(pin.kept._replace(depth=force.depth, rate=force.rate, slip=force.slip))
 
     def _force(self, pin: SectionPin, position: list[float], velocity: list[float]) -> Any:
-        bore, (x, y, vx, vy, _, spin) = pin.mover.at(position, velocity)
+        bore, (x, y, vx, vy, _, spin) = pin.moving.at(position, velocity)
         return pin.contact.force(x, y, vx, vy, bore[5], spin, None)
 
 
@@ -290,7 +291,9 @@ class _Builder:
 
     def add_oil(self, column: SpatialColumn) -> Any:
         return self.mbs.AddObject(
-            ObjectConnectorSpringDamper(markerNumbers=self.column_ends(column), referenceLength=column.start_length)
+            ObjectConnectorSpringDamper(
+                markerNumbers=self.column_ends(column), referenceLength=column.start_length
+            )
         )
 
     def column_ends(self, column: SpatialColumn) -> list[Any]:
@@ -320,7 +323,8 @@ class _Builder:
         self.mbs.Assemble()
         data = self.mbs.systemData
         bodies = {
-            name: replace(item, first=int(data.GetNodeLTGODE2(item.node)[0])) for name, item in self.bodies.items()
+            name: replace(item, first=int(data.GetNodeLTGODE2(item.node)[0]))
+            for name, item in self.bodies.items()
         }
         rigid_items: dict[str, ColumnItem] = {
             name: ColumnItem(linkage.columns[name], item, int(data.GetObjectLTGAE(item)[0]))
@@ -347,15 +351,13 @@ class _Builder:
             whole.find_mobility = partial(scene.mobility, name)
             whole.mover = self.mover(scene, group[0].ends, 0.0)
             for pin in group:
-                pin.mover = pin.motion = self.mover(scene, pin.ends, pin.section.place)
+                pin.mover = self.mover(scene, pin.ends, pin.section.place)
         scene.drive_to(0.0)
         scene.start_moving()
         scene.reset_memory()
         return scene
 
-    def by_drive(
-        self, rigid: dict[str, ColumnItem], oil: dict[str, OilColumnItem]
-    ) -> tuple[DrivenParts, ...]:
+    def by_drive(self, rigid: dict[str, ColumnItem], oil: dict[str, OilColumnItem]) -> tuple[DrivenParts, ...]:
         """All columns, by drive."""
         drives: list[Drive] = []
         for name in (*rigid, *oil):

@@ -59,15 +59,24 @@ class BodyState(NamedTuple):
         """Position and velocity of a point, its arm in the body's axes."""
         ax, ay, az = self.turned(arm)
         (x, y, z), (vx, vy, vz), (wx, wy, wz) = self.centre, self.velocity, self.spin
-        return (x + ax, y + ay, z + az), (vx + wy * az - wz * ay, vy + wz * ax - wx * az, vz + wx * ay - wy * ax)
+        return (x + ax, y + ay, z + az), (
+            vx + wy * az - wz * ay,
+            vy + wz * ax - wx * az,
+            vz + wx * ay - wy * ax,
+        )
 
 
-GROUND_STATE = BodyState(((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)), (0.0,) * 3, (0.0,) * 3, (0.0,) * 3)
+GROUND_STATE = BodyState(
+    ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)), (0.0,) * 3, (0.0,) * 3, (0.0,) * 3
+)
 
 
 class SectionEnd(NamedTuple):
-    """Centre of a section on a body: the body's first coordinate in the vector of all (None: the ground), its
-    centre at the start, the arm from there and the axes across and along, all in the body's axes."""
+    """Centre of a section on a body.
+
+    first: the body's first coordinate in the vector of all; None: the ground. centre: of the body at the start
+    [m]. arm: of the section from there [m]. across, along: axes of the bearing, in those of the body.
+    """
 
     first: int | None
     centre: Vector3
@@ -131,7 +140,8 @@ class Journal:
         self.sections: list[SectionPin] = []
         self.onsets: list[Onset] = []  # of the journal, which was all apart
         self.largest_force = 0.0  # [N], at the end of any step
-        self._before: list[tuple[bool, Onset | None]] = []  # of each section: in contact before the step, touch in it
+        # of each section: whether it was in contact before the step, and its touch in it
+        self._before: list[tuple[bool, Onset | None]] = []
 
     def moved(self) -> None:
         """The bodies are elsewhere now."""
@@ -151,7 +161,6 @@ class Journal:
             self._place = x, y
         return self._place
 
-
     def accepted(self, was_in_contact: bool, onset: Onset | None) -> None:
         """A section has kept a step: was it in contact before, and the touch in it, if there was one."""
         self._before.append((was_in_contact, onset))
@@ -170,7 +179,7 @@ class Journal:
         """Magnitude of the force of all sections together [N]."""
         total_x = total_y = 0.0
         for pin in self.sections:
-            _, (x, y, *_) = pin.moving_now()
+            _, (x, y, *_) = pin.moving.now()
             away = math.hypot(x, y) or 1.0
             normal, friction = pin.force.normal_force, pin.force.friction_force
             total_x += (-normal * x - friction * y) / away
@@ -186,8 +195,8 @@ class SectionPin(LoosePin):
         contact: of the whole pin.
         whole: what it shares with the other sections.
         section: its place and share.
-        bore, journal: their ends; items: the engine's bodies, nodes: of them (None: the ground); centres: of the
-            bodies' mass.
+        bore, journal: their ends; items: the engine's bodies, nodes: of them (None: the ground); centres: of
+            the bodies' mass.
         symbolic, impact_steps: as of LoosePin.
     """
 
@@ -208,7 +217,10 @@ class SectionPin(LoosePin):
     ) -> None:
         self.section = section
         self.whole = whole
-        frames = [marker_frame(end, section.place, centre) for end, centre in zip((bore, journal), centres, strict=True)]
+        frames = [
+            marker_frame(end, section.place, centre)
+            for end, centre in zip((bore, journal), centres, strict=True)
+        ]
         self._bore_axis = bore.axis
         super().__init__(
             mbs,
@@ -227,6 +239,16 @@ class SectionPin(LoosePin):
         self.mover: SectionMover | None = None  # set when the scene is whole
         self.mobility = whole.mobility
 
+    @property
+    def moving(self) -> SectionMover:
+        """How it moves."""
+        if self.mover is None:
+            raise RuntimeError("SectionPin.mover: is set by the scene")
+        return self.mover
+
+    def _now(self) -> tuple[Motion, Motion]:
+        return self.moving.now()
+
     def after_newton(self, t: float) -> float | None:
         """See `LoosePin`."""
         if self is self.whole.sections[0]:
@@ -244,10 +266,6 @@ class SectionPin(LoosePin):
         before = self.kept.in_contact, self.onset
         super().accept()
         self.whole.accepted(*before)
-
-    def moving_now(self) -> tuple[Motion, Motion]:
-        """Motions of bore and journal."""
-        return self._moving.now()
 
     def _place(self) -> Vector2:
         return self.whole.place()

@@ -1,7 +1,7 @@
 """A journal of finite length in its bore: sections along the axis, each with its share of the contact.
 
-The law gives the force of the whole length at one depth. Where the journal is tilted the depth is different from
-place to place, and the force is the mean along the axis,
+The law gives the force of the whole length at one depth. Where the journal is tilted the depth is different
+from place to place, and the force is the mean along the axis,
 
     F = 1/L integral of law(depth(s)) ds,   s from -L/2 to L/2
 
