@@ -28,6 +28,7 @@ from support_exudyn.scene import Scene
 from support_exudyn.smooth_steps import SmoothSteps
 from support_exudyn.steps import StepPlan
 from support_exudyn.stretches import Stretch, solve_in_stretches
+from support_exudyn.symbolic_drive import turns_by_itself
 from support_exudyn.velocity_jump import jump_velocities
 from user_forces.normal.law import LoadError
 
@@ -116,7 +117,7 @@ class Run:
                 mbs.SetPostNewtonUserFunction(self._after_newton)
             mbs.SetPostStepUserFunction(self._after_step)
             return
-        if self.follows:
+        if self.follows and not turns_by_itself(self.scene):
             mbs.SetPreStepUserFunction(self._follow)
         if self.recorder.integrates:
             mbs.SetPostStepUserFunction(self._audit)

@@ -9,6 +9,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
+ROUNDING = 1e-6  # of a step
+
 
 class Stretch(NamedTuple):
     """Equal steps: where the last ends [s], and how many they are."""
@@ -37,11 +39,14 @@ def solve_in_stretches(
     t = 0.0
     arrive(t, 0)
     while (stretch := following(t)) is not None:
+        size = (stretch.end - float(it.currentTime)) / stretch.steps
         it.endTime = stretch.end
-        it.maxStepSize = it.currentStepSize = (stretch.end - t) / stretch.steps
+        it.maxStepSize = it.currentStepSize = size
         if not solver.SolveSteps(mbs, settings):
             return False
         t = float(it.currentTime)
+        if abs(t - stretch.end) < ROUNDING * size:  # of a sum of steps; the next stretch makes up for it
+            t = stretch.end
         arrive(t, int(it.currentStepIndex) - 1)  # the engine counts from 1 in every stretch
     solver.FinalizeSolver(mbs, settings)
     return True
