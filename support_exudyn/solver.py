@@ -124,9 +124,12 @@ class Run:
 
     def _go_in_stretches(self) -> bool:
         """Integrate where nothing is to be decided between one record or break and the next."""
-        finished = solve_in_stretches(self.solver, self.scene.mbs, self.settings, self._stretch, self._arrive)
-        # every attempt at a step is one iteration; without contacts there are no others
-        self.failed_newton = int(self.solver.it.discontinuousIterationsCount) - self.steps
+        mbs, finished = self.scene.mbs, False
+        try:
+            finished = solve_in_stretches(self.solver, mbs, self.settings, self._stretch, self._arrive)
+        finally:
+            if not finished:
+                self.time = float(self.data.GetTime())  # inside a stretch
         return finished
 
     def _stretch(self, t: float) -> Stretch | None:
@@ -136,9 +139,10 @@ class Run:
         refined = self.locates and self.plan.follows_break(t)
         return Stretch(*self.plan.stretch(t, self.plan.step / BREAK_REFINEMENT if refined else math.inf))
 
-    def _arrive(self, t: float, steps: int) -> None:
-        """A stretch of so many steps has ended at t [s]."""
+    def _arrive(self, t: float, steps: int, repeats: int) -> None:
+        """A stretch of so many steps has ended at t [s]; so many had to be repeated."""
         self.steps += steps
+        self.failed_newton += repeats
         self._at_stop(t, self.plan.break_at(t))
 
     # --- called by the engine ---

@@ -6,6 +6,7 @@ in the solver, so that this is one integration: only where its steps end is told
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
@@ -24,20 +25,22 @@ def solve_in_stretches(
     mbs: Any,
     settings: Any,
     following: Callable[[float], Stretch | None],
-    arrive: Callable[[float, int], None],
+    arrive: Callable[[float, int, int], None],
 ) -> bool:
     """Integrate from 0; whether it could be finished.
 
     Arguments:
         solver: the engine's; mbs: its system; settings: of the run, whose steps are set here.
         following: the stretch that begins at a time [s], None: the run ends there.
-        arrive: is called at the start and after every stretch with the time [s] and the number of steps taken.
+        arrive: is called at the start and after every stretch with the time [s], the number of steps taken, and
+            how often one was repeated because Newton's method did not converge: with half the step, as are then
+            all that are left of the stretch.
     """
     if not solver.InitializeSolver(mbs, settings):
         return False
     it = solver.it
     t = 0.0
-    arrive(t, 0)
+    arrive(t, 0, 0)
     while (stretch := following(t)) is not None:
         size = (stretch.end - float(it.currentTime)) / stretch.steps
         it.endTime = stretch.end
@@ -47,6 +50,7 @@ def solve_in_stretches(
         t = float(it.currentTime)
         if abs(t - stretch.end) < ROUNDING * size:  # of a sum of steps; the next stretch makes up for it
             t = stretch.end
-        arrive(t, int(it.currentStepIndex) - 1)  # the engine counts from 1 in every stretch
+        repeats = max(0, round(math.log2(size / float(it.currentStepSize))))
+        arrive(t, int(it.currentStepIndex) - 1, repeats)  # the engine counts from 1 in every stretch
     solver.FinalizeSolver(mbs, settings)
     return True

@@ -27,7 +27,7 @@ def turns_by_itself(scene: Scene) -> bool:
         return False
 
     def angle(mbs: Any, t: Any, item: Any, offset: Any) -> Any:
-        found = drive.extension(cast(float, Symbol(t)))
+        found: Any = drive.extension(cast(float, Symbol(t)))
         return found.real if isinstance(found, Symbol) else engine.Real(found)
 
     try:
