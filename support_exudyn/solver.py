@@ -143,6 +143,8 @@ class Run:
         """A stretch of so many steps has ended at t [s]; so many had to be repeated."""
         self.steps += steps
         self.failed_newton += repeats
+        if t == 0.0 and self.recorder.integrates:  # before the speed jumps; the engine tells the start later
+            self._audit(self.scene.mbs, t)
         self._at_stop(t, self.plan.break_at(t))
 
     # --- called by the engine ---

@@ -50,6 +50,7 @@ SCENES = {
     "ideal, held": support(**SHORT | {"drive": Held()}),
     "ideal, driven": support(**SHORT),
     "ideal, struck": support(**SHORT | {"drive": UniformSpeed(stroke=0.002, start=0.011, end=0.04)}),
+    "ideal, struck at once": support(**SHORT | {"drive": UniformSpeed(stroke=0.002, start=0.0, end=0.04)}),
     "ideal, growing steps": support(**SHORT, solver=SolverSettings(growth=8)),
     "oil": support(**SHORT, columns=OILS),
     "one column of oil": support(**SHORT, columns={"rear_column": OIL}),
@@ -207,7 +208,16 @@ def watched(scenario: Scenario, monkeypatch: pytest.MonkeyPatch) -> Result:
 
 
 @pytest.mark.parametrize(
-    "scene", ["ideal, held", "ideal, driven", "ideal, struck", "oil", "one column of oil", "slider-crank"]
+    "scene",
+    [
+        "ideal, held",
+        "ideal, driven",
+        "ideal, struck",
+        "ideal, struck at once",
+        "oil",
+        "one column of oil",
+        "slider-crank",
+    ],
 )
 def test_the_engine_alone_makes_the_steps_of_one_that_is_watched(
     scene: str, monkeypatch: pytest.MonkeyPatch
