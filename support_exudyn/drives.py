@@ -6,6 +6,7 @@ from abc import ABC, abstractmethod
 
 from pydantic import model_validator
 
+from user_forces.scalar import maximum, minimum
 from user_forces.values import NonNegative, Positive, Real, Value, value
 
 
@@ -13,7 +14,9 @@ class Drive(Value, ABC):
     """Extension of a column from its start length [m], or of a crank from its start angle [rad], over time.
 
     The contract: `extension` is continuous; `speed` is its derivative; between two neighbouring `breaks`
-    both are smooth; at a break the speed may jump by `speed_jump`. The solver lands on every break.
+    both are smooth; at a break the speed may jump by `speed_jump`. The solver lands on every break. An
+    `extension` written as laws are, see `user_forces.scalar`, is handed to the engine as an expression where
+    that takes one: for cranks.
     """
 
     @abstractmethod
@@ -96,7 +99,7 @@ class Stroke(Drive):
 
     def phase(self, t: float) -> float:
         """0 at the start of the stroke, 1 at its end, clipped."""
-        return min(1.0, max(0.0, (t - self.start) / (self.end - self.start)))
+        return minimum(1.0, maximum(0.0, (t - self.start) / (self.end - self.start)))
 
 
 @value

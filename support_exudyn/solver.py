@@ -28,6 +28,7 @@ from support_exudyn.recorder import Recorder
 from support_exudyn.smooth_steps import SmoothSteps
 from support_exudyn.steps import StepPlan
 from support_exudyn.stretches import Stretch, solve_in_stretches
+from support_exudyn.symbolic_drive import turns_by_itself
 from user_forces.normal.law import LoadError
 
 REPEAT_ERROR = 1e6  # above any tolerance of the engine's discontinuous iteration: the step is repeated
@@ -112,16 +113,19 @@ class Run:
                 mbs.SetPostNewtonUserFunction(self._after_newton)
             mbs.SetPostStepUserFunction(self._after_step)
             return
-        if self.follows:
+        if self.follows and not turns_by_itself(self.scene):
             mbs.SetPreStepUserFunction(self._follow)
         if self.recorder.integrates:
             mbs.SetPostStepUserFunction(self._audit)
 
     def _go_in_stretches(self) -> bool:
         """Integrate where nothing is to be decided between one record or break and the next."""
-        finished = solve_in_stretches(self.solver, self.scene.mbs, self.settings, self._stretch, self._arrive)
-        # every attempt at a step is one iteration; without contacts there are no others
-        self.failed_newton = int(self.solver.it.discontinuousIterationsCount) - self.steps
+        mbs, finished = self.scene.mbs, False
+        try:
+            finished = solve_in_stretches(self.solver, mbs, self.settings, self._stretch, self._arrive)
+        finally:
+            if not finished:
+                self.time = float(self.data.GetTime())  # inside a stretch
         return finished
 
     def _stretch(self, t: float) -> Stretch | None:
@@ -131,9 +135,12 @@ class Run:
         refined = self.locates and self.plan.follows_break(t)
         return Stretch(*self.plan.stretch(t, self.plan.step / BREAK_REFINEMENT if refined else math.inf))
 
-    def _arrive(self, t: float, steps: int) -> None:
-        """A stretch of so many steps has ended at t [s]."""
+    def _arrive(self, t: float, steps: int, repeats: int) -> None:
+        """A stretch of so many steps has ended at t [s]; so many had to be repeated."""
         self.steps += steps
+        self.failed_newton += repeats
+        if t == 0.0 and self.recorder.integrates:  # before the speed jumps; the engine tells the start later
+            self._audit(self.scene.mbs, t)
         self._at_stop(t, self.plan.break_at(t))
 
     # --- called by the engine ---

@@ -6,8 +6,11 @@ in the solver, so that this is one integration: only where its steps end is told
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any, NamedTuple
+
+ROUNDING = 1e-6  # of a step
 
 
 class Stretch(NamedTuple):
@@ -22,26 +25,32 @@ def solve_in_stretches(
     mbs: Any,
     settings: Any,
     following: Callable[[float], Stretch | None],
-    arrive: Callable[[float, int], None],
+    arrive: Callable[[float, int, int], None],
 ) -> bool:
     """Integrate from 0; whether it could be finished.
 
     Arguments:
         solver: the engine's; mbs: its system; settings: of the run, whose steps are set here.
         following: the stretch that begins at a time [s], None: the run ends there.
-        arrive: is called at the start and after every stretch with the time [s] and the number of steps taken.
+        arrive: is called at the start and after every stretch with the time [s], the number of steps taken, and
+            how often one was repeated because Newton's method did not converge: with half the step, as are then
+            all that are left of the stretch.
     """
     if not solver.InitializeSolver(mbs, settings):
         return False
     it = solver.it
     t = 0.0
-    arrive(t, 0)
+    arrive(t, 0, 0)
     while (stretch := following(t)) is not None:
+        size = (stretch.end - float(it.currentTime)) / stretch.steps
         it.endTime = stretch.end
-        it.maxStepSize = it.currentStepSize = (stretch.end - t) / stretch.steps
+        it.maxStepSize = it.currentStepSize = size
         if not solver.SolveSteps(mbs, settings):
             return False
         t = float(it.currentTime)
-        arrive(t, int(it.currentStepIndex) - 1)  # the engine counts from 1 in every stretch
+        if abs(t - stretch.end) < ROUNDING * size:  # of a sum of steps; the next stretch makes up for it
+            t = stretch.end
+        repeats = max(0, round(math.log2(size / float(it.currentStepSize))))
+        arrive(t, int(it.currentStepIndex) - 1, repeats)  # the engine counts from 1 in every stretch
     solver.FinalizeSolver(mbs, settings)
     return True

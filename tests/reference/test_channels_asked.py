@@ -16,6 +16,7 @@ from hypothesis import strategies as st
 from support_exudyn import (
     ClearancePin,
     CubicStep,
+    Failure,
     Held,
     OilColumn,
     Result,
@@ -28,6 +29,7 @@ from support_exudyn import (
     simulate,
 )
 from support_exudyn.channels import needs
+from support_exudyn.engine_settings import engine_settings
 from support_exudyn.recorder import History, Recorder
 from support_exudyn.redundant import build
 from support_exudyn.solver import Run
@@ -48,6 +50,7 @@ SCENES = {
     "ideal, held": support(**SHORT | {"drive": Held()}),
     "ideal, driven": support(**SHORT),
     "ideal, struck": support(**SHORT | {"drive": UniformSpeed(stroke=0.002, start=0.011, end=0.04)}),
+    "ideal, struck at once": support(**SHORT | {"drive": UniformSpeed(stroke=0.002, start=0.0, end=0.04)}),
     "ideal, growing steps": support(**SHORT, solver=SolverSettings(growth=8)),
     "oil": support(**SHORT, columns=OILS),
     "one column of oil": support(**SHORT, columns={"rear_column": OIL}),
@@ -205,7 +208,16 @@ def watched(scenario: Scenario, monkeypatch: pytest.MonkeyPatch) -> Result:
 
 
 @pytest.mark.parametrize(
-    "scene", ["ideal, held", "ideal, driven", "ideal, struck", "oil", "one column of oil", "slider-crank"]
+    "scene",
+    [
+        "ideal, held",
+        "ideal, driven",
+        "ideal, struck",
+        "ideal, struck at once",
+        "oil",
+        "one column of oil",
+        "slider-crank",
+    ],
 )
 def test_the_engine_alone_makes_the_steps_of_one_that_is_watched(
     scene: str, monkeypatch: pytest.MonkeyPatch
@@ -216,8 +228,7 @@ def test_the_engine_alone_makes_the_steps_of_one_that_is_watched(
     for ours, theirs in zip(alone.impulses, looked_at.impulses, strict=True):
         # positions and velocities agree as below
         assert ours.columns == pytest.approx(theirs.columns, rel=1e-7)
-    # a time is a sum of steps: rounding
-    np.testing.assert_allclose(alone.time, looked_at.time, rtol=0.0, atol=1e-14)
+    np.testing.assert_array_equal(alone.time, looked_at.time)
     for name in alone.channels:
         a, b = alone[name], looked_at[name]
         share, size = AGREE[alone.unit(name)]
@@ -237,3 +248,35 @@ def test_a_run_of_the_engine_alone_can_be_interrupted() -> None:
 
     with pytest.raises(KeyboardInterrupt):
         simulate(SCENES["ideal, held"], progress=stop)
+
+
+def with_iterations(most: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let Newton's method try so often only, so that it fails."""
+
+    def fewer(*arguments: Any) -> Any:
+        made = engine_settings(*arguments)
+        made.timeIntegration.newton.maxIterations = most
+        return made
+
+    monkeypatch.setattr("support_exudyn.solver.engine_settings", fewer)
+
+
+HASTY = support(drive=CubicStep(stroke=0.4, start=0.0, end=0.02), duration=0.05, step=0.01, record_period=0.01)
+
+
+def test_repeated_steps_are_counted_and_the_run_goes_on(monkeypatch: pytest.MonkeyPatch) -> None:
+    with_iterations(6, monkeypatch)
+    result = simulate(HASTY)
+    assert result.counts.failed_newton > 0
+    # without any: five of 10 ms, of which those after both breaks are made in 32 parts
+    assert result.counts.steps > 3 + 2 * 32
+    np.testing.assert_array_equal(result.time, 0.01 * np.arange(6))
+    assert result["front_column.length"][-1] - result["front_column.length"][0] == pytest.approx(0.4, abs=1e-9)
+
+
+def test_a_run_that_cannot_go_on_tells_when(monkeypatch: pytest.MonkeyPatch) -> None:
+    with_iterations(5, monkeypatch)
+    failure = simulate(HASTY, throw=False)
+    assert isinstance(failure, Failure)
+    assert failure.reason == "the solver gave up"
+    assert 0.0 < failure.time < 0.01  # within the first stretch, not at its start
