@@ -68,6 +68,10 @@ class BodyMotion:
         """A body's rotation since the start posture (n,) [rad]."""
         return np.zeros(len(self.position)) if body == GROUND else self.position[:, self.first(body) + 2]
 
+    def spin(self, body: str) -> Series:
+        """A body's angular velocity (n,) [rad/s]."""
+        return np.zeros(len(self.position)) if body == GROUND else self.velocity[:, self.first(body) + 2]
+
     def point(self, body: str, point: Vector2) -> PointMotion:
         """Motion of a point of the start posture."""
         rows = len(self.position)

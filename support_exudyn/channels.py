@@ -40,6 +40,10 @@ def channels(scenario: Scenario, run: Trajectory) -> dict[str, Channel]:
             found |= _loose_pin_channels(name, run.contacts[name], 1.0 if second_has_journal else -1.0)
         else:
             found |= _force_channels(name, *run.ideal_pins[name].T)
+    found |= {
+        f"pin.{name}.friction_moment": Channel(moment, "N m", "of friction on the second body")
+        for name, moment in run.friction_moments.items()
+    }
     return found | _energy_channels(scenario, linkage, run)
 
 

@@ -44,6 +44,7 @@ class Recorder:
         self._data = scene.mbs.systemData
         self._pins = tuple(scene.loose_pins.values())
         self._driven = tuple((parts.drive, parts.multipliers, parts.oil) for parts in scene.driven)
+        self._frictions = tuple(scene.frictions.values())
         self._mbs = scene.mbs
         self._rows: list[tuple[Any, ...]] = []
         self._powers_now = (0.0, 0.0, 0.0)  # [W]
@@ -129,6 +130,8 @@ class Recorder:
                 work, loss = item.filled.powers(*self._length(item), drive.extension(t), speed)
                 columns += work
                 damping += loss
+        for rubbing in self._frictions:
+            friction += rubbing.power()
         for pin in self._pins:
             force = pin.force
             if force.depth > 0.0:

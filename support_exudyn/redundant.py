@@ -78,15 +78,22 @@ def trajectory(scene: Scene, history: History) -> Trajectory:
         for name, item in scene.oil_columns.items()
     }
     # the multiplier of a distance is the tension
+    ideal = {
+        # the engine's joint equation is second minus first, so its multiplier acts on the second reversed
+        name: -history.multiplier[:, item.first : item.first + 2]
+        for name, item in scene.ideal_pins.items()
+    }
     columns = {name: -history.multiplier[:, item.multiplier] for name, item in scene.rigid_columns.items()}
     return Trajectory(
         time=history.time,
         position=position,
         velocity=velocity,
         acceleration=motion.acceleration,
-        # the engine's joint equation is second minus first, so its multiplier acts on the second reversed
-        ideal_pins={
-            name: -history.multiplier[:, item.first : item.first + 2] for name, item in scene.ideal_pins.items()
+        ideal_pins=ideal,
+        friction_moments={
+            name: item.series(ideal[name], motion.spin(place.first), motion.spin(place.second))
+            for name, item in scene.frictions.items()
+            for place in (scene.linkage.pins[name],)
         },
         contacts={
             name: contact_series(

@@ -14,7 +14,7 @@ from support_exudyn.columns import ColumnModel, OilColumn, TwoBodyColumn
 from support_exudyn.drives import Drive, Held
 from support_exudyn.machine import Linkage, Machine
 from support_exudyn.parts import OwnBody, PartModel
-from support_exudyn.pins import ClearancePin, Pin
+from support_exudyn.pins import ClearancePin, IdealPin, Pin
 from support_exudyn.two_bodies import with_two_bodies
 from user_forces.values import Fraction, InputError, Positive, Real, Value, Vector2, value
 
@@ -203,6 +203,11 @@ class Scenario(Value):
         # where parts are driven apart, all of them over the range of all: what the machine can answer
         self.machine.check_extension(min(low for low, _ in spans), max(high for _, high in spans))
 
+    @property
+    def jumps(self) -> bool:
+        """Whether the speed of any drive jumps anywhere."""
+        return any(drive.speed_jump(t) != 0.0 for drive in self.drives_in_use for t in drive.breaks)
+
     def refined(self, factor: float = 2) -> Scenario:
         """The same run with all steps, also those of impacts, so many times shorter.
 
@@ -264,6 +269,12 @@ class Scenario(Value):
     def clearance_pins(self) -> dict[str, ClearancePin]:
         """The pins that have clearance, by name."""
         return {name: pin for name, pin in self.pins.items() if isinstance(pin, ClearancePin)}
+
+    @property
+    def friction_pins(self) -> dict[str, IdealPin]:
+        """The ideal pins that have friction, by name."""
+        ideal = {name: pin for name, pin in self.pins.items() if isinstance(pin, IdealPin)}
+        return {name: pin for name, pin in ideal.items() if pin.friction is not None}
 
     @property
     def oil_columns(self) -> dict[str, OilColumn]:

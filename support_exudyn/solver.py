@@ -93,7 +93,8 @@ class Run:
             cut_steps=self.cut_steps,
             newton_iterations=int(it.newtonStepsCount),
             jacobians=int(it.newtonJacobiCount),
-            user_function_calls=sum(pin.calls for pin in self.pins),
+            user_function_calls=sum(pin.calls for pin in self.pins)
+            + sum(friction.calls for friction in self.scene.frictions.values()),
             failed_newton=self.failed_newton,
             clamped_steps=sum(pin.clamped_steps for pin in self.pins),
         )
@@ -138,6 +139,8 @@ class Run:
                 kink = kink or pin.onset is not None
                 pin.accept()
         self.recorder.after_step(t, kink)
+        for friction in self.scene.frictions.values():
+            friction.accept()
         if self.smooth is not None:
             self._look_for_smoothness(t, self.smooth)
         self.time = t
