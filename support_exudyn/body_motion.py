@@ -76,6 +76,10 @@ class BodyMotion:
         place: Series = self.position[:, i : i + 2] + np.array(self.linkage.bodies[body].centre)
         return place + self.arm(body, point)
 
+    def spin(self, body: str) -> Series:
+        """A body's angular velocity (n,) [rad/s]."""
+        return np.zeros(len(self.position)) if body == GROUND else self.velocity[:, self.first(body) + 2]
+
     def point(self, body: str, point: Vector2) -> PointMotion:
         """Motion of a point of the start posture."""
         rows = len(self.position)

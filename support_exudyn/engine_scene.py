@@ -10,6 +10,7 @@ import exudyn
 from support_exudyn.driven_parts import DrivenParts
 from support_exudyn.impulse import Impulse
 from support_exudyn.loose_pin import LoosePin
+from support_exudyn.pin_friction import PinFriction
 from support_exudyn.scenario import Scenario
 from support_exudyn.trajectory import Series
 
@@ -56,6 +57,11 @@ class EngineScene(Protocol):
     @property
     def loose_pins(self) -> Mapping[str, LoosePin]:
         """Everything that may touch and part, by name."""
+        ...
+
+    @property
+    def frictions(self) -> Mapping[str, PinFriction]:
+        """Friction of ideal pins, by name."""
         ...
 
     @property

@@ -5,8 +5,11 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from typing import Literal
 
+from pydantic import model_validator
+
 from user_forces.contact import JournalContact
-from user_forces.values import Value, value
+from user_forces.friction.law import FrictionLaw
+from user_forces.values import Positive, Value, value
 
 
 class Pin(Value, ABC):
@@ -20,7 +23,27 @@ class Pin(Value, ABC):
 
 @value
 class IdealPin(Pin):
-    """The two bodies share a point: two position constraints, whose multipliers are the pin force."""
+    """The two bodies share a point: two position constraints, whose multipliers are the pin force.
+
+    With friction a moment radius * law(radius * spin, pin force) acts against the turning of the two bodies.
+
+    Arguments:
+        friction: a law without a state; None: none at all.
+        radius: of the pin's surface [m], > 0; given together with friction.
+    """
+
+    friction: FrictionLaw | None = None
+    radius: Positive | None = None
+
+    @model_validator(mode="after")
+    def _friction_has_a_radius(self) -> IdealPin:
+        if (self.friction is None) != (self.radius is None):
+            raise ValueError(
+                f"friction = {self.friction}, radius = {self.radius}: allowed: both, or None for both"
+            )
+        if self.friction is not None and self.friction.has_state:
+            raise ValueError(f"friction = {type(self.friction).__name__}: allowed: laws without a state")
+        return self
 
     @property
     def is_ideal(self) -> bool:

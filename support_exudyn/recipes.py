@@ -125,8 +125,10 @@ class Recipe:
 Recipes = dict[str, Recipe]
 
 
-def recipes(linkage: Linkage, loose: Mapping[str, ClearancePin], oil: Collection[str]) -> Recipes:
-    """All channels of a linkage with these loose pins and columns of oil, by name."""
+def recipes(
+    linkage: Linkage, loose: Mapping[str, ClearancePin], oil: Collection[str], rubbing: Collection[str] = ()
+) -> Recipes:
+    """All channels of a linkage with these loose pins, columns of oil, and ideal pins with friction, by name."""
     found = {"time": Recipe("s", "time", Part.NOTHING, lambda seen: seen.run.time)}
     for n, (name, body) in enumerate(linkage.bodies.items()):
         found |= _of_body(name, body, 3 * n)
@@ -140,6 +142,8 @@ def recipes(linkage: Linkage, loose: Mapping[str, ClearancePin], oil: Collection
         found |= _of_slide(name)
     for name in linkage.pins:
         found |= _of_loose_pin(name, loose[name]) if name in loose else _of_ideal_pin(name)
+        if name in rubbing:
+            found |= _of_friction(name)
     return found | _of_energy(_stored(bool(loose), bool(oil)))
 
 
@@ -257,6 +261,17 @@ def _of_ideal_pin(name: str) -> Recipes:
         return fx, fy
 
     return _forces(name, Part.JOINTS, force)
+
+
+def _of_friction(name: str) -> Recipes:
+    return {
+        f"pin.{name}.friction_moment": Recipe(
+            "N m",
+            "of friction on the second body",
+            MOTION | Part.JOINTS,
+            lambda seen: seen.run.friction_moments[name],
+        )
+    }
 
 
 def _of_loose_pin(name: str, pin: ClearancePin) -> Recipes:

@@ -114,6 +114,12 @@ def trajectory(scene: Scene, history: History, needed: Part) -> Trajectory:
         acceleration=motion.acceleration,
         ideal_pins=joints.pins,
         contacts=contacts,
+        friction_moments={
+            name: item.series(joints.pins[name], motion.spin(place.first), motion.spin(place.second))
+            for name, item in scene.frictions.items()
+            for place in (scene.linkage.pins[name],)
+            if Part.JOINTS in needed and Part.VELOCITY in needed
+        },
         columns=columns | {name: series.force for name, series in oil.items()},
         cranks=joints.cranks,
         slides=joints.slides,

@@ -14,7 +14,7 @@ from support_exudyn.columns import ColumnModel, OilColumn, TwoBodyColumn
 from support_exudyn.drives import Drive, Held
 from support_exudyn.machine import Linkage, Machine
 from support_exudyn.parts import OwnBody, PartModel
-from support_exudyn.pins import ClearancePin, Pin
+from support_exudyn.pins import ClearancePin, IdealPin, Pin
 from support_exudyn.recipes import Recipe, check_patterns, recipes
 from support_exudyn.spatial.layout import SpatialLinkage
 from support_exudyn.spatial.recipes import recipes as spatial_recipes
@@ -207,6 +207,8 @@ class Scenario(Value):
             raise ValueError(
                 f"formulation = {self.formulation!r}: is planar; allowed in space: 'auto', 'redundant'"
             )
+        for name in self.friction_pins:
+            raise ValueError(f"pins.{name}.friction: is planar; allowed in space: friction of clearance pins")
         self._check_pairs(space)
 
     def _check_pairs(self, space: SpatialLinkage) -> None:
@@ -244,6 +246,11 @@ class Scenario(Value):
         spans = [drive.span(self.duration) for drive in self.drives_in_use]
         # where parts are driven apart, all of them over the range of all: what the machine can answer
         self.machine.check_extension(min(low for low, _ in spans), max(high for _, high in spans))
+
+    @property
+    def jumps(self) -> bool:
+        """Whether the speed of any drive jumps anywhere."""
+        return any(drive.speed_jump(t) != 0.0 for drive in self.drives_in_use for t in drive.breaks)
 
     def refined(self, factor: float = 2) -> Scenario:
         """The same run with all steps, also those of impacts, so many times shorter.
@@ -318,7 +325,7 @@ class Scenario(Value):
         """All channels that could be asked for, by name."""
         if self.dimensions == 3:
             return spatial_recipes(self.space, self.clearance_pins, self.oil_columns)
-        return recipes(self.linkage, self.clearance_pins, self.oil_columns)
+        return recipes(self.linkage, self.clearance_pins, self.oil_columns, self.friction_pins)
 
     @property
     def goal(self) -> float | None:
@@ -329,6 +336,12 @@ class Scenario(Value):
     def clearance_pins(self) -> dict[str, ClearancePin]:
         """The pins that have clearance, by name."""
         return {name: pin for name, pin in self.pins.items() if isinstance(pin, ClearancePin)}
+
+    @property
+    def friction_pins(self) -> dict[str, IdealPin]:
+        """The ideal pins that have friction, by name."""
+        ideal = {name: pin for name, pin in self.pins.items() if isinstance(pin, IdealPin)}
+        return {name: pin for name, pin in ideal.items() if pin.friction is not None}
 
     @property
     def oil_columns(self) -> dict[str, OilColumn]:

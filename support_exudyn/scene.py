@@ -34,14 +34,16 @@ from support_exudyn.loose_pin import LoosePin
 from support_exudyn.machine import GROUND, Body, Column, Crank, Linkage, PinPlace, Slide
 from support_exudyn.oil import fill
 from support_exudyn.onset import Mobility, PinMemory
+from support_exudyn.pin_friction import PinFriction
 from support_exudyn.pin_motion import PinEnd, PinMotion
-from support_exudyn.pins import ClearancePin
+from support_exudyn.pins import ClearancePin, IdealPin
 from support_exudyn.scenario import Scenario
 from support_exudyn.scene_items import BodyItem, ColumnItem, CrankItem, IdealItem, SlideItem
 from support_exudyn.velocity_jump import jump_velocities
 from user_forces.contact import ContactForce
 from user_forces.values import Vector2
 
+FRICTION_ROUNDS = 4  # each with an error smaller by the coefficient of friction times radius over lever
 Item = TypeVar("Item")
 
 
@@ -55,6 +57,7 @@ class Scene:
     mbs: Any
     bodies: dict[str, BodyItem]
     ideal_pins: dict[str, IdealItem]
+    frictions: dict[str, PinFriction]  # of ideal pins
     loose_pins: dict[str, LoosePin]
     rigid_columns: dict[str, ColumnItem]
     oil_columns: dict[str, OilColumnItem]
@@ -134,6 +137,32 @@ class Scene:
     def coordinate_masses(self) -> Matrix:
         """Mass or inertia of every coordinate [kg], [kg m^2]."""
         return self.kinetics.mass()
+
+    def start_rubbing(self) -> None:
+        """Let friction of ideal pins know about their forces at the start, if it turns them then.
+
+        The solver's first accelerations follow from forces of friction, which follow from those of the pins:
+        without, the first step would be taken with none. Forces of loose pins and oil are left out of it.
+        """
+        data = self.mbs.systemData
+        position, velocity = data.GetODE2Coordinates(INITIAL), data.GetODE2Coordinates_t(INITIAL)
+        if not self.frictions or not velocity.any():
+            return
+        kinetics, small = self.kinetics, 1e-6 / np.abs(velocity).max()
+        later, earlier = (kinetics.rows(position + h * velocity) for h in (small, -small))
+        turning = (earlier - later) @ velocity / (2.0 * small)  # accelerations that the constraints ask for
+        place = {name: 2 * n for n, name in enumerate(self.ideal_pins)}
+        force = kinetics.weight(self.scenario.gravity)
+        multipliers = data.GetAECoordinates(INITIAL)
+        for _ in range(FRICTION_ROUNDS):
+            _, reactions = kinetics.respond(position, force, turning)
+            force = kinetics.weight(self.scenario.gravity)
+            for name, friction in self.frictions.items():
+                pin = reactions[place[name] : place[name] + 2]
+                first = self.ideal_pins[name].first
+                multipliers[first : first + 2] = pin
+                friction.add_moment(force, float(np.hypot(*pin)), velocity)
+        data.SetAECoordinates(multipliers, INITIAL)
 
     def reset_memory(self) -> None:
         """Give every clearance pin the memory that belongs to the initial state of the bodies."""
@@ -237,6 +266,14 @@ class _Builder:
         markers = [self.marker(place.first, place.first_point), self.marker(place.second, place.second_point)]
         return self.mbs.AddObject(ObjectJointRevolute2D(markerNumbers=markers))
 
+    def add_friction(self, place: PinPlace, pin: IdealPin) -> PinFriction:
+        assert pin.friction is not None  # the pins without are left out
+        assert pin.radius is not None  # goes with it
+        first, second = (
+            self.bodies[name].node if name != GROUND else None for name in (place.first, place.second)
+        )
+        return PinFriction(self.mbs, pin.friction, pin.radius, first, second)
+
     def add_loose(self, place: PinPlace, pin: ClearancePin) -> LoosePin:
         ends = [(place.first, place.first_point), (place.second, place.second_point)]
         if pin.bore == "second":
@@ -325,6 +362,10 @@ class _Builder:
             for name, pin in self.scenario.clearance_pins.items()
         }
         ideal = {name: self.add_ideal(place) for name, place in self.linkage.pins.items() if name not in loose}
+        frictions = {
+            name: self.add_friction(self.linkage.pins[name], pin)
+            for name, pin in self.scenario.friction_pins.items()
+        }
         oil = {name: self.add_oil_column(self.linkage.columns[name]) for name in self.scenario.oil_columns}
         rigid = {
             name: self.add_rigid_column(column)
@@ -359,6 +400,7 @@ class _Builder:
             mbs=self.mbs,
             bodies=bodies,
             ideal_pins={name: IdealItem(o, int(data.GetObjectLTGAE(o)[0])) for name, o in ideal.items()},
+            frictions=frictions,
             loose_pins=loose,
             rigid_columns=rigid_columns,
             oil_columns=oil_columns,
@@ -366,11 +408,17 @@ class _Builder:
             slides={name: SlideItem(o, int(data.GetObjectLTGAE(o)[0])) for name, o in slides.items()},
             driven=self.by_drive(rigid_columns, oil_columns, crank_items),
         )
+        for name, friction in frictions.items():
+            place = self.linkage.pins[name]
+            turns = (bodies[end].first + 2 if end != GROUND else None for end in (place.first, place.second))
+            friction.assembled(scene.ideal_pins[name].first, *turns)
+            friction.lagged = bool(loose) or self.scenario.jumps
         for name, pin in loose.items():
             pin.mobility = partial(scene.mobility, name)
             pin.motion = scene.pin_motion(name)
         scene.drive_to(0.0)
         scene.start_moving()
+        scene.start_rubbing()
         scene.reset_memory()
         return scene
 

@@ -65,7 +65,7 @@ class Run:
         self.repeated = False  # that step is tried again, shorter
         # whether anything of the model has to follow a drive, and whether Python has to see every step
         self.follows = any(parts.moves(scenario.duration) for parts in scene.driven)
-        self.watches = bool(self.pins) or self.smooth is not None
+        self.watches = bool(self.pins or scene.frictions) or self.smooth is not None
         self.audited = -math.inf  # end of the last step that the recorder has been told of [s]
 
     def go(self) -> Counts:
@@ -99,7 +99,8 @@ class Run:
             cut_steps=self.cut_steps,
             newton_iterations=int(it.newtonStepsCount),
             jacobians=int(it.newtonJacobiCount),
-            user_function_calls=sum(pin.calls for pin in self.pins),
+            user_function_calls=sum(pin.calls for pin in self.pins)
+            + sum(friction.calls for friction in self.scene.frictions.values()),
             failed_newton=self.failed_newton,
             clamped_steps=sum(pin.clamped_steps for pin in self.pins),
         )
@@ -195,6 +196,8 @@ class Run:
                 kink = kink or pin.onset is not None
                 pin.accept()
         self.recorder.after_step(t, kink)
+        for friction in self.scene.frictions.values():
+            friction.accept()
         if self.smooth is not None:
             self._look_for_smoothness(t, self.smooth)
         self._at_stop(t, breaking)

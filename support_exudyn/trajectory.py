@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Protocol
 
 import numpy as np
@@ -44,7 +44,8 @@ class Trajectory:
 
     time (n,) [s]. position, velocity, acceleration (n, 3 b): x, y, turn of each body in the order of
     `Linkage.bodies`, positions from those at the start. ideal_pins: force of the first body on the second
-    (n, 2) [N], by name. contacts: loose pins by name. columns: force (n,) [N] that pushes the ends apart.
+    (n, 2) [N], by name. friction_moments: of ideal pins with friction, on the second body (n,) [N m].
+    contacts: loose pins by name. columns: force (n,) [N] that pushes the ends apart.
     cranks: moment of the drive on the crank (n,) [N m]. slides: magnitude of force across and of moment (n, 2).
     oil_energy: stored in all columns (n,) [J]. work: of the drive so far, damping_loss, friction_loss: so far
     (n,) [J].
@@ -63,6 +64,7 @@ class Trajectory:
     work: Series
     damping_loss: Series
     friction_loss: Series
+    friction_moments: Mapping[str, Series] = field(default_factory=dict)
 
 
 class Observed(Protocol):

@@ -83,6 +83,7 @@ def loose_contact(scenario: Scenario) -> tuple[str, JournalContact, str]:
         or scenario.columns
         or scenario.drives
         or scenario.own_bodies
+        or scenario.friction_pins
         or scenario.start != "concentric"
     ):
         raise InputError("a competitor takes one loose pin, rigid columns, one drive and start = 'concentric'")

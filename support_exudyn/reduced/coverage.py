@@ -42,6 +42,8 @@ def check(scenario: Scenario) -> None:
     for name, column in scenario.columns.items():
         if not isinstance(column, RigidColumn):
             _refuse(f"columns.{name}", type(column).__name__, "RigidColumn, whose length is no free coordinate")
+    for name in scenario.friction_pins:
+        _refuse(f"pins.{name}", "IdealPin with friction", "IdealPin without, or ClearancePin")
     for name, part in scenario.own_bodies.items():
         _refuse(f"parts.{name}", type(part).__name__, "Lumped")
     for name, pin in scenario.clearance_pins.items():

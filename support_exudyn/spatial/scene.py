@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from typing import Any
 
@@ -28,6 +28,7 @@ from support_exudyn.impulse import Impulse
 from support_exudyn.machine import GROUND
 from support_exudyn.oil import FilledColumn, fill
 from support_exudyn.onset import Mobility, PinMemory
+from support_exudyn.pin_friction import PinFriction
 from support_exudyn.scenario import Scenario
 from support_exudyn.scene_items import ColumnItem
 from support_exudyn.spatial.constraints import Kind, Row, all_rows, independent, matrix
@@ -71,6 +72,7 @@ class SpatialScene:
     rigid_columns: dict[str, ColumnItem]
     oil_columns: dict[str, OilColumnItem]
     driven: tuple[DrivenParts, ...]  # all columns, by the drive that they follow
+    frictions: dict[str, PinFriction] = field(default_factory=dict)  # of ideal pins: not covered
 
     def release(self) -> None:
         """Let go of the engine's model: what its user functions know would never be freed."""

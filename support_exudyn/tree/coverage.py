@@ -20,6 +20,8 @@ def check(scenario: Scenario) -> None:
     for name, column in scenario.columns.items():
         if isinstance(column, TwoBodyColumn):
             _refuse(f"columns.{name}", "TwoBodyColumn, whose slide closes a loop", "OilColumn")
+    for name in scenario.friction_pins:
+        _refuse(f"pins.{name}", "IdealPin with friction", "IdealPin without, or ClearancePin")
     for name, part in scenario.own_bodies.items():
         if part.jack.oil is None:
             _refuse(f"parts.{name}.jack", "rigid, a constraint that closes a loop", "OilColumn")
