@@ -128,7 +128,7 @@ Recipes = dict[str, Recipe]
 def recipes(
     linkage: Linkage, loose: Mapping[str, ClearancePin], oil: Collection[str], rubbing: Collection[str] = ()
 ) -> Recipes:
-    """All channels of a linkage with these loose pins, columns of oil, and ideal pins with friction, by name."""
+    """All channels of a linkage with these loose pins, oil columns, and ideal pins with friction, by name."""
     found = {"time": Recipe("s", "time", Part.NOTHING, lambda seen: seen.run.time)}
     for n, (name, body) in enumerate(linkage.bodies.items()):
         found |= _of_body(name, body, 3 * n)
