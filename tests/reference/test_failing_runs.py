@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pickle
+from dataclasses import replace
 
 import pytest
 
@@ -54,7 +55,7 @@ def breaking(kind: str) -> Scenario:
 
 def _with(contact: object) -> Scenario:
     scenario = loose_support(drive=Held(), duration=0.05)
-    return Scenario(**{**vars(scenario), "pins": {"rear_base": ClearancePin(contact=contact)}})
+    return replace(scenario, pins={"rear_base": ClearancePin(contact=contact)})
 
 
 @pytest.mark.parametrize("kind", ["nan", "overflow"])

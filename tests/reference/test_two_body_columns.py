@@ -15,6 +15,7 @@ from support_exudyn import (
     Held,
     HydraulicSupport,
     OilColumn,
+    OwnBody,
     Result,
     Scenario,
     TwoBodyColumn,
@@ -25,6 +26,7 @@ from support_exudyn import (
     two_body_columns,
 )
 from support_exudyn.kinetics import kinetics_of
+from support_exudyn.scene import build
 from tests.reference.cases import FORCE, loose_support, paper_contact, support
 
 G = 9.81
@@ -84,6 +86,18 @@ def test_bodies_of_no_mass_change_nothing_beside_a_loose_pin() -> None:
     pairs = zip(light.onsets["rear_base"][:3], massless.onsets["rear_base"][:3], strict=True)
     for one, other in pairs:
         assert one.time == pytest.approx(other.time, abs=1e-7)
+
+
+def test_the_engine_holds_nothing_that_was_not_asked_for() -> None:
+    def objects(**changes: object) -> int:
+        scene = build(support(**changes))  # owns the system
+        return int(scene.mbs.systemData.NumberOfObjects())
+
+    # ground, 4 bodies, 5 pins, 2 columns
+    assert objects() == 12
+    # a pair of columns more: 2 bodies, 2 pins and a guide each
+    assert objects(columns=two_body_columns()) == 12 + 2 * 5
+    assert objects(parts={"tail_beam": OwnBody()}) == 12 + 3  # body, pin, jack
 
 
 # --- statics ---
