@@ -122,7 +122,7 @@ class HydraulicSupport(Machine):
     def _check_width(self, width: Width) -> None:
         columns = ("front_column", "rear_column")
         known = {
-            "spreads": (*BODIES, TAIL),
+            "spreads": (*BODIES, TAIL, *(f"{name}_{part}" for name in columns for part in ("cylinder", "rod"))),
             "pairs": ("front_link",),
             "columns": columns,
             "lengths": (*PINS, "shield_tail"),

@@ -2,12 +2,14 @@
 
 Symmetric about the plane z = 0. What the plane lumps from two (front links, columns) is two again, called
 NAME_left (z < 0) and NAME_right, each with half the mass, stiffness and piston area. A body of a pair is held
-along z and against tilting by its first pin; in its others it may shift along the pin.
+along z and against tilting by its first pin; in its others it may shift along the pin. Columns stand on spherical
+ends, also those in two bodies, whose rod may slide and turn in its cylinder.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterator, Mapping
 from typing import Literal
 
 from support_exudyn.machine import GROUND, Body, Column, Linkage, PinPlace, TracePoint
@@ -23,23 +25,40 @@ Copy = tuple[str, float, float]  # suffix of its name, z [m], share
 def lift(linkage: Linkage, width: Width) -> SpatialLinkage:
     """The machine in space.
 
-    Raises InputError if the linkage has cranks or guides, or a body has no width.
+    Raises InputError if the linkage has cranks, or guides that are not those of columns, or a body has no width.
     """
-    _check(linkage, width)
+    pairs = _pairs(linkage, width)
+    _check(linkage, width, pairs)
     return SpatialLinkage(
         bodies={
-            name + side: _body(body, z, share, width.spreads.get(name, 0.0))
+            name + side: _body(body, z, share, width.spreads[name])
             for name, body in linkage.bodies.items()
-            for side, z, share in copies(width.pairs.get(name))
+            for side, z, share in copies(pairs.get(name))
         },
-        bearings={name: bearing for pin in linkage.pins for name, bearing in _bearings(linkage, width, pin)},
+        bearings={name: bearing for pin in linkage.pins for name, bearing in _bearings(linkage, width, pin)}
+        | {name: bearing for guide in linkage.slides for name, bearing in _guides(linkage, width, guide)},
         columns={
-            name + side: _column(name, column, z, share)
+            name + side: _column(name, column, z, share, side, pairs)
             for name, column in linkage.columns.items()
             for side, z, share in copies(width.columns.get(name))
         },
         points={name: point for each in linkage.points for name, point in _points(linkage, width, each)},
     )
+
+
+def _pairs(linkage: Linkage, width: Width) -> dict[str, float]:
+    """Half the distance of all bodies that there are two of: those that are named, and those of columns."""
+    found = dict(width.pairs)
+    for slide in linkage.slides.values():
+        for name, column in linkage.columns.items():
+            if name in width.columns and {column.foot, column.head} == {slide.against, slide.body}:
+                found[slide.against] = found[slide.body] = width.columns[name]
+    return found
+
+
+def _in_columns(linkage: Linkage) -> set[str]:
+    """Bodies of columns, whose ends are spherical."""
+    return {body for slide in linkage.slides.values() for body in (slide.against, slide.body)}
 
 
 def copies(half_distance: float | None) -> list[Copy]:
@@ -49,10 +68,12 @@ def copies(half_distance: float | None) -> list[Copy]:
     return [(f"_{side}", sign * half_distance, 0.5) for side, sign in SIDES.items()]
 
 
-def _check(linkage: Linkage, width: Width) -> None:
-    for kind, items in (("cranks", linkage.cranks), ("slides", linkage.slides)):
-        for name in items:
-            raise InputError(f"{kind}.{name}: not covered in space; allowed: pins and columns")
+def _check(linkage: Linkage, width: Width, pairs: Mapping[str, float]) -> None:
+    for name in linkage.cranks:
+        raise InputError(f"cranks.{name}: not covered in space; allowed: pins and columns")
+    for name, slide in linkage.slides.items():
+        if slide.body not in pairs or slide.against not in pairs:
+            raise InputError(f"slides.{name}: not covered in space; allowed: guides of columns in two bodies")
     for name in linkage.bodies:
         if width.spreads.get(name, 0.0) <= 0.0:
             raise InputError(
@@ -60,7 +81,7 @@ def _check(linkage: Linkage, width: Width) -> None:
             )
     for name, column in linkage.columns.items():
         for body in (column.foot, column.head):
-            if body in width.pairs:
+            if body in width.pairs and name not in width.columns:
                 raise InputError(
                     f"columns.{name} on {body}, which is a pair: not covered; allowed: single bodies"
                 )
@@ -86,14 +107,17 @@ def _body(body: Body, z: float, share: float, spread: float) -> SpatialBody:
 
 def _bearings(linkage: Linkage, width: Width, name: str) -> Iterator[tuple[str, Bearing]]:
     place = linkage.pins[name]
-    paired = [body for body in (place.first, place.second) if body in width.pairs]
-    distances = {width.pairs[body] for body in paired}
+    pairs = _pairs(linkage, width)
+    paired = [body for body in (place.first, place.second) if body in pairs]
+    distances = {pairs[body] for body in paired}
     if len(distances) > 1:
         raise InputError(
             f"pins.{name}: joins pairs {' and '.join(paired)} at different distances; allowed: one"
         )
     holds: frozenset[Literal["tilt", "along"]] = frozenset({"tilt", "along"})
-    if any(_first_pin(linkage, body) != name for body in paired):
+    if any(body in _in_columns(linkage) for body in paired):
+        holds = frozenset({"along"})
+    elif any(_first_pin(linkage, body) != name for body in paired):
         holds = frozenset()
     for side, z, share in copies(distances.pop() if paired else None):
         yield (
@@ -120,10 +144,34 @@ def _first_pin(linkage: Linkage, body: str) -> str:
     return next(name for name, place in linkage.pins.items() if joins(place))
 
 
-def _column(name: str, column: Column, z: float, share: float) -> SpatialColumn:
+def _guides(linkage: Linkage, width: Width, name: str) -> Iterator[tuple[str, Bearing]]:
+    """The rod of a column in its cylinder, left and right."""
+    slide = linkage.slides[name]
+    axis = (math.cos(slide.direction), math.sin(slide.direction), 0.0)
+    for side, z, share in copies(_pairs(linkage, width)[slide.body]):
+        yield (
+            name + side,
+            Bearing(
+                first=slide.against + side,
+                second=slide.body + side,
+                first_point=at(slide.point, z),
+                second_point=at(slide.point, z),
+                first_axis=axis,
+                second_axis=axis,
+                holds=frozenset({"tilt"}),
+                pin=name,
+                share=share,
+                is_guide=True,
+            ),
+        )
+
+
+def _column(
+    name: str, column: Column, z: float, share: float, side: str, pairs: Mapping[str, float]
+) -> SpatialColumn:
     return SpatialColumn(
-        foot=column.foot,
-        head=column.head,
+        foot=column.foot + side * (column.foot in pairs),
+        head=column.head + side * (column.head in pairs),
         foot_point=at(column.foot_point, z),
         head_point=at(column.head_point, z),
         column=name,

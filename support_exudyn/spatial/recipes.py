@@ -37,8 +37,8 @@ def recipes(linkage: SpatialLinkage, loose: Collection[str], oil: Collection[str
         if parts != [whole]:
             found |= _of_pair(whole, parts, found)
     for name, bearing in linkage.bearings.items():
-        found |= _of_bearing(name, bearing.pin in loose)
-    for pin in dict.fromkeys(b.pin for b in linkage.bearings.values()):
+        found |= _of_guide(name) if bearing.is_guide else _of_bearing(name, bearing.pin in loose)
+    for pin in dict.fromkeys(b.pin for b in linkage.bearings.values() if not b.is_guide):
         parts = list(linkage.parts_of_pin(pin))
         if parts != [pin]:
             found |= _forces(f"pin.{pin}", REACTION, _sum_of_bearings(parts))
@@ -174,6 +174,16 @@ def _forces(prefix: str, needs: Part, force: Callable[[Observation], Series]) ->
     return found
 
 
+def _of_guide(name: str) -> Recipes:
+    def magnitude(which: int) -> Callable[[Observation], Series]:
+        return lambda seen: np.asarray(np.linalg.norm(seen.loads[name][which], axis=1))
+
+    return {
+        f"{name}.force": _recipe("N", "magnitude of the guide's force, across it", REACTION, magnitude(0)),
+        f"{name}.moment": _recipe("N m", "magnitude of the guide's moment", REACTION, magnitude(1)),
+    }
+
+
 def _component(vector: Callable[[Observation], Series], k: int) -> Callable[[Observation], Series]:
     return lambda seen: vector(seen)[:, k]
 
@@ -205,6 +215,10 @@ def _of_loose(name: str) -> Recipes:
 
     found = said("normal_force", "N", "normal contact forces of all sections", _sum("normal_force"))
     found |= said("friction_force", "N", "friction of all sections, on the journal", _sum("friction_force"))
+    found |= said("slip", "m/s", "slip of the journal's surface, along t, mean of the sections", _mean_slip)
+    found |= said(
+        "approach_speed", "m/s", "touch speed that the laws are told, largest of the sections; 0 apart", _speed
+    )
     found |= said("depth", "m", "depth where it is largest; negative: gap", _deepest)
     for place, edge, side in ((0, "left", "at the left edge"), (-1, "right", "at the right edge")):
         found |= said(f"{edge}_depth", "m", f"depth {side}; negative: gap", _of_section("depth", place))
@@ -227,6 +241,14 @@ def _of_loose(name: str) -> Recipes:
 
 def _sum(what: str) -> Callable[[list[SectionSeries]], Series]:
     return lambda sections: np.asarray(np.sum([getattr(s.contact, what) for s in sections], axis=0))
+
+
+def _mean_slip(sections: list[SectionSeries]) -> Series:
+    return np.asarray(np.mean([s.contact.slip for s in sections], axis=0))
+
+
+def _speed(sections: list[SectionSeries]) -> Series:
+    return np.asarray(np.max([s.contact.approach_speed for s in sections], axis=0))
 
 
 def _deepest(sections: list[SectionSeries]) -> Series:
