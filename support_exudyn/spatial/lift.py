@@ -2,8 +2,8 @@
 
 Symmetric about the plane z = 0. What the plane lumps from two (front links, columns) is two again, called
 NAME_left (z < 0) and NAME_right, each with half the mass, stiffness and piston area. A body of a pair is held
-along z and against tilting by its first pin; in its others it may shift along the pin. Columns stand on spherical
-ends, also those in two bodies, whose rod may slide and turn in its cylinder.
+along z and against tilting by its first pin; in its others it may shift along the pin. Columns stand on
+spherical ends, also those in two bodies, whose rod may slide and turn in its cylinder.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ Copy = tuple[str, float, float]  # suffix of its name, z [m], share
 def lift(linkage: Linkage, width: Width) -> SpatialLinkage:
     """The machine in space.
 
-    Raises InputError if the linkage has cranks, or guides that are not those of columns, or a body has no width.
+    Raises InputError if the linkage has cranks, or guides other than those of columns, or a body has no width.
     """
     pairs = _pairs(linkage, width)
     _check(linkage, width, pairs)
