@@ -56,7 +56,9 @@ class Run:
         self.plan = StepPlan(scenario.duration, scenario.record_period, scenario.step, scenario.breaks)
         self.solver: Any = exudyn.MainSolverImplicitSecondOrder()  # its stubs lack self
         self.impulses: list[Impulse] = []
-        self.settings = engine_settings(scenario.solver, scenario.duration)
+        self.settings = engine_settings(
+            scenario.solver, scenario.duration, int(self.data.ODE2Size() + self.data.AEsize())
+        )
         self.locates = scenario.solver.locate
         self.smooth = _smooth_steps(scene) if scenario.solver.growth > 1.0 else None
         self.time = 0.0  # end of the last accepted step

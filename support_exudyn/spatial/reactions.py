@@ -23,7 +23,7 @@ from support_exudyn.trajectory import Series
 # The rows repeat each other, so C C^T has no inverse. A small share of its size is added to its diagonal, and
 # what that changes is taken back in a few rounds, each of which leaves about this share of it.
 LIFT = 1e-9
-ROUNDS = 3
+ROUNDS = 2
 
 
 def inertia_forces(motion: SpatialMotion) -> Series:
