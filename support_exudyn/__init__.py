@@ -25,6 +25,7 @@ from support_exudyn.result import Result
 from support_exudyn.scenario import Scenario, SolverSettings
 from support_exudyn.simulate import simulate
 from support_exudyn.supports import load_support, reference_support, two_body_columns
+from support_exudyn.width import Width
 
 __all__ = [
     "Body",
@@ -64,6 +65,7 @@ __all__ = [
     "TracePoint",
     "TwoBodyColumn",
     "UniformSpeed",
+    "Width",
     "bore_area",
     "load_support",
     "ravn_slider_crank",

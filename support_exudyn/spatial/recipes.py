@@ -62,7 +62,7 @@ def _of_body(name: str, body: SpatialBody, n: int) -> Recipes:
             "rad", "orientation about z from +x", turned, lambda seen: body.angle + _turn(seen, n, 1, 0)
         ),
         f"{name}.roll": _recipe(
-            "rad", "turn about x, the right side up", turned, lambda seen: _turn(seen, n, 2, 1)
+            "rad", "turn about x, the right side down", turned, lambda seen: _turn(seen, n, 2, 1)
         ),
         f"{name}.yaw": _recipe("rad", "turn about y, to the left", turned, lambda seen: _turn(seen, n, 0, 2)),
         f"{name}.angular_velocity": _recipe("rad/s", "angular velocity about z", MOTION, _entry("spin", n, 2)),
