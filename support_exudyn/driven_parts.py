@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeVar
 
 from support_exudyn.drives import Drive
 from support_exudyn.oil import FilledColumn
 from support_exudyn.scene_items import ColumnItem, CrankItem
+
+Item = TypeVar("Item")
 
 
 @dataclass(frozen=True)
@@ -72,3 +75,22 @@ class DrivenParts:
             put(oil.object, "damping", stiffness * oil.filled.model.damping_time)
         for crank in self.cranks:
             put(crank.object, "offset", speed if self.velocity_level else extension)
+
+
+def by_drive(
+    mbs: Any,
+    drive_of: Callable[[str], Drive],
+    rigid: Mapping[str, ColumnItem],
+    oil: Mapping[str, OilColumnItem],
+    cranks: Mapping[str, CrankItem],
+) -> tuple[DrivenParts, ...]:
+    """All that can be driven, by the drive that it follows; drive_of: gives that of a name."""
+    drives: list[Drive] = []
+    for name in (*rigid, *oil, *cranks):
+        if (drive := drive_of(name)) not in drives:
+            drives.append(drive)
+
+    def of(drive: Drive, items: Mapping[str, Item]) -> tuple[Item, ...]:
+        return tuple(item for name, item in items.items() if drive_of(name) == drive)
+
+    return tuple(DrivenParts(mbs, one, of(one, rigid), of(one, oil), of(one, cranks)) for one in drives)

@@ -10,7 +10,7 @@ from support_exudyn.progress import silent
 from support_exudyn.recorder import Recorder
 from support_exudyn.redundant import check
 from support_exudyn.scenario import Scenario
-from support_exudyn.scene import build
+from support_exudyn.scene_builder import build
 from support_exudyn.solver import Run
 
 BODY = "RigidBody2D"  # the engine's name

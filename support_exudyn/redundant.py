@@ -16,7 +16,8 @@ from support_exudyn.progress import Progress
 from support_exudyn.recipes import Part
 from support_exudyn.recorder import History, Recorder
 from support_exudyn.scenario import Scenario
-from support_exudyn.scene import Scene, build
+from support_exudyn.scene import Scene
+from support_exudyn.scene_builder import build
 from support_exudyn.settle import settle
 from support_exudyn.solver import Run
 from support_exudyn.spatial.run import run as run_in_space

@@ -26,7 +26,7 @@ from support_exudyn.peers.peer_run import PeerRun
 from support_exudyn.peers.stock import Watch, contact_forces, contact_numbers, fixed_steps, solve
 from support_exudyn.python_force import PythonForce
 from support_exudyn.scenario import Scenario
-from support_exudyn.scene import build
+from support_exudyn.scene_builder import build
 from user_forces.friction.frictionless import Frictionless
 from user_forces.values import InputError
 

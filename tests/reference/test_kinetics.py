@@ -10,10 +10,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from support_exudyn import Body, ClearancePin, Column, Crank, Linkage, PinPlace, Scenario, Slide, SliderCrank
+from support_exudyn.engine_scene import INITIAL
 from support_exudyn.kinetics import Kinetics
 from support_exudyn.machine import GROUND, pinned
 from support_exudyn.onset import HEAVIEST, Mobility
-from support_exudyn.scene import INITIAL, build
+from support_exudyn.scene_builder import build
 from support_exudyn.scene_items import BodyItem
 from tests.reference.cases import PIN, Pair, paper_contact, slider_crank_contact, support
 from user_forces.values import Vector2

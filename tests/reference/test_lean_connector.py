@@ -12,7 +12,7 @@ import pytest
 from support_exudyn import ClearancePin, Held, Result, Scenario, SolverSettings, simulate
 from support_exudyn.attachment import Attachment, attachment
 from support_exudyn.loose_pin import LoosePin
-from support_exudyn.scene import build
+from support_exudyn.scene_builder import build
 from tests.reference.cases import PIN, Pair, loose_support, paper_contact
 from tests.reference.test_momentum import ONE, TWO, momenta
 from user_forces import (

@@ -14,7 +14,7 @@ import pytest
 from exudyn.itemInterface import MarkerBodyRigid, NodeGenericData, ObjectContactSphereSphere
 
 from support_exudyn import SolverSettings, simulate
-from support_exudyn.scene import build
+from support_exudyn.scene_builder import build
 from support_exudyn.solver import quiet_engine
 from tests.reference.cases import SLIDER_PIN, loose_slider_crank, slider_crank_contact
 

@@ -26,7 +26,7 @@ from support_exudyn import (
     two_body_columns,
 )
 from support_exudyn.kinetics import kinetics_of
-from support_exudyn.scene import build
+from support_exudyn.scene_builder import build
 from tests.reference.cases import FORCE, loose_support, paper_contact, support
 
 G = 9.81
