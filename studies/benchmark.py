@@ -16,7 +16,7 @@ from typing import Literal
 
 import numpy as np
 
-from studies import slider_crank
+from studies import paper_machine, slider_crank
 from studies.benchmarking import process, yardstick
 from studies.benchmarking.lsoda import loosest, run_lsoda
 from studies.benchmarking.measures import errors, thinned, times_the_goal
@@ -225,6 +225,26 @@ def _restless(name: str, duration: float) -> Scenario:
     )
 
 
+# --- space ---
+
+
+def space_lines() -> Iterator[Line]:
+    """The rise of 5 s in space against the same in the plane, both in redundant coordinates."""
+    cases = {
+        "1.5 mm, no friction": paper_machine.loose_rise(1.5, 0.0, 5e-4),
+        "1.5 mm, friction": paper_machine.loose_rise(1.5, 0.25, 5e-4),
+        "1.5 mm, friction, oil columns": replace(
+            paper_machine.loose_rise(1.5, 0.25, 5e-4), columns=paper_machine.oil_columns()
+        ),
+        "ideal pins": paper_machine.ideal_rise(1e-3),
+    }
+    for case, plane in cases.items():
+        space = replace(plane, dimensions=3)
+        ours, others = in_turns(partial(simulate, space), partial(simulate, plane), turns=2)
+        how = f"{space.solver.sections} sections" if space.clearance_pins else "1e-3 s"
+        yield Line(f"rise in space: {case}", how, ours, "the same in the plane", others, "4")
+
+
 # --- main ---
 
 
@@ -252,7 +272,7 @@ def sheet(lines: Sequence[Line]) -> Sheet:
 def study(chosen: Options) -> None:
     """Measure, print and write the table."""
     lines = []
-    for line in chain(rise_lines(), connector_lines(), slider_crank_lines(), long_lines()):
+    for line in chain(rise_lines(), connector_lines(), slider_crank_lines(), long_lines(), space_lines()):
         print(f"{line.what} ({line.how}): {line.ratio} of {line.against}", file=sys.stderr)
         lines.append(line)
     table = sheet(lines)
