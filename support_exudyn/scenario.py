@@ -209,6 +209,12 @@ class Scenario(Value):
             )
         for name in self.friction_pins:
             raise ValueError(f"pins.{name}.friction: is planar; allowed in space: friction of clearance pins")
+        for name, bearing in space.bearings.items():
+            if bearing.pin not in self.clearance_pins and bearing.misfit:
+                raise ValueError(
+                    f"bearings.{name}: {bearing.misfit} at the start; allowed for an ideal pin: none, for a "
+                    "clearance pin: any"
+                )
         self._check_pairs(space)
 
     def _check_pairs(self, space: SpatialLinkage) -> None:

@@ -355,6 +355,7 @@ class HydraulicSupport(Machine):
             inertia=lump.inertia,
             centre=at_start(lump.centre),
             angle=direction(at_start(hinge), at_start(lump.centre)),
+            moments=turned_moments(lump.second_moments, p.shield),
         )
         jack = Column(
             foot="shield", head=TAIL, foot_point=at_start(foot), head_point=at_start(head), driven=False

@@ -30,6 +30,8 @@ def model_of(scenario: Scenario) -> Model:
 
 def check(scenario: Scenario) -> None:
     """Raise InputError if the reduced formulation does not cover the scenario."""
+    if scenario.dimensions == 3:
+        _refuse("dimensions", "3", "2")
     model = model_of(scenario)
     if type(scenario.drive) not in model.DRIVES:
         allowed = ", ".join(drive.__name__ for drive in model.DRIVES)

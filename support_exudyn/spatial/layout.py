@@ -9,7 +9,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from support_exudyn.machine import GROUND
+from support_exudyn.machine import GROUND, ROUNDING
 from user_forces.values import NonNegative, Positive, Real, Value, Vector3, value
 
 FORWARD: Vector3 = (1.0, 0.0, 0.0)
@@ -38,6 +38,18 @@ class SpatialBody(Value):
     angle: Real = 0.0
     velocity: Vector3 = (0.0, 0.0, 0.0)
     spin: Vector3 = (0.0, 0.0, 0.0)
+
+    @model_validator(mode="after")
+    def _inertia_is_one(self) -> SpatialBody:
+        xx, yy, zz, yz, xz, xy = self.inertia
+        minors = (
+            xx,
+            xx * yy - xy * xy,
+            xx * (yy * zz - yz * yz) - xy * (xy * zz - xz * yz) + xz * (xy * yz - xz * yy),
+        )
+        if min(minors) <= 0.0:
+            raise ValueError(f"inertia = {self.inertia}: allowed: positive definite")
+        return self
 
 
 @value
@@ -70,6 +82,25 @@ class Bearing(Value):
     pin: str
     share: Share = 1.0
     is_guide: bool = False
+
+    @model_validator(mode="after")
+    def _can_be(self) -> Bearing:
+        if self.first == self.second:
+            raise ValueError(f"first, second = {self.first!r} twice: allowed: two different bodies")
+        for name in ("first_axis", "second_axis"):
+            axis = getattr(self, name)
+            if abs(math.hypot(*axis) - 1.0) > ROUNDING:
+                raise ValueError(f"{name} = {axis}: allowed: vectors of length 1")
+        return self
+
+    @property
+    def misfit(self) -> str:
+        """In what both bodies do not fit each other at the start, as an ideal pin needs; empty: they do."""
+        apart = math.dist(self.first_point, self.second_point)
+        if apart > ROUNDING:
+            return f"its points on both bodies are {apart:.3g} m apart"
+        turned = math.dist(self.first_axis, self.second_axis)
+        return f"its axes on both bodies are tilted by {turned:.3g} rad" if turned > ROUNDING else ""
 
 
 @value

@@ -14,6 +14,8 @@ INSTEAD = "formulation = 'redundant' covers it."
 
 def check(scenario: Scenario) -> None:
     """Raise InputError if the tree formulation does not cover the scenario."""
+    if scenario.dimensions == 3:
+        _refuse("dimensions", "3", "2")
     if scenario.solver.backend in ("symbolic", "compiled"):
         # setting the variables of an expression and asking for it takes longer than calling the law
         _refuse("solver.backend", repr(scenario.solver.backend), "'auto', 'python'")
