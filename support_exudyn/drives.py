@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 
 from pydantic import model_validator
 
-from user_forces.scalar import maximum, minimum
+from user_forces.scalar import is_number, maximum, minimum
 from user_forces.values import NonNegative, Positive, Real, Value, value
 
 
@@ -99,7 +99,10 @@ class Stroke(Drive):
 
     def phase(self, t: float) -> float:
         """0 at the start of the stroke, 1 at its end, clipped."""
-        return minimum(1.0, maximum(0.0, (t - self.start) / (self.end - self.start)))
+        x = (t - self.start) / (self.end - self.start)
+        if is_number(x):  # asked for in every step
+            return 0.0 if x <= 0.0 else 1.0 if x >= 1.0 else x
+        return minimum(1.0, maximum(0.0, x))
 
 
 @value

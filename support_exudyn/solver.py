@@ -37,6 +37,9 @@ SMALLEST_IMPACT_STEP = 1e-11  # [s], well above the rounding of times
 # falls with the spectral radius from step to step. The grid step that follows is divided so often, so that
 # nothing of it is left at the next record.
 BREAK_REFINEMENT = 32
+# The engine computes a new Jacobian at the start of every stretch of steps. Where Python is called in each of
+# them for columns and energies, stretches are worth that if they are longer than so many.
+FEW_STEPS = 5
 ADVICE = (
     "Try a smaller step; if that does not help, look whether the posture is near a dead centre "
     "or a contact is far stiffer than the masses beside it allow."
@@ -50,6 +53,7 @@ class Run:
         scenario = scene.scenario
         self.scene = scene
         self.pins = tuple(scene.loose_pins.values())
+        self.frictions = tuple(scene.frictions.values())
         self.data = scene.mbs.systemData
         self.recorder = recorder
         self.progress = progress
@@ -67,7 +71,10 @@ class Run:
         self.repeated = False  # that step is tried again, shorter
         # whether anything of the model has to follow a drive, and whether Python has to see every step
         self.follows = any(parts.moves(scenario.duration) for parts in scene.driven)
-        self.watches = bool(self.pins or scene.frictions) or self.smooth is not None
+        self.watches = bool(self.pins or self.frictions) or self.smooth is not None
+        columns = any(parts.rigid or parts.oil for parts in scene.driven if parts.moves(scenario.duration))
+        if columns and recorder.integrates and scenario.step * FEW_STEPS > scenario.record_period:
+            self.watches = True  # it is called in every step anyway, and a stretch costs more than it saves
         self.audited = -math.inf  # end of the last step that the recorder has been told of [s]
 
     def go(self) -> Counts:
@@ -102,7 +109,7 @@ class Run:
             newton_iterations=int(it.newtonStepsCount),
             jacobians=int(it.newtonJacobiCount),
             user_function_calls=sum(pin.calls for pin in self.pins)
-            + sum(friction.calls for friction in self.scene.frictions.values()),
+            + sum(friction.calls for friction in self.frictions),
             failed_newton=self.failed_newton,
             clamped_steps=sum(pin.clamped_steps for pin in self.pins),
         )
@@ -198,7 +205,7 @@ class Run:
                 kink = kink or pin.onset is not None
                 pin.accept()
         self.recorder.after_step(t, kink)
-        for friction in self.scene.frictions.values():
+        for friction in self.frictions:
             friction.accept()
         if self.smooth is not None:
             self._look_for_smoothness(t, self.smooth)
