@@ -58,7 +58,8 @@ class PinConnector:
         self.mbs = mbs
         self._clearance = clearance
         self.at = at
-        self._journal = np.array(journal[1])
+        self._bore, self._journal = np.array(bore[1]), np.array(journal[1])
+        self._journal_shift = 0.0
         self.frame_turn = -turn if at is Attachment.MIDDLE else 0.0  # of the journal's frame on its body [rad]
         self.bore_marker = mbs.AddMarker(MarkerBodyRigid(bodyNumber=bore[0], localHT=bore[1]))
         self.journal_marker = mbs.AddMarker(MarkerBodyRigid(bodyNumber=journal[0], localHT=self._frame()))
@@ -106,9 +107,20 @@ class PinConnector:
         self.mbs.SetMarkerParameter(self.journal_marker, "localHT", self._frame())
         return True
 
+    def slide(self, bore: float, journal: float) -> None:
+        """Let the force act beside both centres, by so much along bore and journal [m]."""
+        slid = self._bore.copy()
+        slid[:3, 3] += bore * slid[:3, 2]
+        self.mbs.SetMarkerParameter(self.bore_marker, "localHT", slid.tolist())
+        if journal != self._journal_shift:
+            self._journal_shift = journal
+            self.mbs.SetMarkerParameter(self.journal_marker, "localHT", self._frame())
+
     def _frame(self) -> Frame:
-        turned: list[list[float]] = (self._journal @ frame((0.0, 0.0), self.frame_turn)).tolist()
-        return turned
+        turned = self._journal @ frame((0.0, 0.0), self.frame_turn)
+        turned[:3, 3] += self._journal_shift * turned[:3, 2]
+        found: list[list[float]] = turned.tolist()
+        return found
 
 
 def frame(centre: Vector2, turn: float = 0.0) -> Frame:

@@ -13,7 +13,7 @@ from support_exudyn.attachment import Attachment, Relative, attachment, in_plane
 from support_exudyn.connector import Frame, PinConnector, displacement_scale
 from support_exudyn.impact_steps import ImpactSteps
 from support_exudyn.onset import Action, Mobility, Onset, PinMemory, Verdict, goes_on, judge, judge_at_ends
-from support_exudyn.pin_motion import Motion, PinMotion
+from support_exudyn.pin_motion import Motion, Moving, PinMotion
 from support_exudyn.python_force import PythonForce
 from support_exudyn.symbolic_force import SymbolicForce
 from user_forces.contact import ContactForce, JournalContact
@@ -133,7 +133,7 @@ class LoosePin:
         self.kept = self.reached = memory
         self._seen = None
         if self.turns:
-            self._bore = self._now()[0][4:]
+            self._bore = self.moving.now()[0][4:]
 
     def begin_try(self, step: float) -> None:
         """Before a step of this length [s] is tried: go back to the last accepted one, line up the frames."""
@@ -188,7 +188,7 @@ class LoosePin:
 
     def _place(self) -> Vector2:
         """Where the journal is now in its bore, in the bore's axes [m]."""
-        (bx, by, _, _, angle, _), (x, y, *_) = self._seen or self._now()
+        (bx, by, _, _, angle, _), (x, y, *_) = self._seen or self.moving.now()
         x, y = x - bx, y - by
         if self.bore_node is None:
             return x, y
@@ -277,7 +277,7 @@ class LoosePin:
         x, y, vx, vy = displacement[0], displacement[1], velocity[0], velocity[1]
         if not turning:
             if self.turns:
-                self._tried_bore = self._now()[0][4:]
+                self._tried_bore = self.moving.now()[0][4:]
             return Relative(x, y, vx, vy)
         (_, _, turn), (_, _, spin) = turning
         if self.at is not Attachment.MIDDLE:
@@ -288,7 +288,7 @@ class LoosePin:
         return Relative(scale * x, scale * y, vx, vy, spin, self._tried_spin)
 
     def _from_coordinates(self) -> Relative:
-        self._seen = self._now()
+        self._seen = self.moving.now()
         (bx, by, bvx, bvy, bore_angle, bore_spin), journal = self._seen
         x, y, vx, vy, journal_angle, spin = journal
         x, y, vx, vy, turning = x - bx, y - by, vx - bvx, vy - bvy, spin - bore_spin
@@ -304,11 +304,12 @@ class LoosePin:
         c, s = math.cos(bore_angle), math.sin(bore_angle)
         return Relative(c * x + s * y, c * y - s * x, c * vx + s * vy, c * vy - s * vx, turning, bore_spin)
 
-    def _now(self) -> tuple[Motion, Motion]:
-        """Motions of bore and journal."""
+    @property
+    def moving(self) -> Moving:
+        """How bore and journal move."""
         if self.motion is None:
             raise RuntimeError("LoosePin.motion: is set by the scene")
-        return self.motion.now()
+        return self.motion
 
     def _contact_force(self, motion: Relative) -> ContactForce:
         x, y, vx, vy, _, _ = motion

@@ -3,12 +3,20 @@
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 from user_forces.values import Vector2
 
 # x, y, vx, vy [m], [m/s]; angle [rad] and spin [rad/s] of the body
 Motion = tuple[float, float, float, float, float, float]
+
+
+class Moving(Protocol):
+    """How a journal moves in its bore."""
+
+    def now(self) -> tuple[Motion, Motion]:
+        """The present motions of bore and journal."""
+        ...
 
 
 class PinEnd(NamedTuple):

@@ -37,6 +37,7 @@ def settle(scene: EngineScene) -> None:
         for share in CENTRING:  # noqa: B007
             _solve(scene)
             data.SetODE2Coordinates(data.GetODE2Coordinates(), INITIAL)
+            scene.reset_memory()  # of where journals have shifted to along their bores
     data.SetODE2Coordinates_t(0.0 * data.GetODE2Coordinates_t(INITIAL), INITIAL)
     scene.reset_memory()
 

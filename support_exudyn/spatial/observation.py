@@ -76,7 +76,7 @@ class Observation:
 
     def _section(self, pin: SectionPin, memory: Series) -> SectionSeries:
         bore, journal = pin.ends
-        moving = section_motion(self.motion, bore, journal, pin.section.place)
+        moving = section_motion(self.motion, bore, journal, pin.section.place, pin.at, pin.slides)
         ones, zeros = np.ones(self.motion.count), np.zeros(self.motion.count)
         relative = RelativeMotion(
             moving.x, moving.y, moving.vx, moving.vy, moving.bore_spin, moving.journal_spin, ones, zeros
@@ -91,8 +91,7 @@ class Observation:
             plane = np.column_stack([contact.force_x, contact.force_y, zeros])
             force = np.einsum("nij,nj->ni", moving.axes, plane)
         arm = journal_arm(model, contact.depth)
-        centre = self.motion.point(journal.body, journal.centre(pin.section.place)).position
-        return SectionSeries(moving, contact, force, centre + arm[:, None] * outward)
+        return SectionSeries(moving, contact, force, moving.centre + arm[:, None] * outward)
 
     @cached_property
     def oil(self) -> dict[str, OilSeries]:

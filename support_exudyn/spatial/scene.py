@@ -181,6 +181,7 @@ class SpatialScene:
         for name, group in self.sections.items():
             mobility = self.mobility(name, INITIAL)
             for pin in group:
+                pin.look_beside(*at)
                 force = self._force(pin, *at)
                 touching = force.depth > 0.0
                 memory = PinMemory(
@@ -190,7 +191,7 @@ class SpatialScene:
                     rate=force.rate,
                     slip=force.slip,
                 ).with_mobility(mobility)
-                bore, journal = pin.moving.at(*at)
+                bore, journal = pin.moving.when(*at)
                 pin.start(memory, journal[4], (0.0, bore[5]))
 
     def refresh_memory(self) -> None:
@@ -202,7 +203,7 @@ class SpatialScene:
             pin.jumped(pin.kept._replace(depth=force.depth, rate=force.rate, slip=force.slip))
 
     def _force(self, pin: SectionPin, position: list[float], velocity: list[float]) -> Any:
-        bore, (x, y, vx, vy, _, spin) = pin.moving.at(position, velocity)
+        bore, (x, y, vx, vy, _, spin) = pin.moving.when(position, velocity)
         return pin.contact.force(x, y, vx, vy, bore[5], spin, None)
 
 
@@ -280,6 +281,7 @@ class _Builder:
                 items=(self.item(bore.body), self.item(journal.body)),
                 nodes=(self.node(bore.body), self.node(journal.body)),
                 centres=(self.centre(bore.body), self.centre(journal.body)),
+                slides="along" not in bearing.holds,
                 symbolic=settings.backend == "symbolic",
                 impact_steps=settings.impact_steps,
             )
@@ -351,9 +353,9 @@ class _Builder:
             whole = group[0].whole
             whole.sections = group
             whole.find_mobility = partial(scene.mobility, name)
-            whole.mover = self.mover(scene, group[0].ends, 0.0)
+            whole.mover = self.mover(scene, group[0], 0.0)
             for pin in group:
-                pin.mover = self.mover(scene, pin.ends, pin.section.place)
+                pin.mover = self.mover(scene, pin, pin.section.place)
         scene.drive_to(0.0)
         scene.start_moving()
         scene.reset_memory()
@@ -391,7 +393,7 @@ class _Builder:
             found[name] = replace(whole, model=model)
         return found
 
-    def mover(self, scene: SpatialScene, pair: tuple[End, End], place: float) -> SectionMover:
+    def mover(self, scene: SpatialScene, pin: SectionPin, place: float) -> SectionMover:
         """How a section moves, from the engine's coordinates."""
 
         def end(of: End) -> SectionEnd:
@@ -400,8 +402,8 @@ class _Builder:
             arm, *axes = (tuple(frame[:3, k].tolist()) for k in (3, 0, 1, 2))
             return SectionEnd(first, self.centre(of.body), arm, (axes[0], axes[1]), axes[2])
 
-        bore, journal = pair
-        return SectionMover(self.mbs.systemData, end(bore), end(journal))
+        bore, journal = pin.ends
+        return SectionMover(self.mbs.systemData, end(bore), end(journal), pin.at)
 
 
 def build(scenario: Scenario) -> SpatialScene:

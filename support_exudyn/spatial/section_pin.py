@@ -4,24 +4,25 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 import exudyn
 import numpy as np
 
-from support_exudyn.attachment import in_plane
+from support_exudyn.attachment import Attachment, in_plane
 from support_exudyn.impact_steps import ImpactSteps
 from support_exudyn.loose_pin import LoosePin
 from support_exudyn.onset import Mobility, Onset, PinMemory
 from support_exudyn.pin_motion import Motion
 from support_exudyn.spatial.constraints import frame_of
-from support_exudyn.spatial.sections import End, Section
+from support_exudyn.spatial.sections import ON_LINE, End, Section
 from user_forces.contact import JournalContact
 from user_forces.normal.part import PartOf
 from user_forces.values import Vector2, Vector3
 
 Vector = tuple[float, float, float]
+Axes = tuple[Vector, Vector, Vector]
 
 
 class BodyState(NamedTuple):
@@ -84,6 +85,11 @@ class SectionEnd(NamedTuple):
     across: tuple[Vector3, Vector3]
     along: Vector3
 
+    def beside(self, shift: float) -> Vector:
+        """The section's arm if it is so far beside its place along the axis [m]."""
+        (x, y, z), (ax, ay, az) = self.arm, self.along
+        return x + shift * ax, y + shift * ay, z + shift * az
+
     def state(self, position: list[float], velocity: list[float]) -> BodyState:
         """Of its body."""
         if self.first is None:
@@ -92,37 +98,88 @@ class SectionEnd(NamedTuple):
         return BodyState.of(self.centre, position[which], velocity[which])
 
 
-class SectionMover(NamedTuple):
-    """The motion of a section's journal in its bore, in the bore's axes. data: the engine's."""
+@dataclass
+class SectionMover:
+    """The motion of a section's journal in its bore, in the axes in which its force is given.
+
+    data: the engine's. at: what the force acts on; see `section_motion`. shifts: of the sections of bore and
+    journal from their places along both [m].
+    """
 
     data: Any
     bore: SectionEnd
     journal: SectionEnd
+    at: Attachment
+    shifts: tuple[float, float] = (0.0, 0.0)
 
     def now(self) -> tuple[Motion, Motion]:
         """The present motions of bore and journal, the bore's centre and axes being those of the plane."""
-        position = self.data.GetODE2Coordinates().tolist()
-        velocity = self.data.GetODE2Coordinates_t().tolist()
-        return self.at(position, velocity)
+        return self.when(*self.coordinates())
 
-    def at(self, position: list[float], velocity: list[float]) -> tuple[Motion, Motion]:
+    def coordinates(self) -> tuple[list[float], list[float]]:
+        """The engine's, and their rates, as they are now."""
+        return self.data.GetODE2Coordinates().tolist(), self.data.GetODE2Coordinates_t().tolist()
+
+    def when(self, position: list[float], velocity: list[float]) -> tuple[Motion, Motion]:
         """The same at other coordinates."""
         bore, journal = self.bore.state(position, velocity), self.journal.state(position, velocity)
-        (bx, by, bz), (bvx, bvy, bvz) = bore.point(self.bore.arm)
-        (jx, jy, jz), (jvx, jvy, jvz) = journal.point(self.journal.arm)
-        axes = (*map(bore.turned, self.bore.across), bore.turned(self.bore.along))
-        apart = [a[0] * (jx - bx) + a[1] * (jy - by) + a[2] * (jz - bz) for a in axes]
-        rates = [a[0] * (jvx - bvx) + a[1] * (jvy - bvy) + a[2] * (jvz - bvz) for a in axes]
-        x, y, vx, vy = in_plane(apart, rates)
+        apart, rates = self._apart(bore, journal)
+        along = bore.turned(self.bore.along)
+        axes = self._axes(bore, journal)
+        local, moving = [dot(a, apart) for a in axes], [dot(a, rates) for a in axes]
+        x, y, vx, vy = in_plane(local, moving) if self.at in ON_LINE else (*local[:2], *moving[:2])
         own = journal.turned(self.journal.across[0])
         turn = math.atan2(dot(own, axes[1]), dot(own, axes[0]))
-        spins = dot(bore.spin, axes[2]), dot(journal.spin, axes[2])
-        return (0.0, 0.0, 0.0, 0.0, 0.0, spins[0]), (x, y, vx, vy, turn, spins[1])
+        spin = dot(bore.spin, along)
+        turning = dot(journal.spin, axes[2]) - dot(bore.spin, axes[2])
+        return (0.0, 0.0, 0.0, 0.0, 0.0, spin), (x, y, vx, vy, turn, spin + turning)
+
+    def _apart(self, bore: BodyState, journal: BodyState) -> tuple[Vector, Vector]:
+        """From the bore's section to the journal's, and its rate, ground's axes."""
+        (bx, by, bz), (bvx, bvy, bvz) = bore.point(self.bore.beside(self.shifts[0]))
+        (jx, jy, jz), (jvx, jvy, jvz) = journal.point(self.journal.beside(self.shifts[1]))
+        return (jx - bx, jy - by, jz - bz), (jvx - bvx, jvy - bvy, jvz - bvz)
+
+    def _axes(self, bore: BodyState, journal: BodyState) -> Axes:
+        axes = bore.turned(self.bore.across[0]), bore.turned(self.bore.across[1]), bore.turned(self.bore.along)
+        if self.at is Attachment.MIDDLE:
+            return half_way(axes, journal.turned(self.journal.along))
+        return axes
+
+    def beside(self, position: list[float], velocity: list[float]) -> tuple[float, float]:
+        """How far the sections are apart along the axis in their own places [m], and the rate."""
+        bore, journal = self.bore.state(position, velocity), self.journal.state(position, velocity)
+        apart, rates = self._apart(bore, journal)
+        along = self._axes(bore, journal)[2]
+        return self.shifts[0] - self.shifts[1] + dot(along, apart), dot(along, rates)
+
+    def meet(self, apart: float) -> None:
+        """Shift the sections so that they meet that are so far apart in their own places [m].
+
+        Those of the bore, or half and half where the force acts in the middle: in either case what the force
+        goes by, the displacement across its axis, is not changed by it.
+        """
+        self.shifts = (0.5 * apart, -0.5 * apart) if self.at is Attachment.MIDDLE else (apart, 0.0)
 
 
 def dot(a: Vector, b: Vector) -> float:
     """Inner product."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def half_way(axes: Axes, along: Vector) -> Axes:
+    """Axes tilted half of the way that turns their third into another vector; see `sections.half_way`."""
+    first, second, own = axes
+    x, y, z = own[0] + along[0], own[1] + along[1], own[2] + along[2]
+    size = math.sqrt(x * x + y * y + z * z)
+    middle = x / size, y / size, z / size
+    both = own[0] + middle[0], own[1] + middle[1], own[2] + middle[2]
+
+    def turned(vector: Vector) -> Vector:
+        share = dot(middle, vector) / (1.0 + dot(own, middle))
+        return vector[0] - share * both[0], vector[1] - share * both[1], vector[2] - share * both[2]
+
+    return turned(first), turned(second), middle
 
 
 class Journal:
@@ -197,6 +254,8 @@ class SectionPin(LoosePin):
         section: its place and share.
         bore, journal: their ends; items: the engine's bodies, nodes: of them (None: the ground); centres: of
             the bodies' mass.
+        slides: whether the journal may shift along the bore. The markers then move along before every step,
+            so that sections of both meet that are abreast of each other.
         symbolic, impact_steps: as of LoosePin.
     """
 
@@ -212,6 +271,7 @@ class SectionPin(LoosePin):
         items: tuple[Any, Any],
         nodes: tuple[Any, Any],
         centres: tuple[Vector3, Vector3],
+        slides: bool,
         symbolic: bool,
         impact_steps: int,
     ) -> None:
@@ -238,6 +298,8 @@ class SectionPin(LoosePin):
         self.ends = bore, journal
         self.mover: SectionMover | None = None  # set when the scene is whole
         self.mobility = whole.mobility
+        self.slides = slides
+        self._beside = 0.0, 0.0  # where the journal is along the bore at the last accepted step [m], [m/s]
 
     @property
     def moving(self) -> SectionMover:
@@ -246,8 +308,21 @@ class SectionPin(LoosePin):
             raise RuntimeError("SectionPin.mover: is set by the scene")
         return self.mover
 
-    def _now(self) -> tuple[Motion, Motion]:
-        return self.moving.now()
+    def look_beside(self, position: list[float], velocity: list[float]) -> None:
+        """See where the journal is along the bore at the engine's coordinates and their rates."""
+        if self.slides:
+            self._beside = self.moving.beside(position, velocity)
+            self._meet(self._beside[0])
+
+    def _meet(self, apart: float) -> None:
+        self.moving.meet(apart)
+        self.connector.slide(*self.moving.shifts)
+
+    def begin_try(self, step: float) -> None:
+        """See `LoosePin`."""
+        if self.slides:
+            self._meet(self._beside[0] + step * self._beside[1])
+        super().begin_try(step)
 
     def after_newton(self, t: float) -> float | None:
         """See `LoosePin`."""
@@ -260,11 +335,14 @@ class SectionPin(LoosePin):
         if self is self.whole.sections[0]:
             self.whole.moved()
         super().jumped(memory)
+        self.look_beside(*self.moving.coordinates())
 
     def accept(self) -> None:
         """See `LoosePin`."""
         before = self.kept.in_contact, self.onset
         super().accept()
+        if self.slides:
+            self._beside = self.moving.beside(*self.moving.coordinates())
         self.whole.accepted(*before)
 
     def _place(self) -> Vector2:

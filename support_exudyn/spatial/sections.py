@@ -14,12 +14,16 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
+from support_exudyn.attachment import Attachment
 from support_exudyn.machine import GROUND
 from support_exudyn.spatial.constraints import frame_of
 from support_exudyn.spatial.layout import Bearing
 from support_exudyn.spatial.motion import SpatialMotion
 from support_exudyn.trajectory import Series
 from user_forces.values import Vector3
+
+# where the force depends on the distance of both centres, which stands for that across the axis
+ON_LINE = (Attachment.LINE, Attachment.SPACE)
 
 
 class Section(NamedTuple):
@@ -71,9 +75,10 @@ def ends(bearing: Bearing, bore: Literal["first", "second"]) -> tuple[End, End]:
 
 
 class SectionMotion(NamedTuple):
-    """A section of a journal in its bore over time, (n,) each, in the bore's axes; see `attachment.in_plane`.
+    """A section of a journal in its bore over time, (n,) each, in the axes in which its force is given.
 
-    axes: the bore's, in columns (n, 3, 3). turning: of the journal about the axis against the bore.
+    axes: these, in columns (n, 3, 3). displacement: (n, 3), ground's axes; to centre, of the journal's section
+    (n, 3). See `section_motion`.
     """
 
     x: Series
@@ -84,17 +89,44 @@ class SectionMotion(NamedTuple):
     journal_spin: Series
     axes: Series
     displacement: Series
+    centre: Series
 
 
-def section_motion(motion: SpatialMotion, bore: End, journal: End, place: float) -> SectionMotion:
-    """How a section moves: displacement of its centres and its rate, the plain difference of velocities."""
+def section_motion(
+    motion: SpatialMotion, bore: End, journal: End, place: float, at: Attachment, slides: bool
+) -> SectionMotion:
+    """How a section moves: displacement of its centres and its rate, the plain difference of velocities.
+
+    Arguments:
+        motion: of all bodies.
+        bore, journal: where it is.
+        place: of the section [m].
+        at: what its force acts on; in the middle between both bodies the axes, too, are half-way.
+        slides: the journal may shift along the bore; see `SectionMover.meet`.
+    """
     start = frame_of(bore.axis)
     axes = np.stack([motion.carried(bore.body, start[:, k]) for k in range(3)], axis=-1)
     b = motion.point(bore.body, bore.centre(place))
     j = motion.point(journal.body, journal.centre(place))
-    displacement = j.position - b.position
+    displacement, velocity = j.position - b.position, j.velocity - b.velocity
+    bore_spin, journal_spin = motion.spin_of(bore.body), motion.spin_of(journal.body)
+    along, own = axes[:, :, 2], motion.carried(journal.body, journal.axis)
+    spin = np.einsum("ni,ni->n", bore_spin, along)
+    if at is Attachment.MIDDLE:
+        axes = half_way(axes, own)
+    centre = j.position
+    if slides:
+        apart = np.einsum("ni,ni->n", displacement, axes[:, :, 2])[:, None]
+        share = 0.5 if at is Attachment.MIDDLE else 0.0
+        bore_shift, journal_shift = (1.0 - share) * apart * along, -share * apart * own
+        centre = centre + journal_shift
+        displacement = displacement + journal_shift - bore_shift
+        velocity = velocity + np.cross(journal_spin, journal_shift) - np.cross(bore_spin, bore_shift)
+    spins = spin, spin + np.einsum("ni,ni->n", journal_spin - bore_spin, axes[:, :, 2])
     x, y, z = np.einsum("nji,nj->in", axes, displacement)
-    vx, vy, vz = np.einsum("nji,nj->in", axes, j.velocity - b.velocity)
+    vx, vy, vz = np.einsum("nji,nj->in", axes, velocity)
+    if at not in ON_LINE:
+        return SectionMotion(x, y, vx, vy, *spins, axes, displacement, centre)
     across = np.hypot(x, y)
     away = across > 0.0
     safe = np.where(away, across, 1.0)
@@ -102,17 +134,21 @@ def section_motion(motion: SpatialMotion, bore: End, journal: End, place: float)
     rate = (x * vx + y * vy + z * vz) / np.where(away, distance, 1.0) - (x * vx + y * vy) / safe
     stretch = np.where(away, distance / safe, 1.0)
     rate = np.where(away, rate, 0.0)
-    along = axes[:, :, 2]
     return SectionMotion(
-        stretch * x,
-        stretch * y,
-        vx + rate * x / safe,
-        vy + rate * y / safe,
-        np.einsum("ni,ni->n", motion.spin_of(bore.body), along),
-        np.einsum("ni,ni->n", motion.spin_of(journal.body), along),
-        axes,
-        displacement,
+        stretch * x, stretch * y, vx + rate * x / safe, vy + rate * y / safe, *spins, axes, displacement, centre
     )
+
+
+def half_way(axes: Series, along: Series) -> Series:
+    """Axes in columns (n, 3, 3), tilted half of the way that turns their third into another vector (n, 3)."""
+    own = axes[:, :, 2]
+    middle = own + along
+    middle /= np.linalg.norm(middle, axis=1)[:, None]
+    share = (
+        np.einsum("ni,nik->nk", middle, axes[:, :, :2]) / (1.0 + np.einsum("ni,ni->n", own, middle))[:, None]
+    )
+    across = axes[:, :, :2] - np.einsum("ni,nk->nik", own + middle, share)
+    return np.concatenate([across, middle[:, :, None]], axis=2)
 
 
 def is_fixed(end: End) -> bool:
