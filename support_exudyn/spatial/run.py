@@ -9,7 +9,8 @@ from support_exudyn.scenario import Scenario
 from support_exudyn.settle import settle
 from support_exudyn.solver import Run
 from support_exudyn.spatial.observation import Observation
-from support_exudyn.spatial.scene import SpatialScene, build
+from support_exudyn.spatial.scene import SpatialScene
+from support_exudyn.spatial.scene_builder import build
 from support_exudyn.trajectory import Outcome
 
 EDGES = {"left": 0, "right": -1}

@@ -101,7 +101,9 @@ def test_what_moves_alike_on_both_sides_moves_as_in_the_plane(case: str) -> None
             sides = [f"pin.{pin}_{side}.{part}" for side in ("left", "right")]
             if sides[0] in space.channels:  # half each; as above
                 for side in sides:
-                    np.testing.assert_allclose(space[side], 0.5 * space[name], atol=1e-5 * largest, err_msg=side)
+                    np.testing.assert_allclose(
+                        space[side], 0.5 * space[name], atol=1e-5 * largest, err_msg=side
+                    )
     for pin, onsets in plane.onsets.items():
         for name in (pin, f"{pin}_left", f"{pin}_right"):
             if name in space.onsets:
