@@ -307,7 +307,6 @@ def scenario(**changes: object) -> Scenario:
         ),
         ({"drives": {"front_column_middle": Held()}}, "no such driven part; allowed: .*front_column_left"),
         ({"columns": {"front_column_left": two_body_columns()["front_column"]}}, "no such column"),
-        ({"columns": two_body_columns()}, "dimensions = 3"),
         ({"dimensions": 4}, "dimensions"),
         ({"channels": ("tip_middle.z",)}, "tip_middle"),
     ],
