@@ -189,3 +189,29 @@ def test_a_freed_pin_takes_two_equations_and_nothing_else(machine: Machine) -> N
         freed = inventory(replace(held, pins={pin: loose()}))
         same = replace(freed, markers=ideal.markers, user_functions=0, callbacks=0)
         assert same == replace(ideal, constraints=ideal.constraints - 2)
+
+
+@pytest.mark.parametrize(
+    ("changes", "pieces", "functions"),
+    [({}, 0, 0), ({"pins": ONE_LOOSE}, 5, 5), ({"pins": ONE_LOOSE, "solver": SolverSettings(sections=9)}, 9, 9)],
+    ids=["ideal", "loose, 5 sections", "loose, 9 sections"],
+)
+def test_bodies_in_space_have_seven_coordinates_and_loose_pins_sections(
+    changes: dict[str, Any], pieces: int, functions: int
+) -> None:
+    one = scenario(dimensions=3, **changes)
+    found, space = inventory(one), one.space
+    assert found.bodies == found.nodes == found.loads == len(space.bodies)
+    assert found.coordinates == 7 * found.bodies
+    loose_bearings = [b for b in space.bearings.values() if b.pin in one.clearance_pins]
+    assert sum(item.pin == "rear_base" for item in space.bearings.values()) == 1
+    assert found.user_functions == functions
+    # every section is a connector; what repeats other constraints is left out
+    assert found.objects == found.bodies + found.connectors + 1
+    assert found.connectors >= pieces * len(loose_bearings)
+
+
+def test_a_pin_freed_in_space_costs_a_connector_for_each_section() -> None:
+    held, freed = (inventory(scenario(dimensions=3, pins=pins)) for pins in ({}, ONE_LOOSE))
+    assert freed.connectors - held.connectors in (4, 5, 6)  # sections, less the joint, and what holds along it
+    assert freed.constraints < held.constraints
