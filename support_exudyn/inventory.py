@@ -22,11 +22,12 @@ class Inventory:
     """How many there are of each.
 
     coordinates: of all bodies, three each; in space seven, for they turn by Euler parameters. constraints:
-    algebraic equations; in space one more for each body, which keeps its four parameters a rotation, and one
-    without effect for each direction that a joint of the engine's leaves free. nodes: of bodies, and the fixed
-    one of cranks. objects: bodies, connectors and the ground. connectors: objects between markers: ideal and
-    loose pins (in space one for each section), columns, cranks, guides. user_functions: forces and the like that Python computes, as often as
-    the solver asks, several times a step. callbacks: functions of Python that the engine calls at every step.
+    algebraic equations; in space one more for each body, which keeps its four parameters a rotation, and
+    one without effect for each direction that a joint of the engine's leaves free. nodes: of bodies, and
+    the fixed one of cranks. objects: bodies, connectors and the ground. connectors: objects between
+    markers: ideal and loose pins (in space one for each section), columns, cranks, guides. user_functions:
+    forces and the like that Python computes, as often as the solver asks, several times a step. callbacks:
+    functions of Python that the engine calls at every step.
     """
 
     coordinates: int

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
@@ -11,14 +10,17 @@ import numpy as np
 import numpy.typing as npt
 
 from studies import rise
+from studies.detail.runs import Timed, timed
 from studies.detail.scenes import FULLEST, REAR, Scene
 from studies.study import Number, Pair
-from support_exudyn import Estimate, Result, Scenario, simulate
+from support_exudyn import Estimate, Result
 from support_exudyn.evidence.table import Table, Tried, fields_of
 from support_exudyn.inventory import Inventory, inventory
 from support_exudyn.recommend import STROKE, UNEQUAL
 
 ROUNDING = 1e-7  # share of a number that no error is below
+# what Newton's tolerance and rounding leave open, below which no error of such a number is put, by its unit
+SMALLEST = {"N": 1e-3, "N m": 1e-3, "m": 1e-9, "m/s": 1e-9, "deg": 1e-8, "deg/s^2": 1e-2}
 TOUCHES = 3
 MM, DEGREES = 1e3, rise.DEGREES
 Series = npt.NDArray[np.float64]
@@ -57,7 +59,8 @@ def change(here: Estimate, there: Estimate) -> Change:
 class Cost:
     """What a scene costs at its longer steps.
 
-    seconds: wall time. scatter: of it [s]. steps. calls: of user functions, a step. held: what the engine holds.
+    seconds: processor time. scatter: of it [s]. steps. calls: of user functions, a step. held: what the engine
+    holds.
     """
 
     seconds: float
@@ -68,7 +71,7 @@ class Cost:
 
     @property
     def per_step(self) -> float:
-        """Wall time of a step [us]."""
+        """Processor time of a step [us]."""
         return 1e6 * self.seconds / self.steps
 
 
@@ -88,11 +91,13 @@ class Measured:
 def estimate(pair: Pair, unit: str, get: Get) -> Estimate:
     """A number of the finer run; its error is the distance from the coarser one, no less than rounding."""
     fine = get(pair.fine)
-    return Estimate(fine, max(abs(fine - get(pair.coarse)), ROUNDING * abs(fine)), unit)
+    rounding = SMALLEST[unit] if unit == "m" else max(SMALLEST[unit], ROUNDING * abs(fine))
+    return Estimate(fine, max(abs(fine - get(pair.coarse)), rounding), unit)
 
 
-def measure(scenes: Mapping[str, Scene], pairs: Mapping[str, Pair], short: float) -> dict[str, Measured]:
+def measure(scenes: Mapping[str, Scene], runs: Mapping[str, Timed], short: float) -> dict[str, Measured]:
     """All numbers of all scenes; short: runs that are shorter are timed again, alone [s]."""
+    pairs = {name: run.pair for name, run in runs.items()}
     found = {}
     for name, scene in scenes.items():
         numbers = _of_stroke(scene, pairs[name]) | _touches(pairs[name])
@@ -102,7 +107,7 @@ def measure(scenes: Mapping[str, Scene], pairs: Mapping[str, Pair], short: float
             numbers[FROM_REFERENCE] = tip_distance(scene, pairs[name], pairs[scene.reference])
         if scene.family == STROKE:
             numbers[FROM_FULLEST] = tip_distance(scene, pairs[name], pairs[FULLEST])
-        found[name] = Measured(scene, numbers, _cost(pairs[name], short), pairs[name].fine)
+        found[name] = Measured(scene, numbers, _cost(runs[name], short), pairs[name].fine)
     return found
 
 
@@ -121,6 +126,7 @@ def _of_stroke(scene: Scene, pair: Pair) -> Numbers:
         "largest_pin_force_in_stroke": ("N", largest(force, 1.0)),
         "largest_pin_force": ("N", lambda run: max(float(run[force].max()), run.largest_force.get(REAR, 0.0))),
         "mean_tip_x": ("m", lambda run: float(during(run, "tip.x").mean())),
+        "mean_tip_y": ("m", lambda run: float(during(run, "tip.y").mean())),
         "std_angular_acceleration": (
             "deg/s^2",
             lambda run: DEGREES * float(during(run, "rear_link.angular_acceleration").std()),
@@ -172,7 +178,7 @@ def tip_distance(scene: Scene, pair: Pair, other: Pair) -> Estimate:
     """Largest distance of the tip's paths of two scenes during the stroke [m]."""
     apart = _apart(scene, pair.fine, other.fine)
     error = _apart(scene, pair.fine, pair.coarse) + _apart(scene, other.fine, other.coarse)
-    return Estimate(apart, error if pair is not other else 0.0, "m")
+    return Estimate(apart, max(error, SMALLEST["m"]) if pair is not other else 0.0, "m")
 
 
 def _apart(scene: Scene, one: Result, other: Result) -> float:
@@ -184,25 +190,17 @@ def _apart(scene: Scene, one: Result, other: Result) -> float:
 # --- cost ---
 
 
-def _cost(pair: Pair, short: float) -> Cost:
-    run = pair.coarse
-    times = [run.wall_time]
-    if run.wall_time < short:  # beside another run; alone it is faster
-        times = [timed(run.scenario) for _ in range(3)]
+def _cost(run: Timed, short: float) -> Cost:
+    coarse, fine = run.pair.coarse, run.pair.fine
+    seconds = run.coarse_seconds
     # a step of the finer run costs as much
-    scatter = max(times) - min(times)
-    if len(times) == 1:
-        scatter = abs(run.wall_time - pair.fine.wall_time * run.counts.steps / pair.fine.counts.steps)
-    counts = run.counts
+    scatter = abs(seconds - run.fine_seconds * coarse.counts.steps / fine.counts.steps)
+    if seconds < short:
+        times = [timed(coarse.scenario) for _ in range(4)]
+        seconds, scatter = min(times), sorted(times)[2] - min(times)
+    counts = coarse.counts
     calls = counts.user_function_calls / counts.steps
-    return Cost(min(times), scatter, counts.steps, calls, inventory(run.scenario))
-
-
-def timed(scenario: Scenario) -> float:
-    """Wall time of a run [s]."""
-    begun = time.perf_counter()
-    simulate(scenario)
-    return time.perf_counter() - begun
+    return Cost(seconds, scatter, counts.steps, calls, inventory(coarse.scenario))
 
 
 # --- for the summary and for advice ---
@@ -222,8 +220,8 @@ def _costs(name: str, cost: Cost) -> Sequence[Number]:
     held = cost.held
     share = cost.scatter / cost.seconds
     return [
-        Number("wall_time", name, cost.seconds, "s", cost.scatter),
-        Number("wall_time_of_a_step", name, cost.per_step, "us", share * cost.per_step),
+        Number("processor_time", name, cost.seconds, "s", cost.scatter),
+        Number("processor_time_of_a_step", name, cost.per_step, "us", share * cost.per_step),
         Number("user_function_calls_a_step", name, cost.calls, "1", 0.0),
         *(
             Number(what, name, float(size), "1", 0.0)

@@ -30,7 +30,7 @@ SECTIONS = 9
 Group = Literal["added", "taken", "combined", "space", "unequal"]
 
 PLAINEST, FULLEST = "plainest", "fullest"
-LOOSE, PAPERS = "+ clearance, rear pin", "+ clearance and friction, rear pin"
+LOOSE, PAPERS = f"{PLAINEST} + clearance, rear pin", f"{PLAINEST} + clearance and friction, rear pin"
 LOOSE_IN_SPACE, PAPERS_IN_SPACE = "clearance in space", "clearance and friction in space"
 UNEQUAL_IDEAL, UNEQUAL_LOOSE = "unequal, ideal pins", "unequal, clearance"
 UNEQUAL_FULLEST, EQUAL = "unequal, clearance and friction", "equal, clearance and friction"
@@ -51,6 +51,12 @@ class Scene:
     reference: str
     family: str
     scenario: Scenario
+
+    @property
+    def element(self) -> str:
+        """What is added or taken, with its sign; the name if nothing is."""
+        added = self.group in ("added", "taken") and self.name.startswith(f"{self.reference} ")
+        return self.name.removeprefix(self.reference).strip() if added else self.name
 
     @property
     def begin(self) -> float:
@@ -123,52 +129,55 @@ def _added(plain: Scenario) -> Iterable[Scene]:
     slippery, rubbing = loose_pin(0.0), rubbing_pin()
     rear: dict[str, Pin] = {REAR: slippery}
     changes: dict[str, dict[str, Any]] = {
-        LOOSE: {"pins": rear},
-        "+ clearance, 2 pins": {"pins": dict.fromkeys(TWO, slippery)},
-        "+ clearance, 5 pins": {"pins": _all(plain, slippery)},
-        "+ friction, rear pin": {"pins": {REAR: rubbing}},
-        "+ friction, 5 pins": {"pins": _all(plain, rubbing)},
-        PAPERS: {"pins": {REAR: loose_pin(FRICTION)}},
-        "+ mass of columns": {"columns": two_body_columns()},
-        "+ oil in columns": {"columns": oil},
-        "+ mass and oil of columns": {"columns": two_body_columns(oil["front_column"])},
-        "+ tail beam, rigid jack": {"parts": {"tail_beam": OwnBody()}},
-        "+ tail beam, oil jack": {"parts": {"tail_beam": OwnBody(jack=paper_machine.JACK)}},
-        "+ space": {"dimensions": 3},
+        "clearance, rear pin": {"pins": rear},
+        "clearance, 2 pins": {"pins": dict.fromkeys(TWO, slippery)},
+        "clearance, 5 pins": {"pins": _all(plain, slippery)},
+        "friction, rear pin": {"pins": {REAR: rubbing}},
+        "friction, 5 pins": {"pins": _all(plain, rubbing)},
+        "clearance and friction, rear pin": {"pins": {REAR: loose_pin(FRICTION)}},
+        "mass of columns": {"columns": two_body_columns()},
+        "oil in columns": {"columns": oil},
+        "mass and oil of columns": {"columns": two_body_columns(oil["front_column"])},
+        "tail beam, rigid jack": {"parts": {"tail_beam": OwnBody()}},
+        "tail beam, oil jack": {"parts": {"tail_beam": OwnBody(jack=paper_machine.JACK)}},
+        "space": {"dimensions": 3},
     }
     yield Scene(PLAINEST, "added", "", STROKE, plain)
     for name, fields in changes.items():
-        yield Scene(name, "added", PLAINEST, STROKE, replace(plain, **fields))
-    yield Scene("+ settled start", "added", LOOSE, STROKE, replace(plain, pins=rear, start="settled"))
+        yield Scene(f"{PLAINEST} + {name}", "added", PLAINEST, STROKE, replace(plain, **fields))
+    settled = replace(plain, pins=rear, start="settled")
+    yield Scene(f"{LOOSE} + settled start", "added", LOOSE, STROKE, settled)
 
 
 def _taken(full: Scenario) -> Iterable[Scene]:
     loose, rubbing = loose_pin(FRICTION), rubbing_pin()
     changes: dict[str, dict[str, Any]] = {
-        "- friction": {"pins": _all(full, loose_pin(0.0))},
-        "- clearance": {"pins": _all(full, rubbing)},
-        "- clearance, but in rear pin": {"pins": _all(full, rubbing) | {REAR: loose}},
-        "- clearance, but in 2 pins": {"pins": _all(full, rubbing) | dict.fromkeys(TWO, loose)},
-        "- clearance and friction": {"pins": {}},
-        "- mass of columns": {"columns": paper_machine.oil_columns()},
-        "- oil in columns": {"columns": two_body_columns()},
-        "- mass and oil of columns": {"columns": {}},
-        "- oil of tail beam's jack": {"parts": {"tail_beam": OwnBody()}},
-        "- tail beam": {"parts": {}},
-        "- concentric start": {"start": "settled"},
+        "friction": {"pins": _all(full, loose_pin(0.0))},
+        "clearance": {"pins": _all(full, rubbing)},
+        "clearance, but in rear pin": {"pins": _all(full, rubbing) | {REAR: loose}},
+        "clearance, but in 2 pins": {"pins": _all(full, rubbing) | dict.fromkeys(TWO, loose)},
+        "clearance and friction": {"pins": {}},
+        "mass of columns": {"columns": paper_machine.oil_columns()},
+        "oil in columns": {"columns": two_body_columns()},
+        "mass and oil of columns": {"columns": {}},
+        "oil of tail beam's jack": {"parts": {"tail_beam": OwnBody()}},
+        "tail beam": {"parts": {}},
+        "concentric start": {"start": "settled"},
     }
     yield Scene(FULLEST, "taken", "", STROKE, full)
     for name, fields in changes.items():
-        yield Scene(name, "taken", FULLEST, STROKE, replace(full, **fields))
+        yield Scene(f"{FULLEST} - {name}", "taken", FULLEST, STROKE, replace(full, **fields))
 
 
 def _combined(plain: Scenario) -> Iterable[Scene]:
     loose = loose_pin(FRICTION)
     five = replace(plain, pins=_all(plain, loose))
     rear = replace(plain, pins={REAR: loose}, start="settled")
-    yield Scene("5 pins with both, else plainest", "combined", FULLEST, STROKE, five)
-    yield Scene("the same, settled", "combined", FULLEST, STROKE, replace(five, start="settled"))
-    yield Scene("rear pin with both, settled", "combined", FULLEST, STROKE, rear)
+    settled = replace(five, start="settled")
+    both = "clearance and friction"
+    yield Scene(f"{PLAINEST} + {both}, 5 pins", "combined", FULLEST, STROKE, five)
+    yield Scene(f"{PLAINEST} + {both}, 5 pins, settled", "combined", FULLEST, STROKE, settled)
+    yield Scene(f"{PLAINEST} + {both}, rear pin, settled", "combined", FULLEST, STROKE, rear)
 
 
 def in_space(quick: bool) -> list[Scene]:
@@ -207,9 +216,7 @@ def unequal(quick: bool) -> list[Scene]:
     rubbing = replace(base, pins={REAR: loose_pin(FRICTION)})
     return [
         Scene(UNEQUAL_FULLEST, "unequal", "", UNEQUAL, rubbing),
-        Scene(
-            UNEQUAL_LOOSE, "unequal", UNEQUAL_FULLEST, UNEQUAL, replace(base, pins={REAR: loose_pin(0.0)})
-        ),
+        Scene(UNEQUAL_LOOSE, "unequal", UNEQUAL_FULLEST, UNEQUAL, replace(base, pins={REAR: loose_pin(0.0)})),
         Scene(UNEQUAL_IDEAL, "unequal", UNEQUAL_FULLEST, UNEQUAL, base),
         Scene(EQUAL, "unequal", UNEQUAL_FULLEST, "", replace(rubbing, drives={})),
     ]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from studies.detail.measures import FROM_REFERENCE, MM, Change, Measured, change
+from studies.detail.measures import FROM_REFERENCE, MM, SMALLEST, Change, Measured, change
 from studies.detail.scenes import FULLEST, PLAINEST
 from studies.reporting.chapter import Sheet
 from studies.study import brief
@@ -19,9 +19,9 @@ RELATIVE = {  # changes in per cent
     "largest_pin_force_in_stroke": "largest, stroke [%]",
     "largest_pin_force": "largest, whole run [%]",
     "std_angular_acceleration": "acceleration, spread [%]",
-    "largest_canopy_acceleration": "canopy, largest [%]",
 }
-TIP, FARTHEST = "tip, mean [mm]", "tip, farthest [mm]"
+CANOPY = "canopy, largest [deg/s²]"
+TIP, FARTHEST = "tip forward, mean [mm]", "tip, farthest [mm]"
 TITLES = {
     "added": f"What each element changes when it is added to the {PLAINEST} scene",
     "taken": f"What is missing when an element is taken from the {FULLEST} scene",
@@ -48,6 +48,8 @@ def changes(one: Measured, reference: Measured) -> dict[str, Change]:
         heading: change(one.numbers[name], reference.numbers[name]).of(reference.numbers[name].value)
         for name, heading in RELATIVE.items()
     }
+    canopy = "largest_canopy_acceleration"
+    found[CANOPY] = change(one.numbers[canopy], reference.numbers[canopy])
     found[TIP] = change(one.numbers["mean_tip_x"], reference.numbers["mean_tip_x"]).scaled(MM)
     away = one.numbers[FROM_REFERENCE]
     found[FARTHEST] = Change(away.value, away.error).scaled(MM)
@@ -68,23 +70,28 @@ def _short(found: Change) -> str:
     return brief(found.value, found.error)
 
 
+def ratio(times: float) -> str:
+    """A ratio of costs to two digits."""
+    return f"{times:.0f}" if times >= 100.0 else f"{times:.2g}"
+
+
 def change_sheet(measured: Mapping[str, Measured], group: str) -> Sheet:
     """What each element of a group changes, and how many times the reference's time the scene takes."""
     rows = []
-    for name, one in measured.items():
+    for one in measured.values():
         if one.scene.group == group and one.scene.reference:
             reference = measured[one.scene.reference]
             cells = (shown(item) for item in changes(one, reference).values())
             against = one.scene.reference
-            times = f"{one.cost.seconds / reference.cost.seconds:.2g}"
-            rows.append((name, against, *cells, times))
+            times = ratio(one.cost.seconds / reference.cost.seconds)
+            rows.append((one.scene.element, against, *cells, times))
     return Sheet(
         TITLES[group],
-        ("element", "against", *RELATIVE.values(), TIP, FARTHEST, "times the time"),
+        ("element", "against", *RELATIVE.values(), CANOPY, TIP, FARTHEST, "times the time"),
         tuple(rows),
-        f"Forces of the rear pin, acceleration: angular, of the rear link. {BELOW[0].upper()}{BELOW[1:]}: smaller "
-        "than the numerical errors of both scenes together, which follow; where no error is given, it is less than a "
-        "thousandth of the change.",
+        f"Forces of the rear pin, acceleration: angular, of the rear link. {BELOW[0].upper()}{BELOW[1:]}: "
+        "smaller than the numerical errors of both scenes together, which follow; where no error is given, it "
+        "is less than a thousandth of the change.",
         left=2,
     )
 
@@ -96,7 +103,8 @@ def value_sheet(measured: Mapping[str, Measured]) -> Sheet:
         "std_pin_force": ("spread [N]", 1.0),
         "largest_pin_force_in_stroke": ("largest, stroke [N]", 1.0),
         "largest_pin_force": ("largest, whole run [N]", 1.0),
-        "mean_tip_x": ("tip, mean [mm]", MM),
+        "mean_tip_x": ("tip forward, mean [mm]", MM),
+        "mean_tip_y": ("tip up, mean [mm]", MM),
         "std_angular_acceleration": ("acceleration, spread [deg/s²]", 1.0),
         "largest_canopy_acceleration": ("canopy, largest [deg/s²]", 1.0),
         "onset_speed_1": ("1st touch [m/s]", 1.0),
@@ -117,7 +125,11 @@ def value_sheet(measured: Mapping[str, Measured]) -> Sheet:
 
 
 def _cell(number: Estimate | None, scale: float) -> str:
-    return "" if number is None else brief(scale * number.value, scale * number.error)
+    if number is None:
+        return ""
+    if abs(number.value) <= SMALLEST[number.unit]:
+        return "0"  # but for rounding
+    return brief(scale * number.value, scale * number.error)
 
 
 def cost_sheet(measured: Mapping[str, Measured]) -> Sheet:
@@ -156,9 +168,9 @@ def cost_sheet(measured: Mapping[str, Measured]) -> Sheet:
             "callbacks a step",
         ),
         tuple(rows),
-        "Of the coarser run. Times of long runs are those beside another run, ± what a step of the finer run takes "
-        "more or less; short ones were run three times alone, ± their scatter. A callback sees every step, a user "
-        "function computes a force as often as the solver asks.",
+        "Processor time of the coarser run, ± what a step of the finer run takes more or less; short ones were "
+        "run four times, alone, ± scatter. A callback sees every step, a user function computes a force as "
+        "often as the solver asks.",
     )
 
 
@@ -173,15 +185,15 @@ def unequal_sheet(measured: Mapping[str, Measured]) -> Sheet:
         "Front columns driven 2 % apart, and alike",
         ("quantity", *scenes),
         tuple(rows),
-        "In space, columns on oil. The moment is about the axes across the pin, through its middle. Ideal pins have "
-        "no depth.",
+        "In space, columns on oil. The moment is about the axes across the pin, through its middle. Ideal pins "
+        "have no depth.",
     )
 
 
 def advice_sheet(tried: Table) -> Sheet:
     """Which scene for which question."""
     rows: list[Sequence[str]] = []
-    for question, asked in QUESTIONS.items():
+    for question in QUESTIONS:
         advice = recommend(question, tried)
         for n, item in enumerate(advice.evidence):
             first = (question, advice.scene, f"{advice.seconds:.2g}", f"{advice.fullest_seconds:.2g}")
@@ -195,7 +207,6 @@ def advice_sheet(tried: Table) -> Sheet:
                     f"{item.difference:.3g}" + (", by error" if item.by_error else ""),
                 )
             )
-        del asked
     return Sheet(
         "The cheapest scene for each question",
         (

@@ -23,9 +23,10 @@ FIELDS = ("pins", "columns", "parts", "start", "dimensions")  # of a scenario: w
 class Tried:
     """A scene that has been run.
 
-    name. family: scenes of one family are of the same machine, drive and duration, so that they can be compared;
-    empty if it is not to be recommended. fields: of the scenario, by name. numbers: by name, with errors.
-    seconds: wall time of its run. steps: of that run.
+    name. family: scenes of one family are of the same machine, drive and duration, so that they can be
+    compared; empty if it is not to be recommended. fields: of the scenario, by name. numbers: by name, with
+    errors.
+    seconds: processor time of its run. steps: of that run.
     """
 
     name: str

@@ -193,7 +193,11 @@ def test_a_freed_pin_takes_two_equations_and_nothing_else(machine: Machine) -> N
 
 @pytest.mark.parametrize(
     ("changes", "pieces", "functions"),
-    [({}, 0, 0), ({"pins": ONE_LOOSE}, 5, 5), ({"pins": ONE_LOOSE, "solver": SolverSettings(sections=9)}, 9, 9)],
+    [
+        ({}, 0, 0),
+        ({"pins": ONE_LOOSE}, 5, 5),
+        ({"pins": ONE_LOOSE, "solver": SolverSettings(sections=9)}, 9, 9),
+    ],
     ids=["ideal", "loose, 5 sections", "loose, 9 sections"],
 )
 def test_bodies_in_space_have_seven_coordinates_and_loose_pins_sections(
