@@ -73,7 +73,7 @@ def stroke(quick: bool) -> Scenario:
     """The plainest scene: a dwell, then a stroke as steep as the paper's; quick: shorter and coarser."""
     drive, duration, step, steps = CubicStep(stroke=0.05, start=0.5, end=1.13), 1.2, 1e-3, 64
     if quick:
-        drive, duration, step, steps = CubicStep(stroke=0.0005, start=0.03, end=0.09), 0.1, 2e-3, 16
+        drive, duration, step, steps = CubicStep(stroke=0.0003, start=0.02, end=0.068), 0.07, 2e-3, 16
     return Scenario(
         machine=reference_support(),
         drive=drive,
@@ -192,7 +192,7 @@ def in_space(quick: bool) -> list[Scene]:
 
 def unequal(quick: bool) -> list[Scene]:
     """The front columns driven apart, on oil, from a settled start; one of equal columns beside them."""
-    begin, end, size, step, steps = (0.01, 0.21, 0.005, 1e-2, 16) if quick else (0.2, 2.2, 0.5, 1e-3, 64)
+    begin, end, size, step, steps = (0.01, 0.16, 0.0028, 1e-2, 16) if quick else (0.2, 2.2, 0.5, 1e-3, 64)
 
     def drive(share: float) -> CubicStep:
         return CubicStep(stroke=share * size, start=begin, end=end)

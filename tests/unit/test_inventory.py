@@ -22,6 +22,7 @@ from support_exudyn import (
     UniformSpeed,
     bore_area,
     ravn_slider_crank,
+    reference_support,
 )
 from support_exudyn.inventory import Inventory, inventory
 from support_exudyn.machine import GROUND
@@ -191,31 +192,26 @@ def test_a_freed_pin_takes_two_equations_and_nothing_else(machine: Machine) -> N
         assert same == replace(ideal, constraints=ideal.constraints - 2)
 
 
-@pytest.mark.parametrize(
-    ("changes", "pieces", "functions"),
-    [
-        ({}, 0, 0),
-        ({"pins": ONE_LOOSE}, 5, 5),
-        ({"pins": ONE_LOOSE, "solver": SolverSettings(sections=9)}, 9, 9),
-    ],
-    ids=["ideal", "loose, 5 sections", "loose, 9 sections"],
-)
-def test_bodies_in_space_have_seven_coordinates_and_loose_pins_sections(
-    changes: dict[str, Any], pieces: int, functions: int
-) -> None:
-    one = scenario(dimensions=3, **changes)
-    found, space = inventory(one), one.space
-    assert found.bodies == found.nodes == found.loads == len(space.bodies)
-    assert found.coordinates == 7 * found.bodies
-    loose_bearings = [b for b in space.bearings.values() if b.pin in one.clearance_pins]
-    assert sum(item.pin == "rear_base" for item in space.bearings.values()) == 1
-    assert found.user_functions == functions
-    # every section is a connector; what repeats other constraints is left out
-    assert found.objects == found.bodies + found.connectors + 1
-    assert found.connectors >= pieces * len(loose_bearings)
+def in_space(**changes: Any) -> Scenario:
+    return scenario(machine=reference_support(), dimensions=3, **changes)
 
 
-def test_a_pin_freed_in_space_costs_a_connector_for_each_section() -> None:
-    held, freed = (inventory(scenario(dimensions=3, pins=pins)) for pins in ({}, ONE_LOOSE))
-    assert freed.connectors - held.connectors in (4, 5, 6)  # sections, less the joint, and what holds along it
+def test_bodies_in_space_have_seven_coordinates() -> None:
+    one = in_space()
+    found, bodies = inventory(one), len(one.space.bodies)
+    assert (found.bodies, found.nodes, found.loads) == (bodies, bodies, bodies)
+    assert found.coordinates == 7 * bodies
+    assert found.objects == bodies + found.connectors + 1  # the ground
+    assert (found.user_functions, found.callbacks) == (0, 0)
+
+
+@pytest.mark.parametrize("number", [2, 5, 9])
+def test_a_pin_freed_in_space_has_a_connector_for_each_section(number: int) -> None:
+    settings = SolverSettings(sections=number)
+    held, freed = (inventory(in_space(pins=pins, solver=settings)) for pins in ({}, ONE_LOOSE))
+    assert (freed.user_functions, freed.callbacks) == (number, 3)
+    more = freed.connectors - held.connectors
+    assert more == number + 1  # and what repeated its joint's constraints before now has to hold by itself
+    assert freed.objects - held.objects == more
     assert freed.constraints < held.constraints
+    assert freed.coordinates == held.coordinates
