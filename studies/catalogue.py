@@ -10,6 +10,7 @@ from studies import (
     clearance_size,
     contact_laws,
     drive_mode,
+    scene_detail,
     slider_crank,
     speed_accuracy,
 )
@@ -19,6 +20,7 @@ STUDIES: dict[str, Callable[[Options], None]] = {
     clearance_influence.STUDY: clearance_influence.study,
     clearance_size.STUDY: clearance_size.study,
     drive_mode.STUDY: drive_mode.study,
+    scene_detail.STUDY: scene_detail.study,
     claims.STUDY: claims.study,
     contact_laws.STUDY: contact_laws.study,
     slider_crank.STUDY: slider_crank.study,

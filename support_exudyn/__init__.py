@@ -21,6 +21,7 @@ from support_exudyn.machine import Body, Column, Crank, Linkage, Machine, Part, 
 from support_exudyn.onset import Onset
 from support_exudyn.parts import Lumped, OwnBody, PartModel
 from support_exudyn.pins import ClearancePin, IdealPin, Pin
+from support_exudyn.recommend import Recommendation, recommend
 from support_exudyn.result import Result
 from support_exudyn.scenario import Scenario, SolverSettings
 from support_exudyn.simulate import simulate
@@ -53,6 +54,7 @@ __all__ = [
     "PartModel",
     "Pin",
     "PinPlace",
+    "Recommendation",
     "Result",
     "RigidColumn",
     "Scenario",
@@ -69,6 +71,7 @@ __all__ = [
     "bore_area",
     "load_support",
     "ravn_slider_crank",
+    "recommend",
     "reference_support",
     "simulate",
     "two_body_columns",

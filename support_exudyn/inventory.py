@@ -12,18 +12,22 @@ from support_exudyn.redundant import check
 from support_exudyn.scenario import Scenario
 from support_exudyn.scene_builder import build
 from support_exudyn.solver import Run
+from support_exudyn.spatial.scene import build as build_in_space
 
-BODY = "RigidBody2D"  # the engine's name
+BODIES = ("RigidBody2D", "RigidBody")  # the engine's names, in the plane and in space
 
 
 @dataclass(frozen=True)
 class Inventory:
     """How many there are of each.
 
-    coordinates: of all bodies, three each. constraints: algebraic equations. nodes: of bodies, and the fixed
-    one of cranks. objects: bodies, connectors and the ground. connectors: objects between markers: ideal and
-    loose pins, columns, cranks, guides. user_functions: forces and the like that Python computes, as often as
-    the solver asks, several times a step. callbacks: functions of Python that the engine calls at every step.
+    coordinates: of all bodies, three each; in space seven, for they turn by Euler parameters. constraints:
+    algebraic equations; in space one more for each body, which keeps its four parameters a rotation, and
+    one without effect for each direction that a joint of the engine's leaves free. nodes: of bodies, and
+    the fixed one of cranks. objects: bodies, connectors and the ground. connectors: objects between
+    markers: ideal and loose pins (in space one for each section), columns, cranks, guides. user_functions:
+    forces and the like that Python computes, as often as the solver asks, several times a step. callbacks:
+    functions of Python that the engine calls at every step.
     """
 
     coordinates: int
@@ -42,7 +46,7 @@ class Inventory:
 def inventory(scenario: Scenario) -> Inventory:
     """Build a scenario's model, ready to run, and count. Raises InputError if its settings do not fit."""
     check(scenario)
-    scene = build(scenario)
+    scene = build(scenario) if scenario.dimensions == 2 else build_in_space(scenario)
     try:
         Run(scene, Recorder(scene, needs(scenario)), silent).connect()
         return _count(scene.mbs)
@@ -64,7 +68,7 @@ def _count(mbs: Any) -> Inventory:
     return Inventory(
         coordinates=int(data.ODE2Size()),
         constraints=int(data.AEsize()),
-        bodies=sum(item["objectType"] == BODY for item in objects),
+        bodies=sum(item["objectType"] in BODIES for item in objects),
         nodes=int(data.NumberOfNodes()),
         objects=len(objects),
         connectors=sum("markerNumbers" in item for item in objects),

@@ -22,6 +22,7 @@ from support_exudyn import (
     UniformSpeed,
     bore_area,
     ravn_slider_crank,
+    reference_support,
 )
 from support_exudyn.inventory import Inventory, inventory
 from support_exudyn.machine import GROUND
@@ -189,3 +190,28 @@ def test_a_freed_pin_takes_two_equations_and_nothing_else(machine: Machine) -> N
         freed = inventory(replace(held, pins={pin: loose()}))
         same = replace(freed, markers=ideal.markers, user_functions=0, callbacks=0)
         assert same == replace(ideal, constraints=ideal.constraints - 2)
+
+
+def in_space(**changes: Any) -> Scenario:
+    return scenario(machine=reference_support(), dimensions=3, **changes)
+
+
+def test_bodies_in_space_have_seven_coordinates() -> None:
+    one = in_space()
+    found, bodies = inventory(one), len(one.space.bodies)
+    assert (found.bodies, found.nodes, found.loads) == (bodies, bodies, bodies)
+    assert found.coordinates == 7 * bodies
+    assert found.objects == bodies + found.connectors + 1  # the ground
+    assert (found.user_functions, found.callbacks) == (0, 0)
+
+
+@pytest.mark.parametrize("number", [2, 5, 9])
+def test_a_pin_freed_in_space_has_a_connector_for_each_section(number: int) -> None:
+    settings = SolverSettings(sections=number)
+    held, freed = (inventory(in_space(pins=pins, solver=settings)) for pins in ({}, ONE_LOOSE))
+    assert (freed.user_functions, freed.callbacks) == (number, 3)
+    more = freed.connectors - held.connectors
+    assert more == number + 1  # and what repeated its joint's constraints before now has to hold by itself
+    assert freed.objects - held.objects == more
+    assert freed.constraints < held.constraints
+    assert freed.coordinates == held.coordinates

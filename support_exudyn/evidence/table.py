@@ -1,0 +1,128 @@
+"""Scenes that have been tried: what they say and what they cost; kept as a file that a study writes."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+from support_exudyn.estimate import Estimate
+from support_exudyn.files import whole_file
+from support_exudyn.scenario import Scenario
+from user_forces.values import InputError, Value
+
+FORMAT = "support_exudyn scene detail 1"
+FIELDS = ("pins", "columns", "parts", "start", "dimensions")  # of a scenario: what an element of the model is
+
+
+@dataclass(frozen=True)
+class Tried:
+    """A scene that has been run.
+
+    name. family: scenes of one family are of the same machine, drive and duration, so that they can be
+    compared; empty if it is not to be recommended. fields: of the scenario, by name. numbers: by name, with
+    errors.
+    seconds: processor time of its run. steps: of that run.
+    """
+
+    name: str
+    family: str
+    fields: Mapping[str, Any]
+    numbers: Mapping[str, Estimate]
+    seconds: float
+    steps: int
+
+
+@dataclass(frozen=True)
+class Table:
+    """All scenes that have been tried.
+
+    scenes: in any order. fullest: of each family the name of the scene with the most elements. said: of each
+    family, what machine and drive its numbers are of.
+    """
+
+    scenes: tuple[Tried, ...]
+    fullest: Mapping[str, str]
+    said: Mapping[str, str]
+
+    def family(self, name: str) -> tuple[Tried, ...]:
+        """Scenes of a family. Raises InputError if there are none."""
+        found = tuple(scene for scene in self.scenes if scene.family == name)
+        if not found:
+            known = sorted({scene.family for scene in self.scenes if scene.family})
+            raise InputError(f"family = {name!r}: allowed: {', '.join(known) or 'none, the table is empty'}")
+        return found
+
+    def fullest_of(self, name: str) -> Tried:
+        """The scene of a family that the others are measured by."""
+        return next(scene for scene in self.family(name) if scene.name == self.fullest[name])
+
+    def save(self, path: Path) -> None:
+        """Write it, whole or not at all."""
+        data = {
+            "format": FORMAT,
+            "fullest": dict(self.fullest),
+            "said": dict(self.said),
+            "scenes": [_plain(scene) for scene in self.scenes],
+        }
+        with whole_file(path) as temporary:
+            temporary.write_text(json.dumps(data, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+
+    @staticmethod
+    def load(path: Path) -> Table:
+        """Read it. Raises InputError if it is not such a table, OSError if it cannot be read."""
+        return _table(path.read_text(encoding="utf-8"), str(path))
+
+
+def fields_of(scenario: Scenario) -> dict[str, Any]:
+    """What an element of the model is, of a scenario."""
+    return {name: getattr(scenario, name) for name in FIELDS}
+
+
+@cache
+def committed() -> Table:
+    """The table that comes with the program."""
+    file = resources.files("support_exudyn.evidence") / "scene_detail.json"
+    return _table(file.read_text(encoding="utf-8"), file.name)
+
+
+def _table(text: str, where: str) -> Table:
+    try:
+        data = json.loads(text)
+        if data["format"] != FORMAT:
+            raise KeyError(f"format is {data['format']!r}, expected {FORMAT!r}")
+        return Table(tuple(map(_tried, data["scenes"])), data["fullest"], data["said"])
+    except (KeyError, TypeError, ValueError) as error:
+        raise InputError(f"{where}: not a table of tried scenes, or damaged ({error})") from None
+
+
+def _plain(scene: Tried) -> dict[str, Any]:
+    fields = {
+        name: {key: item.to_data() for key, item in entry.items()} if isinstance(entry, Mapping) else entry
+        for name, entry in scene.fields.items()
+    }
+    numbers = {name: [number.value, number.error, number.unit] for name, number in scene.numbers.items()}
+    return {
+        "name": scene.name,
+        "family": scene.family,
+        "seconds": scene.seconds,
+        "steps": scene.steps,
+        "fields": fields,
+        "numbers": numbers,
+    }
+
+
+def _tried(data: Mapping[str, Any]) -> Tried:
+    fields = {
+        name: {key: Value.from_data(item) for key, item in entry.items()} if isinstance(entry, dict) else entry
+        for name, entry in data["fields"].items()
+    }
+    numbers = {
+        name: Estimate(float(size), float(error), str(unit))
+        for name, (size, error, unit) in data["numbers"].items()
+    }
+    return Tried(data["name"], data["family"], fields, numbers, float(data["seconds"]), int(data["steps"]))
