@@ -12,7 +12,7 @@ from support_exudyn.redundant import check
 from support_exudyn.scenario import Scenario
 from support_exudyn.scene_builder import build
 from support_exudyn.solver import Run
-from support_exudyn.spatial.scene import build as build_in_space
+from support_exudyn.spatial.scene_builder import build as build_in_space
 
 BODIES = ("RigidBody2D", "RigidBody")  # the engine's names, in the plane and in space
 

@@ -49,9 +49,7 @@ CASES: dict[str, Scenario] = {
     "depth_speed": support(drive=Held(), duration=0.1, pins={PIN: default_law()}),
     "tail": support(drive=RISE, duration=0.1, columns=oil_columns(), parts={"tail_beam": OwnBody(jack=JACK)}),
     "bodies": support(drive=RISE, duration=0.1, columns=two_body_columns()),
-    "bodies_on_oil": support(
-        drive=RISE, duration=0.1, columns=two_body_columns(oil_columns()["front_column"])
-    ),
+    "bodies_on_oil": support(drive=RISE, duration=0.1, columns=two_body_columns(oil_columns()["front_column"])),
     "uniform": support(drive=UniformSpeed(start=0.02, end=0.1, stroke=0.01), duration=0.15),
     "uniform_loose": loose_support(drive=UniformSpeed(start=0.02, end=0.1, stroke=0.01), duration=0.05),
     "settled": loose_support(drive=RISE, duration=0.05, start="settled"),
