@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 from abc import ABC, abstractmethod
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import field
@@ -56,7 +57,7 @@ def check_moments(moments: Moments | None, inertia: float) -> None:
     if moments is None:
         return
     xx, yy, xy = moments
-    slack = ROUNDING * inertia
+    slack = ROUNDING * inertia + sys.float_info.min  # half of the smallest number is 0
     if abs(xx + yy - inertia) > slack or min(xx, yy) < -slack or xy * xy > xx * yy + slack * inertia:
         raise ValueError(
             f"moments = {moments}: allowed: xx and yy >= 0 that add up to the inertia, {inertia} kg m^2, and "

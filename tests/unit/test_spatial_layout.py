@@ -194,6 +194,10 @@ def test_impossible_second_moments_are_refused(moments: tuple[float, float, floa
         Body(mass=1.0, centre=(0.0, 0.0), inertia=inertia, moments=moments)
 
 
+def test_the_smallest_inertia_has_second_moments() -> None:
+    assert lumped([Part(mass=1.0, centre=(0.0, 0.0), inertia=5e-324)]).inertia == 5e-324
+
+
 def test_the_tail_beam_keeps_its_second_moments() -> None:
     # lumped or a body of its own: the same mass is spread over the same places
     def moments(bodies: dict[str, Body]) -> np.ndarray:
