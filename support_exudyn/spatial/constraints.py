@@ -10,14 +10,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Literal
 
 import numpy as np
 
 from support_exudyn.machine import GROUND
 from support_exudyn.spatial.layout import Bearing, SpatialLinkage
-from support_exudyn.spatial.motion import SpatialMotion
+from support_exudyn.spatial.motion import SpatialMotion, cross
 from support_exudyn.trajectory import Series
+from user_forces.values import Vector3
 
 SAME = 1e-6  # share of a row that must be new, else it repeats others
 Kind = Literal["column", "across_1", "across_2", "along", "tilt_1", "tilt_2"]
@@ -31,13 +33,16 @@ class Row:
     kind: Kind
 
 
-def frame_of(axis: Series | Sequence[float]) -> Series:
+@lru_cache
+def frame_of(axis: Vector3) -> Series:
     """Axes (3, 3), in columns: two across an axis, and the axis; those of the ground if it is z."""
     along = np.asarray(axis, dtype=np.float64)
     helper = np.array([1.0, 0.0, 0.0] if abs(along[0]) < 0.9 else [0.0, 1.0, 0.0])
     first = helper - (helper @ along) * along
     first /= np.linalg.norm(first)
-    return np.column_stack([first, np.cross(along, first), along])
+    frame: Series = np.column_stack([first, cross(along, first), along])
+    frame.setflags(write=False)  # every bearing with this axis has it
+    return frame
 
 
 def all_rows(linkage: SpatialLinkage, loose: Sequence[str], rigid: Sequence[str]) -> list[Row]:
@@ -87,7 +92,7 @@ def _bearing_row(motion: SpatialMotion, row: Row, found: Series) -> None:
     _add_point(motion, bearing.second, second.arm, direction, found)
     _add_point(motion, bearing.first, first.arm, -direction, found)
     # the direction turns with the first body
-    _add_turn(motion, bearing.first, np.cross(direction, second.position - first.position), found)
+    _add_turn(motion, bearing.first, cross(direction, second.position - first.position), found)
 
 
 def direction_of(motion: SpatialMotion, bearing: Bearing, kind: Kind) -> Series:
@@ -101,7 +106,7 @@ def _add_point(motion: SpatialMotion, body: str, arm: Series, direction: Series,
     if body != GROUND:
         i = 6 * motion.index(body)
         row[:, i : i + 3] += direction
-        row[:, i + 3 : i + 6] += np.cross(arm, direction)
+        row[:, i + 3 : i + 6] += cross(arm, direction)
 
 
 def _add_turn(motion: SpatialMotion, body: str, direction: Series, row: Series) -> None:

@@ -15,7 +15,7 @@ import numpy as np
 from support_exudyn.machine import GROUND
 from support_exudyn.spatial.constraints import Row, frame_of, matrix
 from support_exudyn.spatial.layout import SpatialBody, SpatialLinkage
-from support_exudyn.spatial.motion import SpatialMotion
+from support_exudyn.spatial.motion import SpatialMotion, cross
 from support_exudyn.spatial.sections import End
 from support_exudyn.trajectory import Series
 from user_forces.values import Vector3
@@ -87,5 +87,5 @@ class SpatialKinetics:
                 i = 6 * self.motion.index(end.body)
                 arm = self.motion.point(end.body, end.point).arm[0]
                 found[i : i + 3] += sign * direction
-                found[i + 3 : i + 6] += sign * np.cross(arm, direction)
+                found[i + 3 : i + 6] += sign * cross(arm, direction)
         return found

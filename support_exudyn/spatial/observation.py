@@ -14,7 +14,7 @@ from support_exudyn.pins import ClearancePin
 from support_exudyn.recorder import History
 from support_exudyn.spatial.constraints import Row, direction_of
 from support_exudyn.spatial.kinetics import inertias, weight
-from support_exudyn.spatial.motion import SpatialMotion, motion_of
+from support_exudyn.spatial.motion import SpatialMotion, cross, motion_of
 from support_exudyn.spatial.reactions import inertia_forces, reactions
 from support_exudyn.spatial.scene import SpatialScene
 from support_exudyn.spatial.section_pin import SectionPin
@@ -140,7 +140,7 @@ class Observation:
         n = self.motion.index(body)
         centre = np.array(self.scene.linkage.bodies[body].centre) + self.motion.displacement[:, n]
         left[:, n, :3] -= force
-        left[:, n, 3:] -= np.cross(point - centre, force)
+        left[:, n, 3:] -= cross(point - centre, force)
 
     def column_force(self, name: str) -> Series:
         """Force that pushes a column's ends apart (n,) [N]."""
@@ -158,7 +158,7 @@ class Observation:
         sign = 1.0 if name in self.sections and self.scene.ends_of(name)[1].body == bearing.second else -1.0
         for section in self.sections.get(name, ()):
             force += sign * section.force
-            moment += np.cross(section.point - middle, sign * section.force)
+            moment += cross(section.point - middle, sign * section.force)
         return force, moment
 
     def _is_held(self, name: str) -> bool:

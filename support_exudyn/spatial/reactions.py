@@ -17,7 +17,7 @@ import numpy as np
 
 from support_exudyn.spatial.constraints import Row, matrix
 from support_exudyn.spatial.kinetics import inertias
-from support_exudyn.spatial.motion import SpatialMotion
+from support_exudyn.spatial.motion import SpatialMotion, cross
 from support_exudyn.trajectory import Series
 
 # The rows repeat each other, so C C^T has no inverse. A small share of its size is added to its diagonal, and
@@ -31,7 +31,7 @@ def inertia_forces(motion: SpatialMotion) -> Series:
     mass = np.array([body.mass for body in motion.linkage.bodies.values()])
     inertia = inertias(motion)
     momentum = np.einsum("nbij,nbj->nbi", inertia, motion.spin)
-    moment = np.einsum("nbij,nbj->nbi", inertia, motion.spin_rate) + np.cross(motion.spin, momentum)
+    moment = np.einsum("nbij,nbj->nbi", inertia, motion.spin_rate) + cross(motion.spin, momentum)
     return np.concatenate([mass[:, None] * motion.acceleration, moment], axis=-1)
 
 

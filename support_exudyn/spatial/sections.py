@@ -18,7 +18,7 @@ from support_exudyn.attachment import Attachment
 from support_exudyn.machine import GROUND
 from support_exudyn.spatial.constraints import frame_of
 from support_exudyn.spatial.layout import Bearing
-from support_exudyn.spatial.motion import SpatialMotion
+from support_exudyn.spatial.motion import SpatialMotion, cross
 from support_exudyn.trajectory import Series
 from user_forces.values import Vector3
 
@@ -121,7 +121,7 @@ def section_motion(
         bore_shift, journal_shift = (1.0 - share) * apart * along, -share * apart * own
         centre = centre + journal_shift
         displacement = displacement + journal_shift - bore_shift
-        velocity = velocity + np.cross(journal_spin, journal_shift) - np.cross(bore_spin, bore_shift)
+        velocity = velocity + cross(journal_spin, journal_shift) - cross(bore_spin, bore_shift)
     spins = spin, spin + np.einsum("ni,ni->n", journal_spin - bore_spin, axes[:, :, 2])
     x, y, z = np.einsum("nji,nj->in", axes, displacement)
     vx, vy, vz = np.einsum("nji,nj->in", axes, velocity)

@@ -222,7 +222,7 @@ def test_the_tail_beam_keeps_its_second_moments() -> None:
 def test_axes_of_a_bearing_are_orthonormal(v: tuple[float, float, float]) -> None:
     size = math.hypot(*v)
     assume(size > 1e-3)
-    frame = frame_of(np.array(v) / size)
+    frame = frame_of(tuple((np.array(v) / size).tolist()))
     np.testing.assert_allclose(frame.T @ frame, np.eye(3), atol=1e-14)  # rounding
     assert np.linalg.det(frame) == pytest.approx(1.0)
     np.testing.assert_allclose(frame[:, 2], np.array(v) / size)
