@@ -115,15 +115,16 @@ def _looks(names: Sequence[str]) -> dict[str, tuple[str, str]]:
 
 
 def _dot(axes: Axes, times: float, change: Change, colour: str, marker: str) -> None:
-    width = 7.0 - 1.2 * MARKERS.index(marker)  # so that those behind can be seen
+    place = MARKERS.index(marker)
+    width, above = 7.0 - 1.2 * place, 3.0 + 0.1 * place  # so that those behind can be seen
     size = max(abs(change.value), SMALLEST)
     if change.below_error:
         height = max(change.error, SMALLEST)
-        axes.plot(times, height, marker, mfc="white", mec=colour, ms=width, zorder=3)
+        axes.plot(times, height, marker, mfc="white", mec=colour, ms=width, zorder=above)
         return
     below = min(change.error, 0.9 * size)
     axes.errorbar(
-        times, size, yerr=[[below], [change.error]], fmt=marker, color=colour, ms=width, lw=0.8, zorder=3
+        times, size, yerr=[[below], [change.error]], fmt=marker, color=colour, ms=width, lw=0.8, zorder=above
     )
 
 
