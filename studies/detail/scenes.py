@@ -27,7 +27,7 @@ REAR = paper_machine.LOOSE_PIN
 TWO = (REAR, "front_base")
 APART = 0.01  # of the stroke: so much less on the left, so much more on the right
 SECTIONS = 9
-# The tolerance is a share of the forces at hand: under columns that pull and push with 370 kN against each other
+# The tolerance is a share of the forces at hand: under columns that push and pull each other with 370 kN
 # the default of 1e-8 hides 200 N of the pin's force; this takes a quarter to two fifths more iterations.
 NEWTON_TOLERANCE = 1e-10
 Group = Literal["added", "taken", "combined", "space", "unequal"]
