@@ -76,7 +76,7 @@ def stroke(quick: bool) -> Scenario:
     """The plainest scene: a dwell, then a stroke as steep as the paper's; quick: shorter and coarser."""
     drive, duration, step, steps = CubicStep(stroke=0.05, start=0.5, end=1.13), 1.2, 1e-3, 64
     if quick:
-        drive, duration, step, steps = CubicStep(stroke=0.0003, start=0.02, end=0.068), 0.07, 2e-3, 16
+        drive, duration, step, steps = CubicStep(stroke=0.0003, start=0.01, end=0.058), 0.06, 2e-3, 16
     return Scenario(
         machine=reference_support(),
         drive=drive,
