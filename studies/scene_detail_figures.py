@@ -125,7 +125,16 @@ def _dot(axes: Axes, times: float, change: Change, colour: str, marker: str) -> 
         return
     below = min(change.error, 0.9 * size)
     axes.errorbar(
-        times, size, yerr=[[below], [change.error]], fmt=marker, color=colour, ms=width, lw=0.8, zorder=above
+        times,
+        size,
+        yerr=[[below], [change.error]],
+        fmt=marker,
+        color=colour,
+        ms=width,
+        mec="white",  # apart from others of the same colour
+        mew=0.6,
+        lw=0.8,
+        zorder=above,
     )
 
 
