@@ -179,7 +179,9 @@ def _of_unequal(measured: Mapping[str, Measured]) -> str:
         f"front column with {both('largest_front_column_force', 1e-3, 'kN')}, and the rear pin with a moment "
         f"of {both('largest_moment', 1e-3, 'kN m')}: ideal pins hold the linkage straight, which a loose one "
         f"does not; the yaw is {brief(loose['largest_yaw'].value, loose['largest_yaw'].error)} deg with "
-        "clearance."
+        f"clearance. The pin's edges are pressed in by {1e3 * loose['largest_left_depth'].value:.2g} mm, and "
+        "where a column's force is negative its oil pulls: beyond what either law is made for, so that turns "
+        "are results and forces bounds."
     )
 
 
