@@ -27,6 +27,7 @@ SMALLEST_GOAL, LARGEST_GOAL = 1e-8, 0.1
 SMALLEST_TOLERANCE = 1e-13  # rounding
 LARGEST_STEP = 0.1  # [s]
 MOST_IMPACT_STEPS = 10000
+MOST_SECTIONS = 64
 ERROR_CONTROLLED = ("tree", "reduced")
 REFINED_TOLERANCE = 3  # power of the refinement by which the tolerance falls
 ALL_CHANNELS = ("*",)
@@ -82,7 +83,7 @@ class SolverSettings(Value):
     growth: Annotated[Real, Field(ge=1, le=64)] = 1.0
     tolerance: Annotated[Real, Field(ge=1e-13, le=1e-2)] = 1e-7
     backend: Literal["auto", "python", "symbolic", "compiled"] = "auto"
-    sections: Annotated[int, Field(ge=2, le=64)] = 5
+    sections: Annotated[int, Field(ge=2, le=MOST_SECTIONS)] = 5
 
     @model_validator(mode="after")
     def _fit_each_other(self) -> SolverSettings:
@@ -92,6 +93,10 @@ class SolverSettings(Value):
                 "integrator"
             )
         return self
+
+    def with_more_sections(self, factor: float) -> SolverSettings:
+        """Sections of loose pins so many times shorter, at most as many and at least as few as are allowed."""
+        return replace(self, sections=min(max(round(factor * (self.sections - 1)) + 1, 2), MOST_SECTIONS))
 
     def with_smaller_tolerance(self, factor: float) -> SolverSettings:
         """A tolerance factor^3 times smaller, at least the smallest that can be asked for."""
@@ -261,6 +266,8 @@ class Scenario(Value):
     def refined(self, factor: float = 2) -> Scenario:
         """The same run with all steps, also those of impacts, so many times shorter.
 
+        In space, sections of loose pins are so many times shorter, too.
+
         The difference between both runs is the numerical error that studies report. Where the formulation
         chooses its steps by a tolerance, that becomes factor^3 times smaller; where the scenario asks for an
         accuracy in place of settings, that becomes factor^2 times smaller.
@@ -274,6 +281,8 @@ class Scenario(Value):
         if self.formulation in ERROR_CONTROLLED:
             return replace(self, solver=self.solver.with_smaller_tolerance(factor))
         finer = replace(self.solver, impact_steps=round(factor * self.solver.impact_steps))
+        if self.dimensions == 3:
+            finer = finer.with_more_sections(factor)
         # steps never reach over a record
         step = min(self.step, self.record_period) / factor
         return replace(self, step=step, solver=finer)

@@ -204,7 +204,7 @@ def advice_sheet(tried: Table) -> Sheet:
                     f"{brief(item.here.value, item.here.error)} {item.here.unit}",
                     f"{brief(item.fullest.value, item.fullest.error)} {item.fullest.unit}",
                     f"{item.allowed:.3g}",
-                    f"{item.difference:.3g}" + (", by error" if item.by_error else ""),
+                    f"{item.difference:.3g}",
                 )
             )
     return Sheet(
@@ -222,6 +222,6 @@ def advice_sheet(tried: Table) -> Sheet:
         ),
         tuple(tuple(row) for row in rows),
         "; ".join(f"{question}: {asked.said}" for question, asked in QUESTIONS.items())
-        + ". By error: larger than allowed, but smaller than the numerical errors of both scenes.",
+        + ". Differences count with the numerical errors of both scenes added.",
         left=2,
     )

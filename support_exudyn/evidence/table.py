@@ -36,6 +36,13 @@ class Tried:
     seconds: float
     steps: int
 
+    @property
+    def elements(self) -> int:
+        """How many pins, columns and parts are other than plain, and whether start and dimensions are."""
+        entries = sum(len(entry) for entry in self.fields.values() if isinstance(entry, Mapping))
+        settled = self.fields.get("start", "concentric") != "concentric"
+        return entries + int(settled) + int(self.fields.get("dimensions", 2) != 2)
+
 
 @dataclass(frozen=True)
 class Table:

@@ -353,3 +353,12 @@ def test_ideal_bearings_have_to_fit_at_the_start() -> None:
         bearing = Bearing(first="ground", second="a", pin="p", **place)
         with pytest.raises(InputError, match=said):
             scenario(machine=InSpace(space=SpatialLinkage(bodies={"a": body}, bearings={"p": bearing})))
+
+
+def test_refining_in_space_refines_sections_too() -> None:
+    one = scenario()
+    assert one.refined().solver.sections == 9  # half as far apart: 4 gaps become 8
+    assert one.refined(4).solver.sections == 17
+    assert one.refined(19).solver.sections == 64  # the most there can be
+    assert one.refined(0.1).solver.sections == 2
+    assert scenario(dimensions=2).refined().solver.sections == one.solver.sections
