@@ -9,8 +9,8 @@
 The rule: of all scenes that the study `scene_detail` has tried, the cheapest whose answers differ from those of
 the fullest scene (in the plane; for unequal columns: in space) by no more than the question allows, the
 numerical errors of both added to the difference. Among scenes that cost the same within a tenth, the one with
-the fewest elements. It is applied to the table that the study has written, so that the advice is as good as that
-table: one machine, one stroke.
+the fewest elements. It is applied to the table that the study has written, so that the advice is as good as
+that table: one machine, one stroke.
 """
 
 from __future__ import annotations
