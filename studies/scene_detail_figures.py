@@ -78,7 +78,10 @@ def pictures() -> tuple[Picture, ...]:
 def change_figure(measured: Mapping[str, Measured]) -> Figure:
     """A dot for each element."""
     drawing = Figure(figsize=style.size(190, 175))
-    rows = {"added": "Added to the plainest scene", "taken": "Taken from the fullest scene"}
+    rows = {
+        "added": "Added to the plainest scene: size of the change against its cost",
+        "taken": "Taken from the fullest scene: size of the change against the cost of what is left",
+    }
     places = np.ravel(np.asarray(drawing.subfigures(2, 1)))
     for part, (group, title) in zip(places, rows.items(), strict=True):
         panels = part.subplots(1, len(PANELS))
