@@ -98,7 +98,7 @@ def chapter(measured: Mapping[str, Measured], tried: Table, quick: bool) -> Chap
             "pins of the linkage, columns of two bodies on oil, the tail beam a body of its own on a jack of "
             f"oil). All make the same stroke from a concentric start: {_drive(measured[PLAINEST].scene)}; peak "
             "acceleration as in the paper's rise. Means and spreads are of the records of the stroke.",
-            "Pins are damped by the depth that they are pressed to (`DepthSpeed`), not as the paper's law has "
+            "Pins are damped by the depth that they are pressed to (DepthSpeed), not as the paper's law has "
             "it by the last touch, whose chance decides how long a pin without friction goes on vibrating. "
             "Such a pin still bounces when the stroke begins: what clearance does from a settled start stands "
             "in the tables beside it. " + paper_machine.OIL_SAID,
