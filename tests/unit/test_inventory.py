@@ -12,10 +12,12 @@ from support_exudyn import (
     ClearancePin,
     CubicStep,
     Held,
+    IdealPin,
     ImpactStand,
     Linkage,
     Machine,
     OilColumn,
+    OwnBody,
     Scenario,
     SolverSettings,
     Steady,
@@ -23,11 +25,14 @@ from support_exudyn import (
     bore_area,
     ravn_slider_crank,
     reference_support,
+    two_body_columns,
 )
 from support_exudyn.inventory import Inventory, inventory
 from support_exudyn.machine import GROUND
+from support_exudyn.scene_builder import build
+from support_exudyn.spatial.scene_builder import build as build_in_space
 from tests.unit.cases import contact, support
-from user_forces import Frictionless
+from user_forces import Ambrosio, Frictionless
 
 SUPPORT = support()
 PINS = tuple(SUPPORT.linkage().pins)
@@ -215,3 +220,48 @@ def test_a_pin_freed_in_space_has_a_connector_for_each_section(number: int) -> N
     assert freed.objects - held.objects == more
     assert freed.constraints < held.constraints
     assert freed.coordinates == held.coordinates
+
+
+TAIL = {"tail_beam": OwnBody(jack=replace(OIL, bore_area=0.01))}
+RUBBING = {"front_base": IdealPin(friction=Ambrosio(sliding_coefficient=0.25), radius=0.05)}
+BODIES = ("RigidBody2D", "RigidBody")  # the engine's names
+LEVELS: dict[str, dict[str, Any]] = {
+    "ideal": {},
+    "no gravity": {"gravity": (0.0, 0.0)},
+    "loose": {"pins": ONE_LOOSE},
+    "all loose": {"pins": dict.fromkeys(PINS, loose())},
+    "oil": {"columns": dict.fromkeys(("front_column", "rear_column"), OIL)},
+    "two bodies": {"columns": two_body_columns()},
+    "two bodies on oil": {"columns": two_body_columns(OIL)},
+    "tail beam": {"parts": {"tail_beam": OwnBody()}},
+    "tail beam on oil": {"parts": TAIL},
+    "all": {"pins": dict.fromkeys(PINS, loose()), "columns": two_body_columns(OIL), "parts": TAIL},
+    "settled": {"pins": ONE_LOOSE, "start": "settled"},
+}
+IN_BOTH = [(name, dimensions) for name in LEVELS for dimensions in (2, 3)]
+
+
+@pytest.mark.parametrize(("name", "dimensions"), [*IN_BOTH, ("rubbing", 2)])
+def test_nothing_in_the_engine_is_left_unused(name: str, dimensions: int) -> None:
+    fields = LEVELS.get(name, {"pins": RUBBING})
+    one = scenario(machine=reference_support(), dimensions=dimensions, **fields)
+    scene: Any = build_in_space(one) if dimensions == 3 else build(one)
+    try:
+        mbs, data = scene.mbs, scene.mbs.systemData
+        objects = [mbs.GetObject(n) for n in range(data.NumberOfObjects())]
+        markers = [mbs.GetMarker(n) for n in range(data.NumberOfMarkers())]
+        loads = [mbs.GetLoad(n) for n in range(data.NumberOfLoads())]
+        used = {int(number) for item in objects for number in item.get("markerNumbers", ())}
+        used |= {int(load["markerNumber"]) for load in loads}
+        assert used == set(range(len(markers)))
+        nodes = {int(item["nodeNumber"]) for item in objects if item["objectType"] in BODIES}
+        nodes |= {int(marker["nodeNumber"]) for marker in markers if "nodeNumber" in marker}
+        assert nodes == set(range(data.NumberOfNodes()))
+        on = {int(marker["bodyNumber"]) for marker in markers if "bodyNumber" in marker}
+        bodies = {n for n, item in enumerate(objects) if "markerNumbers" not in item}
+        assert on == bodies if any(one.gravity) else on <= bodies
+        assert data.NumberOfSensors() == 0
+        acting = len(one.space.bodies if dimensions == 3 else one.linkage.bodies)
+        assert len(loads) == (acting if any(one.gravity) else 0)
+    finally:
+        scene.release()
