@@ -15,7 +15,6 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from support_exudyn.attachment import Attachment
-from support_exudyn.machine import GROUND
 from support_exudyn.spatial.constraints import frame_of
 from support_exudyn.spatial.layout import Bearing
 from support_exudyn.spatial.motion import SpatialMotion, cross
@@ -149,8 +148,3 @@ def half_way(axes: Series, along: Series) -> Series:
     )
     across = axes[:, :, :2] - np.einsum("ni,nk->nik", own + middle, share)
     return np.concatenate([across, middle[:, :, None]], axis=2)
-
-
-def is_fixed(end: End) -> bool:
-    """Whether it is on the ground."""
-    return end.body == GROUND
