@@ -18,6 +18,31 @@ INITIAL = exudyn.ConfigurationType.Initial
 CURRENT = exudyn.ConfigurationType.Current
 
 
+class InEngine:
+    """What every model in the engine can do.
+
+    container: owns the system, and must live as long as it. mbs: the system. driven: all columns and cranks, by
+    the drive that they follow.
+    """
+
+    container: Any
+    mbs: Any
+    driven: tuple[DrivenParts, ...]
+
+    def release(self) -> None:
+        """Let go of the engine's model: what its user functions know would never be freed."""
+        mbs: Any = self.mbs
+        mbs.SetPreStepUserFunction(0)
+        mbs.SetPostNewtonUserFunction(0)
+        mbs.SetPostStepUserFunction(0)
+        self.container.Reset()
+
+    def drive_to(self, t: float) -> None:
+        """Set every column and crank to where its drive has it at time t [s]."""
+        for parts in self.driven:
+            parts.move_to(t)
+
+
 class Massive(Protocol):
     """A body that has a mass."""
 
@@ -71,6 +96,9 @@ class EngineScene(Protocol):
 
     def drive_to(self, t: float) -> None:
         """Set every column and crank to where its drive has it at time t [s]."""
+
+    def release(self) -> None:
+        """Let go of the engine's model."""
 
     def jump(self, time: float) -> Impulse | None:
         """Give the bodies the velocities that belong to drives whose speed has jumped at a break [s]."""

@@ -5,11 +5,15 @@ It covers every scenario and is the reference for the others.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import TypeVar
+
 import numpy as np
 
 from support_exudyn.body_motion import BodyMotion
 from support_exudyn.channels import needs
 from support_exudyn.contact_series import contact_series
+from support_exudyn.engine_scene import EngineScene
 from support_exudyn.joint_forces import JointForces
 from support_exudyn.oil import oil_series
 from support_exudyn.progress import Progress
@@ -20,9 +24,12 @@ from support_exudyn.scene import Scene
 from support_exudyn.scene_builder import build
 from support_exudyn.settle import settle
 from support_exudyn.solver import Run
-from support_exudyn.spatial.run import run as run_in_space
+from support_exudyn.spatial.outcome import outcome as outcome_in_space
+from support_exudyn.spatial.scene_builder import build as build_in_space
 from support_exudyn.trajectory import Outcome, Series, Trajectory
 from user_forces.values import InputError
+
+AnyScene = TypeVar("AnyScene", bound=EngineScene)
 
 
 def check(scenario: Scenario) -> None:
@@ -52,12 +59,15 @@ def check(scenario: Scenario) -> None:
 def run(scenario: Scenario, progress: Progress) -> Outcome:
     """Run a scenario. Raises SimulationError if it cannot be finished."""
     if scenario.dimensions == 3:
-        return run_in_space(scenario, progress)
-    scene = build(scenario)
+        return _run(build_in_space(scenario), progress, outcome_in_space)
+    return _run(build(scenario), progress, _outcome)
+
+
+def _run(scene: AnyScene, progress: Progress, outcome: Callable[[AnyScene, Progress], Outcome]) -> Outcome:
     try:
-        if scenario.start == "settled":
+        if scene.scenario.start == "settled":
             settle(scene)
-        return _outcome(scene, progress)
+        return outcome(scene, progress)
     finally:
         scene.release()
 

@@ -11,7 +11,7 @@ import exudyn
 import numpy as np
 
 from support_exudyn.driven_parts import DrivenParts, OilColumnItem
-from support_exudyn.engine_scene import CURRENT, INITIAL
+from support_exudyn.engine_scene import CURRENT, INITIAL, InEngine
 from support_exudyn.impulse import Impulse
 from support_exudyn.kinetics import Kinetics, Matrix
 from support_exudyn.loose_pin import LoosePin
@@ -28,7 +28,7 @@ FRICTION_ROUNDS = 4  # each with an error smaller by the coefficient of friction
 
 
 @dataclass(frozen=True)
-class Scene:
+class Scene(InEngine):
     """The model of one scenario, assembled and ready for the solver."""
 
     scenario: Scenario
@@ -44,19 +44,6 @@ class Scene:
     cranks: dict[str, CrankItem]
     slides: dict[str, SlideItem]
     driven: tuple[DrivenParts, ...]  # all columns and cranks, by the drive that they follow
-
-    def release(self) -> None:
-        """Let go of the engine's model: what its user functions know would never be freed."""
-        mbs: Any = self.mbs
-        mbs.SetPreStepUserFunction(0)
-        mbs.SetPostNewtonUserFunction(0)
-        mbs.SetPostStepUserFunction(0)
-        self.container.Reset()
-
-    def drive_to(self, t: float) -> None:
-        """Set every column and crank to where its drive has it at time t [s]."""
-        for parts in self.driven:
-            parts.move_to(t)
 
     @cached_property
     def kinetics(self) -> Kinetics:

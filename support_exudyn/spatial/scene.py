@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from support_exudyn.driven_parts import DrivenParts, OilColumnItem
-from support_exudyn.engine_scene import CURRENT, INITIAL
+from support_exudyn.engine_scene import CURRENT, INITIAL, InEngine
 from support_exudyn.impulse import Impulse
 from support_exudyn.onset import Mobility, PinMemory
 from support_exudyn.pin_friction import PinFriction
@@ -38,7 +38,7 @@ class BodyItem:
 
 
 @dataclass(frozen=True)
-class SpatialScene:
+class SpatialScene(InEngine):
     """The model of one scenario in space, assembled and ready for the solver.
 
     rows: the constraints that are in the model. all_rows: those and the ones that repeat them.
@@ -57,19 +57,6 @@ class SpatialScene:
     oil_columns: dict[str, OilColumnItem]
     driven: tuple[DrivenParts, ...]  # all columns, by the drive that they follow
     frictions: dict[str, PinFriction] = field(default_factory=dict)  # of ideal pins: not covered
-
-    def release(self) -> None:
-        """Let go of the engine's model: what its user functions know would never be freed."""
-        mbs: Any = self.mbs
-        mbs.SetPreStepUserFunction(0)
-        mbs.SetPostNewtonUserFunction(0)
-        mbs.SetPostStepUserFunction(0)
-        self.container.Reset()
-
-    def drive_to(self, t: float) -> None:
-        """Set every column to where its drive has it at time t [s]."""
-        for parts in self.driven:
-            parts.move_to(t)
 
     @property
     def gravity(self) -> Vector3:

@@ -1,33 +1,20 @@
-"""Runs in space: the same solver as in the plane on another model."""
+"""A run in space: the same solver as in the plane on another model."""
 
 from __future__ import annotations
 
 from support_exudyn.channels import needs
 from support_exudyn.progress import Progress
 from support_exudyn.recorder import Recorder
-from support_exudyn.scenario import Scenario
-from support_exudyn.settle import settle
 from support_exudyn.solver import Run
 from support_exudyn.spatial.observation import Observation
 from support_exudyn.spatial.scene import SpatialScene
-from support_exudyn.spatial.scene_builder import build
 from support_exudyn.trajectory import Outcome
 
 EDGES = {"left": 0, "right": -1}
 
 
-def run(scenario: Scenario, progress: Progress) -> Outcome:
-    """Run a scenario in space. Raises SimulationError if it cannot be finished."""
-    scene = build(scenario)
-    try:
-        if scenario.start == "settled":
-            settle(scene)
-        return _outcome(scene, progress)
-    finally:
-        scene.release()
-
-
-def _outcome(scene: SpatialScene, progress: Progress) -> Outcome:
+def outcome(scene: SpatialScene, progress: Progress) -> Outcome:
+    """Run a model in space. Raises SimulationError if it cannot be finished."""
     recorder = Recorder(scene, needs(scene.scenario))
     solving = Run(scene, recorder, progress)
     counts = solving.go()
