@@ -225,11 +225,14 @@ class Scenario(Value):
     def _check_pairs(self, space: SpatialLinkage) -> None:
         """Rigid columns of a pair cannot be driven apart: what they stand under is rigid, too."""
         for name, column in space.columns.items():
-            if column.column not in self.oil_columns and self.drive_of(name) != self.drive_of(column.column):
-                raise ValueError(
-                    f"drives.{name}: is not the drive of {column.column}, and a rigid column; allowed for one "
-                    "of a pair of rigid columns: the drive of both, or columns of oil"
-                )
+            if column.column in self.oil_columns:
+                continue
+            for other in space.parts_of_column(column.column):
+                if self.drive_of(other) != self.drive_of(name):
+                    raise ValueError(
+                        f"drives.{name}: is not the drive of {other}, and both are rigid; "
+                        "allowed for a pair of rigid columns: one drive, or columns of oil"
+                    )
 
     def _check_columns(self, linkage: Linkage) -> None:
         driven = [name for name, column in linkage.columns.items() if column.driven]
@@ -238,7 +241,8 @@ class Scenario(Value):
                 raise ValueError(
                     f"columns.{name}: the machine has no such column; allowed: {', '.join(driven) or 'none'}"
                 )
-            column.check_extension(self.drive_of(name).span(self.duration)[0], name)
+            for one in self.space.parts_of_column(name) if self.dimensions == 3 else (name,):
+                column.check_extension(self.drive_of(one).span(self.duration)[0], one)
 
     def _check_drives(self, linkage: Linkage) -> None:
         allowed = tuple(dict.fromkeys((*linkage.driven, *self.driven)))

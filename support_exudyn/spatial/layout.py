@@ -165,6 +165,10 @@ class SpatialLinkage(Value):
                 )
         return self
 
+    def parts_of_column(self, column: str) -> tuple[str, ...]:
+        """Names of the columns that make up a planar one."""
+        return tuple(name for name, one in self.columns.items() if one.column == column)
+
     def parts_of_pin(self, pin: str) -> dict[str, Bearing]:
         """The bearings that make up a planar pin, by name."""
         return {name: bearing for name, bearing in self.bearings.items() if bearing.pin == pin}

@@ -6,7 +6,7 @@ each, and under the planar name the force of both, and the mean of lengths and a
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Iterable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -33,14 +33,14 @@ def recipes(linkage: SpatialLinkage, loose: Collection[str], oil: Collection[str
     for name, column in linkage.columns.items():
         found |= _of_column(name, column.column in oil)
     for whole in dict.fromkeys(column.column for column in linkage.columns.values()):
-        parts = [name for name, column in linkage.columns.items() if column.column == whole]
-        if parts != [whole]:
+        parts = linkage.parts_of_column(whole)
+        if parts != (whole,):
             found |= _of_pair(whole, parts, found)
     for name, bearing in linkage.bearings.items():
         found |= _of_guide(name) if bearing.is_guide else _of_bearing(name, bearing.pin in loose)
     for pin in dict.fromkeys(b.pin for b in linkage.bearings.values() if not b.is_guide):
-        parts = list(linkage.parts_of_pin(pin))
-        if parts != [pin]:
+        parts = tuple(linkage.parts_of_pin(pin))
+        if parts != (pin,):
             found |= _forces(f"pin.{pin}", REACTION, _sum_of_bearings(parts))
     return found | _of_energy()
 
@@ -132,7 +132,7 @@ def _of_column(name: str, oil: bool) -> Recipes:
     }
 
 
-def _of_pair(whole: str, parts: list[str], known: Recipes) -> Recipes:
+def _of_pair(whole: str, parts: Iterable[str], known: Recipes) -> Recipes:
     """Of a pair of columns, from the channels of each."""
 
     def together(what: str, unite: Callable[..., Series], said: str) -> Recipes:
@@ -153,7 +153,7 @@ def _of_pair(whole: str, parts: list[str], known: Recipes) -> Recipes:
     )
 
 
-def _sum_of_bearings(parts: list[str]) -> Callable[[Observation], Series]:
+def _sum_of_bearings(parts: Iterable[str]) -> Callable[[Observation], Series]:
     def force(seen: Observation) -> Series:
         return np.asarray(np.sum([seen.loads[part][0] for part in parts], axis=0))
 

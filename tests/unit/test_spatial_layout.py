@@ -17,6 +17,7 @@ from support_exudyn import (
     Crank,
     Held,
     Linkage,
+    OilColumn,
     OwnBody,
     Part,
     Scenario,
@@ -108,6 +109,19 @@ def test_a_plate_has_the_inertia_of_a_plate() -> None:
     body = lift(linkage, Width(spreads={"a": b / math.sqrt(12.0)})).bodies["a"]
     # m b^2/12 about x, m (a^2 + b^2)/12 about y, m a^2/12 about z
     assert body.inertia[:3] == pytest.approx((m * b**2 / 12, m * (a**2 + b**2) / 12, m * a**2 / 12), rel=1e-14)
+
+
+@pytest.mark.parametrize("degrees", [20.0, 75.0, 140.0])
+def test_a_slanted_bar_resists_turning_about_its_own_line_by_its_width_alone(degrees: float) -> None:
+    angle, m, spread = math.radians(degrees), 6.0, 0.2
+    along = np.array([math.cos(angle), math.sin(angle), 0.0])
+    slanted = bar(m, (0.0, 0.0), (0.7 * along[0], 0.7 * along[1]))
+    linkage = Linkage(
+        bodies={"a": Body(mass=m, inertia=slanted.inertia, centre=slanted.centre, moments=slanted.moments)}
+    )
+    found = tensor(lift(linkage, Width(spreads={"a": spread})).bodies["a"]) @ along
+    # its line is a principal axis, whichever way it slants: rounding
+    np.testing.assert_allclose(found, m * spread**2 * along, atol=1e-15)
 
 
 @pytest.mark.parametrize(
@@ -307,7 +321,7 @@ def scenario(**changes: object) -> Scenario:
         ({"formulation": "reduced"}, "formulation = 'reduced': is planar"),
         (
             {"drives": {"front_column_left": CubicStep(start=0.1, end=0.5, stroke=0.01)}},
-            "allowed for one of a pair",
+            "drives.front_column_left: is not the drive of front_column_right, .*allowed for a pair of rigid",
         ),
         ({"drives": {"front_column_middle": Held()}}, "no such driven part; allowed: .*front_column_left"),
         ({"columns": {"front_column_left": two_body_columns()["front_column"]}}, "no such column"),
@@ -362,3 +376,17 @@ def test_refining_in_space_refines_sections_too() -> None:
     assert one.refined(19).solver.sections == 64  # the most there can be
     assert one.refined(0.1).solver.sections == 2
     assert scenario(dimensions=2).refined().solver.sections == one.solver.sections
+
+
+def test_rigid_columns_of_a_pair_may_have_a_drive_of_their_own_if_it_is_one() -> None:
+    drive = CubicStep(start=0.1, end=0.5, stroke=0.01)
+    both = scenario(drives={"front_column_left": drive, "front_column_right": drive})
+    assert both.drive_of("front_column_left") == drive
+    assert both.drive_of("rear_column_left") == Held()
+
+
+def test_oil_of_each_column_of_a_pair_has_to_reach() -> None:
+    oil = OilColumn(bore_area=0.1, oil_length=0.02, bulk_modulus=1.5e9)
+    lowered = {"front_column_right": CubicStep(start=0.1, end=0.5, stroke=-0.03)}
+    with pytest.raises(InputError, match=r"columns\.front_column_right\.oil_length = 0\.02 m"):
+        scenario(columns={"front_column": oil}, drives=lowered)
