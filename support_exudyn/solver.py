@@ -40,6 +40,9 @@ BREAK_REFINEMENT = 32
 # The engine computes a new Jacobian at the start of every stretch of steps. Where Python is called in each of
 # them for columns and energies, stretches are worth that if they are longer than so many.
 FEW_STEPS = 5
+# After a step that Newton's method could only solve shortened, so many steps of that length before a longer one
+# is tried: with friction that is steep against the step nearly every longer one would fail again.
+STEPS_TO_GROW = 8
 ADVICE = (
     "Try a smaller step; if that does not help, look whether the posture is near a dead centre "
     "or a contact is far stiffer than the masses beside it allow."
@@ -69,6 +72,9 @@ class Run:
         self.steps = self.cut_steps = self.failed_newton = 0
         self.trying = False  # a step has been tried and not accepted yet
         self.repeated = False  # that step is tried again, shorter
+        self.failed = False  # because Newton's method did not converge
+        self.solvable = math.inf  # length of step that has been found to converge where a longer one did not [s]
+        self.solved = 0  # steps of that length in a row
         # whether anything of the model has to follow a drive, and whether Python has to see every step
         self.follows = any(parts.moves(scenario.duration) for parts in scene.driven)
         self.watches = bool(self.pins or self.frictions) or self.smooth is not None
@@ -163,6 +169,7 @@ class Run:
                 self.cut_steps += 1
             else:
                 self.failed_newton += 1
+                self.failed = True
         self.trying = True
         self.scene.drive_to(t)
         if self.pins:
@@ -201,6 +208,7 @@ class Run:
         if self.trying:
             self.trying = False
             self.steps += 1
+            self._look_for_solvability(t - self.time)
             for pin in self.pins:
                 kink = kink or pin.onset is not None
                 pin.accept()
@@ -226,6 +234,17 @@ class Run:
         if breaking is not None:
             self._jump(breaking)
 
+    def _look_for_solvability(self, taken: float) -> None:
+        """A step of this length [s] has been solved: how long may the next one be for Newton's method?"""
+        if self.failed:
+            self.solvable, self.solved, self.failed = taken, 0, False
+        elif self.solvable < math.inf:
+            self.solved += 1
+            if self.solved >= STEPS_TO_GROW:
+                self.solvable, self.solved = 2.0 * self.solvable, 0
+                if self.solvable > self.plan.step:
+                    self.solvable = math.inf
+
     def _look_for_smoothness(self, t: float, smooth: SmoothSteps) -> None:
         """A step has ended at t: may the next be longer? And the records that it has passed over."""
         for passed in self.plan.records_between(self.time, t):
@@ -250,7 +269,7 @@ class Run:
 
     def _next_time(self, t: float) -> float:
         """Where the step that starts at t is to end: on the grid, or at an impact seen coming [s]."""
-        largest = math.inf
+        largest = self.solvable
         for pin in self.pins:
             largest = min(largest, pin.impact.step)
         if self.locates and self.plan.follows_break(t):
