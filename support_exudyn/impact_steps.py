@@ -50,6 +50,11 @@ class ImpactSteps:
         """Largest length of the next step [s]; infinite if there is no impact."""
         return math.ldexp(self._length, -self._halvings)
 
+    @property
+    def begins_with_a_jump(self) -> bool:
+        """Whether the force has jumped at a touch just now, so that steps are shorter than those of the impact."""
+        return self._halvings > 0
+
     def length(self, speed: float, mass: float) -> float:
         """Length of the steps in an impact of this speed [m/s] and mass [kg], [s]."""
         return self._law.impact_time(Touch(speed, mass)) / self._number

@@ -155,9 +155,12 @@ class LoosePin:
             self._turn -= self._guessed_turn
             self._guessed_turn = 0.0
 
-    def accept(self) -> None:
-        """After a step has been accepted: keep what happened in it."""
+    def accept(self, t: float) -> None:
+        """After a step that ends at t [s] has been accepted: keep what happened in it."""
+        was_in_contact = self.kept.in_contact
         self.kept = reached = self.reached
+        if was_in_contact and not reached.in_contact and self.onsets:
+            self.onsets[-1] = self.onsets[-1].parted(t, -reached.rate)
         if self.at is Attachment.MIDDLE:
             self._turn, self._turn_rate = self._tried_turn
             if self._step > 0.0:

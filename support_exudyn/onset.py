@@ -93,7 +93,7 @@ class PinMemory(NamedTuple):
 
 
 class Onset(NamedTuple):
-    """The beginning of a contact.
+    """The beginning of a contact, and how it ended.
 
     If it is not located (`judge_at_ends`): time at which the straight line between the depths at both ends of
     the step passes zero, speed at the end of the step.
@@ -101,6 +101,14 @@ class Onset(NamedTuple):
 
     time: float  # [s]
     speed: float  # of approach at zero depth [m/s]
+    parting_time: float = (
+        math.inf
+    )  # [s]; infinite: the surfaces have not parted before the end or the next touch
+    parting_speed: float = 0.0  # at which they leave each other at zero depth [m/s]
+
+    def parted(self, time: float, speed: float) -> Onset:
+        """The same contact, which has ended at a time [s] at this speed [m/s]."""
+        return self._replace(parting_time=time, parting_speed=max(0.0, speed))
 
 
 class Action(Enum):

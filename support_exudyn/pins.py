@@ -9,7 +9,7 @@ from pydantic import model_validator
 
 from user_forces.contact import JournalContact
 from user_forces.friction.law import FrictionLaw
-from user_forces.values import Positive, Value, value
+from user_forces.values import Positive, Value, Vector2, value
 
 
 class Pin(Value, ABC):
@@ -58,10 +58,19 @@ class ClearancePin(Pin):
     Arguments:
         contact: bearing, normal law and friction law.
         bore: which of the two bodies of the pin's place carries the bore.
+        eccentricity: of the journal's centre from the bore's at the start [m], forward and up; up to the clearance
+            it is free, beyond it is pressed in. The bodies are laid out for it, see `eccentric`.
     """
 
     contact: JournalContact
     bore: Literal["first", "second"] = "first"
+    eccentricity: Vector2 = (0.0, 0.0)
+
+    @property
+    def offset(self) -> Vector2:
+        """The second body's point minus that of the first at the start [m]."""
+        x, y = self.eccentricity
+        return (x, y) if self.bore == "first" else (-x, -y)
 
     @property
     def is_ideal(self) -> bool:

@@ -23,7 +23,7 @@ from support_exudyn.onset import Onset
 from support_exudyn.scenario import Scenario
 from user_forces.values import InputError, Value
 
-FORMAT = "support_exudyn result 3"
+FORMAT = "support_exudyn result 4"
 
 
 @dataclass(frozen=True)
@@ -193,8 +193,8 @@ def _write(group: h5py.Group, result: Result) -> None:
         data.attrs["unit"] = channel.unit
         data.attrs["meaning"] = channel.meaning
     for name, onsets in result.onsets.items():
-        data = group.create_dataset(f"onsets/{name}", data=np.array(onsets).reshape(-1, 2))
-        data.attrs["columns"] = "time [s], approach speed [m/s]"
+        data = group.create_dataset(f"onsets/{name}", data=np.array(onsets).reshape(-1, 4))
+        data.attrs["columns"] = "time [s], approach speed [m/s], time of parting [s], speed of parting [m/s]"
         data.attrs["largest_force_N"] = result.largest_force[name]
     if result.coarser is not None:
         _write(group.create_group("coarser"), result.coarser)

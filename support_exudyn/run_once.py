@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import time
 
+from support_exudyn.audit import audit
 from support_exudyn.channels import channels
 from support_exudyn.collector import paused_collector
+from support_exudyn.errors import SimulationError
 from support_exudyn.formulations import formulation
 from support_exudyn.progress import Progress
 from support_exudyn.provenance import provenance
@@ -14,13 +16,19 @@ from support_exudyn.scenario import Scenario
 
 
 def run_once(scenario: Scenario, progress: Progress) -> Result:
-    """Run a scenario. Raises InputError if its formulation does not cover it, SimulationError if it fails."""
+    """Run a scenario.
+
+    Raises InputError if its formulation does not cover it, SimulationError if it fails, or if it has finished
+    but does not stand up to its `audit`.
+    """
     chosen = formulation(scenario.formulation)
     chosen.check(scenario)
     began = time.perf_counter()
     with paused_collector():
         outcome = chosen.run(scenario, progress)
         found = channels(scenario, outcome.trajectory)
+    if scenario.solver.audit and (failure := audit(scenario, outcome, found)) is not None:
+        raise SimulationError(failure)
     return Result(
         scenario=scenario,
         channels=found,

@@ -17,6 +17,7 @@ from typing import Any
 
 import exudyn
 
+from support_exudyn.audit import DEEPEST, SOFT, too_deep
 from support_exudyn.counts import Counts
 from support_exudyn.engine_scene import EngineScene
 from support_exudyn.engine_settings import SMALLEST_STEP, engine_settings, quiet_engine
@@ -43,9 +44,21 @@ FEW_STEPS = 5
 # After a step that Newton's method could only solve shortened, so many steps of that length before a longer one
 # is tried: with friction that is steep against the step nearly every longer one would fail again.
 STEPS_TO_GROW = 8
+# A step that has been shortened so often is tried with a new Jacobian in every iteration. (From the first failure
+# on, longer steps would converge across the whole ramp of friction, and energy would not add up.)
+FAILURES_OF_A_STEP = 3
+FAILURES_IN_A_ROW = 500
 ADVICE = (
     "Try a smaller step; if that does not help, look whether the posture is near a dead centre "
     "or a contact is far stiffer than the masses beside it allow."
+)
+STEEP = (
+    "Is friction far steeper than steps can follow (mass times the ramp from static to dynamic speed over the "
+    "friction force, against the step)? Widen the ramp, or take formulation = 'reduced', or a smaller step."
+)
+FEWER_STEPS = (
+    "Allow longer steps, fewer of them in an impact (`solver.impact_steps`), a shorter duration, or more steps in "
+    "all (`solver.most_steps`)."
 )
 
 
@@ -70,10 +83,14 @@ class Run:
         self.smooth = _smooth_steps(scene) if scenario.solver.growth > 1.0 else None
         self.time = 0.0  # end of the last accepted step
         self.steps = self.cut_steps = self.failed_newton = 0
+        self.most_steps = scenario.solver.most_steps
         self.trying = False  # a step has been tried and not accepted yet
         self.repeated = False  # that step is tried again, shorter
-        self.failed = False  # because Newton's method did not converge
-        self.solvable = math.inf  # length of step that has been found to converge where a longer one did not [s]
+        self.failures = 0  # how often, because Newton's method did not converge
+        self.failures_in_a_row = 0  # the same over all steps since one that needed no shortening
+        self.solvable = (
+            math.inf
+        )  # length of step that has been found to converge where a longer one did not [s]
         self.solved = 0  # steps of that length in a row
         # whether anything of the model has to follow a drive, and whether Python has to see every step
         self.follows = any(parts.moves(scenario.duration) for parts in scene.driven)
@@ -169,7 +186,10 @@ class Run:
                 self.cut_steps += 1
             else:
                 self.failed_newton += 1
-                self.failed = True
+                self.failures += 1
+                self.failures_in_a_row += 1
+                if self.failures == FAILURES_OF_A_STEP:
+                    self.solver.newton.useModifiedNewton = False
         self.trying = True
         self.scene.drive_to(t)
         if self.pins:
@@ -209,9 +229,10 @@ class Run:
             self.trying = False
             self.steps += 1
             self._look_for_solvability(t - self.time)
+            self._look_for_limits()
             for pin in self.pins:
                 kink = kink or pin.onset is not None
-                pin.accept()
+                pin.accept(t)
         self.recorder.after_step(t, kink)
         for friction in self.frictions:
             friction.accept()
@@ -234,11 +255,31 @@ class Run:
         if breaking is not None:
             self._jump(breaking)
 
+    def _look_for_limits(self) -> None:
+        """Raise SimulationError if a journal is too deep in its bore, or there have been too many steps."""
+        if self.steps + self.cut_steps + self.failed_newton > self.most_steps:
+            raise SimulationError(self._failure(f"more than {self.most_steps} steps", FEWER_STEPS))
+        if not self.scene.scenario.solver.audit:
+            return
+        for name, pin in self.scene.loose_pins.items():
+            bearing = pin.contact.bearing
+            if pin.reached.depth > DEEPEST * bearing.bore_radius:
+                raise SimulationError(self._failure(too_deep(name, pin.reached.depth, bearing), SOFT))
+
     def _look_for_solvability(self, taken: float) -> None:
         """A step of this length [s] has been solved: how long may the next one be for Newton's method?"""
-        if self.failed:
-            self.solvable, self.solved, self.failed = taken, 0, False
+        if self.failures_in_a_row > FAILURES_IN_A_ROW:
+            reason = f"Newton's method has not converged {self.failures_in_a_row} times in a row of steps"
+            raise SimulationError(self._failure(reason, STEEP))
+        if self.failures:
+            if self.failures >= FAILURES_OF_A_STEP:
+                self.solver.newton.useModifiedNewton = self.scene.scenario.solver.newton == "modified"
+            self.failures = 0
+            # where a force jumps at a touch steps are tiny already, and shorter ones meet rounding
+            if not any(pin.impact.begins_with_a_jump for pin in self.pins):
+                self.solvable, self.solved = taken, 0
         elif self.solvable < math.inf:
+            self.failures_in_a_row = 0
             self.solved += 1
             if self.solved >= STEPS_TO_GROW:
                 self.solvable, self.solved = 2.0 * self.solvable, 0

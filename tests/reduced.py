@@ -8,13 +8,18 @@ import numpy as np
 
 from support_exudyn import Result, Scenario, simulate
 from support_exudyn.progress import Progress, silent
+from support_exudyn.scenario import MOST_STEPS
 
 
 def simulate_reduced(
-    scenario: Scenario, tolerance: float = 1e-7, backend: str = "auto", progress: Progress = silent
+    scenario: Scenario,
+    tolerance: float = 1e-7,
+    backend: str = "auto",
+    progress: Progress = silent,
+    most_steps: int = MOST_STEPS,
 ) -> Result:
     """Run a scenario in its free coordinates."""
-    solver = replace(scenario.solver, tolerance=tolerance, backend=backend)
+    solver = replace(scenario.solver, tolerance=tolerance, backend=backend, most_steps=most_steps)
     return simulate(replace(scenario, formulation="reduced", solver=solver), progress=progress)
 
 

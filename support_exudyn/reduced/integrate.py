@@ -143,14 +143,15 @@ def happen(what: int, t: float, rate: float, memory: Vector, onsets: Matrix, rep
     """Change the memory as an event at t [s] at a rate of depth [m/s] does; whether there is room for it."""
     if what in (PARTING, RETURN):
         memory[TOUCH_SPEED] = 0.0
+    n = int(report[TOUCHES])
     if what == PARTING:
         memory[TOUCHING] = 0.0
+        onsets[n - 1, 2], onsets[n - 1, 3] = t, max(0.0, -rate)
     elif what == TOUCH:
-        n = int(report[TOUCHES])
         if n >= onsets.shape[0]:
             return False
         memory[TOUCHING], memory[TOUCH_SPEED] = 1.0, max(0.0, rate)
-        onsets[n, 0], onsets[n, 1] = t, memory[TOUCH_SPEED]
+        onsets[n, 0], onsets[n, 1], onsets[n, 2], onsets[n, 3] = t, memory[TOUCH_SPEED], math.inf, 0.0
         report[TOUCHES] += 1
     return True
 

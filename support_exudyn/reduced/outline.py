@@ -16,7 +16,6 @@ from support_exudyn.reduced.parameters import error_weights, parameters, segment
 from support_exudyn.scenario import Scenario
 from support_exudyn.steps import record_times
 
-MOST_STEPS = 5_000_000
 MOST_TOUCHES = 100_000
 
 
@@ -61,7 +60,7 @@ def outline(scenario: Scenario) -> Outline:
         y=y,
         memory=np.zeros(layout.MEMORY),
         rows=np.zeros((layout.ROWS, times.size)),
-        onsets=np.empty((MOST_TOUCHES if pin else 0, 2)),
+        onsets=np.empty((MOST_TOUCHES if pin else 0, 4)),
         jumps=np.zeros((len(drive), layout.JUMP_ROW)),
         report=np.zeros(REPORT),
     )

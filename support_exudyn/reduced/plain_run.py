@@ -51,7 +51,7 @@ from support_exudyn.reduced.integrate import (
 )
 from support_exudyn.reduced.jump import jump
 from support_exudyn.reduced.law_contact import LawContact
-from support_exudyn.reduced.outline import MOST_STEPS, Outline
+from support_exudyn.reduced.outline import Outline
 from support_exudyn.reduced.plain_records import PlainRecords
 from support_exudyn.reduced.records import peak, size
 from user_forces.normal.law import LoadError
@@ -103,9 +103,10 @@ def _within(path: Path, x: float, out: State) -> None:
 class PlainRun:
     """One run; what `integrate` does compiled."""
 
-    def __init__(self, made: Outline, progress: Progress) -> None:
+    def __init__(self, made: Outline, most_steps: int, progress: Progress) -> None:
         assert made.pin is not None
         self.made, self.report = made, made.report
+        self.most_steps = most_steps
         self.progress = progress
         self.force = LawContact(made.pin.contact)
         self.p: State = made.p.tolist()
@@ -200,7 +201,7 @@ class PlainRun:
         report = self.report
         report[STEPS] += 1
         report[STOPPED_AT], report[LAST_STEP] = solver.t, solver.h_abs
-        if report[STEPS] > MOST_STEPS:
+        if report[STEPS] > self.most_steps:
             self.code = TOO_MANY_STEPS
             return False
         try:
@@ -291,9 +292,9 @@ def _no_power(*unused: object) -> float:
     return 0.0
 
 
-def run_plain(made: Outline, progress: Progress) -> tuple[int, int]:
+def run_plain(made: Outline, most_steps: int, progress: Progress) -> tuple[int, int]:
     """Run; FINISHED or why not, and how often the law was asked."""
-    run = PlainRun(made, progress)
+    run = PlainRun(made, most_steps, progress)
     try:
         return run.go(), run.force.calls
     except LoadError as error:

@@ -31,13 +31,14 @@ from support_exudyn.reduced.integrate import (
     TOUCHES,
     integrate,
 )
-from support_exudyn.reduced.outline import MOST_STEPS, MOST_TOUCHES, Outline, outline
+from support_exudyn.reduced.outline import MOST_TOUCHES, Outline, outline
 from support_exudyn.reduced.plain_run import run_plain
 from support_exudyn.reduced.trajectory import trajectory
 from support_exudyn.scenario import Scenario
 from support_exudyn.trajectory import Outcome
 
 FIRST_STEP = 1e-5  # [s]
+FEWER_STEPS = "Allow a larger tolerance, a shorter duration, or more steps (`solver.most_steps`)."
 CLOSES = "Look whether the posture is near a dead centre, or the pin is pressed far out of its place."
 
 
@@ -50,25 +51,25 @@ def run(scenario: Scenario, progress: Progress) -> Outcome:
             made.p, made.segments, made.times, made.y, made.memory, made.rows, made.jumps, made.report
         )
     elif scenario.solver.backend != "python" and can_be_compiled(made.pin.contact):
-        code = _compiled(made)
+        code = _compiled(made, scenario.solver.most_steps)
     else:
-        code, calls = run_plain(made, progress)
+        code, calls = run_plain(made, scenario.solver.most_steps, progress)
     if code == FINISHED and not np.isfinite(made.rows.sum()):
         code, made.report[NOT_A_NUMBER] = STUCK, 1.0
     if code != FINISHED:
-        raise SimulationError(_failure(code, made))
+        raise SimulationError(_failure(code, made, scenario.solver.most_steps))
     progress(1.0)
     return _outcome(scenario, made, calls)
 
 
-def _compiled(made: Outline) -> int:
+def _compiled(made: Outline, most_steps: int) -> int:
     return integrate(
         made.p,
         made.segments,
         made.times,
         made.weights,
         FIRST_STEP,
-        MOST_STEPS,
+        most_steps,
         made.y,
         made.memory,
         made.rows,
@@ -102,7 +103,7 @@ def _impulse(row: list[float]) -> Impulse:
     return Impulse(row[layout.JUMP_TIME], columns, row[layout.JUMP_ENERGY])
 
 
-def _failure(code: int, made: Outline) -> Failure:
+def _failure(code: int, made: Outline, most_steps: int) -> Failure:
     """Why a run stopped."""
     report, y = made.report, made.y
     state = {
@@ -114,7 +115,7 @@ def _failure(code: int, made: Outline) -> Failure:
         "touches": float(report[TOUCHES]),
     }
     if code == TOO_MANY_STEPS:
-        reason, advice = f"more than {MOST_STEPS} steps", "Allow a larger tolerance, or a shorter duration."
+        reason, advice = f"more than {most_steps} steps", FEWER_STEPS
     elif code == TOO_MANY_TOUCHES:
         reason, advice = f"more than {MOST_TOUCHES} touches", "Look at the contact law: nothing comes to rest."
     elif code == DEAD_CENTRE:

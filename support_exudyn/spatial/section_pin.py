@@ -337,10 +337,10 @@ class SectionPin(LoosePin):
         super().jumped(memory)
         self.look_beside(*self.moving.coordinates())
 
-    def accept(self) -> None:
+    def accept(self, t: float) -> None:
         """See `LoosePin`."""
         before = self.kept.in_contact, self.onset
-        super().accept()
+        super().accept(t)
         if self.slides:
             self._beside = self.moving.beside(*self.moving.coordinates())
         self.whole.accepted(*before)

@@ -49,7 +49,8 @@ def run(scenario: Scenario, progress: Progress) -> Outcome:
         pin.start = pin.place()
         pin.remember(first_memory(pin, mobility(name)))
     engine = Engine(tree, forces, scenario.gravity, position, velocity)
-    integration = Integration(engine, forces, mobility, drive, largest_error(tree, scenario), progress)
+    error, most_steps = largest_error(tree, scenario), scenario.solver.most_steps
+    integration = Integration(engine, forces, mobility, drive, error, most_steps, progress)
     integration.go()
     return Aftermath(tree, scenario, filled, integration).outcome()
 

@@ -24,7 +24,6 @@ FIRST_STEP = 1e-5  # [s]
 LONGEST_STEP = 0.02  # [s]
 SAFETY, LARGEST_GROWTH, SMALLEST_ERROR = 0.9, 5.0, 1e-9
 STEADY = 0.08  # weight of the last error in the choice of a step (Gustafsson): a fifth as many are refused
-MOST_STEPS = 5_000_000
 STEPS_OF_AN_IMPACT = 12  # the first step of an impact is this part of its undamped duration
 SHORTEN = 0.25  # factor for a step in which too much happens
 SLIVER = 0.01  # share of a step by which it may be stretched to end at a stop
@@ -33,6 +32,7 @@ ACCEPTED, REFUSED = [0.0, -1.0], [REPEAT_ERROR, -1.0]  # an error, and that no s
 LANDINGS = 12  # attempts
 TURNED = 1e-2  # share of the rate at the start of a step that may be left where the depth turns
 STEPS_OF_PROGRESS = 200
+FEWER_STEPS = "Allow a larger tolerance, a shorter duration, or more steps (`solver.most_steps`)."
 ADVICE = "Allow a larger tolerance, or look whether a contact is far stiffer than the masses beside it allow."
 
 
@@ -51,6 +51,7 @@ class Integration:
         mobility: of a loose pin's journal at the stage evaluated last, by name.
         pieces: of the drive.
         error: root mean square error of a step [rad], [rad/s].
+        most_steps: after which a run is given up.
         progress: is told how far it is.
     """
 
@@ -61,11 +62,13 @@ class Integration:
         mobility: Callable[[str], Mobility],
         pieces: list[Piece],
         error: float,
+        most_steps: int,
         progress: Progress,
     ) -> None:
         self.engine, self.forces, self.mobility = engine, forces, mobility
         self.pins = forces.pins
         self.pieces = pieces
+        self.most_steps = most_steps
         self.progress = progress
         self.duration = pieces[-1].end
         self.settings = settings(self.duration, error, FIRST_STEP)
@@ -174,8 +177,8 @@ class Integration:
         self._step = min(following, LONGEST_STEP)
         if self.steps % STEPS_OF_PROGRESS == 0:
             self.progress(t / self.duration)
-            if self.steps >= MOST_STEPS:
-                raise SimulationError(self._failure(f"more than {MOST_STEPS} steps"))
+        if self.steps + self.cut_steps > self.most_steps:
+            raise SimulationError(self._failure(f"more than {self.most_steps} steps", FEWER_STEPS))
         return True
 
     # --- events ---
@@ -209,6 +212,8 @@ class Integration:
                 memory = memory._replace(approach_speed=0.0)
             if kind is Kind.PARTING:
                 pin.remember(memory._replace(in_contact=False))
+                if pin.onsets:
+                    pin.onsets[-1] = pin.onsets[-1].parted(self.time, -pin.start.rate)
                 continue
             mobility = self.mobility(name)
             pin.remember(memory._replace(in_contact=True).with_mobility(mobility))

@@ -275,7 +275,7 @@ def test_repeated_steps_are_counted_and_the_run_goes_on(monkeypatch: pytest.Monk
 
 
 def test_a_run_that_cannot_go_on_tells_when(monkeypatch: pytest.MonkeyPatch) -> None:
-    with_iterations(5, monkeypatch)
+    with_iterations(4, monkeypatch)
     failure = simulate(HASTY, throw=False)
     assert isinstance(failure, Failure)
     assert failure.reason == "the solver gave up"

@@ -172,7 +172,7 @@ def test_a_file_of_an_older_program_says_so(result: Result, tmp_path: Path) -> N
     path = result.save(tmp_path / "run.h5")
     with h5py.File(path, "r+") as file:
         file.attrs["format"] = "support_exudyn result 2"
-    with pytest.raises(InputError, match=r"format is '.* result 2', expected '.* result 3'"):
+    with pytest.raises(InputError, match=r"format is '.* result 2', expected '.* result 4'"):
         Result.load(path)
 
 

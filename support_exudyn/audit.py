@@ -1,0 +1,114 @@
+"""Whether a run that has finished can be believed: what is looked at in every one.
+
+A run that fails is refused, because nothing else tells that its numbers mean nothing. What is allowed is wide:
+that a run passes does not make it accurate.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from support_exudyn.body_motion import BodyMotion
+from support_exudyn.channels import Channel
+from support_exudyn.errors import Failure
+from support_exudyn.scenario import Scenario
+from support_exudyn.trajectory import Outcome, Series, Trajectory
+from user_forces.journal import JournalBearing
+
+# Depth of a journal as a share of the bore's radius. Laws and geometry are those of small depths; the reference
+# support meets 1 % of it.
+DEEPEST = 0.2
+SOFT = (
+    "The contact is too soft for the load that it meets: take a larger stiffness, or a smaller load. If both are "
+    "as they should be, shorter steps."
+)
+# Energy that the balance may be open by, as a share of what was turned over: kinetic, potential and elastic
+# energy, losses and work. The reference support closes to 1e-5.
+OPEN = 0.05
+ROUNDING = 1e-8  # [m] by which the weight of all bodies would have to be lifted to make up for rounding
+COARSE = (
+    "Steps are too long for what happens in them: take a smaller `step` or more `solver.impact_steps`, look whether "
+    "friction is steep (a ramp from static to dynamic speed), or ask for an accuracy."
+)
+APART = 1e-4  # [m] that what is joined may be apart
+DRIFTED = "Take constraint_index 3, a smaller `step` or a smaller `solver.newton_tolerance`."
+
+
+def too_deep(pin: str, depth: float, bearing: JournalBearing) -> str:
+    """What to say of a journal that is too deep in its bore."""
+    return (
+        f"the journal of {pin} is {1e3 * depth:.3g} mm deep in a bore of {1e3 * bearing.bore_radius:.4g} mm "
+        f"radius; allowed: up to {DEEPEST:.0%} of it"
+    )
+
+
+def audit(scenario: Scenario, outcome: Outcome, channels: Mapping[str, Channel]) -> Failure | None:
+    """The first reason not to believe a run; None if there is none. What was not recorded is not looked at."""
+    return next(_reasons(scenario, outcome, channels), None)
+
+
+def _reasons(scenario: Scenario, outcome: Outcome, channels: Mapping[str, Channel]) -> Iterator[Failure]:
+    time = channels["time"].values
+    for name, channel in channels.items():
+        if not np.isfinite(channel.values).all():
+            first = float(time[np.argmin(np.isfinite(channel.values))])
+            yield Failure(f"{name} is no longer a finite number", COARSE, first)
+    for name, pin in scenario.clearance_pins.items():
+        if (depth := channels.get(f"pin.{name}.depth")) is not None:
+            place = int(np.argmax(depth.values))
+            deepest, bearing = float(depth.values[place]), pin.contact.bearing
+            if deepest > DEEPEST * bearing.bore_radius:
+                yield Failure(too_deep(name, deepest, bearing), SOFT, float(time[place]))
+    open_by, allowed = energy_open(scenario, channels)
+    if (open_by > allowed).any():
+        first = int(np.argmax(open_by > allowed))
+        reason = (
+            f"energy does not add up: it is open by {open_by.max():.3g} J; allowed: {OPEN:.0%} of what was turned "
+            f"over, {allowed:.3g} J"
+        )
+        yield Failure(reason, COARSE, float(time[first]))
+    if (gap := joints_apart(scenario, outcome)) is not None and (gap > APART).any():
+        first = int(np.argmax(gap > APART))
+        reason = f"what is joined is {1e3 * gap.max():.3g} mm apart; allowed: {1e3 * APART:g} mm"
+        yield Failure(reason, DRIFTED, float(time[first]))
+
+
+def energy_open(scenario: Scenario, channels: Mapping[str, Channel]) -> tuple[Series, float]:
+    """By how much the energy balance is open at the records (n,) [J], and what is allowed.
+
+    Zeros if energies are not recorded.
+    """
+    names = ("balance", "kinetic", "potential", "elastic", "damping_loss", "friction_loss", "work")
+    found = [channels[f"energy.{name}"].values for name in names if f"energy.{name}" in channels]
+    if len(found) < len(names):
+        return np.zeros(1), 0.0
+    balance, *energies = found
+    weight = float(np.hypot(*scenario.gravity)) * sum(body.mass for body in scenario.linkage.bodies.values())
+    turned_over = sum(float(np.abs(energy - energy[0]).max()) for energy in energies) + float(energies[0][0])
+    return np.abs(balance), OPEN * turned_over + ROUNDING * weight
+
+
+def joints_apart(scenario: Scenario, outcome: Outcome) -> Series | None:
+    """Largest distance of what ideal pins and rigid columns hold together, at the records (n,) [m].
+
+    None for runs in space, and if the motion was not recorded.
+    """
+    run = outcome.trajectory
+    if not isinstance(run, Trajectory) or not run.position.size:
+        return None
+    linkage, time = scenario.linkage, run.time
+    motion = BodyMotion(linkage, run.position, run.velocity, run.acceleration)
+    gaps = np.zeros_like(time)
+    for name, pin in linkage.pins.items():
+        if name not in scenario.clearance_pins:
+            apart = motion.place(pin.first, pin.first_point) - motion.place(pin.second, pin.second_point)
+            gaps = np.maximum(gaps, np.hypot(*apart.T))
+    for name, column in linkage.columns.items():
+        if name not in scenario.oil_columns:
+            span = motion.place(column.head, column.head_point) - motion.place(column.foot, column.foot_point)
+            drive = scenario.drive_of(name)
+            wanted = column.start_length + np.array([drive.extension(t) for t in time.tolist()])
+            gaps = np.maximum(gaps, np.abs(np.hypot(*span.T) - wanted))
+    return gaps
