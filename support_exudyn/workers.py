@@ -15,6 +15,8 @@ from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from typing import Any, TypeVar
 
+from support_exudyn.interruption import kept_from_children
+
 T = TypeVar("T")
 
 CONTEXT = multiprocessing.get_context("spawn")  # the engine does not survive a fork
@@ -123,7 +125,7 @@ class Workers:
         whole = True
         others = set(multiprocessing.active_children())
         try:
-            with _uninterrupted():  # processes are started here, and take over what is kept from them
+            with kept_from_children():  # they are started here
                 for place, job in jobs.items():
                     if place < PLACES:
                         self._shares[place] = NOT_BEGUN
@@ -221,22 +223,6 @@ def _told(code: int | None) -> str:
         return f"exit code {code}"
     named = {item.value: item.name for item in signal.Signals}.get(-code, "unknown")
     return f"signal {-code} ({named}{', out of memory?' if named == 'SIGKILL' else ''})"
-
-
-@contextmanager
-def _uninterrupted() -> Iterator[None]:
-    """Keep an interruption from the console until the block has ended; from processes started in it, for ever.
-
-    The console interrupts them all, and each would say so. They end with the one that started them.
-    """
-    if not hasattr(signal, "pthread_sigmask"):  # Windows
-        yield
-        return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 # --- in a worker ---
