@@ -109,8 +109,10 @@ class Workers:
                         lost[place] = ProcessEndedError(place, max(0.0, self._shares[place]), self._code())
             finally:
                 self._renew(self._size)
-        if lost and ended is None:
-            raise lost[min(lost)]
+        if lost:
+            progress([1.0] * len(jobs))  # since they were last told
+            if ended is None:
+                raise lost[min(lost)]
         return [done[n] if n in done or ended is None else ended(lost[n]) for n in range(len(jobs))]
 
     def _go(
