@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import os
-import signal
 import subprocess
 import sys
-import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -45,20 +43,19 @@ def little_room(folder: Path, size: int, kind: str) -> Iterator[Path]:
 
 
 class Interruption:
-    """Interrupts this process once, so many seconds from now, as the console does."""
+    """Interrupts this process once, so many seconds from now.
+
+    From another process, as the console does: threads of this one wait while the engine is at work.
+    """
 
     def __init__(self, seconds: float) -> None:
-        self.sent = 0.0
-        self._timer = threading.Timer(seconds, self._send)
-
-    def _send(self) -> None:
-        self.sent = time.perf_counter()
-        os.kill(os.getpid(), signal.SIGINT)
+        self._seconds = seconds
 
     def __enter__(self) -> Interruption:
-        self._timer.start()
+        self._process = subprocess.Popen(["sh", "-c", f"sleep {self._seconds}; kill -INT {os.getpid()}"])
+        self.sent = time.perf_counter() + self._seconds
         return self
 
     def __exit__(self, *unused: object) -> None:
-        self._timer.cancel()
-        self._timer.join()
+        self._process.kill()
+        self._process.wait()

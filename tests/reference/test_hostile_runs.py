@@ -43,6 +43,7 @@ RUNS = {
     "plane, ideal pins": replace(PLANE, pins={}),
     "plane, symbolic": replace(PLANE, solver=SolverSettings(backend="symbolic")),
     "space": replace(PLANE, dimensions=3),
+    "space, ideal pins, one channel": replace(PLANE, dimensions=3, pins={}, channels=("tip.x",)),
     "tree": replace(PLANE, formulation="tree", columns=COLUMNS),
     "reduced, plain": replace(PLANE, formulation="reduced", solver=PLAIN),
     "with an accuracy": replace(PLANE, accuracy="draft", formulation="redundant"),
@@ -78,12 +79,9 @@ def test_an_interruption_comes_out_at_once_and_leaves_nothing_behind(name: str, 
     scenario = RUNS[name]
     before = simulate(scenario)
     released.clear()
-    began = time.perf_counter()
     with pytest.raises(KeyboardInterrupt), Interruption(0.15) as sent:
         simulate(long(scenario), throw=False)
-    ended = time.perf_counter()
-    assert sent.sent > began
-    assert ended - sent.sent < PROMPT
+    assert 0.0 < time.perf_counter() - sent.sent < PROMPT
     assert exudyn.config.printToConsole
     assert gc.isenabled()
     assert len(released) == (0 if name == "reduced, plain" else 1)  # that one is without the engine
