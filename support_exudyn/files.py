@@ -31,8 +31,8 @@ def whole_file(path: str | Path) -> Iterator[Path]:
     interruption `path` is as it was before; of a process that is killed a temporary file stays, see
     `remove_leftovers`.
 
-    Raises OSError that names `path` if it cannot be written: before the block where that can be known, otherwise
-    after it (a full disk).
+    Raises OSError that names `path` if it cannot be written: before the block where that can be known, after it
+    otherwise (a full disk).
     """
     try:
         real = _real(path)
@@ -42,7 +42,9 @@ def whole_file(path: str | Path) -> Iterator[Path]:
             prefix=f".{real.stem[:LONGEST_STEM]}-{os.getpid()}-", suffix=real.suffix, dir=real.parent
         )
     except FileExistsError:
-        raise _named(NotADirectoryError(errno.ENOTDIR, "A file stands where a folder should be"), path) from None
+        raise _named(
+            NotADirectoryError(errno.ENOTDIR, "A file stands where a folder should be"), path
+        ) from None
     except OSError as error:  # of a name that nobody has given
         raise _named(error, path) from None
     os.close(handle)

@@ -29,7 +29,8 @@ def put_off() -> Iterator[None]:
 def kept_from_children() -> Iterator[None]:
     """Processes that are started in the block are not interrupted.
 
-    The console interrupts all processes at once, and each would say so; ours end with the one that started them.
+    The console interrupts all processes at once, and each would say so. They end with the one that started
+    them.
     """
     if not hasattr(signal, "pthread_sigmask"):  # Windows
         yield

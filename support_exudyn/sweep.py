@@ -13,8 +13,8 @@ from support_exudyn.workers import ProcessEndedError, Workers, report, worker_po
 Shares = Callable[[Mapping[str, float]], None]  # is told the share done of every run, by name
 
 ADVICE = (
-    "Look at the memory that the run takes, it is less with fewer channels or longer between records; run fewer "
-    "side by side; or run it in the process itself."
+    "Look at the memory that the run takes: it is less with fewer channels or records. Run fewer side by side, "
+    "or run it by itself."
 )
 
 

@@ -83,9 +83,10 @@ class Workers:
             progress: is told the share done of every job ten times a second.
             ended: gives what to return for a job whose process ended.
 
-        If a job raises, those that wait are dropped and the exception is raised here. If a process ends, the jobs
-        that were begun are done once more, one at a time; of the one whose process ends again `ended` is told, or
-        its ProcessEndedError is raised when all others are done.
+        If a job raises, those that wait are dropped and the exception is raised here. If a process ends, the
+        jobs that were begun are done once more, one at a time; of the one whose process ends again `ended` is
+        told, or its ProcessEndedError is raised when all others are done. Raises NoProcessError if processes
+        end before they begin any.
         """
         done: dict[int, T] = {}
         lost: dict[int, ProcessEndedError] = {}

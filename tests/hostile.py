@@ -18,7 +18,7 @@ DISKS = ("full disk", "limit of size")
 
 @contextmanager
 def little_room(folder: Path, size: int, kind: str) -> Iterator[Path]:
-    """A folder to which no more than so many bytes can be written: "full disk", or "limit of size" of a file."""
+    """A folder that takes no more than so many bytes ("full disk"), or no longer files ("limit of size")."""
     if kind == "full disk":
         place = folder / "disk"
         place.mkdir()

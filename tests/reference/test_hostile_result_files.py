@@ -77,7 +77,7 @@ def test_every_reader_of_hdf5_reads_the_file(result: Result, tmp_path: Path) -> 
 
 
 def test_a_folder_is_not_said_to_be_damaged(tmp_path: Path) -> None:
-    with pytest.raises(OSError, match="directory|denied"):
+    with pytest.raises(OSError, match=r"directory|denied"):
         Result.load(tmp_path)
 
 
@@ -104,9 +104,7 @@ def test_on_a_full_disk_the_old_result_stays(
 def write_again_and_again(path: Path, number: int, first: Path) -> None:
     """In a process of its own: a result whose every channel says who wrote it."""
     result = Result.load(first)
-    channels = {
-        name: replace(c, values=np.full_like(c.values, number)) for name, c in result.channels.items()
-    }
+    channels = {name: replace(c, values=np.full_like(c.values, number)) for name, c in result.channels.items()}
     mine = replace(result, channels=channels | {"time": result.channels["time"]}, wall_time=float(number))
     while True:
         mine.save(path)

@@ -106,7 +106,9 @@ def test_a_job_whose_process_ends_once_is_done_after_all(pool: Workers, tmp_path
 
 def test_if_nobody_asks_for_it_the_error_comes_when_all_others_are_done(pool: Workers, tmp_path: Path) -> None:
     ways = ["killed", *["good"] * 6]
-    with pytest.raises(ProcessEndedError, match=r"^job 1: the process that computed it ended: signal 9") as caught:
+    with pytest.raises(
+        ProcessEndedError, match=r"^job 1: the process that computed it ended: signal 9"
+    ) as caught:
         pool.run([(way, tmp_path) for way in ways], end, silent)
     assert set(times_begun(tmp_path)) == set(range(7))
     again = pickle.loads(pickle.dumps(caught.value))

@@ -79,7 +79,7 @@ PLACES = [
 def test_what_cannot_be_written_is_said_before_the_work(tmp_path: Path, place: object) -> None:
     path = place(tmp_path)  # type: ignore[operator]
     before = names(tmp_path)
-    with pytest.raises(OSError, match="it cannot be written") as caught, whole_file(path):  # noqa: PT012
+    with pytest.raises(OSError, match="it cannot be written") as caught, whole_file(path):
         pytest.fail("the work is begun")
     assert caught.value.filename == str(path)
     assert caught.value.errno
@@ -117,7 +117,10 @@ def test_a_link_stays_and_its_file_is_written(tmp_path: Path, exists: bool) -> N
 def test_a_full_disk_leaves_the_old_file_and_says_which_could_not_be_written(tmp_path: Path, kind: str) -> None:
     with little_room(tmp_path, 16384, kind) as folder:
         (folder / "run.json").write_text("old", encoding="utf-8")
-        with pytest.raises(OSError, match="it cannot be written") as caught, whole_file(folder / "run.json") as new:
+        with (
+            pytest.raises(OSError, match="it cannot be written") as caught,
+            whole_file(folder / "run.json") as new,
+        ):
             new.write_text("x" * 65536, encoding="utf-8")
         assert caught.value.errno == (errno.ENOSPC if kind == "full disk" else errno.EFBIG)
         assert caught.value.filename == str(folder / "run.json")
@@ -132,7 +135,9 @@ def test_an_error_of_another_file_keeps_its_name(tmp_path: Path) -> None:
     assert "cannot be written" not in str(caught.value)
 
 
-def test_a_file_is_on_the_disk_before_it_takes_its_place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_file_is_on_the_disk_before_it_takes_its_place(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     seen: list[str] = []
     sync, replace = os.fsync, Path.replace
     monkeypatch.setattr(files.os, "fsync", lambda handle: (seen.append("on the disk"), sync(handle)))
