@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import importlib
 import os
 import signal
 import time
@@ -21,6 +22,7 @@ from support_exudyn import (
     Result,
     Scenario,
     SolverSettings,
+    UniformSpeed,
     simulate,
 )
 from support_exudyn.engine_scene import InEngine
@@ -28,7 +30,7 @@ from support_exudyn.formulations import formulation
 from support_exudyn.sweep import run_all
 from support_exudyn.tree.engine import Engine
 from tests.hostile import Interruption, posix_only
-from tests.reference.cases import FORCE, PIN, loose_support, paper_contact
+from tests.reference.cases import FORCE, PIN, loose_slider_crank, loose_support, paper_contact
 from user_forces import LankaraniNikravesh, Touch, value
 
 PROMPT = 1.0  # [s] within which an interruption is asked to come out
@@ -86,6 +88,40 @@ def test_an_interruption_comes_out_at_once_and_leaves_nothing_behind(name: str, 
     assert gc.isenabled()
     assert len(released) == (0 if name == "reduced, plain" else 1)  # that one is without the engine
     assert same(simulate(scenario), before)
+
+
+@posix_only
+def test_a_compiled_run_is_interrupted_between_its_pauses() -> None:
+    # it strikes for ever: some 200 000 steps a second of the machine's, that is a second of work
+    scenario = loose_slider_crank(1e-3, formulation="reduced", solver=SolverSettings(tolerance=1e-8))
+    before = simulate(scenario)
+    told: list[float] = []
+    with pytest.raises(KeyboardInterrupt), Interruption(0.15) as sent:
+        simulate(replace(scenario, duration=20.0, record_period=0.1), progress=told.append)
+    assert 0.0 < time.perf_counter() - sent.sent < PROMPT
+    assert told == sorted(told)
+    assert same(simulate(scenario), before)
+
+
+@pytest.mark.parametrize("at_once", [1, 37])
+def test_pauses_of_a_compiled_run_change_nothing(monkeypatch: pytest.MonkeyPatch, at_once: int) -> None:
+    drive = UniformSpeed(stroke=0.01, start=0.02, end=0.06)  # whose speed jumps twice
+    scenario = replace(PLANE, formulation="reduced", drive=drive, duration=0.1)
+    before = simulate(scenario)
+    assert len(before.impulses) == 2
+    assert len(before.onsets[PIN]) > 2
+    monkeypatch.setattr(importlib.import_module("support_exudyn.reduced.run"), "AT_ONCE", at_once)
+    told: list[float] = []
+    paused = simulate(scenario, progress=told.append)
+    assert same(paused, before)
+    assert (paused.counts, paused.impulses, paused.largest_force) == (
+        before.counts,
+        before.impulses,
+        before.largest_force,
+    )
+    assert len(told) > before.counts.steps / at_once / 2
+    assert told == sorted(told)
+    assert told[-1] == 1.0
 
 
 class Calls:
@@ -185,7 +221,7 @@ def test_a_run_whose_process_is_killed_is_a_row_and_the_sweep_goes_on() -> None:
     killing = replace(PLANE, pins={PIN: ClearancePin(contact=type(good)(bearing=good.bearing, normal=law))})
     scenarios = {"one": PLANE, "killing": killing, "other": replace(PLANE, duration=0.03)}
     told: list[dict[str, float]] = []
-    results = run_all(scenarios, workers=2, progress=lambda shares: told.append(dict(shares)))
+    results = run_all(scenarios, workers=1, progress=lambda shares: told.append(dict(shares)))
     failure = results["killing"]
     assert isinstance(failure, Failure)
     assert "signal 9 (SIGKILL, out of memory?)" in failure.reason
