@@ -225,3 +225,21 @@ def test_no_two_processes_that_hurry_are_ever_in_a_folder_together(tmp_path: Pat
     taken = [int(out.split()[1]) for out, _ in said]
     assert sum(taken) > 20  # it takes some 0.1 ms
     assert wait_until(lambda: names(tmp_path) == [], 0.0)
+
+
+@posix_only
+def test_a_lock_that_is_removed_while_it_is_taken_is_taken_anew(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    flock, asked = files.fcntl.flock, []
+
+    def after_its_owner_left(handle: int, how: int) -> None:
+        if not asked:
+            (tmp_path / LOCK).unlink()
+        asked.append(how)
+        flock(handle, how)
+
+    monkeypatch.setattr(files.fcntl, "flock", after_its_owner_left)
+    with writing_alone(tmp_path):
+        assert names(tmp_path) == [LOCK]
+    assert len(asked) == 2
