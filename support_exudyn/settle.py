@@ -11,7 +11,6 @@ import exudyn
 from support_exudyn.engine_scene import INITIAL, EngineScene
 from support_exudyn.engine_settings import quiet_engine
 from support_exudyn.errors import Failure, SimulationError
-from user_forces.normal.law import LoadError
 
 # A journal in the middle of its bore has no stiffness. A centring spring in every loose pin is there at
 # first, stiff enough to hold the weight of the machine within the clearance, and is then taken away.
@@ -52,10 +51,7 @@ def _solve(scene: EngineScene) -> None:
     try:
         with quiet_engine():
             found = solver.SolveSystem(scene.mbs, settings)
-    except exudyn.ExudynError as error:
-        cause = error.__cause__  # set if a function of ours raised
-        if cause is not None and not isinstance(cause, (ArithmeticError, LoadError)):
-            raise cause from None
+    except exudyn.ExudynError:
         found = False
     if not found:
         raise SimulationError(
