@@ -9,7 +9,7 @@ from pathlib import Path
 
 from studies.catalogue import STUDIES
 from studies.report import rebuild
-from studies.study import Options, add_options, run_main
+from studies.study import Options, add_options, answered, output_folder, run_main
 from support_exudyn.workers import worker_pool
 
 
@@ -20,6 +20,19 @@ def main(argv: Sequence[str] | None = None) -> int:
     )
     add_options(parser, Path("results"))
     given = parser.parse_args(argv)
+    codes: list[int] = []
+
+    def work() -> None:
+        with output_folder(given.out):
+            codes.append(_studies(given))
+            if not codes[0]:
+                codes[0] = rebuild(given.out, list(STUDIES), given.quick)
+
+    return answered(work) or codes[0]
+
+
+def _studies(given: argparse.Namespace) -> int:
+    """Run them one after the other; the first exit code that is not zero."""
     try:
         with worker_pool(given.workers) as pool:
             for name, study in STUDIES.items():
@@ -29,7 +42,7 @@ def main(argv: Sequence[str] | None = None) -> int:
                     sys.exit(code)  # an exception, so that no process works on
     except SystemExit as stop:
         return int(str(stop.code))
-    return rebuild(given.out, list(STUDIES), given.quick)
+    return 0
 
 
 if __name__ == "__main__":

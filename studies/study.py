@@ -9,7 +9,8 @@ import os
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
@@ -20,10 +21,10 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 from studies import style
 from studies.reporting.chapter import Sheet
 from support_exudyn import Failure, Result, Scenario, SimulationError
-from support_exudyn.files import remove_leftovers, whole_file
+from support_exudyn.files import remove_leftovers, whole_file, writing_alone
 from support_exudyn.provenance import versions
 from support_exudyn.sweep import run_all
-from support_exudyn.workers import Workers
+from support_exudyn.workers import NoProcessError, ProcessEndedError, Workers
 
 MOST_BARS = 12  # more runs than that share one progress bar
 
@@ -217,30 +218,53 @@ def brief(value: float, error: float) -> str:
     return f"{value:.{digits}f} ± {error:.{digits}f}" if digits < left else rounded(value, error)
 
 
-def _make_ready(out: Path) -> None:
-    """Make the output folder: better to fail now than after the work."""
-    try:
-        out.mkdir(parents=True, exist_ok=True)
-        remove_leftovers(out)  # of a run that was killed
-        with tempfile.TemporaryFile(dir=out):
-            pass
-    except OSError as error:
-        raise OSError(
-            f"--out {out}: {error.strerror}; allowed: a folder that can be made and written to"
-        ) from None
+@contextmanager
+def output_folder(out: Path) -> Iterator[None]:
+    """An output folder made ready, for this process alone: better to fail now than after the work.
+
+    Temporary files of processes that are gone are cleared away before the block and after it.
+
+    Raises OSError if it cannot be made or written to, or if another process is writing there.
+    """
+    with ExitStack() as held:
+        try:
+            out.mkdir(parents=True, exist_ok=True)
+            held.enter_context(writing_alone(out))
+            remove_leftovers(out, below=True)  # of a run that was killed
+            with tempfile.TemporaryFile(dir=out):
+                pass
+        except OSError as error:
+            raise OSError(
+                f"--out {out}: {error.strerror}; allowed: a folder that can be made and written to"
+            ) from None
+        except ValueError as error:  # a name that no folder can have
+            raise OSError(f"--out {str(out)!r}: {error}; allowed: a folder that can be made") from None
+        try:
+            yield
+        finally:
+            remove_leftovers(out, below=True)  # of its own processes, which ended in mid-work
 
 
-def run_main(main: Callable[[Options], None], chosen: Options) -> int:
-    """Run a study; what the user can mend is said in a sentence. Returns the exit code."""
+def answered(work: Callable[[], None]) -> int:
+    """Do it; what the user can mend is said in a sentence. Returns the exit code."""
     try:
-        started = time.perf_counter()
-        _make_ready(chosen.out)
-        main(chosen)
-        print(f"{chosen.out}: done in {time.perf_counter() - started:.1f} s", file=sys.stderr)
-    except (SimulationError, OSError) as error:
+        work()
+    except (SimulationError, OSError, ProcessEndedError, NoProcessError) as error:
         print(f"error: {error}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         print("interrupted; nothing half-written is left", file=sys.stderr)
         return 130
     return 0
+
+
+def run_main(main: Callable[[Options], None], chosen: Options) -> int:
+    """Run a study; what the user can mend is said in a sentence. Returns the exit code."""
+
+    def work() -> None:
+        started = time.perf_counter()
+        with output_folder(chosen.out):
+            main(chosen)
+        print(f"{chosen.out}: done in {time.perf_counter() - started:.1f} s", file=sys.stderr)
+
+    return answered(work)

@@ -43,10 +43,18 @@ def engine_settings(chosen: SolverSettings, duration: float, unknowns: int) -> A
 
 @contextmanager
 def quiet_engine() -> Iterator[None]:
-    """Keep the engine from writing to the console; what it has to say comes as an exception."""
+    """Keep the engine from writing to the console; what it has to say comes as an exception.
+
+    An interruption that it notices between two steps it leaves behind for Python, which takes that for an error
+    of the engine: here it comes out as what it is.
+    """
     before = exudyn.config.printToConsole
     exudyn.config.printToConsole = False
     try:
         yield
+    except SystemError as error:
+        if isinstance(error.__cause__, KeyboardInterrupt):
+            raise error.__cause__ from None
+        raise
     finally:
         exudyn.config.printToConsole = before

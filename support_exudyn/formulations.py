@@ -9,6 +9,7 @@ from __future__ import annotations
 from importlib import import_module
 from typing import Protocol, cast
 
+from support_exudyn.interruption import put_off
 from support_exudyn.progress import Progress
 from support_exudyn.scenario import Scenario
 from support_exudyn.trajectory import Outcome
@@ -34,7 +35,8 @@ class Formulation(Protocol):
 
 def formulation(name: str) -> Formulation:
     """The formulation of this name; its module is imported at the first use."""
-    return cast(Formulation, import_module(MODULES[name]))
+    with put_off():
+        return cast(Formulation, import_module(MODULES[name]))
 
 
 def covers(name: str, scenario: Scenario) -> bool:

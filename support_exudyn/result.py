@@ -21,6 +21,7 @@ from support_exudyn.files import whole_file
 from support_exudyn.impulse import Impulse
 from support_exudyn.onset import Onset
 from support_exudyn.scenario import Scenario
+from support_exudyn.sealed import BLOCK, check_seal, seal
 from user_forces.values import InputError, Value
 
 FORMAT = "support_exudyn result 4"
@@ -155,29 +156,38 @@ class Result:
     def save(self, path: str | Path) -> Path:
         """Write everything to one HDF5 file: /channels/NAME with units, and the rest as JSON attributes.
 
-        The run by which errors are estimated stands likewise in /coarser.
+        The run by which errors are estimated stands likewise in /coarser. The file begins with a digest of all
+        that follows, so that `load` takes no damaged one for good.
+
+        Raises OSError that names the file if it cannot be written; an older one is then as it was.
         """
-        with whole_file(path) as temporary, h5py.File(temporary, "w") as file:
+        # made in memory: on a full disk HDF5 would end the whole process
+        with h5py.File("result", "w", driver="core", backing_store=False, userblock_size=BLOCK) as file:
             file.attrs["format"] = FORMAT
             _write(file, self)
+            file.flush()
+            image = file.id.get_file_image()
+        with whole_file(path) as temporary:
+            temporary.write_bytes(seal(image, FORMAT))
         return Path(path)
 
     @staticmethod
     def load(path: str | Path) -> Result:
         """Read what `save` wrote.
 
-        Raises InputError if the file is not a whole result file; OSError if it cannot be opened at all.
+        Raises InputError if the file is not a whole result file, or was changed; OSError if it cannot be opened
+        at all.
         """
         if not Path(path).exists():
             raise FileNotFoundError(f"{path}: no such file")
+        data = Path(path).read_bytes()
         try:
-            with h5py.File(path, "r") as file:
-                if file.attrs.get("format") != FORMAT:
-                    raise KeyError(f"format is {file.attrs.get('format')!r}, expected {FORMAT!r}")
+            check_seal(data, FORMAT)
+            with h5py.File(h5py.h5f.open_file_image(data), "r") as file:
                 return _read(file)
         except InputError as error:  # of a value that is not known or does not fit
             raise InputError(f"{path}: {error}") from None
-        except (OSError, KeyError, AttributeError, TypeError, ValueError) as error:
+        except (OSError, LookupError, AttributeError, TypeError, ValueError, RuntimeError) as error:
             raise InputError(f"{path}: not a result file of this program, or damaged ({error})") from None
 
 
@@ -205,12 +215,14 @@ def _read(group: h5py.Group) -> Result:
         return json.loads(group.attrs[name])
 
     onsets = group.get("onsets", {})
+    channels = {
+        name: Channel(data[:], data.attrs["unit"], data.attrs["meaning"])
+        for name, data in group["channels"].items()
+    }
+    _check_channels(channels)
     return Result(
         scenario=Value.from_data(attribute("scenario")),
-        channels={
-            name: Channel(data[:], data.attrs["unit"], data.attrs["meaning"])
-            for name, data in group["channels"].items()
-        },
+        channels=channels,
         onsets={name: tuple(Onset(*row) for row in data[:].tolist()) for name, data in onsets.items()},
         largest_force={name: float(data.attrs["largest_force_N"]) for name, data in onsets.items()},
         impulses=tuple(Impulse(**item) for item in attribute("impulses")),
@@ -220,3 +232,16 @@ def _read(group: h5py.Group) -> Result:
         goal=attribute("goal"),
         coarser=_read(group["coarser"]) if "coarser" in group else None,
     )
+
+
+def _check_channels(channels: Mapping[str, Channel]) -> None:
+    """Raise ValueError unless all are as long as the times, which increase."""
+    time = channels["time"].values
+    for name, channel in channels.items():
+        if channel.values.dtype != np.float64 or channel.values.shape != (time.size,):
+            raise ValueError(
+                f"channel {name!r} is of {channel.values.dtype} and shape {channel.values.shape}; allowed: one "
+                f"of float64 for each of the {time.size} times"
+            )
+    if not time.size or not np.isfinite(time).all() or not (np.diff(time) > 0.0).all():
+        raise ValueError("the times of the records do not increase")

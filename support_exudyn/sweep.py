@@ -8,9 +8,14 @@ from support_exudyn.errors import Failure
 from support_exudyn.result import Result
 from support_exudyn.scenario import Scenario
 from support_exudyn.simulate import simulate
-from support_exudyn.workers import Workers, report, worker_pool
+from support_exudyn.workers import ProcessEndedError, Workers, report, worker_pool
 
 Shares = Callable[[Mapping[str, float]], None]  # is told the share done of every run, by name
+
+ADVICE = (
+    "Look at the memory that the run takes: it is less with fewer channels or records. Run fewer side by side, "
+    "or run it by itself."
+)
 
 
 def _run(place: int, scenario: Scenario) -> Result | Failure:
@@ -32,14 +37,18 @@ def run_all(
         progress: called about ten times a second.
 
     Returns:
-        For each name its Result, or the Failure that says why there is none. Any other exception in a
-        run (a bug, an interruption) ends all of them.
+        For each name its Result, or the Failure that says why there is none: also of a run whose process was
+        killed or crashed. Any other exception in a run (a bug, an interruption) ends all of them.
     """
+    chosen = list(scenarios.values())
 
     def told(shares: list[float]) -> None:
         progress(dict(zip(scenarios, shares, strict=True)))
 
+    def ended(error: ProcessEndedError) -> Failure:
+        return Failure(error.reason, ADVICE, error.share * chosen[error.place].duration)
+
     number = workers if isinstance(workers, Workers) else min(workers, len(scenarios))
     with worker_pool(number) as pool:
-        results = pool.run([(scenario,) for scenario in scenarios.values()], _run, told)
+        results = pool.run([(scenario,) for scenario in chosen], _run, told, ended)
     return dict(zip(scenarios, results, strict=True))

@@ -25,7 +25,7 @@ from support_exudyn import SimulationError
 from support_exudyn.files import remove_leftovers, whole_file
 from support_exudyn.provenance import installed
 from support_exudyn.warm import warm_up
-from support_exudyn.workers import Workers, worker_pool
+from support_exudyn.workers import ProcessEndedError, Workers, worker_pool
 from user_forces.values import InputError
 
 FOLDER = "machines"
@@ -61,11 +61,17 @@ def run(
     missing = [(place, s) for place, s in zip(places, samples, strict=True) if _read(place) is None]
     before = len(samples) - len(missing)
     progress(before, len(samples))
+    ended: dict[Path, Row] = {}  # whose process was killed or crashed; not kept, so that they are tried again
+
+    def note(error: ProcessEndedError) -> None:
+        place, sample = missing[error.place]
+        ended[place] = Row(sample, None, error.reason)
+
     if missing:
         warm_up()  # compile once, for all processes
         with worker_pool(workers) as pool:
-            pool.run(missing, _run_one, lambda shares: progress(before + int(sum(shares)), len(samples)))
-    rows = [_read(place) for place in places]
+            pool.run(missing, _run_one, lambda shares: progress(before + int(sum(shares)), len(samples)), note)
+    rows = [ended.get(place) or _read(place) for place in places]
     gone = [place.name for place, row in zip(places, rows, strict=True) if row is None]
     if gone:
         raise OSError(f"{folder}: {', '.join(gone)} vanished while others were run; run the study once more")

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import gc
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 
-import exudyn
 import numpy as np
 import numpy.typing as npt
 
+from support_exudyn.collector import paused_collector
+from support_exudyn.engine_settings import quiet_engine
 from support_exudyn.onset import Onset
 
 Series = npt.NDArray[np.float64]
@@ -76,12 +76,5 @@ def touches(time: Sequence[float], depth: Sequence[float], rate: Sequence[float]
 @contextmanager
 def undisturbed() -> Iterator[None]:
     """No output of the engine, no collection of garbage: neither is part of what is measured."""
-    printing, collecting = exudyn.config.printToConsole, gc.isenabled()
-    exudyn.config.printToConsole = False
-    gc.disable()
-    try:
+    with quiet_engine(), paused_collector():
         yield
-    finally:
-        exudyn.config.printToConsole = printing
-        if collecting:
-            gc.enable()

@@ -30,10 +30,15 @@ from support_exudyn.reduced.layout import (
 from support_exudyn.reduced.records import peak, record, size
 from support_exudyn.reduced.runge_kutta import STAGES, advance, fit, within
 
-FINISHED, STUCK, TOO_MANY_STEPS, TOO_MANY_TOUCHES, DEAD_CENTRE = range(5)
+FINISHED, STUCK, TOO_MANY_STEPS, TOO_MANY_TOUCHES, DEAD_CENTRE, PAUSED = range(6)
 # what is reported of a run
 STEPS, EVALUATIONS, LARGEST, STOPPED_AT, TOUCHES, JUMPS, LAST_STEP, NOT_A_NUMBER, RECORDS = range(9)
 ACCEPTED, CUTS, CLAMPED, REPORT = range(9, 13)  # steps: accepted, cut to end at an event, that end in tension
+# With what a run goes on after a pause: the number of its segment, whether it is in the midst of it, time [s],
+# next step [s], last error, and of the last step's end the rate of the state and the contact
+SEGMENT_NUMBER, MIDST, AT, NEXT_STEP, LAST_ERROR, RATES = range(6)
+SEEN = RATES + STATES
+GOING = SEEN + CONTACT
 
 SAFETY, SLOWEST, FASTEST = 0.9, 0.2, 8.0  # change of the step: margin, smallest and largest factor
 SHORTEN = 0.25  # factor for a step in which too much happens
@@ -182,34 +187,45 @@ def write_records(
 def run_segment(
     p: Vector,
     segment: Vector,
-    h: float,
+    going: Vector,
     times: Vector,
     weights: Vector,
     most_steps: int,
+    pause: int,
     y: Vector,
     memory: Vector,
     rows: Matrix,
     onsets: Matrix,
     report: Vector,
-) -> tuple[int, float]:
-    """Run from the start to the end of a segment of the drive; FINISHED, or why not, and the next step [s].
+) -> int:
+    """Run to the end of a segment of the drive, from its start or from a pause; FINISHED, or why not.
 
-    h: first step [s]. The other arguments are those of `integrate`.
+    The arguments are those of `integrate`.
     """
     k = np.empty((STAGES, STATES))
     end, probe, path = np.empty(STATES), np.empty(STATES), np.empty((5, STATES))
     now, then, there = np.zeros(CONTACT), np.zeros(CONTACT), np.zeros(CONTACT)
     near = np.zeros(NEARNESS)
-    error_before = 1e-4
+    h, error_before = going[NEXT_STEP], 1e-4
     t, stop = segment[BEGIN], segment[END]
-    evaluate(p, segment, memory, t, y, k[0], now)
+    if going[MIDST] != 0.0:
+        t, error_before = going[AT], going[LAST_ERROR]
+        k[0, :] = going[RATES:SEEN]
+        now[:] = going[SEEN:GOING]
+    else:
+        evaluate(p, segment, memory, t, y, k[0], now)
     while t < stop:
+        if report[STEPS] >= pause:
+            going[MIDST], going[AT], going[NEXT_STEP], going[LAST_ERROR] = 1.0, t, h, error_before
+            going[RATES:SEEN] = k[0]
+            going[SEEN:GOING] = now
+            return PAUSED
         report[STEPS] += 1
         report[STOPPED_AT], report[LAST_STEP] = t, h
         if report[STEPS] > most_steps:
-            return TOO_MANY_STEPS, h
+            return TOO_MANY_STEPS
         if h < SMALLEST_STEP:
-            return STUCK, h
+            return STUCK
         wanted = h
         last = h >= 0.999999 * (stop - t)
         if last:
@@ -222,7 +238,7 @@ def run_segment(
             continue
         approach(p, segment, t + h, end, near)
         if near[SINE] < SMALLEST_SINE:
-            return DEAD_CENTRE, h
+            return DEAD_CENTRE
         fit(h, y, end, k, path)
         what, low, high = event(p, segment, memory, t, h, now, then, path, probe, there)
         if what == TOO_LONG or h * near[SWIFTNESS] > SHARE_OF_WAY:
@@ -254,7 +270,7 @@ def run_segment(
             now[:] = then
         else:
             if not happen(what, t, then[RATE], memory, onsets, report):
-                return TOO_MANY_TOUCHES, h
+                return TOO_MANY_TOUCHES
             if p[BY_DEPTH] != 0.0 and what in (TOUCH, RETURN):
                 freeze_mobility(p, segment, memory, t, y)
             evaluate(p, segment, memory, t, y, k[0], now)
@@ -264,7 +280,8 @@ def run_segment(
             elif what == CUT:
                 now[PUSH] = 1e-30 if was_cut else -1e-30
         h = follow
-    return FINISHED, h
+    going[MIDST], going[NEXT_STEP] = 0.0, h
+    return FINISHED
 
 
 @entry
@@ -273,8 +290,9 @@ def integrate(
     segments: Matrix,
     times: Vector,
     weights: Vector,
-    first_step: float,
+    going: Vector,
     most_steps: int,
+    pause: int,
     y: Vector,
     memory: Vector,
     rows: Matrix,
@@ -288,23 +306,27 @@ def integrate(
         p: parameters. segments: of the drive, one a row. See `layout` for both.
         times: of the records [s], from 0.
         weights: one over the largest error of a step, for each component.
-        first_step: [s]. most_steps: before giving up.
+        going: zeros with the first step in NEXT_STEP; after a pause as it was left.
+        most_steps: before giving up. pause: after so many steps it returns PAUSED, to be called again.
         y, memory: state and memory at the start; at the end when it returns.
         rows, onsets, jumps, report: are filled.
     """
-    h = first_step
-    # a drive that moves from the start on without a jump has been moving for long
-    if segments[0, JUMP] == 0.0:
-        move_with_the_drive(p, segments[0], 0.0, y)
-    freeze_mobility(p, segments[0], memory, 0.0, y)
-    record(segments[0], memory, 0.0, y, rows, 0)
-    report[RECORDS] = 1
-    for n in range(segments.shape[0]):
+    if report[RECORDS] == 0.0:
+        # a drive that moves from the start on without a jump has been moving for long
+        if segments[0, JUMP] == 0.0:
+            move_with_the_drive(p, segments[0], 0.0, y)
+        freeze_mobility(p, segments[0], memory, 0.0, y)
+        record(segments[0], memory, 0.0, y, rows, 0)
+        report[RECORDS] = 1
+    for n in range(int(going[SEGMENT_NUMBER]), segments.shape[0]):
         segment = segments[n]
-        if segment[JUMP] != 0.0:
+        going[SEGMENT_NUMBER] = n
+        if segment[JUMP] != 0.0 and going[MIDST] == 0.0:
             jump(p, segment, y, False, jumps, int(report[JUMPS]))
             report[JUMPS] += 1
-        code, h = run_segment(p, segment, h, times, weights, most_steps, y, memory, rows, onsets, report)
+        code = run_segment(
+            p, segment, going, times, weights, most_steps, pause, y, memory, rows, onsets, report
+        )
         if code != FINISHED:
             return code
     return FINISHED

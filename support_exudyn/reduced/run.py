@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import count
+
 import numpy as np
 
 from support_exudyn.counts import Counts
@@ -14,15 +16,19 @@ from support_exudyn.reduced.coverage import can_be_compiled
 from support_exudyn.reduced.ideal import run_ideal
 from support_exudyn.reduced.integrate import (
     ACCEPTED,
+    AT,
     CLAMPED,
     CUTS,
     DEAD_CENTRE,
     EVALUATIONS,
     FINISHED,
+    GOING,
     JUMPS,
     LARGEST,
     LAST_STEP,
+    NEXT_STEP,
     NOT_A_NUMBER,
+    PAUSED,
     STEPS,
     STOPPED_AT,
     STUCK,
@@ -39,6 +45,7 @@ from support_exudyn.trajectory import Outcome
 
 FIRST_STEP = 1e-5  # [s]
 FEWER_STEPS = "Allow a larger tolerance, a shorter duration, or more steps (`solver.most_steps`)."
+AT_ONCE = 100_000  # compiled steps, some 0.5 s: until then it cannot be interrupted, and tells no progress
 CLOSES = "Look whether the posture is near a dead centre, or the pin is pressed far out of its place."
 
 
@@ -51,7 +58,7 @@ def run(scenario: Scenario, progress: Progress) -> Outcome:
             made.p, made.segments, made.times, made.y, made.memory, made.rows, made.jumps, made.report
         )
     elif scenario.solver.backend != "python" and can_be_compiled(made.pin.contact):
-        code = _compiled(made, scenario.solver.most_steps)
+        code = _compiled(made, scenario.solver.most_steps, progress)
     else:
         code, calls = run_plain(made, scenario.solver.most_steps, progress)
     if code == FINISHED and not np.isfinite(made.rows.sum()):
@@ -62,21 +69,29 @@ def run(scenario: Scenario, progress: Progress) -> Outcome:
     return _outcome(scenario, made, calls)
 
 
-def _compiled(made: Outline, most_steps: int) -> int:
-    return integrate(
-        made.p,
-        made.segments,
-        made.times,
-        made.weights,
-        FIRST_STEP,
-        most_steps,
-        made.y,
-        made.memory,
-        made.rows,
-        made.onsets,
-        made.jumps,
-        made.report,
-    )
+def _compiled(made: Outline, most_steps: int, progress: Progress) -> int:
+    going = np.zeros(GOING)
+    going[NEXT_STEP] = FIRST_STEP
+    for pause in count(AT_ONCE, AT_ONCE):
+        code = integrate(
+            made.p,
+            made.segments,
+            made.times,
+            made.weights,
+            going,
+            most_steps,
+            pause,
+            made.y,
+            made.memory,
+            made.rows,
+            made.onsets,
+            made.jumps,
+            made.report,
+        )
+        if code != PAUSED:
+            break
+        progress(float(going[AT] / made.times[-1]))
+    return code
 
 
 def _outcome(scenario: Scenario, made: Outline, calls: int) -> Outcome:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import h5py
@@ -11,8 +12,18 @@ import numpy as np
 import pytest
 
 from support_exudyn import Held, Result, UniformSpeed, simulate
+from support_exudyn.result import FORMAT
+from support_exudyn.sealed import BLOCK, seal
 from tests.reference.cases import SLIDER_PIN, loose_slider_crank, loose_support
 from user_forces import InputError, LuGre
+
+
+@contextmanager
+def changed(path: Path) -> Iterator[h5py.File]:
+    """A file to change by hand; its digest is then made anew."""
+    with h5py.File(path, "r+") as file:
+        yield file
+    path.write_bytes(seal(path.read_bytes()[BLOCK:], FORMAT))
 
 
 @pytest.fixture(scope="module")
@@ -133,7 +144,33 @@ def widen_onsets(group: h5py.Group) -> None:
     group.create_dataset("onsets/rear_base", data=np.zeros((2, 3))).attrs["largest_force_N"] = 1.0
 
 
-DAMAGES = [drop_channels, drop_scenario, spoil_text, add_a_count, drop_unit, widen_onsets]
+def replace_channel(name: str, values: object) -> Callable[[h5py.Group], None]:
+    def replace(group: h5py.Group) -> None:
+        attributes = dict(group[f"channels/{name}"].attrs)
+        del group[f"channels/{name}"]
+        group.create_dataset(f"channels/{name}", data=values).attrs.update(attributes)
+
+    return replace
+
+
+def turn_time_back(group: h5py.Group) -> None:
+    group["channels/time"][3] = group["channels/time"][1]
+
+
+def lose_a_time(group: h5py.Group) -> None:
+    group["channels/time"][3] = np.nan
+
+
+DAMAGES = [
+    *(drop_channels, drop_scenario, spoil_text, add_a_count, drop_unit, widen_onsets),
+    *(turn_time_back, lose_a_time),
+    replace_channel("tip.x", np.zeros(3)),
+    replace_channel("tip.x", np.zeros((61, 2))),
+    replace_channel("tip.x", np.float64(1.0)),
+    replace_channel("tip.x", "words"),
+    replace_channel("time", np.zeros(0)),
+    replace_channel("tip.x", np.zeros(61, dtype=np.int64)),
+]
 
 
 @pytest.mark.parametrize("group", ["/", "coarser", "coarser/coarser"])
@@ -142,7 +179,7 @@ def test_a_file_with_a_damaged_group_is_refused(
     estimated: Result, tmp_path: Path, group: str, damage: Callable[[h5py.Group], None]
 ) -> None:
     path = estimated.save(tmp_path / "run.h5")
-    with h5py.File(path, "r+") as file:
+    with changed(path) as file:
         damage(file[group])
     with pytest.raises(InputError, match=r"run\.h5: not a result file of this program, or damaged"):
         Result.load(path)
@@ -153,7 +190,7 @@ def test_a_file_with_a_value_that_does_not_fit_says_which(
     estimated: Result, tmp_path: Path, group: str
 ) -> None:
     path = estimated.save(tmp_path / "run.h5")
-    with h5py.File(path, "r+") as file:
+    with changed(path) as file:
         spoil_scenario(file[group])
     with pytest.raises(InputError, match=r"run\.h5: Scenario\."):
         Result.load(path)
@@ -161,18 +198,21 @@ def test_a_file_with_a_value_that_does_not_fit_says_which(
 
 def test_a_coarser_run_that_is_no_group_is_refused(estimated: Result, tmp_path: Path) -> None:
     path = estimated.save(tmp_path / "run.h5")
-    with h5py.File(path, "r+") as file:
+    with changed(path) as file:
         del file["coarser"]
         file["coarser"] = np.zeros(3)
     with pytest.raises(InputError, match="damaged"):
         Result.load(path)
 
 
-def test_a_file_of_an_older_program_says_so(result: Result, tmp_path: Path) -> None:
+def test_a_file_of_another_version_says_so(result: Result, tmp_path: Path) -> None:
     path = result.save(tmp_path / "run.h5")
-    with h5py.File(path, "r+") as file:
-        file.attrs["format"] = "support_exudyn result 2"
-    with pytest.raises(InputError, match=r"format is '.* result 2', expected '.* result 4'"):
+    image = path.read_bytes()[BLOCK:]
+    path.write_bytes(seal(image, "support_exudyn result 5"))
+    with pytest.raises(InputError, match=r"format is '.* result 5', expected '.* result 4'"):
+        Result.load(path)
+    path.write_bytes(image)  # versions before had no digest
+    with pytest.raises(InputError, match=r"an HDF5 file without a digest, as no version from '.* result 4' on"):
         Result.load(path)
 
 

@@ -1,0 +1,242 @@
+"""Studies that are interrupted, started twice, or cannot write."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import matplotlib.pyplot as plt
+import pytest
+
+from studies import __main__ as all_studies
+from studies import report, style
+from studies.judging import hypercube
+from studies.judging.plausible import REFERENCE
+from studies.study import Number, Options, run_main, save_figures, write_summary
+from support_exudyn.files import writing_alone
+from support_exudyn.workers import ProcessEndedError, Workers
+from tests.hostile import DISKS, little_room, posix_only
+from tests.processes import ROOT, environment, linux_only, session_of, wait_until
+from tests.studies import hostile_main
+
+# --- interrupted, and started twice ---
+
+
+@dataclass(frozen=True)
+class Story:
+    """Of a study that another was started beside, and that was then interrupted as by the console."""
+
+    out: Path
+    second: subprocess.CompletedProcess[str]
+    pid: int
+    code: int
+    said: str
+    seconds: float
+    left_over: set[int]
+
+
+@pytest.fixture(scope="module")
+def story(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Story]:
+    out = tmp_path_factory.mktemp("results") / "out"
+    command = [sys.executable, "-m", hostile_main.__name__, "--workers", "2", "--out", str(out)]
+    given = {"cwd": ROOT, "env": environment(), "text": True}
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+    with subprocess.Popen(command, start_new_session=True, **given, **pipes) as process:  # type: ignore[call-overload]
+        try:
+            # itself, two workers, and the tracker of what they share
+            assert wait_until(lambda: len(session_of(process.pid)) >= 4, 60.0)
+            second = subprocess.run(command, capture_output=True, timeout=60, **given)  # type: ignore[call-overload]
+            os.killpg(process.pid, signal.SIGINT)
+            sent = time.perf_counter()
+            _, said = process.communicate(timeout=60)
+            seconds = time.perf_counter() - sent
+            wait_until(lambda: not session_of(process.pid), 10.0)
+            left_over = session_of(process.pid)
+            yield Story(out, second, process.pid, process.returncode, said, seconds, left_over)
+        finally:
+            for pid in session_of(process.pid):
+                os.kill(pid, signal.SIGKILL)
+
+
+@linux_only
+class TestInterrupted:
+    """By the console: all its processes at once."""
+
+    def test_it_says_so_in_a_line(self, story: Story) -> None:
+        assert story.code == 130
+        assert story.said.splitlines()[-1] == "interrupted; nothing half-written is left"
+        assert "Traceback" not in story.said
+        assert "KeyboardInterrupt" not in story.said
+
+    def test_it_ends_soon_with_all_its_processes(self, story: Story) -> None:
+        assert story.seconds < 10.0  # a second or two on an idle machine; the runs would take minutes
+        assert story.left_over == set()
+
+    def test_what_was_finished_stays_and_nothing_else(self, story: Story) -> None:
+        assert [path.name for path in story.out.iterdir()] == ["summary.json"]
+        assert json.loads((story.out / "summary.json").read_text(encoding="utf-8"))["study"] == "hostile"
+
+    def test_a_second_one_into_its_folder_is_told_to_wait(self, story: Story) -> None:
+        assert story.second.returncode == 1
+        (line,) = story.second.stderr.splitlines()
+        assert line.startswith(
+            f"error: --out {story.out}: another process ({story.pid}) is writing there; wait"
+        )
+
+
+# --- folders ---
+
+
+def nothing(chosen: Options) -> None:
+    pytest.fail("the work is begun")
+
+
+def below_a_file(path: Path) -> Path:
+    (path / "file").write_text("", encoding="utf-8")
+    return path / "file" / "out"
+
+
+def a_file(path: Path) -> Path:
+    below_a_file(path)
+    return path / "file"
+
+
+def a_dead_link(path: Path) -> Path:
+    (path / "link").symlink_to(path / "nowhere" / "deep")
+    return path / "link"
+
+
+PLACES: dict[str, Callable[[Path], Path]] = {
+    "below a device": lambda path: Path("/dev/null/x"),
+    "a file": a_file,
+    "below a file": below_a_file,
+    "a dead link": a_dead_link,
+    "too long": lambda path: path / ("x" * 300),
+    "with a NUL": lambda path: path / "a\0b",
+}
+
+
+@posix_only
+@pytest.mark.parametrize("place", PLACES)
+def test_a_folder_that_cannot_be_made_is_said_before_the_work(
+    tmp_path: Path, place: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = PLACES[place](tmp_path)
+    assert run_main(nothing, Options(out, True, 1)) == 1
+    assert all_studies.main(["--quick", "--out", str(out)]) == 1
+    lines = capsys.readouterr().err.splitlines()
+    assert len(lines) == 2
+    assert all(line.startswith("error: --out ") and "allowed: a folder" in line for line in lines)
+    assert report.main(["--out", str(out)]) == 1
+    assert capsys.readouterr().err.startswith("error: ")
+
+
+@posix_only
+def test_all_studies_wait_for_one_that_writes_all(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    with writing_alone(tmp_path):
+        assert all_studies.main(["--quick", "--out", str(tmp_path)]) == 1
+    assert f"another process ({os.getpid()}) is writing there" in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_all_studies_stop_at_the_first_that_fails(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    ran: list[str] = []
+
+    def interrupted(chosen: Options) -> None:
+        ran.append(chosen.out.name)
+        (chosen.out / f".row-{2**22 + 1}-abc.json").write_text("half", encoding="utf-8")
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(
+        all_studies,
+        "STUDIES",
+        {"one": lambda chosen: ran.append(chosen.out.name), "two": interrupted, "three": nothing},
+    )
+    assert all_studies.main(["--workers", "1", "--out", str(tmp_path)]) == 130
+    assert ran == ["one", "two"]
+    assert sorted(path.name for path in tmp_path.rglob("*")) == ["one", "two"]
+
+
+# --- disks ---
+
+
+@pytest.mark.parametrize("kind", DISKS)
+def test_a_study_on_a_full_disk_says_which_file_and_leaves_the_old_ones(
+    tmp_path: Path, kind: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    drawing, axes = plt.subplots()
+    axes.plot([0.0, 1.0], [0.0, 1.0])
+    with little_room(tmp_path, 65536, kind) as folder:
+        chosen = Options(folder / "out", False, 1)
+
+        def numbers(count: int) -> Callable[[Options], None]:
+            many = [Number("n", str(n), 1.0, "1", 0.0) for n in range(count)]
+            return lambda chosen: (write_summary(chosen.out, "study", many, 0.0), None)[1]
+
+        def figure(chosen: Options) -> None:
+            with style.look():
+                (chosen.out / "figure.png").write_bytes(b"old")
+                (chosen.out / "filler").write_bytes(bytes(50000))
+                save_figures(chosen, {"figure": drawing})
+
+        assert run_main(numbers(1), chosen) == 0
+        old = (chosen.out / "summary.json").read_bytes()
+        capsys.readouterr()
+        assert run_main(numbers(2000), chosen) == 1
+        (line,) = capsys.readouterr().err.splitlines()
+        assert line.startswith("error: ")
+        assert line.endswith(f"it cannot be written: '{chosen.out / 'summary.json'}'")
+        assert (chosen.out / "summary.json").read_bytes() == old
+        if kind == "full disk":  # the figure alone is smaller than the limit
+            assert run_main(figure, chosen) == 1
+            assert f"it cannot be written: '{chosen.out / 'figure.png'}'" in capsys.readouterr().err
+            assert (chosen.out / "figure.png").read_bytes() == b"old"
+        assert not [path for path in chosen.out.iterdir() if path.name.startswith(".")]
+    plt.close(drawing)
+
+
+# --- the hypercube ---
+
+
+def cheap(number: int, place: Path, sample: dict[str, object]) -> None:
+    """In place of a machine's run, which takes seconds."""
+    place.write_text(json.dumps({"sample": sample, "measures": {}, "failure": None}), encoding="utf-8")
+
+
+class OneIsKilled(Workers):
+    """Does the work here, and has the process of the second job killed."""
+
+    def __init__(self) -> None:
+        super().__init__(ThreadPoolExecutor(1), None)
+
+    def run(self, jobs: Any, work: Any, progress: Any, ended: Any = None) -> list[Any]:
+        return [
+            ended(ProcessEndedError(place, 0.5, -9)) if place == 1 else work(place, *job)
+            for place, job in enumerate(jobs)
+        ]
+
+
+def test_a_machine_whose_process_is_killed_is_a_row_that_is_not_kept(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(hypercube, "_run_one", cheap)
+    monkeypatch.setattr(hypercube, "warm_up", lambda: None)
+    machines = [REFERENCE | {"scale": scale} for scale in (0.7, 0.8, 0.9)]
+    rows = hypercube.run(machines, tmp_path, OneIsKilled(), lambda done, of: None)
+    assert [row.sample["scale"] for row in rows] == [0.7, 0.8, 0.9]
+    assert [row.failure for row in rows] == [
+        None,
+        "the process that computed it ended: signal 9 (SIGKILL, out of memory?)",
+        None,
+    ]
+    assert rows[1].measures is None
+    assert len(list((tmp_path / hypercube.FOLDER).iterdir())) == 2  # it is tried again next time

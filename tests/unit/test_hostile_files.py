@@ -1,0 +1,245 @@
+"""Files where they cannot be written, on full disks, and by several processes at once."""
+
+from __future__ import annotations
+
+import errno
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from support_exudyn import files
+from support_exudyn.files import LOCK, remove_leftovers, whole_file, writing_alone
+from tests.hostile import DISKS, little_room, posix_only
+from tests.processes import ROOT, environment, wait_until
+
+
+def names(folder: Path) -> list[str]:
+    return sorted(item.name for item in folder.iterdir())
+
+
+# --- places ---
+
+
+def a_folder(path: Path) -> Path:
+    (path / "there").mkdir()
+    return path / "there"
+
+
+def below_a_file(path: Path) -> Path:
+    (path / "there").write_text("old", encoding="utf-8")
+    return path / "there" / "run.json"
+
+
+def deep_below_a_file(path: Path) -> Path:
+    return below_a_file(path) / "deeper" / "run.json"
+
+
+def a_loop_of_links(path: Path) -> Path:
+    (path / "there").symlink_to(path / "back")
+    (path / "back").symlink_to(path / "there")
+    return path / "there"
+
+
+def a_device(path: Path) -> Path:
+    return Path("/dev/null")
+
+
+def below_a_device(path: Path) -> Path:
+    return Path("/dev/null/x/run.json")
+
+
+def too_long(path: Path) -> Path:
+    return path / ("x" * 256)
+
+
+def with_a_nul(path: Path) -> Path:
+    return path / "a\0b"
+
+
+def read_only(path: Path) -> Path:
+    (path / "there").write_text("old", encoding="utf-8")
+    (path / "there").chmod(0o444)
+    if os.access(path / "there", os.W_OK):
+        pytest.skip("this user may write everywhere")
+    return path / "there"
+
+
+PLACES = [
+    *(a_folder, below_a_file, deep_below_a_file, a_loop_of_links, a_device, below_a_device),
+    *(too_long, with_a_nul, read_only),
+]
+
+
+@posix_only
+@pytest.mark.parametrize("place", PLACES)
+def test_what_cannot_be_written_is_said_before_the_work(tmp_path: Path, place: object) -> None:
+    path = place(tmp_path)  # type: ignore[operator]
+    before = names(tmp_path)
+    with pytest.raises(OSError, match="it cannot be written") as caught, whole_file(path):
+        pytest.fail("the work is begun")
+    assert caught.value.filename == str(path)
+    assert caught.value.errno
+    assert names(tmp_path) == before
+
+
+def test_the_longest_name_that_there_may_be_can_be_written(tmp_path: Path) -> None:
+    for name in ("x" * 250 + ".json", "ä" * 127):
+        with whole_file(tmp_path / name) as temporary:
+            temporary.write_text("new", encoding="utf-8")
+        assert (tmp_path / name).read_text(encoding="utf-8") == "new"
+    assert len(names(tmp_path)) == 2
+
+
+@posix_only
+@pytest.mark.parametrize("exists", [True, False])
+def test_a_link_stays_and_its_file_is_written(tmp_path: Path, exists: bool) -> None:
+    target, link = tmp_path / "elsewhere" / "run.json", tmp_path / "run.json"
+    target.parent.mkdir()
+    if exists:
+        target.write_text("old", encoding="utf-8")
+    link.symlink_to(target)
+    with whole_file(link) as temporary:
+        temporary.write_text("new", encoding="utf-8")
+        assert temporary.parent == target.parent  # a rename does not reach from disk to disk
+    assert link.is_symlink()
+    assert target.read_text(encoding="utf-8") == "new"
+    assert names(target.parent) == ["run.json"]
+
+
+# --- disks ---
+
+
+@pytest.mark.parametrize("kind", DISKS)
+def test_a_full_disk_leaves_the_old_file_and_says_which_could_not_be_written(tmp_path: Path, kind: str) -> None:
+    with little_room(tmp_path, 16384, kind) as folder:
+        (folder / "run.json").write_text("old", encoding="utf-8")
+        with (
+            pytest.raises(OSError, match="it cannot be written") as caught,
+            whole_file(folder / "run.json") as new,
+        ):
+            new.write_text("x" * 65536, encoding="utf-8")
+        assert caught.value.errno == (errno.ENOSPC if kind == "full disk" else errno.EFBIG)
+        assert caught.value.filename == str(folder / "run.json")
+        assert (folder / "run.json").read_text(encoding="utf-8") == "old"
+        assert names(folder) == ["run.json"]
+
+
+def test_an_error_of_another_file_keeps_its_name(tmp_path: Path) -> None:
+    with pytest.raises(FileNotFoundError) as caught, whole_file(tmp_path / "run.json"):
+        (tmp_path / "other").read_text(encoding="utf-8")
+    assert caught.value.filename == str(tmp_path / "other")
+    assert "cannot be written" not in str(caught.value)
+
+
+def test_a_file_is_on_the_disk_before_it_takes_its_place(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    seen: list[str] = []
+    sync, replace = os.fsync, Path.replace
+    monkeypatch.setattr(files.os, "fsync", lambda handle: (seen.append("on the disk"), sync(handle)))
+    monkeypatch.setattr(Path, "replace", lambda *paths: (seen.append("in its place"), replace(*paths)))
+    with whole_file(tmp_path / "run.json") as temporary:
+        temporary.write_text("new", encoding="utf-8")
+    assert seen == ["on the disk", "in its place"]
+
+
+# --- several processes ---
+
+HOLD = """
+import sys, time
+from pathlib import Path
+from support_exudyn.files import whole_file, writing_alone
+folder = Path(sys.argv[1])
+with writing_alone(folder), whole_file(folder / "row.json") as temporary:
+    print(temporary.name, flush=True)
+    time.sleep(120.0)
+"""
+
+
+@posix_only
+def test_a_folder_has_one_writer_and_is_free_when_that_is_killed(tmp_path: Path) -> None:
+    command = [sys.executable, "-c", HOLD, str(tmp_path)]
+    with subprocess.Popen(command, cwd=ROOT, env=environment(), stdout=subprocess.PIPE, text=True) as other:
+        try:
+            assert other.stdout is not None
+            temporary = other.stdout.readline().strip()
+            with pytest.raises(OSError, match=rf"another process \({other.pid}\) is writing there"):  # noqa: SIM117
+                with writing_alone(tmp_path):
+                    pytest.fail("both write")
+            remove_leftovers(tmp_path)  # not what is being written
+            assert names(tmp_path) == sorted([LOCK, temporary])
+        finally:
+            other.send_signal(signal.SIGKILL)
+    with writing_alone(tmp_path):
+        remove_leftovers(tmp_path)
+        assert names(tmp_path) == [LOCK]
+    assert names(tmp_path) == []
+
+
+@posix_only
+def test_a_lock_is_left_and_taken_again_and_keeps_out_the_same_process_too(tmp_path: Path) -> None:
+    (tmp_path / LOCK).write_text("12345 left by somebody\n", encoding="utf-8")
+    for _ in range(3):
+        with writing_alone(tmp_path):
+            with pytest.raises(BlockingIOError, match=rf"\({os.getpid()}\)"), writing_alone(tmp_path):
+                pytest.fail("both write")
+            (tmp_path / "deeper").mkdir(exist_ok=True)
+            with writing_alone(tmp_path / "deeper"):
+                assert names(tmp_path / "deeper") == [LOCK]
+    assert names(tmp_path) == ["deeper"]
+
+
+TAKE = """
+import os, sys, time
+from pathlib import Path
+from support_exudyn.files import writing_alone
+folder, mark = Path(sys.argv[1]), Path(sys.argv[1]) / "mark"
+taken, end = 0, time.monotonic() + 0.4
+print("ready", flush=True)
+while time.monotonic() < end:
+    try:
+        with writing_alone(folder):
+            os.close(os.open(mark, os.O_CREAT | os.O_EXCL))  # fails if another is inside
+            mark.unlink()
+            taken += 1
+    except BlockingIOError:
+        pass
+print(taken)
+"""
+
+
+@posix_only
+def test_no_two_processes_that_hurry_are_ever_in_a_folder_together(tmp_path: Path) -> None:
+    command = [sys.executable, "-c", TAKE, str(tmp_path)]
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+    running = [
+        subprocess.Popen(command, cwd=ROOT, env=environment(), text=True, **pipes)  # type: ignore[call-overload]
+        for _ in range(2)
+    ]
+    said = [process.communicate(timeout=60) for process in running]
+    assert [errors for _, errors in said] == [""] * 2
+    taken = [int(out.split()[1]) for out, _ in said]
+    assert sum(taken) > 20  # it takes some 0.1 ms
+    assert wait_until(lambda: names(tmp_path) == [], 0.0)
+
+
+@posix_only
+def test_a_lock_that_is_removed_while_it_is_taken_is_taken_anew(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    flock, asked = files.fcntl.flock, []
+
+    def after_its_owner_left(handle: int, how: int) -> None:
+        if not asked:
+            (tmp_path / LOCK).unlink()
+        asked.append(how)
+        flock(handle, how)
+
+    monkeypatch.setattr(files.fcntl, "flock", after_its_owner_left)
+    with writing_alone(tmp_path):
+        assert names(tmp_path) == [LOCK]
+    assert len(asked) == 2
