@@ -10,7 +10,7 @@ One entry, `simulate`; everything else is a value that is handed in. SI units an
 
 from support_exudyn.channels import Channel
 from support_exudyn.columns import ColumnModel, OilColumn, RigidColumn, TwoBodyColumn, bore_area
-from support_exudyn.drives import CubicStep, Drive, Held, Steady, Stroke, UniformSpeed
+from support_exudyn.drives import CubicStep, Drive, Held, Reciprocating, Steady, Stroke, UniformSpeed
 from support_exudyn.errors import Failure, SimulationError
 from support_exudyn.estimate import Estimate
 from support_exudyn.impulse import Impulse
@@ -54,6 +54,7 @@ __all__ = [
     "PartModel",
     "Pin",
     "PinPlace",
+    "Reciprocating",
     "Recommendation",
     "Result",
     "RigidColumn",

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from support_exudyn.drives import Stroke
+from support_exudyn.drives import Reciprocating, Stroke
 from support_exudyn.kinetics import Kinetics, Matrix, kinetics_of
 from support_exudyn.machine import Linkage
 from support_exudyn.scenario import Scenario
@@ -23,7 +23,8 @@ class Timescales:
     """Shortest times of a scene [s]; infinite where there is no such motion.
 
     flight: of a journal across its clearance. resting: of a loaded contact's vibration, one over its angular
-    frequency. drive: of the drive, its stroke or one over a crank's speed.
+    frequency. drive: of the drive, its stroke, or one over a crank's speed, or one
+    over the angular frequency of what rises and falls.
     """
 
     flight: float
@@ -103,6 +104,8 @@ def _drive_time(scenario: Scenario, linkage: Linkage) -> float:
         speed = abs(drive.initial_speed)
         if isinstance(drive, Stroke):
             times.append(drive.end - drive.start)
+        elif isinstance(drive, Reciprocating):
+            times.append(1.0 / drive.frequency)
         elif speed > 0.0 and linkage.cranks:
             times.append(1.0 / speed)
     return min(times)
