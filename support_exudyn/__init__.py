@@ -17,6 +17,7 @@ from support_exudyn.impulse import Impulse
 from support_exudyn.linkages.hydraulic_support import HydraulicSupport
 from support_exudyn.linkages.impact_stand import ImpactStand
 from support_exudyn.linkages.slider_crank import SliderCrank, ravn_slider_crank
+from support_exudyn.loads import Load, LoadedPoint, Roof
 from support_exudyn.machine import Body, Column, Crank, Linkage, Machine, Part, PinPlace, Slide, TracePoint
 from support_exudyn.onset import Onset
 from support_exudyn.parts import Lumped, OwnBody, PartModel
@@ -45,6 +46,8 @@ __all__ = [
     "ImpactStand",
     "Impulse",
     "Linkage",
+    "Load",
+    "LoadedPoint",
     "Lumped",
     "Machine",
     "OilColumn",
@@ -58,6 +61,7 @@ __all__ = [
     "Recommendation",
     "Result",
     "RigidColumn",
+    "Roof",
     "Scenario",
     "SimulationError",
     "Slide",

@@ -12,6 +12,7 @@ from pydantic import Field, field_validator, model_validator
 
 from support_exudyn.columns import ColumnModel, OilColumn, TwoBodyColumn
 from support_exudyn.drives import Drive, Held
+from support_exudyn.loads.load import Load
 from support_exudyn.machine import Linkage, Machine
 from support_exudyn.parts import OwnBody, PartModel
 from support_exudyn.pins import ClearancePin, IdealPin, Pin
@@ -114,6 +115,7 @@ class Scenario(Value):
         parts: for each part that is not fixed to its body (or to say so), what it is, by name.
         drive: how all driven parts move: columns extend [m], cranks turn [rad]. Into an oil column it lets oil.
         drives: for each driven part, a column or crank, that moves otherwise, how it does, by name.
+        loads: what presses on the machine besides its weight, by name; in the plane, redundant formulation.
         duration: end time [s], > 0; the run starts at 0.
         dimensions: 2: in the plane, both sides of a machine lumped; 3: in space, for machines that know their
             lateral dimensions. Parts that there are two of are then driven by names such as `front_column_left`
@@ -147,6 +149,7 @@ class Scenario(Value):
     parts: Mapping[str, PartModel] = field(default_factory=dict)
     drive: Drive = field(default_factory=Held)
     drives: Mapping[str, Drive] = field(default_factory=dict)
+    loads: Mapping[str, Load] = field(default_factory=dict)
     duration: Positive
     dimensions: Literal[2, 3] = 2
     start: Literal["concentric", "settled"] = "concentric"
@@ -199,6 +202,7 @@ class Scenario(Value):
             )
         self._check_columns(linkage)
         self._check_drives(linkage)
+        self._check_loads(linkage)
         if self.channels != ALL_CHANNELS:
             check_patterns(self.recipes, self.channels)
         return self
@@ -261,6 +265,22 @@ class Scenario(Value):
         spans = [drive.span(self.duration) for drive in self.drives_in_use]
         # where parts are driven apart, all of them over the range of all: what the machine can answer
         self.machine.check_extension(min(low for low, _ in spans), max(high for _, high in spans))
+
+    def _check_loads(self, linkage: Linkage) -> None:
+        taken = {"pin", "energy", "time", *linkage.bodies, *linkage.points, *linkage.driven, *linkage.columns}
+        taken |= {*linkage.pins, *linkage.slides}
+        for name, load in self.loads.items():
+            if self.dimensions == 3:
+                raise ValueError(f"loads.{name}: acts in the plane; allowed with dimensions = 3: no loads")
+            if name in taken:
+                raise ValueError(
+                    f"loads.{name}: the machine has something of this name; "
+                    f"allowed: all but {', '.join(sorted(taken))}"
+                )
+            if load.body not in linkage.bodies:
+                raise ValueError(
+                    f"loads.{name}.body = {load.body!r}: no such body; allowed: {', '.join(linkage.bodies)}"
+                )
 
     @property
     def jumps(self) -> bool:
@@ -336,15 +356,16 @@ class Scenario(Value):
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """Breaks of all drives in use [s], sorted."""
-        return tuple(sorted({t for drive in self.drives_in_use for t in drive.breaks}))
+        """Breaks of all drives in use and of loads [s], sorted."""
+        of_drives = {t for drive in self.drives_in_use for t in drive.breaks}
+        return tuple(sorted(of_drives.union(*(load.breaks for load in self.loads.values()))))
 
     @property
     def recipes(self) -> dict[str, Recipe]:
         """All channels that could be asked for, by name."""
         if self.dimensions == 3:
             return spatial_recipes(self.space, self.clearance_pins, self.oil_columns)
-        return recipes(self.linkage, self.clearance_pins, self.oil_columns, self.friction_pins)
+        return recipes(self.linkage, self.clearance_pins, self.oil_columns, self.friction_pins, self.loads)
 
     @property
     def goal(self) -> float | None:
