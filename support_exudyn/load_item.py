@@ -1,4 +1,4 @@
-"""Loads in the engine: a connector between the ground and the loaded point, whose force is the load's."""
+"""Loads in the engine: a connector between the loaded point and what it is loaded from."""
 
 from __future__ import annotations
 
@@ -21,11 +21,12 @@ NAME = "springForceUserFunction"  # the engine's, of its Cartesian spring
 
 @dataclass(frozen=True)
 class LoadItem:
-    """A load in the engine: its data and its connector."""
+    """A load in the engine: its data, its connector, and the force, which must live as long as it."""
 
     mbs: Any
     load: Load
     object: Any
+    function: Any
 
     def powers(self, t: float) -> Powers:
         """Powers [W] at the end of a step, t [s]."""
@@ -35,18 +36,18 @@ class LoadItem:
         return self.load.powers(LoadedPoint(t, float(x), float(y), float(vx), float(vy)))
 
 
-def add_load(mbs: Any, load: Load, ground: Any, point: Any) -> LoadItem:
-    """Let a load act between a marker on the ground and one on the body, both at the loaded point.
+def add_load(mbs: Any, load: Load, origin: Any, point: Any) -> LoadItem:
+    """Let a load act between a marker on what it acts against and one on the body, both at the loaded point.
 
     It is a connector and no load of the engine's, for those have no Jacobian, without which Newton's method
     does not get along with a stiff one.
     """
-    connector = mbs.AddObject(ObjectConnectorCartesianSpringDamper(markerNumbers=[ground, point]))
+    connector = mbs.AddObject(ObjectConnectorCartesianSpringDamper(markerNumbers=[origin, point]))
     function: Any = _pull(load)
     if _is_formula(load):
         function = CreateSymbolicUserFunction(mbs, _expression(load), NAME, connector)
     mbs.SetObjectParameter(connector, NAME, function)
-    return LoadItem(mbs, load, connector)
+    return LoadItem(mbs, load, connector, function)
 
 
 def _pull(load: Load) -> Callable[..., list[float]]:
@@ -94,13 +95,12 @@ def _is_formula(load: Load) -> bool:
     return True
 
 
-def load_series(load: Load, motion: BodyMotion, time: Series) -> LoadSeries:
-    """A load at the records [s]."""
-    point = motion.point(load.body, load.point)
-    way = point.position - np.array(load.point)
+def load_series(name: str, load: Load, motion: BodyMotion, time: Series) -> LoadSeries:
+    """The load of this name at the records [s]."""
+    point, origin = (motion.point(body, load.point) for body in (load.body, load.against(name)))
+    way, velocity = point.position - origin.position, point.velocity - origin.velocity
     found = [
-        LoadedPoint(*row)
-        for row in zip(time.tolist(), *way.T.tolist(), *point.velocity.T.tolist(), strict=True)
+        LoadedPoint(*row) for row in zip(time.tolist(), *way.T.tolist(), *velocity.T.tolist(), strict=True)
     ]
     observed = [load.observed(at) for at in found]
     return LoadSeries(

@@ -113,7 +113,7 @@ def trajectory(scene: Scene, history: History, needed: Part) -> Trajectory:
         if Part.CONTACTS in needed
     }
     loads = {
-        name: load_series(load, motion, history.time)
+        name: load_series(name, load, motion, history.time)
         for name, load in scene.scenario.loads.items()
         if Part.LOADS in needed
     }

@@ -61,7 +61,7 @@ class SolverSettings(Value):
         growth: by what factor steps may grow beyond `step`, from 1 to 64, while loose pins are closed, nothing
             is in an impact and accelerations hardly change. Records that a step passes over are interpolated.
             16 saves nine tenths of the steps with ideal pins, a third with a loose one that comes to rest, few
-            with one that vibrates; errors stay those of `step` where impacts decide.
+            with one that vibrates; errors stay those of `step` where impacts decide. Under loads none grows.
         tolerance: of the formulations with error control, from 1e-13 to 1e-2. Reduced: largest error of a step
             as a share of the clearance, and of the speed of a fall through half of it. Tree: of that speed;
             1e-5 is enough for most.
@@ -180,6 +180,7 @@ class Scenario(Value):
                     f"parts.{name}: the machine has no such part on a jack; "
                     f"allowed: {', '.join(self.machine.jacks) or 'none'}"
                 )
+        self._check_loads()
         linkage = self.linkage
         if self.dimensions == 3:
             self._check_space()
@@ -202,7 +203,6 @@ class Scenario(Value):
             )
         self._check_columns(linkage)
         self._check_drives(linkage)
-        self._check_loads(linkage)
         if self.channels != ALL_CHANNELS:
             check_patterns(self.recipes, self.channels)
         return self
@@ -266,7 +266,8 @@ class Scenario(Value):
         # where parts are driven apart, all of them over the range of all: what the machine can answer
         self.machine.check_extension(min(low for low, _ in spans), max(high for _, high in spans))
 
-    def _check_loads(self, linkage: Linkage) -> None:
+    def _check_loads(self) -> None:
+        linkage = self._unloaded
         taken = {"pin", "energy", "time", *linkage.bodies, *linkage.points, *linkage.driven, *linkage.columns}
         taken |= {*linkage.pins, *linkage.slides}
         for name, load in self.loads.items():
@@ -313,7 +314,15 @@ class Scenario(Value):
 
     @cached_property
     def linkage(self) -> Linkage:
-        """The machine's mechanism in its start posture, as far as it is modelled."""
+        """The mechanism in its start posture, as far as it is modelled, with what loads bring along."""
+        linkage = self._unloaded
+        for name, load in self.loads.items():
+            linkage = load.joined(linkage, name)
+        return linkage
+
+    @property
+    def _unloaded(self) -> Linkage:
+        """The machine's mechanism, as far as it is modelled."""
         heavy = {name: column for name, column in self.columns.items() if isinstance(column, TwoBodyColumn)}
         if not heavy and not self.own_bodies:
             return self.machine.linkage()

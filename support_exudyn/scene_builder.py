@@ -179,7 +179,12 @@ class _Builder:
         cranks = {name: self.add_crank(crank) for name, crank in self.linkage.cranks.items()}
         slides = {name: self.add_slide(slide) for name, slide in self.linkage.slides.items()}
         loads = {
-            name: add_load(self.mbs, load, self.marker(GROUND, load.point), self.marker(load.body, load.point))
+            name: add_load(
+                self.mbs,
+                load,
+                self.marker(load.against(name), load.point),
+                self.marker(load.body, load.point),
+            )
             for name, load in self.scenario.loads.items()
         }
         if any(self.scenario.gravity):

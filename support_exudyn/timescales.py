@@ -9,6 +9,7 @@ import numpy as np
 
 from support_exudyn.drives import Reciprocating, Stroke
 from support_exudyn.kinetics import Kinetics, Matrix, kinetics_of
+from support_exudyn.loads.load import Load
 from support_exudyn.machine import Linkage
 from support_exudyn.scenario import Scenario
 from user_forces.normal.law import LoadError, NormalLaw
@@ -78,8 +79,8 @@ def _static_loads(scenario: Scenario, closed: Kinetics) -> dict[str, list[Matrix
     still, forces = np.zeros(weight.size), [weight]
     if scenario.loads:
         loaded = weight.copy()
-        for load in scenario.loads.values():
-            rate = closed.point(still, load.body, load.point)[1]
+        for name, load in scenario.loads.items():
+            rate = _loaded_rate(closed, name, load)
             loaded += np.array(load.largest(scenario.duration)) @ rate
         forces.append(loaded)
     reactions = [closed.respond(still, force, 0.0)[1] for force in forces]
@@ -89,15 +90,22 @@ def _static_loads(scenario: Scenario, closed: Kinetics) -> dict[str, list[Matrix
     }
 
 
+def _loaded_rate(system: Kinetics, name: str, load: Load) -> Matrix:
+    """What turns all velocities into that of a loaded point in the start posture (2, n)."""
+    still = np.zeros(3 * len(system.bodies))
+    point, origin = (system.point(still, body, load.point)[1] for body in (load.body, load.against(name)))
+    return point - origin
+
+
 def _under_loads(scenario: Scenario) -> list[float]:
     """One over the angular frequency of what stiff loads press on, in the start posture [s]."""
     linkage, found = scenario.linkage, []
     ideal = tuple(pin for pin in linkage.pins if pin not in scenario.clearance_pins)
     rigid = tuple(column for column in linkage.columns if column not in scenario.oil_columns)
-    for load in scenario.loads.values():
+    for name, load in scenario.loads.items():
         free = kinetics_of(linkage, ideal, rigid)
         still = np.zeros(3 * len(linkage.bodies))
-        rate = free.point(still, load.body, load.point)[1]
+        rate = _loaded_rate(free, name, load)
         mobility = np.diag(rate @ free.respond(still, rate.T, 0.0)[0])
         # what nothing but rounding lets move does not vibrate
         found += [

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 from support_exudyn import (
     Body,
@@ -20,8 +21,9 @@ from support_exudyn import (
     bore_area,
     reference_support,
 )
-from support_exudyn.loads.load import Powers
+from support_exudyn.loads import Powers
 from user_forces import value
+from user_forces.scalar import maximum
 from user_forces.values import Vector2
 
 MASS, STIFFNESS = 1000.0, 1e6
@@ -63,6 +65,40 @@ class DeadLoad(Load):
 
     def powers(self, at: LoadedPoint) -> Powers:
         return Powers(0.0, 0.0)
+
+
+@value
+class FallingBlock(Load):
+    """A block on an upright guide that falls on the point: what a load with a mass of its own takes."""
+
+    mass: float
+    gap: float
+    stiffness: float
+
+    def joined(self, linkage: Linkage, name: str) -> Linkage:
+        block = Body(mass=self.mass, inertia=1.0, centre=self.point)
+        guide = Slide(body=name, point=self.point, direction=0.5 * math.pi)
+        return replace(
+            linkage,
+            bodies={**linkage.bodies, name: block},
+            slides={**linkage.slides, f"{name}_guide": guide},
+        )
+
+    def against(self, name: str) -> str:
+        return name
+
+    def force(self, at: LoadedPoint) -> Vector2:
+        return 0.0, -self.stiffness * maximum(0.0, at.y - self.gap)
+
+    def stored(self, at: LoadedPoint) -> float:
+        return 0.5 * self.stiffness * maximum(0.0, at.y - self.gap) ** 2
+
+    def powers(self, at: LoadedPoint) -> Powers:
+        return Powers(0.0, 0.0)
+
+    @property
+    def steepness(self) -> Vector2:
+        return 0.0, self.stiffness
 
 
 @value

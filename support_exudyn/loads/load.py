@@ -6,11 +6,15 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from typing import NamedTuple
 
+from support_exudyn.machine import GROUND, Linkage
 from user_forces.values import Value, Vector2, value
 
 
 class LoadedPoint(NamedTuple):
-    """The point that a load acts on: time [s], way since the start posture [m], velocity [m/s]; y is up."""
+    """The point that a load acts on: time [s], way since the start posture [m], velocity [m/s]; y is up.
+
+    Way and velocity are seen from the place of `Load.against` that lay at the point in the start posture.
+    """
 
     time: float
     x: float
@@ -63,6 +67,16 @@ class Load(Value, ABC):
     @abstractmethod
     def powers(self, at: LoadedPoint) -> Powers:
         """What moves the load does, and what is lost in it."""
+
+    def joined(self, linkage: Linkage, name: str) -> Linkage:
+        """The linkage with the bodies that the load of this name brings along; none by default."""
+        del name
+        return linkage
+
+    def against(self, name: str) -> str:
+        """The body that the opposite force acts on, if the load has this name: the ground by default."""
+        del name
+        return GROUND
 
     @property
     def channels(self) -> Mapping[str, Observed]:

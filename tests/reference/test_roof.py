@@ -10,8 +10,18 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from support_exudyn import ClearancePin, CubicStep, Held, Result, UniformSpeed, simulate
+from support_exudyn import (
+    ClearancePin,
+    CubicStep,
+    Held,
+    OilColumn,
+    Result,
+    SolverSettings,
+    UniformSpeed,
+    simulate,
+)
 from support_exudyn.kinetics import kinetics_of
+from support_exudyn.timescales import timescales
 from tests.reference.cases import PIN, loose_support
 from tests.roof_cases import (
     GAP,
@@ -24,6 +34,7 @@ from tests.roof_cases import (
     TOP,
     Branching,
     DeadLoad,
+    FallingBlock,
     Ram,
     over_the_canopy,
     over_the_ram,
@@ -125,6 +136,32 @@ def test_a_dead_load_takes_no_more_than_its_class() -> None:
     np.testing.assert_allclose(result["guide.force"][1:], 7.0, rtol=1e-6)
     assert result.energy_error < 1e-4  # of 500 J
     assert "weight.force" not in result.channels
+
+
+def test_a_load_may_bring_its_own_mass_along() -> None:
+    # 250 kg meet 1 t that comes up at 1 m/s, after 10 mm; without weight, loss and outer force
+    block = FallingBlock(body="ram", point=TOP, mass=MASS / 4.0, gap=0.01, stiffness=STIFFNESS)
+    scene = replace(thrown(0.01, 1e-4), loads={"block": block})
+    result = simulate(scene)
+    # the formulas of an elastic impact; second order in the steps: 1e-5
+    assert result["ram.velocity_y"][-1] == pytest.approx(0.6, rel=1e-4)
+    assert result["block.velocity_y"][-1] == pytest.approx(1.6, rel=1e-4)
+    assert result.energy_error < 1e-2  # of 500 J
+    # the reduced mass of a fifth of a ton; rounding
+    assert timescales(scene).resting == pytest.approx(math.sqrt(MASS / 5.0 / STIFFNESS), rel=1e-12)
+
+
+@pytest.mark.parametrize("columns", [{}, ON_OIL], ids=["rigid", "oil"])
+def test_a_block_that_falls_on_the_canopy_gives_its_energy_to_the_audit(columns: dict[str, OilColumn]) -> None:
+    block = FallingBlock(body="canopy", point=OVER_THE_COLUMNS, mass=2000.0, gap=0.05, stiffness=1e8)
+    result = simulate(pressed_support(block, columns=columns, loads={"rock": block}, pins=LOOSE, step=1e-4))
+    fallen = result.time < 0.1  # it lands after 0.101 s
+    expected = OVER_THE_COLUMNS[1] - 0.5 * 9.81 * result.time**2
+    np.testing.assert_allclose(result["rock.y"][fallen], expected[fallen], atol=1e-9)  # Newton's tolerance
+    # landed: of speed times sqrt(k m), 440 kN, the front column takes half
+    assert result["front_column.force"].max() > 2e5
+    # of 1 kJ that it falls with; second order: 0.2 J
+    assert result.energy_error < 0.5
 
 
 # --- the support under 10 MN ---
@@ -255,6 +292,12 @@ def test_forces_converge_with_second_order() -> None:
         second = np.abs(middle[name] - fine[name])[60:].max()
         # 4 with second order, 2 with first; where in a step the roof lands makes it scatter
         assert 3.2 < first / second < 6.0, name
+
+
+def test_steps_do_not_grow_past_a_landing() -> None:
+    scene = pressed("rigid, ideal").scenario
+    grown = simulate(replace(scene, solver=SolverSettings(growth=16.0)))
+    assert grown.energy_error == pytest.approx(pressed("rigid, ideal").energy_error, rel=1e-6)  # rounding
 
 
 @pytest.mark.parametrize("gap", [0.0, 1e-3])
