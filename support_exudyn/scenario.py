@@ -320,7 +320,7 @@ class Scenario(Value):
             linkage = load.joined(linkage, name)
         return linkage
 
-    @property
+    @cached_property
     def _unloaded(self) -> Linkage:
         """The machine's mechanism, as far as it is modelled."""
         heavy = {name: column for name, column in self.columns.items() if isinstance(column, TwoBodyColumn)}
