@@ -138,12 +138,15 @@ def _mobility(scenario: Scenario, name: str) -> Matrix:
 
 def _drive_time(scenario: Scenario, linkage: Linkage) -> float:
     times = [math.inf]
-    for drive in scenario.drives_in_use:
+    cranks = bool(linkage.cranks)
+    driving = [(drive, cranks) for drive in scenario.drives_in_use]
+    driving += [(drive, False) for load in scenario.loads.values() for drive in load.drives]
+    for drive, turns in driving:
         speed = abs(drive.initial_speed)
         if isinstance(drive, Stroke):
             times.append(drive.end - drive.start)
         elif isinstance(drive, Reciprocating):
             times.append(1.0 / drive.frequency)
-        elif speed > 0.0 and linkage.cranks:
+        elif speed > 0.0 and turns:
             times.append(1.0 / speed)
     return min(times)

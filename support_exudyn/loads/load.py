@@ -6,6 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from typing import NamedTuple
 
+from support_exudyn.drives import Drive
 from support_exudyn.machine import GROUND, Linkage
 from user_forces.values import Value, Vector2, value
 
@@ -89,9 +90,14 @@ class Load(Value, ABC):
         return {}
 
     @property
-    def breaks(self) -> tuple[float, ...]:
-        """Times [s] at which a derivative of the force by time jumps; the solver lands on them."""
+    def drives(self) -> tuple[Drive, ...]:
+        """What moves it; none by default."""
         return ()
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """Times [s] at which a derivative of the force by time jumps, and on which the solver lands."""
+        return tuple(sorted({t for drive in self.drives for t in drive.breaks}))
 
     @property
     def steepness(self) -> Vector2:

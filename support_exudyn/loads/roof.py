@@ -79,9 +79,9 @@ class Roof(Load):
         return {"force": self._push(at), "gap": -self._closed(at)}
 
     @property
-    def breaks(self) -> tuple[float, ...]:
-        """Those of the descent [s]."""
-        return self.descent.breaks
+    def drives(self) -> tuple[Drive, ...]:
+        """Its descent."""
+        return (self.descent,)
 
     @property
     def steepness(self) -> Vector2:

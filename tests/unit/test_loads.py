@@ -18,6 +18,7 @@ from support_exudyn import (
     Roof,
     Scenario,
     Steady,
+    ravn_slider_crank,
     reference_support,
     simulate,
 )
@@ -215,6 +216,17 @@ def test_a_loose_pin_is_stiffer_the_harder_it_is_pressed() -> None:
     assert heavy < 0.75 * light
     free = Scenario(machine=reference_support(), pins=pins, duration=0.3)
     assert light == pytest.approx(timescales(free).resting, rel=1e-12)  # rounding
+
+
+def test_steps_follow_the_descent() -> None:
+    assert timescales(pressed_support(over_the_canopy(0.1, start=0.03, end=0.07))).drive == pytest.approx(0.04)
+    rising = CubicStep(stroke=0.1, start=0.0, end=0.02)
+    assert timescales(pressed_support(over_the_canopy(0.1), drive=rising)).drive == 0.02
+    # a face that goes on as it does has no time of its own, as a crank has
+    crank = ravn_slider_crank()
+    press = over_the_canopy(0.1, body="slider", point=crank.linkage().bodies["slider"].centre)
+    steady = replace(press, descent=Steady(rate=100.0))
+    assert timescales(Scenario(machine=crank, loads={"roof": steady}, duration=0.1)).drive == math.inf
 
 
 def test_a_ram_without_a_load_has_no_times() -> None:
