@@ -10,13 +10,14 @@ One entry, `simulate`; everything else is a value that is handed in. SI units an
 
 from support_exudyn.channels import Channel
 from support_exudyn.columns import ColumnModel, OilColumn, RigidColumn, TwoBodyColumn, bore_area
-from support_exudyn.drives import CubicStep, Drive, Held, Steady, Stroke, UniformSpeed
+from support_exudyn.drives import CubicStep, Drive, Held, Reciprocating, Steady, Stroke, UniformSpeed
 from support_exudyn.errors import Failure, SimulationError
 from support_exudyn.estimate import Estimate
 from support_exudyn.impulse import Impulse
 from support_exudyn.linkages.hydraulic_support import HydraulicSupport
 from support_exudyn.linkages.impact_stand import ImpactStand
 from support_exudyn.linkages.slider_crank import SliderCrank, ravn_slider_crank
+from support_exudyn.loads import Load, LoadedPoint, Roof
 from support_exudyn.machine import Body, Column, Crank, Linkage, Machine, Part, PinPlace, Slide, TracePoint
 from support_exudyn.onset import Onset
 from support_exudyn.parts import Lumped, OwnBody, PartModel
@@ -45,6 +46,8 @@ __all__ = [
     "ImpactStand",
     "Impulse",
     "Linkage",
+    "Load",
+    "LoadedPoint",
     "Lumped",
     "Machine",
     "OilColumn",
@@ -54,9 +57,11 @@ __all__ = [
     "PartModel",
     "Pin",
     "PinPlace",
+    "Reciprocating",
     "Recommendation",
     "Result",
     "RigidColumn",
+    "Roof",
     "Scenario",
     "SimulationError",
     "Slide",

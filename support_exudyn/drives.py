@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
 
 from pydantic import model_validator
 
-from user_forces.scalar import is_number, maximum, minimum
+from user_forces.scalar import cos, is_number, maximum, minimum, sin
 from user_forces.values import NonNegative, Positive, Real, Value, value
 
 
@@ -184,3 +185,41 @@ class Steady(Drive):
     def span(self, duration: float) -> tuple[float, float]:
         """0 and rate times duration [rad], in order."""
         return min(0.0, self.rate * duration), max(0.0, self.rate * duration)
+
+
+@value
+class Reciprocating(Drive):
+    """Raised and lowered over and over, from rest and smoothly.
+
+        extension = stroke (1 - cos(2 pi t / period)) / 2
+
+    Arguments:
+        stroke: between lowest and highest [m], 0.5 by default; negative to lower first.
+        period: of raising and lowering once [s], > 0.
+    """
+
+    stroke: Real = 0.5
+    period: Positive
+
+    @property
+    def frequency(self) -> float:
+        """Angular frequency [rad/s]."""
+        return 2.0 * math.pi / self.period
+
+    def extension(self, t: float) -> float:
+        """Extension [m] at time t [s]."""
+        return 0.5 * self.stroke * (1.0 - cos(self.frequency * t))
+
+    def speed(self, t: float) -> float:
+        """Speed [m/s] at time t [s]."""
+        return 0.5 * self.stroke * self.frequency * sin(self.frequency * t)
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """The start [s], where the acceleration jumps; it is smooth from then on."""
+        return (0.0,)
+
+    def span(self, duration: float) -> tuple[float, float]:
+        """0 and as far as it comes within this time [m], in order."""
+        farthest = self.stroke if duration >= 0.5 * self.period else self.extension(duration)
+        return min(0.0, farthest), max(0.0, farthest)

@@ -9,6 +9,7 @@ import exudyn
 
 from support_exudyn.driven_parts import DrivenParts
 from support_exudyn.impulse import Impulse
+from support_exudyn.load_item import LoadItem
 from support_exudyn.loose_pin import LoosePin
 from support_exudyn.pin_friction import PinFriction
 from support_exudyn.scenario import Scenario
@@ -87,6 +88,11 @@ class EngineScene(Protocol):
     @property
     def frictions(self) -> Mapping[str, PinFriction]:
         """Friction of ideal pins, by name."""
+        ...
+
+    @property
+    def loads(self) -> Mapping[str, LoadItem]:
+        """What presses on the machine, by name."""
         ...
 
     @property

@@ -21,13 +21,16 @@ from user_forces.values import Vector2
 Matrix = npt.NDArray[np.float64]
 
 
-def kinetics_of(linkage: Linkage, ideal: Sequence[str] | None = None) -> Kinetics:
-    """Matrices of a linkage by itself, coordinates in the order of its bodies and all columns rigid.
+def kinetics_of(
+    linkage: Linkage, ideal: Sequence[str] | None = None, rigid: Sequence[str] | None = None
+) -> Kinetics:
+    """Matrices of a linkage by itself, coordinates in the order of its bodies.
 
-    ideal: names of the pins that are closed; all of them by default.
+    ideal, rigid: names of the pins that are closed, and of the columns that are rigid; all by default.
     """
     bodies = {name: BodyItem(body, None, None, 3 * n) for n, (name, body) in enumerate(linkage.bodies.items())}
-    return Kinetics(linkage, bodies, tuple(linkage.pins) if ideal is None else ideal, tuple(linkage.columns))
+    pins = tuple(linkage.pins) if ideal is None else ideal
+    return Kinetics(linkage, bodies, pins, tuple(linkage.columns) if rigid is None else rigid)
 
 
 @dataclass(frozen=True)

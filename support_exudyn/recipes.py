@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from support_exudyn.body_motion import BodyMotion
+from support_exudyn.loads.load import Load, Observed
 from support_exudyn.machine import Body, Linkage
 from support_exudyn.pins import ClearancePin
 from support_exudyn.trajectory import ContactSeries, Series, Trajectory
@@ -26,7 +27,7 @@ class Part(Flag):
     """Parts of a Trajectory.
 
     JOINTS: forces of ideal pins, cranks, guides and rigid columns; CONTACTS: loose pins; OIL: columns of oil;
-    INTEGRALS: work and losses so far, which have to be followed at every step.
+    INTEGRALS: work and losses so far, which have to be followed at every step; LOADS: what presses on it.
     """
 
     NOTHING = 0
@@ -37,12 +38,14 @@ class Part(Flag):
     CONTACTS = auto()
     OIL = auto()
     INTEGRALS = auto()
+    LOADS = auto()
 
 
 EVERYTHING = ~Part.NOTHING
 MOTION = Part.POSITION | Part.VELOCITY
 CONTACT = MOTION | Part.CONTACTS
 OIL = MOTION | Part.OIL
+LOADED = MOTION | Part.LOADS
 
 
 @dataclass(frozen=True)
@@ -101,8 +104,9 @@ class Seen:
 
     @cached_property
     def stored(self) -> Series:
-        """In contacts and oil [J]."""
-        return self.run.oil_energy + sum(contact.stored for contact in self.run.contacts.values())
+        """In contacts, oil and loads [J]."""
+        found = self.run.oil_energy + sum(contact.stored for contact in self.run.contacts.values())
+        return found + sum(load.stored for load in self.run.loads.values())
 
     @cached_property
     def balance(self) -> Series:
@@ -126,9 +130,14 @@ Recipes = dict[str, Recipe]
 
 
 def recipes(
-    linkage: Linkage, loose: Mapping[str, ClearancePin], oil: Collection[str], rubbing: Collection[str] = ()
+    linkage: Linkage,
+    loose: Mapping[str, ClearancePin],
+    oil: Collection[str],
+    rubbing: Collection[str] = (),
+    loads: Mapping[str, Load] | None = None,
 ) -> Recipes:
-    """All channels of a linkage with these loose pins, oil columns, and ideal pins with friction, by name."""
+    """All channels of a linkage with these loose pins, oil columns, ideal pins with friction, and loads."""
+    loads = loads or {}
     found = {"time": Recipe("s", "time", Part.NOTHING, lambda seen: seen.run.time)}
     for n, (name, body) in enumerate(linkage.bodies.items()):
         found |= _of_body(name, body, 3 * n)
@@ -144,7 +153,9 @@ def recipes(
         found |= _of_loose_pin(name, loose[name]) if name in loose else _of_ideal_pin(name)
         if name in rubbing:
             found |= _of_friction(name)
-    return found | _of_energy(_stored(bool(loose), bool(oil)))
+    for name, load in loads.items():
+        found |= _of_load(name, load)
+    return found | _of_energy(_stored(bool(loose), bool(oil), bool(loads)), bool(loads))
 
 
 def chosen(names: Iterable[str], patterns: Iterable[str]) -> list[str]:
@@ -309,12 +320,23 @@ def _deflection(contact: ContactSeries) -> Series:
     return contact.deflection
 
 
-def _stored(loose: bool, oil: bool) -> Part:
+def _of_load(name: str, load: Load) -> Recipes:
+    def said(what: str, channel: Observed) -> Recipe:
+        return Recipe(channel.unit, channel.meaning, LOADED, lambda seen: seen.run.loads[name].observed[what])
+
+    return {f"{name}.{what}": said(what, channel) for what, channel in load.channels.items()}
+
+
+def _stored(loose: bool, oil: bool, loaded: bool) -> Part:
     """What the elastic energy needs."""
-    return (CONTACT if loose else Part.NOTHING) | (OIL if oil else Part.NOTHING)
+    found = Part.NOTHING
+    for there, part in ((loose, CONTACT), (oil, OIL), (loaded, LOADED)):
+        found |= part if there else Part.NOTHING
+    return found
 
 
-def _of_energy(stored: Part) -> Recipes:
+def _of_energy(stored: Part, loaded: bool) -> Recipes:
+    places = "contacts, oil and loads" if loaded else "contacts and oil"
     integrals = Part.INTEGRALS
     balance = MOTION | stored | integrals
     return {
@@ -322,17 +344,22 @@ def _of_energy(stored: Part) -> Recipes:
         "energy.potential": Recipe(
             "J", "of weight, zero in the machine's start posture", Part.POSITION, lambda seen: seen.potential
         ),
-        "energy.elastic": Recipe("J", "stored in contacts and oil", stored, lambda seen: seen.stored),
+        "energy.elastic": Recipe("J", f"stored in {places}", stored, lambda seen: seen.stored),
         "energy.damping_loss": Recipe(
             "J",
-            "dissipated by damping in contacts and oil so far",
+            f"dissipated by damping in {places} so far",
             integrals,
             lambda seen: seen.run.damping_loss,
         ),
         "energy.friction_loss": Recipe(
             "J", "dissipated by friction so far", integrals, lambda seen: seen.run.friction_loss
         ),
-        "energy.work": Recipe("J", "work of the drive so far", integrals, lambda seen: seen.run.work),
+        "energy.work": Recipe(
+            "J",
+            "work of the drive so far" if not loaded else "work of the drives and of what moves loads so far",
+            integrals,
+            lambda seen: seen.run.work,
+        ),
         "energy.balance": Recipe(
             "J", "gain minus work plus loss; zero if computed exactly", balance, lambda seen: seen.balance
         ),

@@ -53,13 +53,16 @@ class Recorder:
         duration = scene.scenario.duration
         # rigid columns that are held and ideal pins neither work nor lose anything
         works = any(parts.oil or (parts.multipliers and parts.moves(duration)) for parts in scene.driven)
-        self.integrates = Part.INTEGRALS in needs and bool(works or scene.loose_pins or scene.frictions)
+        self.integrates = Part.INTEGRALS in needs and bool(
+            works or scene.loose_pins or scene.frictions or scene.loads
+        )
         self._kept = tuple(part in needs for part in STATE)
         self.energies = RunningIntegrals(3)  # work of the drive, losses by damping and by friction
         self._data = scene.mbs.systemData
         self._pins = tuple(scene.loose_pins.values())
         self._driven = tuple((parts.drive, parts.multipliers, parts.oil) for parts in scene.driven)
         self._frictions = tuple(scene.frictions.values())
+        self._loads = tuple(scene.loads.values())
         self._mbs = scene.mbs
         self._rows: list[tuple[Any, ...]] = []
         self._powers_now = (0.0, 0.0, 0.0)  # [W]
@@ -149,6 +152,10 @@ class Recorder:
                 work, loss = item.filled.powers(*self._length(item), drive.extension(t), speed)
                 columns += work
                 damping += loss
+        for load in self._loads:
+            work, loss = load.powers(t)
+            columns += work
+            damping += loss
         for rubbing in self._frictions:
             friction += rubbing.power()
         for pin in self._pins:

@@ -15,6 +15,7 @@ from support_exudyn.channels import needs
 from support_exudyn.contact_series import contact_series
 from support_exudyn.engine_scene import EngineScene
 from support_exudyn.joint_forces import JointForces
+from support_exudyn.load_item import load_series
 from support_exudyn.oil import oil_series
 from support_exudyn.progress import Progress
 from support_exudyn.recipes import Part
@@ -111,6 +112,11 @@ def trajectory(scene: Scene, history: History, needed: Part) -> Trajectory:
         for n, name in enumerate(scene.loose_pins)
         if Part.CONTACTS in needed
     }
+    loads = {
+        name: load_series(name, load, motion, history.time)
+        for name, load in scene.scenario.loads.items()
+        if Part.LOADS in needed
+    }
     # the multiplier of a distance is the tension
     columns = {
         name: -history.multiplier[:, item.multiplier]
@@ -138,6 +144,7 @@ def trajectory(scene: Scene, history: History, needed: Part) -> Trajectory:
         work=history.work,
         damping_loss=history.damping_loss,
         friction_loss=history.friction_loss,
+        loads=loads,
     )
 
 

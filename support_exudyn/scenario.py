@@ -13,6 +13,7 @@ from pydantic import Field, field_validator, model_validator
 from support_exudyn.columns import ColumnModel, OilColumn, TwoBodyColumn
 from support_exudyn.eccentric import eccentric
 from support_exudyn.drives import Drive, Held
+from support_exudyn.loads.load import Load
 from support_exudyn.machine import Linkage, Machine
 from support_exudyn.parts import OwnBody, PartModel
 from support_exudyn.pins import ClearancePin, IdealPin, Pin
@@ -62,7 +63,7 @@ class SolverSettings(Value):
         growth: by what factor steps may grow beyond `step`, from 1 to 64, while loose pins are closed, nothing
             is in an impact and accelerations hardly change. Records that a step passes over are interpolated.
             16 saves nine tenths of the steps with ideal pins, a third with a loose one that comes to rest, few
-            with one that vibrates; errors stay those of `step` where impacts decide.
+            with one that vibrates; errors stay those of `step` where impacts decide. Under loads none grows.
         tolerance: of the formulations with error control, from 1e-13 to 1e-2. Reduced: largest error of a step
             as a share of the clearance, and of the speed of a fall through half of it. Tree: of that speed;
             1e-5 is enough for most.
@@ -121,6 +122,7 @@ class Scenario(Value):
         parts: for each part that is not fixed to its body (or to say so), what it is, by name.
         drive: how all driven parts move: columns extend [m], cranks turn [rad]. Into an oil column it lets oil.
         drives: for each driven part, a column or crank, that moves otherwise, how it does, by name.
+        loads: what presses on the machine besides its weight, by name; in the plane, redundant formulation.
         duration: end time [s], > 0; the run starts at 0.
         dimensions: 2: in the plane, both sides of a machine lumped; 3: in space, for machines that know their
             lateral dimensions. Parts that there are two of are then driven by names such as `front_column_left`
@@ -154,6 +156,7 @@ class Scenario(Value):
     parts: Mapping[str, PartModel] = field(default_factory=dict)
     drive: Drive = field(default_factory=Held)
     drives: Mapping[str, Drive] = field(default_factory=dict)
+    loads: Mapping[str, Load] = field(default_factory=dict)
     duration: Positive
     dimensions: Literal[2, 3] = 2
     start: Literal["concentric", "settled"] = "concentric"
@@ -185,9 +188,11 @@ class Scenario(Value):
                     f"allowed: {', '.join(self.machine.jacks) or 'none'}"
                 )
         try:
-            linkage = self.linkage
+            self._unloaded  # noqa: B018 - can it be laid out?
         except InputError as error:
             raise ValueError(str(error)) from None
+        self._check_loads()
+        linkage = self.linkage
         if self.dimensions == 3:
             self._check_space()
         places = linkage.pins
@@ -272,6 +277,23 @@ class Scenario(Value):
         # where parts are driven apart, all of them over the range of all: what the machine can answer
         self.machine.check_extension(min(low for low, _ in spans), max(high for _, high in spans))
 
+    def _check_loads(self) -> None:
+        linkage = self._unloaded
+        taken = {"pin", "energy", "time", *linkage.bodies, *linkage.points, *linkage.driven, *linkage.columns}
+        taken |= {*linkage.pins, *linkage.slides}
+        for name, load in self.loads.items():
+            if self.dimensions == 3:
+                raise ValueError(f"loads.{name}: acts in the plane; allowed with dimensions = 3: no loads")
+            if name in taken:
+                raise ValueError(
+                    f"loads.{name}: the machine has something of this name; "
+                    f"allowed: all but {', '.join(sorted(taken))}"
+                )
+            if load.body not in linkage.bodies:
+                raise ValueError(
+                    f"loads.{name}.body = {load.body!r}: no such body; allowed: {', '.join(linkage.bodies)}"
+                )
+
     @property
     def jumps(self) -> bool:
         """Whether the speed of any drive jumps anywhere."""
@@ -303,7 +325,15 @@ class Scenario(Value):
 
     @cached_property
     def linkage(self) -> Linkage:
-        """The machine's mechanism in its start posture, as far as it is modelled.
+        """The mechanism in its start posture, as far as it is modelled, with what loads bring along."""
+        linkage = self._unloaded
+        for name, load in self.loads.items():
+            linkage = load.joined(linkage, name)
+        return linkage
+
+    @cached_property
+    def _unloaded(self) -> Linkage:
+        """The machine's mechanism, as far as it is modelled.
 
         Raises InputError if its loose pins cannot start with the eccentricities that are asked for.
         """
@@ -312,7 +342,7 @@ class Scenario(Value):
         return eccentric(modelled, offsets)
 
     def _modelled(self) -> Linkage:
-        """The mechanism with all journals where the machine has them."""
+        """The same with all journals where the machine has them."""
         heavy = {name: column for name, column in self.columns.items() if isinstance(column, TwoBodyColumn)}
         if not heavy and not self.own_bodies:
             return self.machine.linkage()
@@ -355,15 +385,16 @@ class Scenario(Value):
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """Breaks of all drives in use [s], sorted."""
-        return tuple(sorted({t for drive in self.drives_in_use for t in drive.breaks}))
+        """Breaks of all drives in use and of loads [s], sorted."""
+        of_drives = {t for drive in self.drives_in_use for t in drive.breaks}
+        return tuple(sorted(of_drives.union(*(load.breaks for load in self.loads.values()))))
 
     @property
     def recipes(self) -> dict[str, Recipe]:
         """All channels that could be asked for, by name."""
         if self.dimensions == 3:
             return spatial_recipes(self.space, self.clearance_pins, self.oil_columns)
-        return recipes(self.linkage, self.clearance_pins, self.oil_columns, self.friction_pins)
+        return recipes(self.linkage, self.clearance_pins, self.oil_columns, self.friction_pins, self.loads)
 
     @property
     def goal(self) -> float | None:

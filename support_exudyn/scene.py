@@ -14,6 +14,7 @@ from support_exudyn.driven_parts import DrivenParts, OilColumnItem
 from support_exudyn.engine_scene import CURRENT, INITIAL, InEngine
 from support_exudyn.impulse import Impulse
 from support_exudyn.kinetics import Kinetics, Matrix
+from support_exudyn.load_item import LoadItem
 from support_exudyn.loose_pin import LoosePin
 from support_exudyn.machine import GROUND, Linkage
 from support_exudyn.onset import Mobility, PinMemory
@@ -43,6 +44,7 @@ class Scene(InEngine):
     oil_columns: dict[str, OilColumnItem]
     cranks: dict[str, CrankItem]
     slides: dict[str, SlideItem]
+    loads: dict[str, LoadItem]
     driven: tuple[DrivenParts, ...]  # all columns and cranks, by the drive that they follow
 
     @cached_property

@@ -24,6 +24,7 @@ from exudyn.itemInterface import (
 
 from support_exudyn.connector import frame
 from support_exudyn.driven_parts import OilColumnItem, by_drive
+from support_exudyn.load_item import add_load
 from support_exudyn.loose_pin import LoosePin
 from support_exudyn.machine import GROUND, Body, Column, Crank, PinPlace, Slide
 from support_exudyn.oil import fill
@@ -177,6 +178,15 @@ class _Builder:
         }
         cranks = {name: self.add_crank(crank) for name, crank in self.linkage.cranks.items()}
         slides = {name: self.add_slide(slide) for name, slide in self.linkage.slides.items()}
+        loads = {
+            name: add_load(
+                self.mbs,
+                load,
+                self.marker(load.against(name), load.point),
+                self.marker(load.body, load.point),
+            )
+            for name, load in self.scenario.loads.items()
+        }
         if any(self.scenario.gravity):
             for name, body in self.linkage.bodies.items():
                 self.add_weight(name, body)
@@ -209,6 +219,7 @@ class _Builder:
             oil_columns=oil_columns,
             cranks=crank_items,
             slides={name: SlideItem(o, int(data.GetObjectLTGAE(o)[0])) for name, o in slides.items()},
+            loads=loads,
             driven=by_drive(self.mbs, self.scenario.drive_of, rigid_columns, oil_columns, crank_items),
         )
         for name, friction in frictions.items():

@@ -80,7 +80,9 @@ class Run:
             scenario.solver, scenario.duration, int(self.data.ODE2Size() + self.data.AEsize())
         )
         self.locates = scenario.solver.locate
-        self.smooth = _smooth_steps(scene) if scenario.solver.growth > 1.0 else None
+        # what a load does need not show in accelerations, and long steps would pass over where it begins
+        grows = scenario.solver.growth > 1.0 and not scene.loads
+        self.smooth = _smooth_steps(scene) if grows else None
         self.time = 0.0  # end of the last accepted step
         self.steps = self.cut_steps = self.failed_newton = 0
         self.most_steps = scenario.solver.most_steps

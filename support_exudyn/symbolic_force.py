@@ -36,7 +36,7 @@ class Symbol(Expression):
         self.real = real
 
     def function(self, name: str) -> Symbol:
-        """sqrt, exp, log, tanh, abs or sign of it."""
+        """sqrt, exp, log, tanh, cos, sin, abs or sign of it."""
         return Symbol(getattr(engine, name)(self.real))
 
     def hypotenuse(self, other: Expression | float) -> Symbol:

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from support_exudyn.drives import Stroke
+from support_exudyn.drives import Reciprocating, Stroke
 from support_exudyn.kinetics import Kinetics, Matrix, kinetics_of
+from support_exudyn.loads.load import Load
 from support_exudyn.machine import Linkage
 from support_exudyn.scenario import Scenario
 from user_forces.normal.law import LoadError, NormalLaw
@@ -22,8 +23,9 @@ SLOWEST_FALL = 1e-3  # [m/s^2]; a scene in which nothing pulls a journal moves a
 class Timescales:
     """Shortest times of a scene [s]; infinite where there is no such motion.
 
-    flight: of a journal across its clearance. resting: of a loaded contact's vibration, one over its angular
-    frequency. drive: of the drive, its stroke or one over a crank's speed.
+    flight: of a journal across its clearance. resting: of the vibration of a loaded contact, or of what a load
+    presses on, one over its angular frequency. drive: of the drive, its stroke, or one over a crank's speed, or
+    one over the angular frequency of what rises and falls.
     """
 
     flight: float
@@ -45,19 +47,20 @@ def timescales(scenario: Scenario) -> Timescales:
     pull = math.hypot(*scenario.gravity) + _running(scenario, closed)
     loads = _static_loads(scenario, closed)
     weight = math.hypot(*scenario.gravity) * sum(body.mass for body in linkage.bodies.values())
-    flights, rests = [math.inf], [math.inf]
+    flights, rests = [math.inf], [math.inf, *_under_loads(scenario)]
     for name, pin in scenario.clearance_pins.items():
         flights.append(math.sqrt(2.0 * pin.contact.bearing.clearance / max(pull, SLOWEST_FALL)))
         mobility = _mobility(scenario, name)
-        load = float(np.linalg.norm(loads[name]))
-        if load > ROUNDING * weight:
-            along = loads[name] / load
-            mass = 1.0 / max(float(along @ mobility @ along), SMALLEST_MOBILITY)
-        else:
-            mass = 1.0 / max(float(np.linalg.eigvalsh(mobility).max()), SMALLEST_MOBILITY)
-            load = mass * pull
-        slope = _slope(pin.contact.normal, load) if load > 0.0 else 0.0
-        rests.append(math.sqrt(mass / slope) if slope > 0.0 else math.inf)
+        for static in loads[name]:
+            load = float(np.linalg.norm(static))
+            if load > ROUNDING * weight:
+                along = static / load
+                mass = 1.0 / max(float(along @ mobility @ along), SMALLEST_MOBILITY)
+            else:
+                mass = 1.0 / max(float(np.linalg.eigvalsh(mobility).max()), SMALLEST_MOBILITY)
+                load = mass * pull
+            slope = _slope(pin.contact.normal, load) if load > 0.0 else 0.0
+            rests.append(math.sqrt(mass / slope) if slope > 0.0 else math.inf)
     return Timescales(min(flights), min(rests), _drive_time(scenario, linkage))
 
 
@@ -70,11 +73,47 @@ def _slope(law: NormalLaw, load: float) -> float:
         return 0.0
 
 
-def _static_loads(scenario: Scenario, closed: Kinetics) -> dict[str, Matrix]:
-    """What the weight puts on every pin in the start posture, all of them ideal [N]."""
+def _static_loads(scenario: Scenario, closed: Kinetics) -> dict[str, list[Matrix]]:
+    """What puts the weight, and weight and largest loads, on every pin in the start posture, all ideal [N]."""
     weight = closed.weight(scenario.gravity)
-    reactions = closed.respond(np.zeros(weight.size), weight, 0.0)[1]
-    return {name: reactions[2 * n : 2 * n + 2] for n, name in enumerate(closed.linkage.pins)}
+    still, forces = np.zeros(weight.size), [weight]
+    if scenario.loads:
+        loaded = weight.copy()
+        for name, load in scenario.loads.items():
+            rate = _loaded_rate(closed, name, load)
+            loaded += np.array(load.largest(scenario.duration)) @ rate
+        forces.append(loaded)
+    reactions = [closed.respond(still, force, 0.0)[1] for force in forces]
+    return {
+        name: [reaction[2 * n : 2 * n + 2] for reaction in reactions]
+        for n, name in enumerate(closed.linkage.pins)
+    }
+
+
+def _loaded_rate(system: Kinetics, name: str, load: Load) -> Matrix:
+    """What turns all velocities into that of a loaded point in the start posture (2, n)."""
+    still = np.zeros(3 * len(system.bodies))
+    point, origin = (system.point(still, body, load.point)[1] for body in (load.body, load.against(name)))
+    return point - origin
+
+
+def _under_loads(scenario: Scenario) -> list[float]:
+    """One over the angular frequency of what stiff loads press on, in the start posture [s]."""
+    linkage, found = scenario.linkage, []
+    ideal = tuple(pin for pin in linkage.pins if pin not in scenario.clearance_pins)
+    rigid = tuple(column for column in linkage.columns if column not in scenario.oil_columns)
+    for name, load in scenario.loads.items():
+        free = kinetics_of(linkage, ideal, rigid)
+        still = np.zeros(3 * len(linkage.bodies))
+        rate = _loaded_rate(free, name, load)
+        mobility = np.diag(rate @ free.respond(still, rate.T, 0.0)[0])
+        # what nothing but rounding lets move does not vibrate
+        found += [
+            math.sqrt(1.0 / (steep * mobile))
+            for steep, mobile in zip(load.steepness, mobility.tolist(), strict=True)
+            if steep > 0.0 and mobile > SMALLEST_MOBILITY
+        ]
+    return found
 
 
 def _running(scenario: Scenario, closed: Kinetics) -> float:
@@ -99,10 +138,15 @@ def _mobility(scenario: Scenario, name: str) -> Matrix:
 
 def _drive_time(scenario: Scenario, linkage: Linkage) -> float:
     times = [math.inf]
-    for drive in scenario.drives_in_use:
+    cranks = bool(linkage.cranks)
+    driving = [(drive, cranks) for drive in scenario.drives_in_use]
+    driving += [(drive, False) for load in scenario.loads.values() for drive in load.drives]
+    for drive, turns in driving:
         speed = abs(drive.initial_speed)
         if isinstance(drive, Stroke):
             times.append(drive.end - drive.start)
-        elif speed > 0.0 and linkage.cranks:
+        elif isinstance(drive, Reciprocating):
+            times.append(1.0 / drive.frequency)
+        elif speed > 0.0 and turns:
             times.append(1.0 / speed)
     return min(times)

@@ -39,6 +39,17 @@ class ContactSeries:
 
 
 @dataclass(frozen=True)
+class LoadSeries:
+    """A load at the records, shape (n,) each.
+
+    stored: energy [J]. observed: values of its channels, by name.
+    """
+
+    stored: Series
+    observed: Mapping[str, Series]
+
+
+@dataclass(frozen=True)
 class Trajectory:
     """A run at its records, for a linkage with b bodies.
 
@@ -48,7 +59,7 @@ class Trajectory:
     contacts: loose pins by name. columns: force (n,) [N] that pushes the ends apart.
     cranks: moment of the drive on the crank (n,) [N m]. slides: magnitude of force across and of moment (n, 2).
     oil_energy: stored in all columns (n,) [J]. work: of the drive so far, damping_loss, friction_loss: so far
-    (n,) [J].
+    (n,) [J]. loads: by name.
     """
 
     time: Series
@@ -65,6 +76,7 @@ class Trajectory:
     damping_loss: Series
     friction_loss: Series
     friction_moments: Mapping[str, Series] = field(default_factory=dict)
+    loads: Mapping[str, LoadSeries] = field(default_factory=dict)
 
 
 class Observed(Protocol):

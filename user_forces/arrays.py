@@ -9,7 +9,8 @@ import numpy.typing as npt
 
 from user_forces.scalar import Expression
 
-FUNCTIONS = {"sqrt": np.sqrt, "exp": np.exp, "log": np.log, "tanh": np.tanh, "abs": np.abs, "sign": np.sign}
+NAMES = ("sqrt", "exp", "log", "tanh", "cos", "sin", "abs", "sign")
+FUNCTIONS = {name: getattr(np, name) for name in NAMES}
 
 
 class Array(Expression):
@@ -21,7 +22,7 @@ class Array(Expression):
         self.values = np.asarray(values)
 
     def function(self, name: str) -> Array:
-        """sqrt, exp, log, tanh, abs or sign of each."""
+        """sqrt, exp, log, tanh, cos, sin, abs or sign of each."""
         return Array(FUNCTIONS[name](self.values))
 
     def hypotenuse(self, other: Expression | float) -> Array:

@@ -37,7 +37,7 @@ class Line(Expression):
         return Line(name, self.formulas)
 
     def function(self, name: str) -> Line:
-        """sqrt, exp, log, tanh, abs or sign of it."""
+        """sqrt, exp, log, tanh, cos, sin, abs or sign of it."""
         return self.line(f"{name}({self.name})")
 
     def hypotenuse(self, other: Expression | float) -> Line:
@@ -196,7 +196,7 @@ def depth_check(contact: JournalContact, depth: str) -> list[str]:
 def compiled(source: Iterable[str], contact: JournalContact, **known: object) -> dict[str, Any]:
     """The names that lines of source define, and those that they may use: functions of math, what is known."""
     space: dict[str, Any] = {
-        **{name: getattr(math, name) for name in ("sqrt", "exp", "log", "tanh", "hypot")},
+        **{name: getattr(math, name) for name in ("sqrt", "exp", "log", "tanh", "cos", "sin", "hypot")},
         "sign": lambda z: 1.0 if z > 0.0 else -1.0 if z < 0.0 else 0.0,
         "inf": math.inf,
         "nan": math.nan,

@@ -24,7 +24,7 @@ class Expression:
         raise TypeError("a law must not branch with `if`, `and`, `or` or `not` on its arguments; use `where`")
 
     def function(self, name: str) -> Expression:
-        """The function of this name of it: sqrt, exp, log, tanh, abs or sign."""
+        """The function of this name of it: sqrt, exp, log, tanh, cos, sin, abs or sign."""
         raise NotImplementedError
 
     def hypotenuse(self, other: Expression | float) -> Expression:
@@ -97,6 +97,16 @@ def log(x: float) -> float:
 def tanh(x: float) -> float:
     """Hyperbolic tangent."""
     return cast(float, x.function("tanh")) if isinstance(x, Expression) else math.tanh(x)
+
+
+def cos(x: float) -> float:
+    """Cosine of an angle [rad]."""
+    return cast(float, x.function("cos")) if isinstance(x, Expression) else math.cos(x)
+
+
+def sin(x: float) -> float:
+    """Sine of an angle [rad]."""
+    return cast(float, x.function("sin")) if isinstance(x, Expression) else math.sin(x)
 
 
 def hypot(x: float, y: float) -> float:

@@ -84,9 +84,12 @@ def loose_contact(scenario: Scenario) -> tuple[str, JournalContact, str]:
         or scenario.drives
         or scenario.own_bodies
         or scenario.friction_pins
+        or scenario.loads
         or scenario.start != "concentric"
     ):
-        raise InputError("a competitor takes one loose pin, rigid columns, one drive and start = 'concentric'")
+        raise InputError(
+            "a competitor takes one loose pin, rigid columns, one drive, no loads and start = 'concentric'"
+        )
     ((name, pin),) = scenario.clearance_pins.items()
     return name, pin.contact, pin.bore
 

@@ -44,6 +44,8 @@ def check(scenario: Scenario) -> None:
     for name, column in scenario.columns.items():
         if not isinstance(column, RigidColumn):
             _refuse(f"columns.{name}", type(column).__name__, "RigidColumn, whose length is no free coordinate")
+    for name, load in scenario.loads.items():
+        _refuse(f"loads.{name}", type(load).__name__, "no loads")
     for name in scenario.friction_pins:
         _refuse(f"pins.{name}", "IdealPin with friction", "IdealPin without, or ClearancePin")
     for name, part in scenario.own_bodies.items():

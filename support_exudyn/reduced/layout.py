@@ -72,8 +72,9 @@ from __future__ import annotations
 
 SUPPORT, SLIDER_CRANK = 0.0, 1.0
 
-# A drive between two breaks: extension = A0 + A1 x + A2 x^2 + A3 x^3, x = (t - ORIGIN) / WIDTH
-BEGIN, END, JUMP, ORIGIN, WIDTH, A0, A1, A2, A3, SEGMENT = range(10)  # JUMP: of the speed at BEGIN
+# A drive between two breaks: extension = A0 + A1 x + A2 x^2 + A3 x^3 + AMPLITUDE (1 - cos(FREQUENCY t)),
+# x = (t - ORIGIN) / WIDTH; JUMP: of the speed at BEGIN
+BEGIN, END, JUMP, ORIGIN, WIDTH, A0, A1, A2, A3, AMPLITUDE, FREQUENCY, SEGMENT = range(12)
 
 # State: the two free coordinates, their rates, energy lost so far, work of the drive so far. Of a support the
 # turns of canopy and rear link from the reference posture; of a slider-crank the turn of the rod and the way of

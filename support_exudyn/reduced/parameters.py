@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from support_exudyn.drives import Drive, Steady, Stroke, UniformSpeed
+from support_exudyn.drives import Drive, Reciprocating, Steady, Stroke, UniformSpeed
 from support_exudyn.pins import ClearancePin
 from support_exudyn.reduced import layout
 from support_exudyn.reduced.drive import Matrix, Vector
@@ -66,7 +66,7 @@ def segments(drive: Drive, duration: float) -> Matrix:
     """The drive between its breaks, one segment a row, see `layout`.
 
     Arguments:
-        drive: Held, Steady, CubicStep or UniformSpeed.
+        drive: Held, Steady, CubicStep, UniformSpeed or Reciprocating.
         duration: of the run [s].
     """
     inner = sorted({t for t in drive.breaks if 0.0 < t < duration})
@@ -80,6 +80,8 @@ def segments(drive: Drive, duration: float) -> Matrix:
             _fill(row, drive, 0.5 * (begin + end))
         elif isinstance(drive, Steady):
             row[layout.A1] = drive.rate
+        elif isinstance(drive, Reciprocating):
+            row[layout.AMPLITUDE], row[layout.FREQUENCY] = 0.5 * drive.stroke, drive.frequency
     return rows
 
 

@@ -7,14 +7,14 @@ from typing import Protocol
 import numpy as np
 import numpy.typing as npt
 
-from support_exudyn.compiled import plain
+from support_exudyn.compiled import on_arrays
 from support_exudyn.reduced import layout
 from support_exudyn.reduced.drive import Matrix, Vector, driven
 from support_exudyn.reduced.integrate import CLOSE
 from support_exudyn.reduced.outline import Outline
 from support_exudyn.reduced.trajectory import power
 
-_driven = plain(driven)
+_driven = on_arrays(driven)
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(4)
 
 
@@ -55,7 +55,7 @@ class PlainRecords:
         until = path.end + (CLOSE if path.end >= segment[layout.END] else 0.0)
         last = int(np.searchsorted(times, until, side="right"))
         due = times[self._count : last]
-        if segment[layout.A1] or segment[layout.A2] or segment[layout.A3]:
+        if any(segment[layout.A1 : layout.FREQUENCY]):
             edges = np.concatenate([[path.begin], np.minimum(due, path.end), [path.end]])
             middles, widths = 0.5 * (edges[1:] + edges[:-1]), np.diff(edges)
             nodes = (middles[:, None] + 0.5 * widths[:, None] * NODES).ravel()

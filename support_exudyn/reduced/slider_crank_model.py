@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from support_exudyn.drives import CubicStep, Held, Steady
+from support_exudyn.drives import CubicStep, Held, Reciprocating, Steady
 from support_exudyn.linkages.slider_crank import SliderCrank
 from support_exudyn.machine import Linkage
 from support_exudyn.reduced import layout
@@ -12,7 +12,7 @@ from support_exudyn.reduced.bodies import Bodies, Place, moved, placed
 from support_exudyn.reduced.drive import Matrix
 
 PIN = "slider_pin"
-DRIVES = (Held, Steady, CubicStep)  # a jump of the crank's speed is not covered
+DRIVES = (Held, Steady, CubicStep, Reciprocating)  # a jump of the crank's speed is not covered
 
 
 def start(machine: SliderCrank) -> tuple[float, float]:

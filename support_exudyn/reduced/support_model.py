@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from support_exudyn.compiled import on_arrays
-from support_exudyn.drives import CubicStep, Held, Steady, UniformSpeed
+from support_exudyn.drives import CubicStep, Held, Reciprocating, Steady, UniformSpeed
 from support_exudyn.linkages.hydraulic_support import BODIES, HydraulicSupport, Posture
 from support_exudyn.machine import Linkage, Part, lumped
 from support_exudyn.plane import distance, minus, parts_of, side
@@ -22,7 +22,7 @@ from support_exudyn.reduced.support_posture import posture, rates
 from user_forces.values import Vector2
 
 PIN = "rear_base"
-DRIVES = (Held, Steady, CubicStep, UniformSpeed)
+DRIVES = (Held, Steady, CubicStep, UniformSpeed, Reciprocating)
 # the same formulas for all records at once
 _posture, _rates, _arms = on_arrays(posture), on_arrays(rates), on_arrays(arms)
 _motion, _unforced, _column_forces = on_arrays(motion), on_arrays(unforced), on_arrays(column_forces)

@@ -12,6 +12,7 @@ import numpy as np
 from support_exudyn.driven_parts import DrivenParts, OilColumnItem
 from support_exudyn.engine_scene import CURRENT, INITIAL, InEngine
 from support_exudyn.impulse import Impulse
+from support_exudyn.load_item import LoadItem
 from support_exudyn.onset import Mobility, PinMemory
 from support_exudyn.pin_friction import PinFriction
 from support_exudyn.scenario import Scenario
@@ -57,6 +58,7 @@ class SpatialScene(InEngine):
     oil_columns: dict[str, OilColumnItem]
     driven: tuple[DrivenParts, ...]  # all columns, by the drive that they follow
     frictions: dict[str, PinFriction] = field(default_factory=dict)  # of ideal pins: not covered
+    loads: dict[str, LoadItem] = field(default_factory=dict)  # nor are they
 
     @property
     def gravity(self) -> Vector3:

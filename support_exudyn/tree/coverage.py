@@ -22,6 +22,8 @@ def check(scenario: Scenario) -> None:
     for name, column in scenario.columns.items():
         if isinstance(column, TwoBodyColumn):
             _refuse(f"columns.{name}", "TwoBodyColumn, whose slide closes a loop", "OilColumn")
+    for name, load in scenario.loads.items():
+        _refuse(f"loads.{name}", type(load).__name__, "no loads")
     for name in scenario.friction_pins:
         _refuse(f"pins.{name}", "IdealPin with friction", "IdealPin without, or ClearancePin")
     for name, part in scenario.own_bodies.items():

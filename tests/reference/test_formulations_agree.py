@@ -13,6 +13,7 @@ from support_exudyn import (
     CubicStep,
     Held,
     OilColumn,
+    Reciprocating,
     Result,
     Scenario,
     SolverSettings,
@@ -56,12 +57,17 @@ SCENES = {
     "rise": support(drive=RISE, duration=0.08, pins=pressed_apart(1.0, 0.0, "first")),
     "sudden rise": loose_support(0.5, 0.1, drive=UniformSpeed(stroke=0.02, start=0.02, end=0.1), duration=0.06),
     "ideal rise": support(drive=RISE, duration=0.12),
+    "ideal, up and down": support(drive=Reciprocating(stroke=0.02, period=0.1), duration=0.1),
+    "up and down": loose_support(1.0, drive=Reciprocating(stroke=0.02, period=0.1), duration=0.06),
     "slider-crank": turning(0.0, "first"),
     "slider-crank, friction, bore in the rod": turning(0.1, "second"),
 }
 ON_OIL = {
     "drop on oil": loose_support(1.0, 0.25, drive=Held(), duration=0.05, columns=BOTH),
     "rise on oil": loose_support(1.0, 0.0, drive=RISE, duration=0.06, columns=BOTH),
+    "up and down on oil": loose_support(
+        1.0, drive=Reciprocating(stroke=0.02, period=0.1), duration=0.06, columns=BOTH
+    ),
     "rise on oil, damped by depth": support(
         drive=RISE, duration=0.12, columns=BOTH, pins=pressed_apart(1.0, 0.0, "first")
     ),
@@ -136,16 +142,19 @@ def test_means_and_spreads_are_the_same(pair: tuple[str, str, str]) -> None:
     for channel in other.channels.values():
         largest = float(np.abs(channel.values).max())
         sizes[channel.unit] = max(sizes.get(channel.unit, 0.0), largest)
-    for name, channel in one.channels.items():
+    # a record at a break of the drive is of before it in one run and of after it in the other
+    first = 1 if 0.0 in one.scenario.breaks else 0
+    for name in one.channels:
         if name == "energy.balance":  # nothing but errors
             continue
+        mine, theirs = one[name][first:], other[name][first:]
         size = float(np.abs(other[name]).max())
         # less than this share of the largest in its unit is rounding, which steps of 1 us show in accelerations
         rounding = 1e-6 if "redundant" in ways else 1e-8
-        allowed = close * size + rounding * sizes[channel.unit]
-        assert abs(one[name].mean() - other[name].mean()) <= allowed, name
+        allowed = close * size + rounding * sizes[one.channels[name].unit]
+        assert abs(mine.mean() - theirs.mean()) <= allowed, name
         # a record beside a touch may be before it in one run and after it in the other
-        assert abs(one[name].std() - other[name].std()) <= 5.0 * allowed, name
+        assert abs(mine.std() - theirs.std()) <= 5.0 * allowed, name
 
 
 @pytest.mark.parametrize("pair", PAIRS, ids=", ".join)

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import gc
 import tracemalloc
+from dataclasses import replace
 
 import pytest
 
-from support_exudyn import Held, Scenario, SolverSettings, simulate
+from support_exudyn import Drive, Held, Scenario, SolverSettings, simulate
+from support_exudyn.load_item import LoadItem
 from support_exudyn.loose_pin import LoosePin
 from support_exudyn.scene import Scene
 from tests.reference.cases import loose_support
+from tests.roof_cases import Branching, over_the_canopy
 
 
 def held(formulation: str, duration: float) -> Scenario:
@@ -44,12 +47,14 @@ def test_memory_is_flat_in_simulated_time(formulation: str) -> None:
     assert long - short < 60_000
 
 
-def test_nothing_of_a_run_stays_behind() -> None:
+@pytest.mark.parametrize("descent", [None, Held(), Branching(speed_down=0.1)], ids=type)
+def test_nothing_of_a_run_stays_behind(descent: Drive | None) -> None:
     def alive() -> int:
         gc.collect()
-        return sum(isinstance(item, (Scene, LoosePin)) for item in gc.get_objects())
+        return sum(isinstance(item, (Scene, LoosePin, LoadItem)) for item in gc.get_objects())
 
     before = alive()  # of other tests
-    simulate(held("redundant", 0.1))
+    loads = {"roof": over_the_canopy(0.1, descent=descent)} if descent else {}
+    simulate(replace(held("redundant", 0.1), loads=loads))
     # the engine would keep its user functions alive, and they all that they know
     assert alive() <= before

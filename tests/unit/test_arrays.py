@@ -63,6 +63,8 @@ OPERATIONS: dict[str, Callable[[Any, Any], Any]] = {
     "exponential": lambda a, b: scalar.exp(a / 1e3),
     "logarithm": lambda a, b: scalar.log(a * a + 1.0),
     "tangent": lambda a, b: scalar.tanh(a),
+    "cosine": lambda a, b: scalar.cos(a),
+    "sine": lambda a, b: scalar.sin(a),
     "sign": lambda a, b: scalar.sign(a),
     "magnitude": lambda a, b: scalar.magnitude(a),
     "step": lambda a, b: scalar.step(a),

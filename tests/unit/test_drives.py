@@ -1,13 +1,14 @@
 from __future__ import annotations
 
 import json
+import math
 
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
-from support_exudyn import CubicStep, Drive, Held, Steady, UniformSpeed
+from support_exudyn import CubicStep, Drive, Held, Reciprocating, Steady, UniformSpeed
 from tests.analytic import adams_step
 from user_forces import InputError, Value
 
@@ -124,7 +125,9 @@ def test_speed_jumps_at_the_breaks_as_told(
         assert chosen.speed_jump(t) == pytest.approx(chosen.speed(t + h) - chosen.speed(t), abs=2e-6)
 
 
-@pytest.mark.parametrize("chosen", [UniformSpeed(), CubicStep(), Held(), Steady(rate=3.0)])
+@pytest.mark.parametrize(
+    "chosen", [UniformSpeed(), CubicStep(), Held(), Steady(rate=3.0), Reciprocating(period=2.0)]
+)
 def test_speed_does_not_jump_between_the_breaks(chosen: Drive) -> None:
     assert [chosen.speed_jump(t) for t in (0.0, 2.9, 4.0, 5.1)] == [0.0] * 4
 
@@ -160,7 +163,9 @@ def test_held_columns_do_not_move(t: float) -> None:
     assert Held().span(5.0) == (0.0, 0.0)
 
 
-@pytest.mark.parametrize("chosen", [Held(), CubicStep(), UniformSpeed(), UniformSpeed(start=0.0)])
+@pytest.mark.parametrize(
+    "chosen", [Held(), CubicStep(), UniformSpeed(), UniformSpeed(start=0.0), Reciprocating(period=2.0)]
+)
 def test_columns_start_at_rest(chosen: Drive) -> None:
     # a stroke that begins at the start begins with a jump and not with a speed
     assert chosen.initial_speed == 0.0
@@ -207,6 +212,58 @@ def test_a_rate_that_is_not_finite_is_refused(rate: float) -> None:
         Steady(rate=rate)
 
 
+# --- raised and lowered over and over ---
+
+periods = st.floats(0.1, 10.0)
+
+
+@given(stroke=strokes, period=periods, t=times)
+def test_speed_of_reciprocating_is_the_derivative(stroke: float, period: float, t: float) -> None:
+    chosen, h = Reciprocating(stroke=stroke, period=period), 1e-5
+    slope = (chosen.extension(t + h) - chosen.extension(t - h)) / (2.0 * h)
+    # central difference: third derivative stroke/2 w^3 times h^2/6; rounding of 2 m, and of phases up to
+    # 750 rad at 1e-13 rad, over h
+    assert chosen.speed(t) == pytest.approx(slope, abs=chosen.frequency**3 * h**2 / 6.0 + 4e-8)
+
+
+@given(stroke=strokes, period=periods, cycle=st.integers(0, 5))
+def test_reciprocating_is_down_at_whole_periods_and_up_between(
+    stroke: float, period: float, cycle: int
+) -> None:
+    chosen = Reciprocating(stroke=stroke, period=period)
+    # at rest in both: only the square of the rounding of a phase of 40 rad, and rounding of 2 m, count
+    assert chosen.extension(cycle * period) == pytest.approx(0.0, abs=1e-15)
+    assert chosen.extension((cycle + 0.5) * period) == pytest.approx(stroke, abs=1e-15)
+
+
+def test_reciprocating_by_hand() -> None:
+    chosen = Reciprocating(stroke=0.4, period=2.0)
+    # a quarter of a period: half of the stroke, at the largest speed, pi stroke / period; rounding
+    assert chosen.extension(0.5) == pytest.approx(0.2, rel=1e-15)
+    assert chosen.speed(0.5) == pytest.approx(math.pi * 0.2, rel=1e-15)
+    # before the start nothing moved: the acceleration jumps there
+    assert chosen.breaks == (0.0,)
+    assert Reciprocating(period=1.0).stroke == 0.5
+
+
+@given(stroke=strokes, period=periods, duration=st.floats(0.01, 12.0), share=st.floats(0.0, 1.0))
+def test_reciprocating_stays_within_the_span_and_reaches_it(
+    stroke: float, period: float, duration: float, share: float
+) -> None:
+    chosen = Reciprocating(stroke=stroke, period=period)
+    lowest, highest = chosen.span(duration)
+    # rounding of 2 m
+    assert lowest - 5e-16 <= chosen.extension(share * duration) <= highest + 5e-16
+    farthest = chosen.extension(min(duration, 0.5 * period))
+    assert lowest + highest == pytest.approx(farthest, abs=5e-16)
+
+
+@pytest.mark.parametrize("period", [0.0, -1.0, float("nan")])
+def test_a_period_that_makes_no_sense_is_refused(period: float) -> None:
+    with pytest.raises(InputError, match=rf"Reciprocating\.period = {period}: "):
+        Reciprocating(period=period)
+
+
 # --- bad input, and back from data ---
 
 
@@ -223,6 +280,15 @@ def test_start_before_the_run_is_refused(kind: type[Stroke]) -> None:
         kind(start=-1.0)
 
 
-@pytest.mark.parametrize("chosen", [Held(), CubicStep(stroke=-0.2), UniformSpeed(end=7.0), Steady(rate=-3.0)])
+RETURNING = [
+    Held(),
+    CubicStep(stroke=-0.2),
+    UniformSpeed(end=7.0),
+    Steady(rate=-3.0),
+    Reciprocating(period=4.0),
+]
+
+
+@pytest.mark.parametrize("chosen", RETURNING)
 def test_a_drive_comes_back_from_json(chosen: Drive) -> None:
     assert Value.from_data(json.loads(json.dumps(chosen.to_data()))) == chosen

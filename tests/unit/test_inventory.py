@@ -15,6 +15,7 @@ from support_exudyn import (
     IdealPin,
     ImpactStand,
     Linkage,
+    Load,
     Machine,
     OilColumn,
     OwnBody,
@@ -31,6 +32,7 @@ from support_exudyn.inventory import Inventory, inventory
 from support_exudyn.machine import GROUND
 from support_exudyn.scene_builder import build
 from support_exudyn.spatial.scene_builder import build as build_in_space
+from tests.roof_cases import Branching, Ram, over_the_canopy, over_the_ram
 from tests.unit.cases import contact, support
 from user_forces import Ambrosio, Frictionless
 
@@ -51,7 +53,7 @@ def scenario(**changes: Any) -> Scenario:
     return Scenario(**fields | changes)
 
 
-def places(linkage: Linkage, weighed: bool, loose_pins: Mapping[str, Any]) -> int:
+def places(linkage: Linkage, weighed: bool, loose_pins: Mapping[str, Any], loads: Mapping[str, Load]) -> int:
     """Markers: one for each place on a body that something acts on, two more of its own for a loose pin."""
     found: set[tuple[str, Any]] = set()
     for name, pin in linkage.pins.items():
@@ -61,6 +63,8 @@ def places(linkage: Linkage, weighed: bool, loose_pins: Mapping[str, Any]) -> in
         found |= {(column.foot, column.foot_point), (column.head, column.head_point)}
     for slide in linkage.slides.values():
         found |= {(slide.body, slide.point), (GROUND, slide.point)}
+    for load in loads.values():
+        found |= {(load.body, load.point), (GROUND, load.point)}
     if weighed:
         found |= {(name, body.centre) for name, body in linkage.bodies.items()}
     # every crank has its angle, and all share the coordinate that is held against
@@ -84,16 +88,16 @@ def counted(one: Scenario, user_functions: int, callbacks: int) -> Inventory:
         "slide": len(linkage.slides),
     }
     bodies = len(linkage.bodies)
-    connectors = sum(map(len, (linkage.pins, linkage.columns, linkage.cranks, linkage.slides)))
+    connectors = sum(map(len, (linkage.pins, linkage.columns, linkage.cranks, linkage.slides, one.loads)))
     weighed = any(one.gravity)
     return Inventory(
         coordinates=3 * bodies,
         constraints=sum(EQUATIONS[kind] * number for kind, number in numbers.items()),
         bodies=bodies,
         nodes=bodies + bool(linkage.cranks),
-        objects=bodies + connectors + touches_ground(linkage),
+        objects=bodies + connectors + (touches_ground(linkage) or bool(one.loads)),
         connectors=connectors,
-        markers=places(linkage, weighed, free),
+        markers=places(linkage, weighed, free, one.loads),
         loads=bodies if weighed else 0,
         sensors=0,
         user_functions=user_functions,
@@ -134,6 +138,27 @@ CASES: dict[str, tuple[Scenario, int, int]] = {
         0,
     ),
     "one column of oil, driven": (scenario(columns={"front_column": OIL}, drive=RISE), 0, 2),
+    # the engine follows the roof by itself; energies remain
+    "roof": (scenario(loads={"roof": over_the_canopy(0.1)}), 0, 1),
+    "roof, no energies": (scenario(loads={"roof": over_the_canopy(0.1)}, channels=NO_ENERGY), 0, 0),
+    "roof in the heads of columns, loose": (
+        scenario(
+            loads={"roof": over_the_canopy(0.1, point=SUPPORT.linkage().columns["front_column"].head_point)},
+            pins=ONE_LOOSE,
+        ),
+        1,
+        3,
+    ),
+    "roof that Python lowers": (
+        scenario(loads={"roof": over_the_canopy(0.1, descent=Branching(speed_down=0.1))}, channels=NO_ENERGY),
+        1,
+        0,
+    ),
+    "two roofs on a ram": (
+        scenario(machine=Ram(), loads={"one": over_the_ram(), "other": over_the_ram(gap=0.1)}),
+        0,
+        1,
+    ),
     "slider-crank, held": (scenario(machine=ravn_slider_crank(), drive=Held()), 0, 0),
     # the engine follows the drive by itself; energies remain
     "slider-crank, turning": (scenario(machine=ravn_slider_crank(), drive=Steady(rate=500.0)), 0, 1),
@@ -238,12 +263,13 @@ LEVELS: dict[str, dict[str, Any]] = {
     "all": {"pins": dict.fromkeys(PINS, loose()), "columns": two_body_columns(OIL), "parts": TAIL},
     "settled": {"pins": ONE_LOOSE, "start": "settled"},
 }
+LOADED: dict[str, dict[str, Any]] = {"roof": {"loads": {"roof": over_the_canopy(0.1)}, "pins": ONE_LOOSE}}
 IN_BOTH = [(name, dimensions) for name in LEVELS for dimensions in (2, 3)]
 
 
-@pytest.mark.parametrize(("name", "dimensions"), [*IN_BOTH, ("rubbing", 2)])
+@pytest.mark.parametrize(("name", "dimensions"), [*IN_BOTH, ("roof", 2), ("rubbing", 2)])
 def test_nothing_in_the_engine_is_left_unused(name: str, dimensions: int) -> None:
-    fields = LEVELS.get(name, {"pins": RUBBING})
+    fields = (LEVELS | LOADED).get(name, {"pins": RUBBING})
     one = scenario(machine=reference_support(), dimensions=dimensions, **fields)
     scene: Any = build_in_space(one) if dimensions == 3 else build(one)
     try:

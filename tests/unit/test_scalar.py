@@ -58,6 +58,12 @@ def test_exponential_and_tangent_are_those_of_the_machine(x: float) -> None:
     assert scalar.tanh(x) == math.tanh(x)
 
 
+@given(x=numbers)
+def test_cosine_and_sine_are_those_of_the_machine(x: float) -> None:
+    assert scalar.cos(x) == math.cos(x)
+    assert scalar.sin(x) == math.sin(x)
+
+
 @given(x=positives, exponent=st.floats(-3.0, 3.0))
 def test_power_is_that_of_the_machine(x: float, exponent: float) -> None:
     assert scalar.power(x, exponent) == math.pow(x, exponent)
@@ -140,6 +146,8 @@ def test_step_is_symmetric_about_its_middle(x: float) -> None:
         (scalar.exp, "exp"),
         (scalar.log, "log"),
         (scalar.tanh, "tanh"),
+        (scalar.cos, "cos"),
+        (scalar.sin, "sin"),
         (scalar.sign, "sign"),
         (scalar.magnitude, "abs"),
     ],

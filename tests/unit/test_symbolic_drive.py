@@ -8,7 +8,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from support_exudyn import CubicStep, Drive, Held, Scenario, Steady, UniformSpeed, ravn_slider_crank, simulate
+from support_exudyn import (
+    CubicStep,
+    Drive,
+    Held,
+    Reciprocating,
+    Scenario,
+    Steady,
+    UniformSpeed,
+    ravn_slider_crank,
+    simulate,
+)
 from support_exudyn.inventory import inventory
 from tests.unit.cases import support
 from user_forces import value
@@ -55,6 +65,7 @@ class Swinging(Branching):
         (Steady(rate=300.0), 0),
         (CubicStep(stroke=1.0, start=2e-3, end=8e-3), 0),
         (UniformSpeed(stroke=1.0, start=2e-3, end=8e-3), 0),
+        (Reciprocating(stroke=1.0, period=4e-3), 0),
         (Held(), 0),
         (Branching(), 1),
         (Swinging(), 1),
@@ -76,6 +87,7 @@ def test_columns_need_python() -> None:
         Steady(rate=300.0),
         CubicStep(stroke=1.0, start=2e-3, end=8e-3),
         UniformSpeed(stroke=1.0, start=2e-3, end=8e-3),
+        Reciprocating(stroke=1.0, period=4e-3),
         Branching(),
     ],
     ids=lambda item: type(item).__name__,

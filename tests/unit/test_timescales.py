@@ -15,6 +15,7 @@ from support_exudyn import (
     CubicStep,
     Held,
     ImpactStand,
+    Reciprocating,
     Scenario,
     Steady,
     UniformSpeed,
@@ -203,6 +204,9 @@ def test_the_drives_time_is_its_stroke_or_a_cranks_turn() -> None:
     assert timescales(slider_crank(1e-3, drive=Steady(rate=-CRANK_SPEED))).drive == pytest.approx(
         1.0 / CRANK_SPEED
     )
+    # one over its angular frequency
+    rising = Reciprocating(stroke=0.1, period=math.pi)
+    assert timescales(support(drive=rising)).drive == pytest.approx(0.5, rel=1e-15)
     # columns that go on as they are have no time of their own
     assert timescales(support(drive=Steady(rate=0.05), duration=1.0)).drive == math.inf
     assert timescales(support(drive=Held())).drive == math.inf

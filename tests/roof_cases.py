@@ -1,0 +1,160 @@
+"""What tests of loads share: a ram on an upright guide, and the reference support under a roof."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+from support_exudyn import (
+    Body,
+    CubicStep,
+    Drive,
+    Held,
+    Linkage,
+    Load,
+    LoadedPoint,
+    Machine,
+    OilColumn,
+    Roof,
+    Scenario,
+    Slide,
+    bore_area,
+    reference_support,
+)
+from support_exudyn.loads import Powers
+from user_forces import value
+from user_forces.scalar import maximum
+from user_forces.values import Vector2
+
+MASS, STIFFNESS = 1000.0, 1e6
+TOP = (0.0, 1.0)
+# damped so well that vibrations are gone before a run of 0.3 s ends
+OIL = OilColumn(bore_area=bore_area(0.25, number=2), oil_length=0.5, bulk_modulus=1.5e9, damping_time=5e-3)
+ON_OIL = {"front_column": OIL, "rear_column": OIL}
+# of the support [m]: over the middle between both columns' heads, in the start posture
+OVER_THE_COLUMNS = (1.37, 1.993)
+HARD = 1e9  # [N/m]
+GAP = 0.0123  # [m]
+TEN_MEGANEWTONS = 1e7
+
+
+@value
+class Ram(Machine):
+    """A ram of 1 t that moves up and down and does not turn."""
+
+    speed: float = 0.0
+
+    def linkage(self) -> Linkage:
+        ram = Body(mass=MASS, inertia=1.0, centre=TOP, velocity=(0.0, self.speed))
+        return Linkage(
+            bodies={"ram": ram}, slides={"guide": Slide(body="ram", point=TOP, direction=0.5 * math.pi)}
+        )
+
+
+@value
+class DeadLoad(Load):
+    """A force that stays as it is: what a new kind of load takes."""
+
+    vector: Vector2
+
+    def force(self, at: LoadedPoint) -> Vector2:
+        return self.vector
+
+    def stored(self, at: LoadedPoint) -> float:
+        return -self.vector[0] * at.x - self.vector[1] * at.y
+
+    def powers(self, at: LoadedPoint) -> Powers:
+        return Powers(0.0, 0.0)
+
+
+@value
+class FallingBlock(Load):
+    """A block on an upright guide that falls on the point: what a load with a mass of its own takes."""
+
+    mass: float
+    gap: float
+    stiffness: float
+
+    def joined(self, linkage: Linkage, name: str) -> Linkage:
+        block = Body(mass=self.mass, inertia=1.0, centre=self.point)
+        guide = Slide(body=name, point=self.point, direction=0.5 * math.pi)
+        return replace(
+            linkage,
+            bodies={**linkage.bodies, name: block},
+            slides={**linkage.slides, f"{name}_guide": guide},
+        )
+
+    def against(self, name: str) -> str:
+        return name
+
+    def force(self, at: LoadedPoint) -> Vector2:
+        return 0.0, -self.stiffness * maximum(0.0, at.y - self.gap)
+
+    def stored(self, at: LoadedPoint) -> float:
+        return 0.5 * self.stiffness * maximum(0.0, at.y - self.gap) ** 2
+
+    def powers(self, at: LoadedPoint) -> Powers:
+        return Powers(0.0, 0.0)
+
+    @property
+    def steepness(self) -> Vector2:
+        return 0.0, self.stiffness
+
+
+@value
+class Branching(Drive):
+    """A descent that decides by `if`, which no expression can."""
+
+    speed_down: float
+
+    def extension(self, t: float) -> float:
+        return self.speed_down * (t - 0.01) if t > 0.01 else 0.0
+
+    def speed(self, t: float) -> float:
+        return self.speed_down if t > 0.01 else 0.0
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        return (0.01,)
+
+    def span(self, duration: float) -> tuple[float, float]:
+        return 0.0, self.extension(duration)
+
+
+def over_the_ram(gap: float = 0.01, damping: float = 0.0, descent: Drive | None = None) -> Roof:
+    return Roof(body="ram", point=TOP, gap=gap, stiffness=STIFFNESS, damping=damping, descent=descent or Held())
+
+
+def thrown(gap: float, step: float, damping: float = 0.0) -> Scenario:
+    """The ram flies up to the roof at 1 m/s, without weight, and back."""
+    return Scenario(
+        machine=Ram(speed=1.0),
+        loads={"roof": over_the_ram(gap, damping)},
+        duration=0.2,
+        record_period=0.2,
+        step=step,
+        gravity=(0.0, 0.0),
+    )
+
+
+def over_the_canopy(down: float, start: float = 0.02, end: float = 0.12, **changes: object) -> Roof:
+    """A hard roof that comes down on the reference support."""
+    fields: dict[str, object] = {
+        "body": "canopy",
+        "point": OVER_THE_COLUMNS,
+        "gap": GAP,
+        "stiffness": HARD,
+        "descent": CubicStep(stroke=down, start=start, end=end),
+    }
+    return Roof(**fields | changes)
+
+
+def pressed_support(roof: Load, **changes: object) -> Scenario:
+    """The reference support under a roof."""
+    fields: dict[str, object] = {
+        "machine": reference_support(),
+        "loads": {"roof": roof},
+        "duration": 0.3,
+        "step": 2.5e-4,
+    }
+    return Scenario(**fields | changes)
