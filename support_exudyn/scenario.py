@@ -19,7 +19,7 @@ from support_exudyn.recipes import Recipe, check_patterns, recipes
 from support_exudyn.spatial.layout import SpatialLinkage
 from support_exudyn.spatial.recipes import recipes as spatial_recipes
 from support_exudyn.two_bodies import with_two_bodies
-from user_forces.values import Fraction, InputError, Positive, Real, Value, Vector2, value
+from user_forces.values import Fraction, InputError, Positive, Real, Value, Vector2, Whole, value
 
 ACCURACIES = {"draft": 1e-2, "standard": 1e-3, "reference": 1e-5}
 Accuracy = Literal["draft", "standard", "reference"] | Real
@@ -78,12 +78,12 @@ class SolverSettings(Value):
     spectral_radius: Fraction = 0.5
     newton_tolerance: Annotated[Real, Field(gt=0, le=1e-3)] = 1e-8
     newton: Literal["modified", "full"] = "modified"
-    impact_steps: Annotated[int, Field(ge=16, le=MOST_IMPACT_STEPS)] = 512
+    impact_steps: Annotated[Whole, Field(ge=16, le=MOST_IMPACT_STEPS)] = 512
     locate: Annotated[bool, Field(strict=True)] = True
     growth: Annotated[Real, Field(ge=1, le=64)] = 1.0
     tolerance: Annotated[Real, Field(ge=1e-13, le=1e-2)] = 1e-7
     backend: Literal["auto", "python", "symbolic", "compiled"] = "auto"
-    sections: Annotated[int, Field(ge=2, le=MOST_SECTIONS)] = 5
+    sections: Annotated[Whole, Field(ge=2, le=MOST_SECTIONS)] = 5
 
     @model_validator(mode="after")
     def _fit_each_other(self) -> SolverSettings:
