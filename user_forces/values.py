@@ -65,7 +65,8 @@ Whole = Annotated[int, BeforeValidator(_whole)]
 Positive = Annotated[Real, Field(gt=0), AfterValidator(_not_next_to_zero)]
 NonNegative = Annotated[Real, Field(ge=0), AfterValidator(_not_next_to_zero)]
 Fraction = Annotated[Real, Field(ge=0, le=1)]
-Restitution = Annotated[Real, Field(gt=0, le=1)]
+Share = Annotated[Real, Field(gt=0, le=1), AfterValidator(_not_next_to_zero)]
+Restitution = Share
 Vector2 = tuple[Real, Real]
 Vector3 = tuple[Real, Real, Real]
 

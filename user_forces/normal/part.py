@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from user_forces.normal.law import NormalLaw, Touch
-from user_forces.values import Fraction, value
+from user_forces.values import Share, value
 
 
 @value
@@ -16,11 +16,11 @@ class PartOf(NormalLaw):
 
     Arguments:
         law: of the whole.
-        share: of the section, from 0 to 1.
+        share: of the section, > 0 and <= 1.
     """
 
     law: NormalLaw
-    share: Fraction
+    share: Share
 
     def __call__(self, depth: float, rate: float, touch: Touch) -> float:
         """Normal force [N] of the section."""
