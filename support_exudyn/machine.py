@@ -37,7 +37,9 @@ class Part(Value):
 
     mass: Positive
     centre: Vector2
-    inertia: Annotated[Real, Field(ge=0)] = 0.0  # of a bar between two points that rounding has parted it is tiny
+    inertia: Annotated[Real, Field(ge=0)] = (
+        0.0  # of a bar between two points that rounding has parted it is tiny
+    )
     name: str = ""
     moments: Moments | None = None
 

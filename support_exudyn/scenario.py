@@ -19,7 +19,7 @@ from support_exudyn.recipes import Recipe, check_patterns, recipes
 from support_exudyn.spatial.layout import SpatialLinkage
 from support_exudyn.spatial.recipes import recipes as spatial_recipes
 from support_exudyn.two_bodies import with_two_bodies
-from user_forces.values import Fraction, InputError, Positive, Real, Value, Vector2, Whole, value
+from user_forces.values import Fraction, InputError, Positive, Real, Value, Vector2, Whole, short, value
 
 ACCURACIES = {"draft": 1e-2, "standard": 1e-3, "reference": 1e-5}
 Accuracy = Literal["draft", "standard", "reference"] | Real
@@ -30,6 +30,7 @@ MOST_IMPACT_STEPS = 10000
 MOST_SECTIONS = 64
 ERROR_CONTROLLED = ("tree", "reduced")
 REFINED_TOLERANCE = 3  # power of the refinement by which the tolerance falls
+MOST_REFINED = 1e6  # by what factor a run can be refined
 ALL_CHANNELS = ("*",)
 
 
@@ -276,10 +277,13 @@ class Scenario(Value):
         chooses its steps by a tolerance, that becomes factor^3 times smaller; where the scenario asks for an
         accuracy in place of settings, that becomes factor^2 times smaller.
 
-        factor: > 0. Raises InputError if it is not, or if a setting leaves its range.
+        factor: > 0, up to a million. Raises InputError if it is not, or if a setting leaves its range.
         """
-        if not 0.0 < factor < math.inf:
-            raise InputError(f"factor = {factor}: allowed: > 0")
+        number = isinstance(factor, (int, float)) and not isinstance(factor, bool)
+        if not (number and 1.0 / MOST_REFINED <= factor <= MOST_REFINED):
+            raise InputError(
+                f"factor = {short(factor)}: allowed: > 0, from {1.0 / MOST_REFINED:g} to {MOST_REFINED:g}"
+            )
         if self.goal is not None:
             return replace(self, accuracy=max(SMALLEST_GOAL, self.goal / factor**2))
         if self.formulation in ERROR_CONTROLLED:

@@ -16,22 +16,30 @@ T = TypeVar("T")
 LONGEST_LINE = 1500  # characters: some messages list 60 names; what was given is cut at 80
 
 
-def sensible(error: Exception) -> None:
-    """A message is some lines of text that do not repeat the input at length."""
+def sensible(error: Exception, start: str = "") -> None:
+    """A message is some lines of text that do not repeat the input at length, and begins as it should."""
     said = str(error)
+    assert said.startswith(start)
     assert said.strip()
     for line in said.splitlines():
         assert len(line) <= LONGEST_LINE, line[:200]
-    for foreign in ("Traceback", "pydantic", "math domain", "division by zero", "different signs", "nan to nan"):
+    for foreign in (
+        "Traceback",
+        "pydantic",
+        "math domain",
+        "division by zero",
+        "different signs",
+        "nan to nan",
+    ):
         assert foreign not in said, said
 
 
-def taken_or_refused(make: Callable[[], T]) -> T | None:
+def taken_or_refused(make: Callable[[], T], start: str = "") -> T | None:
     """What was made; None if it was refused in a sentence. Anything else is raised on."""
     try:
         return make()
     except InputError as error:
-        sensible(error)
+        sensible(error, start)
         return None
 
 
@@ -42,7 +50,6 @@ def sound(item: Any) -> None:
     with shallow():
         back = Value.from_data(json.loads(text))
     assert back == item
-    assert not back != item
     assert back.to_data() == item.to_data()
     with contextlib.suppress(TypeError):
         hash(item)

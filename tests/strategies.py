@@ -1,4 +1,4 @@
-"""Strategies for fuzzing: values of every class there is, data that were valid once, and what is no data at all.
+"""Strategies for fuzzing: values of every class there is, data that were valid once, and what is no data.
 
 Classes are found in the register and their fields in what they declare, so that a new law is tried without a
 line here.
@@ -13,6 +13,7 @@ import inspect
 import json
 import math
 import pkgutil
+import sys
 import types
 import typing
 from collections import OrderedDict, UserDict
@@ -20,6 +21,7 @@ from collections.abc import Callable, Mapping
 from decimal import Decimal
 from fractions import Fraction
 from functools import cache
+from importlib import resources
 from typing import Any
 
 import annotated_types
@@ -43,15 +45,18 @@ from support_exudyn import (
     SolverSettings,
     Steady,
     UniformSpeed,
-    load_support,
     ravn_slider_crank,
     reference_support,
     two_body_columns,
 )
-from support_exudyn.spatial.layout import SpatialBody
 from tests.unit.cases import contact
 from user_forces import CubicCoulomb, InputError, LuGre, Value
 from user_forces.values import DEEPEST
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
 
 # How often each property is tried in a run of the tests, 1000 times and more in all; see `tried`.
 EXAMPLES = {
@@ -72,13 +77,14 @@ EXAMPLES = {
     "machine tree": 120,
     "evidence text": 30,
     "evidence tree": 40,
-    "result trees": 40,
     "asked of results": 60,
     "recommend": 30,
     "options": 60,
     "all studies": 40,
 }
-OFTEN = 60  # examples of the profile that the tests run with; of the one that is asked for by hand, see conftest
+OFTEN = (
+    60  # examples of the profile that the tests run with; of the one that is asked for by hand, see conftest
+)
 
 
 def tried(name: str) -> Callable[[Any], Any]:
@@ -135,7 +141,24 @@ def _endless_table() -> dict[str, Any]:
 
 
 EXTREMES: tuple[float, ...] = (
-    *(0.0, -0.0, 5e-324, -5e-324, 2.2e-308, 1e-300, 1e-30, 1e-17, 1e-9, 1.0, -1.0, 1e9, 1e17, 1e30, 1e31, 1e154),
+    *(
+        0.0,
+        -0.0,
+        5e-324,
+        -5e-324,
+        2.2e-308,
+        1e-300,
+        1e-30,
+        1e-17,
+        1e-9,
+        1.0,
+        -1.0,
+        1e9,
+        1e17,
+        1e30,
+        1e31,
+        1e154,
+    ),
     *(1e300, -1e300, 1.7976931348623157e308, math.nan, math.inf, -math.inf),
 )
 # plain data, as a file may hold
@@ -143,7 +166,17 @@ SCRAPS: tuple[Any, ...] = (
     *EXTREMES,
     *(0, 1, -1, 2, 3, 10**20, 10**400, -(10**400), True, False, None),
     *("", "0.1", "nan", "type", "x" * 10000, "\x00", "\ud800", "ground", "self", "*", "[", "draft", "\n\n"),
-    *([], {}, [0.0], [1.0, 2.0], [1.0, 2.0, 3.0], [[]], {"type": "Held"}, {"type": "Drive"}, {"a": {"type": 3}}),
+    *(
+        [],
+        {},
+        [0.0],
+        [1.0, 2.0],
+        [1.0, 2.0, 3.0],
+        [[]],
+        {"type": "Held"},
+        {"type": "Drive"},
+        {"a": {"type": 3}},
+    ),
     *({"type": "Steady", "rate": 1e300}, {"type": "NormalLaw"}, {"type": "Stroke"}, {"type": "PowerLaw"}),
     *({"type": "ColumnModel"}, {"type": ""}, {"type": None}, {"type": []}, {"type": "Scenario"}),
 )
@@ -161,8 +194,20 @@ ODDITIES: tuple[Callable[[], Any], ...] = (
     *(lambda: {"type": "Held", "self": 1}, lambda: {"type": "Held", "__dataclass_self__": 1}),
     *(lambda: {"type": "Held", "\ud800": 1}, lambda: {"\ud800": 1}, lambda: {"x" * 10000: 1}),
     *(lambda: OrderedDict(a=1), lambda: UserDict(a=1), lambda: types.MappingProxyType({"a": 1})),
-    *(lambda: float, lambda: Value, lambda: Machine, lambda: Drive, lambda: print, lambda: {1, 2}, lambda: range(3)),
-    *(lambda: type("Own", (float,), {})(0.5), lambda: type("Own", (str,), {})("a"), lambda: type("Own", (dict,), {})),
+    *(
+        lambda: float,
+        lambda: Value,
+        lambda: Machine,
+        lambda: Drive,
+        lambda: print,
+        lambda: {1, 2},
+        lambda: range(3),
+    ),
+    *(
+        lambda: type("Own", (float,), {})(0.5),
+        lambda: type("Own", (str,), {})("a"),
+        lambda: type("Own", (dict,), {}),
+    ),
 )
 
 numbers = (
@@ -216,7 +261,9 @@ def seeds() -> tuple[Value, ...]:
     support, crank = reference_support(), ravn_slider_crank()
     stand = ImpactStand(bore_mass=3.0, journal_mass=1.0, speed=0.5)
     oil = OilColumn(bore_area=0.05, oil_length=0.8, bulk_modulus=1.5e9)
-    rise = Scenario(machine=support, pins={"rear_base": loose}, drive=CubicStep(), duration=5.0, record_period=0.01)
+    rise = Scenario(
+        machine=support, pins={"rear_base": loose}, drive=CubicStep(), duration=5.0, record_period=0.01
+    )
     heavy = dataclasses.replace(
         rise, columns=two_body_columns(), pins={"front_base": rubbing}, solver=SolverSettings(sections=7)
     )
@@ -264,7 +311,19 @@ def examples_of(kind: type) -> tuple[Value, ...]:
     return tuple(found)
 
 
-NAMES = ("ground", "rear_base", "pin", "slider_pin", "front_column", "canopy", "crank", "tail_beam", "a", "type", "")
+NAMES = (
+    "ground",
+    "rear_base",
+    "pin",
+    "slider_pin",
+    "front_column",
+    "canopy",
+    "crank",
+    "tail_beam",
+    "a",
+    "type",
+    "",
+)
 names = st.sampled_from(NAMES) | st.text(max_size=4)
 
 
@@ -316,7 +375,9 @@ def _within(kind: type, metadata: typing.Sequence[Any]) -> st.SearchStrategy[Any
     if kind is int:
         return st.integers(math.ceil(max(low, -1000)), math.floor(min(high, 1000)))
     least = max(low, 1e-30) if open_end and low == 0.0 else low
-    usual = [x for x in (0.0, 1e-6, 1e-3, 0.01, 0.1, 0.5, 1.0, 1.5, 3.0, 100.0, 1e6, 1e11) if least <= x <= high]
+    usual = [
+        x for x in (0.0, 1e-6, 1e-3, 0.01, 0.1, 0.5, 1.0, 1.5, 3.0, 100.0, 1e6, 1e11) if least <= x <= high
+    ]
     return st.sampled_from([*usual, least, high]) | st.floats(least, high)
 
 
@@ -379,7 +440,9 @@ def arguments(draw: st.DrawFn, kind: type[Value]) -> dict[str, Any]:
     if known and draw(st.booleans()):
         given = _given(draw(one_of(known)))
     else:
-        given = {name: draw(fitting(field.annotation, field.metadata)) for name, field in fields_of(kind).items()}
+        given = {
+            name: draw(fitting(field.annotation, field.metadata)) for name, field in fields_of(kind).items()
+        }
     spoilt = draw(st.lists(st.sampled_from([*given, "self", "type", "other"]), max_size=2))
     for name in spoilt:
         given[name] = draw(scraps | oddities)
@@ -424,7 +487,9 @@ def mutated(draw: st.DrawFn, trees: st.SearchStrategy[Any], odd: st.SearchStrate
         depth = draw(st.integers(1, max(map(len, places))))
         place = draw(one_of([one for one in places if len(one) == depth]))
         parent, key = _at(tree, place[:-1]), place[-1]
-        match draw(st.sampled_from(("replace", "replace", "replace", "delete", "add", "rename", "move", "scale"))):
+        match draw(
+            st.sampled_from(("replace", "replace", "replace", "delete", "add", "rename", "move", "scale"))
+        ):
             case "replace":
                 parent[key] = draw(odd)
             case "delete":
@@ -473,3 +538,28 @@ def seed_data() -> tuple[Any, ...]:
 
 
 seed_trees = st.deferred(lambda: one_of(seed_data()))
+
+
+@cache
+def machine_tree() -> Any:
+    """The reference support's file as a tree."""
+    return tomllib.loads((resources.files("support_exudyn.supports") / "reference.toml").read_text("utf-8"))
+
+
+def toml(tree: Any) -> str:
+    """A tree as TOML, tables inline; what TOML has no form for is left as it is written in Python."""
+    return "\n".join(f"{_key(key)} = {_inline(item)}" for key, item in tree.items()) if tree else ""
+
+
+def _inline(item: Any) -> str:
+    if isinstance(item, dict):
+        return "{" + ", ".join(f"{_key(key)} = {_inline(one)}" for key, one in item.items()) + "}"
+    if isinstance(item, list):
+        return "[" + ", ".join(map(_inline, item)) + "]"
+    if isinstance(item, str):
+        return json.dumps(item, ensure_ascii=False)
+    return str(item).lower() if isinstance(item, bool) else repr(item)
+
+
+def _key(key: Any) -> str:
+    return json.dumps(str(key), ensure_ascii=False)

@@ -26,7 +26,6 @@ from pydantic import AfterValidator, BeforeValidator, ConfigDict, Field, Validat
 from pydantic.dataclasses import dataclass as pydantic_dataclass
 from typing_extensions import Self, dataclass_transform
 
-
 LARGEST = 1e30  # of any number: products of several neither overflow nor vanish
 DEEPEST = 32  # of plain data, in containers within containers; a scenario has 7
 
@@ -86,7 +85,7 @@ class Value:
 
     def __new__(cls, *args: Any, **kwargs: Any) -> Self:
         """Of a class that only groups others nothing can be made, since nothing could be read back."""
-        if not dataclasses.is_dataclass(cls):
+        if not _has_fields(cls):
             raise InputError(f"{cls.__name__}: is a kind of values; allowed: {_names(_kinds_of(cls))}")
         return super().__new__(cls)
 
@@ -107,7 +106,11 @@ class Value:
 def _kinds_of(cls: type[Value]) -> dict[str, type[Value]]:
     """All kinds of a class of which values can be made, by name."""
     known = {name: kind for name, kind in Value._register.items() if issubclass(kind, cls)}
-    return {n: kind for n, kind in known.items() if dataclasses.is_dataclass(kind) and not inspect.isabstract(kind)}
+    return {name: kind for name, kind in known.items() if _has_fields(kind) and not inspect.isabstract(kind)}
+
+
+def _has_fields(cls: Any) -> bool:
+    return dataclasses.is_dataclass(cls)
 
 
 def _names(names: Mapping[str, Any]) -> str:
@@ -171,7 +174,9 @@ def value(cls: type[T]) -> type[T]:
 
     def __init__(self: Any, /, *args: Any, **kwargs: Any) -> None:
         if ITSELF in kwargs:
-            raise InputError(f"{made.__name__}.{ITSELF} = {short(kwargs[ITSELF])}: unknown field; allowed: others")
+            raise InputError(
+                f"{made.__name__}.{ITSELF} = {short(kwargs[ITSELF])}: unknown field; allowed: others"
+            )
         try:
             checked_init(self, *args, **kwargs)
         except ValidationError as error:
@@ -179,8 +184,8 @@ def value(cls: type[T]) -> type[T]:
         for name, item in vars(self).items():
             if isinstance(item, Mapping) and "type" in item:
                 raise InputError(
-                    f"{made.__name__}.{name}: 'type': cannot be used as a name, it marks what kind of value data "
-                    "are of; allowed: any other"
+                    f"{made.__name__}.{name}: 'type': cannot be used as a name, it marks what kind of value "
+                    "data are of; allowed: any other"
                 )
 
     __init__.__doc__ = checked_init.__doc__
@@ -194,7 +199,7 @@ OUT_OF_BOUNDS = ("greater_than", "greater_than_equal", "less_than", "less_than_e
 
 def _sentence(cls: Any, error: Mapping[str, Any]) -> str:
     """One line for one pydantic error: where, the value, what is wrong, what is allowed."""
-    path = ".".join(_step(part) for part in error["loc"])
+    path = ".".join(step(part) for part in error["loc"])
     where = f"{cls.__name__}.{path}" if path else cls.__name__
     fields = [f.name for f in dataclasses.fields(cls)]
     if error["type"] in ("unexpected_keyword_argument", "unexpected_positional_argument"):
@@ -229,7 +234,7 @@ def _allowed(cls: Any, loc: tuple[Any, ...]) -> str:
     return " and ".join(bounds)
 
 
-def _step(part: Any) -> str:
+def step(part: Any) -> str:
     """A field, a name or a number on the way to what is wrong."""
     text = str(part)
     return text if len(text) <= 80 and text.isprintable() else short(part)

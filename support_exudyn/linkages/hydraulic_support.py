@@ -45,6 +45,11 @@ PINS = ("rear_base", "front_base", "rear_shield", "front_shield", "shield_canopy
 BODIES = ("rear_link", "front_link", "shield", "canopy")
 TAIL = "tail_beam"  # part of the shield, and the body that it can be
 TAIL_PLACES = ("tail_hinge", "tail_jack_foot", "tail_jack_head")
+PIVOTS = (
+    *("rear_base", "front_base", "rear_shield", "front_shield", "hinge", "front_foot", "front_head"),
+    *("rear_foot", "rear_head", "tip", *TAIL_PLACES),
+)
+FARTHEST = 1000.0  # [m] from the origin
 RODS = "_rods"  # after a column's name: parts that stand for its mass as long as it has none
 
 
@@ -104,6 +109,12 @@ class HydraulicSupport(Machine):
 
     @model_validator(mode="after")
     def _can_be_built(self) -> HydraulicSupport:
+        for name in PIVOTS:
+            if max(map(abs, getattr(self, name) or (0.0,))) > FARTHEST:
+                raise ValueError(
+                    f"{name} = {getattr(self, name)} m: allowed: from {-FARTHEST:g} to {FARTHEST:g} m (is it given "
+                    "in mm?)"
+                )
         if sorted(self.parts) != sorted(BODIES):
             raise ValueError(f"parts = {sorted(self.parts)}: allowed: exactly {', '.join(BODIES)}")
         for name, parts in self.parts.items():
