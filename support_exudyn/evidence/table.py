@@ -163,4 +163,6 @@ def _tried(data: Mapping[str, Any]) -> Tried:
     if unknown:
         raise KeyError(f"{short(unknown[0])} is no element of a model")
     seconds, steps = _number(data["seconds"]), _number(data["steps"])
+    if min(seconds, steps, *(number.error for number in numbers.values())) < 0.0:
+        raise ValueError("seconds, steps and errors are not below 0")
     return Tried(_text(data["name"]), _text(data["family"]), fields, numbers, seconds, int(steps))

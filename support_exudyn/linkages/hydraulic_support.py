@@ -112,8 +112,8 @@ class HydraulicSupport(Machine):
         for name in PIVOTS:
             if max(map(abs, getattr(self, name) or (0.0,))) > FARTHEST:
                 raise ValueError(
-                    f"{name} = {getattr(self, name)} m: allowed: from {-FARTHEST:g} to {FARTHEST:g} m (is it given "
-                    "in mm?)"
+                    f"{name} = {getattr(self, name)} m: allowed: from {-FARTHEST:g} to {FARTHEST:g} m "
+                    "(is it given in mm?)"
                 )
         if sorted(self.parts) != sorted(BODIES):
             raise ValueError(f"parts = {sorted(self.parts)}: allowed: exactly {', '.join(BODIES)}")

@@ -14,7 +14,7 @@ from support_exudyn.columns import OilColumn, RigidColumn, TwoBodyColumn
 from support_exudyn.linkages.hydraulic_support import HydraulicSupport
 from support_exudyn.machine import Part, bar
 from support_exudyn.width import Width
-from user_forces.values import InputError, Vector2, short, step
+from user_forces.values import LARGEST, InputError, Vector2, short, step
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -183,10 +183,9 @@ def _ends(names: Any, pivots: dict[str, Vector2], where: str) -> tuple[Vector2, 
 def _number(item: Any, where: str) -> float:
     if isinstance(item, bool) or not isinstance(item, (int, float)):
         raise InputError(f"{where} = {short(item)}: allowed: a number")
-    try:
-        return float(item)
-    except OverflowError:
-        raise InputError(f"{where} = {short(item)}: allowed: a number that is not so large") from None
+    if abs(item) > LARGEST:
+        raise InputError(f"{where} = {short(item)}: allowed: a number up to {LARGEST:g}")
+    return float(item)
 
 
 def _metres(point: Any, where: str) -> Vector2:

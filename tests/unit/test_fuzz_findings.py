@@ -205,6 +205,7 @@ between = {between}
         ("parts = [1, 2]", "['a', 'b']", r"pivots_mm\.parts: unknown field"),
         ("width = [1, 2]", "['width', 'width']", r"pivots_mm\.width: unknown field"),
         ("a = [1, 2]", "[[1], 'a']", r"parts\.rear_link\[0\]\.between = \[\[1\], 'a'\]: allowed: two of a"),
+        ("a = [1, 1e300]", "['a', 'a']", r"pivots_mm\.a = 1e\+300: allowed: a number up to 1e\+30"),
         (f"a = [1, 1{'0' * 400}]", "['a', 'a']", r"pivots_mm\.a = 1000.*allowed: a number"),
     ],
 )
@@ -227,6 +228,7 @@ TABLE = {"format": "support_exudyn scene detail 1", "fullest": {"f": "a"}, "said
         {"scenes": [SCENE | {"fields": []}]},
         {"scenes": [SCENE | {"steps": float("inf")}]},
         {"scenes": [SCENE | {"seconds": float("nan")}]},
+        {"scenes": [SCENE | {"seconds": -1.0}]},
         {"scenes": [SCENE | {"name": ["a"]}]},
         {"scenes": [SCENE | {"fields": {"speed": 3}}]},
         {"scenes": [SCENE | {"numbers": {"x": [1.0, True, "m"]}}]},

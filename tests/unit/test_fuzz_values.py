@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -37,16 +36,3 @@ def test_data_that_are_none_are_refused(data: Any) -> None:
     made = taken_or_refused(lambda: Value.from_data(data))
     if made is not None:
         sound(made)
-
-
-@pytest.mark.parametrize("odd", range(len(some.ODDITIES)))
-@pytest.mark.parametrize("kind", some.kinds(), ids=lambda kind: kind.__name__)
-def test_no_field_takes_an_oddity_that_it_cannot_keep(kind: type[Value], odd: int) -> None:
-    known = some.examples_of(kind)
-    if not known:
-        pytest.skip("no example of it to change")
-    fields = {name: getattr(known[0], name) for name in some.fields_of(kind)}
-    for name in fields:
-        made = taken_or_refused(lambda name=name: kind(**{**fields, name: some.ODDITIES[odd]()}))  # type: ignore[misc]
-        if made is not None:
-            sound(made)
