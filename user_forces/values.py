@@ -16,6 +16,7 @@ import dataclasses
 import inspect
 import math
 import numbers
+from abc import ABC
 from collections.abc import Mapping
 from decimal import Decimal
 from typing import Annotated, Any, ClassVar, TypeVar
@@ -85,7 +86,7 @@ class Value:
 
     def __new__(cls, *args: Any, **kwargs: Any) -> Self:
         """Of a class that only groups others nothing can be made, since nothing could be read back."""
-        if not _has_fields(cls):
+        if ABC in cls.__bases__ and not _has_fields(cls):
             raise InputError(f"{cls.__name__}: is a kind of values; allowed: {_names(_kinds_of(cls))}")
         return super().__new__(cls)
 
