@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-import argparse
 import sys
 from collections.abc import Sequence
 from pathlib import Path
 
 from studies.catalogue import STUDIES
 from studies.report import rebuild
-from studies.study import Options, add_options, answered, output_folder, run_main
+from studies.study import Options, Parser, add_options, answered, output_folder, run_main
 from support_exudyn.workers import worker_pool
 
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run every study and write the report; the exit code is the first that is not zero."""
-    parser = argparse.ArgumentParser(
-        prog="python -m studies", description="Run all studies and write the report."
-    )
+    parser = Parser(prog="python -m studies", description="Run all studies and write the report.")
     add_options(parser, Path("results"))
     given = parser.parse_args(argv)
     codes: list[int] = []

@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-import argparse
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -15,6 +14,7 @@ from studies.reporting.chapter import FILE
 from studies.reporting.content import Section, content
 from studies.reporting.html import page
 from studies.reporting.markdown_page import text
+from studies.study import Parser, folder
 from support_exudyn.files import whole_file
 from user_forces.values import InputError
 
@@ -62,12 +62,12 @@ def rebuild(out: Path, order: Sequence[str], quick: bool = False) -> int:
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Entry of `python -m studies.report`."""
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog="python -m studies.report", description="Write the report from the results that are there."
     )
     default = Path("results")
     parser.add_argument(
-        "--out", type=Path, default=default, metavar="DIR", help=f"folder of results ({default})"
+        "--out", type=folder, default=default, metavar="DIR", help=f"folder of results ({default})"
     )
     return rebuild(parser.parse_args(argv).out, list(STUDIES))
 

@@ -7,7 +7,6 @@ follows which scene a question needs.
 
 from __future__ import annotations
 
-import argparse
 import sys
 import time
 from collections.abc import Mapping, Sequence
@@ -38,8 +37,10 @@ from studies.reporting.wording import how_sure
 from studies.scene_detail_figures import figures, pictures
 from studies.study import (
     Options,
+    Parser,
     add_options,
     brief,
+    folder,
     run_main,
     save_figures,
     show_table,
@@ -209,13 +210,11 @@ def study(chosen: Options) -> None:
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Entry of `python -m studies.scene_detail`."""
-    parser = argparse.ArgumentParser(
-        prog=f"python -m studies.{STUDY}", description=(__doc__ or "").splitlines()[0]
-    )
+    parser = Parser(prog=f"python -m studies.{STUDY}", description=(__doc__ or "").splitlines()[0])
     add_options(parser, Path("results") / STUDY, taken=("quick", "workers"))
     parser.add_argument(
         "--commit-evidence",
-        type=Path,
+        type=folder,
         metavar="PATH",
         help="write the table that support_exudyn.recommend reads there, too; not if quick",
     )
@@ -224,7 +223,11 @@ def main(argv: Sequence[str] | None = None) -> int:
         parser.error("--commit-evidence: advice is taken from the full form; allowed: without --quick")
     code = run_main(study, Options(given.out, given.quick, given.workers))
     if code == 0 and given.commit_evidence is not None:
-        Table.load(given.out / TABLE).save(given.commit_evidence)
+        try:
+            Table.load(given.out / TABLE).save(given.commit_evidence)
+        except OSError as error:
+            print(f"error: --commit-evidence {given.commit_evidence}: {error}", file=sys.stderr)
+            return 1
     return code
 
 

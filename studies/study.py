@@ -12,7 +12,9 @@ import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import asdict, dataclass, replace
+from functools import partial
 from pathlib import Path
+from typing import NoReturn
 
 from matplotlib.figure import Figure
 from rich.console import Console
@@ -25,6 +27,7 @@ from support_exudyn.files import remove_leftovers, whole_file, writing_alone
 from support_exudyn.provenance import versions
 from support_exudyn.sweep import run_all
 from support_exudyn.workers import NoProcessError, ProcessEndedError, Workers
+from user_forces.values import InputError, short
 
 MOST_BARS = 12  # more runs than that share one progress bar
 
@@ -45,13 +48,24 @@ class Options:
 
 
 ALL_OPTIONS = ("quick", "workers", "machines")
+MOST_WORKERS, MOST_MACHINES = 1024, 100_000
+LONGEST_REFUSAL = 400  # characters
+
+
+class Parser(argparse.ArgumentParser):
+    """Of a command line; what is wrong with it is said in one line, whatever words it was given."""
+
+    def error(self, message: str) -> NoReturn:
+        """End the program with exit code 2, a usage and a line."""
+        line = " ".join(message.split())
+        super().error(line if len(line) <= LONGEST_REFUSAL else line[: LONGEST_REFUSAL - 3] + "...")
 
 
 def options(
     study: str, argv: Sequence[str] | None, description: str, taken: Sequence[str] = ALL_OPTIONS
 ) -> Options:
     """Options of a study from the command line; taken: which it has a use for, besides the folder."""
-    parser = argparse.ArgumentParser(prog=f"python -m studies.{study}", description=description)
+    parser = Parser(prog=f"python -m studies.{study}", description=description)
     add_options(parser, Path("results") / study, taken)
     given = parser.parse_args(argv)
     return Options(given.out, given.quick, given.workers, given.machines)
@@ -60,33 +74,49 @@ def options(
 def add_options(parser: argparse.ArgumentParser, out: Path, taken: Sequence[str] = ALL_OPTIONS) -> None:
     """Options of a study; those that it has no use for keep their defaults."""
     parser.set_defaults(quick=False, workers=1, machines=None)
-    parser.add_argument("--out", type=Path, default=out, metavar="DIR", help=f"folder for output ({out})")
+    parser.add_argument("--out", type=folder, default=out, metavar="DIR", help=f"folder for output ({out})")
     if "quick" in taken:
         parser.add_argument(
             "--quick", action="store_true", help="coarser steps: a look in seconds, larger errors"
         )
     if "workers" in taken:
         parser.add_argument(
-            "--workers", type=count, default=os.cpu_count() or 1, metavar="N", help="processes (all cores)"
+            "--workers",
+            type=partial(count, most=MOST_WORKERS),
+            default=os.cpu_count() or 1,
+            metavar="N",
+            help="processes (all cores)",
         )
     if "machines" in taken:
         parser.add_argument(
             "--machines",
-            type=count,
+            type=partial(count, most=MOST_MACHINES),
             metavar="N",
             help="plausible machines to judge claims by (256; 8 if quick)",
         )
 
 
-def count(text: str) -> int:
+def count(text: str, most: int = sys.maxsize) -> int:
     """A number of things from the command line."""
     try:
         number = int(text)
     except ValueError:
-        raise argparse.ArgumentTypeError(f"{text!r}: allowed: a whole number from 1 on") from None
+        raise argparse.ArgumentTypeError(f"{short(text)}: allowed: a whole number from 1 on") from None
     if number < 1:
-        raise argparse.ArgumentTypeError(f"{number}: allowed: from 1 on")
+        raise argparse.ArgumentTypeError(f"{short(number)}: allowed: from 1 on")
+    if number > most:
+        raise argparse.ArgumentTypeError(f"{short(number)}: allowed: from 1 to {most}")
     return number
+
+
+def folder(text: str) -> Path:
+    """A folder from the command line, there or not."""
+    try:
+        if b"\0" in os.fsencode(text):
+            raise ValueError
+    except ValueError:  # also of letters that no file's name can have
+        raise argparse.ArgumentTypeError(f"{short(text)}: allowed: a name that a folder can have") from None
+    return Path(text)
 
 
 @dataclass(frozen=True)
@@ -249,7 +279,7 @@ def answered(work: Callable[[], None]) -> int:
     """Do it; what the user can mend is said in a sentence. Returns the exit code."""
     try:
         work()
-    except (SimulationError, OSError, ProcessEndedError, NoProcessError) as error:
+    except (SimulationError, InputError, OSError, ProcessEndedError, NoProcessError) as error:
         print(f"error: {error}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:

@@ -14,13 +14,14 @@ five (redundant) to nine times (reduced) as large in the median.
 from __future__ import annotations
 
 import math
+import numbers
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
-from user_forces.values import InputError
+from user_forces.values import InputError, short
 
 if TYPE_CHECKING:
     from support_exudyn.result import Result
@@ -71,6 +72,7 @@ def measures(result: Result, after: float, until: float) -> Mapping[str, Kind]:
 
     Raises InputError if no record lies between the times.
     """
+    after, until = _time(after, "after"), _time(until, "until")
     if not _inside(result, after, until).any():
         first, last = result.time[[0, -1]]
         raise InputError(
@@ -96,6 +98,15 @@ def measures(result: Result, after: float, until: float) -> Mapping[str, Kind]:
             found[f"pin.{pin}.onset_{n + 1}.time"] = Kind("s", _onset(pin, n, "time"))
             found[f"pin.{pin}.onset_{n + 1}.speed"] = Kind("m/s", _onset(pin, n, "speed"))
     return found
+
+
+def _time(item: Any, name: str) -> float:
+    try:
+        if isinstance(item, numbers.Real):
+            return float(item)
+    except OverflowError:  # a whole number of hundreds of digits
+        pass
+    raise InputError(f"{name} = {short(item)}: allowed: a time in s")
 
 
 def _inside(run: Result, after: float, until: float) -> npt.NDArray[np.bool_]:

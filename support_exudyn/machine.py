@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated
 from pydantic import Field, model_validator
 
 from support_exudyn.width import Width
-from user_forces.values import InputError, NonNegative, Positive, Real, Value, Vector2, value
+from user_forces.values import InputError, Positive, Real, Value, Vector2, value
 
 if TYPE_CHECKING:
     from support_exudyn.spatial.layout import SpatialLinkage
@@ -37,7 +37,9 @@ class Part(Value):
 
     mass: Positive
     centre: Vector2
-    inertia: NonNegative = 0.0
+    inertia: Annotated[Real, Field(ge=0)] = (
+        0.0  # of a bar between two points that rounding has parted it is tiny
+    )
     name: str = ""
     moments: Moments | None = None
 

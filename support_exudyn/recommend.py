@@ -22,7 +22,7 @@ from typing import Any
 from support_exudyn.estimate import Estimate
 from support_exudyn.evidence.table import Table, Tried, committed
 from support_exudyn.scenario import Scenario
-from user_forces.values import InputError
+from user_forces.values import InputError, short
 
 
 @dataclass(frozen=True)
@@ -140,8 +140,8 @@ def recommend(question: str, table: Table | None = None) -> Recommendation:
 
     Raises InputError if the question is none of these.
     """
-    if question not in QUESTIONS:
-        raise InputError(f"question = {question!r}: allowed: {', '.join(map(repr, QUESTIONS))}")
+    if not isinstance(question, str) or question not in QUESTIONS:
+        raise InputError(f"question = {short(question)}: allowed: {', '.join(map(repr, QUESTIONS))}")
     asked = QUESTIONS[question]
     tried = committed() if table is None else table
     scenes, fullest = tried.family(asked.family), tried.fullest_of(asked.family)

@@ -22,7 +22,7 @@ from support_exudyn.impulse import Impulse
 from support_exudyn.onset import Onset
 from support_exudyn.scenario import Scenario
 from support_exudyn.sealed import BLOCK, check_seal, seal
-from user_forces.values import InputError, Value
+from user_forces.values import InputError, Value, short
 
 FORMAT = "support_exudyn result 4"
 
@@ -67,6 +67,8 @@ class Result:
         return self._channel(name).unit
 
     def _channel(self, name: str) -> Channel:
+        if not isinstance(name, str):
+            raise KeyError(f"{short(name)}: no such channel; allowed: names, see `channels`")
         if name not in self.channels and name in self.scenario.recipes:
             raise KeyError(
                 f"{name!r}: was not recorded, for the scenario asks for channels = {self.scenario.channels}; "
@@ -75,7 +77,7 @@ class Result:
         if name not in self.channels:
             near = get_close_matches(name, self.channels, 3, 0.4) or list(self.channels)[:3]
             raise KeyError(
-                f"{name!r}: no such channel; there are {len(self.channels)}, see `channels`, among them "
+                f"{short(name)}: no such channel; there are {len(self.channels)}, see `channels`, among them "
                 f"{', '.join(near)}"
             )
         return self.channels[name]

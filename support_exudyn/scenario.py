@@ -11,8 +11,8 @@ from typing import Annotated, Literal
 from pydantic import Field, field_validator, model_validator
 
 from support_exudyn.columns import ColumnModel, OilColumn, TwoBodyColumn
-from support_exudyn.eccentric import eccentric
 from support_exudyn.drives import Drive, Held
+from support_exudyn.eccentric import eccentric
 from support_exudyn.loads.load import Load
 from support_exudyn.machine import Linkage, Machine
 from support_exudyn.parts import OwnBody, PartModel
@@ -21,7 +21,7 @@ from support_exudyn.recipes import Recipe, check_patterns, recipes
 from support_exudyn.spatial.layout import SpatialLinkage
 from support_exudyn.spatial.recipes import recipes as spatial_recipes
 from support_exudyn.two_bodies import with_two_bodies
-from user_forces.values import Fraction, InputError, Positive, Real, Value, Vector2, value
+from user_forces.values import Fraction, InputError, Positive, Real, Value, Vector2, Whole, short, value
 
 ACCURACIES = {"draft": 1e-2, "standard": 1e-3, "reference": 1e-5}
 Accuracy = Literal["draft", "standard", "reference"] | Real
@@ -33,6 +33,7 @@ MOST_SECTIONS = 64
 MOST_STEPS = 5_000_000  # some minutes of the redundant formulation
 ERROR_CONTROLLED = ("tree", "reduced")
 REFINED_TOLERANCE = 3  # power of the refinement by which the tolerance falls
+MOST_REFINED = 1e6  # by what factor a run can be refined
 ALL_CHANNELS = ("*",)
 
 
@@ -84,13 +85,13 @@ class SolverSettings(Value):
     spectral_radius: Fraction = 0.5
     newton_tolerance: Annotated[Real, Field(gt=0, le=1e-3)] = 1e-8
     newton: Literal["modified", "full"] = "modified"
-    impact_steps: Annotated[int, Field(ge=16, le=MOST_IMPACT_STEPS)] = 512
+    impact_steps: Annotated[Whole, Field(ge=16, le=MOST_IMPACT_STEPS)] = 512
     locate: Annotated[bool, Field(strict=True)] = True
     growth: Annotated[Real, Field(ge=1, le=64)] = 1.0
     tolerance: Annotated[Real, Field(ge=1e-13, le=1e-2)] = 1e-7
     backend: Literal["auto", "python", "symbolic", "compiled"] = "auto"
-    sections: Annotated[int, Field(ge=2, le=MOST_SECTIONS)] = 5
-    most_steps: Annotated[int, Field(ge=1, le=10**12)] = MOST_STEPS
+    sections: Annotated[Whole, Field(ge=2, le=MOST_SECTIONS)] = 5
+    most_steps: Annotated[Whole, Field(ge=1, le=10**12)] = MOST_STEPS
     audit: Annotated[bool, Field(strict=True)] = True
 
     @model_validator(mode="after")
@@ -308,10 +309,13 @@ class Scenario(Value):
         chooses its steps by a tolerance, that becomes factor^3 times smaller; where the scenario asks for an
         accuracy in place of settings, that becomes factor^2 times smaller.
 
-        factor: > 0. Raises InputError if it is not, or if a setting leaves its range.
+        factor: > 0, up to a million. Raises InputError if it is not, or if a setting leaves its range.
         """
-        if not 0.0 < factor < math.inf:
-            raise InputError(f"factor = {factor}: allowed: > 0")
+        number = isinstance(factor, (int, float)) and not isinstance(factor, bool)
+        if not (number and 1.0 / MOST_REFINED <= factor <= MOST_REFINED):
+            raise InputError(
+                f"factor = {short(factor)}: allowed: > 0, from {1.0 / MOST_REFINED:g} to {MOST_REFINED:g}"
+            )
         if self.goal is not None:
             return replace(self, accuracy=max(SMALLEST_GOAL, self.goal / factor**2))
         if self.formulation in ERROR_CONTROLLED:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import reprlib
 from dataclasses import replace
 from typing import Literal, overload
 
@@ -12,7 +11,7 @@ from support_exudyn.result import Result
 from support_exudyn.run_once import run_once
 from support_exudyn.scenario import Accuracy, Scenario
 from support_exudyn.to_accuracy import run_to_accuracy
-from user_forces.values import InputError
+from user_forces.values import InputError, short
 
 
 @overload
@@ -50,7 +49,7 @@ def simulate(
         Result with all channels, onsets, counts, energy and provenance.
     """
     if not isinstance(scenario, Scenario):
-        raise InputError(f"scenario = {reprlib.repr(scenario)}: allowed: a Scenario")
+        raise InputError(f"scenario = {short(scenario)}: allowed: a Scenario")
     if accuracy is not None:
         scenario = replace(scenario, accuracy=accuracy)
     run = run_once if scenario.goal is None else run_to_accuracy

@@ -14,26 +14,59 @@ from __future__ import annotations
 
 import dataclasses
 import inspect
+import math
+import numbers
+from abc import ABC
 from collections.abc import Mapping
+from decimal import Decimal
 from typing import Annotated, Any, ClassVar, TypeVar
 
 import annotated_types
-from pydantic import BeforeValidator, ConfigDict, Field, ValidationError
+import numpy as np
+from pydantic import AfterValidator, BeforeValidator, ConfigDict, Field, ValidationError
 from pydantic.dataclasses import dataclass as pydantic_dataclass
-from typing_extensions import dataclass_transform
+from typing_extensions import Self, dataclass_transform
+
+LARGEST = 1e30  # of any number: products of several neither overflow nor vanish
+DEEPEST = 32  # of plain data, in containers within containers; a scenario has 7
 
 
-def _no_text(item: Any) -> Any:
-    if isinstance(item, (str, bytes, bool)):
+def _number(item: Any) -> float:
+    """A plain float from a number of any kind, also a decimal or one of numpy; text and truths are none."""
+    if isinstance(item, np.ndarray) and item.ndim == 0:
+        item = item.item()
+    if isinstance(item, bool) or not isinstance(item, (numbers.Real, Decimal)):
         raise ValueError("Input should be a number")
-    return item
+    try:
+        number = float(item)
+    except (ValueError, OverflowError):  # a signalling decimal; a whole number of 400 digits
+        number = math.nan
+    if not abs(number) <= LARGEST:
+        raise ValueError(f"Input should be a finite number from {-LARGEST:g} to {LARGEST:g}")
+    return number
 
 
-Real = Annotated[float, BeforeValidator(_no_text)]
-Positive = Annotated[Real, Field(gt=0)]
-NonNegative = Annotated[Real, Field(ge=0)]
+def _not_next_to_zero(number: float) -> float:
+    """So that one over it is a number, and its square not zero."""
+    if 0.0 < number < 1.0 / LARGEST:
+        raise ValueError(f"Input should be a number from {1.0 / LARGEST:g} on")
+    return number
+
+
+def _whole(item: Any) -> int:
+    number = _number(item)
+    if number != math.floor(number):
+        raise ValueError("Input should be a whole number")
+    return int(number)
+
+
+Real = Annotated[float, BeforeValidator(_number)]
+Whole = Annotated[int, BeforeValidator(_whole)]
+Positive = Annotated[Real, Field(gt=0), AfterValidator(_not_next_to_zero)]
+NonNegative = Annotated[Real, Field(ge=0), AfterValidator(_not_next_to_zero)]
 Fraction = Annotated[Real, Field(ge=0, le=1)]
-Restitution = Annotated[Real, Field(gt=0, le=1)]
+Share = Annotated[Real, Field(gt=0, le=1), AfterValidator(_not_next_to_zero)]
+Restitution = Share
 Vector2 = tuple[Real, Real]
 Vector3 = tuple[Real, Real, Real]
 
@@ -51,6 +84,12 @@ class Value:
         super().__init_subclass__(**kwargs)
         Value._register[cls.__name__] = cls
 
+    def __new__(cls, *args: Any, **kwargs: Any) -> Self:
+        """Of a class that only groups others nothing can be made, since nothing could be read back."""
+        if ABC in cls.__bases__ and not _has_fields(cls):
+            raise InputError(f"{cls.__name__}: is a kind of values; allowed: {_names(_kinds_of(cls))}")
+        return super().__new__(cls)
+
     def to_data(self) -> dict[str, Any]:
         """Plain data (dict, list, str, float, int, bool, None) from which `from_data` rebuilds."""
         fields = dataclasses.fields(self)  # type: ignore[arg-type]
@@ -62,34 +101,61 @@ class Value:
 
         Raises InputError if the type is not known or a field does not fit.
         """
-        kind = data.get("type") if isinstance(data, Mapping) else None
-        known = {name: cls for name, cls in Value._register.items() if dataclasses.is_dataclass(cls)}
-        known = {name: cls for name, cls in known.items() if not inspect.isabstract(cls)}
-        if not isinstance(kind, str) or kind not in known:
-            raise InputError(
-                f"type = {kind!r}: not a known type; known are {', '.join(sorted(known))}. "
-                "Import the module that defines it first."
-            )
-        return known[kind](**{k: _rebuilt(v) for k, v in data.items() if k != "type"})
+        return _value_of(data, 0)
+
+
+def _kinds_of(cls: type[Value]) -> dict[str, type[Value]]:
+    """All kinds of a class of which values can be made, by name."""
+    known = {name: kind for name, kind in Value._register.items() if issubclass(kind, cls)}
+    return {name: kind for name, kind in known.items() if _has_fields(kind) and not inspect.isabstract(kind)}
+
+
+def _has_fields(cls: Any) -> bool:
+    return dataclasses.is_dataclass(cls)
+
+
+def _names(names: Mapping[str, Any]) -> str:
+    return ", ".join(sorted(names)) or "none"
 
 
 def _plain(item: Any) -> Any:
     if isinstance(item, Value):
         return item.to_data()
     if isinstance(item, Mapping):
-        if "type" in item:
-            raise InputError("'type': cannot be used as a name, it marks what kind of value data are of")
         return {k: _plain(v) for k, v in item.items()}
     if isinstance(item, (tuple, list)):
         return [_plain(v) for v in item]
+    if isinstance(item, frozenset):
+        return sorted(item)
     return item
 
 
-def _rebuilt(item: Any) -> Any:
+def _value_of(data: Any, depth: int) -> Any:
+    kind = data.get("type") if isinstance(data, Mapping) else None
+    known = _kinds_of(Value)
+    if not isinstance(kind, str) or kind not in known:
+        raise InputError(
+            f"type = {short(kind)}: not a known type; known are {_names(known)}. "
+            "Import the module that defines it first."
+        )
+    return known[kind](**{_name(k): _rebuilt(v, depth + 1) for k, v in data.items() if k != "type"})
+
+
+def _name(key: Any) -> str:
+    if isinstance(key, str):
+        return key
+    raise InputError(f"{short(key)}: is no name; allowed: text")
+
+
+def _rebuilt(item: Any, depth: int) -> Any:
+    if depth > DEEPEST:
+        raise InputError(f"data = {short(item)}: are nested too deep; allowed: {DEEPEST} levels")
     if isinstance(item, Mapping):
-        return Value.from_data(item) if "type" in item else {k: _rebuilt(v) for k, v in item.items()}
+        if "type" in item:
+            return _value_of(item, depth)
+        return {_name(k): _rebuilt(v, depth + 1) for k, v in item.items()}
     if isinstance(item, list):
-        return tuple(_rebuilt(v) for v in item)
+        return tuple(_rebuilt(v, depth + 1) for v in item)
     return item
 
 
@@ -107,37 +173,48 @@ def value(cls: type[T]) -> type[T]:
     made: Any = pydantic_dataclass(frozen=True, kw_only=True, config=config)(cls)
     checked_init = made.__init__
 
-    def __init__(self: Any, *args: Any, **kwargs: Any) -> None:
+    def __init__(self: Any, /, *args: Any, **kwargs: Any) -> None:
+        if ITSELF in kwargs:
+            raise InputError(
+                f"{made.__name__}.{ITSELF} = {short(kwargs[ITSELF])}: unknown field; allowed: others"
+            )
         try:
             checked_init(self, *args, **kwargs)
         except ValidationError as error:
-            raise InputError("\n".join(_sentence(made, e) for e in error.errors())) from None
+            raise InputError("\n".join(_sentence(made, e) for e in error.errors(include_url=False))) from None
+        for name, item in vars(self).items():
+            if isinstance(item, Mapping) and "type" in item:
+                raise InputError(
+                    f"{made.__name__}.{name}: 'type': cannot be used as a name, it marks what kind of value "
+                    "data are of; allowed: any other"
+                )
 
     __init__.__doc__ = checked_init.__doc__
     made.__init__ = __init__
     return made  # type: ignore[no-any-return]
 
 
+ITSELF = "__dataclass_self__"  # how pydantic calls the value that is made
 OUT_OF_BOUNDS = ("greater_than", "greater_than_equal", "less_than", "less_than_equal")  # pydantic's names
 
 
 def _sentence(cls: Any, error: Mapping[str, Any]) -> str:
     """One line for one pydantic error: where, the value, what is wrong, what is allowed."""
-    path = ".".join(str(part) for part in error["loc"])
+    path = ".".join(step(part) for part in error["loc"])
     where = f"{cls.__name__}.{path}" if path else cls.__name__
     fields = [f.name for f in dataclasses.fields(cls)]
     if error["type"] in ("unexpected_keyword_argument", "unexpected_positional_argument"):
-        return f"{where} = {_short(error['input'])}: unknown field; the fields are {', '.join(fields)}"
+        return f"{where} = {short(error['input'])}: unknown field; the fields are {', '.join(fields)}"
     if error["type"] in ("missing", "missing_keyword_only_argument"):
         return f"{where}: missing; it has no default"
     if error["type"] == "value_error" and not path:  # a check of ours over several fields
         return f"{where}: {error['ctx']['error']}"
     allowed = _allowed(cls, error["loc"])
     if allowed and error["type"] in OUT_OF_BOUNDS:
-        return f"{where} = {_short(error['input'])}: allowed: {allowed}"
+        return f"{where} = {short(error['input'])}: allowed: {allowed}"
     # of a check of ours, without pydantic's words before it
     said = error["ctx"]["error"] if error["type"] == "value_error" else error["msg"]
-    return f"{where} = {_short(error['input'])}: {said}" + (f"; allowed: {allowed}" if allowed else "")
+    return f"{where} = {short(error['input'])}: {said}" + (f"; allowed: {allowed}" if allowed else "")
 
 
 def _allowed(cls: Any, loc: tuple[Any, ...]) -> str:
@@ -158,7 +235,16 @@ def _allowed(cls: Any, loc: tuple[Any, ...]) -> str:
     return " and ".join(bounds)
 
 
-def _short(item: Any) -> str:
+def step(part: Any) -> str:
+    """A field, a name or a number on the way to what is wrong."""
+    text = str(part)
+    return text if len(text) <= 80 and text.isprintable() else short(part)
+
+
+def short(item: Any) -> str:
     """An input as text that fits into a line."""
-    text = " ".join(repr(item).split())
+    try:
+        text = " ".join(repr(item).split())
+    except Exception:  # of someone else's class, of data nested too deep, of a number of 5000 digits
+        text = f"<{type(item).__name__}>"
     return text if len(text) <= 80 else text[:77] + "..."

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
@@ -13,7 +14,7 @@ from typing import Any
 from support_exudyn.estimate import Estimate
 from support_exudyn.files import whole_file
 from support_exudyn.scenario import Scenario
-from user_forces.values import InputError, Value
+from user_forces.values import InputError, Value, short
 
 FORMAT = "support_exudyn scene detail 1"
 FIELDS = ("pins", "columns", "parts", "start", "dimensions")  # of a scenario: what an element of the model is
@@ -82,7 +83,7 @@ class Table:
     @staticmethod
     def load(path: Path) -> Table:
         """Read it. Raises InputError if it is not such a table, OSError if it cannot be read."""
-        return _table(path.read_text(encoding="utf-8"), str(path))
+        return _table(path.read_bytes(), str(path))
 
 
 def fields_of(scenario: Scenario) -> dict[str, Any]:
@@ -94,17 +95,43 @@ def fields_of(scenario: Scenario) -> dict[str, Any]:
 def committed() -> Table:
     """The table that comes with the program."""
     file = resources.files("support_exudyn.evidence") / "scene_detail.json"
-    return _table(file.read_text(encoding="utf-8"), file.name)
+    return _table(file.read_bytes(), file.name)
 
 
-def _table(text: str, where: str) -> Table:
+def _table(content: bytes, where: str) -> Table:
     try:
-        data = json.loads(text)
+        data = json.loads(content.decode("utf-8"))
         if data["format"] != FORMAT:
-            raise KeyError(f"format is {data['format']!r}, expected {FORMAT!r}")
-        return Table(tuple(map(_tried, data["scenes"])), data["fullest"], data["said"])
-    except (KeyError, TypeError, ValueError) as error:
-        raise InputError(f"{where}: not a table of tried scenes, or damaged ({error})") from None
+            raise KeyError(f"format is {short(data['format'])}, expected {FORMAT!r}")
+        scenes = tuple(map(_tried, data["scenes"]))
+        table = Table(scenes, _texts(data["fullest"]), _texts(data["said"]))
+        names = [(scene.family, scene.name) for scene in scenes]
+        for family in {family for family, _ in names if family}:
+            if (family, table.fullest[family]) not in names:
+                raise KeyError(f"the fullest scene of {short(family)} is not there")
+        return table
+    except RecursionError:
+        raise InputError(f"{where}: is nested too deep; allowed: a table of tried scenes") from None
+    except (KeyError, TypeError, ValueError, AttributeError, OverflowError) as error:
+        raise InputError(
+            f"{where}: not a table of tried scenes, or damaged ({error}); allowed: what `Table.save` wrote"
+        ) from None
+
+
+def _texts(data: Any) -> dict[str, str]:
+    return {name: _text(item) for name, item in data.items()}
+
+
+def _text(item: Any) -> str:
+    if not isinstance(item, str):
+        raise TypeError(f"{short(item)} is no text")
+    return item
+
+
+def _number(item: Any) -> float:
+    if isinstance(item, bool) or not isinstance(item, (int, float)) or not math.isfinite(item):
+        raise TypeError(f"{short(item)} is no number")
+    return float(item)
 
 
 def _plain(scene: Tried) -> dict[str, Any]:
@@ -129,7 +156,13 @@ def _tried(data: Mapping[str, Any]) -> Tried:
         for name, entry in data["fields"].items()
     }
     numbers = {
-        name: Estimate(float(size), float(error), str(unit))
+        name: Estimate(_number(size), _number(error), _text(unit))
         for name, (size, error, unit) in data["numbers"].items()
     }
-    return Tried(data["name"], data["family"], fields, numbers, float(data["seconds"]), int(data["steps"]))
+    unknown = [name for name in fields if name not in FIELDS]
+    if unknown:
+        raise KeyError(f"{short(unknown[0])} is no element of a model")
+    seconds, steps = _number(data["seconds"]), _number(data["steps"])
+    if min(seconds, steps, *(number.error for number in numbers.values())) < 0.0:
+        raise ValueError("seconds, steps and errors are not below 0")
+    return Tried(_text(data["name"]), _text(data["family"]), fields, numbers, seconds, int(steps))

@@ -45,6 +45,11 @@ PINS = ("rear_base", "front_base", "rear_shield", "front_shield", "shield_canopy
 BODIES = ("rear_link", "front_link", "shield", "canopy")
 TAIL = "tail_beam"  # part of the shield, and the body that it can be
 TAIL_PLACES = ("tail_hinge", "tail_jack_foot", "tail_jack_head")
+PIVOTS = (
+    *("rear_base", "front_base", "rear_shield", "front_shield", "hinge", "front_foot", "front_head"),
+    *("rear_foot", "rear_head", "tip", *TAIL_PLACES),
+)
+FARTHEST = 1000.0  # [m] from the origin
 RODS = "_rods"  # after a column's name: parts that stand for its mass as long as it has none
 
 
@@ -104,6 +109,12 @@ class HydraulicSupport(Machine):
 
     @model_validator(mode="after")
     def _can_be_built(self) -> HydraulicSupport:
+        for name in PIVOTS:
+            if max(map(abs, getattr(self, name) or (0.0,))) > FARTHEST:
+                raise ValueError(
+                    f"{name} = {getattr(self, name)} m: allowed: from {-FARTHEST:g} to {FARTHEST:g} m "
+                    "(is it given in mm?)"
+                )
         if sorted(self.parts) != sorted(BODIES):
             raise ValueError(f"parts = {sorted(self.parts)}: allowed: exactly {', '.join(BODIES)}")
         for name, parts in self.parts.items():
@@ -188,9 +199,15 @@ class HydraulicSupport(Machine):
     @cached_property
     def _start(self) -> Posture:
         turns = np.radians(np.linspace(-60.0, 60.0, 241))
-        heights = [closed[2][1] if (closed := self.four_bar(t)) else math.nan for t in turns]
-        excess = np.array(heights) - self.start_hinge_height
-        crossings = np.flatnonzero(excess[:-1] * excess[1:] <= 0.0)
+        heights = np.array([closed[2][1] if (closed := self.four_bar(t)) else math.nan for t in turns])
+        if np.isnan(heights).all():
+            raise InputError(
+                f"front_base = {self.front_base}, front_shield = {self.front_shield} m: the four-bar does not "
+                "close within 60 degrees of the posture in which its pivots are given; allowed: links that "
+                "reach each other"
+            )
+        excess = heights - self.start_hinge_height
+        crossings = np.flatnonzero(np.sign(excess[:-1]) * np.sign(excess[1:]) <= 0.0)
         if crossings.size == 0:
             raise InputError(
                 f"start_hinge_height = {self.start_hinge_height} m: the four-bar cannot bring the hinge there; "
@@ -202,9 +219,16 @@ class HydraulicSupport(Machine):
             closed = self.four_bar(turn)
             return closed[2][1] - self.start_hinge_height if closed else math.nan
 
-        turn = bracketed_root(height_error, float(turns[near]), float(turns[near + 1]), xtol=1e-15)
-        found = self.posture(turn, 0.0)
-        assert found is not None  # both ends of the bracket close
+        try:
+            turn = bracketed_root(height_error, float(turns[near]), float(turns[near + 1]), xtol=1e-15)
+        except ValueError:  # it opens between both, or its heights are rounding
+            turn = math.nan
+        found = None if math.isnan(turn) else self.posture(turn, 0.0)
+        if found is None:
+            raise InputError(
+                f"start_hinge_height = {self.start_hinge_height} m: the four-bar opens next to that posture; "
+                "allowed: heights farther from where it locks"
+            )
         return found
 
     def column_lengths(self, posture: Posture) -> tuple[float, float]:

@@ -10,11 +10,10 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 
 from support_exudyn.machine import GROUND, ROUNDING
-from user_forces.values import NonNegative, Positive, Real, Value, Vector3, value
+from user_forces.values import NonNegative, Positive, Real, Share, Value, Vector3, value
 
 FORWARD: Vector3 = (1.0, 0.0, 0.0)
 ACROSS: Vector3 = (0.0, 0.0, 1.0)
-Share = Annotated[Real, Field(gt=0, le=1)]
 Inertia = tuple[Real, Real, Real, Real, Real, Real]
 
 
@@ -81,7 +80,7 @@ class Bearing(Value):
     holds: frozenset[Literal["tilt", "along"]] = frozenset({"tilt", "along"})
     pin: str
     share: Share = 1.0
-    is_guide: bool = False
+    is_guide: Annotated[bool, Field(strict=True)] = False
 
     @model_validator(mode="after")
     def _can_be(self) -> Bearing:

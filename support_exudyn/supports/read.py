@@ -14,7 +14,7 @@ from support_exudyn.columns import OilColumn, RigidColumn, TwoBodyColumn
 from support_exudyn.linkages.hydraulic_support import HydraulicSupport
 from support_exudyn.machine import Part, bar
 from support_exudyn.width import Width
-from user_forces.values import InputError, Vector2
+from user_forces.values import LARGEST, InputError, Vector2, short, step
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -24,6 +24,7 @@ else:
 PART_KEYS = {"name", "mass_kg", "between", "centre_mm", "length_mm", "direction_deg"}
 FILE_KEYS = {"name", "start_hinge_height_mm", "pivots_mm", "parts", "columns", "width_mm"}
 WIDTH_KEYS = {"bodies", "pairs", "columns", "pins", "points"}
+NO_PIVOTS = {"parts", "start_hinge_height", "width"}  # fields of the support that stand elsewhere
 COLUMN_KEYS = ("cylinder_mass_kg", "cylinder_length_mm", "rod_mass_kg", "rod_length_mm")
 
 
@@ -68,14 +69,16 @@ def _read(path: Path) -> tuple[HydraulicSupport, dict[str, TwoBodyColumn]]:
     try:
         data = tomllib.loads(path.read_text(encoding="utf-8"))
         return _support(data), _columns(data.get("columns", {}))
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError, InputError) as error:
+    except RecursionError:
+        raise InputError(f"{path}: is nested too deep; allowed: tables of numbers and lists of two") from None
+    except ValueError as error:  # of TOML, of UTF-8, of a number with thousands of digits, or ours
         raise InputError(f"{path}: {error}") from None
 
 
 def _columns(data: Any) -> dict[str, TwoBodyColumn]:
     if not (isinstance(data, dict) and all(isinstance(item, dict) for item in data.values())):
-        raise InputError(f"columns = {data!r}: allowed: tables, each begun with [columns.NAME]")
-    return {name: _column(item, f"columns.{name}") for name, item in data.items()}
+        raise InputError(f"columns = {short(data)}: allowed: tables, each begun with [columns.NAME]")
+    return {name: _column(item, f"columns.{step(name)}") for name, item in data.items()}
 
 
 def _column(item: dict[str, Any], where: str) -> TwoBodyColumn:
@@ -84,7 +87,7 @@ def _column(item: dict[str, Any], where: str) -> TwoBodyColumn:
         if key not in item:
             raise InputError(f"{where}.{key}: missing; it has no default")
         if _number(item[key], f"{where}.{key}") <= 0.0:
-            raise InputError(f"{where}.{key} = {item[key]}: allowed: > 0")
+            raise InputError(f"{where}.{key} = {short(item[key])}: allowed: > 0")
     cylinder, cylinder_length, rod, rod_length = (float(item[key]) for key in COLUMN_KEYS)
     return TwoBodyColumn(
         cylinder_mass=cylinder,
@@ -103,10 +106,14 @@ def _support(data: dict[str, Any]) -> HydraulicSupport:
             raise InputError(f"{key}: missing; it has no default")
     for key in ("pivots_mm", "parts"):
         if not isinstance(data[key], dict):
-            raise InputError(f"{key} = {data[key]!r}: allowed: a table")
-    pivots = {name: _metres(point, f"pivots_mm.{name}") for name, point in data["pivots_mm"].items()}
+            raise InputError(f"{key} = {short(data[key])}: allowed: a table")
+    pivots = {name: _metres(point, f"pivots_mm.{step(name)}") for name, point in data["pivots_mm"].items()}
+    for name in NO_PIVOTS & pivots.keys():
+        raise InputError(f"pivots_mm.{name}: unknown field; allowed: names of pivots")
     parts = {
-        body: tuple(_part(item, pivots, f"parts.{body}[{n}]") for n, item in enumerate(_tables(items, body)))
+        body: tuple(
+            _part(item, pivots, f"parts.{step(body)}[{n}]") for n, item in enumerate(_tables(items, body))
+        )
         for body, items in data["parts"].items()
     }
     height = _number(data["start_hinge_height_mm"], "start_hinge_height_mm")
@@ -117,12 +124,12 @@ def _support(data: dict[str, Any]) -> HydraulicSupport:
 def _width(data: Any) -> Width:
     """Lateral dimensions: widths of bodies, distances of pairs, lengths of pins [mm]."""
     if not (isinstance(data, dict) and all(isinstance(item, dict) for item in data.values())):
-        raise InputError(f"width_mm = {data!r}: allowed: tables, each begun with [width_mm.NAME]")
+        raise InputError(f"width_mm = {short(data)}: allowed: tables, each begun with [width_mm.NAME]")
     _only(data, WIDTH_KEYS, "width_mm.")
 
     def table(key: str, scale: float) -> dict[str, float]:
         items = data.get(key, {}).items()
-        return {name: scale * _number(item, f"width_mm.{key}.{name}") / 1e3 for name, item in items}
+        return {name: scale * _number(item, f"width_mm.{key}.{step(name)}") / 1e3 for name, item in items}
 
     return Width(
         spreads=table("bodies", 1.0 / math.sqrt(12.0)),
@@ -135,7 +142,9 @@ def _width(data: Any) -> Width:
 
 def _tables(items: Any, body: str) -> list[dict[str, Any]]:
     if not (isinstance(items, list) and all(isinstance(item, dict) for item in items)):
-        raise InputError(f"parts.{body} = {items!r}: allowed: tables, each begun with [[parts.{body}]]")
+        raise InputError(
+            f"parts.{step(body)} = {short(items)}: allowed: tables, each begun with [[parts.NAME]]"
+        )
     return items
 
 
@@ -146,7 +155,7 @@ def _part(item: dict[str, Any], pivots: dict[str, Vector2], where: str) -> Part:
     mass = _number(item["mass_kg"], f"{where}.mass_kg")
     name = item.get("name", "")
     if not isinstance(name, str):
-        raise InputError(f"{where}.name = {name!r}: allowed: a text")
+        raise InputError(f"{where}.name = {short(name)}: allowed: a text")
     try:
         if "between" in item:
             a, b = _ends(item["between"], pivots, f"{where}.between")
@@ -164,24 +173,28 @@ def _part(item: dict[str, Any], pivots: dict[str, Vector2], where: str) -> Part:
 
 
 def _ends(names: Any, pivots: dict[str, Vector2], where: str) -> tuple[Vector2, Vector2]:
-    if not (isinstance(names, list) and len(names) == 2 and all(name in pivots for name in names)):
-        raise InputError(f"{where} = {names!r}: allowed: two of {', '.join(pivots)}")
+    if not (
+        isinstance(names, list) and len(names) == 2 and all(isinstance(n, str) and n in pivots for n in names)
+    ):
+        raise InputError(f"{where} = {short(names)}: allowed: two of {', '.join(pivots)}")
     return pivots[names[0]], pivots[names[1]]
 
 
 def _number(item: Any, where: str) -> float:
     if isinstance(item, bool) or not isinstance(item, (int, float)):
-        raise InputError(f"{where} = {item!r}: allowed: a number")
+        raise InputError(f"{where} = {short(item)}: allowed: a number")
+    if abs(item) > LARGEST:
+        raise InputError(f"{where} = {short(item)}: allowed: a number up to {LARGEST:g}")
     return float(item)
 
 
 def _metres(point: Any, where: str) -> Vector2:
     if not (isinstance(point, list) and len(point) == 2):
-        raise InputError(f"{where} = {point!r}: allowed: two numbers [x, y] in mm")
+        raise InputError(f"{where} = {short(point)}: allowed: two numbers [x, y] in mm")
     return _number(point[0], where) / 1e3, _number(point[1], where) / 1e3
 
 
 def _only(data: dict[str, Any], allowed: set[str], where: str) -> None:
     for key in data:
         if key not in allowed:
-            raise InputError(f"{where}{key}: unknown key; allowed: {', '.join(sorted(allowed))}")
+            raise InputError(f"{where}{step(key)}: unknown key; allowed: {', '.join(sorted(allowed))}")

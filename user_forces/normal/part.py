@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from pydantic import model_validator
+
 from user_forces.normal.law import NormalLaw, Touch
-from user_forces.values import Fraction, value
+from user_forces.values import Share, value
+
+MOST_PARTS = 5
 
 
 @value
@@ -16,11 +20,22 @@ class PartOf(NormalLaw):
 
     Arguments:
         law: of the whole.
-        share: of the section, from 0 to 1.
+        share: of the section, > 0 and <= 1.
     """
 
     law: NormalLaw
-    share: Fraction
+    share: Share
+
+    @model_validator(mode="after")
+    def _has_a_whole(self) -> PartOf:
+        law: NormalLaw = self
+        for _ in range(MOST_PARTS):
+            if not isinstance(law, PartOf):
+                return self
+            law = law.law
+        raise ValueError(
+            f"law: is a part of a part, and so on; allowed: up to {MOST_PARTS - 1} parts of each other"
+        )
 
     def __call__(self, depth: float, rate: float, touch: Touch) -> float:
         """Normal force [N] of the section."""

@@ -1,0 +1,7 @@
+"""How long and how often hypothesis tries: `--hypothesis-profile=long` by hand, 50 times as often."""
+
+from hypothesis import settings
+
+settings.register_profile("unit", parent=settings.default, deadline=None, max_examples=60)
+settings.register_profile("long", parent=settings.get_profile("unit"), max_examples=50 * 60)
+settings.load_profile("unit")  # pytest then loads the one that it is asked for

@@ -1,0 +1,575 @@
+"""Strategies for fuzzing: values of every class there is, data that were valid once, and what is no data.
+
+Classes are found in the register and their fields in what they declare, so that a new law is tried without a
+line here.
+"""
+
+from __future__ import annotations
+
+import copy
+import dataclasses
+import importlib
+import inspect
+import json
+import math
+import pkgutil
+import sys
+import types
+import typing
+from collections import OrderedDict, UserDict
+from collections.abc import Callable, Mapping
+from decimal import Decimal
+from fractions import Fraction
+from functools import cache
+from importlib import resources
+from typing import Any
+
+import annotated_types
+import numpy as np
+from hypothesis import HealthCheck, assume, settings
+from hypothesis import strategies as st
+from pydantic.fields import FieldInfo
+
+import support_exudyn
+import user_forces
+from support_exudyn import (
+    ClearancePin,
+    CubicStep,
+    Drive,
+    IdealPin,
+    ImpactStand,
+    Machine,
+    OilColumn,
+    OwnBody,
+    Scenario,
+    SolverSettings,
+    Steady,
+    UniformSpeed,
+    ravn_slider_crank,
+    reference_support,
+    two_body_columns,
+)
+from tests.unit.cases import contact
+from user_forces import CubicCoulomb, InputError, LuGre, Value
+from user_forces.values import DEEPEST
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+# How often each property is tried in a run of the tests, 1000 times and more in all; see `tried`.
+EXAMPLES = {
+    "constructors": 250,
+    "data": 250,
+    "raw data": 100,
+    "normal laws": 120,
+    "friction laws": 100,
+    "contacts": 60,
+    "drives": 60,
+    "machines": 100,
+    "scenarios": 120,
+    "scenario data": 120,
+    "channels": 40,
+    "runs": 60,
+    "simulate": 30,
+    "machine text": 80,
+    "machine tree": 120,
+    "evidence text": 30,
+    "evidence tree": 40,
+    "asked of results": 60,
+    "recommend": 30,
+    "options": 60,
+    "all studies": 40,
+}
+OFTEN = (
+    60  # examples of the profile that the tests run with; of the one that is asked for by hand, see conftest
+)
+
+
+def tried(name: str) -> Callable[[Any], Any]:
+    """Hypothesis's settings of a property, tried as often as `EXAMPLES` says, or more in a longer profile."""
+    return settings(
+        max_examples=EXAMPLES[name] * settings.default.max_examples // OFTEN,
+        deadline=None,
+        suppress_health_check=[HealthCheck.too_slow, HealthCheck.filter_too_much, HealthCheck.data_too_large],
+    )
+
+
+# --- what is no value ---
+
+
+class Hostile:
+    """Fails whatever is asked of it."""
+
+    def __repr__(self) -> str:
+        raise RuntimeError("no")
+
+    def __eq__(self, other: object) -> bool:
+        raise RuntimeError("no")
+
+    def __float__(self) -> float:
+        raise RuntimeError("no")
+
+    __hash__ = None  # type: ignore[assignment]
+
+
+def _nested(levels: int) -> list[Any]:
+    found: list[Any] = []
+    for _ in range(levels):
+        found = [found]
+    return found
+
+
+def _nested_table(levels: int) -> dict[str, Any]:
+    found: dict[str, Any] = {}
+    for _ in range(levels):
+        found = {"law": found, "type": "PartOf", "share": 0.5}
+    return found
+
+
+def _endless() -> list[Any]:
+    found: list[Any] = []
+    found.append(found)
+    return found
+
+
+def _endless_table() -> dict[str, Any]:
+    found: dict[str, Any] = {"type": "ClearancePin"}
+    found["contact"] = found
+    return found
+
+
+EXTREMES: tuple[float, ...] = (
+    *(
+        0.0,
+        -0.0,
+        5e-324,
+        -5e-324,
+        2.2e-308,
+        1e-300,
+        1e-30,
+        1e-17,
+        1e-9,
+        1.0,
+        -1.0,
+        1e9,
+        1e17,
+        1e30,
+        1e31,
+        1e154,
+    ),
+    *(1e300, -1e300, 1.7976931348623157e308, math.nan, math.inf, -math.inf),
+)
+# plain data, as a file may hold
+SCRAPS: tuple[Any, ...] = (
+    *EXTREMES,
+    *(0, 1, -1, 2, 3, 10**20, 10**400, -(10**400), True, False, None),
+    *("", "0.1", "nan", "type", "x" * 10000, "\x00", "\ud800", "ground", "self", "*", "[", "draft", "\n\n"),
+    *(
+        [],
+        {},
+        [0.0],
+        [1.0, 2.0],
+        [1.0, 2.0, 3.0],
+        [[]],
+        {"type": "Held"},
+        {"type": "Drive"},
+        {"a": {"type": 3}},
+    ),
+    *({"type": "Steady", "rate": 1e300}, {"type": "NormalLaw"}, {"type": "Stroke"}, {"type": "PowerLaw"}),
+    *({"type": "ColumnModel"}, {"type": ""}, {"type": None}, {"type": []}, {"type": "Scenario"}),
+)
+# what only a program can hand over
+ODDITIES: tuple[Callable[[], Any], ...] = (
+    *(lambda: 10**5000, lambda: _nested(500), lambda: _nested(5000), lambda: _nested_table(500)),
+    *(_endless, _endless_table, Hostile, object, lambda: iter([1.0]), lambda: (x for x in (1.0, 2.0))),
+    *(lambda: np.float64(0.5), lambda: np.float32(0.5), lambda: np.int64(3), lambda: np.bool_(True)),
+    *(lambda: np.array(0.5), lambda: np.array([0.5]), lambda: np.array([0.5, 0.5]), lambda: np.zeros(0)),
+    *(lambda: np.complex64(1.0), lambda: np.datetime64("now"), lambda: np.float64(math.nan)),
+    *(lambda: np.longdouble("1e4000"), lambda: np.array("a"), lambda: np.array(None)),
+    *(lambda: Decimal("0.5"), lambda: Decimal("sNaN"), lambda: Decimal("1e400"), lambda: Fraction(1, 3)),
+    *(lambda: 1j, lambda: b"1", lambda: bytearray(b"1"), lambda: {1: 2}, lambda: {None: 2}, lambda: {b"a": 2}),
+    *(lambda: {("a", "b"): 2}, lambda: {"type": Hostile()}, lambda: {"type": "Held", 3: 4}),
+    *(lambda: {"type": "Held", "self": 1}, lambda: {"type": "Held", "__dataclass_self__": 1}),
+    *(lambda: {"type": "Held", "\ud800": 1}, lambda: {"\ud800": 1}, lambda: {"x" * 10000: 1}),
+    *(lambda: OrderedDict(a=1), lambda: UserDict(a=1), lambda: types.MappingProxyType({"a": 1})),
+    *(
+        lambda: float,
+        lambda: Value,
+        lambda: Machine,
+        lambda: Drive,
+        lambda: print,
+        lambda: {1, 2},
+        lambda: range(3),
+    ),
+    *(
+        lambda: type("Own", (float,), {})(0.5),
+        lambda: type("Own", (str,), {})("a"),
+        lambda: type("Own", (dict,), {}),
+    ),
+)
+
+numbers = (
+    st.sampled_from(EXTREMES)
+    | st.floats()
+    | st.floats(1e-9, 1e9)
+    | st.integers(-3, 3)
+    | st.integers(-(10**20), 10**20)
+)
+
+
+def one_of(items: typing.Sequence[Any]) -> st.SearchStrategy[Any]:
+    """One of some items; `sampled_from` for those that are long in a report."""
+    return st.integers(0, len(items) - 1).map(lambda n: items[n])
+
+
+scraps = one_of(SCRAPS).map(copy.deepcopy) | numbers | st.text(max_size=8)
+oddities = one_of(ODDITIES).map(lambda make: make())
+
+
+# --- values of every class ---
+
+
+def _all_modules() -> None:
+    for package in (user_forces, support_exudyn):
+        for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
+            if "peers" not in module.name:
+                importlib.import_module(module.name)
+
+
+@cache
+def kinds(base: type = Value) -> tuple[type[Value], ...]:
+    """All classes of the program of which values can be made."""
+    _all_modules()
+    known = [kind for kind in Value._register.values() if issubclass(kind, base)]
+    own = [kind for kind in known if kind.__module__.split(".")[0] in ("user_forces", "support_exudyn")]
+    return tuple(kind for kind in own if dataclasses.is_dataclass(kind) and not inspect.isabstract(kind))
+
+
+def fields_of(kind: type) -> dict[str, FieldInfo]:
+    """What a class declares."""
+    return kind.__pydantic_fields__  # type: ignore[attr-defined, no-any-return]
+
+
+@cache
+def seeds() -> tuple[Value, ...]:
+    """Values whose parts fit each other, of which drawn ones are made by changing something."""
+    loose = ClearancePin(contact=contact())
+    lugre = LuGre(static_coefficient=0.3, sliding_coefficient=0.2)
+    rubbing = IdealPin(friction=CubicCoulomb(sliding_coefficient=0.1), radius=0.06)
+    support, crank = reference_support(), ravn_slider_crank()
+    stand = ImpactStand(bore_mass=3.0, journal_mass=1.0, speed=0.5)
+    oil = OilColumn(bore_area=0.05, oil_length=0.8, bulk_modulus=1.5e9)
+    rise = Scenario(
+        machine=support, pins={"rear_base": loose}, drive=CubicStep(), duration=5.0, record_period=0.01
+    )
+    heavy = dataclasses.replace(
+        rise, columns=two_body_columns(), pins={"front_base": rubbing}, solver=SolverSettings(sections=7)
+    )
+    space = dataclasses.replace(rise, dimensions=3, columns={"front_column": oil}, channels=("tip.*",))
+    apart = dataclasses.replace(
+        rise,
+        columns={"front_column": oil, "rear_column": oil},
+        drive=CubicStep(stroke=0.2),
+        drives={"rear_column": UniformSpeed(stroke=0.1)},
+        accuracy="draft",
+    )
+    turning = Scenario(
+        machine=crank,
+        pins={"slider_pin": ClearancePin(contact=dataclasses.replace(contact(), friction=lugre))},
+        drive=Steady(rate=500.0),
+        duration=0.01,
+        step=1e-5,
+        record_period=1e-4,
+    )
+    impact = Scenario(machine=stand, pins={"pin": loose}, duration=0.01, gravity=(0.0, 0.0))
+    linkages = [crank.linkage(), support.detailed(("front_column",), ()), support.in_space(support.linkage())]
+    return (rise, heavy, space, apart, turning, impact, *linkages, OwnBody(jack=oil))
+
+
+@cache
+def examples_of(kind: type) -> tuple[Value, ...]:
+    """All values of a class in `seeds`."""
+    found: list[Value] = []
+
+    def visit(item: Any) -> None:
+        if isinstance(item, kind) and item not in found:
+            found.append(item)
+        if isinstance(item, Value):
+            for name in fields_of(type(item)):
+                visit(getattr(item, name))
+        elif isinstance(item, Mapping):
+            for one in item.values():
+                visit(one)
+        elif isinstance(item, tuple):
+            for one in item:
+                visit(one)
+
+    for seed in seeds():
+        visit(seed)
+    return tuple(found)
+
+
+NAMES = (
+    "ground",
+    "rear_base",
+    "pin",
+    "slider_pin",
+    "front_column",
+    "canopy",
+    "crank",
+    "tail_beam",
+    "a",
+    "type",
+    "",
+)
+names = st.sampled_from(NAMES) | st.text(max_size=4)
+
+
+def fitting(annotation: Any, metadata: typing.Sequence[Any] = ()) -> st.SearchStrategy[Any]:
+    """What fits a field of its own, though perhaps not the others."""
+    origin, arguments = typing.get_origin(annotation), typing.get_args(annotation)
+    if origin is typing.Annotated:
+        return fitting(arguments[0], arguments[1:])
+    if origin is typing.Literal:
+        return st.sampled_from(arguments)
+    if origin in (typing.Union, types.UnionType):
+        return st.one_of([fitting(argument) for argument in arguments])
+    if origin is tuple:
+        if arguments[-1] is Ellipsis:
+            return st.lists(fitting(arguments[0]), max_size=3).map(tuple)
+        return st.tuples(*map(fitting, arguments))
+    if origin is frozenset:
+        return st.frozensets(fitting(arguments[0]))
+    if origin is not None and issubclass(origin, Mapping):
+        return st.dictionaries(names, fitting(arguments[1]), max_size=3)
+    if annotation is type(None):
+        return st.none()
+    if annotation is bool:
+        return st.booleans()
+    if annotation is str:
+        return names
+    if annotation in (float, int):
+        return _within(annotation, _flat(metadata))
+    if inspect.isclass(annotation) and issubclass(annotation, Value):
+        return values(annotation)
+    raise NotImplementedError(f"{annotation}: a field of a kind that the strategies do not know yet")
+
+
+def _flat(metadata: typing.Sequence[Any]) -> list[Any]:
+    """Metadata of a field, with those that stand in a `Field(...)`."""
+    return [one for item in metadata for one in (item.metadata if isinstance(item, FieldInfo) else [item])]
+
+
+def _within(kind: type, metadata: typing.Sequence[Any]) -> st.SearchStrategy[Any]:
+    low, high, open_end = -1e30, 1e30, False
+    for item in metadata:
+        match item:
+            case annotated_types.Gt(gt=limit):
+                low, open_end = float(limit), True
+            case annotated_types.Ge(ge=limit):
+                low = float(limit)
+            case annotated_types.Lt(lt=limit) | annotated_types.Le(le=limit):
+                high = float(limit)
+    if kind is int:
+        return st.integers(math.ceil(max(low, -1000)), math.floor(min(high, 1000)))
+    least = max(low, 1e-30) if open_end and low == 0.0 else low
+    usual = [
+        x for x in (0.0, 1e-6, 1e-3, 0.01, 0.1, 0.5, 1.0, 1.5, 3.0, 100.0, 1e6, 1e11) if least <= x <= high
+    ]
+    return st.sampled_from([*usual, least, high]) | st.floats(least, high)
+
+
+@cache
+def values(kind: type) -> st.SearchStrategy[Any]:
+    """Values of a class, or of all that are of its kind."""
+    return st.deferred(lambda: st.one_of([_of(one) for one in kinds(kind)]))
+
+
+def _of(kind: type[Value]) -> st.SearchStrategy[Any]:
+    """Values of one class: some that stand in `seeds`, the same changed, and others made from its fields."""
+    known = _known(kind)
+    made = _made(kind)
+    if not known:
+        return made
+    return one_of(known) | _changed(kind, known) | made
+
+
+def _made(kind: type[Value]) -> st.SearchStrategy[Any]:
+    wanted = {name: fitting(field.annotation, field.metadata) for name, field in fields_of(kind).items()}
+    needed = {name: one for name, one in wanted.items() if fields_of(kind)[name].is_required()}
+    rest = {name: one for name, one in wanted.items() if name not in needed}
+    fields = st.fixed_dictionaries(needed, optional=rest)
+
+    @st.composite
+    def made(draw: st.DrawFn) -> Any:
+        found = attempt(kind, draw(fields))
+        if found is None and (known := _known(kind)):
+            return known[0]
+        assume(found is not None)
+        return found
+
+    return made()
+
+
+def _known(kind: type[Value]) -> tuple[Value, ...]:
+    return tuple(one for one in examples_of(kind) if type(one) is kind)
+
+
+def _changed(kind: type[Value], known: tuple[Value, ...]) -> st.SearchStrategy[Any]:
+    wanted = {name: fitting(field.annotation, field.metadata) for name, field in fields_of(kind).items()}
+
+    @st.composite
+    def changed(draw: st.DrawFn) -> Any:
+        one = draw(one_of(known))
+        for name in draw(st.lists(st.sampled_from(sorted(wanted)), min_size=1, max_size=2)) if wanted else ():
+            new = attempt(kind, {**_given(one), name: draw(wanted[name])})
+            one = one if new is None else new
+        return one
+
+    return changed()
+
+
+def _given(one: Value) -> dict[str, Any]:
+    return {name: getattr(one, name) for name in fields_of(type(one))}
+
+
+def attempt(kind: type, given: Mapping[str, Any]) -> Any:
+    """A value, or None if its fields do not fit each other."""
+    try:
+        return kind(**given)
+    except InputError:
+        return None
+
+
+@st.composite
+def arguments(draw: st.DrawFn, kind: type[Value]) -> dict[str, Any]:
+    """Fields of a class: what fits, and now and then what does not, is too much or is missing."""
+    known = _known(kind)
+    if known and draw(st.booleans()):
+        given = _given(draw(one_of(known)))
+    else:
+        given = {
+            name: draw(fitting(field.annotation, field.metadata)) for name, field in fields_of(kind).items()
+        }
+    spoilt = draw(st.lists(st.sampled_from([*given, "self", "type", "other"]), max_size=2))
+    for name in spoilt:
+        given[name] = draw(scraps | oddities)
+    for name in draw(st.lists(st.sampled_from([*given]), max_size=1)) if not spoilt and given else ():
+        del given[name]
+    return given
+
+
+# --- data that were valid ---
+
+
+def _places(data: Any, here: tuple[Any, ...] = ()) -> list[tuple[Any, ...]]:
+    """Ways to all nodes of a tree."""
+    found = [here]
+    if len(here) > DEEPEST:  # into an endless one
+        return found
+    if isinstance(data, dict):
+        for key, item in data.items():
+            found += _places(item, (*here, key))
+    elif isinstance(data, list):
+        for n, item in enumerate(data):
+            found += _places(item, (*here, n))
+    return found
+
+
+def _at(data: Any, place: tuple[Any, ...]) -> Any:
+    for key in place:
+        data = data[key]
+    return data
+
+
+@st.composite
+def mutated(draw: st.DrawFn, trees: st.SearchStrategy[Any], odd: st.SearchStrategy[Any] = scraps) -> Any:
+    """A tree with some nodes replaced, left out, added, renamed, moved or repeated."""
+    whole = draw(trees)
+    tree = copy.deepcopy(whole)
+    for _ in range(draw(st.integers(1, 3))):
+        places = [place for place in _places(tree) if place]
+        if not places:
+            return draw(odd)
+        # first among the keys, so that shallow nodes are met as often as those in long lists
+        depth = draw(st.integers(1, max(map(len, places))))
+        place = draw(one_of([one for one in places if len(one) == depth]))
+        parent, key = _at(tree, place[:-1]), place[-1]
+        match draw(
+            st.sampled_from(("replace", "replace", "replace", "delete", "add", "rename", "move", "scale"))
+        ):
+            case "replace":
+                parent[key] = draw(odd)
+            case "delete":
+                del parent[key]
+            case "add":
+                if isinstance(parent, dict):
+                    parent[draw(names)] = draw(odd)
+                else:
+                    parent.insert(draw(st.integers(0, len(parent))), draw(odd))
+            case "rename":
+                if isinstance(parent, dict):
+                    parent[draw(names)] = parent.pop(key)
+            case "move":
+                parent[key] = copy.deepcopy(_at(whole, draw(one_of(_places(whole)))))
+            case "scale":
+                if isinstance(parent[key], float):
+                    parent[key] *= draw(st.sampled_from((0.0, -1.0, 1e-3, 1e3, 1e-9, 1e9, 1e25, 1e-25)))
+    return tree
+
+
+@st.composite
+def mangled(draw: st.DrawFn, texts: st.SearchStrategy[str]) -> str:
+    """A text with some stretches left out, repeated, or replaced."""
+    text = draw(texts)
+    for _ in range(draw(st.integers(1, 4))):
+        start = draw(st.integers(0, len(text)))
+        end = min(len(text), start + draw(st.integers(0, 30)))
+        new = draw(
+            st.text(max_size=4)
+            | st.sampled_from(("[", "]", '"', "=", "{", "}", "\n", ".", "1e999", "nan", "-inf", "[[", "\x00"))
+            | st.just(text[start:end] * 2)
+        )
+        text = text[:start] + new + text[end:]
+    return text
+
+
+def data_of(seed: Value) -> Any:
+    """Plain data, as they come out of a file."""
+    return json.loads(json.dumps(seed.to_data()))
+
+
+@cache
+def seed_data() -> tuple[Any, ...]:
+    """Data of all `seeds`."""
+    return tuple(data_of(seed) for seed in seeds())
+
+
+seed_trees = st.deferred(lambda: one_of(seed_data()))
+
+
+@cache
+def machine_tree() -> Any:
+    """The reference support's file as a tree."""
+    return tomllib.loads((resources.files("support_exudyn.supports") / "reference.toml").read_text("utf-8"))
+
+
+def toml(tree: Any) -> str:
+    """A tree as TOML, tables inline; what TOML has no form for is left as it is written in Python."""
+    return "\n".join(f"{_key(key)} = {_inline(item)}" for key, item in tree.items()) if tree else ""
+
+
+def _inline(item: Any) -> str:
+    if isinstance(item, dict):
+        return "{" + ", ".join(f"{_key(key)} = {_inline(one)}" for key, one in item.items()) + "}"
+    if isinstance(item, list):
+        return "[" + ", ".join(map(_inline, item)) + "]"
+    if isinstance(item, str):
+        return json.dumps(item, ensure_ascii=False)
+    return str(item).lower() if isinstance(item, bool) else repr(item)
+
+
+def _key(key: Any) -> str:
+    return json.dumps(str(key), ensure_ascii=False)

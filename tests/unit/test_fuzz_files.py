@@ -1,0 +1,160 @@
+"""Files of any content: read, or refused in a sentence that names the file."""
+
+from __future__ import annotations
+
+import json
+import re
+from functools import cache
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from support_exudyn import (
+    Recommendation,
+    Result,
+    load_support,
+    recommend,
+    simulate,
+    two_body_columns,
+)
+from support_exudyn.evidence.table import Table
+from support_exudyn.recommend import QUESTIONS
+from tests import strategies as some
+from tests.sound import sensible, sound, taken_or_refused
+from user_forces import InputError
+
+# --- machine data files ---
+
+MACHINE = (resources.files("support_exudyn.supports") / "reference.toml").read_text(encoding="utf-8")
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """One for all examples."""
+    return tmp_path_factory.mktemp("files")
+
+
+def read_or_refused(path: Path) -> None:
+    """A machine data file is read by both who read it, or refused by name."""
+    machine = taken_or_refused(lambda: load_support(path), f"{path}: ")
+    if machine is not None:
+        sound(machine)
+    columns = taken_or_refused(lambda: two_body_columns(path=path), f"{path}: ")
+    for column in (columns or {}).values():
+        sound(column)
+
+
+@given(text=some.mangled(st.just(MACHINE)))
+@some.tried("machine text")
+def test_a_machine_file_whose_text_was_changed_is_read_or_refused(folder: Path, text: str) -> None:
+    path = folder / "machine.toml"
+    path.write_text(text, encoding="utf-8", errors="surrogatepass")
+    read_or_refused(path)
+
+
+@given(tree=some.mutated(st.deferred(lambda: st.just(some.machine_tree()))))
+@some.tried("machine tree")
+def test_a_machine_file_whose_tree_was_changed_is_read_or_refused(folder: Path, tree: Any) -> None:
+    path = folder / "machine.toml"
+    path.write_text(some.toml(tree), encoding="utf-8", errors="surrogatepass")
+    read_or_refused(path)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "a = " + "[" * 10_000 + "]" * 10_000,  # tomllib recurses
+        "[" + ".".join(["a"] * 10_000) + "]",
+        "start_hinge_height_mm = 1" + "0" * 5000,  # more digits than Python turns into a number
+        "start_hinge_height_mm = 1" + "0" * 400,
+        "start_hinge_height_mm = 1979-05-27",
+        MACHINE.replace("start_hinge_height_mm = 1800", "start_hinge_height_mm = 1" + "0" * 400),
+    ],
+    ids=["deep list", "deep table", "digits", "large", "date", "large in place"],
+)
+def test_a_machine_file_that_no_number_fits_is_refused(tmp_path: Path, text: str) -> None:
+    path = tmp_path / "machine.toml"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(InputError, match=re.escape(str(path))) as caught:
+        load_support(path)
+    sensible(caught.value)
+
+
+# --- evidence ---
+
+
+@cache
+def evidence() -> Any:
+    """The table of the program, of which a few scenes are enough."""
+    data = json.loads((resources.files("support_exudyn.evidence") / "scene_detail.json").read_text("utf-8"))
+    kept = [scene for scene in data["scenes"] if scene["name"] in data["fullest"].values()]
+    return {**data, "scenes": [*kept, *[scene for scene in data["scenes"] if scene not in kept][:4]]}
+
+
+def table_or_refused(path: Path) -> None:
+    """A table is read and can be asked, or it is refused by name."""
+    table = taken_or_refused(lambda: Table.load(path), f"{path}: ")
+    if table is None:
+        return
+    for question in QUESTIONS:
+        advice = taken_or_refused(lambda question=question: recommend(question, table))  # type: ignore[misc]
+        if advice is not None:
+            taken_or_refused(lambda advice=advice: advice.apply(some.seeds()[0]))  # type: ignore[misc]
+    table.save(path)
+    assert Table.load(path) == table
+
+
+@given(text=some.mangled(st.deferred(lambda: st.just(json.dumps(evidence())))))
+@some.tried("evidence text")
+def test_a_table_whose_text_was_changed_is_read_or_refused(folder: Path, text: str) -> None:
+    path = folder / "table.json"
+    path.write_text(text, encoding="utf-8", errors="surrogatepass")
+    table_or_refused(path)
+
+
+@given(tree=some.mutated(st.deferred(lambda: st.just(evidence()))))
+@some.tried("evidence tree")
+def test_a_table_whose_tree_was_changed_is_read_or_refused(folder: Path, tree: Any) -> None:
+    path = folder / "table.json"
+    path.write_text(json.dumps(tree), encoding="utf-8")
+    table_or_refused(path)
+
+
+@given(question=some.scraps | some.oddities)
+@some.tried("recommend")
+def test_a_question_that_is_none_is_refused(question: Any) -> None:
+    assert taken_or_refused(lambda: recommend(question)) is None
+
+
+def test_a_question_in_a_subclass_of_text_is_one() -> None:
+    assert isinstance(recommend(type("Own", (str,), {})("posture")), Recommendation)
+
+
+# --- results ---
+
+
+@pytest.fixture(scope="module")
+def result() -> Result:
+    """A short run of a stand to an accuracy, so that it has estimates and coarser runs."""
+    return simulate(some.seeds()[5], accuracy="draft")
+
+
+@given(after=some.scraps | some.oddities, until=some.scraps | some.oddities, whole=st.booleans())
+@some.tried("asked of results")
+def test_numbers_between_any_times_are_given_or_refused(
+    result: Result, after: Any, until: Any, whole: bool
+) -> None:
+    found = taken_or_refused(lambda: result.numbers(after) if whole else result.numbers(after, until))
+    assert found is None or all(str(number) for number in found.values())
+
+
+@given(name=some.scraps | some.oddities)
+@some.tried("asked of results")
+def test_a_channel_that_is_none_is_a_key_error_with_a_sentence(result: Result, name: Any) -> None:
+    for ask in (result.__getitem__, result.unit):
+        with pytest.raises(KeyError, match="no such channel"):
+            ask(name)

@@ -1,0 +1,177 @@
+"""Scenarios of any parts: refused in a sentence, or good for all that a run asks of them; and short runs."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from typing import Any
+
+import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
+
+from support_exudyn import (
+    ClearancePin,
+    Drive,
+    Held,
+    IdealPin,
+    ImpactStand,
+    Machine,
+    Pin,
+    Scenario,
+    SimulationError,
+    SolverSettings,
+    Steady,
+    ravn_slider_crank,
+    simulate,
+)
+from support_exudyn.recipes import chosen
+from tests import strategies as some
+from tests.sound import sensible, sound, taken_or_refused
+from user_forces import (
+    FrictionLaw,
+    Frictionless,
+    InputError,
+    JournalBearing,
+    JournalContact,
+    LankaraniNikravesh,
+    NormalLaw,
+    Touch,
+    Value,
+)
+
+
+@given(scenario=some.values(Scenario))
+@some.tried("scenarios")
+def test_a_scenario_that_can_be_made_is_sound(scenario: Scenario) -> None:
+    sound(scenario)
+
+
+@given(data=some.mutated(st.deferred(lambda: some.one_of(some.seed_data()[:6])), some.scraps))
+@some.tried("scenario data")
+def test_data_of_a_scenario_that_were_changed_are_taken_or_refused(data: Any) -> None:
+    made = taken_or_refused(lambda: Value.from_data(data))
+    if made is not None:
+        sound(made)
+
+
+patterns = st.text(st.sampled_from("*?[]!-.,apinforce\x00\ud800"), max_size=12) | st.sampled_from(
+    ("*", "time", "pin.*", "tip.?", "[!a]*", "[", "*" * 100 + "b", "[a-", "\\", "pin.pin.force")
+)
+
+
+@given(asked=st.lists(patterns | some.scraps | some.oddities, max_size=4), as_tuple=st.booleans())
+@some.tried("channels")
+def test_patterns_of_channels_are_taken_if_they_match(asked: list[Any], as_tuple: bool) -> None:
+    scene = some.seeds()[5]
+    channels = tuple(asked) if as_tuple else asked
+    made = taken_or_refused(lambda: dataclasses.replace(scene, channels=channels))  # type: ignore[type-var]
+    if made is not None:
+        sound(made)
+        assert "time" in chosen(made.recipes, made.channels)
+
+
+# --- runs ---
+
+clearances = st.floats(1e-6, 2e-2)
+stiffnesses = st.floats(3.0, 16.0).map(lambda power: 10.0**power)
+weights = st.floats(-6.0, 9.0).map(lambda power: 10.0**power)
+
+
+@st.composite
+def contacts(draw: st.DrawFn) -> JournalContact:
+    """What an engineer could want of a pin, and laws with any parameters."""
+    bore = draw(st.floats(0.021, 0.2))
+    normal = LankaraniNikravesh(stiffness=draw(stiffnesses), restitution=draw(st.floats(0.01, 1.0)))
+    return JournalContact(
+        bearing=JournalBearing(bore_radius=bore, clearance=draw(clearances)),
+        normal=draw(some.values(NormalLaw)) if draw(st.booleans()) else normal,
+        friction=draw(some.values(FrictionLaw)) if draw(st.booleans()) else Frictionless(),
+    )
+
+
+MOST_IMPACTS = 20.0  # that fit into a run, each of some 16 steps; hard laws have impacts of nanoseconds
+
+
+@st.composite
+def short_runs(draw: st.DrawFn) -> Scenario:
+    """A stand or a slider-crank for some milliseconds, in few steps and impacts."""
+    pin = ClearancePin(contact=draw(contacts()), bore=draw(st.sampled_from(("first", "second"))))
+    clearance = pin.contact.bearing.clearance
+    stand = draw(st.booleans())
+    machine: Machine
+    if stand:
+        machine = ImpactStand(
+            bore_mass=draw(weights),
+            journal_mass=draw(weights),
+            speed=draw(st.floats(0.0, 100.0)),
+            eccentricity=clearance * draw(st.sampled_from((0.0, 0.9, 0.999999, 1.0, 1.001))),
+        )
+        touch = Touch(machine.speed + 0.01, machine.reduced_mass)
+        pins: dict[str, Pin] = {"pin": pin}
+    else:
+        machine = dataclasses.replace(ravn_slider_crank(), start_angle=draw(st.floats(-4.0, 4.0)))
+        touch = Touch(10.0, 0.1)
+        pins = {"slider_pin": IdealPin() if draw(st.booleans()) else pin}
+    steps = draw(st.integers(1, 20))
+    duration = min(draw(st.floats(1e-5, 5e-3)), MOST_IMPACTS * pin.contact.normal.impact_time(touch))
+    drive: Drive = Steady(rate=draw(st.floats(-1e3, 1e3))) if draw(st.booleans()) and not stand else Held()
+    return Scenario(
+        machine=machine,
+        pins=pins,
+        drive=drive,
+        duration=duration,
+        step=duration / steps,
+        record_period=duration / draw(st.integers(1, steps)),
+        gravity=draw(st.tuples(st.floats(-20.0, 20.0), st.floats(-20.0, 20.0))),
+        formulation=draw(st.sampled_from(("auto", "redundant", "tree", "reduced"))),
+        start="concentric" if stand else draw(st.sampled_from(("concentric", "settled"))),
+        solver=SolverSettings(
+            impact_steps=16,
+            locate=draw(st.booleans()),
+            tolerance=draw(st.sampled_from((1e-5, 1e-3))),
+            newton=draw(st.sampled_from(("modified", "full"))),
+            backend=draw(st.sampled_from(("auto", "python", "symbolic"))),
+        ),
+    )
+
+
+@st.composite
+def makeable(draw: st.DrawFn) -> Scenario | None:
+    """As `short_runs`; None if the parts were refused."""
+    try:
+        return draw(short_runs())
+    except InputError as error:
+        sensible(error)
+        return None
+
+
+@given(scene=makeable())
+@some.tried("runs")
+def test_a_short_run_ends_in_numbers_or_says_why_not(scene: Scenario | None) -> None:
+    if scene is None:
+        return
+    try:
+        result = simulate(scene)
+    except (InputError, SimulationError) as error:
+        sensible(error)
+        return
+    for name, channel in result.channels.items():
+        assert np.isfinite(channel.values).all(), name
+    for pin, force in result.largest_force.items():
+        assert 0.0 <= force < math.inf, pin
+    assert math.isfinite(result.energy_error)
+    assert repr(result)
+
+
+@given(scenario=some.oddities | some.scraps, accuracy=some.oddities | some.scraps, right=st.booleans())
+@some.tried("simulate")
+def test_what_is_no_scenario_or_accuracy_is_refused(scenario: Any, accuracy: Any, right: bool) -> None:
+    given_scene = some.seeds()[0] if right else scenario
+    if right and (accuracy is None or _could_be_asked(accuracy)):
+        return
+    assert taken_or_refused(lambda: simulate(given_scene, accuracy=accuracy)) is None
+
+
+def _could_be_asked(accuracy: Any) -> bool:
+    return accuracy == "draft" if isinstance(accuracy, str) else isinstance(accuracy, float) and accuracy <= 0.1
