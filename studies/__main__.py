@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import argparse
 from collections.abc import Sequence
 from pathlib import Path
 

@@ -21,16 +21,16 @@ from user_forces.journal import JournalBearing
 # support meets 1 % of it.
 DEEPEST = 0.2
 SOFT = (
-    "The contact is too soft for the load that it meets: take a larger stiffness, or a smaller load. If both are "
-    "as they should be, shorter steps."
+    "The contact is too soft for the load that it meets: take a larger stiffness, or a smaller load. If both "
+    "are as they should be, shorter steps."
 )
 # Energy that the balance may be open by, as a share of what was turned over: kinetic, potential and elastic
 # energy, losses and work. The reference support closes to 1e-5.
 OPEN = 0.05
 ROUNDING = 1e-8  # [m] by which the weight of all bodies would have to be lifted to make up for rounding
 COARSE = (
-    "Steps are too long for what happens in them: take a smaller `step` or more `solver.impact_steps`, look whether "
-    "friction is steep (a ramp from static to dynamic speed), or ask for an accuracy."
+    "Steps are too long for what happens in them: take a smaller `step` or more `solver.impact_steps`, look "
+    "whether friction is steep (its ramp from static to dynamic speed), or ask for an accuracy."
 )
 APART = 1e-4  # [m] that what is joined may be apart
 DRIFTED = "Take constraint_index 3, a smaller `step` or a smaller `solver.newton_tolerance`."
@@ -65,8 +65,8 @@ def _reasons(scenario: Scenario, outcome: Outcome, channels: Mapping[str, Channe
     if (open_by > allowed).any():
         first = int(np.argmax(open_by > allowed))
         reason = (
-            f"energy does not add up: it is open by {open_by.max():.3g} J; allowed: {OPEN:.0%} of what was turned "
-            f"over, {allowed:.3g} J"
+            f"energy does not add up: it is open by {open_by.max():.3g} J; allowed: {OPEN:.0%} of what was "
+            f"turned over, {allowed:.3g} J"
         )
         yield Failure(reason, COARSE, float(time[first]))
     if (gap := joints_apart(scenario, outcome)) is not None and (gap > APART).any():

@@ -21,8 +21,8 @@ LARGEST = 10.0  # [m], [rad]: nothing moves so far
 def eccentric(linkage: Linkage, offsets: Mapping[str, Vector2]) -> Linkage:
     """The linkage with journals moved in their bores, all else held together.
 
-    Of the postures in which the other pins are closed, guides are followed, and columns and cranks are where they
-    were, the one that is reached by the steps of least mass times distance squared.
+    Of the postures in which the other pins are closed, guides are followed, and columns and cranks are where
+    they were, the one that is reached by the steps of least mass times distance squared.
 
     Arguments:
         offsets: for each pin that is moved, centre of its second body's point minus that of the first [m].
@@ -42,8 +42,8 @@ def eccentric(linkage: Linkage, offsets: Mapping[str, Vector2]) -> Linkage:
         if not np.abs(position).max() < LARGEST:
             break
     raise InputError(
-        f"eccentricity of {', '.join(moved)} = {', '.join(map(str, moved.values()))} m: the linkage cannot be laid "
-        "out so; allowed: what columns, guides and the other pins leave free, such as (0, 0)"
+        f"eccentricity of {', '.join(moved)} = {', '.join(map(str, moved.values()))} m: the linkage cannot be "
+        "laid out so; allowed: what columns, guides and the other pins leave free, such as (0, 0)"
     )
 
 

@@ -52,7 +52,7 @@ class ImpactSteps:
 
     @property
     def begins_with_a_jump(self) -> bool:
-        """Whether the force has jumped at a touch just now, so that steps are shorter than those of the impact."""
+        """Whether the force has jumped at a touch just now: steps are shorter than those of the impact."""
         return self._halvings > 0
 
     def length(self, speed: float, mass: float) -> float:

@@ -58,8 +58,8 @@ class ClearancePin(Pin):
     Arguments:
         contact: bearing, normal law and friction law.
         bore: which of the two bodies of the pin's place carries the bore.
-        eccentricity: of the journal's centre from the bore's at the start [m], forward and up; up to the clearance
-            it is free, beyond it is pressed in. The bodies are laid out for it, see `eccentric`.
+        eccentricity: of the journal's centre from the bore's at the start [m], forward and up; up to the
+            clearance it is free, beyond it is pressed in. The bodies are laid out for it, see `eccentric`.
     """
 
     contact: JournalContact

@@ -44,8 +44,8 @@ FEW_STEPS = 5
 # After a step that Newton's method could only solve shortened, so many steps of that length before a longer one
 # is tried: with friction that is steep against the step nearly every longer one would fail again.
 STEPS_TO_GROW = 8
-# A step that has been shortened so often is tried with a new Jacobian in every iteration. (From the first failure
-# on, longer steps would converge across the whole ramp of friction, and energy would not add up.)
+# A step that has been shortened so often is tried with a new Jacobian in every iteration. (From the first
+# failure on, longer steps would converge across the whole ramp of friction, and energy would not add up.)
 FAILURES_OF_A_STEP = 3
 FAILURES_IN_A_ROW = 500
 ADVICE = (
@@ -57,8 +57,8 @@ STEEP = (
     "friction force, against the step)? Widen the ramp, or take formulation = 'reduced', or a smaller step."
 )
 FEWER_STEPS = (
-    "Allow longer steps, fewer of them in an impact (`solver.impact_steps`), a shorter duration, or more steps in "
-    "all (`solver.most_steps`)."
+    "Allow longer steps, fewer of them in an impact (`solver.impact_steps`), a shorter duration, or more steps "
+    "in all (`solver.most_steps`)."
 )
 
 
