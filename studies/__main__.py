@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import sys
 import argparse
+import sys
 from collections.abc import Sequence
 from pathlib import Path
 
