@@ -31,6 +31,7 @@ Series = npt.NDArray[np.float64]
 # Errors of a method that chooses its steps fall faster than FASTEST, but less regularly.
 SAFETY = {"auto": 4.0, "redundant": 4.0, "tree": 1.75, "reduced": 1.75}  # by formulation
 FASTEST, SLOWEST = 0.25, 0.8  # r: three runs tell nothing beyond
+FIRST_ORDER = 0.5  # r where there are two runs only
 ROUNDING = 1e-10  # share of a number, or of the largest of its kind, that no estimate is below
 SMALLEST_SPREAD = 1e-3  # of the mean
 FORCE, ANGULAR_ACCELERATION = ".force", ".angular_acceleration"  # how names of channels end
@@ -134,11 +135,11 @@ def _onset(pin: str, n: int, field: str) -> Measure:
 
 
 def fall(result: Result) -> float:
-    """r: by what factor the distances of a scene's numbers fall from run to run, SLOWEST if it is not known."""
+    """r: by what factor the distances of a scene's numbers fall from run to run; FIRST_ORDER if two are all."""
     coarser = result.coarser
     coarsest = coarser.coarser if coarser else None
     if coarser is None or coarsest is None:
-        return SLOWEST
+        return FIRST_ORDER
     ratios = []
     for kind in measures(result, 0.0, math.inf).values():
         a, b, c = (kind.measure(run) for run in (coarsest, coarser, result))
@@ -171,6 +172,16 @@ def error(measure: Measure, result: Result, r: float, size: float = 0.0) -> floa
 
 def worst_error(result: Result, r: float) -> float:
     """See `Result.worst_error`; r: see `fall`."""
+    return _worst(result, lambda measure: error(measure, result, r))
+
+
+def disagreement(result: Result, other: Result) -> float:
+    """How far another run of the same scene is away, in the measure of `worst_error`."""
+    return _worst(result, lambda measure: abs(measure(result) - measure(other)))
+
+
+def _worst(result: Result, off_by: Callable[[Measure], float]) -> float:
+    """The largest, relative, of what the numbers are off by that an accuracy is of."""
     scenario = result.scenario
     off = [0.0]
     for pin in scenario.linkage.pins:
@@ -179,7 +190,7 @@ def worst_error(result: Result, r: float) -> float:
         for statistic in (np.mean, np.std, np.max):
             measure = _over(name, statistic, 0.0, math.inf)
             # a force that hardly varies has a spread that means nothing to a share of itself
-            off.append(_share(error(measure, result, r), max(measure(result), SMALLEST_SPREAD * scale)))
+            off.append(_share(off_by(measure), max(measure(result), SMALLEST_SPREAD * scale)))
     clearances = [pin.contact.bearing.clearance for pin in scenario.clearance_pins.values()]
     for point in scenario.linkage.points:
         path = _path(result, point)
@@ -188,7 +199,7 @@ def worst_error(result: Result, r: float) -> float:
         def wandering(run: Result, path: Series = path, point: str = point) -> float:
             return float(np.hypot(*(_path(run, point) - path)).max())
 
-        off.append(_share(error(wandering, result, r), max([extent, *clearances])))
+        off.append(_share(off_by(wandering), max([extent, *clearances])))
     return max(off)
 
 

@@ -150,7 +150,7 @@ class Result:
         if self.coarser is None:
             raise InputError(
                 "the run has nothing to estimate errors by; allowed: runs with an accuracy, "
-                "simulate(scenario, accuracy='standard')"
+                "simulate(scenario, accuracy='standard'), or with errors, simulate(scenario, errors=True)"
             )
 
     # --- file ---

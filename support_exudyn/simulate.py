@@ -11,6 +11,7 @@ from support_exudyn.result import Result
 from support_exudyn.run_once import run_once
 from support_exudyn.scenario import Accuracy, Scenario
 from support_exudyn.to_accuracy import run_to_accuracy
+from support_exudyn.with_error import run_with_error
 from user_forces.values import InputError, short
 
 
@@ -19,12 +20,18 @@ def simulate(
     scenario: Scenario,
     *,
     accuracy: Accuracy | None = ...,
+    errors: bool = ...,
     progress: Progress = ...,
     throw: Literal[True] = ...,
 ) -> Result: ...
 @overload
 def simulate(
-    scenario: Scenario, *, accuracy: Accuracy | None = ..., progress: Progress = ..., throw: bool
+    scenario: Scenario,
+    *,
+    accuracy: Accuracy | None = ...,
+    errors: bool = ...,
+    progress: Progress = ...,
+    throw: bool,
 ) -> Result | Failure: ...
 
 
@@ -32,6 +39,7 @@ def simulate(
     scenario: Scenario,
     *,
     accuracy: Accuracy | None = None,
+    errors: bool = False,
     progress: Progress = silent,
     throw: bool = True,
 ) -> Result | Failure:
@@ -41,6 +49,9 @@ def simulate(
         scenario: machine, pins, drive, start and how it is computed.
         accuracy: in place of the scenario's own: "draft", "standard", "reference", or a number; see `Scenario`.
             The result then carries the estimated error of every number.
+        errors: with steps that the scenario chooses itself, run it at half of them, too: the result is that of the
+            shorter steps, and carries the estimated error of every number. One that is uncertain by more than
+            half of itself ends in a SimulationError. With an accuracy it is so anyway.
         progress: called now and then with the share that is done, 0 to 1.
         throw: what to do if the run cannot be finished: raise SimulationError, or return its Failure
             (for sweeps, where one failed run is a row and not the end).
@@ -52,7 +63,8 @@ def simulate(
         raise InputError(f"scenario = {short(scenario)}: allowed: a Scenario")
     if accuracy is not None:
         scenario = replace(scenario, accuracy=accuracy)
-    run = run_once if scenario.goal is None else run_to_accuracy
+    plain = run_with_error if errors else run_once
+    run = plain if scenario.goal is None else run_to_accuracy
     try:
         return run(scenario, progress)
     except SimulationError as error:

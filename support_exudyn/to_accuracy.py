@@ -32,7 +32,7 @@ def run_to_accuracy(scenario: Scenario, progress: Progress) -> Result:
     """
     goal = scenario.goal
     assert goal is not None
-    chosen = _with_measured(settings_for(scenario, goal))
+    chosen = with_measured(settings_for(scenario, goal))
     last = best = run_once(chosen, _part(progress, 0))
     wall_time, off, least, in_vain = last.wall_time, np.inf, np.inf, 0
     for n in range(1, MOST_RUNS):
@@ -54,7 +54,7 @@ def run_to_accuracy(scenario: Scenario, progress: Progress) -> Result:
     return replace(best if best.coarser else last, wall_time=wall_time)
 
 
-def _with_measured(scenario: Scenario) -> Scenario:
+def with_measured(scenario: Scenario) -> Scenario:
     """The same that also records what errors are estimated by: they then do not depend on what is asked."""
     if scenario.channels == ALL_CHANNELS:
         return scenario
