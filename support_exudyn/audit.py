@@ -28,6 +28,7 @@ SOFT = (
 # energy, losses and work. The reference support closes to 1e-5.
 OPEN = 0.05
 ROUNDING = 1e-8  # [m] by which the weight of all bodies would have to be lifted to make up for rounding
+ROUNDING_AT_REST = 1e-12  # [J/kg], of bodies that nothing moves: that of a speed of a micrometre a second
 COARSE = (
     "Steps are too long for what happens in them: take a smaller `step` or more `solver.impact_steps`, look "
     "whether friction is steep (its ramp from static to dynamic speed), or ask for an accuracy."
@@ -85,9 +86,10 @@ def energy_open(scenario: Scenario, channels: Mapping[str, Channel]) -> tuple[Se
     if len(found) < len(names):
         return np.zeros(1), 0.0
     balance, *energies = found
-    weight = float(np.hypot(*scenario.gravity)) * sum(body.mass for body in scenario.linkage.bodies.values())
+    mass = sum(body.mass for body in scenario.linkage.bodies.values())
+    rounding = (ROUNDING * float(np.hypot(*scenario.gravity)) + ROUNDING_AT_REST) * mass
     turned_over = sum(float(np.abs(energy - energy[0]).max()) for energy in energies) + float(energies[0][0])
-    return np.abs(balance), OPEN * turned_over + ROUNDING * weight
+    return np.abs(balance), OPEN * turned_over + rounding
 
 
 def joints_apart(scenario: Scenario, outcome: Outcome) -> Series | None:

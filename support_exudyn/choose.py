@@ -7,7 +7,13 @@ from dataclasses import replace
 from typing import Literal
 
 from support_exudyn.formulations import covers, formulation
-from support_exudyn.scenario import LARGEST_STEP, MOST_IMPACT_STEPS, SMALLEST_TOLERANCE, Scenario
+from support_exudyn.scenario import (
+    ERROR_CONTROLLED,
+    LARGEST_STEP,
+    MOST_IMPACT_STEPS,
+    SMALLEST_TOLERANCE,
+    Scenario,
+)
 from support_exudyn.timescales import timescales
 
 FormulationName = Literal["redundant", "tree", "reduced"]
@@ -24,6 +30,7 @@ MOST_AT_FIRST = MOST_IMPACT_STEPS // 4  # so that they can be doubled twice, wit
 # make of it; forces in a contact follow from depths of a tenth of the clearance and less.
 TOLERANCE_FOR_GOAL = 1e-2
 LARGEST_TOLERANCE = 1e-5
+MOST_RUBBING = 2e6  # times of friction in a run, of which an explicit step takes some three
 
 
 def settings_for(scenario: Scenario, goal: float) -> Scenario:
@@ -50,5 +57,11 @@ def settings_for(scenario: Scenario, goal: float) -> Scenario:
 
 
 def _cheapest(scenario: Scenario) -> FormulationName:
-    """The first formulation that covers a scenario; redundant covers every one whose settings fit it."""
-    return next((name for name in FASTEST_FIRST if covers(name, scenario)), "redundant")
+    """The first formulation that covers a scenario; redundant covers every one whose settings fit it.
+
+    Explicit methods have to follow friction's ramp, however steep it is: where that takes too many steps, redundant.
+    """
+    found = next((name for name in FASTEST_FIRST if covers(name, scenario)), "redundant")
+    if found in ERROR_CONTROLLED and scenario.duration > MOST_RUBBING * timescales(scenario).rubbing:
+        return "redundant"
+    return found

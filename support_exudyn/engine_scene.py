@@ -109,6 +109,10 @@ class EngineScene(Protocol):
     def jump(self, time: float) -> Impulse | None:
         """Give the bodies the velocities that belong to drives whose speed has jumped at a break [s]."""
 
+    def align(self, time: float) -> float:
+        """Give the bodies velocities that the constraints have at a time [s]; work of the drives in it [J]."""
+        ...
+
     def refresh_memory(self) -> None:
         """Tell every loose pin that velocities have jumped."""
 

@@ -22,7 +22,7 @@ from support_exudyn.pin_friction import PinFriction
 from support_exudyn.pin_motion import PinEnd, PinMotion
 from support_exudyn.scenario import Scenario
 from support_exudyn.scene_items import BodyItem, ColumnItem, CrankItem, IdealItem, SlideItem
-from support_exudyn.velocity_jump import jump_velocities
+from support_exudyn.velocity_jump import align_velocities, jump_velocities
 from user_forces.contact import ContactForce
 
 FRICTION_ROUNDS = 4  # each with an error smaller by the coefficient of friction times radius over lever
@@ -97,6 +97,10 @@ class Scene(InEngine):
     def jump(self, time: float) -> Impulse | None:
         """See `velocity_jump`."""
         return jump_velocities(self, time)
+
+    def align(self, time: float) -> float:
+        """See `velocity_jump`."""
+        return align_velocities(self, time)
 
     def spins(self) -> dict[str, float]:
         """Angular velocity of every body [rad/s]."""

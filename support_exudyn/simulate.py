@@ -49,9 +49,9 @@ def simulate(
         scenario: machine, pins, drive, start and how it is computed.
         accuracy: in place of the scenario's own: "draft", "standard", "reference", or a number; see `Scenario`.
             The result then carries the estimated error of every number.
-        errors: with steps that the scenario chooses itself, run it at half of them, too: the result is that of the
-            shorter steps, and carries the estimated error of every number. One that is uncertain by more than
-            half of itself ends in a SimulationError. With an accuracy it is so anyway.
+        errors: with steps that the scenario chooses itself, run it at half and at a quarter of them, too: the
+            result is that of the shortest, and carries the estimated error of every number. If these do not
+            settle it ends in a SimulationError. With an accuracy errors are estimated anyway.
         progress: called now and then with the share that is done, 0 to 1.
         throw: what to do if the run cannot be finished: raise SimulationError, or return its Failure
             (for sweeps, where one failed run is a row and not the end).

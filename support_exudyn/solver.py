@@ -48,6 +48,7 @@ STEPS_TO_GROW = 8
 # failure on, longer steps would converge across the whole ramp of friction, and energy would not add up.)
 FAILURES_OF_A_STEP = 3
 FAILURES_IN_A_ROW = 500
+MUCH_SHORTER = 8.0
 ADVICE = (
     "Try a smaller step; if that does not help, look whether the posture is near a dead centre "
     "or a contact is far stiffer than the masses beside it allow."
@@ -225,7 +226,7 @@ class Run:
 
     def _after_step(self, mbs: Any, t: float) -> bool:
         """After every accepted step, and once at the start."""
-        breaking = self.plan.break_at(t)
+        breaking, taken = self.plan.break_at(t), t - self.time
         kink = breaking is not None
         if self.trying:
             self.trying = False
@@ -242,6 +243,9 @@ class Run:
             self._look_for_smoothness(t, self.smooth)
         self._at_stop(t, breaking)
         goal = self._next_time(t)
+        if breaking is None and self._is_to_be_cut(taken, goal - t):
+            self.recorder.energies.totals[0] += self.scene.align(t)
+            self.scene.refresh_memory()
         if self.smooth is not None:
             self.recorder.begin_step(t)
         self.solver.it.currentStepSize = max(SMALLEST_STEP, goal - t)
@@ -256,6 +260,19 @@ class Run:
             self.progress(t / self.plan.duration)
         if breaking is not None:
             self._jump(breaking)
+
+    def _is_to_be_cut(self, taken: float, following: float) -> bool:
+        """Whether much shorter steps follow on one of this length [s]: a loose pin touches or parts in the next."""
+        if not self.pins or not self.locates:
+            return False
+        if following < taken / MUCH_SHORTER:
+            return True
+        for pin in self.pins:
+            if pin.impact.step == math.inf:
+                depth = pin.reached.depth
+                if depth * (depth + 2.0 * following * pin.reached.rate) < 0.0:
+                    return True
+        return False
 
     def _look_for_limits(self) -> None:
         """Raise SimulationError if a journal is too deep in its bore, or there have been too many steps."""

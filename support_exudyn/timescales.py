@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -12,10 +13,12 @@ from support_exudyn.kinetics import Kinetics, Matrix, kinetics_of
 from support_exudyn.loads.load import Load
 from support_exudyn.machine import Linkage
 from support_exudyn.scenario import Scenario
+from user_forces.friction.law import FrictionLaw
 from user_forces.normal.law import LoadError, NormalLaw
 
 SMALLEST_MOBILITY = 1e-15  # [1/kg]
 ROUNDING = 1e-9  # share of the weight below which a pin carries nothing: loads are of a linear solve
+SLIPS = (0.0, *np.geomspace(1e-9, 1.0, 400).tolist())  # [m/s]
 SLOWEST_FALL = 1e-3  # [m/s^2]; a scene in which nothing pulls a journal moves as slowly as one likes
 
 
@@ -25,12 +28,14 @@ class Timescales:
 
     flight: of a journal across its clearance. resting: of the vibration of a loaded contact, or of what a load
     presses on, one over its angular frequency. drive: of the drive, its stroke, or one over a crank's speed, or
-    one over the angular frequency of what rises and falls.
+    one over the angular frequency of what rises and falls. rubbing: in which friction, where it is steepest,
+    stops what slides under the load.
     """
 
     flight: float
     resting: float
     drive: float
+    rubbing: float = math.inf
 
 
 def timescales(scenario: Scenario) -> Timescales:
@@ -47,7 +52,7 @@ def timescales(scenario: Scenario) -> Timescales:
     pull = math.hypot(*scenario.gravity) + _running(scenario, closed)
     loads = _static_loads(scenario, closed)
     weight = math.hypot(*scenario.gravity) * sum(body.mass for body in linkage.bodies.values())
-    flights, rests = [math.inf], [math.inf, *_under_loads(scenario)]
+    flights, rests, rubs = [math.inf], [math.inf, *_under_loads(scenario)], [math.inf]
     for name, pin in scenario.clearance_pins.items():
         flights.append(math.sqrt(2.0 * pin.contact.bearing.clearance / max(pull, SLOWEST_FALL)))
         mobility = _mobility(scenario, name)
@@ -61,7 +66,19 @@ def timescales(scenario: Scenario) -> Timescales:
                 load = mass * pull
             slope = _slope(pin.contact.normal, load) if load > 0.0 else 0.0
             rests.append(math.sqrt(mass / slope) if slope > 0.0 else math.inf)
-    return Timescales(min(flights), min(rests), _drive_time(scenario, linkage))
+            steepest = _steepest(pin.contact.friction, load)
+            lightest = 1.0 / max(float(np.linalg.eigvalsh(mobility).max()), SMALLEST_MOBILITY)
+            rubs.append(lightest / steepest if steepest > 0.0 else math.inf)
+    return Timescales(min(flights), min(rests), _drive_time(scenario, linkage), min(rubs))
+
+
+def _steepest(law: FrictionLaw, load: float) -> float:
+    """The largest rise of the friction force over the slip [N s/m], as far as SLIPS show it."""
+    if law.has_state:
+        return 0.0  # a spring, which does not damp
+    forces = [abs(law(slip, load)) for slip in SLIPS]
+    rises = [(b - a) / (v - u) for (u, a), (v, b) in pairwise(zip(SLIPS, forces, strict=True))]
+    return max(rises, default=0.0)
 
 
 def _slope(law: NormalLaw, load: float) -> float:

@@ -1,4 +1,4 @@
-"""What a jump of the drive's speed does: an impulse, and consistent velocities after it.
+"""Velocities that fit the constraints: after a jump of the drive's speed, which is an impulse, and else.
 
 With rigid columns the bodies' velocities jump too, see `kinetics`. Clearance pins and oil columns transmit no
 impulse: their force is finite.
@@ -14,6 +14,22 @@ from support_exudyn.impulse import Impulse
 
 if TYPE_CHECKING:
     from support_exudyn.scene import Scene
+
+
+def align_velocities(scene: Scene, time: float) -> float:
+    """Give the bodies velocities that the constraints have at a time [s]; work of the drives in it [J].
+
+    Constraints of index 3 hold positions: velocities at the end of a long step are off by second order in it. A
+    short step that follows would make up for it within itself, by accelerations a thousand times too large.
+    """
+    data, kinetics = scene.mbs.systemData, scene.kinetics
+    position, before = data.GetODE2Coordinates(), data.GetODE2Coordinates_t()
+    rates = kinetics.rates(lambda name: scene.scenario.drive_of(name).speed(time))
+    change, impulses = kinetics.respond(
+        position, np.zeros_like(before), rates - kinetics.rows(position) @ before
+    )
+    data.SetODE2Coordinates_t(before + change)
+    return -float(impulses @ rates)
 
 
 def jump_velocities(scene: Scene, time: float) -> Impulse | None:

@@ -126,6 +126,17 @@ class SpatialScene(InEngine):
         wanted = rates(closed.rows, speeds) - matrix(motion, closed.rows)[0] @ before
         self.set_velocities(before + closed.respond(np.zeros_like(before), wanted)[0], INITIAL)
 
+    def align(self, time: float) -> float:
+        """Give the bodies velocities that the constraints have at a time [s]; work of the drives in it [J]."""
+        kinetics = self.kinetics()
+        before = velocities(kinetics.motion)
+        speeds = {name: self.scenario.drive_of(name).speed(time) for name in self.rigid_columns}
+        wanted = rates(kinetics.rows, speeds)
+        missing = wanted - matrix(kinetics.motion, kinetics.rows)[0] @ before
+        change, impulses = kinetics.respond(np.zeros_like(before), missing)
+        self.set_velocities(before + change)
+        return -float(impulses @ wanted)
+
     def jump(self, time: float) -> Impulse | None:
         """Give the bodies the velocities that belong to drives whose speed has jumped at a break [s].
 

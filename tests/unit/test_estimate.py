@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from support_exudyn import Estimate, Held, Onset, Result
-from support_exudyn.estimate import FIRST_ORDER, FASTEST, ONSETS, ROUNDING, SLOWEST
+from support_exudyn.estimate import FASTEST, FIRST_ORDER, ONSETS, ROUNDING, SLOWEST
 from support_exudyn.estimate import SAFETY as SAFETY_OF
 from tests.reduced import simulate_reduced
 from tests.reference.cases import FORCE, PIN, loose_support

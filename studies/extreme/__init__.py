@@ -1,0 +1,1 @@
+"""Scenes at the extremes, how they are judged, and long runs."""
