@@ -228,7 +228,7 @@ def _read(group: h5py.Group) -> Result:
     return Result(
         scenario=Value.from_data(attribute("scenario")),
         channels=channels,
-        onsets={name: tuple(Onset(*row) for row in data[:].tolist()) for name, data in onsets.items()},
+        onsets={name: _onsets(name, data[:]) for name, data in onsets.items()},
         largest_force={name: float(data.attrs["largest_force_N"]) for name, data in onsets.items()},
         impulses=tuple(Impulse(**item) for item in attribute("impulses")),
         counts=Counts(**attribute("counts")),
@@ -237,6 +237,16 @@ def _read(group: h5py.Group) -> Result:
         goal=attribute("goal"),
         coarser=coarser,
     )
+
+
+def _onsets(name: str, rows: np.ndarray) -> tuple[Onset, ...]:
+    """Raises ValueError if they have not all of their columns."""
+    if rows.ndim != 2 or rows.shape[1] != len(Onset._fields):
+        raise ValueError(
+            f"onsets of {name!r} are of shape {rows.shape}; allowed: {len(Onset._fields)} columns, "
+            f"{', '.join(Onset._fields)}"
+        )
+    return tuple(Onset(*row) for row in rows.tolist())
 
 
 def _check_channels(channels: Mapping[str, Channel]) -> None:

@@ -219,7 +219,7 @@ class Journal:
         return self._place
 
     def accepted(self, was_in_contact: bool, onset: Onset | None, t: float) -> None:
-        """A section has kept a step to t [s]: was it in contact before, and the touch in it, if there was one."""
+        """A section has kept a step to t [s]: was it in contact before, and the touch in it, if any."""
         self._before.append((was_in_contact, onset))
         if len(self._before) < len(self.sections):
             return
@@ -234,7 +234,7 @@ class Journal:
             self.largest_force = max(self.largest_force, self._resultant())
 
     def _look_for_parting(self, t: float) -> None:
-        """Whether in the step to t [s] the last section has parted: as fast as the fastest of those that have."""
+        """If in the step to t [s] the last sections have parted: note when, and the highest speed of these."""
         if not self.onsets or any(pin.kept.in_contact for pin in self.sections):
             return
         parted = [-pin.kept.rate for pin, (was, _) in zip(self.sections, self._before, strict=True) if was]
