@@ -109,6 +109,8 @@ class Run:
             pin.step_size = lambda: float(it.currentStepSize)
             pin.locates = self.locates
             pin.begin_try(0.0)
+            if self.scene.scenario.start != "settled":
+                pin.begin_impact()
         if self.scene.scenario.solver.constraint_index == 2:
             for parts in self.scene.driven:
                 parts.follow_speed()
