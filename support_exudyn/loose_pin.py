@@ -181,7 +181,7 @@ class LoosePin:
             self.largest_force = max(self.largest_force, math.hypot(force.normal_force, force.friction_force))
 
     def begin_impact(self) -> None:
-        """A start out of balance, or a jump of the drive's speed: the depth of a closed pin swings from now on."""
+        """At the start, or when the drive's speed has jumped: the depth of a closed pin swings from now on."""
         if self.locates and self.kept.depth > 0.0:
             self.impact.begin(self.kept.depth, self.kept.rate, self._moving_mass(self.kept))
 

@@ -104,7 +104,9 @@ class Swing(Machine):
         return Linkage(
             bodies={"bar": bar},
             pins={
-                "hinge": PinPlace(first="ground", second="bar", first_point=(0.0, 0.0), second_point=(0.0, 0.0)),
+                "hinge": PinPlace(
+                    first="ground", second="bar", first_point=(0.0, 0.0), second_point=(0.0, 0.0)
+                ),
                 "pin": PinPlace(first="ground", second="bar", first_point=low, second_point=low),
             },
         )
