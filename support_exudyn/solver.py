@@ -30,6 +30,7 @@ from support_exudyn.smooth_steps import SmoothSteps
 from support_exudyn.steps import StepPlan
 from support_exudyn.stretches import Stretch, solve_in_stretches
 from support_exudyn.symbolic_drive import turns_by_itself
+from user_forces import Frictionless
 from user_forces.normal.law import LoadError
 
 REPEAT_ERROR = 1e6  # above any tolerance of the engine's discontinuous iteration: the step is repeated
@@ -129,7 +130,8 @@ class Run:
                 raise cause from None
             raise SimulationError(self._failure(_first_line(cause or error))) from error
         if not finished or self.time < self.plan.duration * (1.0 - 1e-9):
-            raise SimulationError(self._failure("the solver gave up"))
+            advice = STEEP if self.failures and self._has_friction() else ADVICE
+            raise SimulationError(self._failure("the solver gave up", advice))
         return Counts(
             steps=self.steps,
             cut_steps=self.cut_steps,
@@ -176,6 +178,7 @@ class Run:
         """A stretch of so many steps has ended at t [s]; so many had to be repeated."""
         self.steps += steps
         self.failed_newton += repeats
+        self._count()
         if t == 0.0 and self.recorder.integrates:  # before the speed jumps; the engine tells the start later
             self._audit(self.scene.mbs, t)
         self._at_stop(t, self.plan.break_at(t))
@@ -259,10 +262,19 @@ class Run:
         if breaking is not None:
             self._jump(breaking)
 
-    def _look_for_limits(self) -> None:
-        """Raise SimulationError if a journal is too deep in its bore, or there have been too many steps."""
+    def _has_friction(self) -> bool:
+        """Whether there is any in a pin."""
+        rough = (pin for pin in self.pins if not isinstance(pin.contact.friction, Frictionless))
+        return bool(self.frictions) or any(rough)
+
+    def _count(self) -> None:
+        """Raise SimulationError if there have been too many steps."""
         if self.steps + self.cut_steps + self.failed_newton > self.most_steps:
             raise SimulationError(self._failure(f"more than {self.most_steps} steps", FEWER_STEPS))
+
+    def _look_for_limits(self) -> None:
+        """Raise SimulationError if a journal is too deep in its bore, or there have been too many steps."""
+        self._count()
         if not self.scene.scenario.solver.audit:
             return
         for name, pin in self.scene.loose_pins.items():
