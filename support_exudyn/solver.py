@@ -17,10 +17,12 @@ from typing import Any
 
 import exudyn
 
+from support_exudyn import engine_words
 from support_exudyn.audit import DEEPEST, SOFT, too_deep
 from support_exudyn.counts import Counts
 from support_exudyn.engine_scene import EngineScene
 from support_exudyn.engine_settings import SMALLEST_STEP, engine_settings, quiet_engine
+from support_exudyn.engine_words import explained, first_line
 from support_exudyn.errors import Failure, SimulationError
 from support_exudyn.impulse import Impulse
 from support_exudyn.onset import SHARE
@@ -128,9 +130,11 @@ class Run:
                 raise SimulationError(self._failure("a contact is overloaded", str(cause))) from error
             if cause is not None and not isinstance(cause, ArithmeticError):
                 raise cause from None
-            raise SimulationError(self._failure(_first_line(cause or error))) from error
+            if cause is None:
+                raise SimulationError(self._failure(explained(error), engine_words.ADVICE)) from error
+            raise SimulationError(self._failure(first_line(cause))) from error
         if not finished or self.time < self.plan.duration * (1.0 - 1e-9):
-            advice = STEEP if self.failures and self._has_friction() else ADVICE
+            advice = f"{ADVICE} {STEEP}" if self.failures and self._has_friction() else ADVICE
             raise SimulationError(self._failure("the solver gave up", advice))
         return Counts(
             steps=self.steps,
@@ -369,8 +373,3 @@ def _smooth_steps(scene: EngineScene) -> SmoothSteps:
     return SmoothSteps(
         step, longest, scene.coordinate_masses(), math.sqrt(mass) * math.hypot(*scenario.gravity)
     )
-
-
-def _first_line(error: BaseException) -> str:
-    lines = [line.strip() for line in str(error).splitlines() if line.strip(" =*-")]
-    return lines[0] if lines else type(error).__name__
