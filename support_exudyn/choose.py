@@ -59,7 +59,7 @@ def settings_for(scenario: Scenario, goal: float) -> Scenario:
 def _cheapest(scenario: Scenario) -> FormulationName:
     """The first formulation that covers a scenario; redundant covers every one whose settings fit it.
 
-    Explicit methods have to follow friction's ramp, however steep it is: where that takes too many steps, redundant.
+    Explicit methods have to follow friction's ramp, however steep it is: not where that takes too many steps.
     """
     found = next((name for name in FASTEST_FIRST if covers(name, scenario)), "redundant")
     if found in ERROR_CONTROLLED and scenario.duration > MOST_RUBBING * timescales(scenario).rubbing:

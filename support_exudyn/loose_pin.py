@@ -181,9 +181,9 @@ class LoosePin:
             self.largest_force = max(self.largest_force, math.hypot(force.normal_force, force.friction_force))
 
     def begin_impact(self) -> None:
-        """The drive's speed has jumped: the depth of a closed pin swings from now on."""
-        if self.locates and self.reached.depth > 0.0:
-            self.impact.begin(self.reached.depth, self.reached.rate, self._moving_mass(self.reached))
+        """At the start, or when the drive's speed has jumped: the depth of a closed pin swings from now on."""
+        if self.locates and self.kept.depth > 0.0:
+            self.impact.begin(self.kept.depth, self.kept.rate, self._moving_mass(self.kept))
 
     def _moving_mass(self, memory: PinMemory) -> float:
         """Mass [kg] that moves as the depth does, where the journal is now."""

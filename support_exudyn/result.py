@@ -222,18 +222,31 @@ def _read(group: h5py.Group) -> Result:
         for name, data in group["channels"].items()
     }
     _check_channels(channels)
+    coarser = _read(group["coarser"]) if "coarser" in group else None
+    if coarser is not None:
+        _check_coarser(channels, coarser.channels)
     return Result(
         scenario=Value.from_data(attribute("scenario")),
         channels=channels,
-        onsets={name: tuple(Onset(*row) for row in data[:].tolist()) for name, data in onsets.items()},
+        onsets={name: _onsets(name, data[:]) for name, data in onsets.items()},
         largest_force={name: float(data.attrs["largest_force_N"]) for name, data in onsets.items()},
         impulses=tuple(Impulse(**item) for item in attribute("impulses")),
         counts=Counts(**attribute("counts")),
         wall_time=float(group.attrs["wall_time_s"]),
         provenance=attribute("provenance"),
         goal=attribute("goal"),
-        coarser=_read(group["coarser"]) if "coarser" in group else None,
+        coarser=coarser,
     )
+
+
+def _onsets(name: str, rows: np.ndarray) -> tuple[Onset, ...]:
+    """Raises ValueError if they have not all of their columns."""
+    if rows.ndim != 2 or rows.shape[1] != len(Onset._fields):
+        raise ValueError(
+            f"onsets of {name!r} are of shape {rows.shape}; allowed: {len(Onset._fields)} columns, "
+            f"{', '.join(Onset._fields)}"
+        )
+    return tuple(Onset(*row) for row in rows.tolist())
 
 
 def _check_channels(channels: Mapping[str, Channel]) -> None:
@@ -247,3 +260,13 @@ def _check_channels(channels: Mapping[str, Channel]) -> None:
             )
     if not time.size or not np.isfinite(time).all() or not (np.diff(time) > 0.0).all():
         raise ValueError("the times of the records do not increase")
+
+
+def _check_coarser(channels: Mapping[str, Channel], coarser: Mapping[str, Channel]) -> None:
+    """Raise ValueError unless the run by which errors are estimated has all channels of the run."""
+    missing = [name for name in channels if name not in coarser]
+    if missing:
+        raise ValueError(
+            f"the coarser run lacks {len(missing)} channels, such as {missing[0]!r}; allowed: none, for errors "
+            "are estimated by all of them"
+        )

@@ -17,10 +17,12 @@ from typing import Any
 
 import exudyn
 
+from support_exudyn import engine_words
 from support_exudyn.audit import DEEPEST, SOFT, too_deep
 from support_exudyn.counts import Counts
 from support_exudyn.engine_scene import EngineScene
 from support_exudyn.engine_settings import SMALLEST_STEP, engine_settings, quiet_engine
+from support_exudyn.engine_words import explained, first_line
 from support_exudyn.errors import Failure, SimulationError
 from support_exudyn.impulse import Impulse
 from support_exudyn.onset import SHARE
@@ -30,6 +32,7 @@ from support_exudyn.smooth_steps import SmoothSteps
 from support_exudyn.steps import StepPlan
 from support_exudyn.stretches import Stretch, solve_in_stretches
 from support_exudyn.symbolic_drive import turns_by_itself
+from user_forces import Frictionless
 from user_forces.normal.law import LoadError
 
 REPEAT_ERROR = 1e6  # above any tolerance of the engine's discontinuous iteration: the step is repeated
@@ -110,6 +113,8 @@ class Run:
             pin.step_size = lambda: float(it.currentStepSize)
             pin.locates = self.locates
             pin.begin_try(0.0)
+            if self.scene.scenario.start != "settled":
+                pin.begin_impact()
         if self.scene.scenario.solver.constraint_index == 2:
             for parts in self.scene.driven:
                 parts.follow_speed()
@@ -126,9 +131,12 @@ class Run:
                 raise SimulationError(self._failure("a contact is overloaded", str(cause))) from error
             if cause is not None and not isinstance(cause, ArithmeticError):
                 raise cause from None
-            raise SimulationError(self._failure(_first_line(cause or error))) from error
+            if cause is None:
+                raise SimulationError(self._failure(explained(error), engine_words.ADVICE)) from error
+            raise SimulationError(self._failure(first_line(cause))) from error
         if not finished or self.time < self.plan.duration * (1.0 - 1e-9):
-            raise SimulationError(self._failure("the solver gave up"))
+            advice = f"{ADVICE} {STEEP}" if self.failures and self._has_friction() else ADVICE
+            raise SimulationError(self._failure("the solver gave up", advice))
         return Counts(
             steps=self.steps,
             cut_steps=self.cut_steps,
@@ -175,6 +183,7 @@ class Run:
         """A stretch of so many steps has ended at t [s]; so many had to be repeated."""
         self.steps += steps
         self.failed_newton += repeats
+        self._count()
         if t == 0.0 and self.recorder.integrates:  # before the speed jumps; the engine tells the start later
             self._audit(self.scene.mbs, t)
         self._at_stop(t, self.plan.break_at(t))
@@ -262,7 +271,10 @@ class Run:
             self._jump(breaking)
 
     def _is_to_be_cut(self, taken: float, following: float) -> bool:
-        """Whether much shorter steps follow on one of this length [s]: a loose pin touches or parts in the next."""
+        """Whether far shorter steps follow on one of this length [s], or the next will be cut.
+
+        It will if a loose pin touches or parts in it.
+        """
         if not self.pins or not self.locates:
             return False
         if following < taken / MUCH_SHORTER:
@@ -274,10 +286,19 @@ class Run:
                     return True
         return False
 
-    def _look_for_limits(self) -> None:
-        """Raise SimulationError if a journal is too deep in its bore, or there have been too many steps."""
+    def _has_friction(self) -> bool:
+        """Whether there is any in a pin."""
+        rough = (pin for pin in self.pins if not isinstance(pin.contact.friction, Frictionless))
+        return bool(self.frictions) or any(rough)
+
+    def _count(self) -> None:
+        """Raise SimulationError if there have been too many steps."""
         if self.steps + self.cut_steps + self.failed_newton > self.most_steps:
             raise SimulationError(self._failure(f"more than {self.most_steps} steps", FEWER_STEPS))
+
+    def _look_for_limits(self) -> None:
+        """Raise SimulationError if a journal is too deep in its bore, or there have been too many steps."""
+        self._count()
         if not self.scene.scenario.solver.audit:
             return
         for name, pin in self.scene.loose_pins.items():
@@ -372,8 +393,3 @@ def _smooth_steps(scene: EngineScene) -> SmoothSteps:
     return SmoothSteps(
         step, longest, scene.coordinate_masses(), math.sqrt(mass) * math.hypot(*scenario.gravity)
     )
-
-
-def _first_line(error: BaseException) -> str:
-    lines = [line.strip() for line in str(error).splitlines() if line.strip(" =*-")]
-    return lines[0] if lines else type(error).__name__

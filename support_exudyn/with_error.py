@@ -1,7 +1,7 @@
 """Runs at the steps that a scenario has, at half and at a quarter of them: every number has its error.
 
-The first two tell an error of the second. The third has to agree with the second within that error; else nothing
-is known of the numbers, and the run is refused.
+The first two tell an error of the second. The third has to agree with the second within that error; else
+nothing is known of the numbers, and the run is refused.
 """
 
 from __future__ import annotations
@@ -19,17 +19,17 @@ from support_exudyn.to_accuracy import with_measured
 SHARES = (1.0 / 7.0, 2.0 / 7.0, 4.0 / 7.0)  # of the work, run by run
 LARGEST_ERROR = 0.5  # of the worst number: beyond it a run tells nothing
 UNCERTAIN = (
-    "Take a smaller `step` and more `solver.impact_steps` (with steps below 2e-5 s rounding shows: then a larger "
-    "one), or ask for an accuracy. Where each of many touches multiplies the errors of those before, no step makes "
-    "such numbers certain: take a shorter duration."
+    "Take a smaller `step` and more `solver.impact_steps` (with steps below 2e-5 s rounding shows: then a "
+    "larger one), or ask for an accuracy. Where each of many touches multiplies the errors of those before, no "
+    "step makes such numbers certain: take a shorter duration."
 )
 
 
 def run_with_error(scenario: Scenario, progress: Progress) -> Result:
     """The run at a quarter of a scenario's steps, whose `coarser` ones are those at half of them and at them.
 
-    Raises InputError if the formulation does not cover the scenario, or has no finer settings; SimulationError if
-    a run fails, or if its numbers do not settle when steps are halved.
+    Raises InputError if the formulation does not cover the scenario, or has no finer settings; SimulationError
+    if a run fails, or if its numbers do not settle when steps are halved.
     """
     chosen, done, runs = with_measured(scenario), 0.0, []
     for share in SHARES:
@@ -41,8 +41,8 @@ def run_with_error(scenario: Scenario, progress: Progress) -> Result:
     told, moved = second.worst_error, disagreement(second, third)
     if not moved <= told:
         reason = (
-            f"its numbers do not settle: halving the steps tells an error of {told:.2g}, halving them again moves "
-            f"the numbers by {moved:.2g}"
+            f"its numbers do not settle: halving the steps tells an error of {told:.2g}, halving them again "
+            f"moves the numbers by {moved:.2g}"
         )
         raise SimulationError(Failure(reason, UNCERTAIN, scenario.duration))
     if not result.worst_error <= LARGEST_ERROR:

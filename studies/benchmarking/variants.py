@@ -22,6 +22,7 @@ TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
 IMPACT_STEPS = 512  # at the default step
 FIXED_STEPS = (2.0, 0.4, 0.1)  # times the default, of runs in which nothing is located
 FINEST_FIXED_STEP = 0.04  # tried besides where time allows
+AUDIT = False  # how wrong a way can be is what is looked at
 STOCK, BUILT_IN = "stock recipe", "built-in contact"
 
 
@@ -123,7 +124,7 @@ def _index_2(scene: Scene) -> Iterator[Way]:
 
 def redundant(scene: Scene, family: str, label: str, share: float, **settings: object) -> Way:
     """The redundant formulation at so many times the default step."""
-    chosen = {"impact_steps": round(IMPACT_STEPS / share), **settings}
+    chosen = {"impact_steps": round(IMPACT_STEPS / share), "audit": AUDIT, **settings}
     solver = SolverSettings(**chosen)  # type: ignore[arg-type]
     step = min(scene.step * share, scene.scenario.record_period)
     scenario = replace(scene.scenario, formulation="redundant", step=step, solver=solver)
@@ -138,7 +139,7 @@ def with_tolerance(
     tolerance: float,
 ) -> Way:
     """A formulation with error control."""
-    solver = SolverSettings(tolerance=tolerance, backend=backend)
+    solver = SolverSettings(tolerance=tolerance, backend=backend, audit=AUDIT)
     scenario = replace(scene.scenario, formulation=formulation, solver=solver)
     family = formulation if backend == "auto" else f"{formulation}, {backend}"
     return _way(family, f"tolerance {tolerance:.0e}", scene, scenario)

@@ -50,11 +50,12 @@ RANDOM = {
 
 def cases(quick: bool) -> list[Case]:
     """All of them, in the same order always."""
-    found = [*_maps(quick)]
-    for n, (group, numbers) in enumerate(RANDOM.items()):
-        for i in range(numbers[quick]):
-            found.append(_random(group, i, np.random.default_rng([SEED, n, i]), PACE[quick]))
-    return found
+    drawn_ones = (
+        _random(group, i, np.random.default_rng([SEED, n, i]), PACE[quick])
+        for n, (group, numbers) in enumerate(RANDOM.items())
+        for i in range(numbers[quick])
+    )
+    return [*_maps(quick), *drawn_ones]
 
 
 def _maps(quick: bool) -> Iterator[Case]:

@@ -50,27 +50,35 @@ class PeerRun:
 
 
 def touches(time: Sequence[float], depth: Sequence[float], rate: Sequence[float]) -> tuple[Onset, ...]:
-    """Touches from time [s], depth [m] and its rate [m/s] at the ends of all steps.
+    """Touches from time [s], depth [m] and its rate [m/s] at the ends of all steps, and how they end.
 
     Between two steps the depth is the cubic that fits depth and rate at both; where it passes zero is found by
     bisection, and its slope there is the speed.
     """
     t, d, r = (np.asarray(series, dtype=np.float64) for series in (time, depth, rate))
-    found = []
-    for n in np.flatnonzero((d[:-1] <= 0.0) & (d[1:] > 0.0)).tolist():
+    found: list[Onset] = []
+    for n in np.flatnonzero((d[:-1] <= 0.0) != (d[1:] <= 0.0)).tolist():
         h = float(t[n + 1] - t[n])
-        a, b = float(d[n + 1] - d[n]), h * float(r[n])
-        c = h * float(r[n + 1])
-        cubic = np.array([b + c - 2.0 * a, 3.0 * a - 2.0 * b - c, b, float(d[n])])
-        low, high = 0.0, 1.0
-        for _ in range(60):
-            x = 0.5 * (low + high)
-            if np.polyval(cubic, x) > 0.0:
-                high = x
-            else:
-                low = x
-        found.append(Onset(float(t[n]) + high * h, float(np.polyval(np.polyder(cubic), high)) / h))
+        x, slope = _crossing(float(d[n]), float(d[n + 1]), h * float(r[n]), h * float(r[n + 1]))
+        if d[n] <= 0.0:
+            found.append(Onset(float(t[n]) + x * h, slope / h))
+        elif found:  # else it began in contact
+            found[-1] = found[-1].parted(float(t[n]) + x * h, -slope / h)
     return tuple(found)
+
+
+def _crossing(first: float, last: float, first_slope: float, last_slope: float) -> tuple[float, float]:
+    """Where between 0 and 1 the cubic with these values and slopes at both passes zero, and its slope there."""
+    a, b, c = last - first, first_slope, last_slope
+    cubic = np.array([b + c - 2.0 * a, 3.0 * a - 2.0 * b - c, b, first])
+    low, high = 0.0, 1.0
+    for _ in range(60):
+        x = 0.5 * (low + high)
+        if (np.polyval(cubic, x) > 0.0) == (last > 0.0):
+            high = x
+        else:
+            low = x
+    return high, float(np.polyval(np.polyder(cubic), high))
 
 
 @contextmanager

@@ -256,8 +256,13 @@ class PlainRun:
         def value(t: float) -> float:
             return self._contact(t, path.at(t))[item]
 
-        if low >= high or (value(low) > 0.0) == (value(high) > 0.0):
+        if low >= high:
             return high
+        beyond = value(high) > 0.0
+        if (value(low) > 0.0) == beyond:  # the cubic by which it has been looked for is off in a long step
+            low = path.begin
+        if (value(low) > 0.0) == beyond:  # it has happened at the very start, say where tension was cut
+            return min(high, path.begin + SHORT)
         return float(brentq(value, low, high, xtol=1e-16, rtol=1e-15))
 
     def _accept(self, path: Path, start: State, end: State) -> None:

@@ -65,6 +65,8 @@ def run(scenario: Scenario, progress: Progress) -> Outcome:
         code, made.report[NOT_A_NUMBER] = STUCK, 1.0
     if code != FINISHED:
         raise SimulationError(_failure(code, made, scenario.solver.most_steps))
+    # the first record is of the state before the drive's speed jumps, as those of later jumps are
+    made.rows[layout.SPEED, 0] -= made.segments[0, layout.JUMP]
     progress(1.0)
     return _outcome(scenario, made, calls)
 

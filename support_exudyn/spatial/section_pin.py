@@ -218,8 +218,8 @@ class Journal:
             self._place = x, y
         return self._place
 
-    def accepted(self, was_in_contact: bool, onset: Onset | None) -> None:
-        """A section has kept a step: was it in contact before, and the touch in it, if there was one."""
+    def accepted(self, was_in_contact: bool, onset: Onset | None, t: float) -> None:
+        """A section has kept a step to t [s]: was it in contact before, and the touch in it, if any."""
         self._before.append((was_in_contact, onset))
         if len(self._before) < len(self.sections):
             return
@@ -227,10 +227,19 @@ class Journal:
         # a journal touches when all that was in contact before has parted
         if touches and all(touch is not None for was, touch in self._before if was):
             self.onsets.append(min(touches))
+        self._look_for_parting(t)
         self._before.clear()
         forces = [pin.force for pin in self.sections]
         if sum(f.normal_force + abs(f.friction_force) for f in forces) > self.largest_force:
             self.largest_force = max(self.largest_force, self._resultant())
+
+    def _look_for_parting(self, t: float) -> None:
+        """If in the step to t [s] the last sections have parted: note when, and the highest speed of these."""
+        if not self.onsets or any(pin.kept.in_contact for pin in self.sections):
+            return
+        parted = [-pin.kept.rate for pin, (was, _) in zip(self.sections, self._before, strict=True) if was]
+        if parted:
+            self.onsets[-1] = self.onsets[-1].parted(t, max(parted))
 
     def _resultant(self) -> float:
         """Magnitude of the force of all sections together [N]."""
@@ -343,7 +352,7 @@ class SectionPin(LoosePin):
         super().accept(t)
         if self.slides:
             self._beside = self.moving.beside(*self.moving.coordinates())
-        self.whole.accepted(*before)
+        self.whole.accepted(*before, t)
 
     def _place(self) -> Vector2:
         return self.whole.place()

@@ -9,6 +9,7 @@ from typing import Any
 import exudyn
 
 from support_exudyn.engine_settings import quiet_engine
+from support_exudyn.engine_words import explained
 from support_exudyn.errors import Failure, SimulationError
 from support_exudyn.onset import Mobility, Onset
 from support_exudyn.progress import Progress
@@ -101,7 +102,7 @@ class Integration:
         except exudyn.ExudynError as error:
             cause = error.__cause__  # set if a function of ours raised
             if cause is None:
-                raise SimulationError(self._failure("the engine gave up")) from error
+                raise SimulationError(self._failure(explained(error))) from error
             raise cause from None
         finally:
             self.engine.release()

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from support_exudyn import Held
+from support_exudyn.onset import Onset
 from support_exudyn.peers.built_in import Evaluator, run_built_in
 from support_exudyn.peers.peer_run import PeerRun, touches
 from support_exudyn.peers.stock import run_stock
@@ -91,7 +92,17 @@ def test_touches_are_those_of_the_cubic() -> None:
     # depth t - 0.35 at a rate of 1, looked at every 0.2 s
     time = np.arange(0.0, 1.1, 0.2)
     (touch,) = touches(time.tolist(), (time - 0.35).tolist(), np.ones(time.size).tolist())
-    assert touch == pytest.approx((0.35, 1.0), rel=1e-12)
+    assert touch == pytest.approx(Onset(0.35, 1.0), rel=1e-12)
+
+
+def test_a_touch_ends_where_the_cubic_passes_zero_again() -> None:
+    # depth (t - 0.35)(0.75 - t) at its rate, which is met exactly
+    time = np.arange(0.0, 1.1, 0.2)
+    depth, rate = (time - 0.35) * (0.75 - time), 1.1 - 2.0 * time
+    (touch,) = touches(time.tolist(), depth.tolist(), rate.tolist())
+    assert touch == pytest.approx(Onset(0.35, 0.4, 0.75, 0.4), rel=1e-12)  # rounding
+    # one that is in contact from the start on has not touched
+    assert touches(time[2:].tolist(), depth[2:].tolist(), rate[2:].tolist()) == ()
 
 
 def test_what_is_not_covered_is_refused() -> None:

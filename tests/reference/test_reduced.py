@@ -83,7 +83,7 @@ def test_ideal_pins(run: Run, t: float) -> None:
 def test_onsets_of_the_drop() -> None:
     result = simulate_reduced(loose_support(drive=Held(), duration=0.08), 1e-10)
     # half of the last printed digit
-    np.testing.assert_allclose(result.onsets[PIN], DROP, rtol=0, atol=6e-9)
+    np.testing.assert_allclose([onset[:2] for onset in result.onsets[PIN]], DROP, rtol=0, atol=6e-9)
 
 
 @pytest.mark.parametrize(("clearance", "mu"), RISE)
@@ -150,9 +150,12 @@ def test_a_drop_is_the_engines(damping: TouchSpeed | DepthSpeed, mu: float, bore
     first, second = (np.array(result.onsets[PIN]) for result in (theirs, ours))
     # the engine's errors at 256 steps an impact; each impact magnifies those of the last
     assert first.shape == second.shape
-    np.testing.assert_allclose(first[0], second[0], rtol=2e-7)
-    np.testing.assert_allclose(first[1], second[1], rtol=1e-5)
-    np.testing.assert_allclose(first[2:], second[2:], rtol=1e-2)
+    np.testing.assert_allclose(first[0, :2], second[0, :2], rtol=2e-7)
+    np.testing.assert_allclose(first[1, :2], second[1, :2], rtol=1e-5)
+    np.testing.assert_allclose(first[2:, :2], second[2:, :2], rtol=1e-2)
+    # a parting is where the first step behind it ends, and magnifies the impact's error: measured 3e-6, 3e-5
+    np.testing.assert_allclose(first[0, 2:], second[0, 2:], rtol=1e-4)
+    np.testing.assert_allclose(first[1:, 2:], second[1:, 2:], rtol=2e-2)
     for name, wrong in same_channels(ours, theirs).items():
         # 0.3 % after five impacts; a record beside a touch sees it before in one and after it in the other, and
         # the engine's columns overshoot just after a touch: hence the median, and the final state
@@ -215,7 +218,10 @@ def test_a_loose_support_on_columns_that_move_from_the_start_on(bore: str) -> No
     base = loose_support(0.5, 0.25, drive=Steady(rate=0.1), duration=0.05)
     scenario = replace(base, pins={PIN: replace(base.clearance_pins[PIN], bore=bore)})
     theirs, ours = simulate_redundant(scenario), simulate_reduced(scenario, 1e-8)
-    np.testing.assert_allclose(ours.onsets[PIN], theirs.onsets[PIN], rtol=1e-6)
+    one, other = (np.array(result.onsets[PIN]) for result in (ours, theirs))
+    np.testing.assert_allclose(one[:, :2], other[:, :2], rtol=1e-6)
+    # a parting is where the engine's first step behind it ends: measured 3e-6
+    np.testing.assert_allclose(one[:, 2:], other[:, 2:], rtol=3e-5)
     # two impacts of 512 steps each; measured 4e-4
     for name, wrong in same_channels(ours, theirs).items():
         assert wrong.max() < 2e-3, name
@@ -242,7 +248,8 @@ def test_plain_python_is_the_compiled_run(
     python, fast = (simulate_reduced(scenario, 1e-9, backend) for backend in ("python", "compiled"))
     assert python.counts.user_function_calls > 0
     assert fast.counts.user_function_calls == 0
-    # two methods at a tolerance of 1e-9 through four to six impacts; measured 2e-8 s and 2e-7 m/s
+    # two methods at a tolerance of 1e-9 through four to six impacts; measured 2e-8 s and 2e-7 m/s, and where
+    # a contact that is let go for tension parts, up to a nanosecond late
     np.testing.assert_allclose(python.onsets[PIN], fast.onsets[PIN], rtol=0, atol=1e-6)
     # measured 9e-6, in the friction force at slip speeds of its ramp
     for name, wrong in same_channels(python, fast).items():
@@ -298,3 +305,17 @@ def test_largest_force_is_that_of_the_peak_between_records(backend: str) -> None
         result = simulate_reduced(scenario, tolerance, backend)
         assert result.largest_force[PIN] == pytest.approx(fine[FORCE].max(), rel=close)
         assert result[FORCE].max() < result.largest_force[PIN]
+
+
+@pytest.mark.parametrize("loose", [False, True])
+@pytest.mark.parametrize("backend", ["python", "compiled"])
+def test_the_first_record_is_of_the_state_before_a_jump_at_the_start(loose: bool, backend: str) -> None:
+    drive = UniformSpeed(stroke=0.5, start=0.0, end=2.0)
+    scenario = (loose_support if loose else support)(drive=drive, duration=0.01)
+    ours, theirs = simulate_reduced(scenario, backend=backend), simulate_redundant(scenario)
+    assert ours["energy.kinetic"][0] == theirs["energy.kinetic"][0] == 0.0
+    for name in (name for name in ours.channels if "velocity" in name):
+        assert ours[name][0] == 0.0, name
+    # the jump's energy is work of the drive from then on; rounding of 1e5 J of potential energy
+    assert ours["energy.kinetic"][1] == pytest.approx(ours.impulses[0].energy, rel=2e-3)
+    assert ours.energy_error < 1e-8

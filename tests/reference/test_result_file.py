@@ -205,6 +205,17 @@ def test_a_coarser_run_that_is_no_group_is_refused(estimated: Result, tmp_path: 
         Result.load(path)
 
 
+@pytest.mark.parametrize("group", ["coarser", "coarser/coarser"])
+def test_a_coarser_run_without_a_channel_is_refused(estimated: Result, tmp_path: Path, group: str) -> None:
+    path = estimated.save(tmp_path / "run.h5")
+    with changed(path) as file:
+        del file[f"{group}/channels/pin.rear_base.force"]
+    with pytest.raises(
+        InputError, match=r"run\.h5: .*damaged \(the coarser run lacks .*'pin\.rear_base\.force'"
+    ):
+        Result.load(path)
+
+
 def test_a_file_of_another_version_says_so(result: Result, tmp_path: Path) -> None:
     path = result.save(tmp_path / "run.h5")
     image = path.read_bytes()[BLOCK:]

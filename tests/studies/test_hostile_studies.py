@@ -121,7 +121,6 @@ PLACES: dict[str, Callable[[Path], Path]] = {
     "below a file": below_a_file,
     "a dead link": a_dead_link,
     "too long": lambda path: path / ("x" * 300),
-    "with a NUL": lambda path: path / "a\0b",
 }
 
 
@@ -138,6 +137,17 @@ def test_a_folder_that_cannot_be_made_is_said_before_the_work(
     assert all(line.startswith("error: --out ") and "allowed: a folder" in line for line in lines)
     assert report.main(["--out", str(out)]) == 1
     assert capsys.readouterr().err.startswith("error: ")
+
+
+def test_a_folder_whose_name_no_folder_can_have_is_said_before_the_work(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "a\0b"
+    assert run_main(nothing, Options(out, True, 1)) == 1
+    assert "allowed: a folder" in capsys.readouterr().err
+    with pytest.raises(SystemExit):
+        all_studies.main(["--quick", "--out", str(out)])
+    assert "allowed: a name that a folder can have" in capsys.readouterr().err
 
 
 @posix_only

@@ -5,12 +5,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.ranges import from_zero
 from user_forces import Ambrosio, Frictionless, InputError
 
 LAW = Ambrosio(sliding_coefficient=0.25, static_speed=1e-4, dynamic_speed=1e-2)
 slips = st.floats(-1.0, 1.0)
 forces = st.floats(0.0, 1e6)
-coefficients = st.floats(0.0, 2.0)
+coefficients = from_zero(2.0)
 
 
 @pytest.mark.parametrize("slip", [0.0, 5e-5, -5e-5, 1e-4, -1e-4])
@@ -29,9 +30,7 @@ def test_half_the_force_in_the_middle_of_the_ramp() -> None:
     assert LAW(middle, 1000.0) == pytest.approx(-125.0, rel=1e-13)
 
 
-@given(
-    slip=slips, force=forces, coefficient=coefficients, static=st.floats(0.0, 0.1), width=st.floats(1e-3, 0.1)
-)
+@given(slip=slips, force=forces, coefficient=coefficients, static=from_zero(0.1), width=st.floats(1e-3, 0.1))
 def test_all_three_branches_are_one_clipped_ramp(
     slip: float, force: float, coefficient: float, static: float, width: float
 ) -> None:

@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.analytic import adams_step, contact_time, greatest_depth
+from tests.ranges import from_zero
 from tests.unit.law_cases import NORMAL_LAWS, kind_of, law_rebound
 from user_forces import AdamsImpact, Anagnostopoulos, Hertz, InputError, KelvinVoigt, NormalLaw, Touch
 from user_forces.normal.kelvin_voigt import cut_dashpot_restitution
@@ -19,6 +20,12 @@ masses = st.floats(0.5, 5e3)
 speeds = st.floats(0.02, 2.0)
 depths = st.floats(1e-7, 1e-3)
 rates = st.floats(-2.0, 2.0)
+
+
+def damps(zeta: float) -> bool:
+    """Whether a damping ratio is zero, or makes a damping that values take."""
+    return zeta == 0.0 or zeta > 1e-20
+
 
 # From the table in notes.md: restitution asked for, damping ratio, what is delivered with the tension cut
 ANAGNOSTOPOULOS = [
@@ -39,7 +46,7 @@ COMMON = AdamsImpact(stiffness=1e5 * 1000.0**1.5, full_damping=50.0 * 1000.0, fu
 # --- Kelvin and Voigt ---
 
 
-@given(stiffness=stiffnesses, damping=st.floats(0.0, 1e6), depth=depths, rate=rates)
+@given(stiffness=stiffnesses, damping=from_zero(1e6), depth=depths, rate=rates)
 def test_spring_and_dashpot_add_up(stiffness: float, damping: float, depth: float, rate: float) -> None:
     law = KelvinVoigt(stiffness=stiffness, damping=damping)
     assert law(depth, rate, Touch(0.2, 3.0)) == stiffness * depth + damping * rate
@@ -91,7 +98,7 @@ def test_stronger_dashpot_delivers_less(zeta: float, more: float) -> None:
 
 
 @settings(max_examples=30)
-@given(zeta=st.floats(0.0, 3.0), stiffness=stiffnesses, mass=masses, speed=speeds)
+@given(zeta=from_zero(3.0).filter(damps), stiffness=stiffnesses, mass=masses, speed=speeds)
 def test_kelvin_voigt_delivers_in_an_impact_what_it_says(
     zeta: float, stiffness: float, mass: float, speed: float
 ) -> None:

@@ -10,13 +10,14 @@ from scipy.integrate import quad
 
 from support_exudyn import CubicStep, Drive, Held, Reciprocating, Steady, UniformSpeed
 from tests.analytic import adams_step
+from tests.ranges import from_zero
 from user_forces import InputError, Value
 
 Stroke = CubicStep | UniformSpeed
 
 kinds = st.sampled_from([CubicStep, UniformSpeed])
 strokes = st.floats(-2.0, 2.0)
-starts = st.floats(0.0, 5.0)
+starts = from_zero(5.0)
 lengths = st.floats(0.1, 5.0)
 times = st.floats(-1.0, 12.0)
 rates = st.floats(-1e3, 1e3)

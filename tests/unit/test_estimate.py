@@ -39,7 +39,10 @@ def scaled(factor: float) -> Result:
         name: channel if name == "time" else replace(channel, values=factor * channel.values)
         for name, channel in run.channels.items()
     }
-    onsets = {pin: tuple(Onset(factor * t, factor * v) for t, v in row) for pin, row in run.onsets.items()}
+    onsets = {
+        pin: tuple(Onset(*(factor * number for number in onset)) for onset in row)
+        for pin, row in run.onsets.items()
+    }
     largest = {pin: factor * force for pin, force in run.largest_force.items()}
     return replace(run, channels=channels, onsets=onsets, largest_force=largest)
 

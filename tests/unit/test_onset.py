@@ -15,6 +15,7 @@ from support_exudyn.onset import (
     SHARE,
     Action,
     Mobility,
+    Onset,
     PinMemory,
     Verdict,
     judge,
@@ -210,19 +211,19 @@ def test_touch_exactly_at_the_end_is_found_in_the_next_step() -> None:
     following = judge(at_end.memory, float(depth(2 * H)), 0.5, 2 * H, H, any_speed(H), False)
     assert following.action is Action.REPEAT
     # rounding
-    assert following.onset == pytest.approx((H, 0.5), rel=1e-14)
+    assert following.onset == pytest.approx(Onset(H, 0.5), rel=1e-14)
 
 
 def test_a_pin_pressed_in_without_contact_begins_it_at_once() -> None:
     verdict, memory = judged(Polynomial([1e-5, 0.2]))
     assert verdict.action is Action.REPEAT
-    assert verdict.onset == (0.0, 0.2)
+    assert verdict.onset == Onset(0.0, 0.2)
     assert verdict.memory == memory_of(True, 0.2, memory.depth, memory.rate)
 
 
 def test_approach_speed_is_never_negative() -> None:
     verdict, _ = judged(Polynomial([1e-5, -0.001]))
-    assert verdict.onset == (0.0, 0.0)
+    assert verdict.onset == Onset(0.0, 0.0)
 
 
 # --- up and down within one step ---
@@ -247,7 +248,7 @@ def test_a_graze_that_begins_near_the_start_repeats_the_step() -> None:
     verdict, _ = judged(100.0 * ((r * H) ** 2 - t**2))
     assert verdict.action is Action.REPEAT
     # the root of a parabola: rounding of depths of 0.025 mm at a slope of 0.1 m/s, of a time of SHARE/2 steps
-    assert verdict.onset == pytest.approx((0.5 * SHARE * H, 2.0 * 100.0 * r * H), rel=1e-11)
+    assert verdict.onset == pytest.approx(Onset(0.5 * SHARE * H, 2.0 * 100.0 * r * H), rel=1e-11)
 
 
 @given(top=st.floats(0.1, 0.9), below=st.floats(0.01, 1.0))
@@ -522,7 +523,7 @@ def at_ends(start: PinMemory, depth: float, rate: float, forgets: bool = False) 
 def test_a_touch_counts_from_the_end_of_its_step() -> None:
     verdict = at_ends(memory_of(False, 0.0, -3e-4, 0.4), 1e-4, 0.5)
     # the straight line from -0.3 to 0.1 mm passes zero after three quarters of the step; rounding
-    assert verdict.onset == pytest.approx((1.75 * H, 0.5), rel=1e-14)
+    assert verdict.onset == pytest.approx(Onset(1.75 * H, 0.5), rel=1e-14)
     assert verdict._replace(onset=None) == accepted(memory_of(True, 0.5, 1e-4, 0.5))
 
 

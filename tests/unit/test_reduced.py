@@ -83,6 +83,9 @@ class Softened(LankaraniNikravesh):
     def elastic_force(self, depth: float) -> float:
         return 0.5 * super().elastic_force(depth)
 
+    def elastic_energy(self, depth: float) -> float:
+        return 0.5 * super().elastic_energy(depth)
+
 
 def crank(**changes: Any) -> Scenario:
     """The slider-crank with a loose slider pin."""
