@@ -28,6 +28,8 @@ SOFT = (
 # energy, losses and work. The reference support closes to 1e-5.
 OPEN = 0.05
 ROUNDING = 1e-8  # [m] by which the weight of all bodies would have to be lifted to make up for rounding
+ENERGY = "energy."
+TURNED = ("kinetic", "potential", "elastic", "damping_loss", "friction_loss", "work")
 COARSE = (
     "Steps are too long for what happens in them: take a smaller `step` or more `solver.impact_steps`, look "
     "whether friction is steep (its ramp from static to dynamic speed), or ask for an accuracy."
@@ -80,14 +82,18 @@ def energy_open(scenario: Scenario, channels: Mapping[str, Channel]) -> tuple[Se
 
     Zeros if energies are not recorded.
     """
-    names = ("balance", "kinetic", "potential", "elastic", "damping_loss", "friction_loss", "work")
-    found = [channels[f"energy.{name}"].values for name in names if f"energy.{name}" in channels]
-    if len(found) < len(names):
+    names = (ENERGY + "balance", *(ENERGY + name for name in TURNED))
+    if any(name not in channels for name in names):
         return np.zeros(1), 0.0
-    balance, *energies = found
     weight = float(np.hypot(*scenario.gravity)) * sum(body.mass for body in scenario.linkage.bodies.values())
-    turned_over = sum(float(np.abs(energy - energy[0]).max()) for energy in energies) + float(energies[0][0])
-    return np.abs(balance), OPEN * turned_over + ROUNDING * weight
+    allowed = OPEN * turned_over(channels) + ROUNDING * weight
+    return np.abs(channels[ENERGY + "balance"].values), allowed
+
+
+def turned_over(channels: Mapping[str, Channel]) -> float:
+    """Energy that changed hands in a run [J]: how far each kind of it went, and the motion at the start."""
+    energies = [channels[ENERGY + name].values for name in TURNED]
+    return sum(float(np.abs(energy - energy[0]).max()) for energy in energies) + float(energies[0][0])
 
 
 def joints_apart(scenario: Scenario, outcome: Outcome) -> Series | None:

@@ -1,0 +1,1 @@
+"""Runs at the edge of what the program can do."""
