@@ -100,9 +100,7 @@ def scene(name: str, duration: float = FULL) -> Scenario:
 def _support(duration: float, sliding_coefficient: float | None = None, drive: Drive | None = None) -> Scenario:
     pin = paper_machine.LOOSE_PIN
     loose = (
-        {}
-        if sliding_coefficient is None
-        else {pin: paper_machine.loose_pin(CLEARANCE_MM, sliding_coefficient)}
+        {} if sliding_coefficient is None else {pin: paper_machine.loose_pin(CLEARANCE_MM, sliding_coefficient)}
     )
     return Scenario(
         machine=reference_support(),
