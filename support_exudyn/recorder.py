@@ -5,7 +5,6 @@ from __future__ import annotations
 from array import array
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import exudyn
 import numpy as np
@@ -65,8 +64,7 @@ class Recorder:
         self._frictions = tuple(scene.frictions.values())
         self._loads = tuple(scene.loads.values())
         self._mbs = scene.mbs
-        # numbers one behind the other: a long run keeps thousands of records, and an object each would take more
-        # than what is in them
+        # numbers one behind the other: with an object for each part of a record they take three times as much
         self._time = array("d")
         self._states = tuple(array("d") for _ in STATE)
         self._totals = array("d")

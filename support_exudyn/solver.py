@@ -223,8 +223,8 @@ class Run:
             return [0.0, -1.0]
         if shortest == math.inf:
             return [REPEAT_ERROR, -1.0]
-        # so that the step ends at a time that has no rounding: else drives, which are asked for that time, move on
-        # by another one than the step, and late in a long run forces show it
+        # to a time that has no rounding: else drives, which are asked for that time, would move on by another
+        # one than the step, and late in a long run forces would show it
         exact = (self.time + shortest) - self.time
         return [REPEAT_ERROR, exact if exact > SMALLEST_IMPACT_STEP else shortest]
 

@@ -58,13 +58,13 @@ STATUS = Path("/proc/self/status")
 class LongRun:
     """What a long run came to.
 
-    scene, simulated, wall: name, [s], [s]. steps, touches: numbers. gap_first, gap_last: largest distance of what
-    is joined in the first and the last tenth of the run [m]. gap_slope: of the line through all [m/s].
-    energy_first, energy_open: by how much the balance is open at the end of the first tenth and of the run [J].
+    scene, simulated, wall: name, [s], [s]. steps, touches: numbers. gap_first, gap_last: largest distance of
+    what is joined, in the first and the last tenth of the run [m]. gap_slope: of the line through all [m/s].
+    energy_first, energy_open: by how much the balance is open after the first tenth and at the end [J].
     turned_over: kinetic, potential and elastic energy, losses and work that changed hands [J].
     memory_first, memory_end: resident after a tenth and at the end [bytes]. memory_slope: their difference less
-    what records and touches take, by simulated time [bytes/s]; nan where the system does not tell. late: largest
-    distance of a record from its time [s].
+    what records and touches take, by simulated time [bytes/s]; nan where the system does not tell.
+    late: largest distance of a record from its time [s].
     """
 
     scene: str
@@ -212,15 +212,15 @@ def _measured(
         turned_over=turned_over(found),
         memory_first=memory[1],
         memory_end=memory[2],
-        memory_slope=(memory[2] - memory[1] - kept) / (scenario.duration * (1.0 - 1.0 / PARTS)),
+        memory_slope=float(memory[2] - memory[1] - kept) / (scenario.duration * (1.0 - 1.0 / PARTS)),
         late=float(np.abs(times - nominal).max()),
     )
 
 
 def slope(times: Series, values: Series) -> float:
     """Of the straight line that fits values best, per second."""
-    line: Series = np.polynomial.Polynomial.fit(times, values, 1).convert().coef
-    return float(line[1]) if line.size > 1 else 0.0
+    apart = times - times.mean()
+    return float(apart @ values / (apart @ apart))
 
 
 def record_bytes(scenario: Scenario) -> int:
