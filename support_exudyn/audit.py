@@ -97,7 +97,7 @@ def turned_over(channels: Mapping[str, Channel]) -> float:
 
 
 def joints_apart(scenario: Scenario, outcome: Outcome) -> Series | None:
-    """Largest distance of what ideal pins and rigid columns hold together, at the records (n,) [m].
+    """Largest distance of what ideal pins, rigid columns and guides hold together, at the records (n,) [m].
 
     None for runs in space, and if the motion was not recorded.
     """
@@ -117,4 +117,8 @@ def joints_apart(scenario: Scenario, outcome: Outcome) -> Series | None:
             drive = scenario.drive_of(name)
             wanted = column.start_length + np.array([drive.extension(t) for t in time.tolist()])
             gaps = np.maximum(gaps, np.abs(np.hypot(*span.T) - wanted))
+    for slide in linkage.slides.values():
+        apart = motion.place(slide.body, slide.point) - motion.place(slide.against, slide.point)
+        along = slide.direction + motion.turn(slide.against)
+        gaps = np.maximum(gaps, np.abs(np.cos(along) * apart[:, 1] - np.sin(along) * apart[:, 0]))
     return gaps
