@@ -1,8 +1,8 @@
 """Do runs stay right for long? Joints, energy and memory over a thousand seconds.
 
 The reference support raised and lowered by 100 mm every 4 s, with ideal pins, with 1.5 mm in the rear-link pin,
-with friction there, and on oil columns; held at rest; and a slider-crank with a loose slider pin, closed or
-rattling, that turns for as long. A run is measured in the process that calls; for memory that should be a fresh one.
+with friction there, and on oil columns; held at rest; and a slider-crank with a loose slider pin that turns for
+as long. A run is measured in the process that calls; for memory that should be a fresh one.
 """
 
 from __future__ import annotations
@@ -38,20 +38,17 @@ from support_exudyn.trajectory import Outcome
 
 Series = npt.NDArray[np.float64]
 FULL, QUICK = 1000.0, 20.0  # [s]
-RATTLE_FULL, RATTLE_QUICK = 100.0, 2.0  # [s]; it takes two seconds and more for each
 STROKE, PERIOD = 0.1, 4.0  # [m], [s]
 CLEARANCE_MM = 1.5
 CRANK_SPEED = 10.0  # [rad/s]
 RECORD_PERIOD = 0.05  # [s]
 STEP = 2e-3  # [s]
-RATTLE_STEP = 5e-4  # [s]
-WEIGHT = (0.0, -9.81)  # [m/s^2]
 GROWTH = 8.0
 AT_REST = 64.0  # the same where nothing moves
 IMPACT_STEPS = 64
 MOST_STEPS = 10**9
 IDEAL, SMOOTH, DRY, OIL, REST = "ideal pins", "1.5 mm", "friction", "oil columns", "at rest"
-CRANK, RATTLE = "crank", "rattling crank"
+CRANK = "crank"
 PARTS = 10  # of a run: the first is compared with the last
 NUMBER = 8  # [bytes]
 TOUCH = 168  # an Onset of four numbers in a list of CPython [bytes]
@@ -101,13 +98,6 @@ def scene(name: str, duration: float) -> Scenario:
     return SCENES[name](duration)
 
 
-def duration(name: str, quick: bool) -> float:
-    """How long a scene is run [s]."""
-    if name == RATTLE:
-        return RATTLE_QUICK if quick else RATTLE_FULL
-    return QUICK if quick else FULL
-
-
 def _support(duration: float, sliding_coefficient: float | None = None, drive: Drive | None = None) -> Scenario:
     pin = paper_machine.LOOSE_PIN
     loose = (
@@ -140,26 +130,18 @@ def _crank(duration: float) -> Scenario:
 
     It rattles for seconds and stays closed from then on.
     """
-    return replace(_rattle(duration), pins=_field(slider_crank.DRY).pins, gravity=WEIGHT, step=STEP)
-
-
-def _rattle(duration: float) -> Scenario:
-    """The same without friction and weight, whose pin parts and touches a hundred times a second."""
     return replace(
-        _field(slider_crank.SMOOTH),
+        slider_crank.scenarios(quick=True)[slider_crank.DRY],
         drive=Steady(rate=CRANK_SPEED),
         duration=duration,
         formulation="redundant",
-        step=RATTLE_STEP,
+        step=STEP,
         record_period=RECORD_PERIOD,
+        gravity=(0.0, -9.81),
         solver=SolverSettings(
             impact_steps=IMPACT_STEPS, growth=GROWTH, backend="symbolic", most_steps=MOST_STEPS
         ),
     )
-
-
-def _field(case: str) -> Scenario:
-    return slider_crank.scenarios(quick=True)[case]
 
 
 SCENES: dict[str, Callable[[float], Scenario]] = {
@@ -169,7 +151,6 @@ SCENES: dict[str, Callable[[float], Scenario]] = {
     OIL: _on_oil,
     REST: lambda duration: _support(duration, 0.0, Held()),
     CRANK: _crank,
-    RATTLE: _rattle,
 }
 
 
