@@ -29,6 +29,8 @@ SOFT = (
 OPEN = 0.05
 ROUNDING = 1e-8  # [m] by which the weight of all bodies would have to be lifted to make up for rounding
 ROUNDING_AT_REST = 1e-12  # [J/kg], of bodies that nothing moves: that of a speed of a micrometre a second
+ENERGY = "energy."
+TURNED = ("kinetic", "potential", "elastic", "damping_loss", "friction_loss", "work")
 COARSE = (
     "Steps are too long for what happens in them: take a smaller `step` or more `solver.impact_steps`, look "
     "whether friction is steep (its ramp from static to dynamic speed), or ask for an accuracy."
@@ -81,19 +83,23 @@ def energy_open(scenario: Scenario, channels: Mapping[str, Channel]) -> tuple[Se
 
     Zeros if energies are not recorded.
     """
-    names = ("balance", "kinetic", "potential", "elastic", "damping_loss", "friction_loss", "work")
-    found = [channels[f"energy.{name}"].values for name in names if f"energy.{name}" in channels]
-    if len(found) < len(names):
+    names = (ENERGY + "balance", *(ENERGY + name for name in TURNED))
+    if any(name not in channels for name in names):
         return np.zeros(1), 0.0
-    balance, *energies = found
     mass = sum(body.mass for body in scenario.linkage.bodies.values())
     rounding = (ROUNDING * float(np.hypot(*scenario.gravity)) + ROUNDING_AT_REST) * mass
-    turned_over = sum(float(np.abs(energy - energy[0]).max()) for energy in energies) + float(energies[0][0])
-    return np.abs(balance), OPEN * turned_over + rounding
+    allowed = OPEN * turned_over(channels) + rounding
+    return np.abs(channels[ENERGY + "balance"].values), allowed
+
+
+def turned_over(channels: Mapping[str, Channel]) -> float:
+    """Energy that changed hands in a run [J]: how far each kind of it went, and the motion at the start."""
+    energies = [channels[ENERGY + name].values for name in TURNED]
+    return sum(float(np.abs(energy - energy[0]).max()) for energy in energies) + float(energies[0][0])
 
 
 def joints_apart(scenario: Scenario, outcome: Outcome) -> Series | None:
-    """Largest distance of what ideal pins and rigid columns hold together, at the records (n,) [m].
+    """Largest distance of what ideal pins, rigid columns and guides hold together, at the records (n,) [m].
 
     None for runs in space, and if the motion was not recorded.
     """
@@ -113,4 +119,8 @@ def joints_apart(scenario: Scenario, outcome: Outcome) -> Series | None:
             drive = scenario.drive_of(name)
             wanted = column.start_length + np.array([drive.extension(t) for t in time.tolist()])
             gaps = np.maximum(gaps, np.abs(np.hypot(*span.T) - wanted))
+    for slide in linkage.slides.values():
+        apart = motion.place(slide.body, slide.point) - motion.place(slide.against, slide.point)
+        along = slide.direction + motion.turn(slide.against)
+        gaps = np.maximum(gaps, np.abs(np.cos(along) * apart[:, 1] - np.sin(along) * apart[:, 0]))
     return gaps

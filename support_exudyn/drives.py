@@ -208,11 +208,19 @@ class Reciprocating(Drive):
 
     def extension(self, t: float) -> float:
         """Extension [m] at time t [s]."""
-        return 0.5 * self.stroke * (1.0 - cos(self.frequency * t))
+        return 0.5 * self.stroke * (1.0 - cos(self._phase(t)))
 
     def speed(self, t: float) -> float:
         """Speed [m/s] at time t [s]."""
-        return 0.5 * self.stroke * self.frequency * sin(self.frequency * t)
+        return 0.5 * self.stroke * self.frequency * sin(self._phase(t))
+
+    def _phase(self, t: float) -> float:
+        """Angle [rad] of the cosine.
+
+        Whole periods are left out, which is exact. With them the angle would be rounded the more the longer
+        the run: after 1000 s positions by 1e-14 m, and accelerations by that over the step squared.
+        """
+        return self.frequency * (math.fmod(t, self.period) if is_number(t) else t)
 
     @property
     def breaks(self) -> tuple[float, ...]:

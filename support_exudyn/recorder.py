@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from array import array
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import exudyn
 import numpy as np
@@ -64,7 +64,10 @@ class Recorder:
         self._frictions = tuple(scene.frictions.values())
         self._loads = tuple(scene.loads.values())
         self._mbs = scene.mbs
-        self._rows: list[tuple[Any, ...]] = []
+        # numbers one behind the other: with an object for each part of a record they take three times as much
+        self._time = array("d")
+        self._states = tuple(array("d") for _ in STATE)
+        self._totals = array("d")
         self._powers_now = (0.0, 0.0, 0.0)  # [W]
         self._start: StepEnd | None = None  # of the step going on
 
@@ -93,8 +96,7 @@ class Recorder:
         state = between(self._start, self._state(end), t)
         # in contact or not, with which touch: as over all of the step
         state.memory[:, :2] = self._start.memory[:, :2]
-        kept = (part if keep else () for part, keep in zip(state[1:6], self._kept, strict=True))
-        self._rows.append((t, *kept, *state.totals.tolist()))
+        self._keep(t, state[1:6], state.totals.tolist())
 
     def _state(self, t: float) -> StepEnd:
         data = self._data
@@ -113,17 +115,25 @@ class Recorder:
         """Keep the state at time t [s]."""
         data = self._data
         position, velocity, acceleration, multiplier, memory = self._kept
-        self._rows.append(
+        self._keep(
+            t,
             (
-                t,
-                data.GetODE2Coordinates() if position else (),
-                data.GetODE2Coordinates_t() if velocity else (),
-                data.GetODE2Coordinates_tt() if acceleration else (),
-                data.GetAECoordinates() if multiplier else (),
-                tuple(pin.kept for pin in self._pins) if memory else (),
-                *self.energies.totals,
-            )
+                data.GetODE2Coordinates() if position else None,
+                data.GetODE2Coordinates_t() if velocity else None,
+                data.GetODE2Coordinates_tt() if acceleration else None,
+                data.GetAECoordinates() if multiplier else None,
+                _memories([pin.kept for pin in self._pins]) if memory else None,
+            ),
+            self.energies.totals,
         )
+
+    def _keep(self, t: float, state: Sequence[Series | None], totals: Sequence[float]) -> None:
+        """Add a record; parts of the state that are not to be kept may be None."""
+        self._time.append(t)
+        for rows, part, keep in zip(self._states, state, self._kept, strict=True):
+            if keep and part is not None:
+                rows.frombytes(part.tobytes())
+        self._totals.extend(totals)
 
     def _length(self, item: OilColumnItem) -> tuple[float, float]:
         """Length [m] of an oil column and its rate [m/s]."""
@@ -135,9 +145,20 @@ class Recorder:
 
     def history(self) -> History:
         """What has been recorded so far."""
-        columns = [list(column) for column in zip(*self._rows, strict=True)]
-        columns[5] = [_memories(row) for row in columns[5]]
-        return History(*(np.array(column) for column in columns))
+        time = np.array(self._time)
+        position, velocity, acceleration, multiplier, memory = (
+            np.array(rows).reshape(time.size, len(rows) // max(1, time.size)) for rows in self._states
+        )
+        pins = memory.shape[1] // len(PinMemory._fields)
+        return History(
+            time,
+            position,
+            velocity,
+            acceleration,
+            multiplier,
+            memory.reshape(time.size, pins, len(PinMemory._fields)),
+            *np.array(self._totals).reshape(time.size, 3).T,
+        )
 
     def _powers(self, t: float) -> tuple[float, float, float]:
         """Power [W] of the drive, of damping and of friction at the end of a step."""

@@ -231,7 +231,12 @@ class Run:
                 again, shortest = True, min(shortest, step)
         if not again:
             return [0.0, -1.0]
-        return [REPEAT_ERROR, shortest if shortest < math.inf else -1.0]
+        if shortest == math.inf:
+            return [REPEAT_ERROR, -1.0]
+        # to a time that has no rounding: else drives, which are asked for that time, would move on by another
+        # one than the step, and late in a long run forces would show it
+        exact = (self.time + shortest) - self.time
+        return [REPEAT_ERROR, exact if exact > SMALLEST_IMPACT_STEP else shortest]
 
     def _after_step(self, mbs: Any, t: float) -> bool:
         """After every accepted step, and once at the start."""

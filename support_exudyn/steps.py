@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from bisect import bisect_left, bisect_right
 from collections.abc import Iterable
 
 import numpy as np
@@ -32,7 +33,9 @@ class StepPlan:
         # one that differs from the end by rounding only is the end
         self.breaks = sorted(t for t in set(breaks) if 0.0 <= t < duration - self._tolerance)
         self._around = (math.inf, math.inf)  # the stops last asked for [s]
-        self._after_breaks = [(b, self.next_time(b) - self._tolerance) for b in self.breaks]
+        self._after_breaks = [
+            self.next_time(b) - self._tolerance for b in self.breaks
+        ]  # ends of steps from them
 
     def next_time(self, t: float, largest: float = math.inf) -> float:
         """The next grid time after t [s]; on a finer grid if steps may not be larger than so [s]."""
@@ -43,7 +46,8 @@ class StepPlan:
 
         The next time of a grid of such steps if it reaches none.
         """
-        stop = min((b for b in self.breaks if b > t + self._tolerance), default=self.duration)
+        passed = self._breaks_until(t)
+        stop = self.breaks[passed] if passed < len(self.breaks) else self.duration
         reached = math.floor((t + size + self._tolerance) / self.record_period) * self.record_period
         if reached <= t + self._tolerance:
             return self._grid_time(t, size)
@@ -73,7 +77,7 @@ class StepPlan:
         done = math.floor((t - before + self._tolerance) / size)
         if abs(t - before - done * size) > self._tolerance:  # not on this grid
             return self.next_time(t, largest), 1
-        end = min((end for b, end in self._after_breaks if b - self._tolerance <= t < end), default=math.inf)
+        end = self._end_after_break(t)
         if largest < self.step and end < after - 2.0 * self._tolerance:
             steps = math.ceil((end - t) / size)
             if done + steps < parts:
@@ -88,7 +92,16 @@ class StepPlan:
 
     def follows_break(self, t: float) -> bool:
         """Whether t [s] lies in the first grid step after a break, its end excluded."""
-        return any(b - self._tolerance <= t < end for b, end in self._after_breaks)
+        return self._end_after_break(t) < math.inf
+
+    def _end_after_break(self, t: float) -> float:
+        """Where the first grid step after a break ends that t [s] lies in [s]; infinite if it lies in none."""
+        passed = self._breaks_until(t)
+        return self._after_breaks[passed - 1] if passed and t < self._after_breaks[passed - 1] else math.inf
+
+    def _breaks_until(self, t: float) -> int:
+        """How many breaks are not after t [s]. There may be thousands, and every step asks."""
+        return bisect_right(self.breaks, t + self._tolerance)
 
     def is_record(self, t: float) -> bool:
         """Whether time t [s] is one of the records."""
@@ -99,7 +112,7 @@ class StepPlan:
 
     def break_at(self, t: float) -> float | None:
         """The break that time t [s] is, if it is one."""
-        for b in self.breaks:
+        for b in self.breaks[bisect_left(self.breaks, t - 2.0 * self._tolerance) : self._breaks_until(t) + 1]:
             if abs(t - b) <= self._tolerance:
                 return b
         return None
@@ -114,11 +127,11 @@ class StepPlan:
     def _find_stops(self, t: float) -> tuple[float, float]:
         n = math.floor((t + self._tolerance) / self.record_period)
         before, after = n * self.record_period, min((n + 1) * self.record_period, self.duration)
-        for b in self.breaks:
-            if before < b <= t + self._tolerance:
-                before = b
-            elif t + self._tolerance < b < after:
-                after = b
+        passed = self._breaks_until(t)
+        if passed:
+            before = max(before, self.breaks[passed - 1])
+        if passed < len(self.breaks):
+            after = min(after, self.breaks[passed])
         if self.duration - after <= self._tolerance:
             after = self.duration
         return before, after
