@@ -10,6 +10,7 @@ from studies import (
     clearance_size,
     contact_laws,
     drive_mode,
+    extremes,
     scene_detail,
     slider_crank,
     speed_accuracy,
@@ -25,4 +26,5 @@ STUDIES: dict[str, Callable[[Options], None]] = {
     contact_laws.STUDY: contact_laws.study,
     slider_crank.STUDY: slider_crank.study,
     speed_accuracy.STUDY: speed_accuracy.study,
+    extremes.STUDY: extremes.study,
 }

@@ -187,12 +187,15 @@ def run_cases(runs: Mapping[str, Scenario], workers: int | Workers) -> dict[str,
     return good
 
 
-def write_summary(out: Path, study: str, numbers: Sequence[Number], wall_s: float) -> Path:
-    """Write DIR/summary.json: study, versions, wall time and all numbers."""
+def write_summary(
+    out: Path, study: str, numbers: Sequence[Number], wall_s: float, counts: Mapping[str, int] | None = None
+) -> Path:
+    """Write DIR/summary.json: study, versions, wall time, counts of the study's own, and all numbers."""
     summary = {
         "study": study,
         "versions": versions(),
         "wall_s": round(wall_s, 3),
+        **(counts or {}),
         "numbers": [asdict(number) for number in numbers],
     }
     path = out / "summary.json"

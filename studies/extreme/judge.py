@@ -60,9 +60,8 @@ class Verdict:
 
     outcome: good, refused or silent. reason: why not good. error: reported, relative, of the worst number.
     half: how far half the steps are away in the same measure. other: how far the independent formulation is,
-    nan if there is none. energy: by how much it is open as a share of what was turned over. depth: largest share
-    of
-    the bore's radius. restitution: the largest of free impacts over that of the law, nan if there is none.
+    nan if there is none. energy: by how much it is open as a share of what was turned over. depth: largest
+    share of the bore's radius. restitution: the largest of free impacts over that of the law, nan if there is none.
     met: whether an accuracy that was asked for was reached. wall_s: of everything.
     """
 

@@ -37,7 +37,7 @@ IMPACT_STEPS = 64
 MOST_STEPS = 100_000  # of every run: none of them is worth more
 # A run is as long as some thousand of its steps, but no longer than the fall and some bounces, and not so short
 # that nothing happens in it.
-SHORTEST, LONGEST, STEPS = 0.005, 0.12, 2000  # [s], [s], steps
+SHORTEST, LONGEST, STEPS = 0.005, 0.08, 1000  # [s], [s], steps
 BOXED = 0.3  # [s] of runs in the box
 NEAR = 0.98  # clearances from the middle at which journals start in short runs, where they will come to rest
 SLIDER_BEARING = 0.01  # bore radius at the slider [m]

@@ -145,8 +145,8 @@ def test_forces_late_in_a_long_run_are_as_quiet_as_early() -> None:
         )
         return simulate(scene)["rear_column.force"][50:]
 
-    # whole periods are left out without rounding: to the last bit. (With the angle of all of them the scatter from
-    # step to step is six times as large.)
+    # whole periods are left out without rounding: to the last bit. (With the angle of all of them the scatter
+    # from step to step is six times as large.)
     np.testing.assert_array_equal(forces(1025.0), forces(1.0))
 
 

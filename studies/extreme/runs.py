@@ -1,0 +1,95 @@
+"""All cases and long runs in parallel processes, each watched: what hangs or crashes is a silent failure, too."""
+
+from __future__ import annotations
+
+import signal
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from functools import cache
+from typing import Any
+
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+
+from studies.extreme import long_runs
+from studies.extreme.cases import cases
+from studies.extreme.judge import SILENT, Case, Verdict, judge
+from studies.extreme.long_runs import LongRun
+from support_exudyn import SimulationError
+from support_exudyn.workers import ProcessEndedError, Workers, report, worker_pool
+
+PATIENCE = 300.0  # [s]; a run that takes longer hangs
+
+
+class HangError(RuntimeError):
+    """A run has taken too long."""
+
+
+@contextmanager
+def patience(seconds: float) -> Iterator[None]:
+    """Raise HangError if the block takes longer [s]; where the system knows no alarm it may take any time."""
+    if not hasattr(signal, "setitimer"):
+        yield
+        return
+
+    def too_long(number: int, frame: Any) -> None:
+        del number, frame
+        raise HangError(f"no end after {seconds:g} s")
+
+    before = signal.signal(signal.SIGALRM, too_long)
+    signal.setitimer(signal.ITIMER_REAL, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
+        signal.signal(signal.SIGALRM, before)
+
+
+@cache
+def _cases(quick: bool) -> list[Case]:
+    return cases(quick)
+
+
+def judged(place: int, quick: bool, number: int) -> Verdict:
+    """In a worker: the verdict on a case."""
+    report(place, 0.0)
+    try:
+        with patience(PATIENCE):
+            return judge(_cases(quick)[number].scenario)
+    except HangError as error:
+        return Verdict(SILENT, f"hang: {error}")
+
+
+def lasted(place: int, name: str, duration: float) -> LongRun | str:
+    """In a worker: a long run, or why there is none."""
+    try:
+        return long_runs.run(long_runs.scene(name, duration), name, lambda share: report(place, share))
+    except SimulationError as error:
+        return str(error)
+
+
+def run_cases(found: Sequence[Case], quick: bool, workers: int | Workers) -> list[Verdict]:
+    """Verdicts on all cases, in their order, under a progress bar."""
+
+    def crashed(error: ProcessEndedError) -> Verdict:
+        return Verdict(SILENT, f"crash: {error.reason}")
+
+    jobs = [(quick, number) for number in range(len(found))]
+    with worker_pool(workers) as pool, _bar(f"{len(found)} scenes") as told:
+        return pool.run(jobs, judged, told, crashed)
+
+
+def run_long(duration: float, workers: int | Workers) -> dict[str, LongRun | str]:
+    """Long runs by name; those that failed say why."""
+    jobs = [(name, duration) for name in long_runs.SCENES]
+    with worker_pool(workers) as pool, _bar(f"{len(jobs)} long runs") as told:
+        found = pool.run(jobs, lasted, told, lambda error: f"crash: {error.reason}")
+    return dict(zip(long_runs.SCENES, found, strict=True))
+
+
+@contextmanager
+def _bar(name: str) -> Iterator[Callable[[list[float]], None]]:
+    columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.percentage:3.0f} %"))
+    with Progress(*columns, TimeRemainingColumn(), console=Console(stderr=True)) as bars:
+        task = bars.add_task(name, total=1.0)
+        yield lambda shares: bars.update(task, completed=sum(shares) / max(1, len(shares)))
