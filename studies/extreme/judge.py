@@ -24,6 +24,7 @@ from support_exudyn.audit import DEEPEST, OPEN, energy_open
 from support_exudyn.estimate import disagreement
 from support_exudyn.formulations import covers
 from support_exudyn.scenario import LARGEST_STEP
+from support_exudyn.timescales import timescales
 from user_forces import Frictionless, InputError
 from user_forces.normal.hysteresis import Hysteresis
 
@@ -37,6 +38,7 @@ TOLERANCE = 1e-8  # of an independent formulation
 MOST_STEPS = 1_000_000  # of runs that only check
 # of a check by the redundant formulation: steps of an impact, fewest and most steps of the grid
 IMPACT_STEPS, FEWEST, LONGEST = 64, 200, 20_000
+FOLLOWED = 2.0  # times of a vibration of a loaded contact (one over its angular frequency) that a step may be
 
 
 @dataclass(frozen=True)
@@ -217,7 +219,9 @@ def independent(scenario: Scenario) -> Result | None:
     patient = _patient(scenario)
     if scenario.formulation in ("reduced", "tree"):
         steps = SolverSettings(impact_steps=IMPACT_STEPS, most_steps=MOST_STEPS)
-        step = min(scenario.record_period, scenario.duration / FEWEST, LARGEST_STEP)
+        # a step that does not follow the vibration of the loaded contact damps it out, as would its halves
+        followed = FOLLOWED * timescales(scenario).resting
+        step = min(scenario.record_period, scenario.duration / FEWEST, LARGEST_STEP, followed)
         if scenario.duration / step > LONGEST:
             return None
         others = [replace(patient, formulation="redundant", step=step, solver=steps)]
