@@ -27,8 +27,8 @@ from support_exudyn.solver import Run
 from tests.reference.cases import loose_slider_crank, slider_crank
 from user_forces import value
 
-# share of what was turned over that is lost in the impacts of the first two seconds, at 64 steps each; measured:
-# up to 1e-5
+# share of what was turned over that is lost in the impacts of the first two seconds, at 64 steps each;
+# measured: up to 1e-5
 IMPACTS = 3e-5
 # the same, open for every further second: steps of second order that nothing damps; measured: up to 2e-8
 A_SECOND = 1e-7
@@ -78,8 +78,8 @@ def test_memory_grows_by_the_numbers_that_are_recorded_and_no_more(name: str) ->
     finally:
         tracemalloc.stop()
     records = 0.5 * duration / scene.record_period * long_runs.record_bytes(scene)
-    # lists grow by up to an eighth ahead; the interpreter keeps up to 2000 tuples to use again, some hundred bytes
-    # each, of which a few come in a second
+    # lists grow by up to an eighth ahead; the interpreter keeps up to 2000 tuples to use again, some hundred
+    # bytes each, of which a few come in a second
     assert 0.8 * records < held[1] - held[0] < 1.2 * records + 8000.0
 
 
