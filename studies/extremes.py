@@ -1,8 +1,8 @@
 """Where does the model break? Thousands of runs at the extremes, each good, or refused with a reason.
 
-Clearance, stiffness, restitution, friction, steps, spectral radius, masses, postures, starts, loads and speeds far
-beyond what is sensible, in grids and random corners; and runs of a thousand seconds. Every run is judged: see
-`studies.extreme.judge`.
+Clearance, stiffness, restitution, friction, steps, spectral radius, masses, postures, starts, loads and speeds
+far beyond what is sensible, in grids and random corners; and runs of a thousand seconds. Every run is judged:
+see `studies.extreme.judge`.
 """
 
 from __future__ import annotations
@@ -95,7 +95,8 @@ def group_sheet(judged: Judged) -> Sheet:
         checked = sum(math.isfinite(verdict.other) for verdict in here)
         good = [verdict for verdict in here if verdict.outcome == GOOD]
         rows.append((
-            group, str(len(here)), *(str(counted[outcome]) for outcome in (GOOD, REFUSED, SILENT)), str(checked),
+            group, str(len(here)), *(str(counted[outcome]) for outcome in (GOOD, REFUSED, SILENT)),
+            str(checked),
             f"{np.median([one.error for one in good]):.1g}" if good else "",
             f"{max(one.energy for one in good):.1g}" if good else "",
         ))  # fmt: skip
@@ -136,8 +137,8 @@ def long_sheet(long: Long) -> Sheet:
             continue
         memory = f"{run.memory_slope:.0f}" if math.isfinite(run.memory_slope) else ""
         rows.append((
-            name, f"{run.simulated:g}", f"{run.wall:.0f}", f"{run.steps}", f"{run.touches}", f"{run.gap_first:.1e}",
-            f"{run.gap_last:.1e}", f"{run.energy_share:.1e}", memory,
+            name, f"{run.simulated:g}", f"{run.wall:.0f}", f"{run.steps}", f"{run.touches}",
+            f"{run.gap_first:.1e}", f"{run.gap_last:.1e}", f"{run.energy_share:.1e}", memory,
         ))  # fmt: skip
     header = (
         "scene", "time [s]", "took [s]", "steps", "touches", "gap, first tenth [m]", "gap, last tenth [m]",
@@ -158,18 +159,20 @@ def chapter(judged: Judged, long: Long, quick: bool) -> Chapter:
         method=(
             f"{len(judged)} scenes: grids for the maps, and random corners of "
             + ", ".join(f"{name} {span.low:g} to {span.high:g}" for name, span in SPANS.items())
-            + "; mass ratios of 1e-4 to 1e4, postures up to dead centres and past them, no gravity, every kind of "
-            "start, clearance in all pins, a roof that presses with up to 10 MN, free impacts, space. Stiffness is "
-            "in times the paper's, at a depth of 1 mm whatever the exponent; ramp is v_d over v_s.",
-            "Each is run at its step, at half and at a quarter of it, or to an accuracy. It is good if all of this "
-            f"holds: it has finished; all numbers are finite; energy is open by at most {OPEN:.0%} of what was "
-            f"turned over; no journal is deeper than {DEEPEST:.0%} of the bore's radius; no free impact (without "
-            f"friction, gravity changing the speed by less than {FREE:.0%}) gives back more than its law by "
-            f"{MORE:.1%}; half the step agrees within the reported error; so does another formulation, where one "
-            "covers the scene. It is refused if it ends with an error that names cause, time and advice. Anything "
-            f"else, among it a run of more than {PATIENCE:g} s, a crash or a warning, is a silent failure.",
-            f"The box is what is physically sensible: {_box()}, friction speeds as wide as outside of it; its runs "
-            "are made to an accuracy (draft, standard, reference) and choose their own formulation.",
+            + "; mass ratios of 1e-4 to 1e4, postures up to dead centres and past them, no gravity, every kind "
+            "of start, clearance in all pins, a roof that presses with up to 10 MN, free impacts, space. "
+            "Stiffness is in times the paper's, at a depth of 1 mm whatever the exponent; ramp is v_d "
+            "over v_s.",
+            "Each is run at its step, at half and at a quarter of it, or to an accuracy. It is good if all of "
+            f"this holds: it has finished; all numbers are finite; energy is open by at most {OPEN:.0%} of "
+            f"what was turned over; no journal is deeper than {DEEPEST:.0%} of the bore's radius; no free "
+            f"impact (without friction, gravity changing the speed by less than {FREE:.0%}) gives back more "
+            f"than its law by {MORE:.1%}; half the step agrees within the reported error; so does another "
+            "formulation, where one covers the scene. It is refused if it ends with an error that names cause, "
+            f"time and advice. Anything else, among it a run of more than {PATIENCE:g} s, a crash or a "
+            "warning, is a silent failure.",
+            f"The box is what is physically sensible: {_box()}, friction speeds as wide as outside of it; its "
+            "runs are made to an accuracy (draft, standard, reference) and choose their own formulation.",
         ),
         findings=_findings(judged, long),
         pictures=pictures(),
@@ -190,14 +193,14 @@ def _findings(judged: Judged, long: Long) -> tuple[str, ...]:
     met = sum(verdict.met for verdict in box)
     lasting = [run for run in long.values() if isinstance(run, LongRun)]
     return (
-        f"{counted['runs_good']} runs are good, {counted['runs_refused']} refused, {counted['runs_silent']} failed "
-        "silently.",
+        f"{counted['runs_good']} runs are good, {counted['runs_refused']} refused, {counted['runs_silent']} "
+        "failed silently.",
         f"In the box {good} of {len(box)} are good, and {met} reach the accuracy that was asked for.",
         "In good runs energy is open by at most "
         f"{_largest([one.energy for _, one in judged if one.outcome == GOOD]):.1g} of what was turned over.",
-        f"Long runs: joints are at most {_largest([run.gap_last for run in lasting]):.1g} m apart in their last "
-        f"tenth, energy is open by at most {_largest([run.energy_share for run in lasting]):.1g} of what was turned "
-        "over.",
+        f"Long runs: joints are at most {_largest([run.gap_last for run in lasting]):.1g} m apart in their "
+        f"last tenth, energy is open by at most {_largest([run.energy_share for run in lasting]):.1g} of what "
+        "was turned over.",
     )
 
 

@@ -69,16 +69,17 @@ def pictures() -> tuple[Picture, ...]:
         "as impacts are found and refined."
     )
     return (
-        Picture("map_step_stiffness", "Reported error of the worst number (colour) of the support's fall with 1.5 "
-            "mm in the rear pin, by step and contact stiffness. Crosses: refused, most of them because rounding "
-            "shows in joint forces at very short steps. Lines: duration of the first contact, and its part that is "
-            f"taken as a step in it. {steps}"),
-        Picture("map_clearance_speed", "The same for a stroke of 50 mm to the accuracy \"standard\", by clearance and "
-            "mean speed of the columns. Line: speed at which the stroke takes as long as the journal falls through "
-            "its clearance: above, the stroke is over before the pin is loaded."),
+        Picture("map_step_stiffness", "Reported error of the worst number (colour) of the support's fall with "
+            "1.5 mm in the rear pin, by step and contact stiffness. Crosses: refused, most of them because "
+            "rounding shows in joint forces at very short steps. Lines: duration of the first contact, and its "
+            f"part that is taken as a step in it. {steps}"),
+        Picture("map_clearance_speed", "The same for a stroke of 50 mm to the accuracy \"standard\", by "
+            "clearance and mean speed of the columns. Line: speed at which the stroke takes as long as the "
+            "journal falls through its clearance: above, the stroke is over before the pin is loaded."),
         Picture("map_friction_step", "The same for the fall with friction 0.25, by the speed at which its ramp "
-            "begins, v_s (it ends at twice that), and step. Lines: time in which the ramp stops the loaded journal, "
-            "and ten thousand of it. Far above them no Newton iteration converges and runs are refused."),
+            "begins, v_s (it ends at twice that), and step. Lines: time in which the ramp stops the loaded "
+            "journal, and ten thousand of it. Far above them no Newton iteration converges and runs are "
+            "refused."),
     )  # fmt: skip
 
 

@@ -61,7 +61,7 @@ def _cheapest(scenario: Scenario) -> FormulationName:
 
     Explicit methods have to follow friction's ramp, however steep it is: not where that takes too many steps.
     """
-    found = next((name for name in FASTEST_FIRST if covers(name, scenario)), "redundant")
+    found: FormulationName = next((name for name in FASTEST_FIRST if covers(name, scenario)), "redundant")
     if found in ERROR_CONTROLLED and scenario.duration > MOST_RUBBING * timescales(scenario).rubbing:
         return "redundant"
     return found

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from functools import partial
 
@@ -12,9 +12,10 @@ from studies.extreme import scenes
 from studies.extreme.judge import Case
 from studies.extreme.ranges import SPANS, Point, drawn
 from support_exudyn import Held, Scenario
+from support_exudyn.scenario import Accuracy
 
 SEED = 20261122
-ACCURACIES = ("draft", "standard", "reference")
+ACCURACIES: tuple[Accuracy, ...] = ("draft", "standard", "reference")
 STEP_STIFFNESS, CLEARANCE_SPEED, FRICTION_STEP = (
     "step and stiffness",
     "clearance and speed",
@@ -92,7 +93,7 @@ def _steps(size: int) -> list[float]:
     return _axis("step_s", size)
 
 
-def _case(group: str, values: dict[str, float | str], make: Callable[[], Scenario], box: bool) -> Case:
+def _case(group: str, values: Mapping[str, float | str], make: Callable[[], Scenario], box: bool) -> Case:
     said = ", ".join(
         f"{name} {value:.3g}" if isinstance(value, float) else str(value) for name, value in values.items()
     )
@@ -149,7 +150,10 @@ def _started(point: Point, i: int, random: np.random.Generator) -> Made:
 
 def _with_solver(point: Point, i: int, random: np.random.Generator) -> Made:
     point = replace(point, spectral_radius=(0.0, 0.5, 1.0, point.spectral_radius)[i % 4])
-    settings: dict[str, object] = {"newton": ("modified", "full")[i % 2], "growth": (1.0, 8.0, 64.0)[i % 3]}
+    settings: scenes.OtherSettings = {
+        "newton": "full" if i % 2 else "modified",
+        "growth": (1.0, 8.0, 64.0)[i % 3],
+    }
     if i % 5 == 0:
         settings |= {"integrator": "trapezoidal", "constraint_index": 2}
     if i % 5 == 1:

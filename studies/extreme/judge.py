@@ -14,7 +14,7 @@ from __future__ import annotations
 import math
 import time
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass, replace
 
 import numpy as np
@@ -45,15 +45,15 @@ FOLLOWED = 2.0  # times of a vibration of a loaded contact (one over its angular
 class Case:
     """A scene of the study.
 
-    name, group: what it is, and what it belongs to. box: whether it is physically sensible. scenario: makes it;
-    None is never returned, but InputError may be raised. values: what was varied, for the table.
+    name, group: what it is, and what it belongs to. box: whether it is physically sensible. scenario: makes
+    it, or raises InputError. values: what was varied, for the table.
     """
 
     name: str
     group: str
     box: bool
     scenario: Callable[[], Scenario]
-    values: dict[str, float | str]
+    values: Mapping[str, float | str]
 
 
 @dataclass(frozen=True)
@@ -63,8 +63,8 @@ class Verdict:
     outcome: good, refused or silent. reason: why not good. error: reported, relative, of the worst number.
     half: how far half the steps are away in the same measure. other: how far the independent formulation is,
     nan if there is none. energy: by how much it is open as a share of what was turned over. depth: largest
-    share of the bore's radius. restitution: the largest of free impacts over that of the law, nan if there is none.
-    met: whether an accuracy that was asked for was reached. wall_s: of everything.
+    share of the bore's radius. restitution: the largest of free impacts over that of the law, nan if there is
+    none. met: whether an accuracy that was asked for was reached. wall_s: of everything.
     """
 
     outcome: str
@@ -227,7 +227,7 @@ def independent(scenario: Scenario) -> Result | None:
         others = [replace(patient, formulation="redundant", step=step, solver=steps)]
     else:
         solver = SolverSettings(tolerance=TOLERANCE, most_steps=MOST_STEPS)
-        others = [replace(patient, formulation=name, solver=solver) for name in ("reduced", "tree")]  # type: ignore[arg-type]
+        others = [replace(patient, formulation=name, solver=solver) for name in ("reduced", "tree")]
     for other in others:
         if covers(other.formulation, other):
             try:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 
@@ -75,7 +75,7 @@ class Point:
     law: str = "LankaraniNikravesh"
     step_s: float = 5e-4
     spectral_radius: float = 0.5
-    bore: str = "first"
+    bore: Literal["first", "second"] = "first"
     eccentricity: tuple[float, float] = (0.0, 0.0)  # in clearances
     pace: float = 1.0  # by which runs are as long, in time and steps
 
@@ -86,7 +86,7 @@ class Point:
         x, y = self.eccentricity
         bearing = JournalBearing(bore_radius=BORE_RADIUS, clearance=c)
         contact = JournalContact(bearing=bearing, normal=self.normal, friction=self.friction)
-        return ClearancePin(contact=contact, bore=self.bore, eccentricity=(c * x, c * y))  # type: ignore[arg-type]
+        return ClearancePin(contact=contact, bore=self.bore, eccentricity=(c * x, c * y))
 
     @property
     def normal(self) -> NormalLaw:

@@ -1,4 +1,4 @@
-"""All cases and long runs in parallel processes, each watched: what hangs or crashes is a silent failure, too."""
+"""All cases and long runs in parallel processes, each watched: hangs and crashes are silent failures, too."""
 
 from __future__ import annotations
 

@@ -5,8 +5,10 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from functools import cache
+from typing import Literal, TypedDict
 
 import numpy as np
+from typing_extensions import Unpack
 
 from studies import paper_machine
 from studies.extreme.ranges import Point
@@ -30,6 +32,7 @@ from support_exudyn import (
 )
 from support_exudyn.linkages.impact_stand import ImpactStand
 from support_exudyn.machine import Part
+from support_exudyn.scenario import Accuracy
 
 PIN = paper_machine.LOOSE_PIN
 SLIDER_PIN = "slider_pin"
@@ -43,13 +46,33 @@ NEAR = 0.98  # clearances from the middle at which journals start in short runs,
 SLIDER_BEARING = 0.01  # bore radius at the slider [m]
 
 
-def settings(point: Point, **more: object) -> SolverSettings:
+class Times(TypedDict):
+    """Step, time between records and duration [s]."""
+
+    step: float
+    record_period: float
+    duration: float
+
+
+class OtherSettings(TypedDict, total=False):
+    """What is tried of the solver besides step and spectral radius, see `SolverSettings`."""
+
+    newton: Literal["modified", "full"]
+    growth: float
+    integrator: Literal["generalised_alpha", "trapezoidal"]
+    constraint_index: Literal[2, 3]
+    backend: Literal["auto", "python", "symbolic", "compiled"]
+    locate: bool
+
+
+def settings(point: Point, **more: Unpack[OtherSettings]) -> SolverSettings:
     """Of a run whose steps are chosen."""
-    given: dict[str, object] = {"impact_steps": IMPACT_STEPS, "most_steps": MOST_STEPS}
-    return SolverSettings(spectral_radius=point.spectral_radius, **(given | more))  # type: ignore[arg-type]
+    return SolverSettings(
+        spectral_radius=point.spectral_radius, impact_steps=IMPACT_STEPS, most_steps=MOST_STEPS, **more
+    )
 
 
-def times(point: Point, longest: float = LONGEST) -> dict[str, float]:
+def times(point: Point, longest: float = LONGEST) -> Times:
     """Step, time between records and duration of a run."""
     period = max(1e-3, point.step_s)
     wanted = point.pace * min(longest, max(SHORTEST, STEPS * point.step_s))
@@ -87,7 +110,7 @@ def fallen(point: Point) -> Scenario:
     )
 
 
-def stroke_of(point: Point, time: float, stroke: float, accuracy: str, records: int) -> Scenario:
+def stroke_of(point: Point, time: float, stroke: float, accuracy: Accuracy, records: int) -> Scenario:
     """The support raised or lowered within a time [s], to an accuracy."""
     drive = CubicStep(stroke=stroke, start=0.1 * time, end=1.1 * time)
     return Scenario(
@@ -96,13 +119,13 @@ def stroke_of(point: Point, time: float, stroke: float, accuracy: str, records: 
         drive=drive,
         duration=1.2 * time,
         record_period=1.2 * time / records,
-        accuracy=accuracy,  # type: ignore[arg-type]
+        accuracy=accuracy,
         formulation="auto",
         solver=SolverSettings(most_steps=20 * MOST_STEPS),
     )
 
 
-def boxed(point: Point, accuracy: str, drive: Drive) -> Scenario:
+def boxed(point: Point, accuracy: Accuracy, drive: Drive) -> Scenario:
     """A physically sensible scene to an accuracy, with a drive or held."""
     return Scenario(
         machine=reference_support(),
@@ -110,7 +133,7 @@ def boxed(point: Point, accuracy: str, drive: Drive) -> Scenario:
         drive=drive,
         duration=BOXED * point.pace,
         record_period=1e-3 * point.pace,
-        accuracy=accuracy,  # type: ignore[arg-type]
+        accuracy=accuracy,
         formulation="auto",
         solver=SolverSettings(most_steps=20 * MOST_STEPS),
     )
@@ -122,13 +145,13 @@ def gentle(point: Point) -> Drive:
     return CubicStep(stroke=0.1 * seconds, start=0.5 * seconds, end=0.9 * seconds)
 
 
-def with_solver(point: Point, **solver: object) -> Scenario:
+def with_solver(point: Point, **solver: Unpack[OtherSettings]) -> Scenario:
     """The fall, with other settings of the solver."""
     scene = fallen(point)
     return replace(scene, solver=settings(point, **solver))
 
 
-def on_oil(point: Point, **solver: object) -> Scenario:
+def on_oil(point: Point, **solver: Unpack[OtherSettings]) -> Scenario:
     """The fall on columns of oil, which any integrator covers."""
     return replace(with_solver(point, **solver), columns=paper_machine.oil_columns())
 
@@ -174,7 +197,10 @@ def of_masses(point: Point, body: str, factor: float) -> Scenario:
 
 
 def _heavier(part: Part, factor: float) -> Part:
-    moments = None if part.moments is None else tuple(factor * moment for moment in part.moments)
+    moments = None
+    if part.moments is not None:
+        xx, yy, xy = part.moments
+        moments = (factor * xx, factor * yy, factor * xy)
     return replace(part, mass=factor * part.mass, inertia=factor * part.inertia, moments=moments)
 
 
@@ -243,7 +269,7 @@ def hung_up(point: Point, angle: float) -> Scenario:
     )
 
 
-def cranked(point: Point, rpm: float, accuracy: str | None) -> Scenario:
+def cranked(point: Point, rpm: float, accuracy: Accuracy | None) -> Scenario:
     """A slider-crank through a revolution, both of its dead centres among it."""
     speed = 2.0 * math.pi * rpm / 60.0
     duration = 2.0 * math.pi / speed
@@ -257,7 +283,7 @@ def cranked(point: Point, rpm: float, accuracy: str | None) -> Scenario:
         solver=settings(point),
         formulation="auto",
     )
-    return scene if accuracy is None else replace(scene, accuracy=accuracy)  # type: ignore[arg-type]
+    return scene if accuracy is None else replace(scene, accuracy=accuracy)
 
 
 def _small(point: Point) -> ClearancePin:
