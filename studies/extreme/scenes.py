@@ -42,6 +42,7 @@ MOST_STEPS = 100_000  # of every run: none of them is worth more
 # that nothing happens in it.
 SHORTEST, LONGEST, STEPS = 0.005, 0.08, 1000  # [s], [s], steps
 BOXED = 0.3  # [s] of runs in the box
+FALL = 0.03  # [s] that the journal takes to fall through its clearance and bounce
 NEAR = 0.98  # clearances from the middle at which journals start in short runs, where they will come to rest
 SLIDER_BEARING = 0.01  # bore radius at the slider [m]
 
@@ -81,7 +82,7 @@ def times(point: Point, longest: float = LONGEST) -> Times:
 
 def near(point: Point) -> Point:
     """A journal that starts near where it will come to rest, if the run is too short for a fall."""
-    if times(point)["duration"] >= LONGEST / 1.5 or point.eccentricity != (0.0, 0.0):
+    if times(point)["duration"] >= FALL or point.eccentricity != (0.0, 0.0):
         return point
     x, y = rest_direction()
     sign = 1.0 if point.bore == "first" else -1.0
