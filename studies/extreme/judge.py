@@ -35,7 +35,7 @@ FREE, MORE = 0.02, 0.005
 PULL = 9.81  # [m/s^2]
 ALONE = 1e-9  # [s] by which contacts of two pins are apart at least
 TOLERANCE = 1e-8  # of an independent formulation
-MOST_STEPS = 1_000_000  # of runs that only check
+MOST_STEPS = 300_000  # of runs that only check
 CHECKING = 3.0  # times the estimated error of a run that only checks: an estimate covers 97 % of errors
 # of a check by the redundant formulation: steps of an impact, fewest and most steps of the grid
 IMPACT_STEPS, FEWEST, LONGEST = 64, 200, 20_000
