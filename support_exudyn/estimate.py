@@ -173,16 +173,15 @@ def error(measure: Measure, result: Result, r: float, size: float = 0.0) -> floa
 def worst_error(result: Result, r: float) -> float:
     """See `Result.worst_error`; r: see `fall`.
 
-    Of three runs, also by how the worst distance falls: that of a few numbers may fall slower than most do.
+    Of three runs, also by how the worst distance falls: a few numbers may fall slower than most do. It is not
+    believed to fall faster than by half, for by chance it does.
     """
     found = _worst(result, lambda measure: error(measure, result, r))
     coarser = result.coarser
     if coarser is None or coarser.coarser is None:
         return found
     last, before = disagreement(coarser, result), disagreement(coarser.coarser, coarser)
-    # at chosen steps nothing has been refined until it fell
-    least = FIRST_ORDER if result.goal is None else FASTEST
-    r = min(max(last / before, least), SLOWEST) if before > 0.0 else SLOWEST
+    r = min(max(last / before, FIRST_ORDER), SLOWEST) if before > 0.0 else SLOWEST
     # what does not fall is not an error of steps any more: each touch multiplies it, whatever the method
     safety = SAFETY["auto"] if r == SLOWEST else SAFETY[result.scenario.formulation]
     return max(found, safety * last * r / (1.0 - r))

@@ -28,8 +28,9 @@ class StepPlan:
         self.duration = duration
         self.record_period = record_period
         self.step = step
-        # not below the rounding of times, else a long run of tiny steps would not advance
-        self._tolerance = max(CLOSE * min(step, record_period), 4.0 * math.ulp(duration))
+        self._rounding = 4.0 * math.ulp(duration)  # of times and their differences [s]
+        # not below that, else a long run of tiny steps would not advance
+        self._tolerance = max(CLOSE * min(step, record_period), self._rounding)
         # one that differs from the end by rounding only is the end
         self.breaks = sorted(t for t in set(breaks) if 0.0 <= t < duration - self._tolerance)
         self._around = (math.inf, math.inf)  # the stops last asked for [s]
@@ -84,10 +85,9 @@ class StepPlan:
                 return before + (done + steps) * size, steps
         return after, parts - done
 
-    @staticmethod
-    def _parts(before: float, after: float, largest: float) -> tuple[int, float]:
+    def _parts(self, before: float, after: float, largest: float) -> tuple[int, float]:
         """Number and size [s] of the equal steps between two stops [s]."""
-        parts = max(1, math.ceil((after - before) / largest - CLOSE))
+        parts = max(1, math.ceil((after - before - self._rounding) / largest - CLOSE))
         return parts, (after - before) / parts
 
     def follows_break(self, t: float) -> bool:

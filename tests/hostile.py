@@ -52,8 +52,8 @@ class Interruption:
         self._seconds = seconds
 
     def __enter__(self) -> Interruption:
+        self.sent = time.perf_counter() + self._seconds  # it starts to wait after that, so never sooner
         self._process = subprocess.Popen(["sh", "-c", f"sleep {self._seconds}; kill -INT {os.getpid()}"])
-        self.sent = time.perf_counter() + self._seconds
         return self
 
     def __exit__(self, *unused: object) -> None:

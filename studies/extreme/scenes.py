@@ -30,6 +30,7 @@ from support_exudyn import (
     simulate,
     two_body_columns,
 )
+from support_exudyn.choose import settings_for
 from support_exudyn.linkages.impact_stand import ImpactStand
 from support_exudyn.machine import Part
 from support_exudyn.scenario import Accuracy
@@ -37,11 +38,12 @@ from support_exudyn.scenario import Accuracy
 PIN = paper_machine.LOOSE_PIN
 SLIDER_PIN = "slider_pin"
 IMPACT_STEPS = 64
-MOST_STEPS = 100_000  # of every run: none of them is worth more
+MOST_STEPS, MOST_EXPLICIT = 60_000, 2_000_000  # of every run: none of them is worth more
 # A run is as long as some thousand of its steps, but no longer than the fall and some bounces, and not so short
 # that nothing happens in it.
 SHORTEST, LONGEST, STEPS = 0.005, 0.08, 1000  # [s], [s], steps
 BOXED = 0.3  # [s] of runs in the box
+FALL = 0.03  # [s] that the journal takes to fall through its clearance and bounce
 NEAR = 0.98  # clearances from the middle at which journals start in short runs, where they will come to rest
 SLIDER_BEARING = 0.01  # bore radius at the slider [m]
 
@@ -81,7 +83,7 @@ def times(point: Point, longest: float = LONGEST) -> Times:
 
 def near(point: Point) -> Point:
     """A journal that starts near where it will come to rest, if the run is too short for a fall."""
-    if times(point)["duration"] >= LONGEST / 1.5 or point.eccentricity != (0.0, 0.0):
+    if times(point)["duration"] >= FALL or point.eccentricity != (0.0, 0.0):
         return point
     x, y = rest_direction()
     sign = 1.0 if point.bore == "first" else -1.0
@@ -113,7 +115,7 @@ def fallen(point: Point) -> Scenario:
 def stroke_of(point: Point, time: float, stroke: float, accuracy: Accuracy, records: int) -> Scenario:
     """The support raised or lowered within a time [s], to an accuracy."""
     drive = CubicStep(stroke=stroke, start=0.1 * time, end=1.1 * time)
-    return Scenario(
+    scene = Scenario(
         machine=reference_support(),
         pins={PIN: point.pin},
         drive=drive,
@@ -121,13 +123,13 @@ def stroke_of(point: Point, time: float, stroke: float, accuracy: Accuracy, reco
         record_period=1.2 * time / records,
         accuracy=accuracy,
         formulation="auto",
-        solver=SolverSettings(most_steps=20 * MOST_STEPS),
     )
+    return limited(scene)
 
 
 def boxed(point: Point, accuracy: Accuracy, drive: Drive) -> Scenario:
     """A physically sensible scene to an accuracy, with a drive or held."""
-    return Scenario(
+    scene = Scenario(
         machine=reference_support(),
         pins={PIN: point.pin},
         drive=drive,
@@ -135,8 +137,15 @@ def boxed(point: Point, accuracy: Accuracy, drive: Drive) -> Scenario:
         record_period=1e-3 * point.pace,
         accuracy=accuracy,
         formulation="auto",
-        solver=SolverSettings(most_steps=20 * MOST_STEPS),
     )
+    return limited(scene)
+
+
+def limited(scene: Scenario) -> Scenario:
+    """A scene to an accuracy, with as many steps as its formulation may take in a minute or so."""
+    assert scene.goal is not None
+    steps = MOST_STEPS if settings_for(scene, scene.goal).formulation == "redundant" else MOST_EXPLICIT
+    return replace(scene, solver=SolverSettings(most_steps=steps))
 
 
 def gentle(point: Point) -> Drive:

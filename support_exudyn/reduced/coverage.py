@@ -53,8 +53,6 @@ def check(scenario: Scenario) -> None:
     for name, pin in scenario.clearance_pins.items():
         if name != model.PIN:
             _refuse(f"pins.{name}", type(pin).__name__, f"clearance in {model.PIN} only")
-        if pin.eccentricity != (0.0, 0.0):
-            _refuse(f"pins.{name}.eccentricity", str(pin.eccentricity), "(0, 0)")
         if pin.contact.friction.has_state:
             friction = type(pin.contact.friction).__name__
             _refuse(f"pins.{name}.contact.friction", friction, "laws without a state of their own")

@@ -22,6 +22,9 @@ class Model(Protocol):
     def start(self, machine: Any) -> tuple[float, float]:
         """The free coordinates at the start."""
 
+    def shifted(self, before: Linkage, after: Linkage) -> tuple[float, float]:
+        """By how much the free coordinates differ between two postures of the linkage."""
+
     def reaches(self, machine: Any) -> tuple[float, float]:
         """By how much the journal moves with the free coordinates."""
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -47,7 +48,14 @@ def outline(scenario: Scenario) -> Outline:
     machine = scenario.machine
     pin = scenario.clearance_pins.get(model.PIN)
     y = np.zeros(layout.STATES)
-    y[layout.FIRST], y[layout.SECOND] = model.start(machine)
+    y[layout.FIRST], y[layout.SECOND] = np.add(
+        model.start(machine), model.shifted(machine.linkage(), scenario.linkage)
+    )
+    memory = np.zeros(layout.MEMORY)
+    if pin is not None and pin.contact.bearing.depth(math.hypot(*pin.eccentricity)) > 0.0:
+        memory[layout.TOUCHING] = (
+            1.0  # pressed in from the start on; the journal does not move in its bore then
+        )
     times = record_times(scenario.duration, scenario.record_period)
     drive = segments(scenario.drive, scenario.duration)
     return Outline(
@@ -58,7 +66,7 @@ def outline(scenario: Scenario) -> Outline:
         times=times,
         weights=_weights(scenario, model, pin) if pin else np.zeros(layout.STATES),
         y=y,
-        memory=np.zeros(layout.MEMORY),
+        memory=memory,
         rows=np.zeros((layout.ROWS, times.size)),
         onsets=np.empty((MOST_TOUCHES if pin else 0, 4)),
         jumps=np.zeros((len(drive), layout.JUMP_ROW)),

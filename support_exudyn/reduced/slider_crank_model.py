@@ -21,6 +21,12 @@ def start(machine: SliderCrank) -> tuple[float, float]:
     return 0.0, 0.0
 
 
+def shifted(before: Linkage, after: Linkage) -> tuple[float, float]:
+    """Turn of the rod [rad] and way of the slider [m] between two postures of the linkage."""
+    turn = after.bodies["rod"].angle - before.bodies["rod"].angle
+    return turn, after.bodies["slider"].centre[0] - before.bodies["slider"].centre[0]
+
+
 def reaches(machine: SliderCrank) -> tuple[float, float]:
     """By how much the journal moves with the free coordinates: [m/rad], 1."""
     return machine.rod_length, 1.0

@@ -36,6 +36,14 @@ def start(machine: HydraulicSupport) -> tuple[float, float]:
     return posture.canopy, posture.rear_link
 
 
+def shifted(before: Linkage, after: Linkage) -> tuple[float, float]:
+    """By how much canopy and rear link have turned between two postures of the linkage [rad]."""
+    canopy, rear_link = (
+        after.bodies[name].angle - before.bodies[name].angle for name in ("canopy", "rear_link")
+    )
+    return canopy, rear_link
+
+
 def reaches(machine: HydraulicSupport) -> tuple[float, float]:
     """By how much the journal moves with the free coordinates [m/rad]."""
     lever = distance(machine.start().rear_shield, machine.rear_base)

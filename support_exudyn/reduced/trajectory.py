@@ -36,6 +36,11 @@ def trajectory(scenario: Scenario, model: Model, p: list[float], rows: Matrix) -
     if pin is not None:
         contact, free = _contact(p, pin, rows)
     bodies = model.bodies(scenario.machine, linkage, p, rows, free)
+    # turns are from the machine's own start posture, in which no journal is out of the middle
+    own = scenario.machine.linkage().bodies
+    turned = [body.angle - own[name].angle for name, body in linkage.bodies.items()]
+    if any(turned):
+        bodies.position[:, 2::3] -= turned
     motion = BodyMotion(linkage, bodies.position, bodies.velocity, bodies.acceleration)
     joints = JointForces()
     if Part.JOINTS in needs(scenario):

@@ -22,8 +22,10 @@ from support_exudyn import (
     SolverSettings,
     simulate,
 )
+from support_exudyn.spatial.layout import Bearing, SpatialBody, SpatialLinkage
 from tests.analytic import delivered_restitution
 from tests.reference.cases import PIN, loose_support
+from tests.reference.spatial_cases import LENGTH, InSpace, contact
 from tests.reference.test_restitution import scenario
 from user_forces import JournalBearing, JournalContact, LankaraniNikravesh, value
 
@@ -115,11 +117,11 @@ class Swing(Machine):
 @pytest.mark.parametrize("formulation", ["redundant", "tree"])
 @pytest.mark.parametrize("bore", ["first", "second"])
 def test_formulations_part_as_fast_as_the_law_delivers(formulation: str, bore: str) -> None:
-    contact = JournalContact(bearing=JournalBearing(bore_radius=0.02, clearance=1e-3), normal=LAW)
+    laws = JournalContact(bearing=JournalBearing(bore_radius=0.02, clearance=1e-3), normal=LAW)
     result = simulate(
         Scenario(
             machine=Swing(),
-            pins={"pin": ClearancePin(contact=contact, bore=bore)},
+            pins={"pin": ClearancePin(contact=laws, bore=bore)},
             duration=0.012,
             gravity=(0.0, 0.0),
             formulation=formulation,
@@ -149,11 +151,42 @@ def test_in_space_edges_and_the_whole_part_as_in_the_plane() -> None:
 
 
 def test_a_journal_in_space_has_parted_when_its_last_section_has() -> None:
-    # one pair of columns ahead of the other would need oil; a law that is weaker at the right edge is none.
-    # Here the journal parts at once at all sections, or not at all
-    short = loose_support(1.5, 0.0, drive=Held(), duration=0.0185, dimensions=3)
-    result = simulate(short)
-    assert [onset.parting_time for onset in result.onsets[PIN]] == [math.inf]
+    # the right edge flies ahead, touches first, and is thrown back last
+    ball = (0.02, 0.02, 0.02, 0.0, 0.0, 0.0)
+    middle, across = (0.0, 0.0, 0.0), (0.0, 0.0, 1.0)
+    bodies = {
+        "one": SpatialBody(mass=3.0, inertia=ball, centre=middle),
+        "two": SpatialBody(
+            mass=2.0, inertia=ball, centre=middle, velocity=(SPEED, 0.0, 0.0), spin=(0.0, 0.1, 0.0)
+        ),
+    }
+    bearing = Bearing(
+        first="one",
+        second="two",
+        first_point=middle,
+        second_point=middle,
+        first_axis=across,
+        second_axis=across,
+        length=LENGTH,
+        holds=frozenset(),
+        pin="pin",
+    )
+    result = simulate(
+        Scenario(
+            machine=InSpace(space=SpatialLinkage(bodies=bodies, bearings={"pin": bearing})),
+            pins={"pin": ClearancePin(contact=contact())},
+            duration=0.008,
+            gravity=(0.0, 0.0),
+            dimensions=3,
+        )
+    )
+    whole, left, right = (result.onsets[name][0] for name in ("pin", "pin.left", "pin.right"))
+    assert right.time < left.time < left.parting_time < right.parting_time  # else the test says nothing
+    assert len(result.onsets["pin"]) == 1
+    assert whole == right
+    ended = simulate(replace(result.scenario, duration=0.0062))  # the right one alone is in contact
+    assert ended.onsets["pin.left"][0].parting_time == pytest.approx(left.parting_time, rel=1e-9)
+    assert ended.onsets["pin"][0].parting_time == math.inf
 
 
 # --- files ---

@@ -30,7 +30,7 @@ def steep() -> Result:
 def test_steep_friction_costs_few_failures(steep: Result) -> None:
     assert len(steep.onsets[PIN]) == 2  # one impact and the beginning of rest: there is something to solve
     # measured 4 failures in 1450 steps; where every step tried its whole length again there were 219470
-    assert steep.counts.failed_newton < 200
+    assert steep.counts.failed_newton < 40
     assert steep.counts.steps < 5000
 
 

@@ -293,3 +293,12 @@ RETURNING = [
 @pytest.mark.parametrize("chosen", RETURNING)
 def test_a_drive_comes_back_from_json(chosen: Drive) -> None:
     assert Value.from_data(json.loads(json.dumps(chosen.to_data()))) == chosen
+
+
+@given(periods=st.integers(1, 10**6), t=st.integers(0, 4096))
+def test_a_reciprocating_drive_is_where_it_was_periods_ago(periods: int, t: int) -> None:
+    drive = Reciprocating(stroke=0.1, period=4.0)
+    early, late = t / 1024.0, t / 1024.0 + 4.0 * periods
+    # times are exact, and whole periods are left out without rounding: to the last bit
+    assert drive.extension(late) == drive.extension(early)
+    assert drive.speed(late) == drive.speed(early)

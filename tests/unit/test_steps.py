@@ -3,6 +3,7 @@ from __future__ import annotations
 import math
 from itertools import pairwise
 
+import numpy as np
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
@@ -301,3 +302,47 @@ def test_stretches_are_the_steps_one_by_one(
         t = end
     # times of the same grid: rounding
     assert together == pytest.approx(singles, abs=1e-9 * step + 1e-14)
+
+
+# --- late in a long run ---
+
+
+@pytest.mark.parametrize("largest", [math.inf, 1e-5, 1e-7])
+def test_steps_late_in_a_long_run_are_as_equal_as_early(largest: float) -> None:
+    plan = StepPlan(1000.0, 1e-3, 2.5e-4, [999.0004])
+    t, times = 998.999, [998.999]
+    while t < 999.001 - 1e-9:
+        t = plan.next_time(t, largest)
+        times.append(t)
+    sizes = np.diff(times)
+    # times near 1000 s are rounded by half of 1.1e-13 s, both ends of a step
+    stops = [998.999, 999.0, 999.0004, 999.001]
+    for begin, end in pairwise(stops):
+        inside = sizes[[begin - 1e-9 < a < end - 1e-9 for a in times[:-1]]]
+        assert np.ptp(inside) < 3e-13
+        assert inside.max() <= min(largest, 2.5e-4) * (1.0 + 2e-9) + 2e-13
+        # as many as it takes and no more
+        assert len(inside) == math.ceil((end - begin) / min(largest, 2.5e-4) - 1e-4)
+    assert [t for t in times if plan.is_record(t)] == [n * 1e-3 for n in (998999, 999000, 999001)]
+    assert plan.break_at(999.0004) == 999.0004
+
+
+def test_the_shortest_steps_advance_at_the_end_of_a_long_run() -> None:
+    plan = StepPlan(1000.0, 1e-3, 1e-3, [])
+    t = 999.9995
+    for _ in range(100):
+        later = plan.next_time(t, 1e-11)
+        # rounding of times: 1.1e-13 s
+        assert 5e-12 < later - t < 1.5e-11
+        t = later
+
+
+def test_thousands_of_breaks_are_landed_on() -> None:
+    breaks = [0.1 + 0.01 * n for n in range(5000)]
+    plan = StepPlan(60.0, 1.0, 0.1, breaks)
+    times = walk(plan)
+    assert set(breaks) - {b for b in breaks if plan.is_record(b)} <= set(times)
+    assert all(plan.break_at(b) == b for b in plan.breaks)
+    assert all(plan.follows_break(b) and plan.follows_break(b + 0.004) for b in plan.breaks)
+    assert plan.break_at(0.105) is None
+    assert not plan.follows_break(50.5)
