@@ -216,7 +216,8 @@ def test_the_worst_error_of_a_force_is_relative() -> None:
     run = three(*runs)
     # all others are constants: the median of those that are none is theirs
     assert run.fall == pytest.approx(r, rel=1e-9)
-    # of the finest run's force; its distance from the one before, which is not believed to fall faster than by half
+    # of the finest run's force; its distance from the one before, which is not believed to fall faster than by
+    # half
     # numbers are shares of those of a run that is off by up to 1e-2 r
     assert run.worst_error == pytest.approx(SAFETY * 1e-2 * r * (1.0 - r), rel=1e-2 * r)
 
