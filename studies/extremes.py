@@ -229,8 +229,13 @@ def save_rows(path: Path, judged: Judged) -> None:
     with whole_file(path) as temporary, temporary.open("w", encoding="utf-8") as file:
         for case, verdict in judged:
             row = {"name": case.name, "group": case.group, "box": case.box, "values": case.values}
-            known = {name: value for name, value in verdict.row().items() if value == value}  # without nan
-            file.write(json.dumps(row | known) + "\n")
+            file.write(json.dumps(row | _known(verdict), allow_nan=False) + "\n")
+
+
+def _known(verdict: Verdict) -> dict[str, object]:
+    """What a verdict says, without what JSON has no word for."""
+    said = verdict.row().items()
+    return {name: value for name, value in said if not isinstance(value, float) or math.isfinite(value)}
 
 
 def main(argv: Sequence[str] | None = None) -> int:

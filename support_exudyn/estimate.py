@@ -35,6 +35,9 @@ FASTEST, SLOWEST = 0.25, 0.8  # r: three runs tell nothing beyond
 FIRST_ORDER = 0.5  # r where there are two runs only
 ROUNDING = 1e-10  # share of a number, or of the largest of its kind, that no estimate is below
 SMALLEST_SPREAD = 1e-3  # of the mean
+SMALLEST_EXTENT = (
+    1e-8  # of a path, of its distance from the origin: below, a machine is at rest but for rounding
+)
 FORCE, ANGULAR_ACCELERATION = ".force", ".angular_acceleration"  # how names of channels end
 ONSETS = 3  # of every loose pin that are reported; each multiplies the errors of those before
 
@@ -210,7 +213,8 @@ def _worst(result: Result, off_by: Callable[[Measure], float]) -> float:
         def wandering(run: Result, path: Series = path, point: str = point) -> float:
             return float(np.hypot(*(_path(run, point) - path)).max())
 
-        off.append(_share(off_by(wandering), max([extent, *clearances])))
+        least = SMALLEST_EXTENT * float(np.hypot(*path).max())
+        off.append(_share(off_by(wandering), max([extent, least, *clearances])))
     return max(off)
 
 

@@ -13,8 +13,9 @@ from support_exudyn.estimate import disagreement
 from support_exudyn.progress import Progress
 from support_exudyn.result import Result
 from support_exudyn.run_once import run_once
-from support_exudyn.scenario import Scenario
+from support_exudyn.scenario import ERROR_CONTROLLED, REFINED_TOLERANCE, SMALLEST_TOLERANCE, Scenario
 from support_exudyn.to_accuracy import with_measured
+from user_forces.values import InputError
 
 SHARES = (1.0 / 7.0, 2.0 / 7.0, 4.0 / 7.0)  # of the work, run by run
 LARGEST_ERROR = 0.5  # of the worst number: beyond it a run tells nothing
@@ -31,10 +32,11 @@ def run_with_error(scenario: Scenario, progress: Progress) -> Result:
     Raises InputError if the formulation does not cover the scenario, or has no finer settings; SimulationError
     if a run fails, or if its numbers do not settle when steps are halved.
     """
-    chosen, done, runs = with_measured(scenario), 0.0, []
-    for share in SHARES:
+    done, runs = 0.0, []
+    for chosen, share in zip(_settings(scenario), SHARES, strict=True):
         runs.append(run_once(chosen, _part(progress, done, share)))
-        chosen, done = chosen.refined(), done + share
+        done += share
+    progress(1.0)
     first, second, third = runs
     second = replace(second, coarser=first)
     result = replace(third, coarser=second, wall_time=sum(run.wall_time for run in runs))
@@ -51,5 +53,18 @@ def run_with_error(scenario: Scenario, progress: Progress) -> Result:
     return result
 
 
+def _settings(scenario: Scenario) -> tuple[Scenario, Scenario, Scenario]:
+    """The scenario and two finer ones. Raises InputError, before anything is run, if there are none."""
+    coarse = with_measured(scenario)
+    least = SMALLEST_TOLERANCE * 2.0 ** (2 * REFINED_TOLERANCE)
+    if coarse.formulation in ERROR_CONTROLLED and coarse.solver.tolerance < least:
+        raise InputError(
+            f"solver.tolerance = {coarse.solver.tolerance:g}: cannot be made finer twice; allowed with errors: "
+            f"from {least:g} on"
+        )
+    half = coarse.refined()
+    return coarse, half, half.refined()
+
+
 def _part(progress: Progress, done: float, share: float) -> Progress:
-    return lambda of_run: progress(done + share * of_run)
+    return lambda of_run: progress(min(1.0, done + share * of_run))

@@ -1,0 +1,494 @@
+"""Extremes: what is tried, that the judge catches every kind of wrong result, and what the study writes."""
+
+from __future__ import annotations
+
+import json
+import math
+import multiprocessing
+import os
+import signal
+import time
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import fields, replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from studies import extremes
+from studies.extreme import long_runs, runs, scenes
+from studies.extreme.cases import BOX, MAPS, RANDOM, cases
+from studies.extreme.judge import GOOD, REFUSED, SILENT, Case, Verdict, independent, judge, run_with_its_error
+from studies.extreme.ranges import LARGEST_SPEED, SPANS, Point
+from studies.reporting.chapter import Chapter
+from support_exudyn import Failure, Result, Scenario, SimulationError, simulate, workers
+from support_exudyn.audit import DEEPEST, turned_over
+from support_exudyn.estimate import measured
+from support_exudyn.workers import CONTEXT, Workers, worker_pool
+from tests.hostile import posix_only
+from tests.studies.test_hypercube import Here
+from user_forces import InputError
+
+Run = Callable[[Scenario], Result]
+PIN = scenes.PIN
+
+
+def fall() -> Scenario:
+    """The support falls through its loose rear pin; the reduced formulation covers it, too."""
+    return scenes.fallen(Point())
+
+
+def impact() -> Scenario:
+    """Two free bodies that meet once; only one formulation covers them."""
+    scene = scenes.colliding(Point(restitution=0.5), 1.0, 1.0)
+    return replace(scene, record_period=scene.duration / 50.0)
+
+
+# --- what is tried ---
+
+
+@pytest.fixture(scope="module")
+def full() -> list[Case]:
+    return cases(quick=False)
+
+
+def test_there_are_thousands_of_different_cases(full: list[Case]) -> None:
+    assert len(full) >= 2000
+    assert len({case.name for case in full}) == len(full)
+    quick = cases(quick=True)
+    assert len(quick) >= 100
+    assert len({case.name for case in quick}) == len(quick)
+    for chosen in (full, quick):
+        assert {case.group for case in chosen} == {*MAPS, *RANDOM}
+
+
+def test_cases_are_the_same_every_time(full: list[Case]) -> None:
+    def told(chosen: list[Case]) -> list[tuple[object, ...]]:
+        return [(case.name, case.group, case.box, dict(case.values)) for case in chosen]
+
+    assert told(cases(quick=False)) == told(full)
+
+
+def made_of(case: Case) -> Scenario | str:
+    """Its scenario, or why there is none."""
+    try:
+        return case.scenario()
+    except InputError as error:
+        return str(error)
+
+
+def test_every_case_makes_a_scenario_or_says_why_not(full: list[Case]) -> None:
+    made = [made_of(case) for case in full[::7]]
+    said = [one for one in made if isinstance(one, str)]
+    assert all("allowed" in one for one in said)
+    # v_s = v_d, and heights that the linkage does not reach
+    assert 0 < len(said) < 0.1 * len(made)
+
+
+def test_random_cases_keep_to_their_ranges_and_those_of_the_box_lie_in_it(full: list[Case]) -> None:
+    checked = 0
+    for case in full:
+        for name, span in SPANS.items():
+            value = case.values.get(name)
+            if not isinstance(value, float):
+                continue
+            low, high = span.sensible if case.box else (span.low, span.high)
+            if name in ("static_speed_m_s", "mu") and value == 0.0:
+                continue  # without static friction, or any
+            checked += 1
+            # the rounding of powers
+            assert low * (1.0 - 1e-12) <= value <= high * (1.0 + 1e-12), (case.name, name)
+        assert float(case.values.get("dynamic_speed_m_s", 0.0)) <= LARGEST_SPEED
+    assert checked > 10_000
+
+
+def test_the_box_is_what_its_scenes_are(full: list[Case]) -> None:
+    boxed = [case for case in full if case.box]
+    assert {case.group for case in boxed} == {BOX}
+    for case in boxed[::10]:
+        scene = case.scenario()
+        contact = scene.clearance_pins[PIN].contact
+        low, high = SPANS["clearance_m"].sensible
+        assert low * (1.0 - 1e-12) <= contact.bearing.clearance <= high * (1.0 + 1e-12)
+        assert SPANS["restitution"].sensible[0] <= contact.normal.restitution <= 1.0
+        assert scene.accuracy == case.values["accuracy"]
+
+
+# --- the judge ---
+
+
+@pytest.fixture(scope="module")
+def fallen() -> Result:
+    return run_with_its_error(fall())
+
+
+@pytest.fixture(scope="module")
+def struck() -> Result:
+    return run_with_its_error(impact())
+
+
+def scaled(result: Result, factors: Mapping[str, float]) -> Result:
+    """A result whose channels are so many times as large, and those of its coarser runs."""
+    wrong = {
+        name: replace(channel, values=channel.values * factors.get(name, 1.0))
+        for name, channel in result.channels.items()
+    }
+    coarser = None if result.coarser is None else scaled(result.coarser, factors)
+    return replace(result, channels=wrong, coarser=coarser)
+
+
+def with_channel(result: Result, name: str, change: Callable[[np.ndarray], np.ndarray]) -> Result:
+    """A result one channel of which is another, that of its coarser runs as it was."""
+    channel = result.channels[name]
+    changed = replace(channel, values=change(channel.values.copy()))
+    return replace(result, channels={**result.channels, name: changed})
+
+
+def judged(make: Callable[[], Scenario], result: Result) -> Verdict:
+    return judge(make, lambda scenario: result)
+
+
+def test_what_is_right_is_good(fallen: Result, struck: Result) -> None:
+    found = judge(fall)
+    assert found.outcome == GOOD, found.reason
+    assert judged(fall, fallen).outcome == GOOD
+    # measured: error 1.2e-3, half 2.9e-4, other 1.2e-4
+    assert 0.0 < found.half < found.error < 1e-2
+    assert 0.0 < found.other < found.error
+    found = judge(impact)
+    assert found.outcome == GOOD, found.reason
+    assert found.restitution == pytest.approx(1.0, abs=1e-3)  # 64 steps; measured: 1.00002
+    assert math.isnan(found.other)  # nothing else covers it
+
+
+def test_an_accuracy_that_is_reached_is_good() -> None:
+    point = Point(pace=0.2)
+    found = judge(lambda: scenes.boxed(point, "draft", scenes.gentle(point)))
+    assert (found.outcome, found.met) == (GOOD, True), found.reason
+
+
+def test_forces_that_are_wrong_at_all_steps_alike_are_seen_by_the_other_formulation(fallen: Result) -> None:
+    forces = dict.fromkeys((name for name in measured(fallen.scenario) if name.endswith(".force")), 1.05)
+    found = judged(fall, scaled(fallen, forces))
+    assert found.outcome == SILENT
+    assert "formulation reduced is" in found.reason
+    assert "half the steps" not in found.reason  # which are as wrong
+    assert found.other == pytest.approx(0.05, rel=0.1)  # of what is wrong
+
+
+def test_a_path_that_is_wrong_at_all_steps_alike_is_seen_by_the_other_formulation(fallen: Result) -> None:
+    point = next(iter(fallen.scenario.linkage.points))
+
+    def moved(result: Result) -> Result:
+        """By 5 % of its extent, at its end."""
+        share = result.time / result.time[-1]
+        extent = float(np.hypot(np.ptp(result[f"{point}.x"]), np.ptp(result[f"{point}.y"])))
+        wrong = with_channel(result, f"{point}.x", lambda values: values + 0.05 * extent * share)
+        return replace(wrong, coarser=None if result.coarser is None else moved(result.coarser))
+
+    found = judged(fall, moved(fallen))
+    assert found.outcome == SILENT
+    assert "formulation reduced is" in found.reason
+    assert "half the steps" not in found.reason
+
+
+class Boasting(Result):
+    """Reports a hundredth of its error."""
+
+    @property
+    def worst_error(self) -> float:
+        return 0.01 * super().worst_error
+
+
+def boasting(result: Result) -> Boasting:
+    given = {field.name: getattr(result, field.name) for field in fields(Result)}
+    coarser = None if result.coarser is None else boasting(result.coarser)
+    return Boasting(**(given | {"coarser": coarser}))
+
+
+@pytest.mark.parametrize("scene", ["fall", "impact"])
+def test_an_error_that_is_reported_too_small_is_seen_by_half_the_steps(
+    scene: str, fallen: Result, struck: Result
+) -> None:
+    make, result = {"fall": (fall, fallen), "impact": (impact, struck)}[scene]
+    found = judged(make, boasting(result))
+    assert found.outcome == SILENT
+    assert "half the steps are" in found.reason
+
+
+def test_so_it_is_in_a_run_to_an_accuracy() -> None:
+    point = Point(pace=0.2)
+    scene = replace(scenes.boxed(point, 1e-3, scenes.gentle(point)), formulation="redundant")
+    result = simulate(scene)
+    assert judged(lambda: scene, result).outcome == GOOD
+    found = judged(lambda: scene, boasting(result))
+    assert found.outcome == SILENT
+    assert "half the steps are" in found.reason
+
+
+@pytest.mark.parametrize("wrong", [math.nan, math.inf])
+@pytest.mark.parametrize("name", ["tip.x", "energy.kinetic", f"pin.{PIN}.depth", f"pin.{PIN}.force"])
+def test_a_number_that_is_not_finite_is_caught(name: str, wrong: float, fallen: Result) -> None:
+    def put(values: np.ndarray) -> np.ndarray:
+        values[values.size // 2] = wrong
+        return values
+
+    found = judged(fall, with_channel(fallen, name, put))
+    assert found.outcome == SILENT
+    # of an infinite path or force the extent or spread is none, which numpy warns of
+    assert "not finite" in found.reason or "RuntimeWarning" in found.reason
+
+
+def test_energy_that_does_not_add_up_is_caught(struck: Result) -> None:
+    moved = turned_over(struck.channels)
+    for share, outcome in ((0.06, SILENT), (0.04, GOOD)):  # 5 % are allowed
+        wrong = with_channel(struck, "energy.balance", lambda values, share=share: values + share * moved)
+        found = judged(impact, wrong)
+        assert found.outcome == outcome
+        assert ("energy is open" in found.reason) == (outcome == SILENT)
+        assert found.energy == pytest.approx(share, rel=1e-3)  # what it is open by anyway
+
+
+def test_an_impact_that_gives_back_more_than_its_law_is_caught(struck: Result) -> None:
+    (touch,) = struck.onsets["pin"]
+    law = struck.scenario.clearance_pins["pin"].contact.normal
+    for share, outcome in ((1.02, SILENT), (1.004, GOOD)):  # 0.5 % are allowed
+        speed = share * law.delivered_restitution * touch.speed
+        wrong = replace(struck, onsets={"pin": (touch._replace(parting_speed=speed),)})
+        found = judged(impact, wrong)
+        assert found.outcome == outcome
+        assert ("a free impact gives back" in found.reason) == (outcome == SILENT)
+        assert found.restitution == pytest.approx(share, rel=1e-12)
+
+
+def test_a_journal_too_deep_in_its_bore_is_caught(fallen: Result) -> None:
+    name = f"pin.{PIN}.depth"
+    radius = fallen.scenario.clearance_pins[PIN].contact.bearing.bore_radius
+    deepest = float(fallen[name].max())
+    for share, outcome in ((1.01 * DEEPEST, SILENT), (0.99 * DEEPEST, GOOD)):
+        found = judged(fall, scaled(fallen, {name: share * radius / deepest}))
+        assert found.outcome == outcome
+        assert ("of the bore's radius" in found.reason) == (outcome == SILENT)
+
+
+@pytest.mark.parametrize(
+    ("failure", "outcome"),
+    [
+        (Failure("the solver gave up", "Take a smaller step.", 0.1), REFUSED),
+        (Failure("the solver gave up", "", 0.1), SILENT),
+        (Failure("", "Take a smaller step.", 0.1), SILENT),
+        (Failure("the solver gave up", "Take a smaller step.", math.nan), SILENT),
+    ],
+)
+def test_a_failure_has_to_say_why_when_and_what_to_do(failure: Failure, outcome: str) -> None:
+    def run(scenario: Scenario) -> Result:
+        raise SimulationError(failure)
+
+    assert judge(fall, run).outcome == outcome
+
+
+def test_inputs_that_are_refused_are_refused_and_errors_of_other_kinds_are_silent() -> None:
+    def raising(error: Exception) -> Verdict:
+        def make() -> Scenario:
+            raise error
+
+        return judge(make)
+
+    assert raising(InputError("step = -1: allowed: > 0")).outcome == REFUSED
+    for error in (ZeroDivisionError("float division"), ValueError("no root"), RuntimeError("?"), KeyError("x")):
+        found = raising(error)
+        assert found.outcome == SILENT
+        assert found.reason.startswith(type(error).__name__)
+        assert "test_extremes.py" in found.reason  # where it was
+
+
+@pytest.mark.filterwarnings("default")
+def test_a_warning_is_an_error_even_where_nobody_asked_for_that(fallen: Result) -> None:
+    def run(scenario: Scenario) -> Result:
+        np.divide(1.0, np.zeros(1))
+        return fallen
+
+    found = judge(fall, run)
+    assert found.outcome == SILENT
+    assert found.reason.startswith("RuntimeWarning: divide by zero")
+
+
+def test_a_scene_that_no_other_formulation_covers_is_not_compared() -> None:
+    assert independent(impact()) is None
+    other = independent(fall())
+    assert other is not None
+    assert other.scenario.formulation == "reduced"
+
+
+# --- hangs and crashes ---
+
+
+def of(make: Callable[[], Scenario], name: str = "one", group: str = "start") -> Case:
+    return Case(name, group, False, make, {})
+
+
+def sleep() -> Scenario:
+    time.sleep(60.0)
+    return fall()
+
+
+def loop() -> Scenario:
+    while True:
+        pass
+
+
+def crawl() -> Scenario:
+    """A step at a time; so short that the engine would take hours."""
+    return replace(fall(), step=1e-7, duration=100.0, record_period=1.0)
+
+
+@posix_only
+@pytest.mark.parametrize("make", [sleep, loop, crawl])
+def test_a_run_that_hangs_is_a_silent_failure(
+    make: Callable[[], Scenario], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(runs, "PATIENCE", 0.3)
+    monkeypatch.setattr(runs, "_cases", lambda quick: [of(make)])
+    before, began = signal.getsignal(signal.SIGALRM), time.perf_counter()
+    found = runs.judged(0, True, 0)
+    assert found == Verdict(SILENT, "hang: no end after 0.3 s")
+    assert time.perf_counter() - began < 10.0  # not 60
+    # nothing rings later
+    assert signal.getitimer(signal.ITIMER_REAL) == (0.0, 0.0)
+    assert signal.getsignal(signal.SIGALRM) == before
+
+
+def test_a_run_that_ends_in_time_is_let_be(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(runs, "PATIENCE", 60.0)
+    monkeypatch.setattr(runs, "_cases", lambda quick: [of(sleep), of(impact)])
+    assert runs.judged(0, True, 1).outcome == GOOD
+
+
+def killed_at_one(place: int, quick: bool, number: int) -> Verdict:
+    """In a process of its own, in place of `runs.judged`."""
+    if number == 1:
+        os.kill(os.getpid(), signal.SIGKILL)
+    return Verdict(GOOD)
+
+
+@posix_only
+def test_a_process_that_is_killed_is_a_silent_failure_of_its_case_alone(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(runs, "judged", killed_at_one)
+    context = multiprocessing.get_context("forkserver")  # from one that has imported everything: sooner
+    context.set_forkserver_preload([__name__])
+    monkeypatch.setattr(workers, "CONTEXT", context)
+    with worker_pool(1) as pool:
+        found = runs.run_cases([of(impact)] * 3, True, pool)
+    assert [verdict.outcome for verdict in found] == [GOOD, SILENT, GOOD]
+    assert found[1].reason.startswith("crash: the process that computed it ended: signal 9 (SIGKILL")
+
+
+# --- the whole study ---
+
+SHORT = 2.0  # [s] of long runs
+LASTING = {name: long_runs.SCENES[name] for name in (long_runs.IDEAL, long_runs.SMOOTH)}
+
+
+def broken() -> Scenario:
+    return Scenario(machine=1, duration=1.0 / 0.0)
+
+
+def few() -> list[Case]:
+    """Two of every map, one of them refused and one that fails silently, and one of the box."""
+    found = [
+        next(c for c in cases(quick=True) if c.group == group and check(c))
+        for group in MAPS
+        for check in (_first, _another)
+    ]
+    found[1] = replace(found[1], scenario=refused)
+    found[5] = replace(found[5], scenario=broken)
+    point = Point(pace=0.2)
+    box = of(lambda: scenes.boxed(point, "draft", scenes.Held()), "boxed", BOX)
+    return [*found, replace(box, box=True, values={"accuracy": "draft"})]
+
+
+def _first(case: Case) -> bool:
+    cheap = {"step_s": 4e-4, "clearance_m": 1e-2}  # the longer ones
+    return all(float(case.values[name]) > least for name, least in cheap.items() if name in case.values) and (
+        float(case.values.get("speed_m_s", 1.0)) > 0.5
+    )
+
+
+def _another(case: Case) -> bool:
+    return float(case.values.get("step_s", 0.0)) > 5e-3 or (
+        1e-5 < float(case.values.get("clearance_m", 0.0)) < 1e-2 and float(case.values["speed_m_s"]) > 0.5
+    )
+
+
+def refused() -> Scenario:
+    return Scenario(machine=fall().machine, duration=-1.0)
+
+
+@pytest.fixture(scope="module")
+def out(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
+    @contextmanager
+    def here(workers: int | Workers) -> Iterator[Workers]:
+        assert workers == 2
+        yield Workers(Here(), CONTEXT.Array("d", 4096, lock=False))
+
+    folder = tmp_path_factory.mktemp("results")
+    with pytest.MonkeyPatch.context() as patch:
+        chosen = few()
+        patch.setattr(extremes, "cases", lambda quick: chosen)
+        patch.setattr(runs, "_cases", lambda quick: chosen)
+        patch.setattr(runs, "worker_pool", here)
+        patch.setattr(long_runs, "QUICK", SHORT)
+        patch.setattr(long_runs, "SCENES", LASTING)
+        assert extremes.main(["--quick", "--workers", "2", "--out", str(folder)]) == 0
+        yield folder
+
+
+def test_the_summary_counts_every_run(out: Path) -> None:
+    summary = json.loads((out / "summary.json").read_text(encoding="utf-8"))
+    assert summary["study"] == "extremes"
+    assert [summary[f"runs_{outcome}"] for outcome in (GOOD, REFUSED, SILENT)] == [5, 1, 1]
+    numbers = {(number["name"], number["case"]): number["value"] for number in summary["numbers"]}
+    assert numbers["good_in_box", "box"] == 1.0
+    assert numbers["accuracy_met_in_box", "box"] == 1.0
+    assert 0.0 < numbers["largest_half_over_reported", "good runs"] < 1.0
+    for name in LASTING:
+        assert 0.0 < numbers["largest_gap", f"{name}, {SHORT:g} s"] < extremes.LARGEST_GAP
+    assert all(math.isfinite(value) for value in numbers.values())
+
+
+def test_every_run_has_its_line(out: Path) -> None:
+    rows = [json.loads(line) for line in (out / "runs.jsonl").read_text(encoding="utf-8").splitlines()]
+    assert [row["name"] for row in rows] == [case.name for case in few()]
+    outcomes = [row["outcome"] for row in rows]
+    assert outcomes == [GOOD, REFUSED, GOOD, GOOD, GOOD, SILENT, GOOD]
+    assert rows[1]["reason"].startswith("before the run: Scenario.duration = -1.0")
+    assert rows[5]["reason"].startswith("ZeroDivisionError")
+    assert "other" not in rows[0]  # a short run is compared with none: not a number, and left out
+
+
+def test_the_chapter_can_be_read_and_its_maps_are_there(out: Path) -> None:
+    told = Chapter.load(out)
+    assert told.study == "extremes"
+    assert "5 runs are good, 1 refused, 1 failed silently." in told.findings
+    assert [picture.stem for picture in told.pictures] == [
+        "map_step_stiffness", "map_clearance_speed", "map_friction_step",
+    ]  # fmt: skip
+    for picture in told.pictures:
+        # some tens of kB; an empty canvas has five
+        assert (out / f"{picture.stem}.png").stat().st_size > 10_000
+    silent = next(sheet for sheet in told.sheets if sheet.title == "Silent failures")
+    assert [row[0] for row in silent.rows] == [few()[5].name]
+
+
+def test_numbers_that_json_has_no_word_for_are_left_out(tmp_path: Path) -> None:
+    verdict = Verdict(GOOD, error=math.inf, half=math.nan, energy=0.25)
+    extremes.save_rows(tmp_path / "rows.jsonl", [(of(fall), verdict)])
+
+    def unknown(word: str) -> float:
+        raise AssertionError(word)
+
+    row = json.loads((tmp_path / "rows.jsonl").read_text(encoding="utf-8"), parse_constant=unknown)
+    assert (row["energy"], "error" in row, "half" in row) == (0.25, False, False)
