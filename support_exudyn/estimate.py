@@ -177,8 +177,8 @@ def error(measure: Measure, result: Result, r: float, size: float = 0.0) -> floa
 def worst_error(result: Result, r: float) -> float:
     """See `Result.worst_error`; r: see `fall`.
 
-    Of three runs, also by the worst distances themselves: those of a few numbers may fall slower than most do. They
-    are not believed to fall faster than by half, for two runs can agree by chance.
+    Of three runs, also by the worst distances themselves: those of a few numbers may fall slower than most do.
+    They are not believed to fall faster than by half, for two runs can agree by chance.
     """
     found = _worst(result, lambda measure: error(measure, result, r))
     coarser = result.coarser
