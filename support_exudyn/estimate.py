@@ -15,12 +15,14 @@ from __future__ import annotations
 
 import math
 import numbers
+import sys
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
+from support_exudyn.scenario import ERROR_CONTROLLED
 from user_forces.values import InputError, short
 
 if TYPE_CHECKING:
@@ -34,6 +36,7 @@ SAFETY_OF_WORST = 6.0  # covers all of two thousand runs at the extremes (`studi
 FASTEST, SLOWEST = 0.25, 0.8  # r: three runs tell nothing beyond
 FIRST_ORDER = 0.5  # r where there are two runs only
 ROUNDING = 1e-10  # share of a number, or of the largest of its kind, that no estimate is below
+ROUNDINGS = 20.0  # of the largest coordinate, that forces of the support show below steps of 2e-5 s
 SMALLEST_SPREAD = 1e-3  # of the mean
 SMALLEST_EXTENT = (
     1e-8  # of a path, of its distance from the origin: below, a machine is at rest but for rounding
@@ -180,7 +183,7 @@ def worst_error(result: Result, r: float) -> float:
     Of three runs, also by the worst distances themselves: those of a few numbers may fall slower than most do.
     They are not believed to fall faster than by half, for two runs can agree by chance.
     """
-    found = _worst(result, lambda measure: error(measure, result, r))
+    found = _worst(result, lambda measure: error(measure, result, r), rounding_of_forces(result.scenario))
     coarser = result.coarser
     if coarser is None or coarser.coarser is None:
         return found
@@ -194,8 +197,33 @@ def disagreement(result: Result, other: Result) -> float:
     return _worst(result, lambda measure: abs(measure(result) - measure(other)))
 
 
-def _worst(result: Result, off_by: Callable[[Measure], float]) -> float:
-    """The largest, relative, of what the numbers are off by that an accuracy is of."""
+def rounding_of_forces(scenario: Scenario) -> float:
+    """What rounding leaves of itself in the joint forces of a run [N].
+
+        R mass size epsilon / step^2
+
+    Constraints of index 3 hold positions, which are rounded by a share of the machine's size; accelerations
+    are their differences over the step's square. Other formulations do not divide by steps.
+    """
+    if scenario.formulation in ERROR_CONTROLLED:
+        return 0.0
+    bodies = scenario.linkage.bodies.values()
+    size = max(math.hypot(*body.centre) for body in bodies)
+    step = min(scenario.step, scenario.record_period)
+    return ROUNDINGS * max(body.mass for body in bodies) * size * sys.float_info.epsilon / step**2
+
+
+def rounding_share(result: Result) -> float:
+    """The same, of the force that it is the largest share of."""
+    return _worst(result, lambda measure: 0.0, rounding_of_forces(result.scenario))
+
+
+def _worst(result: Result, off_by: Callable[[Measure], float], rounding: float = 0.0) -> float:
+    """The largest, relative, of what the numbers are off by that an accuracy is of.
+
+    rounding: of the forces of ideal pins, which adds to what they are off by [N], to their spread as scatter
+    does. Those of loose pins follow from the depth.
+    """
     scenario = result.scenario
     off = [0.0]
     for pin in scenario.linkage.pins:
@@ -203,8 +231,11 @@ def _worst(result: Result, off_by: Callable[[Measure], float]) -> float:
         scale = float(np.abs(result[name]).mean())
         for statistic in (np.mean, np.std, np.max):
             measure = _over(name, statistic, 0.0, math.inf)
+            value, scatter = measure(result), 0.0 if pin in scenario.clearance_pins else rounding
+            if statistic is np.std:
+                scatter = math.hypot(value, scatter) - value
             # a force that hardly varies has a spread that means nothing to a share of itself
-            off.append(_share(off_by(measure), max(measure(result), SMALLEST_SPREAD * scale)))
+            off.append(_share(off_by(measure) + scatter, max(value, SMALLEST_SPREAD * scale)))
     clearances = [pin.contact.bearing.clearance for pin in scenario.clearance_pins.values()]
     for point in scenario.linkage.points:
         path = _path(result, point)

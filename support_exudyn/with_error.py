@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from support_exudyn.errors import Failure, SimulationError
-from support_exudyn.estimate import disagreement
+from support_exudyn.estimate import disagreement, rounding_share
 from support_exudyn.progress import Progress
 from support_exudyn.result import Result
 from support_exudyn.run_once import run_once
@@ -40,7 +40,8 @@ def run_with_error(scenario: Scenario, progress: Progress) -> Result:
     first, second, third = runs
     second = replace(second, coarser=first)
     result = replace(third, coarser=second, wall_time=sum(run.wall_time for run in runs))
-    told, moved = second.worst_error, disagreement(second, third)
+    told = second.worst_error + rounding_share(third)
+    moved = disagreement(second, third)
     if not moved <= told:
         reason = (
             f"its numbers do not settle: halving the steps tells an error of {told:.2g}, halving them again "

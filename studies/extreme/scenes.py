@@ -44,7 +44,7 @@ MOST_STEPS, MOST_EXPLICIT = 60_000, 2_000_000  # of every run: none of them is w
 SHORTEST, LONGEST, STEPS = 0.005, 0.08, 1000  # [s], [s], steps
 BOXED = 0.3  # [s] of runs in the box
 FALL = 0.03  # [s] that the journal takes to fall through its clearance and bounce
-NEAR = 0.98  # clearances from the middle at which journals start in short runs, where they will come to rest
+HALF, LOAD = 0.5, 5e4  # of the depth under this load [N], at which journals start in short runs
 SLIDER_BEARING = 0.01  # bore radius at the slider [m]
 
 
@@ -77,17 +77,18 @@ def settings(point: Point, **more: Unpack[OtherSettings]) -> SolverSettings:
 def times(point: Point, longest: float = LONGEST) -> Times:
     """Step, time between records and duration of a run."""
     period = max(1e-3, point.step_s)
-    wanted = point.pace * min(longest, max(SHORTEST, STEPS * point.step_s))
+    wanted = max(SHORTEST, point.pace * min(longest, STEPS * point.step_s))
     return {"step": point.step_s, "record_period": period, "duration": period * max(1, round(wanted / period))}
 
 
 def near(point: Point) -> Point:
-    """A journal that starts near where it will come to rest, if the run is too short for a fall."""
+    """A journal that starts half as deep as it will come to rest, if the run is too short for a fall."""
     if times(point)["duration"] >= FALL or point.eccentricity != (0.0, 0.0):
         return point
     x, y = rest_direction()
     sign = 1.0 if point.bore == "first" else -1.0
-    return replace(point, eccentricity=(sign * NEAR * x, sign * NEAR * y))
+    away = 1.0 + HALF * point.normal.resting_depth(LOAD) / point.clearance_m
+    return replace(point, eccentricity=(sign * away * x, sign * away * y))
 
 
 @cache
