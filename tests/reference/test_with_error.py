@@ -148,8 +148,8 @@ def test_ideal_pins_have_theirs() -> None:
 
 
 def test_a_machine_at_rest_is_certain() -> None:
-    # a path that is nothing but rounding, 1e-13 m, would else be uncertain by ten times its extent. Forces scatter
-    # by 1e-6 of themselves at these steps, against a spread of 1e-3; measured: 2.9e-3
+    # a path that is nothing but rounding, 1e-13 m, would else be uncertain by ten times its extent. Forces
+    # scatter by 1e-6 of themselves at these steps, against a spread of 1e-3; measured: 2.9e-3
     assert simulate(support(duration=0.1, drive=Held()), errors=True).worst_error < 1e-2
 
 
