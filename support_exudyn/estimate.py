@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 Series = npt.NDArray[np.float64]
 # Errors of a method that chooses its steps fall faster than FASTEST, but less regularly.
 SAFETY = {"auto": 4.0, "redundant": 4.0, "tree": 1.75, "reduced": 1.75}  # by formulation
+SAFETY_OF_WORST = 6.0  # covers all of two thousand runs at the extremes (`studies/extremes.py`)
 FASTEST, SLOWEST = 0.25, 0.8  # r: three runs tell nothing beyond
 FIRST_ORDER = 0.5  # r where there are two runs only
 ROUNDING = 1e-10  # share of a number, or of the largest of its kind, that no estimate is below
@@ -176,8 +177,8 @@ def error(measure: Measure, result: Result, r: float, size: float = 0.0) -> floa
 def worst_error(result: Result, r: float) -> float:
     """See `Result.worst_error`; r: see `fall`.
 
-    Of three runs, also by how the worst distance falls: a few numbers may fall slower than most do. It is not
-    believed to fall faster than by half, for by chance it does.
+    Of three runs, also by the worst distances themselves: those of a few numbers may fall slower than most do.
+    They are not believed to fall faster than by half, for two runs can agree by chance.
     """
     found = _worst(result, lambda measure: error(measure, result, r))
     coarser = result.coarser
@@ -185,9 +186,7 @@ def worst_error(result: Result, r: float) -> float:
         return found
     last, before = disagreement(coarser, result), disagreement(coarser.coarser, coarser)
     r = min(max(last / before, FIRST_ORDER), SLOWEST) if before > 0.0 else SLOWEST
-    # what does not fall is not an error of steps any more: each touch multiplies it, whatever the method
-    safety = SAFETY["auto"] if r == SLOWEST else SAFETY[result.scenario.formulation]
-    return max(found, safety * last * r / (1.0 - r))
+    return max(found, SAFETY_OF_WORST * max(last, FIRST_ORDER * before) * r / (1.0 - r))
 
 
 def disagreement(result: Result, other: Result) -> float:

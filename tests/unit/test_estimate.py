@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from support_exudyn import Estimate, Held, Onset, Result
-from support_exudyn.estimate import FASTEST, FIRST_ORDER, ONSETS, ROUNDING, SLOWEST
+from support_exudyn.estimate import FASTEST, FIRST_ORDER, ONSETS, ROUNDING, SAFETY_OF_WORST, SLOWEST
 from support_exudyn.estimate import SAFETY as SAFETY_OF
 from tests.reduced import simulate_reduced
 from tests.reference.cases import FORCE, PIN, loose_support
@@ -200,12 +200,10 @@ def test_the_worst_error_is_that_of_forces_and_paths(r: float) -> None:
     path = np.array([exact()["tip.x"], exact()["tip.y"]])
     extent = max(float(np.hypot(*np.ptp(path, axis=1))), 1.5e-3)
     # the tip is 4 m from the origin and moves by millimetres, so that a share of its place is the worst
-    off = share * r**2 * np.hypot(*path).max() / extent
-    # distances of the worst are not believed to fall faster than by half
-    believed = max(r, FIRST_ORDER)
-    off *= (1.0 - r) / r * believed / (1.0 - believed)
+    # its distance from the run before, which is not believed to fall faster than by half
+    last = share * (1.0 - r) * max(r, FIRST_ORDER) * np.hypot(*path).max() / extent
     # extent and clearance are those of the finest run, off by that share itself
-    assert run.worst_error == pytest.approx(SAFETY * off, rel=1e-3)
+    assert run.worst_error == pytest.approx(SAFETY_OF_WORST * last, rel=1e-3)
     goal = run.worst_error
     assert replace(run, goal=goal).met
     assert not replace(run, goal=0.99 * goal).met
@@ -216,10 +214,9 @@ def test_the_worst_error_of_a_force_is_relative() -> None:
     run = three(*runs)
     # all others are constants: the median of those that are none is theirs
     assert run.fall == pytest.approx(r, rel=1e-9)
-    # of the finest run's force; its distance from the one before, which is not believed to fall faster than by
-    # half
-    # numbers are shares of those of a run that is off by up to 1e-2 r
-    assert run.worst_error == pytest.approx(SAFETY * 1e-2 * r * (1.0 - r), rel=1e-2 * r)
+    # distances are believed to fall by half at most; they are shares of a run's own force, off by up to 1e-2
+    last = 1e-2 * (1.0 - r) * FIRST_ORDER
+    assert run.worst_error == pytest.approx(SAFETY_OF_WORST * last, rel=2e-2)
 
 
 # --- which numbers there are ---
