@@ -95,7 +95,7 @@ def test_friction_too_steep_for_explicit_steps_is_left_to_the_implicit_ones(
 
 
 def test_a_run_to_an_accuracy_is_made_by_the_formulation_that_can() -> None:
-    steep = rubbing(replace(DROP, duration=0.02), 2e-9)  # friction stops in 0.1 ns what slides
+    steep = rubbing(replace(DROP, duration=0.02), 2e-9)  # friction stops in 20 ps what slides
     result = simulate(steep, accuracy=0.1)
     assert result.scenario.formulation == "redundant"
     assert len(result.onsets["rear_base"]) == 1
