@@ -19,6 +19,11 @@ from user_forces.normal.law import LoadError, NormalLaw
 SMALLEST_MOBILITY = 1e-15  # [1/kg]
 ROUNDING = 1e-9  # share of the weight below which a pin carries nothing: loads are of a linear solve
 SLIPS = (0.0, *np.geomspace(1e-9, 1.0, 400).tolist())  # [m/s]
+PARTS, ZOOMS, STEEPER = (
+    32,
+    8,
+    1.01,
+)  # into which the steepest part of SLIPS is divided, while that shows a steeper
 SLOWEST_FALL = 1e-3  # [m/s^2]; a scene in which nothing pulls a journal moves as slowly as one likes
 
 
@@ -73,12 +78,23 @@ def timescales(scenario: Scenario) -> Timescales:
 
 
 def _steepest(law: FrictionLaw, load: float) -> float:
-    """The largest rise of the friction force over the slip [N s/m], as far as SLIPS show it."""
+    """The largest rise of the friction force over the slip [N s/m].
+
+    A ramp narrower than what lies between two of SLIPS is found by dividing what it lies in.
+    """
     if law.has_state:
         return 0.0  # a spring, which does not damp
-    forces = [abs(law(slip, load)) for slip in SLIPS]
-    rises = [(b - a) / (v - u) for (u, a), (v, b) in pairwise(zip(SLIPS, forces, strict=True))]
-    return max(rises, default=0.0)
+    slips, found = SLIPS, 0.0
+    for _ in range(ZOOMS):
+        forces = [abs(law(slip, load)) for slip in slips]
+        rises = [(b - a) / (v - u) for (u, a), (v, b) in pairwise(zip(slips, forces, strict=True))]
+        place = int(np.argmax(rises))
+        steeper = rises[place] > STEEPER * found
+        found = max(found, rises[place])
+        if not steeper:
+            break
+        slips = tuple(np.linspace(slips[place], slips[place + 1], PARTS + 1).tolist())
+    return found
 
 
 def _slope(law: NormalLaw, load: float) -> float:

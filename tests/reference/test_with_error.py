@@ -190,16 +190,18 @@ def test_a_failure_is_had_as_a_value(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_numbers_that_settle_too_slowly_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    # distances of 0.5 and 0.3, each a share of its run's: a half and a third, and more is left than was moved
+    # distances are a third and a sixth of what they are shares of: several times the last may be left
     plant(monkeypatch, (1.0, 1.5, 1.8))
     failure = simulate(FALL, errors=True, throw=False)
     assert isinstance(failure, Failure)
-    assert re.fullmatch(r"its numbers are uncertain by \d+%; allowed: 50%", failure.reason)
+    told = re.fullmatch(r"its numbers are uncertain by (\d+)%; allowed: 50%", failure.reason)
+    assert told is not None
+    assert 50 <= int(told[1]) <= 300
     assert LARGEST_ERROR == 0.5
     # smaller ones are told
-    plant(monkeypatch, (1.0, 1.12, 1.19))
+    plant(monkeypatch, (1.0, 1.1, 1.14))
     result = simulate(FALL, errors=True)
-    assert 0.3 < result.worst_error < LARGEST_ERROR
+    assert 0.1 < result.worst_error < LARGEST_ERROR
 
 
 def test_a_run_that_fails_ends_it(monkeypatch: pytest.MonkeyPatch) -> None:

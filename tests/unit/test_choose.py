@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from support_exudyn import Held, Scenario, SolverSettings, choose
+from support_exudyn import Held, Scenario, SolverSettings, choose, simulate
 from support_exudyn.choose import (
     DRIVE,
     FEWEST_IMPACT_STEPS,
@@ -17,6 +17,7 @@ from support_exudyn.choose import (
     GOAL_OF_SHARES,
     IMPACT_STEPS,
     LARGEST_TOLERANCE,
+    MOST_RUBBING,
     RESTING,
     settings_for,
 )
@@ -30,7 +31,7 @@ from support_exudyn.scenario import (
 from support_exudyn.timescales import timescales
 from tests.reference.cases import loose_slider_crank, loose_support, slider_crank, support
 from tests.unit.test_formulations import COVERED, SCENES
-from user_forces import InputError
+from user_forces import Ambrosio, InputError
 
 goals = st.floats(math.log10(SMALLEST_GOAL), math.log10(LARGEST_GOAL)).map(
     lambda x: min(max(10.0**x, SMALLEST_GOAL), LARGEST_GOAL)
@@ -63,6 +64,41 @@ def test_a_backend_that_is_asked_for_decides_too() -> None:
     python = replace(DROP, solver=SolverSettings(backend="python"))
     assert settings_for(python, 1e-3).formulation == "reduced"
     assert settings_for(python, 1e-3).solver.backend == "python"
+
+
+def rubbing(scene: Scenario, ramp: float) -> Scenario:
+    """The same with friction in its loose pins, whose ramp is so wide [m/s]."""
+    friction = Ambrosio(sliding_coefficient=0.25, static_speed=1e-4, dynamic_speed=1e-4 + ramp)
+    pins = {
+        name: replace(pin, contact=replace(pin.contact, friction=friction))
+        for name, pin in scene.clearance_pins.items()
+    }
+    return replace(scene, pins=pins)
+
+
+@pytest.mark.parametrize(
+    ("scene", "explicit"),
+    [(DROP, "reduced"), (SCENES["loose support on oil"], "tree"), (replace(DROP, duration=2.0), "reduced")],
+)
+def test_friction_too_steep_for_explicit_steps_is_left_to_the_implicit_ones(
+    scene: Scenario, explicit: str
+) -> None:
+    # the time in which friction stops what slides is as long as the ramp is wide
+    wide = 1e-2
+    steepest = wide * scene.duration / (MOST_RUBBING * timescales(rubbing(scene, wide)).rubbing)
+    assert 1e-9 < steepest < wide  # there are such friction laws
+    assert settings_for(rubbing(scene, 1.05 * steepest), 1e-3).formulation == explicit
+    steep = rubbing(scene, 0.95 * steepest)
+    assert settings_for(steep, 1e-3).formulation == "redundant"
+    # who asks for another has it
+    assert settings_for(replace(steep, formulation=explicit), 1e-3).formulation == explicit
+
+
+def test_a_run_to_an_accuracy_is_made_by_the_formulation_that_can() -> None:
+    steep = rubbing(replace(DROP, duration=0.02), 2e-9)  # friction stops in 20 ps what slides
+    result = simulate(steep, accuracy=0.1)
+    assert result.scenario.formulation == "redundant"
+    assert len(result.onsets["rear_base"]) == 1
 
 
 # --- the settings ---

@@ -32,7 +32,7 @@ from tests.reference.cases import (
     support,
 )
 from tests.reference.cases import SLIDER_PIN as SLIDER
-from user_forces import Hertz, JournalContact, KelvinVoigt, LoadError, NormalLaw, Touch, value
+from user_forces import Ambrosio, Hertz, JournalContact, KelvinVoigt, LoadError, NormalLaw, Touch, value
 
 CLEARANCE = 1.5e-3
 RADIUS, ROD = 0.05, 0.12  # of the slider-crank [m]
@@ -192,6 +192,46 @@ class Weak(Hertz):
 def test_a_law_that_cannot_hold_the_load_is_left_to_the_run() -> None:
     # that says when and where it is overloaded, or never is
     assert timescales(stand(Weak(stiffness=1e6), (0.0, -9.81))).resting == math.inf
+
+
+# --- friction ---
+
+
+def rubbed(static: float, dynamic: float, coefficient: float = 0.25) -> Scenario:
+    """The stand under gravity, whose journal is pressed by the reduced mass times that."""
+    scene = stand(spring(1e9), (0.0, -9.81))
+    friction = Ambrosio(sliding_coefficient=coefficient, static_speed=static, dynamic_speed=dynamic)
+    contact = replace(scene.clearance_pins["pin"].contact, friction=friction)
+    return replace(scene, pins={"pin": ClearancePin(contact=contact)})
+
+
+@pytest.mark.parametrize(
+    ("static", "ramp"),
+    [(0.0, 1e-2), (1e-4, 1e-2), (1e-7, 1e-7), (1e-4, 4e-6), (1e-2, 1e-4), (0.1, 1e-7), (0.0372, 3e-6)],
+)
+def test_friction_stops_in_the_mass_times_its_ramp_over_the_force(static: float, ramp: float) -> None:
+    # the load is m g, and so the mass falls out of m (v_d - v_s) / (mu m g)
+    expected = ramp / (0.25 * 9.81)
+    # differences of slips of 0.1 m/s are rounded by 1e-17: the narrowest part divided is 1e-9 wide
+    assert timescales(rubbed(static, static + ramp)).rubbing == pytest.approx(expected, rel=1e-5)
+
+
+def test_on_the_support_friction_stops_what_moves_most_easily() -> None:
+    scene = loose_support(1.5, 0.25, drive=Held())
+    friction = scene.clearance_pins[PIN].contact.friction
+    ideal = tuple(pin for pin in scene.linkage.pins if pin != PIN)
+    kinetics = kinetics_of(scene.linkage, ideal)
+    mobility = kinetics.pin_mobility(np.zeros(3 * len(scene.linkage.bodies)), PIN)
+    mass = 1.0 / float(np.linalg.eigvalsh(mobility)[-1])
+    # 58 779 N is the load of the ideal pin, as above
+    expected = mass * (friction.dynamic_speed - friction.static_speed) / (0.25 * 58778.944)
+    assert timescales(scene).rubbing == pytest.approx(expected, rel=1e-4)
+
+
+def test_without_friction_nothing_is_stopped() -> None:
+    assert timescales(loose_support(1.5, 0.0, drive=Held())).rubbing == math.inf
+    assert timescales(rubbed(1e-4, 1e-2, coefficient=0.0)).rubbing == math.inf
+    assert timescales(support(drive=Held())).rubbing == math.inf
 
 
 # --- drive ---
