@@ -25,6 +25,7 @@ from support_exudyn.engine_settings import SMALLEST_STEP, engine_settings, quiet
 from support_exudyn.engine_words import explained, first_line
 from support_exudyn.errors import Failure, SimulationError
 from support_exudyn.impulse import Impulse
+from support_exudyn.newton_failures import NewtonFailures
 from support_exudyn.onset import SHARE
 from support_exudyn.progress import Progress
 from support_exudyn.recorder import Recorder
@@ -44,13 +45,7 @@ BREAK_REFINEMENT = 32
 # The engine computes a new Jacobian at the start of every stretch of steps. Where Python is called in each of
 # them for columns and energies, stretches are worth that if they are longer than so many.
 FEW_STEPS = 5
-# After a step that Newton's method could only solve shortened, so many steps of that length before a longer one
-# is tried: with friction that is steep against the step nearly every longer one would fail again.
-STEPS_TO_GROW = 8
-# A step that has been shortened so often is tried with a new Jacobian in every iteration. (From the first
-# failure on, longer steps would converge across the whole ramp of friction, and energy would not add up.)
-FAILURES_OF_A_STEP = 3
-FAILURES_IN_A_ROW = 500
+# Before steps that are so many times shorter than the last, velocities are aligned, see `velocity_jump`.
 MUCH_SHORTER = 8.0
 ADVICE = (
     "Try a smaller step; if that does not help, look whether the posture is near a dead centre "
@@ -58,7 +53,8 @@ ADVICE = (
 )
 STEEP = (
     "Is friction far steeper than steps can follow (mass times the ramp from static to dynamic speed over the "
-    "friction force, against the step)? Widen the ramp, or take formulation = 'reduced', or a smaller step."
+    "friction force, against the step)? Widen the ramp, take a smaller step, or formulation = 'reduced' with "
+    "more `solver.most_steps`."
 )
 FEWER_STEPS = (
     "Allow longer steps, fewer of them in an impact (`solver.impact_steps`), a shorter duration, or more steps "
@@ -92,12 +88,7 @@ class Run:
         self.most_steps = scenario.solver.most_steps
         self.trying = False  # a step has been tried and not accepted yet
         self.repeated = False  # that step is tried again, shorter
-        self.failures = 0  # how often, because Newton's method did not converge
-        self.failures_in_a_row = 0  # the same over all steps since one that needed no shortening
-        self.solvable = (
-            math.inf
-        )  # length of step that has been found to converge where a longer one did not [s]
-        self.solved = 0  # steps of that length in a row
+        self.newton = NewtonFailures(scenario.step)
         # whether anything of the model has to follow a drive, and whether Python has to see every step
         self.follows = any(parts.moves(scenario.duration) for parts in scene.driven)
         self.watches = bool(self.pins or self.frictions) or self.smooth is not None
@@ -135,7 +126,7 @@ class Run:
                 raise SimulationError(self._failure(explained(error), engine_words.ADVICE)) from error
             raise SimulationError(self._failure(first_line(cause))) from error
         if not finished or self.time < self.plan.duration * (1.0 - 1e-9):
-            advice = f"{ADVICE} {STEEP}" if self.failures and self._has_friction() else ADVICE
+            advice = f"{ADVICE} {STEEP}" if self.newton.of_step and self._has_friction() else ADVICE
             raise SimulationError(self._failure("the solver gave up", advice))
         return Counts(
             steps=self.steps,
@@ -198,9 +189,8 @@ class Run:
                 self.cut_steps += 1
             else:
                 self.failed_newton += 1
-                self.failures += 1
-                self.failures_in_a_row += 1
-                if self.failures == FAILURES_OF_A_STEP:
+                self.newton.failed()
+                if self.newton.wants_new_jacobians:
                     self.solver.newton.useModifiedNewton = False
         self.trying = True
         self.scene.drive_to(t)
@@ -245,8 +235,8 @@ class Run:
         if self.trying:
             self.trying = False
             self.steps += 1
-            self._look_for_solvability(t - self.time)
             self._look_for_limits()
+            self._solved(taken)
             for pin in self.pins:
                 kink = kink or pin.onset is not None
                 pin.accept(t)
@@ -302,8 +292,11 @@ class Run:
             raise SimulationError(self._failure(f"more than {self.most_steps} steps", FEWER_STEPS))
 
     def _look_for_limits(self) -> None:
-        """Raise SimulationError if a journal is too deep in its bore, or there have been too many steps."""
+        """Raise SimulationError if a journal is too deep, or there were too many steps, or too many failed."""
         self._count()
+        if self.newton.too_many:
+            reason = f"Newton's method has not converged {self.newton.in_a_row} times in a row of steps"
+            raise SimulationError(self._failure(reason, STEEP))
         if not self.scene.scenario.solver.audit:
             return
         for name, pin in self.scene.loose_pins.items():
@@ -311,25 +304,11 @@ class Run:
             if pin.reached.depth > DEEPEST * bearing.bore_radius:
                 raise SimulationError(self._failure(too_deep(name, pin.reached.depth, bearing), SOFT))
 
-    def _look_for_solvability(self, taken: float) -> None:
-        """A step of this length [s] has been solved: how long may the next one be for Newton's method?"""
-        if self.failures_in_a_row > FAILURES_IN_A_ROW:
-            reason = f"Newton's method has not converged {self.failures_in_a_row} times in a row of steps"
-            raise SimulationError(self._failure(reason, STEEP))
-        if self.failures:
-            if self.failures >= FAILURES_OF_A_STEP:
-                self.solver.newton.useModifiedNewton = self.scene.scenario.solver.newton == "modified"
-            self.failures = 0
-            # where a force jumps at a touch steps are tiny already, and shorter ones meet rounding
-            if not any(pin.impact.begins_with_a_jump for pin in self.pins):
-                self.solvable, self.solved = taken, 0
-        elif self.solvable < math.inf:
-            self.failures_in_a_row = 0
-            self.solved += 1
-            if self.solved >= STEPS_TO_GROW:
-                self.solvable, self.solved = 2.0 * self.solvable, 0
-                if self.solvable > self.plan.step:
-                    self.solvable = math.inf
+    def _solved(self, taken: float) -> None:
+        """A step of this length [s] has been solved: what follows for the next?"""
+        if self.newton.wants_new_jacobians:
+            self.solver.newton.useModifiedNewton = self.scene.scenario.solver.newton == "modified"
+        self.newton.solved(taken, any(pin.impact.begins_with_a_jump for pin in self.pins))
 
     def _look_for_smoothness(self, t: float, smooth: SmoothSteps) -> None:
         """A step has ended at t: may the next be longer? And the records that it has passed over."""
@@ -355,7 +334,7 @@ class Run:
 
     def _next_time(self, t: float) -> float:
         """Where the step that starts at t is to end: on the grid, or at an impact seen coming [s]."""
-        largest = self.solvable
+        largest = self.newton.length
         for pin in self.pins:
             largest = min(largest, pin.impact.step)
         if self.locates and self.plan.follows_break(t):

@@ -140,7 +140,7 @@ def _cranked(point: Point, i: int, random: np.random.Generator) -> Made:
 def _colliding(point: Point, i: int, random: np.random.Generator) -> Made:
     ratio, speed = float(10.0 ** random.uniform(-4.0, 4.0)), float(10.0 ** random.uniform(-4.0, 1.0))
     point = replace(point, mu=0.0)
-    return {"mass_ratio": ratio, "speed": speed}, partial(scenes.colliding, point, ratio, speed)
+    return {"mu": 0.0, "mass_ratio": ratio, "speed": speed}, partial(scenes.colliding, point, ratio, speed)
 
 
 def _started(point: Point, i: int, random: np.random.Generator) -> Made:
@@ -161,6 +161,7 @@ def _with_solver(point: Point, i: int, random: np.random.Generator) -> Made:
     if i % 5 == 2:
         settings["locate"] = False
     said: dict[str, float | str] = {name: str(value) for name, value in settings.items()}
+    said["spectral_radius"] = point.spectral_radius
     make = scenes.on_oil if i % 2 else scenes.with_solver
     return said, partial(make, point, **settings)
 
@@ -192,7 +193,8 @@ def _weightless(point: Point, i: int, random: np.random.Generator) -> Made:
 
 def _hung_up(point: Point, i: int, random: np.random.Generator) -> Made:
     angle = scenes.rest_angle(random)
-    return {"angle": angle}, partial(scenes.hung_up, replace(point, mu=max(point.mu, 0.5)), angle)
+    mu = max(point.mu, 0.5)
+    return {"mu": mu, "angle": angle}, partial(scenes.hung_up, replace(point, mu=mu), angle)
 
 
 def _under_roof(point: Point, i: int, random: np.random.Generator) -> Made:

@@ -45,6 +45,8 @@ SHORTEST, LONGEST, STEPS = 0.005, 0.08, 1000  # [s], [s], steps
 BOXED = 0.3  # [s] of runs in the box
 FALL = 0.03  # [s] that the journal takes to fall through its clearance and bounce
 HALF, LOAD = 0.5, 5e4  # of the depth under this load [N], at which journals start in short runs
+RECORDS = 101.0  # of two free bodies: none of them at the touch
+MOST_OF_FLIGHT = 10_000.0  # steps of theirs
 SLIDER_BEARING = 0.01  # bore radius at the slider [m]
 
 
@@ -218,14 +220,14 @@ def colliding(point: Point, ratio: float, speed: float) -> Scenario:
     """Two free bodies of a mass ratio, one of which flies in the other's bore."""
     stand = ImpactStand(bore_mass=1000.0, journal_mass=1000.0 / ratio, speed=speed)
     crossing = point.clearance_m / speed
-    duration = max(4.0 * crossing, 4.0 * point.step_s)
+    duration = 4.0 * crossing
     return Scenario(
         machine=stand,
         pins={"pin": point.pin},
         gravity=(0.0, 0.0),
         duration=duration,
-        step=min(point.step_s, duration / 4.0),
-        record_period=duration / 4.0,
+        step=max(min(point.step_s, duration / RECORDS), duration / MOST_OF_FLIGHT),
+        record_period=duration / RECORDS,
         solver=settings(point),
     )
 
