@@ -52,7 +52,7 @@ MAPS = {
     ),
     "friction_step": Map(
         FRICTION_STEP, "static_speed_m_s", "step_s", "$v_s$ [m/s], $v_d = 2 v_s$", "step [s]",
-        (1e-2, 5e-4), "defaults",
+        (5e-3, 5e-4), "defaults",
     ),
 }  # fmt: skip
 
@@ -102,7 +102,7 @@ def _figure(one: Map, judged: Judged) -> Figure:
     handles.append(Line2D([], [], color="black", marker="x", linestyle="none", label="refused"))
     if any(verdict.outcome == SILENT for _, verdict in found):
         handles.append(Line2D([], [], color=style.SMOOTH, marker="s", linestyle="none", label="silent failure"))
-    drawing.legend(handles=handles, loc="outside lower center", ncols=3)
+    drawing.legend(handles=handles, loc="outside lower center", ncols=2)
     return drawing
 
 

@@ -33,6 +33,7 @@ Series = npt.NDArray[np.float64]
 # Errors of a method that chooses its steps fall faster than FASTEST, but less regularly.
 SAFETY = {"auto": 4.0, "redundant": 4.0, "tree": 1.75, "reduced": 1.75}  # by formulation
 SAFETY_OF_WORST = 6.0  # covers all of two thousand runs at the extremes (`studies/extremes.py`)
+IRREGULAR = 4.0  # times that, where Newton's method failed: steps then are not those that were asked for
 FASTEST, SLOWEST = 0.25, 0.8  # r: three runs tell nothing beyond
 FIRST_ORDER = 0.5  # r where there are two runs only
 ROUNDING = 1e-10  # share of a number, or of the largest of its kind, that no estimate is below
@@ -189,7 +190,9 @@ def worst_error(result: Result, r: float) -> float:
         return found
     last, before = disagreement(coarser, result), disagreement(coarser.coarser, coarser)
     r = min(max(last / before, FIRST_ORDER), SLOWEST) if before > 0.0 else SLOWEST
-    return max(found, SAFETY_OF_WORST * max(last, FIRST_ORDER * before) * r / (1.0 - r))
+    runs = (result, coarser, coarser.coarser)
+    irregular = IRREGULAR if any(run.counts.failed_newton for run in runs) else 1.0
+    return max(found, irregular * SAFETY_OF_WORST * max(last, FIRST_ORDER * before) * r / (1.0 - r))
 
 
 def disagreement(result: Result, other: Result) -> float:

@@ -182,7 +182,7 @@ def _deepest(result: Result) -> float:
 def largest_restitution(result: Result) -> float:
     """The largest restitution of a free impact over that of its law; nan if there was none."""
     found = [math.nan]
-    pull = PULL if any(result.scenario.gravity) or result.scenario.driven else 0.0
+    pull = _pull(result.scenario)
     contacts = {
         name: [(touch.time, touch.parting_time) for touch in result.onsets.get(name, ())]
         for name in result.scenario.clearance_pins
@@ -202,6 +202,21 @@ def largest_restitution(result: Result) -> float:
                 continue
             found.append(touch.parting_speed / (law.delivered_restitution * touch.speed))
     return float(np.nanmax(found)) if len(found) > 1 else math.nan
+
+
+def _pull(scenario: Scenario) -> float:
+    """What pulls a journal besides its contact [m/s^2]: gravity, and what the machine's drives do to it.
+
+    That of a running machine from the time of flight that is known of it; of other drives a guess.
+    """
+    moves = (
+        PULL if any(drive.span(scenario.duration) != (0.0, 0.0) for drive in scenario.drives_in_use) else 0.0
+    )
+    clearances = [pin.contact.bearing.clearance for pin in scenario.clearance_pins.values()]
+    flight = timescales(scenario).flight
+    return max(
+        [math.hypot(*scenario.gravity), moves, *(2.0 * clearance / flight**2 for clearance in clearances)]
+    )
 
 
 def _halved(result: Result) -> tuple[Result, Result] | None:

@@ -61,6 +61,8 @@ def run(scenario: Scenario, progress: Progress) -> Outcome:
         code = _compiled(made, scenario.solver.most_steps, progress)
     else:
         code, calls = run_plain(made, scenario.solver.most_steps, progress)
+    if 0.0 in scenario.breaks:  # a record at a break holds what is just before it
+        made.rows[layout.ACCELERATION, 0] = 0.0
     if code == FINISHED and not np.isfinite(made.rows.sum()):
         code, made.report[NOT_A_NUMBER] = STUCK, 1.0
     if code != FINISHED:
