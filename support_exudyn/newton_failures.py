@@ -13,7 +13,9 @@ STEPS_TO_GROW = 8
 # A step that has been shortened so often is tried with a new Jacobian in every iteration. (From the first
 # failure on, longer steps would converge across the whole ramp of friction, and energy would not add up.)
 FAILURES_OF_A_STEP = 3
-MOST_IN_A_ROW = 500
+MOST_MORE = 300  # failures than steps without any, by which a run is given up
+# so many steps of less than such a share of the longest, without which Newton's method fails, are a run without end
+CRAWL, MOST_CRAWLED = 1e-4, 10_000
 
 
 class NewtonFailures:
@@ -27,7 +29,8 @@ class NewtonFailures:
         self.longest = longest
         self.length = math.inf  # that has been found to converge where a longer one did not [s]
         self.of_step = 0  # failures in the step that is being tried
-        self.in_a_row = 0  # over all steps since one that needed no shortening
+        self.more = 0  # failures than steps without any, from 0 on
+        self.crawled = 0  # steps of next to no length
         self._solved = 0  # steps of that length in a row
 
     @property
@@ -38,12 +41,12 @@ class NewtonFailures:
     @property
     def too_many(self) -> bool:
         """Whether steps fail so often that the run is to be given up."""
-        return self.in_a_row > MOST_IN_A_ROW
+        return self.more > MOST_MORE or self.crawled > MOST_CRAWLED
 
     def failed(self) -> None:
         """The step that is being tried has not converged."""
         self.of_step += 1
-        self.in_a_row += 1
+        self.more += 1
 
     def solved(self, taken: float, jumps: bool) -> None:
         """A step of this length [s] has been solved; jumps: a force has jumped just now.
@@ -55,8 +58,9 @@ class NewtonFailures:
             if not jumps:
                 self.length, self._solved = taken, 0
             return
-        self.in_a_row = 0
+        self.more = max(0, self.more - 1)
         if self.length < math.inf:
+            self.crawled += self.length < CRAWL * self.longest
             self._solved += 1
             if self._solved >= STEPS_TO_GROW:
                 self.length, self._solved = 2.0 * self.length, 0
