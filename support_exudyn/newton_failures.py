@@ -14,7 +14,7 @@ STEPS_TO_GROW = 8
 # failure on, longer steps would converge across the whole ramp of friction, and energy would not add up.)
 FAILURES_OF_A_STEP = 3
 MOST_MORE = 300  # failures than steps without any, by which a run is given up
-# so many steps of less than such a share of the longest, without which Newton's method fails, are a run without end
+# so many steps of less than such a share of the longest, as longer ones fail, are a run without end
 CRAWL, MOST_CRAWLED = 1e-4, 10_000
 
 

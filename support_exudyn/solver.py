@@ -295,7 +295,7 @@ class Run:
         """Raise SimulationError if a journal is too deep, or there were too many steps, or too many failed."""
         self._count()
         if self.newton.too_many:
-            reason = f"Newton's method has failed {self.failed_newton} times, and converges with next to no step only"
+            reason = f"Newton's method has failed {self.failed_newton} times, and needs next to no step"
             raise SimulationError(self._failure(reason, STEEP))
         if not self.scene.scenario.solver.audit:
             return

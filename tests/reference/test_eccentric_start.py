@@ -11,7 +11,6 @@ import pytest
 from studies.paper_machine import oil_columns
 from support_exudyn import ClearancePin, Held, Scenario, simulate
 from tests.reference.cases import FORCE, PIN, paper_contact, support
-from user_forces import InputError
 
 CLEARANCE = 1.5e-3  # [m]
 DEPTH = f"pin.{PIN}.depth"
