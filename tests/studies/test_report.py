@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import json
 import re
+import shutil
 from collections.abc import Sequence
 from dataclasses import replace
 from html.parser import HTMLParser
@@ -290,7 +291,7 @@ def test_all_studies_end_with_the_report(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def study(chosen: Options) -> None:
-        chosen.out.rmdir()  # made by run_main
+        shutil.rmtree(chosen.out)  # made by run_main
         put(chosen.out.parent, replace(chapter(chosen.out.name), quick=None))
 
     def silent(chosen: Options) -> None:
