@@ -49,7 +49,9 @@ def _number(item: Any) -> float:
 def _not_next_to_zero(number: float) -> float:
     """So that one over it is a number, and its square not zero."""
     if 0.0 < number < 1.0 / LARGEST:
-        raise ValueError(f"Input should be a number not so near to zero: at least {1.0 / LARGEST:g} if it is not 0")
+        raise ValueError(
+            f"Input should be a number not so near to zero: at least {1.0 / LARGEST:g} if it is not 0"
+        )
     return number
 
 
