@@ -9,7 +9,8 @@ from pathlib import Path
 
 from studies.catalogue import STUDIES
 from studies.report import rebuild
-from studies.study import Options, Parser, add_options, answered, output_folder, run_main
+from studies.study import Options, add_options, output_folder, run_main
+from support_exudyn.command_line import Parser, answered
 from support_exudyn.workers import worker_pool
 
 

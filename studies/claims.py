@@ -16,7 +16,6 @@ from pathlib import Path
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
-from studies import style
 from studies.claims_figures import figures, pictures
 from studies.judging import hypercube
 from studies.judging.claim_list import CLAIMS
@@ -26,6 +25,7 @@ from studies.judging.plausible_runs import CASES, TOLERANCES, evidence, largest_
 from studies.judging.verdicts import Ruling, percent, rule
 from studies.reporting.chapter import Chapter, Sheet
 from studies.study import Number, Options, options, run_main, run_pairs, save_figures, show_table, write_summary
+from support_exudyn.figures import style
 from support_exudyn.files import whole_file
 
 STUDY = "claims"

@@ -8,13 +8,14 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from studies import paper_machine, style
+from studies import paper_machine
 from studies.judging.evidence import Evidence
 from studies.judging.plausible import REFERENCE, Sample
 from studies.judging.plausible_runs import LOOSE
 from studies.judging.verdicts import NEARLY_ALL, Ruling
 from studies.paper_machine import SIZES_MM
 from studies.reporting.chapter import Picture
+from support_exudyn.figures import style
 
 COLOURS = {"holds only": style.SMOOTH, "holds": style.THIRD, "not supported": "#D55E00", "cannot": "#999999"}
 PAPER = "#D55E00"

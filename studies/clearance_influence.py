@@ -15,7 +15,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from studies import paper_machine, rise, style
+from studies import paper_machine, rise
 from studies.reporting.chapter import Chapter, Picture, Sheet
 from studies.reporting.wording import against, by_case, how_sure, percent, said
 from studies.study import (
@@ -31,6 +31,7 @@ from studies.study import (
     write_summary,
 )
 from support_exudyn import Result, Scenario
+from support_exudyn.figures import style
 
 STUDY = "clearance_influence"
 CLEARANCE_MM = 1.5

@@ -13,7 +13,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from studies import paper_machine, rise, style
+from studies import paper_machine, rise
 from studies.clearance_size_figures import figures, pictures
 from studies.paper_machine import SIZES_MM, case_name
 from studies.reporting.chapter import Chapter, Sheet
@@ -31,6 +31,7 @@ from studies.study import (
     write_summary,
 )
 from support_exudyn import Result, Scenario, SolverSettings, simulate
+from support_exudyn.figures import style
 
 STUDY = "clearance_size"
 IDEAL = "ideal"

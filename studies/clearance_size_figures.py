@@ -8,12 +8,13 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from studies import paper_machine, rise, style
+from studies import paper_machine, rise
 from studies.paper_machine import SIZES_MM, case_name
 from studies.reporting.chapter import Picture
 from studies.reporting.wording import by_case
 from studies.study import Number
 from support_exudyn import Result
+from support_exudyn.figures import style
 
 COLOURS = {0.5: "#009E73", 1.0: "#E69F00", 1.5: "#0072B2", 2.0: "#CC79A7"}  # Okabe and Ito
 DASHES = {0.5: "-", 1.0: (0, (5, 1)), 1.5: (0, (3, 1, 1, 1)), 2.0: "-"}  # for grey prints

@@ -11,7 +11,7 @@ import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
 
-from studies import law_catalogue, paper_machine, rise, style
+from studies import law_catalogue, paper_machine, rise
 from studies.contact_law_cases import (
     CLEARANCE_MM,
     FEW,
@@ -58,6 +58,7 @@ from studies.study import (
     write_summary,
 )
 from support_exudyn import Result
+from support_exudyn.figures import style
 from support_exudyn.workers import worker_pool
 
 STUDY = "contact_laws"

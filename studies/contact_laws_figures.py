@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
-from studies import rise, style
+from studies import rise
 from studies.contact_law_cases import ASKED, LOOP_RESTITUTION, SPEED, TEXTBOOK
 from studies.free_impact import (
     PIN,
@@ -22,6 +22,7 @@ from studies.study import (
     Pair,
 )
 from support_exudyn import Result
+from support_exudyn.figures import style
 
 Series = npt.NDArray[np.float64]
 

@@ -15,7 +15,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from studies import paper_machine, rise, style
+from studies import paper_machine, rise
 from studies.drive_mode_figures import figures, pictures
 from studies.ladder import Ladder, run_ladders
 from studies.reporting.chapter import Chapter, Sheet
@@ -32,6 +32,7 @@ from studies.study import (
     write_summary,
 )
 from support_exudyn import CubicStep, Drive, Result, Scenario, UniformSpeed
+from support_exudyn.figures import style
 from user_forces import value
 
 STUDY = "drive_mode"

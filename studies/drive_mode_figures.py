@@ -9,9 +9,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from studies import rise, style
+from studies import rise
 from studies.reporting.chapter import Picture
 from support_exudyn import Result
+from support_exudyn.figures import style
 
 MODES = {"mode 1": style.SMOOTH, "mode 2": style.LOOSE}
 PINS = ("ideal pin", "1.5 mm")

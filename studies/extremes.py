@@ -16,7 +16,6 @@ from pathlib import Path
 
 import numpy as np
 
-from studies import style
 from studies.extreme import long_runs
 from studies.extreme.cases import MAPS, RANDOM, cases
 from studies.extreme.judge import FREE, GOOD, MORE, REFUSED, SILENT, Case, Verdict
@@ -27,6 +26,7 @@ from studies.extremes_figures import figures, pictures
 from studies.reporting.chapter import Chapter, Sheet
 from studies.study import Number, Options, options, run_main, save_figures, show_table, write_summary
 from support_exudyn.audit import DEEPEST, OPEN
+from support_exudyn.figures import style
 from support_exudyn.files import whole_file
 
 STUDY = "extremes"

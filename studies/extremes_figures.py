@@ -12,12 +12,12 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from studies import style
 from studies.extreme.cases import CLEARANCE_SPEED, FRICTION_STEP, STEP_STIFFNESS
 from studies.extreme.judge import GOOD, SILENT, Case, Verdict
 from studies.extreme.ranges import Point
 from studies.extreme.scenes import IMPACT_STEPS, fallen
 from studies.reporting.chapter import Picture
+from support_exudyn.figures import style
 from support_exudyn.timescales import timescales
 from user_forces import Touch
 

@@ -14,7 +14,7 @@ from studies.reporting.chapter import FILE
 from studies.reporting.content import Section, content
 from studies.reporting.html import page
 from studies.reporting.markdown_page import text
-from studies.study import Parser, folder
+from support_exudyn.command_line import Parser, folder
 from support_exudyn.files import whole_file
 from user_forces.values import InputError
 

@@ -12,7 +12,7 @@ import time
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from studies import paper_machine, style
+from studies import paper_machine
 from studies.detail import measures, sheets
 from studies.detail.measures import Measured
 from studies.detail.runs import run_timed
@@ -37,17 +37,17 @@ from studies.reporting.wording import how_sure
 from studies.scene_detail_figures import figures, pictures
 from studies.study import (
     Options,
-    Parser,
     add_options,
     brief,
-    folder,
     run_main,
     save_figures,
     show_table,
     write_summary,
 )
 from support_exudyn import recommend
+from support_exudyn.command_line import Parser, folder
 from support_exudyn.evidence.table import Table
+from support_exudyn.figures import style
 from support_exudyn.recommend import QUESTIONS, STROKE, UNEQUAL
 from support_exudyn.workers import Workers
 

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from studies import rise, style
+from studies import rise
 from studies.detail.measures import Change, Measured, times_as_long
 from studies.detail.scenes import (
     CLEARANCE_MM,
@@ -25,6 +25,7 @@ from studies.detail.scenes import (
 from studies.detail.sheets import FARTHEST, RELATIVE, changes
 from studies.reporting.chapter import Picture
 from support_exudyn import Result
+from support_exudyn.figures import style
 
 PANELS = {
     RELATIVE["mean_pin_force"]: "mean force [%]",

@@ -20,7 +20,6 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
-from studies import style
 from studies.reporting.chapter import Chapter, Picture, Sheet
 from studies.reporting.wording import by_case, how_sure, said
 from studies.study import (
@@ -36,6 +35,7 @@ from studies.study import (
     write_summary,
 )
 from support_exudyn import ClearancePin, Result, Scenario, SolverSettings, Steady, ravn_slider_crank
+from support_exudyn.figures import style
 from user_forces import (
     Ambrosio,
     Frictionless,

@@ -16,7 +16,7 @@ from dataclasses import replace
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
-from studies import speed_accuracy_figures, style
+from studies import speed_accuracy_figures
 from studies.benchmarking import estimates
 from studies.benchmarking.estimates import Check
 from studies.benchmarking.front import Row, cheapest, front
@@ -37,6 +37,7 @@ from studies.study import (
     write_summary,
 )
 from support_exudyn import SimulationError
+from support_exudyn.figures import style
 from support_exudyn.warm import warm_up
 from user_forces import InputError
 

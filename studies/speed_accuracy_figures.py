@@ -9,9 +9,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogFormatter, LogLocator, NullFormatter, NullLocator
 
-from studies import style
 from studies.benchmarking.front import Row, front
 from studies.benchmarking.variants import BUILT_IN, STOCK
+from support_exudyn.figures import style
 
 PANELS: dict[str, Callable[[Row], float]] = {
     "mean force": lambda row: row.errors["mean"],

@@ -14,20 +14,19 @@ from contextlib import ExitStack, contextmanager
 from dataclasses import asdict, dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import NoReturn
 
 from matplotlib.figure import Figure
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
-from studies import style
 from studies.reporting.chapter import Sheet
 from support_exudyn import Failure, Result, Scenario, SimulationError
+from support_exudyn.command_line import Parser, answered, count, folder
+from support_exudyn.figures import style
 from support_exudyn.files import remove_leftovers, whole_file, writing_alone
 from support_exudyn.provenance import versions
 from support_exudyn.sweep import run_all
-from support_exudyn.workers import NoProcessError, ProcessEndedError, Workers
-from user_forces.values import InputError, short
+from support_exudyn.workers import Workers
 
 MOST_BARS = 12  # more runs than that share one progress bar
 
@@ -49,16 +48,6 @@ class Options:
 
 ALL_OPTIONS = ("quick", "workers", "machines")
 MOST_WORKERS, MOST_MACHINES = 1024, 100_000
-LONGEST_REFUSAL = 400  # characters
-
-
-class Parser(argparse.ArgumentParser):
-    """Of a command line; what is wrong with it is said in one line, whatever words it was given."""
-
-    def error(self, message: str) -> NoReturn:
-        """End the program with exit code 2, a usage and a line."""
-        line = " ".join(message.split())
-        super().error(line if len(line) <= LONGEST_REFUSAL else line[: LONGEST_REFUSAL - 3] + "...")
 
 
 def options(
@@ -94,29 +83,6 @@ def add_options(parser: argparse.ArgumentParser, out: Path, taken: Sequence[str]
             metavar="N",
             help="plausible machines to judge claims by (256; 8 if quick)",
         )
-
-
-def count(text: str, most: int = sys.maxsize) -> int:
-    """A number of things from the command line."""
-    try:
-        number = int(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"{short(text)}: allowed: a whole number from 1 on") from None
-    if number < 1:
-        raise argparse.ArgumentTypeError(f"{short(number)}: allowed: from 1 on")
-    if number > most:
-        raise argparse.ArgumentTypeError(f"{short(number)}: allowed: from 1 to {most}")
-    return number
-
-
-def folder(text: str) -> Path:
-    """A folder from the command line, there or not."""
-    try:
-        if b"\0" in os.fsencode(text):
-            raise ValueError
-    except ValueError:  # also of letters that no file's name can have
-        raise argparse.ArgumentTypeError(f"{short(text)}: allowed: a name that a folder can have") from None
-    return Path(text)
 
 
 @dataclass(frozen=True)
@@ -276,19 +242,6 @@ def output_folder(out: Path) -> Iterator[None]:
             yield
         finally:
             remove_leftovers(out, below=True)  # of its own processes, which ended in mid-work
-
-
-def answered(work: Callable[[], None]) -> int:
-    """Do it; what the user can mend is said in a sentence. Returns the exit code."""
-    try:
-        work()
-    except (SimulationError, InputError, OSError, ProcessEndedError, NoProcessError) as error:
-        print(f"error: {error}", file=sys.stderr)
-        return 1
-    except KeyboardInterrupt:
-        print("interrupted; nothing half-written is left", file=sys.stderr)
-        return 130
-    return 0
 
 
 def run_main(main: Callable[[Options], None], chosen: Options) -> int:

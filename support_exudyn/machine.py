@@ -15,6 +15,8 @@ from support_exudyn.width import Width
 from user_forces.values import InputError, Positive, Real, Value, Vector2, value
 
 if TYPE_CHECKING:
+    from support_exudyn.drawing.solid import Look
+    from support_exudyn.scenario import Scenario
     from support_exudyn.spatial.layout import SpatialLinkage
 
 GROUND = "ground"
@@ -317,3 +319,9 @@ class Machine(Value, ABC):
         The range is in m for columns and in rad for cranks; a machine that can follow any has nothing to check.
         """
         del lowest, highest
+
+    def look(self, scenario: Scenario) -> Look:
+        """What pictures of a scenario of this machine show, by default plates around what is joined."""
+        from support_exudyn.drawing.plain import look  # libraries of shapes, which a run has no use for
+
+        return look(scenario)

@@ -14,7 +14,8 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from studies.ladder import Ladder
-from studies.study import Number, Pair, brief, count, options, rounded
+from studies.study import Number, Pair, brief, options, rounded
+from support_exudyn.command_line import count
 
 sizes = st.floats(1e-9, 1e9)
 values = sizes | sizes.map(lambda x: -x)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from studies import style
+from support_exudyn.figures import style
 
 
 def drawing() -> Figure:

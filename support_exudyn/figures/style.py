@@ -16,6 +16,9 @@ IDEAL = "#000000"
 LOOSE = "#0072B2"
 SMOOTH = "#E69F00"
 THIRD = "#009E73"
+# of a single run: what a journal does, and the force on it
+CONTACT = "#D55E00"
+FLIGHT = "#56B4E9"
 
 STYLE: dict[Any, Any] = {
     "font.family": "sans-serif",

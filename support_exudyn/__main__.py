@@ -1,0 +1,19 @@
+"""`python -m support_exudyn COMMAND ...`, see `support_exudyn.commands`."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+
+from support_exudyn.command_line import answered
+from support_exudyn.commands import command, parser
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Do what the command line asks for. Returns the exit code."""
+    given = parser().parse_args(argv)
+    return answered(lambda: command(given.command).run(given))
+
+
+if __name__ == "__main__":
+    sys.exit(main())
