@@ -95,8 +95,9 @@ def to_vtu(
 ) -> tuple[Path, ...]:
     """The same as one VTU file per step, and PVD files that tell their times, for ParaView and what reads VTK.
 
-    In the folder: machine.pvd and pins.pvd, which ParaView opens; machine_00000.vtu and so on; names.csv. Fields
-    as with `to_xdmf`. Steps of an earlier export are replaced, and removed if they were more; other files stay.
+    In the folder: machine.pvd and pins.pvd, which ParaView opens; machine_00000.vtu and so on; names.csv.
+    Fields are those of `to_xdmf`. Steps of an earlier export are replaced, and removed if they were more; other
+    files stay.
 
     Arguments and errors as with `to_xdmf`. Returns the paths of the PVD files, then of the table and the steps.
     """

@@ -20,6 +20,7 @@ except ImportError:  # Windows
 fcntl: Any = _fcntl
 LONGEST_STEM = 40  # characters of a name that its temporary file shares: with all of them it might be too long
 LOCK = ".lock"
+REFUSED = "it cannot be written"
 
 
 @contextmanager
@@ -35,7 +36,7 @@ def whole_file(path: str | Path) -> Iterator[Path]:
     otherwise (a full disk).
     """
     try:
-        real = _real(path)
+        real = real_path(path)
         real.parent.mkdir(parents=True, exist_ok=True)
         check_may_be_replaced(real)
         handle, name = tempfile.mkstemp(
@@ -60,7 +61,7 @@ def whole_file(path: str | Path) -> Iterator[Path]:
         temporary.unlink(missing_ok=True)
 
 
-def _real(path: str | Path) -> Path:
+def real_path(path: str | Path) -> Path:
     """Where a path leads, links followed."""
     if "\0" in str(path):
         raise OSError(errno.EINVAL, "a name cannot hold a NUL")
@@ -86,7 +87,7 @@ def check_may_be_replaced(path: Path) -> None:
 
 def named(error: OSError, path: str | Path) -> OSError:
     """The same error, of the name that was given."""
-    return type(error)(error.errno, f"{error.strerror}; it cannot be written", str(path))
+    return type(error)(error.errno, f"{error.strerror}; {REFUSED}", str(path))
 
 
 def write_through(path: Path) -> None:

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import re
 import shutil
 import tempfile
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from support_exudyn.files import check_may_be_replaced, is_alive, named, write_through
+from support_exudyn.files import REFUSED, check_may_be_replaced, is_alive, named, real_path, write_through
 from user_forces.values import InputError
 
 RUN = b"support_exudyn result "  # as files of runs begin, see `support_exudyn.result`
@@ -37,18 +38,22 @@ def whole_set(
 
     Raises OSError that names what cannot be written; InputError if one of the files is a run.
     """
-    made = not folder.exists()
+    asked = folder
     try:
+        folder = real_path(folder)
+        made = not folder.exists()
         folder.mkdir(parents=True, exist_ok=True)
-        for name in (*files, *indexes):
-            check_may_be_replaced(folder / name)
-            check_is_no_run(folder / name)
         _remove_leftovers(folder)
         temporary = Path(tempfile.mkdtemp(prefix=f".export_{os.getpid()}_", dir=folder))
+    except FileExistsError:
+        raise named(
+            NotADirectoryError(errno.ENOTDIR, "A file stands where a folder should be"), asked
+        ) from None
     except OSError as error:
-        raise named(error, folder) from None
+        raise named(error, asked) from None
     done = False
     try:
+        _check_each(folder / name for name in (*files, *indexes))
         yield temporary
         for name in (*files, *indexes):
             write_through(temporary / name)
@@ -58,7 +63,7 @@ def whole_set(
                 path.unlink()
         done = True
     except OSError as error:
-        if error.errno is None:
+        if error.errno is None or REFUSED in str(error.strerror):
             raise
         raise named(error, _meant(error, temporary, folder)) from error
     finally:
@@ -66,6 +71,15 @@ def whole_set(
         if made and not done:
             with suppress(OSError):  # somebody else has put something there
                 folder.rmdir()
+
+
+def _check_each(paths: Iterable[Path]) -> None:
+    for path in paths:
+        check_is_no_run(path)
+        try:
+            check_may_be_replaced(path)
+        except OSError as error:
+            raise named(error, path) from None
 
 
 def _put_in_place(temporary: Path, folder: Path, files: Sequence[str], indexes: Sequence[str]) -> None:
