@@ -74,7 +74,8 @@ def to_xdmf(
     store, table = f"{path.stem}_mesh.h5", f"{path.stem}_names.csv"
     indexes = [_index(path.stem, mesh, ".xdmf") for mesh in series]
     _check_room(series, len(records))
-    with whole_set(path.parent, (store, table), indexes) as folder:
+    of_pins = f"{path.stem}_pins.xdmf"  # which an earlier export of another machine may have left
+    with whole_set(path.parent, (store, table), indexes, stale=lambda name: name == of_pins) as folder:
         # made in memory: on a full disk HDF5 would end the whole process
         with h5py.File(store, "w", driver="core", backing_store=False) as file:
             writers = [MovingMeshWriter(mesh, file, store) for mesh in series]
@@ -107,7 +108,7 @@ def to_vtu(
     steps = {mesh.name: [vtu.step_name(mesh.name, step) for step in range(len(records))] for mesh in series}
     files = ["names.csv", *(name for of_mesh in steps.values() for name in of_mesh)]
     indexes = [f"{mesh.name}.pvd" for mesh in series]
-    with whole_set(folder, files, indexes, stale=_is_step) as temporary:
+    with whole_set(folder, files, indexes, stale=_is_of_vtu) as temporary:
         for step, record in enumerate(records):
             for mesh in series:
                 vtu.write_step(temporary / steps[mesh.name][step], mesh, record)
@@ -178,6 +179,6 @@ def _index(stem: str, mesh: MeshSeries, suffix: str) -> str:
     return f"{stem}{suffix}" if mesh.name == "machine" else f"{stem}_{mesh.name}{suffix}"
 
 
-def _is_step(name: str) -> bool:
-    """Whether a file is a step of this or an earlier export."""
-    return re.fullmatch(r"(machine|pins)_\d{5,}\.vtu", name) is not None
+def _is_of_vtu(name: str) -> bool:
+    """Whether a file is a step of this or an earlier export, or an index of it."""
+    return re.fullmatch(r"(machine|pins)(_\d{5,}\.vtu|\.pvd)", name) is not None

@@ -23,12 +23,18 @@ LARGEST = 1e9  # of a number on the command line
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The run's file, what to write of it, and where to."""
+    # RUN first: behind --to it would be taken for a format
+    parser.usage = (
+        "%(prog)s [-h] RUN [--to FORMAT ...] [--out DIR] "
+        "[--every N | --frames-per-second F] [--from T] [--until T]"
+    )
     parser.add_argument("run", type=folder, metavar="RUN", help="file of a run, as Result.save writes it")
     parser.add_argument(
         "--to",
         nargs="+",
         choices=FORMATS,
         default=FORMATS,
+        metavar="FORMAT",
         help="xdmf: NAME.xdmf and NAME_pins.xdmf, with one HDF5 file for both; vtu: a folder NAME_vtu with a "
         "file per step, machine.pvd and pins.pvd; csv: NAME.csv; hdf5: NAME_channels.h5 for MATLAB and others; "
         "by default all",

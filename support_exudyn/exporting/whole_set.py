@@ -34,7 +34,7 @@ def whole_set(
     Arguments:
         folder: made if missing.
         files, indexes: names of all that the block writes.
-        stale: tells of names in the folder that an earlier set has left; those not in `files` are removed.
+        stale: tells of names in the folder whether they are of an earlier set; what this one lacks is removed.
 
     Raises OSError that names what cannot be written; InputError if one of the files is a run.
     """
@@ -57,10 +57,7 @@ def whole_set(
         yield temporary
         for name in (*files, *indexes):
             write_through(temporary / name)
-        _put_in_place(temporary, folder, files, indexes)
-        for path in list(folder.iterdir()):
-            if stale(path.name) and path.name not in files:
-                path.unlink()
+        _put_in_place(temporary, folder, files, indexes, stale)
         done = True
     except OSError as error:
         if error.errno is None or REFUSED in str(error.strerror):
@@ -82,9 +79,14 @@ def _check_each(paths: Iterable[Path]) -> None:
             raise named(error, path) from None
 
 
-def _put_in_place(temporary: Path, folder: Path, files: Sequence[str], indexes: Sequence[str]) -> None:
+def _put_in_place(
+    temporary: Path, folder: Path, files: Sequence[str], indexes: Sequence[str], stale: Callable[[str], bool]
+) -> None:
     for name in indexes:
         (folder / name).unlink(missing_ok=True)
+    for path in list(folder.iterdir()):
+        if stale(path.name) and path.name not in files:
+            path.unlink()
     for name in (*files, *indexes):
         (temporary / name).replace(folder / name)
 

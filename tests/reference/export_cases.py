@@ -12,7 +12,9 @@ import numpy as np
 import vtk
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
-from support_exudyn import Result, UniformSpeed, simulate
+from studies.paper_machine import oil_columns
+from support_exudyn import CubicStep, Held, Result, Scenario, SolverSettings, UniformSpeed, simulate
+from support_exudyn.drawing.solid import Look
 from support_exudyn.machine import GROUND
 from tests.reference.cases import loose_slider_crank, loose_support, support
 
@@ -21,7 +23,13 @@ MOVING = UniformSpeed(stroke=0.05, start=0.0, end=0.2)  # [m] in [s]
 
 @cache
 def run(kind: str) -> Result:
-    """A short run: the support with a loose pin in plane or space, with ideal pins, or the slider-crank."""
+    """A short run.
+
+    The support with a loose pin in "plane" or "space", there also "tilted" by columns that are driven apart;
+    with "ideal" pins; or the "slider-crank".
+    """
+    if kind == "tilted":
+        return simulate(tilted())
     if kind == "slider-crank":
         return simulate(loose_slider_crank(2e-3, 0.03))
     if kind == "ideal":
@@ -29,6 +37,21 @@ def run(kind: str) -> Result:
     if kind == "plane":
         return simulate(loose_support(1.5, 0.25, drive=MOVING, duration=0.1))
     return simulate(loose_support(1.5, 0.25, drive=MOVING, duration=0.02, dimensions=3))
+
+
+def tilted() -> Scenario:
+    """In space, on oil; the right front column lifts, the left one stays."""
+    return loose_support(
+        1.5,
+        0.25,
+        columns=oil_columns(),
+        drive=Held(),
+        drives={"front_column_right": CubicStep(start=0.0, end=0.04, stroke=8e-3)},
+        duration=0.05,
+        dimensions=3,
+        step=1e-3,
+        solver=SolverSettings(impact_steps=64),
+    )
 
 
 class Read(NamedTuple):
@@ -91,13 +114,19 @@ def rigid(start: np.ndarray, now: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return turn, b - turn @ a
 
 
-def start_points(result: Result, body: str) -> np.ndarray:
+@cache
+def look_of(kind: str) -> Look:
+    """What is drawn of a run's machine."""
+    scenario = run(kind).scenario
+    return scenario.machine.look(scenario)
+
+
+@cache
+def start_points(kind: str, body: str) -> np.ndarray:
     """Points of a body's surface in the start posture, in the order of the file."""
-    look = result.scenario.machine.look(result.scenario)
-    return np.concatenate([solid.mesh.vertices for solid in look.solids if solid.body == body])
+    return np.concatenate([solid.mesh.vertices for solid in look_of(kind).solids if solid.body == body])
 
 
-def moving_bodies(result: Result) -> list[str]:
+def moving_bodies(kind: str) -> list[str]:
     """Names of bodies that are drawn and move."""
-    look = result.scenario.machine.look(result.scenario)
-    return list(dict.fromkeys(solid.body for solid in look.solids if solid.body != GROUND))
+    return list(dict.fromkeys(solid.body for solid in look_of(kind).solids if solid.body != GROUND))
