@@ -125,8 +125,8 @@ def to_csv(
 ) -> tuple[Path, ...]:
     """All channels as a table: a row of names with units such as `pin.rear_base.force [N]`, then the records.
 
-    Numbers read back as the same bits, in pandas with `read_csv(path, float_precision="round_trip")`; MATLAB
-    keeps the names with `readtable(path, VariableNamingRule="preserve")`.
+    Numbers read back as the same bits; pandas before 3 needs `read_csv(path, float_precision="round_trip")` for
+    that. MATLAB keeps the names with `readtable(path, VariableNamingRule="preserve")`.
 
     Arguments: as with `to_xdmf`; all records if nothing else is asked for. Returns the path.
 

@@ -12,6 +12,7 @@ import h5py
 import numpy as np
 import pytest
 
+from support_exudyn import Result
 from support_exudyn.__main__ import main
 from support_exudyn.export import Sampling, to_csv, to_hdf5
 from tests.reference.export_cases import by_vtk, run
@@ -31,6 +32,13 @@ def test_csv_reads_back_as_the_same_bits(kind: str, tmp_path: Path) -> None:
     columns = np.array(rows, dtype=float).T
     for column, channel in zip(columns, result.channels.values(), strict=True):
         assert column.tobytes() == channel.values.astype(float).tobytes()
+
+
+def test_time_is_the_first_column_also_of_a_run_that_was_read_back(tmp_path: Path) -> None:
+    back = Result.load(run("plane").save(tmp_path / "run.h5"))
+    assert next(iter(back.channels)) != "time"  # HDF5 sorts by name
+    (path,) = to_csv(back, tmp_path / "run.csv", Sampling(every=50))
+    assert path.read_text(encoding="utf-8").startswith("time [s],")
 
 
 def test_numpy_reads_csv_by_name(tmp_path: Path) -> None:
