@@ -9,6 +9,7 @@ which a run does not keep all, are not among them.
 from __future__ import annotations
 
 import ast
+import errno
 import re
 from collections.abc import Callable
 from pathlib import Path
@@ -107,7 +108,7 @@ def _write(result: Result, path: Path) -> None:
         scene.release()
     # the engine does not say if the disk was full
     if not _is_whole(path, solution):
-        raise OSError(f"{path}: the engine could not write all of the solution file; is the disk full?")
+        raise OSError(errno.EIO, "the engine could not write all of it; is the disk full?", str(path))
 
 
 def _write_rows(mbs: Any, settings: Any, solution: Solution) -> None:

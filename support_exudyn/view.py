@@ -170,7 +170,7 @@ def _prepare(settings: Any, text: str, size: tuple[int, int]) -> None:
     settings.general.renderWindowString = text
     settings.general.showSolutionInformation = False
     settings.general.showHelpOnStartup = 0
-    settings.view0.scene.showFaceEdges = True
+    settings.view0.scene.showFaceEdges = False
     settings.view0.window.renderWindowSize = list(size)
     settings.view0.window.showComputationInfo = True
     settings.openGL.multiSampling = 4
