@@ -48,8 +48,8 @@ def coordinates(result: Result) -> dict[str, tuple[Series, Series]]:
     missing = [name for name in channels_of_bodies(result.scenario) if name not in result.channels]
     if missing:
         raise InputError(
-            f"channel {missing[0]!r}: was not recorded, and without it nobody knows where the body is; allowed: "
-            "runs of a scenario with channels = ('*',)"
+            f"channel {missing[0]!r}: was not recorded, and without it nobody knows where the body is; "
+            "allowed: runs of a scenario with channels = ('*',)"
         )
     if result.scenario.dimensions == 3:
         poses = Poses(result)
@@ -71,7 +71,7 @@ def _in_space(poses: Poses, name: str) -> tuple[Series, Series]:
 
 
 def euler_parameters(turn: Series) -> Series:
-    """Of rotations (n, 3, 3) that follow each other: shape (n, 4), without jumps of sign, the first positive."""
+    """Of rotations (n, 3, 3) that follow each other: (n, 4), without jumps of sign, the first positive."""
     found = Rotation.from_matrix(turn).as_quat()[:, [3, 0, 1, 2]]
     follows = np.sum(found[1:] * found[:-1], axis=1) >= 0.0
     first = 1.0 if found[0, 0] >= 0.0 else -1.0

@@ -58,7 +58,9 @@ def check_display() -> None:
                 "EXUDYN_SUPPRESS_UI_WINDOW_OPEN; allowed: windows where neither is"
             )
     if (reason := _reason()) is not None:
-        raise NoDisplayError(f"no window can be opened here: {reason}. Allowed: a desktop with OpenGL; {INSTEAD}")
+        raise NoDisplayError(
+            f"no window can be opened here: {reason}. Allowed: a desktop with OpenGL; {INSTEAD}"
+        )
 
 
 def _reason() -> str | None:

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 
 import exudyn
 import numpy as np
+import numpy.typing as npt
 from exudyn.itemInterface import ObjectGround, VObjectGround
 from trimesh import Trimesh
 
@@ -33,6 +34,7 @@ PROUD = 0.02  # how far journals stand out of what they join, of its width
 AROUND = 2.0  # radii around a pin within which that is looked for
 CORNERS = 64  # of a bore's rim
 SHOWN = exudyn.ConfigurationType.Visualization
+Indices = npt.NDArray[np.int64]
 POSITION = exudyn.OutputVariableType.Position
 
 
@@ -59,7 +61,9 @@ def dressed(scenario: Scenario) -> DressedModel:
     """The model of a scenario, as `model` makes it, with the look of its machine."""
     scene, look = model(scenario), scenario.machine.look(scenario)
     rims = [_rim(pin, look) for pin in _loose_pins(scenario)]
-    whole = Look((*look.solids, *(_journal(pin, look) for pin in _loose_pins(scenario))), look.struts, look.floor)
+    whole = Look(
+        (*look.solids, *(_journal(pin, look) for pin in _loose_pins(scenario))), look.struts, look.floor
+    )
     shown = DressedModel(scene, whole)
     for name, item in scene.bodies.items():
         drawn = [_of_solid(solid, _axes(scene, name)) for solid in solids_of(whole, name)]
@@ -122,8 +126,8 @@ class Surface(NamedTuple):
 
     points: Series
     normals: Series
-    faces: Series
-    edges: Series
+    faces: Indices
+    edges: Indices
     colours: Series
 
     def moved(self, turn: Series, origin: Series) -> dict[str, Any]:
@@ -145,7 +149,7 @@ def _surface(mesh: Trimesh, colour: Colour) -> Surface:
     corners = mesh.vertices[mesh.face_adjacency_edges[mesh.face_adjacency_angles > SHARP]].reshape(-1, 3)
     points = np.vstack([smooth.vertices, corners])
     normals = np.vstack([smooth.vertex_normals, np.tile([0.0, 0.0, 1.0], (len(corners), 1))])
-    edges = np.arange(len(smooth.vertices), len(points))
+    edges = np.arange(len(smooth.vertices), len(points), dtype=np.int64)
     return Surface(points, normals, smooth.faces.ravel(), edges, np.tile([*colour, 1.0], len(points)))
 
 
@@ -249,5 +253,9 @@ def _rim(pin: LoosePlace, look: Look) -> tuple[str, Series]:
     low, _ = _reach(pin, look)
     angle = np.linspace(0.0, 2.0 * np.pi, CORNERS + 1)
     x, y, _ = pin.bore
-    round_ = (x + pin.bore_radius * np.cos(angle), y + pin.bore_radius * np.sin(angle), np.full_like(angle, low))
+    round_ = (
+        x + pin.bore_radius * np.cos(angle),
+        y + pin.bore_radius * np.sin(angle),
+        np.full_like(angle, low),
+    )
     return pin.bore_body, np.column_stack(round_)

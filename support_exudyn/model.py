@@ -12,7 +12,7 @@ Model = Scene | SpatialScene
 
 
 def model(scenario: Scenario) -> Model:
-    """The model of a scenario at its start, as the redundant formulation runs it, of whatever formulation it is.
+    """The model of a scenario at its start as the redundant formulation runs it, whatever its formulation is.
 
     Who asks for it releases it, see `InEngine.release`.
     """

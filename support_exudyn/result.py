@@ -176,8 +176,8 @@ class Result:
     def save_solution(self, path: str | Path) -> Path:
         """Have Exudyn write its own solution file of the run, for `exudyn.utilities.LoadSolutionFile`.
 
-        It is of the engine's model with rigid bodies and constraints, whatever formulation has computed the run:
-        a row for each record with time, coordinates and their rates.
+        It is of the engine's model with rigid bodies and constraints, whatever formulation has computed the
+        run: a row for each record with time, coordinates and their rates.
 
         path: with the ending `.sol` in the engine's binary format, with any other in its text format.
 

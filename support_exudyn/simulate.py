@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Literal, overload
@@ -71,7 +72,7 @@ def simulate(
     if accuracy is not None:
         scenario = replace(scenario, accuracy=accuracy)
     plain = run_with_error if errors else run_once
-    run = plain if scenario.goal is None else run_to_accuracy
+    run: Callable[[Scenario, Progress], Result] = plain if scenario.goal is None else run_to_accuracy
     if solution is not None:
         from support_exudyn.solution_file import keeping_solution  # which needs libraries of shapes
 

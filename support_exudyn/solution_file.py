@@ -185,5 +185,5 @@ def check_fits(solution: Solution, of: Model, path: str | Path) -> None:
     wanted, found = int(of.mbs.systemData.ODE2Size()), int(solution["columnsExported"][0])
     if found != wanted:
         raise InputError(
-            f"{short(str(path))}: of a model with {found} coordinates; allowed: one with those of the run, {wanted}"
+            f"{short(str(path))}: of a model with {found} coordinates; allowed: of the run's, with {wanted}"
         )

@@ -1,4 +1,4 @@
-"""Exudyn's solution viewer on a run: the model as it was run, with the look of its machine, moving as it did."""
+"""Exudyn's solution viewer on a run: its model with the look of the machine, moving as it did."""
 
 from __future__ import annotations
 
@@ -200,9 +200,11 @@ def reach(model: DressedModel, solution: Solution) -> tuple[Series, Series]:
     for row in np.unique(np.linspace(0, solution["nRows"] - 1, MOST_LOOKED_AT).astype(int)):
         _show(model, solution, int(row))
         for solid in model.look.solids:
-            corners += [
-                model.place(solid.body, (x, y, z)) for x, y, z in _box(solid.mesh.bounds)
-            ] if solid.body != GROUND else list(solid.mesh.bounds)
+            corners += (
+                [model.place(solid.body, (x, y, z)) for x, y, z in _box(solid.mesh.bounds)]
+                if solid.body != GROUND
+                else list(solid.mesh.bounds)
+            )
         for strut in model.look.struts:
             corners += [model.place(strut.foot, strut.foot_point), model.place(strut.head, strut.head_point)]
     points = np.array(corners)

@@ -54,7 +54,7 @@ def picture(name: str) -> np.ndarray:
 
 @ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_void_p)
 def _go_on(display: int, error: int) -> int:
-    """In place of the library's own answer to errors, such as a window that has just gone: to end the process."""
+    """In place of the library's own answer to errors, such as a window that has gone: to end the process."""
     del display, error
     return 0
 

@@ -50,7 +50,9 @@ def run() -> Result:
 # --- against what the engine writes while it integrates ---
 
 
-@pytest.mark.parametrize("scenario", [support(**RISE), loose_support(1.5, 0.25, **RISE)], ids=["ideal", "loose"])
+@pytest.mark.parametrize(
+    "scenario", [support(**RISE), loose_support(1.5, 0.25, **RISE)], ids=["ideal", "loose"]
+)
 def test_it_is_what_the_engine_writes_of_its_own_run(
     scenario: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -115,9 +117,7 @@ OIL = OilColumn(bore_area=bore_area(0.25, number=2), oil_length=0.5, bulk_modulu
 COLUMNS = ("front_column", "rear_column")
 RISES = {
     "redundant": loose_support(1.5, 0.25, **RISE),
-    "reduced": loose_support(
-        1.5, 0.25, formulation="reduced", solver=SolverSettings(backend="python"), **RISE
-    ),
+    "reduced": loose_support(1.5, 0.25, formulation="reduced", solver=SolverSettings(backend="python"), **RISE),
     "tree": loose_support(1.5, 0.25, formulation="tree", columns=dict.fromkeys(COLUMNS, OIL), **RISE),
     "crank": loose_slider_crank(2e-3, formulation="reduced", solver=SolverSettings(backend="python")),
     "space": loose_support(1.5, 0.25, dimensions=3, **RISE),
@@ -299,6 +299,8 @@ def equations(mbs: Any) -> dict[str, Any]:
     return {
         "objects": physical,
         "sizes": (data.ODE2Size(), data.AEsize(), data.ODE1Size(), data.DataSize()),
-        "initial": [np.asarray(part).tolist() for part in data.GetSystemState(exudyn.ConfigurationType.Initial)[:-1]],
+        "initial": [
+            np.asarray(part).tolist() for part in data.GetSystemState(exudyn.ConfigurationType.Initial)[:-1]
+        ],
         "accelerations": start,
     }

@@ -13,14 +13,14 @@ import pytest
 
 from support_exudyn import CubicStep, Result, simulate
 from tests import screen
-from tests.processes import environment, wait_until
+from tests.processes import wait_until
 from tests.reference.cases import loose_support
 
 if sys.platform != "linux":
     pytest.skip("the display in memory is of X11", allow_module_level=True)
 
 PATIENCE = 240.0  # [s], on a machine that does much else
-VIEWER, ENGINE = "solution viewer", "Exudyn OpenGL window"
+VIEWER, ENGINE = "solution viewer", "Exudyn OpenGL"
 
 
 @pytest.fixture(scope="module")
@@ -56,33 +56,33 @@ def viewing(run: Path, display: str, home: Path, *options: str) -> Iterator[subp
 
 
 @pytest.mark.parametrize("shown", ["records", "solution file"])
-def test_it_starts_steps_through_frames_and_closes(
-    run: Path, shown: str, display: str, tmp_path: Path
-) -> None:
+def test_it_starts_steps_through_frames_and_closes(run: Path, shown: str, display: str, tmp_path: Path) -> None:
     options = []
     if shown == "solution file":
         options = ["--solution", str(Result.load(run).save_solution(tmp_path / "rise.sol")), "--every", "3"]
     x = screen.Screen(display)
     with viewing(run, display, tmp_path, *options) as program:
 
-        def window() -> int | None:
+        def window(named: str) -> int | None:
             assert program.poll() is None, program.stderr.read()
-            return next((number for title, number in x.windows().items() if VIEWER in title), None)
+            return next((number for title, number in x.windows().items() if named in title), None)
 
-        assert wait_until(lambda: window() is not None, PATIENCE)
-        # it plays by itself: ever other pictures, of which the last is of a window with a machine in it
-        seen = {screen.picture(display).tobytes()}
+        assert wait_until(lambda: None not in (window(VIEWER), window(ENGINE)), PATIENCE)
+        # it plays by itself: below the dialog, which covers a corner of it, the engine's window shows ever
+        # other pictures, far more than it does while it opens
+        seen: set[bytes] = set()
 
         def plays() -> bool:
             assert program.poll() is None, program.stderr.read()
-            seen.add(screen.picture(display).tobytes())
-            return len(seen) >= 5
+            seen.add(screen.picture(display)[300:700, :1100].tobytes())
+            return len(seen) >= 12
 
         assert wait_until(plays, PATIENCE)
-        dialog = window()
+        assert painted(screen.picture(display)[:750, :1200])[300:].any()
+        dialog = window(VIEWER)
         assert dialog is not None
         x.ask_to_close(dialog)
-        said, told = program.communicate(timeout=PATIENCE)
+        _, told = program.communicate(timeout=PATIENCE)
     x.close()
     assert program.returncode == 0
     assert told == ""
@@ -136,48 +136,3 @@ def painted(picture: np.ndarray) -> np.ndarray:
     inside[:100, :500] = inside[480:, :150] = False
     inside[570:] = False
     return inside
-
-
-# --- where no window opens ---
-
-
-def refused(run: Path, env: dict[str, str], folder: Path) -> str:
-    command = [sys.executable, "-m", "support_exudyn", "view", str(run)]
-    done = subprocess.run(command, env=env, cwd=folder, capture_output=True, text=True, timeout=PATIENCE)
-    assert done.returncode == 1
-    assert done.stderr.startswith("error: ")
-    assert "Traceback" not in done.stderr
-    assert list(folder.iterdir()) == []
-    return done.stderr
-
-
-def test_without_a_display_it_says_what_to_do(run: Path, tmp_path: Path) -> None:
-    env = {name: value for name, value in environment().items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
-    said = refused(run, env, tmp_path)
-    assert "no display" in said
-    assert "render RUN" in said
-    assert "xvfb-run" in said
-
-
-def test_a_display_that_is_not_there_is_refused(run: Path, tmp_path: Path) -> None:
-    assert "no display" in refused(run, environment() | {"DISPLAY": ":7654"}, tmp_path)
-
-
-def test_a_display_without_opengl_is_refused(run: Path, tmp_path: Path) -> None:
-    screen.needed()
-    with screen.display("-extension", "GLX") as name:
-        assert "GLX" in refused(run, environment() | {"DISPLAY": name}, tmp_path)
-
-
-def test_without_tkinter_it_says_so(run: Path, tmp_path: Path) -> None:
-    folder = tmp_path / "empty"
-    folder.mkdir()
-    (tmp_path / "tkinter.py").write_text("raise ImportError('No module named _tkinter')")
-    env = environment()
-    env["PYTHONPATH"] = f"{tmp_path}:{env['PYTHONPATH']}"
-    assert "python3-tk" in refused(run, env, folder)
-
-
-def test_windows_that_are_not_to_open_do_not(run: Path, tmp_path: Path) -> None:
-    env = environment() | {"EXUDYN_SUPPRESS_UI_WINDOW_OPEN": "1"}
-    assert "EXUDYN_SUPPRESS_UI_WINDOW_OPEN" in refused(run, env, tmp_path)
