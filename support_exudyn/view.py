@@ -135,12 +135,12 @@ def window(
     for sentence in differing_versions(result):
         print(f"warning: {sentence}", file=sys.stderr)
     read = None if solution is None else read_solution(solution)
-    check_display()
     model = dressed(result.scenario)
     container = model.scene.container
     try:
         if read is not None and solution is not None:
             check_fits(read, model.scene, solution)
+        check_display()
         shown = Window(model, rows(result, model.scene) if read is None else read)
         _prepare(container.visualizationSettings, title(result, name), size)
         camera = Camera.on(model, shown.solution, size)
@@ -159,7 +159,9 @@ def title(result: Result, name: str = "") -> str:
     """A run in a few words."""
     machine = type(result.scenario.machine).__name__
     space = "in space" if result.scenario.dimensions == 3 else "in the plane"
-    return ", ".join(filter(None, [name, f"{machine} {space}", f"formulation {result.scenario.formulation}"]))
+    formulation = result.scenario.formulation
+    by = "" if formulation == "auto" else f"formulation {formulation}"
+    return ", ".join(filter(None, [name, f"{machine} {space}", by]))
 
 
 def _prepare(settings: Any, text: str, size: tuple[int, int]) -> None:

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import dataclasses
 import errno
+import gc
 import re
 import subprocess
 import sys
+import weakref
 from pathlib import Path
 from typing import Any
 
@@ -30,6 +32,7 @@ from support_exudyn import (
 from support_exudyn.dressed_model import dressed
 from support_exudyn.model import model
 from support_exudyn.solution_file import read_solution, rows
+from support_exudyn.view import open_viewer
 from tests.processes import environment
 from tests.reference.cases import loose_slider_crank, loose_support, support
 from user_forces import InputError
@@ -259,6 +262,29 @@ def test_what_is_not_a_solution_file_is_refused(
     with pytest.raises(InputError, match="not a solution file"):
         read_solution(path)
     assert "evil" not in capfd.readouterr().out  # the engine's reader would evaluate it
+
+
+def test_a_solution_file_of_another_model_is_not_shown(run: Result, tmp_path: Path) -> None:
+    other = simulate(RISES["crank"], solution=tmp_path / "crank.txt")
+    assert isinstance(other, Result)
+    with pytest.raises(InputError, match=r"crank\.txt.* 9 coordinates; allowed: of the run's, with 12"):
+        open_viewer(run, solution=tmp_path / "crank.txt")
+
+
+def test_a_run_to_an_accuracy_keeps_it_too(tmp_path: Path) -> None:
+    scenario = loose_support(1.5, 0.0, formulation="redundant", **RISE)
+    result = simulate(scenario, accuracy="draft", solution=tmp_path / "run.txt")
+    kept = load(tmp_path / "run.txt")["data"]
+    assert np.array_equal(kept[:, 0], result.time)
+
+
+def test_a_model_is_let_go_of(run: Result, tmp_path: Path) -> None:
+    looking = dressed(run.scenario)
+    known = weakref.ref(looking), weakref.ref(looking.scene)
+    looking.scene.release()
+    del looking
+    gc.collect()
+    assert [of() for of in known] == [None, None]
 
 
 # --- what is drawn changes nothing of the model ---
