@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
 from typing import Literal, overload
 
 from support_exudyn.errors import Failure, SimulationError
@@ -22,6 +24,7 @@ def simulate(
     accuracy: Accuracy | None = ...,
     errors: bool = ...,
     progress: Progress = ...,
+    solution: str | Path | None = ...,
     throw: Literal[True] = ...,
 ) -> Result: ...
 @overload
@@ -31,6 +34,7 @@ def simulate(
     accuracy: Accuracy | None = ...,
     errors: bool = ...,
     progress: Progress = ...,
+    solution: str | Path | None = ...,
     throw: bool,
 ) -> Result | Failure: ...
 
@@ -41,6 +45,7 @@ def simulate(
     accuracy: Accuracy | None = None,
     errors: bool = False,
     progress: Progress = silent,
+    solution: str | Path | None = None,
     throw: bool = True,
 ) -> Result | Failure:
     """Run a scenario.
@@ -53,6 +58,9 @@ def simulate(
             result is that of the shortest, and carries the estimated error of every number. If these do not
             settle it ends in a SimulationError. With an accuracy errors are estimated anyway.
         progress: called now and then with the share that is done, 0 to 1.
+        solution: path of Exudyn's own solution file, if it is to be kept, see `Result.save_solution`. What
+            stands against it is said before the run: InputError if `channels` lacks where the bodies are,
+            OSError if the file cannot be written.
         throw: what to do if the run cannot be finished: raise SimulationError, or return its Failure
             (for sweeps, where one failed run is a row and not the end).
 
@@ -64,7 +72,11 @@ def simulate(
     if accuracy is not None:
         scenario = replace(scenario, accuracy=accuracy)
     plain = run_with_error if errors else run_once
-    run = plain if scenario.goal is None else run_to_accuracy
+    run: Callable[[Scenario, Progress], Result] = plain if scenario.goal is None else run_to_accuracy
+    if solution is not None:
+        from support_exudyn.solution_file import keeping_solution  # which needs libraries of shapes
+
+        run = keeping_solution(run, solution)
     try:
         return run(scenario, progress)
     except SimulationError as error:

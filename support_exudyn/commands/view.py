@@ -1,0 +1,37 @@
+"""`view RUN`: the run in Exudyn's solution viewer, in a window."""
+
+from __future__ import annotations
+
+import argparse
+from functools import partial
+
+from support_exudyn.command_line import count, folder
+from support_exudyn.result import Result
+
+HELP = "open Exudyn's solution viewer on a run"
+MOST_SKIPPED = 200  # rows, as many as the viewer's slider has
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The run's file, and what of it is shown."""
+    parser.add_argument("run", type=folder, metavar="RUN", help="file of a run, as Result.save writes it")
+    parser.add_argument(
+        "--solution",
+        type=folder,
+        metavar="FILE",
+        help="show this solution file of Exudyn, of the same run, in place of its records",
+    )
+    parser.add_argument(
+        "--every",
+        type=partial(count, most=MOST_SKIPPED),
+        metavar="N",
+        help="records from frame to frame; by default the run takes about 10 s",
+    )
+
+
+def run(given: argparse.Namespace) -> None:
+    """Open it, and wait until it is closed."""
+    result = Result.load(given.run)
+    from support_exudyn.view import open_viewer  # libraries of shapes, which refusing a file has no use for
+
+    open_viewer(result, solution=given.solution, every=given.every, name=given.run.name)
