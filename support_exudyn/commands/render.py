@@ -117,7 +117,9 @@ def size(text: str) -> tuple[int, int]:
     """Width and height from the command line."""
     found = re.fullmatch(r"(\d{1,5})[xX](\d{1,5})", text)
     if found is None:
-        raise argparse.ArgumentTypeError(f"{short(text)}: allowed: width and height in pixels, such as 1280x720")
+        raise argparse.ArgumentTypeError(
+            f"{short(text)}: allowed: width and height in pixels, such as 1280x720"
+        )
     return int(found[1]), int(found[2])
 
 

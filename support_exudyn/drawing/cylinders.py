@@ -8,7 +8,9 @@ from trimesh import Trimesh
 
 from support_exudyn.drawing.shapes import lathed
 
-INSIDE = 0.08  # of the shortest length: the rod that always stays in the cylinder, and the end that it never reaches
+INSIDE = (
+    0.08  # of the shortest length: the rod that always stays in the cylinder, and the end that it never reaches
+)
 SHORTEST_CYLINDER = 0.68  # of the shortest length
 BALL = 0.95  # radius of the ends, of the cylinder's
 ROD = 0.66  # radius of the rod, of the cylinder's

@@ -51,7 +51,9 @@ def lathed(profile: Sequence[tuple[float, float]]) -> Trimesh:
     """
     places, radii = np.array(profile).T
     mesh: Trimesh = revolve(np.column_stack([radii, places]), sections=SECTIONS)
-    mesh.apply_transform([[0.0, 0.0, 1.0, 0.0], [1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0]])
+    mesh.apply_transform(
+        [[0.0, 0.0, 1.0, 0.0], [1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0]]
+    )
     return mesh
 
 

@@ -225,7 +225,9 @@ class _Support:
                 yield from self._of_pair(
                     body,
                     Role.PIN,
-                    lambda z, c=centre, e=end, i=inner: _rod(c, math.copysign(i, z), math.copysign(e, z), s.pin),
+                    lambda z, c=centre, e=end, i=inner: _rod(
+                        c, math.copysign(i, z), math.copysign(e, z), s.pin
+                    ),
                     s.front_links,
                     f"pin_{name}",
                 )
@@ -267,9 +269,7 @@ class _Support:
             (f"{name}_cylinder", Role.CYLINDER, cylinder, column.foot_point),
             (f"{name}_rod", Role.ROD, rod, column.head_point),
         ):
-            yield from self._of_pair(
-                body, role, _placed(mesh, column, end), self.sizes.columns
-            )
+            yield from self._of_pair(body, role, _placed(mesh, column, end), self.sizes.columns)
 
     # --- bodies that there are two of ---
 

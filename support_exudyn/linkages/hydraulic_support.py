@@ -294,7 +294,9 @@ class HydraulicSupport(Machine):
 
     def look(self, scenario: Scenario) -> Look:
         """A shield support: base, links, shield and tail beam, canopy, columns and pins."""
-        from support_exudyn.drawing.shield_support import look  # libraries of shapes, which a run has no use for
+        from support_exudyn.drawing.shield_support import (
+            look,
+        )  # libraries of shapes, which a run has no use for
 
         return look(scenario)
 

@@ -13,7 +13,7 @@ from support_exudyn.trajectory import Series
 Pixels = npt.NDArray[np.float64]
 
 # from the left side of the machine, so that forward is to the left; then turned to its front and lifted [rad]
-TURN, LIFT = 0.32, 0.20
+TURN, LIFT = 0.26, 0.17
 
 
 @dataclass(frozen=True)

@@ -60,7 +60,12 @@ class Sheet:
     """
 
     def __init__(self, box: tuple[float, float, float, float]) -> None:
-        left, top, right, bottom = (math.floor(box[0]), math.floor(box[1]), math.ceil(box[2]), math.ceil(box[3]))
+        left, top, right, bottom = (
+            math.floor(box[0]),
+            math.floor(box[1]),
+            math.ceil(box[2]),
+            math.ceil(box[3]),
+        )
         self._corner = (left, top)
         size = (max(1, right - left) * FINER, max(1, bottom - top) * FINER)
         self._image = Image.new("RGBA", size, (255, 255, 255, 0))
@@ -80,12 +85,17 @@ class Sheet:
         """A filled one."""
         self._draw.polygon([self._at(p) for p in points], fill=colour)
 
-    def disc(self, centre: Point, radius: float, fill: str | None, rim: str | None = None, thick: float = 0.0) -> None:
+    def disc(
+        self, centre: Point, radius: float, fill: str | None, rim: str | None = None, thick: float = 0.0
+    ) -> None:
         """A circle, filled or with a rim inside of its radius."""
         x, y = self._at(centre)
         r = FINER * radius
         self._draw.ellipse(
-            (x - r, y - r, x + r, y + r), fill=fill, outline=rim, width=max(1, round(FINER * thick)) if rim else 0
+            (x - r, y - r, x + r, y + r),
+            fill=fill,
+            outline=rim,
+            width=max(1, round(FINER * thick)) if rim else 0,
         )
 
     def box(self, box: tuple[float, float, float, float], fill: str, radius: float = 0.0) -> None:
@@ -129,7 +139,11 @@ class Sheet:
         if cut:
             middle = 0.5 * (length - head)
             for off in (-0.7 * thick, 0.7 * thick):
-                self.line([at(middle + off - 0.5 * thick, -thick), at(middle + off + 0.5 * thick, thick)], "#ffffff", 0.45 * thick)
+                self.line(
+                    [at(middle + off - 0.5 * thick, -thick), at(middle + off + 0.5 * thick, thick)],
+                    "#ffffff",
+                    0.45 * thick,
+                )
 
     def onto(self, picture: Image.Image) -> None:
         """Put it there."""

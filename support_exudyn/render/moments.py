@@ -29,6 +29,7 @@ class Moments:
         time: of all records [s].
         step: between frames [s] of the run.
         rate: frames in a second of the movie.
+        shown: what of the run is drawn over time, from and to [s].
     """
 
     times: Series
@@ -36,6 +37,15 @@ class Moments:
     time: Series
     step: float
     rate: float
+    shown: tuple[float, float]
+
+    @property
+    def pace(self) -> str:
+        """What is said of the movie's speed; nothing at the run's."""
+        speed = self.step * self.rate
+        if self.times.size == 1 or abs(speed - 1.0) < 1e-9:
+            return ""
+        return f"{1.0 / speed:.4g} \u00d7 slower" if speed < 1.0 else f"{speed:.4g} \u00d7 faster"
 
     @property
     def decimals(self) -> int:
@@ -76,14 +86,14 @@ def moments(time: Series, start: float | None, end: float | None, rate: float, s
             f"{MOST_FRAMES}. Take a shorter time, a higher speed or fewer frames a second"
         )
     times = start + step * np.arange(number)
-    return Moments(times, nearest(time, times), time, step, rate)
+    return Moments(times, nearest(time, times), time, step, rate, (start, end))
 
 
 def moment(time: Series, at: float) -> Moments:
     """Of a single picture at a time [s]. Raises InputError if the run does not reach it."""
     check_between("time", at, float(time[0]), float(time[-1]), " s")
     times = np.array([at])
-    return Moments(times, nearest(time, times), time, 1e-3, 1.0)
+    return Moments(times, nearest(time, times), time, 1e-3, 1.0, (float(time[0]), float(time[-1])))
 
 
 def nearest(time: Series, asked: Series) -> npt.NDArray[np.intp]:

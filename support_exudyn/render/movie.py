@@ -36,9 +36,7 @@ def check(kind: str, rate: float, frames: int) -> None:
             "or an MP4"
         )
     if kind == "gif" and frames > MOST_GIF_FRAMES:
-        raise InputError(
-            f"{frames} frames are too many for a GIF; allowed: up to {MOST_GIF_FRAMES}, or an MP4"
-        )
+        raise InputError(f"{frames} frames are too many for a GIF; allowed: up to {MOST_GIF_FRAMES}, or an MP4")
     if kind == "mp4":
         _ffmpeg()
 
@@ -115,7 +113,13 @@ def _mp4(path: Path, frames: Sequence[Path], rate: float, progress: Progress) ->
     with Image.open(frames[0]) as first:
         size = first.size
     writer = _ffmpeg().write_frames(
-        str(path), size, fps=rate, codec="libx264", quality=QUALITY, macro_block_size=2, ffmpeg_log_level="error"
+        str(path),
+        size,
+        fps=rate,
+        codec="libx264",
+        quality=QUALITY,
+        macro_block_size=2,
+        ffmpeg_log_level="error",
     )
     writer.send(None)
     try:

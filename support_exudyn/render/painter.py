@@ -2,13 +2,9 @@
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass, field
-
 import numpy as np
 from PIL import Image
 
-from support_exudyn.drawing.palette import COLOURS
 from support_exudyn.figures.style import CONTACT, FLIGHT, IDEAL
 from support_exudyn.pins import ClearancePin
 from support_exudyn.render.camera import Camera
@@ -24,8 +20,6 @@ from support_exudyn.render.strip import Strip
 
 ARROW = 0.24  # length of the usual force's arrow, of the height of the machine's picture
 LONGEST = 0.42  # of an arrow in it
-IN_INSET = 0.62  # length of the usual force's arrow in the inset, of that in the picture
-del COLOURS
 
 
 class Painter:
@@ -49,21 +43,21 @@ class Painter:
         write(
             self._background,
             (layout.line[0], 0.66 * layout.line[3]),
-            *self._title(layout.line[2] - layout.line[0] - 190 * u),
-            bold=False,
+            *self._title(layout.line[2] - layout.line[0] - 360 * u),
         )
         self._inset: Inset | None = None
         self._strip: Strip | None = None
         if pin is None:
             return
-        seen = pin.size[moments.records]
+        inside = (self._time >= moments.shown[0]) & (self._time <= moments.shown[1])
+        seen = pin.size[moments.records] if moments.times.size > 1 else pin.size[inside]
         self._usual = usual(seen)
         self._largest = LONGEST / ARROW * self._usual
         self._scale = ARROW * (layout.picture[3] - layout.picture[1]) / self._usual  # pixels to a newton
         left, top, right, bottom = layout.panel
         if pin.bore is not None:
             self._inset = Inset((left, top, right, top + right - left), pin.bore, u)
-        self._strip = Strip(layout.strip, self._time, pin, moments.times[0], moments.times[-1], u)
+        self._strip = Strip(layout.strip, self._time, pin, *moments.shown, u)
         self._strip.draw(self._background)
         self._still_panel()
 
@@ -82,16 +76,15 @@ class Painter:
     def _still_panel(self) -> None:
         """What of the panel does not change: the scale of the arrow."""
         assert self._pin is not None
-        u, (left, top, right, _) = self._layout.unit, self._words
+        u, (left, top, *_) = self._layout.unit, self._words
         bar = round_down(self._usual / 1e3)
         long = bar * 1e3 * self._scale
         y = top + 118 * u
-        sheet = Sheet((left - 4, y - 10 * u, right + 4, y + 10 * u))
+        sheet = Sheet((left - 4, y - 12 * u, left + long + 8 * u, y + 12 * u))
         sheet.arrow((left, y), (left + long, y), self._colour, 5.5 * u)
         sheet.onto(self._background)
         write(self._background, (left + long + 14 * u, y), f"{said(bar)} kN", 14 * u, INK, "lm")
         write(self._background, (left, top + 84 * u), f"on the {self._pin.on}", 14 * u, INK, "lt")
-        del right
 
     @property
     def _colour(self) -> str:
@@ -106,6 +99,8 @@ class Painter:
         self._labels(frame, record)
         clock = f"t = {self._time[record]:.{self._moments.decimals}f} s"
         write(frame, (layout.line[2], 0.66 * layout.line[3]), clock, 22 * u, anchor="rs", bold=True)
+        left = layout.line[2] - width(clock, 22 * u, True) - 16 * u
+        write(frame, (left, 0.66 * layout.line[3]), self._moments.pace, 14 * u, FAINT, "rs")
         if self._pin is not None:
             self._force(frame, record, number)
         return frame
@@ -115,7 +110,10 @@ class Painter:
         for label in self._scene.labels(record):
             x, y = self._camera.pixels(np.array([label.place]))[0]
             colour = "#ffffff" if label.light else INK
-            write(frame, (left + float(x), top + float(y)), label.text, 15 * u, colour, "mm")
+            lines = label.text.split("\n")
+            for n, line in enumerate(lines):
+                down = 18 * u * (n - 0.5 * (len(lines) - 1))
+                write(frame, (left + float(x), top + float(y) + down), line, 15 * u, colour, "mm")
 
     def _force(self, frame: Image.Image, record: int, number: int) -> None:
         """Arrows, numbers, inset and cursor."""
@@ -126,16 +124,15 @@ class Painter:
         drawn = min(size, self._largest)
         direction = pin.force[record] / size if size > 0.0 else np.zeros(2)
         self._arrow(frame, record, direction * drawn, cut)
-        left, top, right, _ = self._words
+        left, top, *_ = self._words
         number_text = f"{size / 1e3:.1f} kN"
         write(frame, (left, top + 8 * u), f"force in {pin.name.replace('_', ' ')}", 14 * u, INK, "lt")
         write(frame, (left, top + 36 * u), number_text, 30 * u, INK if size > 0.0 else FAINT, "lt", True)
         if self._inset is not None:
-            shown = IN_INSET * self._scale * drawn
+            shown = self._scale * drawn
             arrow: Point = (-float(direction[0]) * shown, -float(direction[1]) * shown)
             self._inset.draw(frame, record, int(self._moments.back(number, TRAIL)), arrow, cut)
         self._strip.cursor(frame, float(self._time[record]), size)
-        del right
 
     def _arrow(self, frame: Image.Image, record: int, force: np.ndarray, cut: bool) -> None:
         """Of the force, in the machine's picture."""
@@ -193,6 +190,3 @@ def _of_loose(pin: ClearancePin) -> str:
 def _spaced(name: str) -> str:
     """A class's name as words."""
     return "".join(f" {letter.lower()}" if letter.isupper() else letter for letter in name).strip()
-
-
-del dataclass, field, math, width

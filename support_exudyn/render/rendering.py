@@ -106,14 +106,14 @@ def render(
             _replace_frames(paths, folder)
         else:
             with whole_file(target) as temporary:
-                movies.write(movie, temporary, paths, frames_per_second, lambda s: progress(share + (1.0 - share) * s))
+                movies.write(
+                    movie, temporary, paths, frames_per_second, lambda s: progress(share + (1.0 - share) * s)
+                )
             _replace_frames(paths, folder)
     return Rendered(tuple(folder / path.name for path in paths), target)
 
 
-def still(
-    result: Result, time: float, *, size: tuple[int, int] = SIZE, pin: str | None = None
-) -> Picture:
+def still(result: Result, time: float, *, size: tuple[int, int] = SIZE, pin: str | None = None) -> Picture:
     """A single frame as an array (height, width, 3) of RGB from 0 to 255.
 
     Arguments:
@@ -174,7 +174,9 @@ def _movie_path(folder: Path, kind: str, path: str | Path | None) -> Path | None
 def _folder_for(folder: Path) -> Iterator[Path]:
     """A temporary folder beside the one that is asked for; it is gone afterwards."""
     if folder.exists() and not folder.is_dir():
-        raise NotADirectoryError(errno.ENOTDIR, "a file stands where the folder of frames should be", str(folder))
+        raise NotADirectoryError(
+            errno.ENOTDIR, "a file stands where the folder of frames should be", str(folder)
+        )
     folder.parent.mkdir(parents=True, exist_ok=True)
     workshop = Path(tempfile.mkdtemp(prefix=f".{folder.name[:40]}-", dir=folder.parent))
     try:

@@ -42,7 +42,9 @@ class Scene:
         found = []
         for record in self.records:
             for solid in self.look.solids:
-                corners = solid.mesh.bounding_box_oriented.vertices if False else solid.mesh.convex_hull.vertices
+                corners = (
+                    solid.mesh.bounding_box_oriented.vertices if False else solid.mesh.convex_hull.vertices
+                )
                 found.append(self.poses.of(solid.body).points(corners, int(record)))
             for strut in self.look.struts:
                 for mesh, (place, turn) in zip(
@@ -120,7 +122,11 @@ class Scene:
 
     def camera(self, width: int, height: int) -> Camera:
         """That sees all of it over the whole run."""
-        points = self.points if self.surroundings is None else np.concatenate([self.points, self.surroundings.points])
+        points = (
+            self.points
+            if self.surroundings is None
+            else np.concatenate([self.points, self.surroundings.points])
+        )
         margin = max(2, round(0.02 * height))
         return fitted(points, width, height, (margin, margin, margin, margin))
 

@@ -23,10 +23,12 @@ FLOOR: Colour = (0.74, 0.72, 0.68)
 ROOF: Colour = (0.66, 0.64, 0.61)
 COAL: Colour = (0.23, 0.23, 0.25)
 ROCKS: tuple[Colour, ...] = (0.62, 0.60, 0.57), (0.72, 0.70, 0.66), (0.53, 0.51, 0.49)
+DARK: Colour = (0.40, 0.38, 0.36)
+STEEP = 0.5  # how far the heap leans back, of its depth
 SEED = 5  # of the rocks: they always lie alike
-COURSES = 6  # of rocks, one on the other
+COURSES = 8  # of rocks, one on the other
 GAP = 0.02  # between things that do not touch, of the machine's length
-BEHIND = 0.42  # how far the goaf reaches, of the machine's length
+BEHIND = 0.30  # how far the goaf reaches, of the machine's length
 
 
 @dataclass(frozen=True)
@@ -71,7 +73,7 @@ def surroundings(machine: Series, floor: float, roof_height: float, half_width: 
     length = float(front - rear)
     face = float(front) + 2.0 * GAP * length
     back = float(rear) - GAP * length
-    left, right = face + 0.11 * length, back - BEHIND * length
+    left, right = face + 0.085 * length, back - BEHIND * length
     thick, deep = 0.085 * length, half_width
     ground = _slab(right, left, floor - 0.035 * length, floor, -1.25 * half_width, deep)
     coal = _slab(face, left, floor, roof_height + thick, 0.0, deep)
@@ -91,12 +93,16 @@ def surroundings(machine: Series, floor: float, roof_height: float, half_width: 
         deep,
     )
     height = roof_height - floor
-    rocks = list(_rocks(right, back, floor, 0.8 * height, length, deep))
-    props = [Prop(ground, FLOOR), Prop(coal, COAL), *rocks]
+    heap = 0.82 * height
+    behind = Polygon(
+        [(right, floor), (back, floor), (back - STEEP * (back - right), floor + heap), (right, floor + heap)]
+    )
+    rocks = list(_rocks(right, back, floor, heap, deep))
+    props = [Prop(ground, FLOOR), Prop(coal, COAL), Prop(plate(behind, 0.8 * deep, 0.4 * deep), DARK), *rocks]
     labels = (
-        Label("coal face", (0.5 * (face + left), floor + 0.5 * height, 0.0), light=True),
-        Label("floor", (0.5 * (face + front) - 0.09 * length, floor - 0.0175 * length, -1.25 * half_width)),
-        Label("goaf", (0.5 * (back + right) - 0.03 * length, floor + 0.88 * height, 0.0)),
+        Label("coal\nface", (0.5 * (face + left), floor + 0.5 * height, 0.0), light=True),
+        Label("floor", (face - 0.16 * length, floor - 0.0175 * length, -1.25 * half_width)),
+        Label("goaf", (right + 0.22 * (back - right), floor + 0.95 * height, 0.0)),
     )
     corners = np.concatenate([prop.mesh.bounds for prop in props])
     above = np.array([[face, roof_height + thick, deep], [edge, roof_height + thick, deep]])
@@ -113,7 +119,9 @@ def surroundings(machine: Series, floor: float, roof_height: float, half_width: 
 def _all_corners(bounds: Series) -> Iterator[Series]:
     """Of boxes."""
     for low, high in bounds:
-        yield np.array([(x, y, z) for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
+        yield np.array(
+            [(x, y, z) for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])]
+        )
 
 
 def _slab(left: float, right: float, low: float, high: float, near: float, far: float) -> Trimesh:
@@ -122,19 +130,18 @@ def _slab(left: float, right: float, low: float, high: float, near: float, far: 
     return plate(outline, 0.5 * (near + far), far - near)
 
 
-def _rocks(right: float, left: float, floor: float, height: float, length: float, deep: float) -> Iterator[Prop]:
-    """A heap that rises away from the machine, of one surface to a colour."""
+def _rocks(right: float, left: float, floor: float, height: float, deep: float) -> Iterator[Prop]:
+    """A heap that leans away from the machine, of one surface to a colour."""
     random = np.random.default_rng(SEED)
     found: list[list[Trimesh]] = [[] for _ in ROCKS]
-    size = 0.55 * height / COURSES
+    step = height / COURSES
+    size = 0.78 * step
     for course in range(COURSES):
-        low = floor + 0.95 * size + course * height / COURSES
-        nearest = left - size - 0.55 * course / COURSES * (left - right)
-        for x in np.arange(right + size, nearest, 1.55 * size):
-            radius = size * random.uniform(0.85, 1.15)
-            place = np.array([x + size * random.uniform(-0.2, 0.2), low, radius + random.uniform(0.0, 0.2) * deep])
+        nearest = left - size - STEEP * course / COURSES * (left - right)
+        for x in np.arange(nearest, right, -1.45 * size):
+            radius = size * random.uniform(0.8, 1.2)
+            place = np.array([x, floor + (course + 0.5) * step, 0.3 * deep + random.uniform(0.0, 0.3) * deep])
             found[random.integers(len(ROCKS))].append(_rock(random, place, radius))
-    del length
     for colour, rocks in zip(ROCKS, found, strict=True):
         if rocks:
             yield Prop(together(rocks), colour)

@@ -19,6 +19,7 @@ from support_exudyn.render.camera import Camera
 from support_exudyn.trajectory import Series
 
 Image = npt.NDArray[np.uint8]  # height, width, 3
+AMBIENT = 0.46  # light that comes from everywhere
 SAMPLES = 2  # squared: rays to a pixel
 LIGHT_FROM = (-0.45, 0.8, 0.9, 0.0)  # right, up, towards the eye
 FILL_FROM = (0.8, 0.25, 0.7, 0.0)
@@ -63,9 +64,7 @@ class Stage:
     def _add(self, prop: Prop) -> None:
         """A body that nothing moves."""
         drawn = engine_graphics(prop.mesh, prop.colour, EDGE if prop.edges else None)
-        node = self._system.AddNode(
-            NodeRigidBodyEP(referenceCoordinates=[0, 0, 0, 1, 0, 0, 0])
-        )
+        node = self._system.AddNode(NodeRigidBodyEP(referenceCoordinates=[0, 0, 0, 1, 0, 0, 0]))
         self._system.AddObject(
             ObjectRigidBody(
                 physicsMass=1.0,
@@ -86,10 +85,12 @@ class Stage:
         settings.raytracer.multiSampling = SAMPLES
         settings.raytracer.numberOfThreads = threads
         settings.raytracer.advanced.showText = False
-        settings.openGL.lineWidth = 1.0
+        settings.openGL.lineWidth = 1.2
+        settings.openGL.lightModelAmbient = [AMBIENT, AMBIENT, AMBIENT, 1.0]
+        settings.raytracer.advanced.zBiasLines = 5e-4
         for light, where, shadow, bright in (
-            (settings.openGL.light0, LIGHT_FROM, 0.35, 0.62),
-            (settings.openGL.light1, FILL_FROM, 0.0, 0.28),
+            (settings.openGL.light0, LIGHT_FROM, 0.3, 0.62),
+            (settings.openGL.light1, FILL_FROM, 0.0, 0.36),
         ):
             light.enable, light.position, light.shadow = True, list(where), shadow
             light.useCameraFrame, light.diffuse, light.specular = True, bright, 0.2

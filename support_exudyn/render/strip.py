@@ -93,7 +93,11 @@ class Strip:
             last = min(end + 1, x.size)
             points = [(float(a), float(b)) for a, b in zip(x[start:last], y[start:last], strict=True)]
             if len(points) > 1:
-                sheet.line(points, colour if touching[start] else FLIGHT, (1.3 if touching[start] else 3.0) * self._unit)
+                sheet.line(
+                    points,
+                    colour if touching[start] else FLIGHT,
+                    (1.3 if touching[start] else 3.0) * self._unit,
+                )
         sheet.onto(picture)
 
     def cursor(self, picture: Image.Image, record_time: float, force: float) -> None:
