@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import re
-from pathlib import Path
 
 from support_exudyn.command_line import folder
 from support_exudyn.result import Result
@@ -121,6 +120,3 @@ def size(text: str) -> tuple[int, int]:
             f"{short(text)}: allowed: width and height in pixels, such as 1280x720"
         )
     return int(found[1]), int(found[2])
-
-
-del Path

@@ -59,7 +59,7 @@ class Sizes:
 
 
 def sizes(scenario: Scenario) -> Sizes:
-    """Of a scenario's machine: its widths, where it knows them; all else follows from distances of its pivots."""
+    """Of a scenario's machine: its widths, where it knows them; the rest by distances of its pivots."""
     linkage = scenario.linkage
     length = extent(linkage)
     columns = [column for column in linkage.columns.values() if column.driven]

@@ -61,7 +61,7 @@ class _Support:
             *self._tail(),
             *self._pins(),
         ]
-        struts = []
+        struts: list[Strut] = []
         for name, column in {**self.columns, **self.jacks}.items():
             if isinstance(self.scenario.columns.get(name), TwoBodyColumn):
                 solids.extend(self._column_bodies(name, column))
@@ -72,7 +72,7 @@ class _Support:
     # --- bodies ---
 
     def _base(self) -> Trimesh:
-        """Two skids with a nose, a bridge between them, plates that carry the links, and sockets of the columns."""
+        """Two skids, a bridge between them, plates that carry the links, and sockets of the columns."""
         s, floor = self.sizes, self.floor
         rear, front = self.on_first["rear_base"], self.on_first["front_base"]
         feet = [column.foot_point for column in self.columns.values()]
@@ -221,18 +221,17 @@ class _Support:
             body, centre = (place.first, place.first_point) if first else (place.second, place.second_point)
             end = reach.get(name, s.cheek) + out
             if body == "front_link":
-                inner = s.front_links - 0.5 * s.front_link - 1.2 * s.plate
                 yield from self._of_pair(
-                    body,
-                    Role.PIN,
-                    lambda z, c=centre, e=end, i=inner: _rod(
-                        c, math.copysign(i, z), math.copysign(e, z), s.pin
-                    ),
-                    s.front_links,
-                    f"pin_{name}",
+                    body, Role.PIN, self._short_pin(centre, end), s.front_links, f"pin_{name}"
                 )
             else:
                 yield Solid(f"pin_{name}", body, Role.PIN, _rod(centre, -end, end, s.pin))
+
+    def _short_pin(self, centre: Vector2, end: float) -> Callable[[float], Trimesh]:
+        """Through one front link and the plates beside it, by where this stands."""
+        s = self.sizes
+        inner = s.front_links - 0.5 * s.front_link - 1.2 * s.plate
+        return lambda z: _rod(centre, math.copysign(inner, z), math.copysign(end, z), s.pin)
 
     # --- columns ---
 

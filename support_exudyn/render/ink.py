@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from functools import lru_cache
+from functools import cache
 from pathlib import Path
 
 import matplotlib as mpl
@@ -19,7 +19,7 @@ FAINT = "#6b6b6b"
 RULE = "#c9c9c9"
 
 
-@lru_cache(maxsize=None)
+@cache
 def font(size: float, bold: bool = False) -> ImageFont.FreeTypeFont:
     """DejaVu Sans, which comes with matplotlib; size: [pixels]."""
     name = "DejaVuSans-Bold.ttf" if bold else "DejaVuSans.ttf"

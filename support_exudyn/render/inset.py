@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 
 import numpy as np
 from matplotlib.colors import to_hex
@@ -110,7 +111,7 @@ class Inset:
         touching = self._bore.touching[first : record + 1]
         turns = np.flatnonzero(np.diff(touching.astype(int))) + 1
         edges = [0, *turns.tolist(), len(places) - 1]
-        for start, end in zip(edges[:-1], edges[1:], strict=True):
+        for start, end in pairwise(edges):
             if end > start:
                 colour = CONTACT if touching[start] else FLIGHT
                 sheet.line(places[start : end + 1], colour, 1.8 * self._unit)

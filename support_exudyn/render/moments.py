@@ -85,7 +85,7 @@ def moments(time: Series, start: float | None, end: float | None, rate: float, s
             f"{number} frames from {start} to {end} s at {rate:g} a second and speed {speed:g}; allowed: up to "
             f"{MOST_FRAMES}. Take a shorter time, a higher speed or fewer frames a second"
         )
-    times = start + step * np.arange(number)
+    times = start + step * np.arange(number, dtype=np.float64)
     return Moments(times, nearest(time, times), time, step, rate, (start, end))
 
 

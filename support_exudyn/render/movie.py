@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -32,7 +32,7 @@ def check(kind: str, rate: float, frames: int) -> None:
         raise InputError(f"movie = {kind!r}: allowed: {', '.join(KINDS)}")
     if kind == "gif" and rate > FASTEST_GIF:
         raise InputError(
-            f"frames_per_second = {rate:g}: players show at most {FASTEST_GIF:g} of a GIF; allowed: up to that, "
+            f"frames_per_second = {rate:g}: players show at most {FASTEST_GIF:g} of a GIF; allowed: as many, "
             "or an MP4"
         )
     if kind == "gif" and frames > MOST_GIF_FRAMES:
@@ -129,6 +129,3 @@ def _mp4(path: Path, frames: Sequence[Path], rate: float, progress: Progress) ->
             progress((number + 1) / len(frames))
     finally:
         writer.close()
-
-
-Movie = Callable[[Path, Sequence[Path], float, Progress], None]

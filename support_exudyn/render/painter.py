@@ -17,6 +17,7 @@ from support_exudyn.render.scales import round_down, said, usual
 from support_exudyn.render.scene import Scene
 from support_exudyn.render.stage import Image as Picture
 from support_exudyn.render.strip import Strip
+from support_exudyn.scenario import Scenario
 
 ARROW = 0.24  # length of the usual force's arrow, of the height of the machine's picture
 LONGEST = 0.42  # of an arrow in it
@@ -54,7 +55,7 @@ class Painter:
         self._usual = usual(seen)
         self._largest = LONGEST / ARROW * self._usual
         self._scale = ARROW * (layout.picture[3] - layout.picture[1]) / self._usual  # pixels to a newton
-        left, top, right, bottom = layout.panel
+        left, top, right, _ = layout.panel
         if pin.bore is not None:
             self._inset = Inset((left, top, right, top + right - left), pin.bore, u)
         self._strip = Strip(layout.strip, self._time, pin, *moments.shown, u)
@@ -117,7 +118,8 @@ class Painter:
 
     def _force(self, frame: Image.Image, record: int, number: int) -> None:
         """Arrows, numbers, inset and cursor."""
-        assert self._pin is not None and self._strip is not None
+        assert self._pin is not None
+        assert self._strip is not None
         u, pin = self._layout.unit, self._pin
         size = float(pin.size[record])
         cut = size > self._largest
@@ -158,11 +160,8 @@ class Painter:
         sheet.onto(frame)
 
 
-def title(scenario: object, pin: PinView | None) -> str:
+def title(scenario: Scenario, pin: PinView | None) -> str:
     """A run in a line."""
-    from support_exudyn.scenario import Scenario
-
-    assert isinstance(scenario, Scenario)
     words = [_spaced(type(scenario.machine).__name__)]
     if scenario.dimensions == 3:
         words[0] += " in space"

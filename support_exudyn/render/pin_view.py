@@ -11,7 +11,7 @@ from support_exudyn.drawing.poses import Poses
 from support_exudyn.pins import ClearancePin
 from support_exudyn.result import Result
 from support_exudyn.trajectory import Series
-from user_forces.values import InputError, Vector3, short
+from user_forces.values import InputError, short
 
 
 @dataclass(frozen=True)
@@ -20,8 +20,8 @@ class Bore:
 
     Arguments:
         pin: of the scenario.
-        eccentricity: of the journal's centre from the bore's, forward and up, shape (n, 2) [m]; in space that of
-            the middle of the bearing.
+        eccentricity: of the journal's centre from the bore's, forward and up, shape (n, 2) [m]; in space
+            that of the middle of the bearing.
         touching: whether it is in contact, shape (n,).
         carrier: name of the body that has the bore.
     """
@@ -88,13 +88,12 @@ def pin_view(result: Result, name: str | None = None) -> PinView | None:
         plane, first, second = name, place.first, place.second
         points = {first: (*place.first_point, 0.0), second: (*place.second_point, 0.0)}
     loose = scenario.clearance_pins.get(plane)
-    journal, carrier, sign = (first, second, -1.0) if loose and loose.bore == "second" else (second, first, 1.0)
+    carrier, sign = (second, -1.0) if loose and loose.bore == "second" else (first, 1.0)
     force = sign * np.column_stack([_channel(result, f"pin.{name}.force_{axis}") for axis in "xy"])
     path = Poses(result).of(carrier).path(points[carrier])
     if loose is None:
         return PinView(name, second.replace("_", " "), force, path, None)
     bore = Bore(loose, _eccentricity(result, name), np.hypot(*force.T) > 0.0, carrier)
-    del journal
     return PinView(name, "journal", force, path, bore)
 
 
@@ -115,9 +114,3 @@ def _channel(result: Result, name: str) -> Series:
             "channels = ('*',)"
         )
     return result[name]
-
-
-def seen_place(pin: PinView, record: int, near: float) -> Vector3:
-    """Where the visible end of a pin is [m]; near: z of that end."""
-    x, y, _ = pin.path[record]
-    return float(x), float(y), near

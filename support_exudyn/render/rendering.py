@@ -12,6 +12,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
 from PIL import Image
 
 from support_exudyn.files import whole_file
@@ -123,8 +124,6 @@ def still(result: Result, time: float, *, size: tuple[int, int] = SIZE, pin: str
 
     Raises InputError if the run does not reach the time, or as `render` does.
     """
-    import numpy as np
-
     show = _Show(result, size, pin, moment(result.time, time))
     return np.asarray(show.frame(show.machine(0), 0))
 

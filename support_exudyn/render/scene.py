@@ -42,9 +42,7 @@ class Scene:
         found = []
         for record in self.records:
             for solid in self.look.solids:
-                corners = (
-                    solid.mesh.bounding_box_oriented.vertices if False else solid.mesh.convex_hull.vertices
-                )
+                corners = solid.mesh.convex_hull.vertices
                 found.append(self.poses.of(solid.body).points(corners, int(record)))
             for strut in self.look.struts:
                 for mesh, (place, turn) in zip(

@@ -52,7 +52,7 @@ class Stage:
         self._system.Assemble()
         self._settings(camera, threads)
         renderer = self._container.renderer
-        window = self._container.visualizationSettings.view0.window
+        window: Any = self._container.visualizationSettings.view0.window
         window.renderWindowSize = [16, 16]
         renderer.RedrawAndGetImage(True)  # with its first picture the engine chooses a view of its own
         window.renderWindowSize = [camera.width_px, camera.height_px]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 from PIL import Image, ImageDraw
 
@@ -89,7 +91,7 @@ class Strip:
         touching = np.ones(x.size, dtype=bool) if self._touching is None else self._touching
         colour = IDEAL if self._touching is None else CONTACT
         turns = [0, *(np.flatnonzero(np.diff(touching.astype(int))) + 1).tolist(), x.size]
-        for start, end in zip(turns[:-1], turns[1:], strict=True):
+        for start, end in pairwise(turns):
             last = min(end + 1, x.size)
             points = [(float(a), float(b)) for a, b in zip(x[start:last], y[start:last], strict=True)]
             if len(points) > 1:
