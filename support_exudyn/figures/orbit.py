@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
-from support_exudyn.figures import style
+from support_exudyn.figures import style, units
 from support_exudyn.figures.caption import caption
 from support_exudyn.figures.journal import Journal, Series, journal, shortest_touch
 from support_exudyn.figures.units import Unit, readable
@@ -34,9 +34,9 @@ def orbit(result: Result, pin: str | None = None, start: float = 0.0, until: flo
     """
     shown = journal(result, pin, start, until)
     drawing = Figure(figsize=style.size(170, 112))
-    grid = drawing.add_gridspec(2, 2, width_ratios=(1.15, 1.0))
+    grid = drawing.add_gridspec(3, 2, width_ratios=(1.15, 1.0), height_ratios=(1.0, 1.0, 0.12))
     unit = readable("m", float(np.hypot(shown.x, shown.y).max()))
-    place = drawing.add_subplot(grid[:, 0])
+    place = drawing.add_subplot(grid[:2, 0])
     draw_path(place, shown, unit)
     place.set_title("a) path of the centre")
     over_time = readable("s", float(np.ptp(shown.time)))
@@ -46,7 +46,10 @@ def orbit(result: Result, pin: str | None = None, start: float = 0.0, until: flo
     speeds = drawing.add_subplot(grid[1, 1], sharex=depth)
     _draw_speeds(speeds, shown, over_time)
     speeds.set_title("c) speeds of touching and parting")
-    place.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=3, fontsize=7)
+    below = drawing.add_subplot(grid[2, :])
+    below.axis("off")
+    handles, labels = place.get_legend_handles_labels()
+    below.legend(handles, labels, loc="center left", ncols=len(labels), fontsize=7, borderaxespad=0.0)
     drawing.suptitle(
         f"Journal orbit, pin {shown.pin}, {1e3 * shown.clearance:g} mm clearance, {said(result, start, until)}",
         x=0.01, ha="left",
@@ -137,10 +140,9 @@ def _draw_speeds(axes: Axes, shown: Journal, over_time: Unit) -> None:
 
 def _words(result: Result, shown: Journal) -> str:
     """What is drawn, and what is not."""
-    every = readable("s", shown.spacing)
     text = (
-        f"Drawn true to scale: {shown.time.size} records, one every {every.scale * shown.spacing:.3g} "
-        f"{every.name}, joined by straight lines. "
+        f"Drawn true to scale: {shown.time.size} records, one every {units.said(shown.spacing, 's')}, joined by "
+        "straight lines. "
     )
     if shown.touches:
         text += (
@@ -149,15 +151,13 @@ def _words(result: Result, shown: Journal) -> str:
         )
     shortest = shortest_touch(shown.touches)
     if shortest < 2.0 * shown.spacing:
-        brief = readable("s", shortest)
         text += (
-            f"The shortest touch lasts {brief.scale * shortest:.2g} {brief.name}: its depth falls between "
-            "the records; a smaller record_period shows it. "
+            f"The shortest touch lasts {units.said(shortest, 's')}: its depth falls between the records; a smaller "
+            "record_period shows it. "
         )
     deepest = float(shown.depth.max())
     if deepest > 0.0:
-        unit = readable("m", deepest)
-        text += f"Deepest record: {unit.scale * deepest:.3g} {unit.name}. "
+        text += f"Deepest record: {units.said(deepest, 'm')}. "
     if result.scenario.dimensions == 3:
         text += "In space: the middle of the journal; the depth is that where it is deepest along the pin. "
     return text.rstrip()

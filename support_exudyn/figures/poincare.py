@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
 from support_exudyn.drives import Drive, Held, Reciprocating, Steady
-from support_exudyn.figures import style
+from support_exudyn.figures import style, units
 from support_exudyn.figures.caption import caption
 from support_exudyn.figures.journal import Journal, Series, journal, loose_pins
 from support_exudyn.figures.units import DEGREES, Unit, readable
@@ -163,19 +163,17 @@ def _by_period(
     if pair:
         axes = panels[-1]
         _draw_section(axes, result, (pair[0], pair[1]), phase, start, until, touching)
-        axes.set_title(f"{'b) ' if shown is not None else ''}{pair[0]}, {pair[1]}")
+        axes.set_title("b) two channels" if shown is not None else "two channels")
     length = period(result.scenario)
     assert length is not None  # there are times
     count = periodic_times(result, phase, start, until).size
     of = f", pin {shown.pin}" if shown is not None else ""
     drawing.suptitle(f"Poincare section once in a period{of}, {said(result, start, until)}", x=0.01, ha="left")
-    every, apart = readable("s", length), readable("s", spacing(result))
     caption(
         drawing,
-        f"{count} points, one in every period of the drive ({every.scale * length:.4g} {every.name}) at "
-        f"{phase:g} of it; values straight between records, every {apart.scale * spacing(result):.3g} "
-        f"{apart.name}. A motion that repeats in every period is one point, in every second two points; a cloud "
-        "is irregular motion, or one that has not settled yet.",
+        f"{count} points, one in every period of the drive ({units.said(length, 's', 4)}) at {phase:g} of it; values "
+        f"straight between records, which lie {units.said(spacing(result), 's')} apart. A motion that repeats in every period is one point, in every second two points; a cloud "
+        "is irregular motion, or one that has not settled yet (a later start of the piece leaves that out).",
     )
     return drawing
 

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from scipy import signal
 
-from support_exudyn.figures import style
+from support_exudyn.figures import style, units
 from support_exudyn.figures.caption import caption
 from support_exudyn.figures.journal import Series, chosen_pin, shortest_touch
 from support_exudyn.figures.units import readable
@@ -23,7 +23,8 @@ WIDTH = 1.5  # of the window in the frequency, in bins: what a pure tone is smea
 SEGMENTS = 4  # of equal length that a piece is cut into; overlapping by half, seven are averaged
 FEWEST = 16  # records that a spectrum is made of
 EVEN = 1e-6  # share of the spacing by which records may be off
-PEAKS = 3  # that are marked
+LETTERS = "ABC"  # of the peaks that are marked
+MANY = 1000  # frequencies from which on their axis is logarithmic
 PROMINENCE = 3.0  # by how much a peak stands out of what is around it, as a factor of the amplitude
 FINE_ENOUGH = 10.0  # records within the shortest touch, for its spectrum not to be folded
 TINY = 1e-12  # of the largest amplitude: below, nothing is drawn
@@ -52,7 +53,7 @@ class Spectrum:
         """Highest frequency that the samples can tell [Hz]; what is faster appears below it."""
         return 0.5 / self.spacing
 
-    def peaks(self, most: int = PEAKS) -> list[tuple[float, float]]:
+    def peaks(self, most: int = len(LETTERS)) -> list[tuple[float, float]]:
         """Frequency [Hz] and amplitude [U] of the highest peaks that stand out, the highest first."""
         if not self.amplitude.max() > 0.0:
             return []
@@ -143,28 +144,31 @@ def force_spectrum(
         panels[0].set_title("a) amplitudes")
         _draw_over_time(panels[1], time, force)
     drawing.suptitle(f"Spectrum of the force in pin {pin}, {said(result, start, until)}", x=0.01, ha="left")
-    caption(drawing, _words(result, pin, found, float(time[0]), float(time[-1])))
+    caption(drawing, _words(result, pin, found, float(time[0]), float(time[-1]), over_time))
     return drawing
 
 
 def _draw(axes: Axes, found: Spectrum, colour: str) -> None:
-    unit = readable("N", float(found.amplitude.max()))
-    amplitude = unit.scale * found.amplitude[1:]
-    axes.plot(found.frequency[1:], amplitude, color=colour, lw=0.9)
-    axes.set(xlabel="frequency [Hz]", ylabel=f"amplitude [{unit.name}]", xlim=(0.0, found.nyquist))
+    unit, hertz = readable("N", float(found.amplitude.max())), readable("Hz", found.nyquist)
+    amplitude, frequencies = unit.scale * found.amplitude[1:], hertz.scale * found.frequency[1:]
+    axes.plot(frequencies, amplitude, color=colour, lw=0.9)
+    axes.set(xlabel=f"frequency [{hertz.name}]", ylabel=f"amplitude [{unit.name}]")
+    axes.set_xlim(0.0, hertz.scale * found.nyquist)
+    if frequencies.size > MANY:  # low frequencies, where machines run, would be a line at the edge
+        axes.set_xscale("log")
+        axes.set_xlim(frequencies[0], hertz.scale * found.nyquist)
     if not amplitude.max() > 0.0:
         return
     axes.set_yscale("log")
     axes.set_ylim(max(0.5 * float(amplitude.min()), 1e-9 * float(amplitude.max())), 20.0 * float(amplitude.max()))
-    for n, (frequency, height) in enumerate(found.peaks()):
-        axes.plot(frequency, unit.scale * height, "v", ms=4, color=style.IDEAL, mfc="white", mew=0.8)
-        label = f"{chr(ord('A') + n)}: {frequency:.4g} Hz, {unit.scale * height:.3g} {unit.name}"
-        axes.annotate(
-            "ABC"[n % 3], (frequency, unit.scale * height), (0, 4), textcoords="offset points", ha="center",
-            fontsize=7,
-        )  # fmt: skip
+    for letter, (frequency, height) in zip(LETTERS, found.peaks(), strict=False):
+        place = hertz.scale * frequency, unit.scale * height
+        axes.plot(*place, "v", ms=4, color=style.IDEAL, mfc="white", mew=0.8)
+        axes.annotate(letter, place, (0, 4), textcoords="offset points", ha="center", fontsize=7)
+        label = f"{letter}: {frequency:.4g} ± {0.5 * found.resolution:.2g} Hz, {place[1]:.3g} {unit.name}"
         axes.plot([], [], ls="none", label=label)
-    axes.legend(loc="upper right", fontsize=7, handlelength=0.0, title="highest peaks", title_fontsize=7)
+    if found.peaks():
+        axes.legend(loc="upper right", fontsize=7, handlelength=0.0, title="highest peaks", title_fontsize=7)
 
 
 def _draw_over_time(axes: Axes, time: Series, force: Series) -> None:
@@ -178,28 +182,29 @@ def _draw_over_time(axes: Axes, time: Series, force: Series) -> None:
     amplitude = np.sqrt(2.0 * power)
     largest = max(float(amplitude.max()), 1e-300)
     levels = 20.0 * np.log10(np.maximum(amplitude, 1e-4 * largest) / largest)
-    seconds = readable("s", float(np.ptp(time)))
+    seconds, hertz = readable("s", float(np.ptp(time))), readable("Hz", 0.5 / spacing)
     drawn = axes.pcolormesh(
-        seconds.scale * (time[0] + moments), frequency, levels, cmap=COLOURS, vmin=-80.0, vmax=0.0,
+        seconds.scale * (time[0] + moments), hertz.scale * frequency, levels, cmap=COLOURS, vmin=-80.0, vmax=0.0,
         shading="nearest", rasterized=True,
     )  # fmt: skip
-    axes.set(xlabel=f"time [{seconds.name}]", ylabel="frequency [Hz]", ylim=(0.0, 0.5 / spacing))
+    axes.set(xlabel=f"time [{seconds.name}]", ylabel=f"frequency [{hertz.name}]")
+    axes.set_ylim(0.0, hertz.scale * 0.5 / spacing)
     axes.set_xlim(*(seconds.scale * time[[0, -1]]))
     axes.grid(False)
-    resolution = 1.0 / (length * spacing)
-    axes.set_title(f"b) over time, pieces of {seconds.scale * length * spacing:.3g} {seconds.name}, "
-                   f"resolved to {resolution:.3g} Hz")  # fmt: skip
-    axes.figure.colorbar(drawn, ax=axes, label="amplitude [dB of the largest]", pad=0.01)
+    piece = units.said(length * spacing, "s")
+    axes.set_title(f"b) over time, pieces of {piece}, resolved to {1.0 / (length * spacing):.3g} Hz")
+    axes.figure.colorbar(drawn, ax=axes, label="amplitude [dB]", pad=0.01)
 
 
-def _words(result: Result, pin: str, found: Spectrum, first: float, last: float) -> str:
-    every = readable("s", found.spacing)
+def _words(result: Result, pin: str, found: Spectrum, first: float, last: float, over_time: bool) -> str:
     text = (
-        f"Amplitude of a sine of each frequency, from records every {every.scale * found.spacing:.4g} {every.name}"
+        f"Amplitude of a sine of each frequency, from records every {units.said(found.spacing, 's', 4)}"
         f"{' (interpolated to equal times)' if found.resampled else ''}: Welch's mean of {found.averaged} "
         f"overlapping pieces, without straight trend, Hann's window. Bins of {found.resolution:.3g} Hz, a tone is "
-        f"{WIDTH:g} bins wide; nothing is told above {found.nyquist:.4g} Hz. "
+        f"{WIDTH:g} bins wide; nothing is told above {units.said(found.nyquist, 'Hz', 4)}. "
     )
+    if over_time:
+        text += "In (b) 0 dB is the largest amplitude. "
     text += (
         "The records sample the force: what is faster than that, such as brief impacts, appears at lower "
         "frequencies (aliasing); a smaller record_period tells. "
@@ -207,10 +212,8 @@ def _words(result: Result, pin: str, found: Spectrum, first: float, last: float)
     touches = tuple(one for one in result.onsets.get(pin, ()) if first <= one.time <= last)
     shortest = shortest_touch(touches)
     if shortest < FINE_ENOUGH * found.spacing:
-        brief, advised = readable("s", shortest), shortest / FINE_ENOUGH
-        unit = readable("s", advised)
         text += (
-            f"The shortest touch lasts {brief.scale * shortest:.2g} {brief.name}: a record_period of "
-            f"{unit.scale * advised:.2g} {unit.name} would follow it. "
+            f"The shortest touch lasts {units.said(shortest, 's')}: a record_period of "
+            f"{units.said(shortest / FINE_ENOUGH, 's', 2)} would follow it. "
         )
     return text.rstrip()

@@ -27,6 +27,7 @@ SIZES: dict[str, tuple[tuple[float, Unit], ...]] = {
     "N": ((0.1, Unit("mN", 1e3)), (1e3, Unit("N", 1.0)), (math.inf, Unit("kN", 1e-3))),
     "N m": ((0.1, Unit("mN m", 1e3)), (1e3, Unit("N m", 1.0)), (math.inf, Unit("kN m", 1e-3))),
     "J": ((1e-4, Unit("µJ", 1e6)), (0.1, Unit("mJ", 1e3)), (1e3, Unit("J", 1.0)), (math.inf, Unit("kJ", 1e-3))),
+    "Hz": ((1e3, Unit("Hz", 1.0)), (math.inf, Unit("kHz", 1e-3))),
     "s": ((1e-3, Unit("µs", 1e6)), (0.1, Unit("ms", 1e3)), (math.inf, Unit("s", 1.0))),
 }
 
@@ -45,3 +46,9 @@ def readable(unit: str, size: float) -> Unit:
     if size <= 0.0 or not math.isfinite(size):
         return Unit(unit, 1.0)
     return next((shown for limit, shown in SIZES.get(unit, ()) if size < limit * ROUNDED), Unit(unit, 1.0))
+
+
+def said(value: float, unit: str, digits: int = 3) -> str:
+    """A quantity in words, in the unit in which it is read best: "0.26 ms" becomes "260 µs"."""
+    shown = readable(unit, abs(value))
+    return f"{shown.scale * value:.{digits}g} {shown.name}"
