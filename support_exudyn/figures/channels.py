@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Sequence
-from difflib import get_close_matches
-from fnmatch import fnmatchcase
+import textwrap
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -16,10 +15,11 @@ from support_exudyn.estimate import ROUNDING, SAFETY
 from support_exudyn.figures import style, units
 from support_exudyn.figures.caption import caption
 from support_exudyn.figures.journal import Series, loose_pins
+from support_exudyn.figures.names import matching
 from support_exudyn.figures.units import Unit, readable
 from support_exudyn.figures.windows import inside, said, spacing
 from support_exudyn.result import Result
-from user_forces.values import InputError, short
+from user_forces.values import InputError
 
 Dashes = str | tuple[int, tuple[float, ...]]
 # the curves of a panel: colours that are told apart by all readers, dashes for grey prints
@@ -31,6 +31,7 @@ CURVES: tuple[tuple[str, Dashes], ...] = (
 )
 MOST = 32  # channels in a figure
 PANEL_MM, LINE_MM, REST_MM = 38.0, 4.0, 30.0  # height of a panel, of a line of its legend, and of the rest
+LETTERS = 22  # of a line beside a panel
 VISIBLE = 2e-3  # share of a panel's height from which on an error is shaded
 
 
@@ -39,28 +40,6 @@ class Group(NamedTuple):
 
     unit: Unit
     names: tuple[str, ...]
-
-
-def matching(names: Collection[str], patterns: Sequence[str]) -> list[str]:
-    """The names that any of the patterns matches, in the order of the patterns; time is not among them.
-
-    Arguments:
-        names: of channels.
-        patterns: names, or patterns of them as in a shell, such as "pin.*.force".
-
-    Raises InputError for a pattern that matches none.
-    """
-    found: list[str] = []
-    for pattern in patterns:
-        matched = [name for name in names if name != "time" and fnmatchcase(name, pattern)]
-        if not matched:
-            near = get_close_matches(pattern, names, 4, 0.4) or sorted(names)[:4]
-            raise InputError(
-                f"{short(pattern)}: no such channel; allowed: names or patterns such as 'pin.*.force', of the "
-                f"{len(names)} that the run has, among them {', '.join(near)}"
-            )
-        found += [name for name in matched if name not in found]
-    return found
 
 
 def groups(result: Result, names: Sequence[str], chosen: np.ndarray) -> list[Group]:
@@ -73,8 +52,10 @@ def groups(result: Result, names: Sequence[str], chosen: np.ndarray) -> list[Gro
         by_unit.setdefault(same[0] if same else unit, []).append(name)
     most = len(CURVES)
     return [
-        Group(unit, tuple(names[n : n + most])) for unit, names in by_unit.items() for n in range(0, len(names), most)
-    ]  # fmt: skip
+        Group(unit, tuple(part.tolist()))
+        for unit, together in by_unit.items()
+        for part in np.array_split(np.array(together), math.ceil(len(together) / most))
+    ]
 
 
 def error_over_time(result: Result, name: str) -> Series | None:
@@ -95,9 +76,7 @@ def error_over_time(result: Result, name: str) -> Series | None:
     return found
 
 
-def over_time(
-    result: Result, channels: Sequence[str], start: float = 0.0, until: float = math.inf
-) -> Figure:
+def over_time(result: Result, channels: Sequence[str], start: float = 0.0, until: float = math.inf) -> Figure:
     """Channels over time, those of one unit together in a panel, with touches and numerical errors.
 
     Arguments:
@@ -122,9 +101,12 @@ def over_time(
     for axes, panel in zip(rows, panels, strict=True):
         worst |= _draw(axes, result, panel, chosen, seconds)
         _mark_touches(axes, result, chosen, seconds)
+    drawing.align_ylabels(rows)
     rows[-1].set_xlabel(f"time [{seconds.name}]")
     rows[-1].set_xlim(*(seconds.scale * result.time[chosen][[0, -1]]))
-    drawing.suptitle(f"{type(result.scenario.machine).__name__}, {said(result, start, until)}", x=0.01, ha="left")
+    drawing.suptitle(
+        f"{type(result.scenario.machine).__name__}, {said(result, start, until)}", x=0.01, ha="left"
+    )
     caption(drawing, _words(result, worst))
     return drawing
 
@@ -146,14 +128,22 @@ def _draw(axes: Axes, result: Result, panel: Group, chosen: np.ndarray, seconds:
         worst[name] = float(error[chosen].max())
         if float(band.max()) > VISIBLE * max(float(np.ptp(values)), 1e-300):
             axes.fill_between(time, values - band, values + band, color=colour, alpha=0.25, lw=0.0)
-    axes.set_ylabel(f"[{panel.unit.name}]")
+    quantity = units.QUANTITIES.get(result.unit(panel.names[0]), "value")
+    axes.set_ylabel(textwrap.fill(f"{quantity} [{panel.unit.name}]", LETTERS))
     axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), fontsize=7, borderaxespad=0.0, ncols=1)
     return worst
 
 
 def _mark_touches(axes: Axes, result: Result, chosen: np.ndarray, seconds: Unit) -> None:
     first, last = result.time[chosen][[0, -1]]
-    times = [one.time for pin in loose_pins(result) for one in result.onsets.get(pin, ()) if first <= one.time <= last]
+    times = [
+        one.time
+        for pin in loose_pins(result)
+        for one in result.onsets.get(pin, ())
+        if first <= one.time <= last
+    ]
+    if not times:
+        return
     axes.plot(
         seconds.scale * np.array(times), np.zeros(len(times)), "|", ms=6, mew=0.7, color=style.CONTACT,
         transform=axes.get_xaxis_transform(), clip_on=False, zorder=4,

@@ -75,7 +75,9 @@ def draw_path(axes: Axes, shown: Journal, unit: Unit) -> None:
             )  # fmt: skip
     if shown.touches:
         at = unit.scale * shown.clearance
-        axes.plot(at * np.cos(shown.directions), at * np.sin(shown.directions), label="touch", zorder=4, **TOUCH)
+        axes.plot(
+            at * np.cos(shown.directions), at * np.sin(shown.directions), label="touch", zorder=4, **TOUCH
+        )
     for n, mark, name in ((0, "o", "start"), (-1, "s", "end")):
         axes.plot(
             unit.scale * shown.x[n], unit.scale * shown.y[n], mark, ms=5, color=style.IDEAL, label=name, zorder=5,
@@ -134,7 +136,9 @@ def _draw_speeds(axes: Axes, shown: Journal, over_time: Unit) -> None:
             over_time.scale * np.array(times), unit.scale * np.array(speeds), mark, ms=3.5, color=colour,
             mfc="white" if mark == "v" else colour, mew=0.8, label=label,
         )  # fmt: skip
-    axes.set_ylim(0.0, 1.1 * unit.scale * max(fastest, *(touch.parting_speed for touch in shown.touches), 1e-30))
+    axes.set_ylim(
+        0.0, 1.1 * unit.scale * max(fastest, *(touch.parting_speed for touch in shown.touches), 1e-30)
+    )
     axes.legend(loc="upper right", fontsize=7)
 
 

@@ -160,7 +160,9 @@ def _draw(axes: Axes, found: Spectrum, colour: str) -> None:
     if not amplitude.max() > 0.0:
         return
     axes.set_yscale("log")
-    axes.set_ylim(max(0.5 * float(amplitude.min()), 1e-9 * float(amplitude.max())), 20.0 * float(amplitude.max()))
+    axes.set_ylim(
+        max(0.5 * float(amplitude.min()), 1e-9 * float(amplitude.max())), 20.0 * float(amplitude.max())
+    )
     for letter, (frequency, height) in zip(LETTERS, found.peaks(), strict=False):
         place = hertz.scale * frequency, unit.scale * height
         axes.plot(*place, "v", ms=4, color=style.IDEAL, mfc="white", mew=0.8)

@@ -20,6 +20,10 @@ ANGLES = {
     "rad/s": Unit("deg/s", DEGREES),
     "rad/s^2": Unit("deg/s²", DEGREES),
 }
+QUANTITIES = {
+    "s": "time", "m": "length", "m/s": "speed", "N": "force", "N m": "moment", "J": "energy",
+    "rad": "angle", "rad/s": "angular velocity", "rad/s^2": "angular acceleration",
+}  # fmt: skip
 # for each unit: below which size what is shown, the smallest first
 SIZES: dict[str, tuple[tuple[float, Unit], ...]] = {
     "m": ((1e-4, Unit("µm", 1e6)), (1.0, Unit("mm", 1e3)), (math.inf, Unit("m", 1.0))),
