@@ -7,7 +7,6 @@ import math
 import os
 import sys
 from collections.abc import Callable
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from support_exudyn.command_line import folder
@@ -27,7 +26,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The run's file, what is drawn, and where to."""
     parser.add_argument("run", type=folder, metavar="RUN", help="file of a run, as Result.save writes it")
     parser.add_argument(
-        "channels", nargs="*", metavar="CHANNEL", help="channels over time: names, or patterns such as 'pin.*.force'"
+        "channels", nargs="*", metavar="CHANNEL", help="channels over time: names, or patterns as 'pin.*.force'"
     )  # fmt: skip
     parser.add_argument("--orbit", action="store_true", help="path of the journal of a loose pin in its bore")
     parser.add_argument(

@@ -32,6 +32,7 @@ CURVES: tuple[tuple[str, Dashes], ...] = (
 MOST = 32  # channels in a figure
 PANEL_MM, LINE_MM, REST_MM = 38.0, 4.0, 30.0  # height of a panel, of a line of its legend, and of the rest
 LETTERS = 22  # of a line beside a panel
+UNLIKE = 50.0  # by what factor sizes differ that are not drawn together
 VISIBLE = 2e-3  # share of a panel's height from which on an error is shaded
 
 
@@ -44,22 +45,33 @@ class Group(NamedTuple):
 
 def groups(result: Result, names: Sequence[str], chosen: np.ndarray) -> list[Group]:
     """Panels: channels of one unit and of like size together, at most as many as there are colours."""
-    by_unit: dict[Unit, list[str]] = {}
+    found: list[tuple[Unit, float, list[str]]] = []
     for name in names:
         size = float(np.abs(result[name][chosen]).max())
-        unit = readable(result.unit(name), size)
-        same = [known for known in by_unit if not size and result.unit(by_unit[known][0]) == result.unit(name)]
-        by_unit.setdefault(same[0] if same else unit, []).append(name)
+        together = (one for one in found if _alike(result, one, name, size))
+        unit, largest, members = next(together, (readable(result.unit(name), size), size, []))
+        if members:
+            members.append(name)
+        else:
+            found.append((unit, largest, [name]))
     most = len(CURVES)
     return [
         Group(unit, tuple(part.tolist()))
-        for unit, together in by_unit.items()
-        for part in np.array_split(np.array(together), math.ceil(len(together) / most))
+        for unit, _, members in found
+        for part in np.array_split(np.array(members), math.ceil(len(members) / most))
     ]
 
 
+def _alike(result: Result, group: tuple[Unit, float, list[str]], name: str, size: float) -> bool:
+    """Whether a channel of this size [SI] is drawn together with others; zero is with anything of its unit."""
+    unit, largest, members = group
+    if result.unit(members[0]) != result.unit(name):
+        return False
+    return size == 0.0 or (unit == readable(result.unit(name), size) and 1.0 / UNLIKE < size / largest < UNLIKE)
+
+
 def error_over_time(result: Result, name: str) -> Series | None:
-    """Estimated numerical error of a channel at every record (n,), SI; None if the run has nothing to tell it by.
+    """Estimated numerical error of a channel at every record (n,), SI; None if nothing tells it.
 
     As those of numbers, see `support_exudyn.estimate`. Around an impact it is large because the time of the
     impact is uncertain, too.
@@ -97,7 +109,7 @@ def over_time(result: Result, channels: Sequence[str], start: float = 0.0, until
     drawing = Figure(figsize=style.size(170, REST_MM + PANEL_MM * len(panels) + LINE_MM * lines))
     rows = drawing.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
     seconds = readable("s", float(np.ptp(result.time[chosen])))
-    worst = {}
+    worst: dict[str, float] = {}
     for axes, panel in zip(rows, panels, strict=True):
         worst |= _draw(axes, result, panel, chosen, seconds)
         _mark_touches(axes, result, chosen, seconds)
@@ -162,6 +174,6 @@ def _words(result: Result, worst: dict[str, float]) -> str:
     )  # fmt: skip
     more = f" and {len(worst) - 6} more" if len(worst) > 6 else ""
     return (
-        f"{text}Largest numerical error at any record, shaded where it can be seen: {said_of}{more}; largest around "
-        "impacts, whose times are uncertain too."
+        f"{text}Largest numerical error at any record, shaded where it can be seen: {said_of}{more}; largest "
+        "around impacts, whose times are uncertain too."
     )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -20,7 +21,7 @@ from support_exudyn.result import Result
 MARGIN = 1.12  # of the largest eccentricity
 MANY = 20000  # points from which on a line is a picture within a PDF
 FLIGHT_WIDTH, CONTACT_WIDTH = 0.8, 1.6
-TOUCH = {"marker": "v", "ms": 3.5, "mfc": "white", "mec": style.IDEAL, "mew": 0.7, "ls": "none"}
+TOUCH: dict[str, Any] = {"marker": "v", "ms": 3.5, "mfc": "white", "mec": style.IDEAL, "mew": 0.7, "ls": "none"}
 
 
 def orbit(result: Result, pin: str | None = None, start: float = 0.0, until: float = math.inf) -> Figure:
@@ -80,8 +81,8 @@ def draw_path(axes: Axes, shown: Journal, unit: Unit) -> None:
         )
     for n, mark, name in ((0, "o", "start"), (-1, "s", "end")):
         axes.plot(
-            unit.scale * shown.x[n], unit.scale * shown.y[n], mark, ms=5, color=style.IDEAL, label=name, zorder=5,
-            mfc="white" if n == 0 else style.IDEAL,
+            unit.scale * shown.x[n], unit.scale * shown.y[n], mark, ms=5, color=style.IDEAL, label=name,
+            zorder=5, mfc="white" if n == 0 else style.IDEAL,
         )  # fmt: skip
     reach = MARGIN * unit.scale * max(shown.clearance, float(np.hypot(shown.x, shown.y).max()))
     axes.set(aspect="equal", xlim=(-reach, reach), ylim=(-reach, reach))
@@ -145,19 +146,19 @@ def _draw_speeds(axes: Axes, shown: Journal, over_time: Unit) -> None:
 def _words(result: Result, shown: Journal) -> str:
     """What is drawn, and what is not."""
     text = (
-        f"Drawn true to scale: {shown.time.size} records, one every {units.said(shown.spacing, 's')}, joined by "
-        "straight lines. "
+        f"Drawn true to scale: {shown.time.size} records, one every {units.said(shown.spacing, 's')}, joined "
+        "by straight lines. "
     )
     if shown.touches:
         text += (
-            f"Touches ({len(shown.touches)}) and partings are put in between them at the times at which they were "
-            "located, touches on the circle in the direction of the last flight. "
+            f"Touches ({len(shown.touches)}) and partings are put in between them at the times at which they "
+            "were located, touches on the circle in the direction of the last flight. "
         )
     shortest = shortest_touch(shown.touches)
     if shortest < 2.0 * shown.spacing:
         text += (
-            f"The shortest touch lasts {units.said(shortest, 's')}: its depth falls between the records; a smaller "
-            "record_period shows it. "
+            f"The shortest touch lasts {units.said(shortest, 's')}: its depth falls between the records; a "
+            "smaller record_period shows it. "
         )
     deepest = float(shown.depth.max())
     if deepest > 0.0:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -25,9 +25,30 @@ from user_forces.values import InputError, short
 
 FEWEST_PERIODS = 3  # points that a section by periods is made of at least
 FEWEST_TOUCHES = 2  # for a return map
-CONTACT_MARK = {"marker": "o", "ms": 3.0, "color": style.CONTACT, "mew": 0.0, "ls": "none", "zorder": 3}
-FLIGHT_MARK = {"marker": "^", "ms": 4.0, "color": style.FLIGHT, "mew": 0.0, "ls": "none", "zorder": 3}
-PLAIN_MARK = {"marker": "o", "ms": 3.0, "color": style.IDEAL, "mew": 0.0, "ls": "none", "zorder": 3}
+CONTACT_MARK: dict[str, Any] = {
+    "marker": "o",
+    "ms": 3.0,
+    "color": style.CONTACT,
+    "mew": 0.0,
+    "ls": "none",
+    "zorder": 3,
+}
+FLIGHT_MARK: dict[str, Any] = {
+    "marker": "^",
+    "ms": 4.0,
+    "color": style.FLIGHT,
+    "mew": 0.0,
+    "ls": "none",
+    "zorder": 3,
+}
+PLAIN_MARK: dict[str, Any] = {
+    "marker": "o",
+    "ms": 3.0,
+    "color": style.IDEAL,
+    "mew": 0.0,
+    "ls": "none",
+    "zorder": 3,
+}
 LIMIT_SHARE = 1e-9  # of a spread: below, all points are the same
 
 
@@ -42,8 +63,8 @@ class Section(NamedTuple):
 def period(scenario: Scenario) -> float | None:
     """Period of the drives [s]; None if they have none in common.
 
-    A crank that turns steadily has a revolution, a reciprocating drive its own. Drives that hold still count for
-    nothing.
+    A crank that turns steadily has a revolution, a reciprocating drive its own. Drives that hold still do not
+    count.
     """
     found = set()
     for name in scenario.driven:
@@ -99,8 +120,8 @@ def stroboscopic(
     times = periodic_times(result, phase, start, until)
     if not times.size:
         raise InputError(
-            "a section once in every period: the drives have no common period, or none begins in the piece that "
-            "was asked for; allowed: steady cranks and reciprocating drives"
+            "a section once in every period: the drives have no common period, or none begins in the piece "
+            "that was asked for; allowed: steady cranks and reciprocating drives"
         )
     return Section(times, *(np.interp(times, result.time, result[name]) for name in (first, second)))
 
@@ -116,9 +137,9 @@ def poincare(
 ) -> Figure:
     """The section that fits a run: once in every period if its drive is periodic, else by touches.
 
-    Once in a period: the journal's centre in its bore, and two channels, those of the slider (place and velocity)
-    or of the body that the journal moves by default. By touches: direction and approach speed of every touch,
-    and the approach speed of the next touch over that of the one before.
+    Once in a period: the journal's centre in its bore, and two channels: by default place and velocity of the
+    slider, or angle and angular velocity of the body that the journal moves. By touches: direction and approach
+    speed of every touch, and the approach speed of the next touch over that of the one before.
 
     Arguments:
         pin: name of a loose pin; the first one by default.
@@ -171,9 +192,10 @@ def _by_period(
     drawing.suptitle(f"Poincare section once in a period{of}, {said(result, start, until)}", x=0.01, ha="left")
     caption(
         drawing,
-        f"{count} points, one in every period of the drive ({units.said(length, 's', 4)}) at {phase:g} of it; values "
-        f"straight between records, which lie {units.said(spacing(result), 's')} apart. A motion that repeats in every period is one point, in every second two points; a cloud "
-        "is irregular motion, or one that has not settled yet (a later start of the piece leaves that out).",
+        f"{count} points, one in every period of the drive ({units.said(length, 's', 4)}) at {phase:g} of it; "
+        f"values straight between records, which lie {units.said(spacing(result), 's')} apart. A motion that "
+        "repeats in every period is one point, in every second two points; a cloud is irregular motion, or one "
+        "that has not settled yet (a later start of the piece leaves that out).",
     )
     return drawing
 
@@ -182,7 +204,7 @@ def _pair(result: Result, pin: str | None) -> tuple[str, ...]:
     """Two channels that a section is made of, by what the machine is; none if they were not recorded."""
     linkage = result.scenario.linkage
     candidates = [(f"{s.body}.x", f"{s.body}.velocity_x") for s in linkage.slides.values()]
-    places = [linkage.pins[pin]] if pin in linkage.pins else list(linkage.pins.values())
+    places = [linkage.pins[pin]] if pin is not None and pin in linkage.pins else list(linkage.pins.values())
     for place in places:
         bodies = [body for body in (place.second, place.first) if body != GROUND]
         candidates += [(f"{body}.angle", f"{body}.angular_velocity") for body in bodies]
@@ -195,12 +217,12 @@ def _draw_places(
     """The journal's centre at every period. Returns at which of them it is in contact."""
     x, y, depth = (f"pin.{shown.pin}.{what}" for what in ("eccentricity_x", "eccentricity_y", "depth"))
     section = stroboscopic(result, x, y, phase, start, until)
-    touching = np.interp(section.time, result.time, result[depth]) > 0.0
+    touching: npt.NDArray[np.bool_] = np.interp(section.time, result.time, result[depth]) > 0.0
     reach = max(shown.clearance, float(np.hypot(section.first, section.second).max()))
     unit = readable("m", reach)
-    axes.add_patch(
-        Circle((0.0, 0.0), unit.scale * shown.clearance, fill=False, lw=0.8, ls=(0, (4, 2)), label="clearance circle")
-    )  # fmt: skip
+    circle = Circle((0.0, 0.0), unit.scale * shown.clearance, fill=False, lw=0.8, ls=(0, (4, 2)))
+    circle.set_label("clearance circle")
+    axes.add_patch(circle)
     _marked(axes, unit.scale * section.first, unit.scale * section.second, touching)
     reach *= 1.12 * unit.scale
     axes.set(aspect="equal", xlim=(-reach, reach), ylim=(-reach, reach))
@@ -274,8 +296,8 @@ def _by_touch(result: Result, shown: Journal, start: float, until: float) -> Fig
     caption(
         drawing,
         f"The drive has no period here, so the run is looked at whenever journal and bore touch: {speeds.size} "
-        "touches, located in time. Directions are those of the last two records before the touch. On the dashed "
-        "line of (b) the next touch is as fast as the one before; below it the journal comes to rest.",
+        "touches, located in time. Directions are those of the last two records before the touch. On the "
+        "dashed line of (b) the next touch is as fast as the one before; below it the journal comes to rest.",
     )
     return drawing
 

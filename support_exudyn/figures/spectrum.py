@@ -35,9 +35,10 @@ COLOURS = "Greys"
 class Spectrum:
     """Of a quantity of unit U that was sampled at equal times.
 
-    frequency: (m,) [Hz]. amplitude: of a sine of each frequency [U], (m,). density: power by frequency, one-sided
-    [U^2/Hz], (m,). resolution: between two frequencies [Hz]. spacing: between two samples [s]. averaged: how
-    many overlapping segments. resampled: whether the samples had to be interpolated to equal times.
+    frequency: (m,) [Hz]. amplitude: of a sine of each frequency [U], (m,). density: power by frequency,
+    one-sided [U^2/Hz], (m,). resolution: between two frequencies [Hz]. spacing: between two samples [s].
+    averaged: how many overlapping segments. resampled: whether the samples had to be interpolated to equal
+    times.
     """
 
     frequency: Series
@@ -82,9 +83,9 @@ def spectrum(time: Series, values: Series, segments: int = SEGMENTS) -> Spectrum
             f"a spectrum of {values.size} records in {segments} segments: allowed: at least "
             f"{FEWEST * segments} records"
         )
-    given = {"fs": 1.0 / spacing, "window": WINDOW, "nperseg": length, "detrend": "linear"}
-    frequency, density = signal.welch(values, scaling="density", **given)
-    _, power = signal.welch(values, scaling="spectrum", **given)
+    rate = 1.0 / spacing
+    frequency, density = signal.welch(values, rate, WINDOW, length, detrend=straight, scaling="density")
+    _, power = signal.welch(values, rate, WINDOW, length, detrend=straight, scaling="spectrum")
     return Spectrum(
         frequency=frequency,
         amplitude=np.sqrt(2.0 * power),
@@ -94,6 +95,12 @@ def spectrum(time: Series, values: Series, segments: int = SEGMENTS) -> Spectrum
         averaged=(values.size - length) // (length - length // 2) + 1,
         resampled=resampled,
     )
+
+
+def straight(pieces: Series) -> Series:
+    """Pieces of a signal (..., n) without their straight trends."""
+    found: Series = signal.detrend(pieces)
+    return found
 
 
 def equally_spaced(time: Series, values: Series) -> tuple[Series, float, bool]:
@@ -178,7 +185,7 @@ def _draw_over_time(axes: Axes, time: Series, force: Series) -> None:
     values, spacing, _ = equally_spaced(time, force)
     length = max(FEWEST, min(256, values.size // 16))
     frequency, moments, power = signal.spectrogram(
-        values, fs=1.0 / spacing, window=WINDOW, nperseg=length, noverlap=length // 2, detrend="linear",
+        values, fs=1.0 / spacing, window=WINDOW, nperseg=length, noverlap=length // 2, detrend=straight,
         scaling="spectrum",
     )  # fmt: skip
     amplitude = np.sqrt(2.0 * power)
@@ -186,8 +193,8 @@ def _draw_over_time(axes: Axes, time: Series, force: Series) -> None:
     levels = 20.0 * np.log10(np.maximum(amplitude, 1e-4 * largest) / largest)
     seconds, hertz = readable("s", float(np.ptp(time))), readable("Hz", 0.5 / spacing)
     drawn = axes.pcolormesh(
-        seconds.scale * (time[0] + moments), hertz.scale * frequency, levels, cmap=COLOURS, vmin=-80.0, vmax=0.0,
-        shading="nearest", rasterized=True,
+        seconds.scale * (time[0] + moments), hertz.scale * frequency, levels, cmap=COLOURS, vmin=-80.0,
+        vmax=0.0, shading="nearest", rasterized=True,
     )  # fmt: skip
     axes.set(xlabel=f"time [{seconds.name}]", ylabel=f"frequency [{hertz.name}]")
     axes.set_ylim(0.0, hertz.scale * 0.5 / spacing)
@@ -202,8 +209,8 @@ def _words(result: Result, pin: str, found: Spectrum, first: float, last: float,
     text = (
         f"Amplitude of a sine of each frequency, from records every {units.said(found.spacing, 's', 4)}"
         f"{' (interpolated to equal times)' if found.resampled else ''}: Welch's mean of {found.averaged} "
-        f"overlapping pieces, without straight trend, Hann's window. Bins of {found.resolution:.3g} Hz, a tone is "
-        f"{WIDTH:g} bins wide; nothing is told above {units.said(found.nyquist, 'Hz', 4)}. "
+        f"overlapping pieces, without straight trend, Hann's window. Bins of {found.resolution:.3g} Hz, a tone "
+        f"is {WIDTH:g} bins wide; nothing is told above {units.said(found.nyquist, 'Hz', 4)}. "
     )
     if over_time:
         text += "In (b) 0 dB is the largest amplitude. "
