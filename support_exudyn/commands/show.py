@@ -62,7 +62,7 @@ def run(given: argparse.Namespace) -> None:
 
 
 def _show_channels(console: Console, result: Result, names: Sequence[str], title: str) -> None:
-    header = ("channel", "unit", ">least", ">mean", ">largest", "meaning")
+    header: tuple[str, ...] = ("channel", "unit", ">least", ">mean", ">largest", "meaning")
     rows = account.of_channels(result, names)
     taken = sum(max(len(row[n]) for row in rows) + 3 for n in range(len(header) - 1))
     if console.width - taken < NARROWEST:  # the numbers first

@@ -7,7 +7,7 @@ import textwrap
 from matplotlib.figure import Figure
 
 SIZE = 7  # points
-LETTER_MM = 1.19  # mean width of one at that size
+LETTER_MM = 1.3  # width of one at that size, of a line that has many wide ones
 
 
 def caption(drawing: Figure, text: str) -> None:

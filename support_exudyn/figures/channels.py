@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import StrMethodFormatter
 
 from support_exudyn.estimate import ROUNDING, SAFETY
 from support_exudyn.figures import style, units
@@ -32,6 +33,7 @@ CURVES: tuple[tuple[str, Dashes], ...] = (
 MOST = 32  # channels in a figure
 PANEL_MM, LINE_MM, REST_MM = 38.0, 4.0, 30.0  # height of a panel, of a line of its legend, and of the rest
 LETTERS = 22  # of a line beside a panel
+PLAIN = (1e-3, 1e5)  # sizes of numbers that an axis shows as they are
 UNLIKE = 50.0  # by what factor sizes differ that are not drawn together
 VISIBLE = 2e-3  # share of a panel's height from which on an error is shaded
 
@@ -67,7 +69,9 @@ def _alike(result: Result, group: tuple[Unit, float, list[str]], name: str, size
     unit, largest, members = group
     if result.unit(members[0]) != result.unit(name):
         return False
-    return size == 0.0 or (unit == readable(result.unit(name), size) and 1.0 / UNLIKE < size / largest < UNLIKE)
+    if size == 0.0 or largest == 0.0:
+        return size == 0.0
+    return unit == readable(result.unit(name), size) and 1.0 / UNLIKE < size / largest < UNLIKE
 
 
 def error_over_time(result: Result, name: str) -> Series | None:
@@ -140,6 +144,8 @@ def _draw(axes: Axes, result: Result, panel: Group, chosen: np.ndarray, seconds:
         worst[name] = float(error[chosen].max())
         if float(band.max()) > VISIBLE * max(float(np.ptp(values)), 1e-300):
             axes.fill_between(time, values - band, values + band, color=colour, alpha=0.25, lw=0.0)
+    if not PLAIN[0] < max(np.abs(axes.get_ylim())) < PLAIN[1]:  # no power of ten of its own above the axis
+        axes.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
     quantity = units.QUANTITIES.get(result.unit(panel.names[0]), "value")
     axes.set_ylabel(textwrap.fill(f"{quantity} [{panel.unit.name}]", LETTERS))
     axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), fontsize=7, borderaxespad=0.0, ncols=1)

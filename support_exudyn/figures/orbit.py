@@ -51,6 +51,7 @@ def orbit(result: Result, pin: str | None = None, start: float = 0.0, until: flo
     below.axis("off")
     handles, labels = place.get_legend_handles_labels()
     below.legend(handles, labels, loc="center left", ncols=len(labels), fontsize=7, borderaxespad=0.0)
+    depth.locator_params(axis="x", nbins=5)
     drawing.suptitle(
         f"Journal orbit, pin {shown.pin}, {1e3 * shown.clearance:g} mm clearance, {said(result, start, until)}",
         x=0.01, ha="left",

@@ -209,8 +209,8 @@ def _words(result: Result, pin: str, found: Spectrum, first: float, last: float,
     text = (
         f"Amplitude of a sine of each frequency, from records every {units.said(found.spacing, 's', 4)}"
         f"{' (interpolated to equal times)' if found.resampled else ''}: Welch's mean of {found.averaged} "
-        f"overlapping pieces, without straight trend, Hann's window. Bins of {found.resolution:.3g} Hz, a tone "
-        f"is {WIDTH:g} bins wide; nothing is told above {units.said(found.nyquist, 'Hz', 4)}. "
+        f"overlapping pieces, without straight trend, Hann's window. Bins of "
+        f"{units.said(found.resolution, 'Hz')}, a tone is {WIDTH:g} bins wide; nothing is told above {units.said(found.nyquist, 'Hz', 4)}. "
     )
     if over_time:
         text += "In (b) 0 dB is the largest amplitude. "
