@@ -69,12 +69,13 @@ def lasted(place: int, name: str, duration: float) -> LongRun | str:
 
 
 def run_cases(found: Sequence[Case], quick: bool, workers: int | Workers) -> list[Verdict]:
-    """Verdicts on all cases, in their order, under a progress bar."""
+    """Verdicts on cases, all of that form or some of them, in their order, under a progress bar."""
 
     def crashed(error: ProcessEndedError) -> Verdict:
         return Verdict(SILENT, f"crash: {error.reason}")
 
-    jobs = [(quick, number) for number in range(len(found))]
+    numbers = {case.name: number for number, case in enumerate(_cases(quick))}
+    jobs = [(quick, numbers[case.name]) for case in found]
     with worker_pool(workers) as pool, _bar(f"{len(found)} scenes") as told:
         return pool.run(jobs, judged, told, crashed)
 

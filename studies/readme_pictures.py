@@ -1,0 +1,140 @@
+"""The pictures of the README, from runs made for them.
+
+`python -m studies.readme_pictures` writes them to studies/pictures; with names only those.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from matplotlib.figure import Figure
+from PIL import Image
+
+from studies import clearance_influence, extremes_figures, paper_machine
+from studies.extreme.cases import STEP_STIFFNESS, cases
+from studies.extreme.runs import run_cases as judged
+from studies.study import add_options, output_folder, run_cases
+from support_exudyn import Result
+from support_exudyn.command_line import Parser, answered
+from support_exudyn.figures import style
+from support_exudyn.figures.orbit import orbit
+from support_exudyn.figures.spectrum import force_spectrum
+from support_exudyn.files import whole_file
+from support_exudyn.render import render, still
+
+FOLDER = Path(__file__).parent / "pictures"
+MIDDLE = 4.0  # of the rise [s]
+COLOURS = 192  # of the picture of the machine
+MOVIE_SIZE = (800, 450)
+MOVIE_RATE = 10.0  # frames a second
+MOVIE_SPEED = 2.0  # so many times as fast as the run
+
+
+@dataclass(frozen=True)
+class Runs:
+    """The runs that pictures are made of, made when the first one asks.
+
+    workers: number of processes.
+    """
+
+    workers: int
+
+    @cached_property
+    def paper(self) -> Mapping[str, Result]:
+        """The cases of `clearance_influence` at its steps."""
+        return run_cases(clearance_influence.scenarios(quick=False), self.workers)
+
+    @property
+    def loose(self) -> Result:
+        """The rise with 1.5 mm in the rear pin, with friction."""
+        return self.paper[clearance_influence.DRY]
+
+
+def machine(runs: Runs, path: Path) -> None:
+    """The support in mid-rise."""
+    picture = Image.fromarray(still(runs.loose, MIDDLE))
+    few = picture.quantize(COLOURS, dither=Image.Dither.NONE)
+    with whole_file(path) as temporary:
+        few.save(temporary, format="PNG", optimize=True)
+
+
+def rise(runs: Runs, path: Path) -> None:
+    """The whole run as a movie."""
+    with TemporaryDirectory() as frames:
+        render(
+            runs.loose,
+            Path(frames) / "frames",
+            frames_per_second=MOVIE_RATE,
+            speed=MOVIE_SPEED,
+            size=MOVIE_SIZE,
+            movie_path=path,
+        )
+
+
+def pin_force(runs: Runs, path: Path) -> None:
+    """The force in the pin, ideal and loose."""
+    _save(clearance_influence.figures(runs.paper)["fig5_pin_force"], path)
+
+
+def journal_orbit(runs: Runs, path: Path) -> None:
+    """The path of the journal in its bore."""
+    _save(orbit(runs.loose, paper_machine.LOOSE_PIN), path)
+
+
+def spectrum(runs: Runs, path: Path) -> None:
+    """Frequencies of the force during the rise."""
+    _save(force_spectrum(runs.loose, paper_machine.LOOSE_PIN, 3.0, 5.0), path)
+
+
+def map_step_stiffness(runs: Runs, path: Path) -> None:
+    """The map of `extremes` by step and stiffness: 169 of its scenes."""
+    found = [case for case in cases(quick=False) if case.group == STEP_STIFFNESS]
+    verdicts = judged(found, False, runs.workers)
+    drawn = extremes_figures.figures(list(zip(found, verdicts, strict=True)))
+    _save(drawn["map_step_stiffness"], path)
+
+
+def _save(drawing: Figure, path: Path) -> None:
+    style.save(drawing, path.parent, path.stem, pdf=False)
+
+
+PICTURES: dict[str, Callable[[Runs, Path], None]] = {
+    "machine.png": machine,
+    "rise.gif": rise,
+    "pin_force.png": pin_force,
+    "journal_orbit.png": journal_orbit,
+    "spectrum.png": spectrum,
+    "map_step_stiffness.png": map_step_stiffness,
+}
+
+
+def draw(chosen: argparse.Namespace) -> None:
+    """Make the pictures that were asked for."""
+    runs = Runs(chosen.workers)
+    with output_folder(chosen.out), style.look():
+        for name in chosen.names or PICTURES:
+            print(chosen.out / name, file=sys.stderr)
+            PICTURES[name](runs, chosen.out / name)
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Entry of `python -m studies.readme_pictures`."""
+    description = (__doc__ or "").splitlines()[0]
+    parser = Parser(prog="python -m studies.readme_pictures", description=description)
+    parser.add_argument("names", nargs="*", metavar="NAME", help=f"which (all): {', '.join(PICTURES)}")
+    add_options(parser, FOLDER, ("workers",))
+    given = parser.parse_args(argv)
+    for name in given.names:
+        if name not in PICTURES:
+            parser.error(f"{name}: no such picture; allowed: {', '.join(PICTURES)}")
+    return answered(lambda: draw(given))
+
+
+if __name__ == "__main__":
+    sys.exit(main())
