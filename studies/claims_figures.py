@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
 from studies import paper_machine
 from studies.judging.evidence import Evidence
@@ -17,8 +18,9 @@ from studies.paper_machine import SIZES_MM
 from studies.reporting.chapter import Picture
 from support_exudyn.figures import style
 
-COLOURS = {"holds only": style.SMOOTH, "holds": style.THIRD, "not supported": "#D55E00", "cannot": "#999999"}
-PAPER = "#D55E00"
+COLOURS = {"holds only": style.SMOOTH, "holds": style.THIRD, "not supported": style.PAPER, "cannot": "#999999"}
+
+OTHER_WINDOW = "#CC79A7"
 
 Machines = Sequence[tuple[Sample, Evidence]]
 
@@ -91,12 +93,12 @@ def force_figure(reference: Evidence, machines: Machines) -> Figure:
         for sample, evidence in machines:
             line = _against_first([m.value for m in evidence.row(name, LOOSE)])
             in_rise = sample["window"] == "rise"
-            axes.plot(SIZES_MM, line, color="#999999" if in_rise else "#56B4E9", lw=0.5, alpha=0.5)
+            axes.plot(SIZES_MM, line, color="#999999" if in_rise else OTHER_WINDOW, lw=0.5, alpha=0.5)
             rises += list(line) if in_rise else []
         axes.plot(
             SIZES_MM, _against_first([m.value for m in reference.row(name, LOOSE)]), color="black", lw=1.4
         )
-        axes.plot(SIZES_MM, _against_first(list(paper.values())), "x", color=PAPER, ms=6, mew=1.5)
+        axes.plot(SIZES_MM, _against_first(list(paper.values())), "x", color=style.PAPER, ms=6, mew=1.5)
         # a few that shake would dwarf the rest
         low, high = np.quantile(rises or [0.0, 1.0], (0.1, 0.9))
         low, high = (
@@ -120,22 +122,26 @@ def ripple_figure(reference: Evidence, machines: Machines) -> Figure:
     drawing = Figure(figsize=style.size(170, 85))
     left, right = drawing.subplots(1, 2, sharey=True)
     for axes, factor in ((left, "sliding_coefficient"), (right, "dynamic_speed")):
-        for bore, colour in (("base", style.LOOSE), ("rear link", style.SMOOTH)):
-            _scatter(axes, [m for m in machines if m[0]["bore"] == bore], factor, colour, f"bore in the {bore}")
+        for bore, look in (("base", (style.LOOSE, "o")), ("rear link", (style.SMOOTH, "^"))):
+            _scatter(axes, [m for m in machines if m[0]["bore"] == bore], factor, look, f"bore in the {bore}")
         shown = reference[LOOSE[2], "ripple_force"].over(reference[LOOSE[2], "mean_force"]).value
         axes.plot(float(REFERENCE[factor]), 100.0 * shown, "s", color="black", ms=5, label="reference support")
         axes.set_yscale("log")
     left.set(title="a)", xlabel="friction coefficient [-]", ylabel="ripple of the pin force [% of its mean]")
     right.set(title="b)", xlabel="v_d [m/s]", xscale="log")
+    right.xaxis.set_major_locator(LogLocator(subs=(1.0, 3.0)))
+    right.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+    right.xaxis.set_minor_formatter(NullFormatter())
     drawing.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=3)
     drawing.suptitle("What shakes the pin during the rise, 1.5 mm")
     return drawing
 
 
-def _scatter(axes: Axes, machines: Machines, factor: str, colour: str, label: str) -> None:
+def _scatter(axes: Axes, machines: Machines, factor: str, look: tuple[str, str], label: str) -> None:
     x = [float(sample[factor]) for sample, _ in machines]
     y = [
         100.0 * evidence[LOOSE[2], "ripple_force"].over(evidence[LOOSE[2], "mean_force"]).value
         for _, evidence in machines
     ]
-    axes.plot(x, y, "o", ms=2.5, color=colour, label=label)
+    colour, marker = look
+    axes.plot(x, y, marker, ms=2.5, color=colour, label=label)

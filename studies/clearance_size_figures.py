@@ -17,7 +17,7 @@ from support_exudyn import Result
 from support_exudyn.figures import style
 
 COLOURS = {0.5: "#009E73", 1.0: "#E69F00", 1.5: "#0072B2", 2.0: "#CC79A7"}  # Okabe and Ito
-DASHES = {0.5: "-", 1.0: (0, (5, 1)), 1.5: (0, (3, 1, 1, 1)), 2.0: "-"}  # for grey prints
+DASHES = {0.5: "-", 1.0: (0, (5, 1)), 1.5: (0, (3, 1, 1, 1)), 2.0: (0, (1, 1))}  # for grey prints
 WINDOWS = {"early": (3.0, 3.12), "middle": (4.0, 4.12), "late": (4.6, 4.72)}  # enlarged in Fig. 6 [s]
 MU = paper_machine.SLIDING_COEFFICIENT
 
@@ -46,17 +46,19 @@ def pictures() -> tuple[Picture, ...]:
         Picture("fig6_angular_velocity", f"Angular velocity of the rear link, friction {MU}: the rise (a), "
             f"and three windows enlarged (b to d). Counterpart of the paper's Fig. 6."),
         Picture("fig7_angular_acceleration", f"Angular acceleration of the rear link during the rise by "
-            f"clearance, friction {MU}; grey without friction, black the ideal pin. Counterpart of Fig. 7."),
+            f"clearance, friction {MU}; grey without friction, black the ideal pin. Counterpart of the paper's "
+            "Fig. 7."),
         Picture("fig8_pin_force", f"Force in the rear-link pin during the rise by clearance, friction {MU}; "
-            f"grey without friction, black the ideal pin. Counterpart of Fig. 8."),
+            f"grey without friction, black the ideal pin. Counterpart of the paper's Fig. 8."),
         Picture("fig9_tip_path", "Path of the canopy's tip during the rise (a) and a piece of it enlarged "
-            "(b). Counterpart of Fig. 9."),
+            "(b). Counterpart of the paper's Fig. 9."),
         Picture("fig10_tip_shift", "Horizontal position of the tip over time (a) and its distance from where "
-            "the ideal pin has it (b). Counterpart of Fig. 10."),
+            "the ideal pin has it (b). Counterpart of the paper's Fig. 10."),
         Picture("fig11_column_angles", "Angles of the columns from the rearward horizontal, as in the paper's "
-            "Fig. 12 (a, b), and their change against the ideal pin (c, d). Counterpart of Fig. 11."),
+            "Fig. 12 (a, b), and their change against the ideal pin (c, d). Counterpart of the "
+            "paper's Fig. 11."),
         Picture("trends_with_clearance", "Mean, standard deviation and ripple of the pin force, and ripple of "
-            "the rear link's motion, over the clearance; the paper's printed values are crosses. Bars: change "
+            "the rear link's motion, over the clearance; the paper's printed values (Table 3) are crosses. Bars: change "
             "when all steps are halved."),
     )  # fmt: skip
 
@@ -193,14 +195,14 @@ def trend_figure(numbers: Sequence[Number]) -> Figure:
             printed = [n.paper for n in row]
             if all(value is not None for value in printed):
                 values = [scale * value for value in printed if value is not None]
-                axes.plot(SIZES_MM, values, "x", color="#D55E00", ms=5, label="paper")
+                axes.plot(SIZES_MM, values, "x", color=style.PAPER, ms=5, label="paper")
         axes.set_title(f"{letter}) {label}", fontsize=8)
         axes.set_xticks(SIZES_MM)
         axes.margins(y=0.15)
     drawing.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
     for axes in panels[1]:
         axes.set_xlabel("clearance [mm]")
-    drawing.suptitle("The rise over the clearance")
+    drawing.suptitle("The rise over the clearance (paper: Table 3)")
     return drawing
 
 

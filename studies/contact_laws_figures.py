@@ -110,18 +110,19 @@ def permanent_figure(pairs: Mapping[str, Pair]) -> Figure:
     drawing = Figure(figsize=style.size(170, 125))
     whole, rest = drawing.subplots(2, 1)
     curves = [
-        ("lankarani_nikravesh", style.LOOSE, "damped by the depth (DepthSpeed)"),
+        ("lankarani_nikravesh", style.LOOSE, "-", "damped by the depth (DepthSpeed)"),
         *zip(
             TEXTBOOK,
             (style.SMOOTH, style.THIRD),
+            ("-", (0, (5, 1.5))),  # for grey prints
             (f"textbook: by the last touch, not below {floor:g} m/s" for floor in TEXTBOOK.values()),
             strict=True,
         ),
     ]
     for axes, (begin, end) in ((whole, (0.0, 0.5)), (rest, (0.5, 1.5))):
-        for case, colour, label in curves:
+        for case, colour, dashes, label in curves:
             result = pairs[case].fine
-            axes.plot(result.time, 1e-3 * result[rise.FORCE], color=colour, lw=0.9, label=label)
+            axes.plot(result.time, 1e-3 * result[rise.FORCE], color=colour, ls=dashes, lw=0.9, label=label)
         axes.set(xlim=(begin, end), xlabel="time [s]", ylabel="pin force [kN]")
     inside = [
         pairs[c].fine[rise.FORCE][(pairs[c].fine.time > 0.5) & (pairs[c].fine.time < 1.5)] for c, *_ in curves

@@ -154,7 +154,11 @@ def unequal_figure(runs: Mapping[str, Result]) -> Figure:
     dashes = (0, (4, 2))
     _title(panels[0], "a) canopy", "turn [deg]")
     _lines(panels[0], loose, ideal, {"canopy.roll": style.THIRD, "canopy.yaw": PURPLE}, rise.DEGREES)
-    panels[0].legend(handles=[_key("roll", style.THIRD), _key("yaw", PURPLE)], loc="upper left")
+    for name, colour, above in (("roll", style.THIRD, 6), ("yaw", PURPLE, -10)):  # beside their ends
+        last = rise.DEGREES * loose[f"canopy.{name}"][-1]
+        panels[0].annotate(
+            name, (loose.time[-1], last), (-14, above), textcoords="offset points", color=colour, ha="center"
+        )
     _title(panels[1], "b) edges of the rear pin", "depth [mm]")
     for side, colour in sides.items():
         panels[1].plot(loose.time, 1e3 * loose[f"pin.{REAR}.{side}_depth"], color=colour)

@@ -18,7 +18,6 @@ import numpy as np
 import numpy.typing as npt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.patches import Circle
 
 from studies.reporting.chapter import Chapter, Picture, Sheet
 from studies.reporting.wording import by_case, how_sure, said
@@ -36,6 +35,9 @@ from studies.study import (
 )
 from support_exudyn import ClearancePin, Result, Scenario, SolverSettings, Steady, ravn_slider_crank
 from support_exudyn.figures import style
+from support_exudyn.figures.journal import journal
+from support_exudyn.figures.orbit import draw_path
+from support_exudyn.figures.units import Unit
 from user_forces import (
     Ambrosio,
     Frictionless,
@@ -56,6 +58,7 @@ BEARING = JournalBearing(bore_radius=0.01, clearance=0.0005)
 STEEL = Material(name="steel", elastic_modulus=207e9, poisson_ratio=0.3, density=7800.0)
 IDEAL, SMOOTH, DRY = "ideal", "no friction", "friction 0.03"
 ONSETS = 12  # reported
+MILLIMETRES = Unit("mm", 1e3)
 # an independent solution with two free coordinates and located onsets: time [us], approach speed [m/s]
 REFERENCE = (
     (227.286, 4.385783),
@@ -136,6 +139,7 @@ def figure(results: Mapping[str, Result]) -> Figure:
     """Pin force and guide force over the crank angle, and the journal's path in its bore."""
     drawing = Figure(figsize=style.size(170, 130))
     grid = drawing.add_gridspec(2, 2, height_ratios=(1.0, 1.15))
+    paths: list[Axes] = []
     force = drawing.add_subplot(grid[0, :])
     for case, colour in ((SMOOTH, style.SMOOTH), (DRY, style.LOOSE)):
         _over_angle(force, results[case], colour, case)
@@ -145,8 +149,10 @@ def figure(results: Mapping[str, Result]) -> Figure:
     force.set_title("a) force in the slider pin")
     force.legend(loc="upper right", ncols=3)
     for column, case in enumerate((SMOOTH, DRY)):
-        _path(drawing.add_subplot(grid[1, column]), results[case], f"{'bc'[column]}) journal's path, {case}")
-    drawing.suptitle("Slider-crank at 5000 rpm, 0.5 mm clearance in the slider pin (b, c: blue in contact)")
+        paths.append(drawing.add_subplot(grid[1, column]))
+        _path(paths[-1], results[case], f"{'bc'[column]}) journal's path, {case}")
+    drawing.legend(*paths[0].get_legend_handles_labels(), loc="outside lower center", ncols=6, fontsize=7)
+    drawing.suptitle("Slider-crank at 5000 rpm, 0.5 mm clearance in the slider pin")
     return drawing
 
 
@@ -156,13 +162,8 @@ def _over_angle(axes: Axes, result: Result, colour: str, label: str) -> None:
 
 
 def _path(axes: Axes, result: Result, title: str) -> None:
-    x, y = 1e3 * result[f"pin.{PIN}.eccentricity_x"], 1e3 * result[f"pin.{PIN}.eccentricity_y"]
-    touching = result[f"pin.{PIN}.depth"] > 0.0
-    axes.add_patch(Circle((0, 0), 1e3 * BEARING.clearance, fill=False, lw=0.8))
-    axes.plot(x, y, color="#999999", lw=0.6)
-    axes.plot(x[touching], y[touching], ".", ms=2, color=style.LOOSE)
-    axes.set(aspect="equal", xlabel="x [mm]", ylabel="y [mm]", xlim=(-0.65, 0.65), ylim=(-0.65, 0.65))
-    axes.set_title(title)
+    draw_path(axes, journal(result, PIN), MILLIMETRES)
+    axes.set(xlim=(-0.65, 0.65), ylim=(-0.65, 0.65), title=title)
 
 
 def table(numbers: Sequence[Number]) -> Sheet:
@@ -206,7 +207,8 @@ def chapter(numbers: Sequence[Number], quick: bool) -> Chapter:
             Picture(
                 "slider_crank",
                 "Force in the slider pin over the crank angle (a), and the journal's path in its bore without "
-                "friction (b) and with (c); blue where it is in contact.",
+                "friction (b) and with (c): "
+                "thin and light in free flight, thick and dark in contact.",
             ),
         ),
         sheets=(table(numbers),),

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import LogFormatter, LogLocator, NullFormatter, NullLocator
+from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, NullLocator, StrMethodFormatter
 
 from studies.benchmarking.front import Row, front
 from studies.benchmarking.variants import BUILT_IN, STOCK
@@ -25,6 +25,7 @@ COSTS: dict[str, Callable[[Row], float]] = {
     "wall time [s]": lambda row: row.seconds,
     "calls of the contact in Python": lambda row: float(row.calls),
 }
+HARDLY = 0.7  # decades
 SMALLEST = 1e-11  # errors below are those of the reference
 LOOKS = {  # by family: colour, marker
     "redundant, python": ("#0072B2", "o"),
@@ -103,9 +104,12 @@ def _panel(ax: Axes, rows: Sequence[Row], spent: Callable[[Row], float], error: 
 def _label_costs(ax: Axes, costs: Sequence[float]) -> None:
     """Ticks at powers of ten, as many as there is room for; at parts of them too if there is but one."""
     decades = math.log10(max(costs) / min(costs)) if costs else 1.0
-    if decades < 2.0:
-        ax.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if decades < 1.0 else (1.0, 3.0)))
-        ax.xaxis.set_major_formatter(LogFormatter(minor_thresholds=(math.inf, math.inf)))
+    if decades < HARDLY:  # next to a straight scale
+        ax.xaxis.set_major_locator(MaxNLocator(2))
+        ax.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+    elif decades < 2.0:
+        ax.xaxis.set_major_locator(LogLocator(subs=(1.0, 3.0)))
+        ax.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
     else:
         ax.xaxis.set_major_locator(LogLocator(numticks=4))
     ax.xaxis.set_minor_locator(NullLocator())

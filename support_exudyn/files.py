@@ -20,6 +20,7 @@ except ImportError:  # Windows
 fcntl: Any = _fcntl
 LONGEST_STEM = 40  # characters of a name that its temporary file shares: with all of them it might be too long
 LOCK = ".lock"
+REFUSED = "it cannot be written"
 
 
 @contextmanager
@@ -35,34 +36,32 @@ def whole_file(path: str | Path) -> Iterator[Path]:
     otherwise (a full disk).
     """
     try:
-        real = _real(path)
+        real = real_path(path)
         real.parent.mkdir(parents=True, exist_ok=True)
-        _check_may_be_replaced(real)
+        check_may_be_replaced(real)
         handle, name = tempfile.mkstemp(
             prefix=f".{real.stem[:LONGEST_STEM]}-{os.getpid()}-", suffix=real.suffix, dir=real.parent
         )
     except FileExistsError:
-        raise _named(
-            NotADirectoryError(errno.ENOTDIR, "A file stands where a folder should be"), path
-        ) from None
+        raise named(NotADirectoryError(errno.ENOTDIR, "A file stands where a folder should be"), path) from None
     except OSError as error:  # of a name that nobody has given
-        raise _named(error, path) from None
+        raise named(error, path) from None
     os.close(handle)
     temporary = Path(name)
     try:
         yield temporary
         temporary.chmod(0o666 & ~_umask())
-        _write_through(temporary)
+        write_through(temporary)
         temporary.replace(real)
     except OSError as error:
         if error.errno is None or error.filename not in (None, name, temporary):
             raise  # of something else
-        raise _named(error, path) from error
+        raise named(error, path) from error
     finally:
         temporary.unlink(missing_ok=True)
 
 
-def _real(path: str | Path) -> Path:
+def real_path(path: str | Path) -> Path:
     """Where a path leads, links followed."""
     if "\0" in str(path):
         raise OSError(errno.EINVAL, "a name cannot hold a NUL")
@@ -72,7 +71,7 @@ def _real(path: str | Path) -> Path:
     return Path(real)
 
 
-def _check_may_be_replaced(path: Path) -> None:
+def check_may_be_replaced(path: Path) -> None:
     """As opening it for writing would be refused; replacing asks only whether the folder may be written to."""
     try:
         mode = path.stat().st_mode
@@ -86,12 +85,12 @@ def _check_may_be_replaced(path: Path) -> None:
         raise PermissionError(errno.EACCES, "The file is read-only")
 
 
-def _named(error: OSError, path: str | Path) -> OSError:
+def named(error: OSError, path: str | Path) -> OSError:
     """The same error, of the name that was given."""
-    return type(error)(error.errno, f"{error.strerror}; it cannot be written", str(path))
+    return type(error)(error.errno, f"{error.strerror}; {REFUSED}", str(path))
 
 
-def _write_through(path: Path) -> None:
+def write_through(path: Path) -> None:
     """Wait until a file is on the disk. Otherwise its new name might get there first."""
     handle = os.open(path, os.O_RDWR)
     try:
@@ -107,7 +106,7 @@ def remove_leftovers(folder: Path, below: bool = False) -> None:
     """Remove temporary files of `whole_file` whose process is gone, in a folder, or in all below it too."""
     for path in list(folder.rglob(".*") if below else folder.iterdir()):
         found = LEFTOVER.fullmatch(path.name)
-        if found and not _is_alive(int(found.group(1))):
+        if found and not is_alive(int(found.group(1))):
             path.unlink(missing_ok=True)
 
 
@@ -159,7 +158,7 @@ def _is_open(path: Path, handle: int) -> bool:
         return False
 
 
-def _is_alive(process: int) -> bool:
+def is_alive(process: int) -> bool:
     """Whether a process runs; yes where that cannot be asked without harm."""
     if os.name != "posix":
         return True

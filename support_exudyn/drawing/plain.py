@@ -4,44 +4,118 @@ from __future__ import annotations
 
 import math
 from collections import defaultdict
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
+from shapely.geometry import Polygon
+from shapely.ops import unary_union
 
-from support_exudyn.drawing.shapes import bored, hull, plate, together, tube
+from support_exudyn.drawing.shapes import bar, bored, hull, plate, together, tube
 from support_exudyn.drawing.solid import Look, Role, Solid, Strut
-from support_exudyn.machine import GROUND, Column, Linkage
+from support_exudyn.machine import GROUND, Column, Linkage, Slide
 from support_exudyn.scenario import Scenario
 from support_exudyn.spatial.lift import at, copies
 from user_forces.values import Vector2
 
 MARGIN = 0.03  # of plates around their points, of the machine's extent
 THICKNESS = 0.05  # of plates, of the machine's extent
+WALL = 1.3  # radius of an eye, of its bore's
+RAIL = 0.45  # half the length of a guide's rail, of the machine's extent
 BORE = 0.35  # radius of bores where nobody says it, of the margin
 CYLINDER = 0.6  # length of a cylinder, of the column at the start
 
 
 def look(scenario: Scenario) -> Look:
-    """The look of a scenario's machine, from its linkage alone."""
+    """The look of a scenario's machine, from its linkage alone.
+
+    Where the machine knows no widths, its bodies lie one behind the other, the ground behind all, so that each
+    is seen.
+    """
     linkage = scenario.linkage
     points = joined_points(linkage)
     size = extent(linkage)
     margin, thickness = MARGIN * size, THICKNESS * size
+    layers = _layers(scenario, 1.1 * thickness)
     solids = []
     for name, around in points.items():
-        outline = hull(around, margin)
+        wide = max([margin, *(WALL * bore_radius(scenario, pin, margin) for pin in _pins_of(linkage, name))])
+        outline = _outline(linkage, name, around, wide, size)
         for pin, place in linkage.pins.items():
-            for body, centre in ((place.first, place.first_point), (place.second, place.second_point)):
-                if body == name:
-                    outline = bored(outline, centre, min(bore_radius(scenario, pin, margin), 0.9 * margin))
+            if carrier(scenario, pin) == name:
+                centre = place.first_point if place.first == name else place.second_point
+                outline = bored(outline, centre, bore_radius(scenario, pin, margin))
         if name == GROUND:
-            solids.append(Solid(name, GROUND, Role.BASE, plate(outline, 0.0, 0.5 * thickness)))
+            solids.append(Solid(name, GROUND, Role.BASE, plate(outline, layers[name], 0.5 * thickness)))
             continue
         for body, heights in body_copies(scenario, name):
-            mesh = together(plate(outline, z, thickness) for z in heights)
+            mesh = together(plate(outline, z + layers[name], thickness) for z in heights)
             solids.append(Solid(body, body, Role.BODY, mesh))
+    solids += _pins(scenario, layers, thickness, margin)
     lowest = min(y for around in points.values() for _, y in around)
     return Look(tuple(solids), struts(scenario, 0.5 * margin), lowest - margin)
+
+
+def _layers(scenario: Scenario, apart: float) -> dict[str, float]:
+    """How far behind the plane each body is drawn, by its name [m]."""
+    names = [*scenario.linkage.bodies, GROUND]
+    known = scenario.machine.widths() is not None
+    return {name: 0.0 if known else n * apart for n, name in enumerate(names)}
+
+
+def _pins_of(linkage: Linkage, body: str) -> list[str]:
+    """Names of the pins on a body."""
+    return [name for name, place in linkage.pins.items() if body in (place.first, place.second)]
+
+
+def carrier(scenario: Scenario, pin: str) -> str:
+    """Name of the body that has a pin's bore; the first where nobody says it."""
+    place, loose = scenario.linkage.pins[pin], scenario.clearance_pins.get(pin)
+    return place.second if loose is not None and loose.bore == "second" else place.first
+
+
+def _outline(linkage: Linkage, body: str, around: Sequence[Vector2], wide: float, size: float) -> Polygon:
+    """A plate around the points of a body; a block if it slides on the ground, which has a rail for it."""
+    if body == GROUND:
+        rails = [slide for slide in linkage.slides.values() if slide.against == GROUND]
+        on_rails = {slide.point for slide in rails}
+        rest = [point for point in around if point not in on_rails]
+        parts = [hull(rest, wide)] if rest else []
+        parts += [_along(slide, RAIL * size, 0.5 * wide) for slide in rails]
+        whole = unary_union(parts)
+        return whole if isinstance(whole, Polygon) else unary_union([whole, _joining(parts, 0.35 * wide)])
+    guides = [slide for slide in linkage.slides.values() if slide.body == body and slide.against == GROUND]
+    return unary_union([hull(around, wide), *(_along(slide, 2.0 * wide, 1.2 * wide) for slide in guides)])
+
+
+def _along(slide: Slide, half_length: float, half_width: float) -> Polygon:
+    """A bar along a guide, about its point."""
+    x, y = slide.point
+    u, v = half_length * math.cos(slide.direction), half_length * math.sin(slide.direction)
+    return bar((x - u, y - v), (x + u, y + v), half_width)
+
+
+def _joining(parts: Sequence[Polygon], half_width: float) -> Polygon:
+    """Bars from the first part to all others, so that the ground is in one piece."""
+    (x, y), *others = [(part.centroid.x, part.centroid.y) for part in parts]
+    return unary_union([bar((x, y), other, half_width) for other in others])
+
+
+def _pins(scenario: Scenario, layers: Mapping[str, float], thickness: float, margin: float) -> Iterator[Solid]:
+    """Journals, through both bodies and a little out of them, on the one that has not the bore."""
+    for pin, place in scenario.linkage.pins.items():
+        bore = carrier(scenario, pin)
+        body, centre = place.second, place.second_point
+        if bore == place.second:
+            body, centre = place.first, place.first_point
+        loose = scenario.clearance_pins.get(pin)
+        radius = loose.contact.bearing.journal_radius if loose else 0.97 * bore_radius(scenario, pin, margin)
+        ends = [layers[place.first], layers[place.second]]
+        near, far = min(ends) - 0.6 * thickness, max(ends) + 0.5 * thickness
+        on_ground = [(GROUND, [z for _, z, _ in copies(None)])]
+        copied = on_ground if body == GROUND else body_copies(scenario, body)
+        for one, heights in copied:
+            mesh = together(tube(at(centre, z + near), at(centre, z + far), radius) for z in heights)
+            yield Solid(f"pin_{pin}{one.removeprefix(body)}", one, Role.PIN, mesh)
 
 
 def joined_points(linkage: Linkage) -> dict[str, list[Vector2]]:

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 from shapely.geometry import LineString, MultiPoint, Point, Polygon
 from trimesh import Trimesh
-from trimesh.creation import cylinder, extrude_polygon
+from trimesh.creation import cylinder, extrude_polygon, revolve
 from trimesh.util import concatenate
 
 from user_forces.values import Vector2, Vector3
@@ -41,6 +41,19 @@ def plate(outline: Polygon, z: float, thickness: float) -> Trimesh:
 def tube(a: Vector3, b: Vector3, radius: float) -> Trimesh:
     """A cylinder between two points."""
     mesh: Trimesh = cylinder(radius, sections=SECTIONS, segment=np.array([a, b]))
+    return mesh
+
+
+def lathed(profile: Sequence[tuple[float, float]]) -> Trimesh:
+    """A solid of revolution about the x axis, by its outline: places along the axis and radii [m].
+
+    The places increase; the first and the last radius are 0, by which it is closed.
+    """
+    places, radii = np.array(profile).T
+    mesh: Trimesh = revolve(np.column_stack([radii, places]), sections=SECTIONS)
+    mesh.apply_transform(
+        [[0.0, 0.0, 1.0, 0.0], [1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0]]
+    )
     return mesh
 
 

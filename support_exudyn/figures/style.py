@@ -19,6 +19,8 @@ THIRD = "#009E73"
 # of a single run: what a journal does, and the force on it
 CONTACT = "#D55E00"
 FLIGHT = "#56B4E9"
+# what the paper prints, as crosses
+PAPER = "#882255"
 
 STYLE: dict[Any, Any] = {
     "font.family": "sans-serif",

@@ -19,7 +19,7 @@ import math
 from collections.abc import Collection, Mapping
 from dataclasses import replace
 from functools import cached_property
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from pydantic import model_validator
@@ -40,6 +40,10 @@ from support_exudyn.plane import circle_intersection, direction, distance, moved
 from support_exudyn.width import Width
 from user_forces.roots import bracketed_root
 from user_forces.values import InputError, Positive, Vector2, value
+
+if TYPE_CHECKING:
+    from support_exudyn.drawing.solid import Look
+    from support_exudyn.scenario import Scenario
 
 PINS = ("rear_base", "front_base", "rear_shield", "front_shield", "shield_canopy")
 BODIES = ("rear_link", "front_link", "shield", "canopy")
@@ -285,6 +289,16 @@ class HydraulicSupport(Machine):
     def _closing(self) -> set[tuple[float, float]]:
         """Ranges of extension that have been found to close; scenarios ask again and again."""
         return set()
+
+    # --- look ---
+
+    def look(self, scenario: Scenario) -> Look:
+        """A shield support: base, links, shield and tail beam, canopy, columns and pins."""
+        from support_exudyn.drawing.shield_support import (
+            look,
+        )  # libraries of shapes, which a run has no use for
+
+        return look(scenario)
 
     # --- layout ---
 

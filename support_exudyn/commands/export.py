@@ -1,0 +1,116 @@
+"""`export RUN`: a run for other programs."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+from rich.console import Console
+from rich.progress import Progress as Bar
+
+from support_exudyn.command_line import count, folder
+from support_exudyn.progress import Progress
+from support_exudyn.result import Result
+from user_forces.values import InputError, short
+
+HELP = "moving meshes for ParaView (XDMF, VTU) and tables of all channels (CSV, HDF5)"
+FORMATS = ("xdmf", "vtu", "csv", "hdf5")
+LARGEST = 1e9  # of a number on the command line
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The run's file, what to write of it, and where to."""
+    # RUN first: behind --to it would be taken for a format
+    parser.usage = (
+        "%(prog)s [-h] RUN [--to FORMAT ...] [--out DIR] "
+        "[--every N | --frames-per-second F] [--from T] [--until T]"
+    )
+    parser.add_argument("run", type=folder, metavar="RUN", help="file of a run, as Result.save writes it")
+    parser.add_argument(
+        "--to",
+        nargs="+",
+        choices=FORMATS,
+        default=FORMATS,
+        metavar="FORMAT",
+        help="xdmf: NAME.xdmf and NAME_pins.xdmf, with one HDF5 file for both; vtu: a folder NAME_vtu with a "
+        "file per step, machine.pvd and pins.pvd; csv: NAME.csv; hdf5: NAME_channels.h5 for MATLAB and others; "
+        "by default all",
+    )
+    parser.add_argument(
+        "--out", type=folder, metavar="DIR", help="where to; by default NAME_export beside the run"
+    )
+    density = parser.add_mutually_exclusive_group()
+    density.add_argument("--every", type=count, metavar="N", help="one in N records")
+    density.add_argument(
+        "--frames-per-second",
+        type=_rate,
+        metavar="F",
+        help="the records nearest to F times per second of the run; by default 25 for meshes, and all records "
+        "for tables",
+    )
+    parser.add_argument(
+        "--from", dest="after", type=_seconds, default=0.0, metavar="T", help="first time [s]; by default 0"
+    )
+    parser.add_argument("--until", type=_seconds, metavar="T", help="last time [s]; by default the run's end")
+
+
+def run(given: argparse.Namespace) -> None:
+    """Write what was asked for, and print what was written."""
+    from support_exudyn.export import MESHES, TABLES, Sampling, to_csv, to_hdf5, to_vtu, to_xdmf  # and meshio
+
+    if given.until is not None and given.until < given.after:
+        raise InputError(f"--from {given.after:g} --until {given.until:g}: allowed: --until not before --from")
+    result = Result.load(given.run)
+    name, out = given.run.stem, given.out or given.run.parent / f"{given.run.stem}_export"
+
+    def sampling(usual: Sampling) -> Sampling:
+        said = given.every is not None or given.frames_per_second is not None
+        return Sampling(
+            every=given.every,
+            frames_per_second=given.frames_per_second if said else usual.frames_per_second,
+            after=given.after,
+            until=given.until,
+        )
+
+    work: dict[str, Callable[[Progress], tuple[Path, ...]]] = {
+        "xdmf": lambda progress: to_xdmf(result, out / f"{name}.xdmf", sampling(MESHES), progress),
+        "vtu": lambda progress: to_vtu(result, out / f"{name}_vtu", sampling(MESHES), progress),
+        "csv": lambda progress: to_csv(result, out / f"{name}.csv", sampling(TABLES), progress),
+        "hdf5": lambda progress: to_hdf5(result, out / f"{name}_channels.h5", sampling(TABLES)),
+    }
+    console = Console()
+    for kind in dict.fromkeys(given.to):
+        with Bar(console=console, transient=True, disable=not console.is_terminal) as bar:
+            started = time.perf_counter()
+            task = bar.add_task(kind, total=1.0)
+            files = work[kind](lambda share: bar.update(task, completed=share))  # noqa: B023  # used at once
+            took = time.perf_counter() - started
+        size = sum(file.stat().st_size for file in files)
+        print(f"{kind}: {files[0]} ({_counted(len(files))}, {size / 1e6:.3g} MB, {took:.2g} s)")
+
+
+def _counted(files: int) -> str:
+    return "1 file" if files == 1 else f"{files} files"
+
+
+def _rate(text: str) -> float:
+    """A positive number from the command line."""
+    return _number(text, lambda number: number > 0.0, f"a number > 0, up to {LARGEST:g}")
+
+
+def _seconds(text: str) -> float:
+    """A time from the command line [s]."""
+    return _number(text, lambda number: number >= 0.0, f"seconds from 0 on, up to {LARGEST:g}")
+
+
+def _number(text: str, fits: Callable[[float], bool], allowed: str) -> float:
+    try:
+        number = float(text)
+    except ValueError:
+        number = math.nan
+    if not (fits(number) and number <= LARGEST):
+        raise argparse.ArgumentTypeError(f"{short(text)}: allowed: {allowed}")
+    return number

@@ -1,0 +1,186 @@
+"""`plot RUN [CHANNEL...]`: figures of a run, as PNG and PDF."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import os
+import sys
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from support_exudyn.command_line import folder
+from support_exudyn.figures.journal import chosen_pin, loose_pins
+from support_exudyn.figures.names import matching
+from support_exudyn.result import Result
+from user_forces.values import InputError, short
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+HELP = "figures of a run as PNG and PDF: channels over time, journal orbit, Poincare section, force spectrum"
+Draw = Callable[[], "Figure"]
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The run's file, what is drawn, and where to."""
+    parser.add_argument("run", type=folder, metavar="RUN", help="file of a run, as Result.save writes it")
+    parser.add_argument(
+        "channels", nargs="*", metavar="CHANNEL", help="channels over time: names, or patterns as 'pin.*.force'"
+    )  # fmt: skip
+    parser.add_argument("--orbit", action="store_true", help="path of the journal of a loose pin in its bore")
+    parser.add_argument(
+        "--poincare", action="store_true", help="section once in every period of the drive, or by touches"
+    )
+    parser.add_argument("--spectrum", action="store_true", help="spectrum of the force in a pin")
+    parser.add_argument(
+        "--pin", metavar="NAME", help="pin of orbit, section and spectrum (the first loose one)"
+    )
+    parser.add_argument(
+        "--from", dest="start", type=seconds, default=-math.inf, metavar="T", help="draw from this time on [s]"
+    )  # fmt: skip
+    parser.add_argument("--until", type=seconds, default=math.inf, metavar="T", help="draw up to this time [s]")
+    parser.add_argument(
+        "--phase",
+        type=share,
+        default=0.0,
+        metavar="SHARE",
+        help="of the period at which a section looks, 0 to 1",
+    )
+    parser.add_argument(
+        "--section", nargs=2, default=(), metavar="CHANNEL", help="channels of a section once in every period"
+    )
+    parser.add_argument(
+        "--out", type=folder, metavar="DIR", help="folder of the figures (RUN_figures beside the run)"
+    )
+    parser.add_argument("--show", action="store_true", help="open them in windows, too")
+
+
+def seconds(text: str) -> float:
+    """A time from the command line."""
+    try:
+        time = float(text)
+    except ValueError:
+        time = math.nan
+    if not math.isfinite(time):
+        raise argparse.ArgumentTypeError(f"{short(text)}: allowed: a time in s")
+    return time
+
+
+def share(text: str) -> float:
+    """A share from the command line."""
+    try:
+        number = float(text)
+    except ValueError:
+        number = math.nan
+    if not 0.0 <= number <= 1.0:
+        raise argparse.ArgumentTypeError(f"{short(text)}: allowed: from 0 to 1")
+    return number
+
+
+def run(given: argparse.Namespace) -> None:
+    """Draw, write, and print the names of the files."""
+    from support_exudyn.figures import style
+
+    result = Result.load(given.run)
+    out = given.out or given.run.with_name(f"{given.run.stem}_figures")
+    wanted, optional = _wanted(result, given)
+    drawings = []
+    with style.look():
+        for name, draw in wanted.items():
+            try:
+                drawing = draw()
+            except InputError as error:
+                if name not in optional:
+                    raise
+                print(f"{name}: left out: {error}", file=sys.stderr)
+                continue
+            drawings.append(drawing)
+            for path in style.save(drawing, out, name):
+                print(path)
+        if given.show:
+            _show(drawings)
+
+
+def _wanted(result: Result, given: argparse.Namespace) -> tuple[dict[str, Draw], set[str]]:
+    """What to draw by file name, and what of it may be left out where the run has none."""
+    asked = given.orbit or given.poincare or given.spectrum or bool(given.section)
+    if not asked and given.pin is None and not given.channels:
+        return _overview(result, given)
+    if not asked and given.pin is not None:  # all that there is of a pin
+        found = _of_pin(result, given, chosen_pin(result, given.pin, loose=False))
+        return (_of_channels(result, given, given.channels) if given.channels else {}) | found, set(found)
+    found = _of_channels(result, given, given.channels) if given.channels else {}
+    loose = chosen_pin(result, given.pin, loose=True) if given.orbit else None
+    pin = loose or (chosen_pin(result, given.pin, loose=False) if given.pin or given.spectrum else None)
+    every = _of_pin(result, given, pin)
+    kinds = {"orbit": given.orbit, "poincare": given.poincare or given.section, "spectrum": given.spectrum}
+    return found | {name: draw for name, draw in every.items() if kinds[name.split("_")[0]]}, set()
+
+
+def _overview(result: Result, given: argparse.Namespace) -> tuple[dict[str, Draw], set[str]]:
+    """Forces and motion; orbit, section and spectrum of the first loose pin."""
+    loose = loose_pins(result)
+    points = [f"{point}.{axis}" for point in result.scenario.linkage.points for axis in "xy"]
+    names = [f"pin.{loose[0]}.force", f"pin.{loose[0]}.depth"] if loose else []
+    if not loose:
+        names = [f"pin.{pin}.force" for pin in result.scenario.linkage.pins]
+    names += [*points, *(f"{column}.force" for column in result.scenario.linkage.columns)]
+    names = [name for name in names if name in result.channels]
+    found = _of_channels(result, given, names or [n for n in result.channels if n != "time"][:8])
+    of_pin = _of_pin(result, given, loose[0]) if loose else {}
+    return {"overview": found["channels"]} | of_pin, set(of_pin)
+
+
+def _of_channels(result: Result, given: argparse.Namespace, names: list[str]) -> dict[str, Draw]:
+    from support_exudyn.figures.channels import over_time
+
+    return {"channels": lambda: over_time(result, names, given.start, given.until)}
+
+
+def _of_pin(result: Result, given: argparse.Namespace, pin: str | None) -> dict[str, Draw]:
+    """Orbit, section and spectrum, as far as the pin can have them."""
+    from support_exudyn.figures.orbit import orbit
+    from support_exudyn.figures.poincare import poincare
+    from support_exudyn.figures.spectrum import force_spectrum
+
+    ends = given.start, given.until
+    pair = matching(result.channels, given.section)
+    loose = pin if pin in loose_pins(result) else None
+    name = f"_{pin}" if pin else ""
+    found: dict[str, Draw] = {}
+    if loose is not None:
+        found[f"orbit{name}"] = lambda: orbit(result, loose, *ends)
+    if loose is not None or given.poincare or pair:
+        found[f"poincare{name}"] = lambda: poincare(result, loose, *ends, phase=given.phase, channels=pair)
+    if pin is not None:
+        found[f"spectrum{name}"] = lambda: force_spectrum(result, pin, *ends)
+    return found
+
+
+def _show(drawings: list[Figure]) -> None:
+    """Open windows and wait until they are closed; where there is no display, say so."""
+    import matplotlib as mpl
+    import matplotlib.pyplot as plt
+
+    if not _has_display():
+        print("--show: there is no display here; the files have the figures", file=sys.stderr)
+        return
+    for drawing in drawings:
+        window = plt.figure(figsize=drawing.get_size_inches())
+        manager = window.canvas.manager
+        if manager is None or mpl.get_backend().lower() == "agg":
+            print(
+                "--show: matplotlib has no way to open windows here; the files have the figures",
+                file=sys.stderr,
+            )
+            plt.close(window)
+            return
+        manager.canvas.figure = drawing  # drawn outside of pyplot, and shown in a window of its own
+        drawing.set_canvas(manager.canvas)
+    plt.show(block=True)
+
+
+def _has_display() -> bool:
+    """Whether windows can be opened; yes where the system does not tell by its environment."""
+    return sys.platform != "linux" or bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))

@@ -1,0 +1,122 @@
+"""`render RUN`: frames and a movie of a run."""
+
+from __future__ import annotations
+
+import argparse
+import re
+
+from support_exudyn.command_line import folder
+from support_exudyn.result import Result
+from user_forces.values import InputError, short
+
+HELP = "ray-traced frames and a movie of a run, without a display"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The run's file, and what is made of it."""
+    add = parser.add_argument
+    add("run", type=folder, metavar="RUN", help="file of a run, as Result.save writes it")
+    add(
+        "--out",
+        type=folder,
+        metavar="DIR",
+        help="folder for frame_0000.png and so on; the movie is written beside it. Default: RUN_frames beside "
+        "RUN. With --still: the file of the picture",
+    )
+    add("--frames-per-second", type=number, default=25.0, metavar="N", help="of the movie, 0.1 to 240 (25)")
+    add("--from", type=number, dest="start", metavar="T", help="first time shown [s] (start of the run)")
+    add("--until", type=number, dest="end", metavar="T", help="last time shown [s] (end of the run)")
+    add(
+        "--speed",
+        type=number,
+        default=1.0,
+        metavar="S",
+        help="seconds of the run in a second of the movie (1); 0.01 is a hundred times slower, for impacts. A "
+        "frame shows the record next to its time, so slower than the records shows each of them several times",
+    )
+    add(
+        "--movie",
+        choices=("gif", "mp4", "none"),
+        default="gif",
+        help="kind of the movie (gif: at most 960 pixels wide); mp4 needs the extra [movie]",
+    )
+    add("--size", type=size, default=(1280, 720), metavar="WxH", help="of frames in pixels, even (1280x720)")
+    add("--pin", metavar="NAME", help="whose journal and force are shown (the first loose pin)")
+    add("--still", type=number, metavar="T", help="a single picture at this time [s], and no movie")
+
+
+def run(given: argparse.Namespace) -> None:
+    """Write them, with a progress bar on stderr."""
+    if given.still is not None and (given.start is not None or given.end is not None):
+        raise InputError("--still: is one picture; allowed: without --from and --until")
+    result = Result.load(given.run)
+    if given.still is not None:
+        _still(given, result)
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+
+    from support_exudyn.render import render
+
+    out = given.out or given.run.with_name(f"{given.run.stem}_frames")
+    bar = Progress(
+        TextColumn("{task.description}"),
+        BarColumn(),
+        TextColumn("{task.percentage:3.0f} %"),
+        TimeRemainingColumn(),
+        console=Console(stderr=True),
+        transient=True,
+    )
+    with bar:
+        task = bar.add_task(f"rendering {given.run.name}", total=1.0)
+        written = render(
+            result,
+            out,
+            frames_per_second=given.frames_per_second,
+            start=given.start,
+            end=given.end,
+            speed=given.speed,
+            movie=given.movie,
+            size=given.size,
+            pin=given.pin,
+            progress=lambda share: bar.update(task, completed=share),
+        )
+    print(f"{len(written.frames)} frame{'s' * (len(written.frames) > 1)} in {out}")
+    if written.movie is not None:
+        print(f"{written.movie} ({written.movie.stat().st_size / 1e6:.1f} MB)")
+
+
+def _still(given: argparse.Namespace, result: Result) -> None:
+    from PIL import Image
+
+    from support_exudyn.files import whole_file
+    from support_exudyn.render import still
+
+    path = given.out or given.run.with_name(f"{given.run.stem}_{given.still:g}s.png")
+    if path.suffix.lower() != ".png":
+        raise InputError(f"--out {path}: allowed with --still: a name that ends in .png")
+    picture = still(result, given.still, size=given.size, pin=given.pin)
+    with whole_file(path) as temporary:
+        Image.fromarray(picture).save(temporary, format="PNG")
+    print(path)
+
+
+def number(text: str) -> float:
+    """A finite number from the command line."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = float("nan")
+    if not abs(value) < float("inf"):
+        raise argparse.ArgumentTypeError(f"{short(text)}: allowed: a number")
+    return value
+
+
+def size(text: str) -> tuple[int, int]:
+    """Width and height from the command line."""
+    found = re.fullmatch(r"(\d{1,5})[xX](\d{1,5})", text)
+    if found is None:
+        raise argparse.ArgumentTypeError(
+            f"{short(text)}: allowed: width and height in pixels, such as 1280x720"
+        )
+    return int(found[1]), int(found[2])

@@ -1,0 +1,58 @@
+"""Units at the border: what a figure or a table shows for SI and radians inside."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+
+class Unit(NamedTuple):
+    """What is shown: its name, and how many of it one SI unit is."""
+
+    name: str
+    scale: float
+
+
+ROUNDED = 1.0 - 1e-9  # so that a thousandth of something is read as that whichever way it was rounded
+DEGREES = 180.0 / math.pi
+ANGLES = {
+    "rad": Unit("deg", DEGREES),
+    "rad/s": Unit("deg/s", DEGREES),
+    "rad/s^2": Unit("deg/s²", DEGREES),
+}
+QUANTITIES = {
+    "s": "time", "m": "length", "m/s": "speed", "N": "force", "N m": "moment", "J": "energy",
+    "rad": "angle", "rad/s": "angular velocity", "rad/s^2": "angular acceleration",
+}  # fmt: skip
+# for each unit: below which size what is shown, the smallest first
+SIZES: dict[str, tuple[tuple[float, Unit], ...]] = {
+    "m": ((1e-4, Unit("µm", 1e6)), (1.0, Unit("mm", 1e3)), (math.inf, Unit("m", 1.0))),
+    "m/s": ((1e-4, Unit("µm/s", 1e6)), (0.3, Unit("mm/s", 1e3)), (math.inf, Unit("m/s", 1.0))),
+    "N": ((0.1, Unit("mN", 1e3)), (1e3, Unit("N", 1.0)), (math.inf, Unit("kN", 1e-3))),
+    "N m": ((0.1, Unit("mN m", 1e3)), (1e3, Unit("N m", 1.0)), (math.inf, Unit("kN m", 1e-3))),
+    "J": ((1e-4, Unit("µJ", 1e6)), (0.1, Unit("mJ", 1e3)), (1e3, Unit("J", 1.0)), (math.inf, Unit("kJ", 1e-3))),
+    "Hz": ((1e3, Unit("Hz", 1.0)), (math.inf, Unit("kHz", 1e-3))),
+    "s": ((1e-3, Unit("µs", 1e6)), (0.1, Unit("ms", 1e3)), (math.inf, Unit("s", 1.0))),
+}
+
+
+def readable(unit: str, size: float) -> Unit:
+    """The unit in which a quantity is read best.
+
+    Degrees for radians; mm, kN and the like by the size of the quantity; others as they are.
+
+    Arguments:
+        unit: of a channel, such as "N".
+        size: of the largest value in it, of either sign; zero is shown in the unit itself.
+    """
+    if unit in ANGLES:
+        return ANGLES[unit]
+    if size <= 0.0 or not math.isfinite(size):
+        return Unit(unit, 1.0)
+    return next((shown for limit, shown in SIZES.get(unit, ()) if size < limit * ROUNDED), Unit(unit, 1.0))
+
+
+def said(value: float, unit: str, digits: int = 3) -> str:
+    """A quantity in words, in the unit in which it is read best: "0.26 ms" becomes "260 µs"."""
+    shown = readable(unit, abs(value))
+    return f"{shown.scale * value:.{digits}g} {shown.name}"

@@ -1,0 +1,116 @@
+"""What pictures show of a pin: the force in it, and the journal in its bore, at all records."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from support_exudyn.drawing.poses import Poses
+from support_exudyn.pins import ClearancePin
+from support_exudyn.result import Result
+from support_exudyn.trajectory import Series
+from user_forces.values import InputError, short
+
+
+@dataclass(frozen=True)
+class Bore:
+    """A journal in its bore, at the records.
+
+    Arguments:
+        pin: of the scenario.
+        eccentricity: of the journal's centre from the bore's, forward and up, shape (n, 2) [m]; in space
+            that of the middle of the bearing.
+        touching: whether it is in contact, shape (n,).
+        carrier: name of the body that has the bore.
+    """
+
+    pin: ClearancePin
+    eccentricity: Series
+    touching: npt.NDArray[np.bool_]
+    carrier: str
+
+
+@dataclass(frozen=True)
+class PinView:
+    """A pin at the records.
+
+    Arguments:
+        name: of the pin, as the channels know it.
+        on: of what the force is said to be on.
+        force: forward and up, shape (n, 2) [N].
+        path: where the pin is, shape (n, 3) [m].
+        bore: None if the pin is ideal.
+    """
+
+    name: str
+    on: str
+    force: Series
+    path: Series
+    bore: Bore | None
+
+    @property
+    def size(self) -> Series:
+        """Magnitude of the force, as far as it is in the plane (n,) [N]."""
+        size: Series = np.hypot(self.force[:, 0], self.force[:, 1])
+        return size
+
+
+def pin_names(result: Result) -> list[str]:
+    """All pins, by what channels call them; loose ones first."""
+    scenario = result.scenario
+    if scenario.dimensions == 3:
+        known = {name: one.pin for name, one in scenario.space.bearings.items() if not one.is_guide}
+    else:
+        known = {name: name for name in scenario.linkage.pins}
+    return sorted(known, key=lambda name: known[name] not in scenario.clearance_pins)
+
+
+def pin_view(result: Result, name: str | None = None) -> PinView | None:
+    """A pin by its name; None: the first loose one, or the first of all, or nothing if the machine has no pins.
+
+    Raises InputError if there is no such pin, or if a channel that this needs was not recorded.
+    """
+    names = pin_names(result)
+    if name is None and not names:
+        return None
+    if name is not None and name not in names:
+        raise InputError(f"pin = {short(name)}: no such pin; allowed: {', '.join(names) or 'none'}")
+    name = name or names[0]
+    scenario = result.scenario
+    if scenario.dimensions == 3:
+        bearing = scenario.space.bearings[name]
+        plane, first, second = bearing.pin, bearing.first, bearing.second
+        points = {first: bearing.first_point, second: bearing.second_point}
+    else:
+        place = scenario.linkage.pins[name]
+        plane, first, second = name, place.first, place.second
+        points = {first: (*place.first_point, 0.0), second: (*place.second_point, 0.0)}
+    loose = scenario.clearance_pins.get(plane)
+    carrier, sign = (second, -1.0) if loose and loose.bore == "second" else (first, 1.0)
+    force = sign * np.column_stack([_channel(result, f"pin.{name}.force_{axis}") for axis in "xy"])
+    path = Poses(result).of(carrier).path(points[carrier])
+    if loose is None:
+        return PinView(name, second.replace("_", " "), force, path, None)
+    bore = Bore(loose, _eccentricity(result, name), np.hypot(*force.T) > 0.0, carrier)
+    return PinView(name, "journal", force, path, bore)
+
+
+def _eccentricity(result: Result, name: str) -> Series:
+    sides = ("left_", "right_") if result.scenario.dimensions == 3 else ("",)
+    ends = [
+        np.column_stack([_channel(result, f"pin.{name}.{side}eccentricity_{axis}") for axis in "xy"])
+        for side in sides
+    ]
+    middle: Series = np.mean(ends, axis=0)
+    return middle
+
+
+def _channel(result: Result, name: str) -> Series:
+    if name not in result.channels:
+        raise InputError(
+            f"channel {name!r}: was not recorded, and pictures show it; allowed: runs of a scenario with "
+            "channels = ('*',)"
+        )
+    return result[name]
