@@ -75,6 +75,11 @@ def without_unit(figure: Figure) -> list[str]:
     return [label for label in labels if label and not UNIT.search(label)]
 
 
+def words_below(figure: Figure) -> str:
+    """The caption, in one line."""
+    return " ".join(figure.get_supxlabel().split())
+
+
 def check(figure: Figure) -> None:
     """Fail unless a figure is fit to be shown."""
     assert not cut_off(figure)

@@ -170,10 +170,11 @@ def _draw(axes: Axes, found: Spectrum, colour: str) -> None:
     axes.set_ylim(
         max(0.5 * float(amplitude.min()), 1e-9 * float(amplitude.max())), 20.0 * float(amplitude.max())
     )
-    for letter, (frequency, height) in zip(LETTERS, found.peaks(), strict=False):
+    for n, (frequency, height) in enumerate(found.peaks()):
+        letter, above = LETTERS[n], 4 + 8 * n  # one above the other where peaks are close
         place = hertz.scale * frequency, unit.scale * height
         axes.plot(*place, "v", ms=4, color=style.IDEAL, mfc="white", mew=0.8)
-        axes.annotate(letter, place, (0, 4), textcoords="offset points", ha="center", fontsize=7)
+        axes.annotate(letter, place, (0, above), textcoords="offset points", ha="center", fontsize=7)
         label = f"{letter}: {frequency:.4g} ± {0.5 * found.resolution:.2g} Hz, {place[1]:.3g} {unit.name}"
         axes.plot([], [], ls="none", label=label)
     if found.peaks():
@@ -210,7 +211,8 @@ def _words(result: Result, pin: str, found: Spectrum, first: float, last: float,
         f"Amplitude of a sine of each frequency, from records every {units.said(found.spacing, 's', 4)}"
         f"{' (interpolated to equal times)' if found.resampled else ''}: Welch's mean of {found.averaged} "
         f"overlapping pieces, without straight trend, Hann's window. Bins of "
-        f"{units.said(found.resolution, 'Hz')}, a tone is {WIDTH:g} bins wide; nothing is told above {units.said(found.nyquist, 'Hz', 4)}. "
+        f"{units.said(found.resolution, 'Hz')}, a tone is {WIDTH:g} bins wide; "
+        f"nothing is told above {units.said(found.nyquist, 'Hz', 4)}. "
     )
     if over_time:
         text += "In (b) 0 dB is the largest amplitude. "
