@@ -34,11 +34,19 @@ def run(error: float = 0.0) -> Result:
 @pytest.mark.parametrize(
     ("unit", "size", "expected"),
     [
-        ("N", 5e4, ("kN", 1e-3)), ("N", 20.0, ("N", 1.0)), ("m", 1.5e-3, ("mm", 1e3)), ("m", 3.0, ("m", 1.0)),
-        ("m", 2e-5, ("µm", 1e6)), ("rad", 1.0, ("deg", 180.0 / np.pi)), ("rad/s^2", 0.0, ("deg/s²", 180.0 / np.pi)),
-        ("s", 1e-3, ("ms", 1e3)), ("s", 1e-3 - 1e-15, ("ms", 1e3)), ("J", 0.0, ("J", 1.0)), ("1", 5.0, ("1", 1.0)),
+        ("N", 5e4, ("kN", 1e-3)),
+        ("N", 20.0, ("N", 1.0)),
+        ("m", 1.5e-3, ("mm", 1e3)),
+        ("m", 3.0, ("m", 1.0)),
+        ("m", 2e-5, ("µm", 1e6)),
+        ("rad", 1.0, ("deg", 180.0 / np.pi)),
+        ("rad/s^2", 0.0, ("deg/s²", 180.0 / np.pi)),
+        ("s", 1e-3, ("ms", 1e3)),
+        ("s", 1e-3 - 1e-15, ("ms", 1e3)),
+        ("J", 0.0, ("J", 1.0)),
+        ("1", 5.0, ("1", 1.0)),
     ],
-)  # fmt: skip
+)
 def test_units_are_those_that_are_read_best(unit: str, size: float, expected: tuple[str, float]) -> None:
     assert readable(unit, size) == (expected[0], pytest.approx(expected[1]))
 
@@ -52,7 +60,7 @@ def test_patterns_are_those_of_a_shell() -> None:
     names = ["time", "pin.a.force", "pin.b.force", "tip.x"]
     assert matching(names, ["tip.*", "pin.?.force", "pin.a.*"]) == ["tip.x", "pin.a.force", "pin.b.force"]
     assert matching(names, ["*"]) == names[1:]
-    with pytest.raises(InputError, match="'pin.c.force': no such channel.*pin.a.force"):
+    with pytest.raises(InputError, match=r"'pin.c.force': no such channel.*pin.a.force"):
         matching(names, ["pin.c.force"])
 
 

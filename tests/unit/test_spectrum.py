@@ -32,7 +32,7 @@ def test_a_tone_has_its_amplitude_at_its_frequency(frequency: int, amplitude: fl
     found = spectrum(TIME, tone(float(frequency), amplitude))
     highest = int(np.argmax(found.amplitude))
     assert found.frequency[highest] == pytest.approx(frequency)
-    # frequencies of whole numbers lie on a bin; taking the trend out of a piece takes up to half a percent of it
+    # frequencies of whole numbers lie on a bin; the trend of a piece is up to half a percent of it
     assert found.amplitude[highest] == pytest.approx(amplitude, rel=5e-3)
 
 
