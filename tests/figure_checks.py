@@ -14,7 +14,7 @@ from matplotlib.transforms import Bbox
 EDGE = 1.0  # pixels that a letter may reach over the canvas: half of it is the rounding of its outline
 SHARED = 1.0  # pixels that two texts may share, as wide as high, for the same reason
 # quantities that have none: logarithms, ratios, names
-UNIT = re.compile(r"\[[^\]]+\]|\bshare\b|\b(?:times|number|factor|ratio|relative|coefficient)\b")
+UNIT = re.compile(r"\[[^\]]+\]|\bshare\b|\b(?:times|number|calls|factor|ratio|relative|coefficient)\b")
 
 
 def texts(figure: Figure) -> list[tuple[str, Bbox]]:
