@@ -108,7 +108,7 @@ def _label_costs(ax: Axes, costs: Sequence[float]) -> None:
         ax.xaxis.set_major_locator(MaxNLocator(2))
         ax.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
     elif decades < 2.0:
-        ax.xaxis.set_major_locator(LogLocator(subs=(1.0, 3.0)))
+        ax.xaxis.set_major_locator(LogLocator(subs=(1.0, 3.0) if decades < 1.0 else (1.0,)))
         ax.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
     else:
         ax.xaxis.set_major_locator(LogLocator(numticks=4))

@@ -14,7 +14,7 @@ from matplotlib.transforms import Bbox
 EDGE = 1.0  # pixels that a letter may reach over the canvas: half of it is the rounding of its outline
 SHARED = 1.0  # pixels that two texts may share, as wide as high, for the same reason
 # quantities that have none: logarithms, ratios, names
-UNIT = re.compile(r"\[[^\]]+\]|\bshare\b|\b(?:times|number|factor|ratio|relative|coefficient)\b")
+UNIT = re.compile(r"\[[^\]]+\]|\bshare\b|\b(?:times|number|calls|factor|ratio|relative|coefficient)\b")
 
 
 def texts(figure: Figure) -> list[tuple[str, Bbox]]:
@@ -73,6 +73,11 @@ def without_unit(figure: Figure) -> list[str]:
     """Labels of axes that name no unit in brackets; axes that share the label of another have none."""
     labels = [label for axes in figure.axes if axes.axison for label in (axes.get_xlabel(), axes.get_ylabel())]
     return [label for label in labels if label and not UNIT.search(label)]
+
+
+def words_below(figure: Figure) -> str:
+    """The caption, in one line."""
+    return " ".join(figure.get_supxlabel().split())
 
 
 def check(figure: Figure) -> None:

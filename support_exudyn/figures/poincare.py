@@ -49,7 +49,8 @@ PLAIN_MARK: dict[str, Any] = {
     "ls": "none",
     "zorder": 3,
 }
-LIMIT_SHARE = 1e-9  # of a spread: below, all points are the same
+NARROW = 0.01  # share of its size below which only the spread of a channel is shown
+SAME = 1e-4  # ... and below which all points are the same, which they are then seen to be
 
 
 class Section(NamedTuple):
@@ -248,20 +249,27 @@ def _draw_section(
         labels.append(label)
     _marked(axes, shown[0], shown[1], touching)
     axes.set(xlabel=labels[0], ylabel=labels[1])
-    axes.margins(0.08)
-    axes.locator_params(nbins=5)
+    axes.set_xlim(*_widen(float(shown[0].min()), float(shown[0].max())))
+    axes.set_ylim(*_widen(float(shown[1].min()), float(shown[1].max())))
+    axes.locator_params(nbins=4)
 
 
 def _readable_spread(name: str, values: Series, unit: str) -> tuple[Series, str]:
     """Values in the unit of their spread, from their middle if that is far larger than the spread."""
     size, spread = float(np.abs(values).max()), float(np.ptp(values))
-    if not LIMIT_SHARE * size < spread < 0.01 * size:
+    if not SAME * size < spread < NARROW * size:
         chosen = readable(unit, size)
         return chosen.scale * values, f"{name} [{chosen.name}]"
     middle = 0.5 * float(values.max() + values.min())
     chosen, at = readable(unit, spread), readable(unit, size)
-    where = f"{at.scale * middle:.6g} {at.name}"
-    return chosen.scale * (values - middle), f"{name}, from {where} [{chosen.name}]"
+    return chosen.scale * (values - middle), f"{name},\nfrom {at.scale * middle:.6g} {at.name} [{chosen.name}]"
+
+
+def _widen(low: float, high: float) -> tuple[float, float]:
+    """Limits of an axis; around values that are all the same, so far apart that ticks can be told apart."""
+    margin = 0.08 * (high - low)
+    size = max(abs(low), abs(high))
+    return low - max(margin, 0.01 * NARROW * size), high + max(margin, 0.01 * NARROW * size)
 
 
 def _marked(axes: Axes, x: Series, y: Series, touching: npt.NDArray[np.bool_] | None) -> None:

@@ -25,6 +25,7 @@ FEWEST = 16  # records that a spectrum is made of
 EVEN = 1e-6  # share of the spacing by which records may be off
 LETTERS = "ABC"  # of the peaks that are marked
 MANY = 1000  # frequencies from which on their axis is logarithmic
+CLOSE = 0.03  # of the width of a panel: letters closer would lie upon one another
 PROMINENCE = 3.0  # by how much a peak stands out of what is around it, as a factor of the amplitude
 FINE_ENOUGH = 10.0  # records within the shortest touch, for its spectrum not to be folded
 TINY = 1e-12  # of the largest amplitude: below, nothing is drawn
@@ -170,10 +171,16 @@ def _draw(axes: Axes, found: Spectrum, colour: str) -> None:
     axes.set_ylim(
         max(0.5 * float(amplitude.min()), 1e-9 * float(amplitude.max())), 20.0 * float(amplitude.max())
     )
+    drawn: list[tuple[float, int]] = []
     for letter, (frequency, height) in zip(LETTERS, found.peaks(), strict=False):
+        shown = axes.transData.transform((hertz.scale * frequency, 1.0))
+        across = float(axes.transAxes.inverted().transform(shown)[0])
+        # one above the other where peaks are close
+        above = max((up + 8 for other, up in drawn if abs(across - other) < CLOSE), default=4)
+        drawn.append((across, above))
         place = hertz.scale * frequency, unit.scale * height
         axes.plot(*place, "v", ms=4, color=style.IDEAL, mfc="white", mew=0.8)
-        axes.annotate(letter, place, (0, 4), textcoords="offset points", ha="center", fontsize=7)
+        axes.annotate(letter, place, (0, above), textcoords="offset points", ha="center", fontsize=7)
         label = f"{letter}: {frequency:.4g} ± {0.5 * found.resolution:.2g} Hz, {place[1]:.3g} {unit.name}"
         axes.plot([], [], ls="none", label=label)
     if found.peaks():
@@ -210,7 +217,8 @@ def _words(result: Result, pin: str, found: Spectrum, first: float, last: float,
         f"Amplitude of a sine of each frequency, from records every {units.said(found.spacing, 's', 4)}"
         f"{' (interpolated to equal times)' if found.resampled else ''}: Welch's mean of {found.averaged} "
         f"overlapping pieces, without straight trend, Hann's window. Bins of "
-        f"{units.said(found.resolution, 'Hz')}, a tone is {WIDTH:g} bins wide; nothing is told above {units.said(found.nyquist, 'Hz', 4)}. "
+        f"{units.said(found.resolution, 'Hz')}, a tone is {WIDTH:g} bins wide; "
+        f"nothing is told above {units.said(found.nyquist, 'Hz', 4)}. "
     )
     if over_time:
         text += "In (b) 0 dB is the largest amplitude. "

@@ -13,6 +13,8 @@ import pytest
 from studies import clearance_influence as study
 from studies.reporting.chapter import Chapter
 from support_exudyn import Result
+from support_exudyn.figures import style
+from tests import figure_checks
 
 
 @pytest.fixture(scope="module")
@@ -58,6 +60,13 @@ def test_every_file_is_there(out: Path) -> None:
     with h5py.File(out / "runs" / "ideal.h5") as file:
         assert file["channels/tip.x"].attrs["unit"] == "m"
     assert Result.load(out / "runs" / "ideal.h5").time[-1] == 5.0
+
+
+def test_no_text_of_a_figure_is_cut_off_or_lies_upon_another(out: Path) -> None:
+    results = {case: Result.load(out / "runs" / f"{study._file_name(case)}.h5") for case in study.CASES}
+    with style.look():
+        for drawing in study.figures(results).values():
+            figure_checks.check(drawing)
 
 
 def test_the_chapter_says_what_was_computed(out: Path, numbers: dict[tuple[str, str], dict[str, Any]]) -> None:

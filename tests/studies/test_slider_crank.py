@@ -10,6 +10,9 @@ import pytest
 
 from studies import slider_crank as study
 from studies.reporting.chapter import Chapter
+from support_exudyn import Result
+from support_exudyn.figures import style
+from tests import figure_checks
 
 
 @pytest.fixture(scope="module")
@@ -20,6 +23,12 @@ def numbers(tmp_path_factory: pytest.TempPathFactory) -> dict[tuple[str, str], d
         assert study.main(["--out", str(out), "--workers", "2"]) == 0
     assert (out / "slider_crank.png").read_bytes().startswith(b"\x89PNG")
     assert "onset 5 speed" in Path(out / "table.txt").read_text(encoding="utf-8")
+    with style.look():
+        cases = (study.IDEAL, study.SMOOTH, study.DRY)
+        files = {case: f"{case.replace(' ', '_').replace('.', 'p')}.h5" for case in cases}
+        figure_checks.check(
+            study.figure({case: Result.load(out / "runs" / file) for case, file in files.items()})
+        )
     chapter = Chapter.load(out)
     assert chapter.findings[0].startswith("Without friction the first 5 touches are within ")
     assert [picture.stem for picture in chapter.pictures] == ["slider_crank"]

@@ -1,0 +1,197 @@
+"""`plot` and `show` of runs: files, tables, exit codes, and what is refused."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from support_exudyn import Result, simulate
+from support_exudyn.__main__ import main
+from tests.reference.cases import loose_slider_crank, loose_support, support
+
+
+@pytest.fixture(scope="module")
+def runs(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder of four short runs: a loose pin with an accuracy, ideal pins, space, and a slider-crank."""
+    folder = tmp_path_factory.mktemp("runs")
+    fall = loose_support(1.5, 0.25, duration=0.2)
+    simulate(fall, accuracy="draft").save(folder / "loose.h5")
+    simulate(support(duration=0.2)).save(folder / "ideal.h5")
+    simulate(replace(fall, dimensions=3, duration=0.02)).save(folder / "space.h5")
+    crank = loose_slider_crank(0.05, formulation="reduced", record_period=5e-5)
+    simulate(crank).save(folder / "crank.h5")
+    return folder
+
+
+@pytest.fixture(autouse=True)
+def _no_display(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("DISPLAY", raising=False)
+    monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
+
+
+def names(folder: Path) -> set[str]:
+    return {path.name for path in folder.iterdir()}
+
+
+def both(*stems: str) -> set[str]:
+    return {f"{stem}.{kind}" for stem in stems for kind in ("png", "pdf")}
+
+
+def test_without_a_wish_an_overview_is_drawn(runs: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["plot", str(runs / "loose.h5")]) == 0
+    out = runs / "loose_figures"
+    expected = both("overview", "orbit_rear_base", "poincare_rear_base", "spectrum_rear_base")
+    assert names(out) == expected
+    assert {Path(line).name for line in capsys.readouterr().out.splitlines()} == expected
+    assert (out / "overview.png").read_bytes().startswith(b"\x89PNG")
+    assert (out / "overview.pdf").read_bytes().startswith(b"%PDF")
+
+
+def test_a_run_with_ideal_pins_has_forces_and_motion(runs: Path, tmp_path: Path) -> None:
+    assert main(["plot", str(runs / "ideal.h5"), "--out", str(tmp_path)]) == 0
+    assert names(tmp_path) == both("overview")
+
+
+def test_what_a_run_has_none_of_is_left_out_of_the_overview_in_a_sentence(
+    runs: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["plot", str(runs / "space.h5"), "--out", str(tmp_path)]) == 0
+    assert names(tmp_path) == both("overview", "orbit_rear_base")
+    said = capsys.readouterr().err
+    assert "poincare_rear_base: left out" in said
+    assert "spectrum_rear_base: left out" in said
+
+
+def test_one_kind_of_one_pin_is_drawn(runs: Path, tmp_path: Path) -> None:
+    args = ["plot", str(runs / "crank.h5"), "--spectrum", "--pin", "main", "--from", "0.01"]
+    assert main([*args, "--out", str(tmp_path)]) == 0
+    assert names(tmp_path) == both("spectrum_main")
+
+
+def test_sections_take_channels_and_a_phase(runs: Path, tmp_path: Path) -> None:
+    args = ["plot", str(runs / "crank.h5"), "--section", "slider.x", "slider.velocity_x", "--phase", "0.25"]
+    assert main([*args, "--out", str(tmp_path)]) == 0
+    assert names(tmp_path) == both("poincare")
+
+
+def test_channels_are_drawn_by_pattern(runs: Path, tmp_path: Path) -> None:
+    assert main(["plot", str(runs / "loose.h5"), "pin.*.force", "tip.?", "--out", str(tmp_path)]) == 0
+    assert names(tmp_path) == both("channels")
+
+
+def test_without_a_display_a_sentence_says_so(
+    runs: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    if os.name != "posix" or os.uname().sysname != "Linux":
+        pytest.skip("other systems do not tell by their environment")
+    assert main(["plot", str(runs / "ideal.h5"), "tip.x", "--show", "--out", str(tmp_path)]) == 0
+    assert "there is no display here" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("run", "args", "message"),
+    [
+        ("loose", ["pin.rear_base.forse"], "pin.rear_base.force"),
+        ("loose", ["--orbit", "--pin", "front_base"], "no loose pin"),
+        ("loose", ["--spectrum", "--pin", "rear_bas"], "rear_base"),
+        ("ideal", ["--orbit"], "no loose pin"),
+        ("loose", ["tip.x", "--from", "7"], "0 records lie between"),
+        ("loose", ["--section", "tip.x", "tip.y"], "periods of the drive"),
+        ("loose", ["--section", "tip.x", "tip.q"], "no such channel"),
+        ("nothing", [], "no such file"),
+    ],
+)
+def test_what_cannot_be_drawn_is_said_in_a_sentence(
+    runs: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], run: str, args: list[str], message: str
+) -> None:
+    assert main(["plot", str(runs / f"{run}.h5"), *args, "--out", str(tmp_path / "new")]) == 1
+    said = capsys.readouterr().err
+    assert said.startswith("error: ")
+    assert message in said
+    assert not (tmp_path / "new").exists()
+
+
+@pytest.mark.parametrize(
+    "args", [["--from", "nan"], ["--until", "x"], ["--phase", "2"], ["--section", "tip.x"]]
+)
+def test_wrong_words_are_refused(runs: Path, capsys: pytest.CaptureFixture[str], args: list[str]) -> None:
+    with pytest.raises(SystemExit) as stop:
+        main(["plot", str(runs / "loose.h5"), *args])
+    assert stop.value.code == 2
+    assert "usage: " in capsys.readouterr().err
+
+
+# --- show ---
+
+
+def shown(path: Path, capsys: pytest.CaptureFixture[str], *args: str) -> str:
+    assert main(["show", str(path), *args]) == 0
+    return capsys.readouterr().out
+
+
+def test_show_tells_what_was_run_how_and_what_came_out(runs: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    said = shown(runs / "loose.h5", capsys)
+    result = Result.load(runs / "loose.h5")
+    for words in (
+        "HydraulicSupport",
+        "1.5 mm clearance",
+        "restitution 0.9",
+        "coefficient 0.25",
+        "0.01 asked for",
+    ):
+        assert words in said
+    first = result.onsets["rear_base"][0]
+    assert f"{1e3 * first.time:.6g} ms" in said
+    assert f"1 of {len(result.onsets['rear_base'])}" in said
+    force = result.numbers()["pin.rear_base.force.mean"]
+    (row,) = [line.split() for line in said.splitlines() if line.strip().startswith("pin.rear_base.force.mean")]
+    # the value to the digits that its error leaves, which is shown to two
+    assert float(row[1]) == pytest.approx(force.value / 1e3, abs=force.error / 1e3)
+    assert float(row[2]) == pytest.approx(force.error / 1e3, rel=0.05)
+    assert row[3] == "kN"
+
+
+def test_show_of_a_run_without_an_accuracy_says_so(runs: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert "numerical errors not known" in shown(runs / "ideal.h5", capsys)
+
+
+@pytest.mark.parametrize("run", ["loose", "ideal", "space", "crank"])
+def test_all_channels_are_shown_with_their_whole_names(
+    runs: Path, capsys: pytest.CaptureFixture[str], run: str
+) -> None:
+    said = shown(runs / f"{run}.h5", capsys, "--all")
+    first = {line.split()[0] for line in said.splitlines() if line.strip()}
+    assert set(Result.load(runs / f"{run}.h5").channels) - {"time"} <= first
+    assert "…" not in said
+    assert "\x1b" not in said  # plain where it is not a terminal
+    assert max(map(len, said.splitlines())) <= 150
+
+
+def test_some_channels_are_shown_by_pattern(runs: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    said = shown(runs / "crank.h5", capsys, "slider.*x", "pin.slider_pin.depth")
+    rows = [line.split() for line in said.splitlines() if "." in line]
+    assert [row[0] for row in rows] == ["slider.velocity_x", "slider.x", "pin.slider_pin.depth"]
+    x = Result.load(runs / "crank.h5")["slider.x"]
+    # six digits are shown
+    assert [float(cell) for cell in rows[1][2:5]] == pytest.approx(
+        [1e3 * x.min(), 1e3 * x.mean(), 1e3 * x.max()], rel=1e-5
+    )
+
+
+def test_narrow_terminals_keep_the_numbers(
+    runs: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("support_exudyn.commands.show.PIPED", 80)
+    said = shown(runs / "space.h5", capsys)
+    result = Result.load(runs / "space.h5")
+    assert max(map(len, said.splitlines())) <= 80
+    assert f"{result['pin.rear_base.depth'].min() * 1e3:.6g}" in said
+    assert "…" not in said
+
+
+def test_show_refuses_unknown_channels(runs: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["show", str(runs / "loose.h5"), "tip.w"]) == 1
+    assert "tip.x" in capsys.readouterr().err

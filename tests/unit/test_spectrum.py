@@ -1,0 +1,133 @@
+"""Spectra of signals whose amplitudes and frequencies are known, and against scipy's."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy import fft
+
+from support_exudyn import Result
+from support_exudyn.figures import style
+from support_exudyn.figures.spectrum import equally_spaced, force_spectrum, spectrum
+from tests import figure_checks, synthetic
+from tests.reference.cases import FORCE, support
+from user_forces import InputError
+
+SPACING = 1e-3  # [s]
+TIME = np.arange(4000) * SPACING
+
+
+def tone(frequency: float, amplitude: float) -> np.ndarray:
+    return amplitude * np.sin(2.0 * np.pi * frequency * TIME + 0.3)
+
+
+def run(values: np.ndarray, time: np.ndarray = TIME) -> Result:
+    return synthetic.result(support(), time, {FORCE: (values, "N")})
+
+
+@given(frequency=st.integers(5, 490), amplitude=st.floats(1e-3, 1e6))
+def test_a_tone_has_its_amplitude_at_its_frequency(frequency: int, amplitude: float) -> None:
+    found = spectrum(TIME, tone(float(frequency), amplitude))
+    highest = int(np.argmax(found.amplitude))
+    assert found.frequency[highest] == pytest.approx(frequency)
+    # frequencies of whole numbers lie on a bin; the trend of a piece is up to half a percent of it
+    assert found.amplitude[highest] == pytest.approx(amplitude, rel=5e-3)
+
+
+def test_a_tone_between_two_bins_loses_at_most_what_hanns_window_loses() -> None:
+    found = spectrum(TIME, tone(100.5, 1.0))
+    # 1.42 dB is the window's scalloping loss; halfway between two bins it is all of it
+    assert found.amplitude.max() == pytest.approx(10 ** (-1.42 / 20.0), rel=5e-3)
+
+
+def test_the_density_adds_up_to_the_variance() -> None:
+    """Parseval: of noise, over all frequencies."""
+    noise = np.random.default_rng(1).normal(0.0, 3.0, 200_000)
+    found = spectrum(np.arange(noise.size) * SPACING, noise, segments=200)
+    # 200 pieces: the variance of a spectrum's sum is about that of the sample, 2 / sqrt(200000) = 0.4 %
+    assert np.sum(found.density) * found.resolution == pytest.approx(noise.var(), rel=1e-2)
+
+
+def test_one_piece_is_the_fourier_transform_of_what_the_window_leaves() -> None:
+    values = tone(40.0, 2.0) + np.random.default_rng(2).normal(size=TIME.size)
+    found = spectrum(TIME, values, segments=1)
+    slope, level = np.polyfit(TIME, values, 1)
+    window = 0.5 - 0.5 * np.cos(2.0 * np.pi * np.arange(TIME.size) / TIME.size)
+    transformed = fft.rfft(window * (values - slope * TIME - level))
+    expected = 2.0 * np.abs(transformed) / window.sum()
+    # two ways to fit a straight line and to sum; the ends of the range, which have no mirror, are not compared
+    assert found.amplitude[1:-1] == pytest.approx(expected[1:-1], rel=1e-6, abs=1e-9)
+    assert found.averaged == 1
+
+
+def test_resolution_and_highest_frequency_are_told() -> None:
+    found = spectrum(TIME, tone(50.0, 1.0), segments=4)
+    assert (found.resolution, found.nyquist) == (pytest.approx(1.0), pytest.approx(500.0))
+    assert found.averaged == 7
+
+
+def test_straight_trends_do_not_show() -> None:
+    # a ramp of 1e5 leaves rounding, 1e5 * 1e-16, times the number of samples
+    assert spectrum(TIME, 1e5 * TIME).amplitude.max() < 1e-6
+
+
+def test_what_is_too_fast_for_the_records_appears_folded() -> None:
+    found = spectrum(TIME, tone(930.0, 1.0))
+    assert found.peaks(1)[0][0] == pytest.approx(1000.0 - 930.0)
+
+
+def test_peaks_are_the_highest_that_stand_out() -> None:
+    found = spectrum(TIME, tone(20.0, 5.0) + tone(64.0, 9.0) + tone(200.0, 1.0) + 1e-3 * tone(400.0, 1.0))
+    assert [round(frequency) for frequency, _ in found.peaks()] == [64, 20, 200]
+    assert spectrum(TIME, np.zeros_like(TIME)).peaks() == []
+
+
+def test_records_off_the_grid_are_interpolated_and_a_last_one_left_out() -> None:
+    values, spacing, resampled = equally_spaced(np.append(TIME, TIME[-1] + 0.3e-3), np.append(TIME, 7.0))
+    assert (spacing, resampled) == (pytest.approx(SPACING), False)
+    assert values == pytest.approx(TIME)
+    uneven = np.sort(np.append(TIME, 1.2345))  # a record at a break
+    values, spacing, resampled = equally_spaced(uneven, 3.0 * uneven)
+    assert resampled
+    assert values == pytest.approx(3.0 * (np.arange(values.size) * spacing))
+
+
+def test_the_figure_shows_amplitudes_with_units_and_the_highest_peak() -> None:
+    drawing = force_spectrum(run(5e3 + tone(64.0, 3e3)), over_time=False)
+    (axes,) = drawing.axes
+    curve = axes.lines[0]
+    n = int(np.argmax(curve.get_ydata()))
+    assert curve.get_xdata()[n] == pytest.approx(64.0)
+    assert curve.get_ydata()[n] == pytest.approx(3.0, rel=5e-3)  # as above
+    assert curve.get_color() == style.IDEAL
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("frequency [Hz]", "amplitude [kN]")
+    legend = axes.get_legend()
+    assert legend is not None
+    assert legend.get_texts()[0].get_text().startswith("A: 64 ± 0.5 Hz, 3")
+    assert "aliasing" in figure_checks.words_below(drawing)
+    assert "500 Hz" in figure_checks.words_below(drawing)
+
+
+def test_the_piece_of_the_run_is_chosen() -> None:
+    values = np.where(TIME < 2.0, tone(30.0, 1.0), tone(80.0, 1.0))
+    for window, expected in (({"until": 1.999}, 30.0), ({"start": 2.0}, 80.0)):
+        curve = force_spectrum(run(values), over_time=False, **window).axes[0].lines[0]
+        # 500 records to a piece: bins of 2 Hz
+        assert curve.get_xdata()[np.argmax(curve.get_ydata())] == pytest.approx(expected, abs=1.01)
+
+
+def test_too_few_records_and_unknown_pins_are_refused() -> None:
+    with pytest.raises(InputError, match="at least 64 records"):
+        force_spectrum(run(TIME), until=0.03)
+    with pytest.raises(InputError, match="allowed: rear_base"):
+        force_spectrum(run(TIME), "rear_bas")
+    with pytest.raises(InputError, match="segments = 0"):
+        spectrum(TIME, TIME, 0)
+
+
+@pytest.mark.parametrize("values", [tone(64.0, 3e3), np.zeros_like(TIME), tone(8.0, 1.0) + tone(11.0, 0.9)])
+def test_nothing_is_cut_off_or_overlaps(values: np.ndarray) -> None:
+    with style.look():
+        figure_checks.check(force_spectrum(run(values)))
