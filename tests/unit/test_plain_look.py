@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import replace
 
 import pytest
@@ -48,7 +49,7 @@ def test_bodies_lie_one_behind_the_other() -> None:
     scenario = SCENES["ideal"]
     solids = [s for s in scenario.machine.look(scenario).solids if s.role is not Role.PIN]
     spans = sorted((s.mesh.bounds[0, 2], s.mesh.bounds[1, 2]) for s in solids)
-    for (_, far), (near, _) in zip(spans, spans[1:], strict=False):
+    for (_, far), (near, _) in itertools.pairwise(spans):
         assert far < near
 
 
