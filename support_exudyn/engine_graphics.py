@@ -30,9 +30,9 @@ def engine_graphics(mesh: Trimesh, colour: Colour, edges: Colour | None = None) 
     sharp = mesh.face_adjacency_edges[mesh.face_adjacency_angles > SHARP]
     ends = np.ascontiguousarray(mesh.vertices[sharp.ravel()])
     first = len(smooth.vertices)  # edges have points of their own, which no triangle uses
-    drawn["points"] = np.concatenate([np.asarray(drawn["points"]).ravel(), ends.ravel()])
-    drawn["normals"] = np.concatenate([np.asarray(drawn["normals"]).ravel(), np.zeros(ends.size)])
-    drawn["colors"] = np.concatenate([np.asarray(drawn["colors"]).ravel(), np.tile([*colour, 1.0], len(ends))])
-    drawn["edges"] = np.arange(first, first + len(ends))
+    drawn["points"] = np.concatenate([smooth.vertices, ends])
+    drawn["normals"] = np.concatenate([smooth.vertex_normals, np.zeros_like(ends)])
+    drawn["colors"] = np.tile([*colour, 1.0], (first + len(ends), 1))
+    drawn["edges"] = np.arange(first, first + len(ends)).reshape(-1, 2)
     drawn["edgeColor"] = [*edges, 1.0]
     return drawn

@@ -23,7 +23,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="folder for frame_0000.png and so on; the movie is written beside it. Default: RUN_frames beside "
         "RUN. With --still: the file of the picture",
     )
-    add("--frames-per-second", type=number, default=25.0, metavar="N", help="of the movie, 0.1 to 240 (25)")
+    add(
+        "--frames-per-second",
+        "--fps",
+        type=number,
+        default=25.0,
+        metavar="N",
+        help="of the movie, 0.1 to 240 (25)",
+    )
     add("--from", type=number, dest="start", metavar="T", help="first time shown [s] (start of the run)")
     add("--until", type=number, dest="end", metavar="T", help="last time shown [s] (end of the run)")
     add(

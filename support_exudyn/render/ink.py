@@ -13,6 +13,7 @@ from PIL import Image, ImageDraw, ImageFont
 Point = tuple[float, float]
 FINER = 3  # what is drawn with smooth edges is drawn so many times larger, and shrunk
 SMALLEST_FONT = 6  # [pixels]
+SHORTEST = 1.8  # length of an arrow that is drawn, of its shaft's thickness
 HEAD = 0.42  # half width of an arrow's head, of its length
 INK = "#1a1a1a"
 FAINT = "#6b6b6b"
@@ -113,9 +114,12 @@ class Sheet:
             )
 
     def arrow(self, tail: Point, tip: Point, colour: str, thick: float, cut: bool = False) -> None:
-        """An arrow with a white edge, so that it is seen on anything; cut: its shaft is broken."""
+        """An arrow with a white edge, so that it is seen on anything; cut: its shaft is broken.
+
+        One that is hardly longer than thick is not drawn.
+        """
         length = math.dist(tail, tip)
-        if length < 0.5:
+        if length < SHORTEST * thick:
             return
         along = ((tip[0] - tail[0]) / length, (tip[1] - tail[1]) / length)
         across = (-along[1], along[0])

@@ -77,7 +77,6 @@ class Inset:
         sheet.dashes(centre, self._gap, "#9a9a9a", 1.2 * u)
         self._trail(sheet, first, record)
         touching = bool(self._bore.touching[record])
-        sheet.disc(at, 4.0 * u, CONTACT if touching else FLIGHT, "#ffffff", 1.2 * u)
         if touching:
             away = math.dist(at, centre)
             if away > 0.0:
@@ -87,6 +86,7 @@ class Inset:
                 shorter = min(1.0, LONGEST * self._radius / max(math.hypot(*force), 1e-9))
                 tip = (wall[0] + shorter * force[0], wall[1] + shorter * force[1])
                 sheet.arrow(wall, tip, CONTACT, 7.0 * u, cut or shorter < 1.0)
+        sheet.disc(at, 4.0 * u, CONTACT if touching else FLIGHT, "#ffffff", 1.2 * u)
         sheet.onto(picture)
         left, top, right, _ = self._box
         write(picture, (left + 8 * u, top + 8 * u), self.title, 14 * u, anchor="lt", bold=True)

@@ -63,15 +63,16 @@ def _gif(path: Path, frames: Sequence[Path], rate: float, progress: Progress) ->
 
     images = reduced()
     first = next(images)
-    first.save(
-        path,
-        format="GIF",
-        save_all=True,
-        append_images=images,
-        duration=durations(len(frames), rate),
-        loop=0,
-        optimize=False,
-    )
+    with path.open("wb") as file:
+        first.save(
+            file,
+            format="GIF",
+            save_all=True,
+            append_images=images,
+            duration=durations(len(frames), rate),
+            loop=0,
+            optimize=False,
+        )
 
 
 def _palette(samples: Sequence[Path]) -> Image.Image:

@@ -19,7 +19,7 @@ from support_exudyn.render.stage import Image as Picture
 from support_exudyn.render.strip import Strip
 from support_exudyn.scenario import Scenario
 
-ARROW = 0.24  # length of the usual force's arrow, of the height of the machine's picture
+ARROW = 0.24  # length of the usual force's arrow, of the height of a machine's picture that is as wide as usual
 LONGEST = 0.42  # of an arrow in it
 
 
@@ -54,7 +54,8 @@ class Painter:
         seen = pin.size[moments.records] if moments.times.size > 1 else pin.size[inside]
         self._usual = usual(seen)
         self._largest = LONGEST / ARROW * self._usual
-        self._scale = ARROW * (layout.picture[3] - layout.picture[1]) / self._usual  # pixels to a newton
+        wide, high = layout.picture[2] - layout.picture[0], layout.picture[3] - layout.picture[1]
+        self._scale = ARROW * min(high, 0.55 * wide) / self._usual  # pixels to a newton
         left, top, right, _ = layout.panel
         if pin.bore is not None:
             self._inset = Inset((left, top, right, top + right - left), pin.bore, u)
@@ -130,6 +131,8 @@ class Painter:
         number_text = f"{size / 1e3:.1f} kN"
         write(frame, (left, top + 8 * u), f"force in {pin.name.replace('_', ' ')}", 14 * u, INK, "lt")
         write(frame, (left, top + 36 * u), number_text, 30 * u, INK if size > 0.0 else FAINT, "lt", True)
+        if cut:
+            write(frame, (left, top + 134 * u), "the arrow is cut short", 13 * u, FAINT, "lt")
         if self._inset is not None:
             shown = self._scale * drawn
             arrow: Point = (-float(direction[0]) * shown, -float(direction[1]) * shown)
@@ -177,7 +180,7 @@ def title(scenario: Scenario, pin: PinView | None) -> str:
 
 def _of_loose(pin: ClearancePin) -> str:
     """Clearance and friction."""
-    clearance = f"clearance {1e3 * pin.contact.bearing.clearance:.4g} mm"
+    clearance = f"radial clearance {1e3 * pin.contact.bearing.clearance:.4g} mm"
     friction = pin.contact.friction
     coefficient = getattr(friction, "sliding_coefficient", None)
     if coefficient is None:

@@ -139,7 +139,7 @@ class _Show:
         layout = Layout(*size, view is not None)
         left, top, right, bottom = layout.picture
         camera = self._scene.camera(right - left, bottom - top)
-        self._stage = Stage(self._scene.props(), camera, os.cpu_count() or 1)
+        self._stage = Stage(self._scene.props(), camera, _processors())
         self._painter = Painter(self._scene, layout, camera, view, shown)
 
     def machine(self, number: int) -> Picture:
@@ -153,6 +153,13 @@ class _Show:
     def save(self, machine: Picture, number: int, path: Path) -> None:
         """Write it."""
         self.frame(machine, number).save(path, format="PNG", compress_level=QUICKLY)
+
+
+def _processors() -> int:
+    """That this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
 
 
 def _check_size(size: tuple[int, int]) -> None:

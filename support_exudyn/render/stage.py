@@ -67,8 +67,8 @@ class Stage:
         node = self._system.AddNode(NodeRigidBodyEP(referenceCoordinates=[0, 0, 0, 1, 0, 0, 0]))
         self._system.AddObject(
             ObjectRigidBody(
-                physicsMass=1.0,
-                physicsInertia=[1, 1, 1, 0, 0, 0],
+                mass=1.0,
+                inertia=[1, 1, 1, 0, 0, 0],
                 nodeNumber=node,
                 visualization=VObjectRigidBody(graphicsData=[drawn]),
             )

@@ -1,0 +1,340 @@
+"""Frames and movies of short runs, small so that they are quick."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+import trimesh
+from PIL import Image
+from PIL.ImageColor import getrgb
+
+from studies.paper_machine import ideal_rise, loose_rise
+from support_exudyn import CubicStep, Held, Result, simulate
+from support_exudyn.__main__ import main
+from support_exudyn.figures.style import CONTACT, FLIGHT
+from support_exudyn.loads.roof import Roof
+from support_exudyn.render import render, still
+from support_exudyn.render.camera import Camera, direction_of_view
+from support_exudyn.render.layout import Layout
+from support_exudyn.render.movie import durations
+from support_exudyn.render.scene import Scene
+from support_exudyn.render.stage import Image as Picture
+from support_exudyn.render.stage import Prop, Stage
+from user_forces import InputError
+
+SIZE = (320, 180)
+LOOSE = "rear_base"
+
+
+@pytest.fixture(scope="module")
+def bouncing() -> Result:
+    """A journal that falls and bounces."""
+    return simulate(replace(loose_rise(1.5, 0.25, 5e-4), duration=0.2))
+
+
+@pytest.fixture(scope="module")
+def rising() -> Result:
+    """Ideal pins, 0.3 m in 0.3 s."""
+    return simulate(replace(ideal_rise(1e-3), drive=CubicStep(stroke=0.3, start=0.0, end=0.3), duration=0.3))
+
+
+@pytest.fixture(scope="module")
+def spatial() -> Result:
+    return simulate(replace(loose_rise(1.5, 0.25, 1e-3), dimensions=3, duration=0.05))
+
+
+def part(picture: Picture, size: tuple[int, int]) -> Picture:
+    """That with the machine."""
+    left, top, right, bottom = Layout(*size, True).picture
+    return picture[top:bottom, left:right]
+
+
+def pixels_of(picture: Picture, colour: str) -> np.ndarray:
+    """Rows and columns of the pixels that have just this colour."""
+    return np.argwhere((picture == np.array(getrgb(colour))).all(axis=-1))
+
+
+# --- what is seen ---
+
+
+def test_the_camera_sees_points_where_the_ray_tracer_draws_them() -> None:
+    size = (320, 180)
+    camera = Camera(direction_of_view(), (0.3, 0.2, -0.4), 4.0, *size)
+    cube = Prop(trimesh.creation.box((0.05, 0.05, 0.05)), (1.0, 0.0, 0.0), edges=False)
+    stage = Stage([cube], camera)
+    for point in ((0.3, 0.2, -0.4), (1.0, 0.2, 0.0), (0.0, 1.0, 0.0), (0.3, 0.0, 0.7)):
+        picture = stage.image([(np.array(point), np.eye(3))]).astype(int)
+        rows, columns = np.nonzero(picture[:, :, 1] < 200)
+        # half a pixel: what a middle of so few pixels can be known to
+        assert (columns.mean() + 0.5, rows.mean() + 0.5) == pytest.approx(
+            camera.pixels(np.array([point]))[0], abs=0.5
+        )
+
+
+def test_forward_is_to_the_left_and_up_is_up() -> None:
+    camera = Camera(direction_of_view(), (0.0, 0.0, 0.0), 4.0, *SIZE)
+    forward, up = camera.arrow(np.array([1.0, 0.0, 0.0])), camera.arrow(np.array([0.0, 1.0, 0.0]))
+    assert forward[0] < -0.9 * camera.scale
+    assert up[1] < -0.9 * camera.scale
+    nearer = camera.rotation.apply([[0.0, 0.0, -1.0], [0.0, 0.0, 1.0]])[:, 2]
+    assert nearer[0] > nearer[1]  # the left side is seen
+
+
+def test_the_machine_moves_and_the_camera_does_not(rising: Result) -> None:
+    first, last = (part(still(rising, t, size=SIZE), SIZE).astype(int) for t in (0.0, 0.3))
+    changed = np.abs(first - last).max(axis=-1) > 30
+    assert changed.mean() > 0.05
+    edge = round(0.06 * changed.shape[1])
+    assert not changed[:, :edge].any()  # the coal face
+    assert not changed[-12:].any()  # the floor in front of the machine
+
+
+def test_a_roof_that_presses_is_drawn_where_it_is() -> None:
+    scenario = replace(ideal_rise(1e-3), drive=Held(), duration=0.1)
+    tip = scenario.linkage.points["tip"]
+    roof = Roof(
+        body="canopy",
+        point=tip.point,
+        descent=CubicStep(stroke=0.05, start=0.0, end=0.1),
+        stiffness=1e3,
+        gap=0.2,
+    )
+    run = simulate(replace(scenario, loads={"roof": roof}))
+    scene = Scene(run)
+    top = max(solid.mesh.bounds[1, 1] for solid in scene.look.solids if solid.body == "canopy")
+    assert scene.roof(0) == pytest.approx(top + 0.2)
+    assert scene.roof(run.time.size - 1) == pytest.approx(top + 0.15)
+    assert scene.surroundings is not None
+
+
+def test_the_arrow_is_there_in_contact_and_not_in_flight(bouncing: Result) -> None:
+    force = bouncing[f"pin.{LOOSE}.force"]
+    size = (640, 360)
+    hit, flight = float(bouncing.time[force.argmax()]), float(bouncing.time[3])
+    assert force[3] == 0.0
+    touching, flying = (
+        part(still(bouncing, hit, size=size), size),
+        part(still(bouncing, flight, size=size), size),
+    )
+    assert len(pixels_of(touching, CONTACT)) > 100
+    assert not len(pixels_of(flying, CONTACT))
+    assert len(pixels_of(flying, FLIGHT)) > 10
+    assert not len(pixels_of(touching, FLIGHT))
+
+
+def test_the_mark_is_on_the_pin(bouncing: Result) -> None:
+    size = (640, 360)
+    flying = part(still(bouncing, float(bouncing.time[3]), size=size), size)
+    row, column = pixels_of(flying, FLIGHT).mean(axis=0)
+    scene = Scene(bouncing)
+    camera = scene.camera(flying.shape[1], flying.shape[0])
+    pin = next(solid for solid in scene.look.solids if solid.name == f"pin_{LOOSE}")
+    x, y = bouncing.scenario.linkage.pins[LOOSE].first_point
+    place = camera.pixels(np.array([[x, y, pin.mesh.bounds[0, 2]]]))[0]
+    assert (column, row) == pytest.approx(place, abs=1.5)  # pixels; the mark's middle is rounded
+
+
+def test_a_run_in_space_is_shown(spatial: Result) -> None:
+    picture = still(spatial, 0.02, size=SIZE)
+    assert picture.shape == (180, 320, 3)
+    assert picture.dtype == np.uint8
+    assert np.ptp(picture) > 200
+
+
+@pytest.mark.parametrize("pin", ["rear_shield", "shield_canopy"])
+def test_any_pin_can_be_shown(bouncing: Result, pin: str) -> None:
+    shown, default = (still(bouncing, 0.1, size=SIZE, pin=name) for name in (pin, None))
+    assert (shown != default).any()
+
+
+# --- files ---
+
+
+def test_frames_and_a_gif(bouncing: Result, tmp_path: Path) -> None:
+    written = render(bouncing, tmp_path / "run_frames", size=SIZE)
+    assert [path.name for path in written.frames] == [f"frame_{n:04d}.png" for n in range(6)]  # 0 to 0.2 s
+    for path in written.frames:
+        with Image.open(path) as frame:
+            assert frame.size == SIZE
+    assert written.movie == tmp_path / "run.gif"
+    with Image.open(written.movie) as movie:
+        assert movie.n_frames == 6
+        assert movie.size == SIZE
+        length = 0.0
+        for n in range(movie.n_frames):
+            movie.seek(n)
+            length += movie.info["duration"]
+        assert length == 240.0
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["run.gif", "run_frames"]
+
+
+def test_frames_are_what_stills_are(bouncing: Result, tmp_path: Path) -> None:
+    frames = render(bouncing, tmp_path / "f", start=0.04, end=0.12, size=SIZE, movie="none").frames
+    assert len(frames) == 3
+    with Image.open(frames[1]) as frame:
+        picture = np.asarray(frame)
+    machine = slice(*Layout(*SIZE, True).picture[1::2])
+    other = still(bouncing, 0.08, size=SIZE)[machine]
+    # arrows are scaled by what is shown, and numbers stand elsewhere: the machine is the same
+    assert (np.abs(picture[machine].astype(int) - other.astype(int)).max(axis=-1) > 8).mean() < 0.05
+
+
+def test_slow_motion_has_more_frames(bouncing: Result, tmp_path: Path) -> None:
+    written = render(bouncing, tmp_path / "f", start=0.05, end=0.06, speed=0.05, size=SIZE)
+    assert len(written.frames) == 6
+    assert written.movie is not None
+    with Image.open(written.movie) as movie:
+        assert movie.n_frames == 6  # none is dropped because it is like the one before
+
+
+def test_an_mp4_has_all_frames(bouncing: Result, tmp_path: Path) -> None:
+    ffmpeg = pytest.importorskip("imageio_ffmpeg")
+    written = render(bouncing, tmp_path / "run_frames", size=SIZE, movie="mp4", end=0.16)
+    assert written.movie == tmp_path / "run.mp4"
+    words = [ffmpeg.get_ffmpeg_exe(), "-i", str(written.movie), "-f", "rawvideo", "-pix_fmt", "rgb24", "-"]
+    decoded = subprocess.run(words, check=True, capture_output=True)
+    assert b"320x180" in decoded.stderr
+    assert b"25 fps" in decoded.stderr
+    pictures = np.frombuffer(decoded.stdout, dtype=np.uint8).reshape(-1, 180, 320, 3)
+    assert len(pictures) == 5
+    with Image.open(written.frames[-1]) as frame:
+        apart = np.abs(np.asarray(frame).astype(int) - pictures[-1]).mean()
+    assert apart < 8.0  # of 255: compression
+
+
+def test_earlier_frames_are_replaced_and_nothing_else(bouncing: Result, tmp_path: Path) -> None:
+    folder = tmp_path / "f"
+    folder.mkdir()
+    for name in ("frame_0000.png", "frame_0044.png", "frame_best.png", "notes.txt"):
+        (folder / name).write_text("mine")
+    render(bouncing, folder, end=0.04, size=SIZE, movie="none")
+    assert sorted(path.name for path in folder.iterdir()) == [
+        *("frame_0000.png", "frame_0001.png", "frame_best.png", "notes.txt")
+    ]
+    assert (folder / "notes.txt").read_text() == "mine"
+    assert (folder / "frame_0000.png").read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize("share", [0.2, 0.9])
+def test_an_interruption_leaves_all_as_it_was(bouncing: Result, tmp_path: Path, share: float) -> None:
+    render(bouncing, tmp_path / "run_frames", end=0.04, size=SIZE)
+    before = {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()}
+
+    def interrupt(done: float) -> None:
+        if done > share:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        render(bouncing, tmp_path / "run_frames", size=SIZE, progress=interrupt)
+    assert {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()} == before
+    assert len(list(tmp_path.iterdir())) == 2
+
+
+def test_progress_goes_to_the_end(bouncing: Result, tmp_path: Path) -> None:
+    told: list[float] = []
+    render(bouncing, tmp_path / "f", end=0.08, size=SIZE, progress=told.append)
+    assert told == sorted(told)
+    assert told[-1] == 1.0
+
+
+@pytest.mark.parametrize(("number", "rate"), [(126, 25.0), (90, 30.0), (7, 0.7), (101, 50.0)])
+def test_frames_of_a_gif_last_as_long_as_the_movie(number: int, rate: float) -> None:
+    lengths = durations(number, rate)
+    assert len(lengths) == number
+    assert all(length >= 20 and length % 10 == 0 for length in lengths)
+    assert sum(lengths) == pytest.approx(
+        1000.0 * number / rate, abs=5.0
+    )  # [ms], half of a hundredth of a second
+
+
+# --- what is refused ---
+
+
+@pytest.mark.parametrize(
+    ("wrong", "said"),
+    [
+        ({"frames_per_second": 0.0}, "frames_per_second = 0"),
+        ({"frames_per_second": float("nan")}, "frames_per_second = nan"),
+        ({"frames_per_second": 60.0}, "of a GIF"),
+        ({"speed": 0.0}, "speed = 0"),
+        ({"speed": 1e-6}, "frames from"),
+        ({"start": -1.0}, "from = -1 s: allowed: 0 to 0.2 s"),
+        ({"end": 9.0}, "until = 9 s: allowed: 0 to 0.2 s"),
+        ({"start": 0.1, "end": 0.05}, "later than"),
+        ({"movie": "avi"}, "'avi': allowed: gif, mp4, none"),
+        ({"size": (321, 180)}, "width = 321"),
+        ({"size": (320, 20000)}, "height = 20000"),
+        ({"pin": "knee"}, "no such pin; allowed: rear_base"),
+    ],
+)
+def test_what_cannot_be_is_refused_before_anything_is_written(
+    bouncing: Result, tmp_path: Path, wrong: dict[str, object], said: str
+) -> None:
+    with pytest.raises(InputError, match=said.replace("(", r"\(")):
+        render(bouncing, tmp_path / "f", **{"size": SIZE, **wrong})  # type: ignore[arg-type]
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_run_that_has_not_recorded_its_bodies_is_refused(tmp_path: Path) -> None:
+    run = simulate(replace(loose_rise(1.5, 0.0, 1e-3), duration=0.01, channels=("pin.*",)))
+    with pytest.raises(InputError, match=r"was not recorded.*channels = \('\*',\)"):
+        render(run, tmp_path / "f", size=SIZE)
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_file_in_place_of_the_folder_is_refused(bouncing: Result, tmp_path: Path) -> None:
+    (tmp_path / "f").write_text("mine")
+    with pytest.raises(NotADirectoryError, match="folder of frames"):
+        render(bouncing, tmp_path / "f", end=0.04, size=SIZE)
+    assert [path.name for path in tmp_path.iterdir()] == ["f"]
+
+
+def test_an_mp4_without_its_library_is_refused(
+    bouncing: Result, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
+    with pytest.raises(InputError, match=r"support-exudyn\[movie\]"):
+        render(bouncing, tmp_path / "f", size=SIZE, movie="mp4")
+
+
+# --- command line ---
+
+
+def test_the_command_writes_beside_the_run(
+    bouncing: Result, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = bouncing.save(tmp_path / "loose.h5")
+    assert main(["render", str(path), "--size", "320x180", "--until", "0.04"]) == 0
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["loose.gif", "loose.h5", "loose_frames"]
+    assert sorted(path.name for path in (tmp_path / "loose_frames").iterdir()) == [
+        *("frame_0000.png", "frame_0001.png")
+    ]
+    assert "2 frames" in capsys.readouterr().out
+
+
+def test_the_command_writes_a_still(
+    bouncing: Result, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = bouncing.save(tmp_path / "loose.h5")
+    assert main(["render", str(path), "--size", "320x180", "--still", "0.1"]) == 0
+    with Image.open(tmp_path / "loose_0.1s.png") as picture:
+        assert picture.size == SIZE
+    assert main(["render", str(path), "--still", "0.1", "--out", str(tmp_path / "a.jpg")]) == 1
+    assert ".png" in capsys.readouterr().err
+    assert main(["render", str(path), "--still", "7"]) == 1
+    assert "time = 7 s: allowed: 0 to 0.2 s" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    "words", [["--size", "big"], ["--size", "320"], ["--speed", "slow"], ["--until", "inf"], ["--movie", "avi"]]
+)
+def test_the_command_refuses_in_a_line(words: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as ended:
+        main(["render", "run.h5", *words])
+    assert ended.value.code == 2
+    assert "allowed" in capsys.readouterr().err or words[0] == "--movie"

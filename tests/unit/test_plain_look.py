@@ -1,0 +1,65 @@
+"""What machines look like that say no more of it."""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import replace
+
+import pytest
+
+from studies.slider_crank import scenarios
+from support_exudyn import ClearancePin, Scenario
+from support_exudyn.drawing.plain import carrier
+from support_exudyn.drawing.solid import Role
+from support_exudyn.linkages.impact_stand import ImpactStand
+from support_exudyn.machine import GROUND
+from user_forces import Frictionless, JournalBearing, JournalContact, LankaraniNikravesh
+
+BEARING = JournalBearing(bore_radius=0.3, clearance=0.03)
+LAW = LankaraniNikravesh(stiffness=1e9, restitution=0.7)
+STAND = Scenario(
+    machine=ImpactStand(bore_mass=3.0, journal_mass=2.0, speed=0.1),
+    pins={"pin": ClearancePin(contact=JournalContact(bearing=BEARING, normal=LAW, friction=Frictionless()))},
+    duration=0.1,
+)
+SCENES = {**scenarios(True), "stand": STAND}
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_every_body_and_the_ground_are_closed_surfaces(name: str) -> None:
+    scenario = SCENES[name]
+    shown = scenario.machine.look(scenario)
+    bodies = set(scenario.linkage.bodies)
+    assert bodies <= {solid.body for solid in shown.solids} <= {*bodies, GROUND}
+    for solid in shown.solids:
+        assert solid.mesh.is_watertight, solid.name
+        assert solid.mesh.volume > 0.0, solid.name
+
+
+def test_the_slider_is_a_block_on_a_rail_longer_than_it() -> None:
+    scenario = SCENES["ideal"]
+    solids = {solid.name: solid for solid in scenario.machine.look(scenario).solids}
+    block, rail = (solids[name].mesh.bounds for name in ("slider", GROUND))
+    assert block[1, 0] - block[0, 0] > block[1, 1] - block[0, 1]
+    assert rail[0, 0] < block[0, 0]
+    assert block[1, 0] < rail[1, 0]
+
+
+def test_bodies_lie_one_behind_the_other() -> None:
+    scenario = SCENES["ideal"]
+    solids = [s for s in scenario.machine.look(scenario).solids if s.role is not Role.PIN]
+    spans = sorted((s.mesh.bounds[0, 2], s.mesh.bounds[1, 2]) for s in solids)
+    for (_, far), (near, _) in itertools.pairwise(spans):
+        assert far < near
+
+
+def test_a_journal_fits_its_bore() -> None:
+    solids = {solid.name: solid for solid in STAND.machine.look(STAND).solids}
+    pin = solids["pin_pin"]
+    assert pin.body == "journal"
+    # a polygon of 32 corners that touches its circle
+    assert pin.mesh.bounds[1, 0] == pytest.approx(BEARING.journal_radius, rel=1e-9)
+    assert carrier(STAND, "pin") == "bore"
+    other = replace(STAND, pins={"pin": replace(STAND.clearance_pins["pin"], bore="second")})
+    assert carrier(other, "pin") == "journal"
+    assert {s.name: s for s in other.machine.look(other).solids}["pin_pin"].body == "bore"
