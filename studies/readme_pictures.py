@@ -30,7 +30,6 @@ from support_exudyn.render import render, still
 
 FOLDER = Path(__file__).parent / "pictures"
 MIDDLE = 4.0  # of the rise [s]
-COLOURS = 192  # of the picture of the machine
 MOVIE_SIZE = (800, 450)
 MOVIE_RATE = 10.0  # frames a second
 MOVIE_SPEED = 2.0  # so many times as fast as the run
@@ -59,9 +58,8 @@ class Runs:
 def machine(runs: Runs, path: Path) -> None:
     """The support in mid-rise."""
     picture = Image.fromarray(still(runs.loose, MIDDLE))
-    few = picture.quantize(COLOURS, dither=Image.Dither.NONE)
     with whole_file(path) as temporary:
-        few.save(temporary, format="PNG", optimize=True)
+        picture.save(temporary, format="PNG", optimize=True)
 
 
 def rise(runs: Runs, path: Path) -> None:
