@@ -134,6 +134,6 @@ def painted(picture: np.ndarray) -> np.ndarray:
     """Where a machine is in a picture: neither white, nor the black of words, nor the axes in the corner."""
     colours = picture.astype(int)
     inside = (colours.min(axis=2) < 225) & (colours.max(axis=2) > 60)
-    inside[:100, :500] = inside[480:, :150] = False
+    inside[:100, :500] = inside[400:, :150] = False
     inside[570:] = False
     return inside
