@@ -12,6 +12,7 @@ import numpy as np
 from support_exudyn.estimate import Estimate
 from support_exudyn.figures.journal import pins
 from support_exudyn.figures.units import readable, said
+from support_exudyn.figures.windows import inside
 from support_exudyn.pins import ClearancePin, Pin
 from support_exudyn.result import Result
 from user_forces.values import Value
@@ -75,17 +76,22 @@ def came_out(result: Result, after: float, until: float) -> list[Row]:
 
     Without an accuracy the errors are empty. Largest forces at any step and energies are of
     the whole run.
+
+    Raises InputError if no record lies between.
     """
     rows: list[Row] = []
+    chosen = inside(result, after, until, fewest=1)
     if result.coarser is not None:
         rows += [(name, *with_error(found)) for name, found in result.numbers(after, until).items()]
     else:
-        chosen = (result.time >= after) & (result.time <= until)
-        for pin in pins(result) if chosen.any() else ():
+        for pin in pins(result):
             force = result[f"pin.{pin}.force"][chosen]
             for word, value in (("mean", force.mean()), ("spread", force.std()), ("largest", force.max())):
                 rows.append((f"pin.{pin}.force.{word}", *alone(float(value), "N")))
-        rows += [(f"pin.{pin}.largest_force", *alone(f, "N")) for pin, f in result.largest_force.items()]
+        rows += [
+            (f"pin.{pin}.largest_force, any step of the run", *alone(f, "N"))
+            for pin, f in result.largest_force.items()
+        ]
     for name, value in _energies(result).items():
         rows.append((name, *alone(value, "J")))
     return rows
@@ -108,16 +114,21 @@ def touches(result: Result) -> list[Row]:
     return rows
 
 
-def of_channels(result: Result, names: Iterable[str]) -> list[Row]:
-    """Channels: name, unit, least, mean and largest value, meaning."""
+def of_channels(result: Result, names: Iterable[str], after: float, until: float) -> list[Row]:
+    """Channels between two times [s]: name, unit, least, mean and largest value, meaning.
+
+    Raises InputError if no record lies between.
+    """
     rows: list[Row] = []
+    chosen = inside(result, after, until, fewest=1)
     for name in names:
         channel = result.channels[name]
-        unit = readable(channel.unit, float(np.abs(channel.values).max()))
-        largest = float(np.abs(channel.values).max())
+        values = channel.values[chosen]
+        largest = float(np.abs(values).max())
+        unit = readable(channel.unit, largest)
         numbers = (
             f"{unit.scale * (value if abs(value) > ROUNDING * largest else 0.0):.{DIGITS}g}"
-            for value in (float(f()) for f in (channel.values.min, channel.values.mean, channel.values.max))
+            for value in (float(f()) for f in (values.min, values.mean, values.max))
         )
         rows.append((name, unit.name, *numbers, channel.meaning))
     return rows

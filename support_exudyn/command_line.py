@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import argparse
+import math
 import os
 import sys
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import NoReturn
 
@@ -36,6 +38,26 @@ def count(text: str, most: int = sys.maxsize) -> int:
     if number > most:
         raise argparse.ArgumentTypeError(f"{short(number)}: allowed: from 1 to {most}")
     return number
+
+
+def number(text: str, low: float = -math.inf, high: float = math.inf) -> float:
+    """A finite number from the command line, from low to high."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not (math.isfinite(value) and low <= value <= high):
+        bounds = [f"from {low:g}" if low > -math.inf else "", f"to {high:g}" if high < math.inf else ""]
+        said = " ".join(filter(None, ["a number", *bounds]))
+        raise argparse.ArgumentTypeError(f"{short(text)}: allowed: {said}")
+    return value
+
+
+def add_times(parser: argparse.ArgumentParser, start: float | None = None, end: float | None = None) -> None:
+    """Take --from and --until, times of a run, as `start` and `end` [s]; what they are if they are not given."""
+    say, time = parser.add_argument, partial(number, low=0.0)
+    say("--from", dest="start", type=time, default=start, metavar="T", help="first time [s] (the start)")
+    say("--until", dest="end", type=time, default=end, metavar="T", help="last time [s] (the end)")
 
 
 def folder(text: str) -> Path:

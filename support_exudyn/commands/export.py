@@ -3,22 +3,22 @@
 from __future__ import annotations
 
 import argparse
-import math
 import time
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 from rich.console import Console
 from rich.progress import Progress as Bar
 
-from support_exudyn.command_line import count, folder
+from support_exudyn.command_line import add_times, count, folder, number
 from support_exudyn.progress import Progress
 from support_exudyn.result import Result
-from user_forces.values import InputError, short
+from user_forces.values import InputError
 
 HELP = "moving meshes for ParaView (XDMF, VTU) and tables of all channels (CSV, HDF5)"
 FORMATS = ("xdmf", "vtu", "csv", "hdf5")
-LARGEST = 1e9  # of a number on the command line
+SLOWEST, FASTEST = 1e-9, 1e9  # frames a second
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -46,23 +46,20 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     density.add_argument("--every", type=count, metavar="N", help="one in N records")
     density.add_argument(
         "--frames-per-second",
-        type=_rate,
+        type=partial(number, low=SLOWEST, high=FASTEST),
         metavar="F",
         help="the records nearest to F times per second of the run; by default 25 for meshes, and all records "
         "for tables",
     )
-    parser.add_argument(
-        "--from", dest="after", type=_seconds, default=0.0, metavar="T", help="first time [s]; by default 0"
-    )
-    parser.add_argument("--until", type=_seconds, metavar="T", help="last time [s]; by default the run's end")
+    add_times(parser, 0.0)
 
 
 def run(given: argparse.Namespace) -> None:
     """Write what was asked for, and print what was written."""
     from support_exudyn.export import MESHES, TABLES, Sampling, to_csv, to_hdf5, to_vtu, to_xdmf  # and meshio
 
-    if given.until is not None and given.until < given.after:
-        raise InputError(f"--from {given.after:g} --until {given.until:g}: allowed: --until not before --from")
+    if given.end is not None and given.end < given.start:
+        raise InputError(f"--from {given.start:g} --until {given.end:g}: allowed: --until not before --from")
     result = Result.load(given.run)
     name, out = given.run.stem, given.out or given.run.parent / f"{given.run.stem}_export"
 
@@ -71,8 +68,8 @@ def run(given: argparse.Namespace) -> None:
         return Sampling(
             every=given.every,
             frames_per_second=given.frames_per_second if said else usual.frames_per_second,
-            after=given.after,
-            until=given.until,
+            after=given.start,
+            until=given.end,
         )
 
     work: dict[str, Callable[[Progress], tuple[Path, ...]]] = {
@@ -81,7 +78,7 @@ def run(given: argparse.Namespace) -> None:
         "csv": lambda progress: to_csv(result, out / f"{name}.csv", sampling(TABLES), progress),
         "hdf5": lambda progress: to_hdf5(result, out / f"{name}_channels.h5", sampling(TABLES)),
     }
-    console = Console()
+    console = Console(stderr=True)
     for kind in dict.fromkeys(given.to):
         with Bar(console=console, transient=True, disable=not console.is_terminal) as bar:
             started = time.perf_counter()
@@ -94,23 +91,3 @@ def run(given: argparse.Namespace) -> None:
 
 def _counted(files: int) -> str:
     return "1 file" if files == 1 else f"{files} files"
-
-
-def _rate(text: str) -> float:
-    """A positive number from the command line."""
-    return _number(text, lambda number: number > 0.0, f"a number > 0, up to {LARGEST:g}")
-
-
-def _seconds(text: str) -> float:
-    """A time from the command line [s]."""
-    return _number(text, lambda number: number >= 0.0, f"seconds from 0 on, up to {LARGEST:g}")
-
-
-def _number(text: str, fits: Callable[[float], bool], allowed: str) -> float:
-    try:
-        number = float(text)
-    except ValueError:
-        number = math.nan
-    if not (fits(number) and number <= LARGEST):
-        raise argparse.ArgumentTypeError(f"{short(text)}: allowed: {allowed}")
-    return number

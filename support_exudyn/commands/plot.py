@@ -7,13 +7,14 @@ import math
 import os
 import sys
 from collections.abc import Callable
+from functools import partial
 from typing import TYPE_CHECKING
 
-from support_exudyn.command_line import folder
+from support_exudyn.command_line import add_times, folder, number
 from support_exudyn.figures.journal import chosen_pin, loose_pins
 from support_exudyn.figures.names import matching
 from support_exudyn.result import Result
-from user_forces.values import InputError, short
+from user_forces.values import InputError
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -36,13 +37,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--pin", metavar="NAME", help="pin of orbit, section and spectrum (the first loose one)"
     )
-    parser.add_argument(
-        "--from", dest="start", type=seconds, default=-math.inf, metavar="T", help="draw from this time on [s]"
-    )  # fmt: skip
-    parser.add_argument("--until", type=seconds, default=math.inf, metavar="T", help="draw up to this time [s]")
+    add_times(parser, -math.inf, math.inf)
     parser.add_argument(
         "--phase",
-        type=share,
+        type=partial(number, low=0.0, high=1.0),
         default=0.0,
         metavar="SHARE",
         help="of the period at which a section looks, 0 to 1",
@@ -54,28 +52,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--out", type=folder, metavar="DIR", help="folder of the figures (RUN_figures beside the run)"
     )
     parser.add_argument("--show", action="store_true", help="open them in windows, too")
-
-
-def seconds(text: str) -> float:
-    """A time from the command line."""
-    try:
-        time = float(text)
-    except ValueError:
-        time = math.nan
-    if not math.isfinite(time):
-        raise argparse.ArgumentTypeError(f"{short(text)}: allowed: a time in s")
-    return time
-
-
-def share(text: str) -> float:
-    """A share from the command line."""
-    try:
-        number = float(text)
-    except ValueError:
-        number = math.nan
-    if not 0.0 <= number <= 1.0:
-        raise argparse.ArgumentTypeError(f"{short(text)}: allowed: from 0 to 1")
-    return number
 
 
 def run(given: argparse.Namespace) -> None:
@@ -135,7 +111,7 @@ def _overview(result: Result, given: argparse.Namespace) -> tuple[dict[str, Draw
 def _of_channels(result: Result, given: argparse.Namespace, names: list[str]) -> dict[str, Draw]:
     from support_exudyn.figures.channels import over_time
 
-    return {"channels": lambda: over_time(result, names, given.start, given.until)}
+    return {"channels": lambda: over_time(result, names, given.start, given.end)}
 
 
 def _of_pin(result: Result, given: argparse.Namespace, pin: str | None) -> dict[str, Draw]:
@@ -144,7 +120,7 @@ def _of_pin(result: Result, given: argparse.Namespace, pin: str | None) -> dict[
     from support_exudyn.figures.poincare import poincare
     from support_exudyn.figures.spectrum import force_spectrum
 
-    ends = given.start, given.until
+    ends = given.start, given.end
     pair = matching(result.channels, given.section)
     loose = pin if pin in loose_pins(result) else None
     name = f"_{pin}" if pin else ""

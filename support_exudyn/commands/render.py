@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import re
 
-from support_exudyn.command_line import folder
+from support_exudyn.command_line import add_times, folder, number
 from support_exudyn.result import Result
 from user_forces.values import InputError, short
 
@@ -31,8 +31,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="N",
         help="of the movie, 0.1 to 240 (25)",
     )
-    add("--from", type=number, dest="start", metavar="T", help="first time shown [s] (start of the run)")
-    add("--until", type=number, dest="end", metavar="T", help="last time shown [s] (end of the run)")
+    add_times(parser)
     add(
         "--speed",
         type=number,
@@ -106,17 +105,6 @@ def _still(given: argparse.Namespace, result: Result) -> None:
     with whole_file(path) as temporary:
         Image.fromarray(picture).save(temporary, format="PNG")
     print(path)
-
-
-def number(text: str) -> float:
-    """A finite number from the command line."""
-    try:
-        value = float(text)
-    except ValueError:
-        value = float("nan")
-    if not abs(value) < float("inf"):
-        raise argparse.ArgumentTypeError(f"{short(text)}: allowed: a number")
-    return value
 
 
 def size(text: str) -> tuple[int, int]:

@@ -14,13 +14,14 @@ from rich.markup import escape
 from rich.table import Table
 
 from support_exudyn import account
-from support_exudyn.command_line import folder
-from support_exudyn.commands.plot import seconds
+from support_exudyn.command_line import add_times, folder
+from support_exudyn.figures import windows
 from support_exudyn.figures.names import matching
 from support_exudyn.result import Result
 
 HELP = "tables of what a run was and what came out of it"
 NARROWEST = 25  # characters that meanings are worth showing in
+WHOLE = (0.0, math.inf)  # run
 PIPED = 150  # characters of a line where there is no terminal
 
 
@@ -31,12 +32,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "channels", nargs="*", metavar="CHANNEL", help="only these: names or patterns, such as 'pin.*.force'"
     )
     parser.add_argument("--all", action="store_true", help="all channels, not only those looked at first")
-    parser.add_argument(
-        "--from", dest="start", type=seconds, default=0.0, metavar="T", help="numbers from this time on [s]"
-    )  # fmt: skip
-    parser.add_argument(
-        "--until", type=seconds, default=math.inf, metavar="T", help="numbers up to this time [s]"
-    )
+    add_times(parser, *WHOLE)
 
 
 def run(given: argparse.Namespace) -> None:
@@ -51,28 +47,30 @@ def run(given: argparse.Namespace) -> None:
 
 def _tables(result: Result, given: argparse.Namespace) -> None:
     names = matching(result.channels, given.channels)
+    ends = given.start, given.end
+    piece = "" if ends == WHOLE else f", {windows.said(result, *ends)}"
     console = Console(width=None if sys.stdout.isatty() else PIPED, highlight=False)
     if names:
-        _show_channels(console, result, names, "channels")
+        _show_channels(console, account.of_channels(result, names, *ends), f"channels{piece}")
         return
+    numbers = account.came_out(result, *ends)
     _show(console, "what was run", (), account.what_was_run(result))
     _show(console, "how", (), account.how(result))
-    numbers = account.came_out(result, given.start, given.until)
     known = (
         "± estimated numerical error" if result.coarser else "numerical errors not known: no accuracy was asked"
     )
-    _show(console, f"what came out ({known})", ("number", ">value", ">±", "unit"), numbers)
+    _show(console, f"what came out{piece} ({known})", ("number", ">value", ">±", "unit"), numbers)
     if rows := account.touches(result):
         header = ("pin", "touch", ">time", ">lasts", ">approach", ">parting")
         _show(console, "touches, and speeds of approach and parting", header, rows)
     telling = [name for name in result.channels if name != "time"] if given.all else account.telling(result)
     rest = len(result.channels) - 1 - len(telling)
-    _show_channels(console, result, telling, f"channels ({rest} more: --all)" if rest else "channels")
+    more = f" ({rest} more: --all)" if rest else ""
+    _show_channels(console, account.of_channels(result, telling, *ends), f"channels{piece}{more}")
 
 
-def _show_channels(console: Console, result: Result, names: Sequence[str], title: str) -> None:
+def _show_channels(console: Console, rows: list[account.Row], title: str) -> None:
     header: tuple[str, ...] = ("channel", "unit", ">least", ">mean", ">largest", "meaning")
-    rows = account.of_channels(result, names)
     taken = sum(max(len(row[n]) for row in rows) + 3 for n in range(len(header) - 1))
     if console.width - taken < NARROWEST:  # the numbers first
         header, rows = header[:-1], [row[:-1] for row in rows]
