@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from support_exudyn.drawing.poses import Poses
+from support_exudyn.drawing.poses import WHY, Poses
 from support_exudyn.recipes import chosen
+from support_exudyn.recorded import recorded
 from support_exudyn.result import Result
 from support_exudyn.scenario import Scenario
 from support_exudyn.spatial.motion import UNTURNED, parameter_rates
@@ -45,12 +46,6 @@ def coordinates(result: Result) -> dict[str, tuple[Series, Series]]:
     They are what has changed since the start posture: place of the centre of mass [m], then the angle [rad],
     or the four Euler parameters. Raises InputError if a channel that this needs was not recorded.
     """
-    missing = [name for name in channels_of_bodies(result.scenario) if name not in result.channels]
-    if missing:
-        raise InputError(
-            f"channel {missing[0]!r}: was not recorded, and without it nobody knows where the body is; "
-            "allowed: runs of a scenario with channels = ('*',)"
-        )
     if result.scenario.dimensions == 3:
         poses = Poses(result)
         return {body: _in_space(poses, body) for body in result.scenario.space.bodies}
@@ -59,7 +54,7 @@ def coordinates(result: Result) -> dict[str, tuple[Series, Series]]:
 
 def _in_plane(result: Result, name: str) -> tuple[Series, Series]:
     body = result.scenario.linkage.bodies[name]
-    columns = [result[f"{name}.{what}"] for what in IN_PLANE]
+    columns = [recorded(result, f"{name}.{what}", WHY) for what in IN_PLANE]
     return np.column_stack(columns[:3]) - [*body.centre, body.angle], np.column_stack(columns[3:])
 
 

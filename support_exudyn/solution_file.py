@@ -26,7 +26,7 @@ from support_exudyn.model import Model, model
 from support_exudyn.progress import Progress
 from support_exudyn.result import Result
 from support_exudyn.scenario import Scenario
-from user_forces.values import InputError, short
+from user_forces.values import InputError
 
 Solution = dict[str, Any]  # as LoadSolutionFile gives it and SolutionViewer takes it
 DIGITS = 17  # as many as tell numbers of 64 bits apart
@@ -162,7 +162,7 @@ def read_solution(path: str | Path) -> Solution:
         if not np.isfinite(found["data"]).all():
             raise ValueError("not all of its numbers are finite")
     except (ValueError, LookupError, TypeError) as error:
-        raise InputError(f"{short(str(path))}: not a solution file of Exudyn, or damaged ({error})") from None
+        raise InputError(f"{path}: not a solution file of Exudyn, or damaged ({error})") from None
     return found
 
 
@@ -175,7 +175,7 @@ def _check_header(path: str | Path) -> None:
     found = COLUMNS.fullmatch(start[-1].decode("utf-8", "replace").strip())
     if found is None or not any(ast.literal_eval(found.group(1))):
         raise InputError(
-            f"{short(str(path))}: not a solution file of Exudyn; allowed: what Result.save_solution or the "
+            f"{path}: not a solution file of Exudyn; allowed: what Result.save_solution or the "
             "engine has written"
         )
 
@@ -185,5 +185,5 @@ def check_fits(solution: Solution, of: Model, path: str | Path) -> None:
     wanted, found = int(of.mbs.systemData.ODE2Size()), int(solution["columnsExported"][0])
     if found != wanted:
         raise InputError(
-            f"{short(str(path))}: of a model with {found} coordinates; allowed: of the run's, with {wanted}"
+            f"{path}: of a model with {found} coordinates; allowed: of the run's, with {wanted}"
         )

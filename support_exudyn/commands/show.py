@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import math
+import os
 import sys
 from collections.abc import Sequence
 
@@ -39,8 +40,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(given: argparse.Namespace) -> None:
-    """Print the tables."""
+    """Print the tables; as many of them as are read, if another program takes them."""
     result = Result.load(given.run)
+    try:
+        _tables(result, given)
+        sys.stdout.flush()
+    except BrokenPipeError:  # `show RUN | head`: at its end Python would try once more, and complain
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def _tables(result: Result, given: argparse.Namespace) -> None:
     names = matching(result.channels, given.channels)
     console = Console(width=None if sys.stdout.isatty() else PIPED, highlight=False)
     if names:

@@ -9,12 +9,14 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from support_exudyn.machine import GROUND
+from support_exudyn.recorded import recorded
 from support_exudyn.result import Result
 from support_exudyn.scenario import Scenario
 from support_exudyn.trajectory import Series
-from user_forces.values import InputError, Vector3
+from user_forces.values import Vector3
 
 MOST_CORRECTIONS = 50  # of a rotation; three do for a machine
+WHY = "without it nobody knows where the body is"
 ROUNDING = 1e-14  # [rad]
 
 
@@ -108,12 +110,7 @@ class Poses:
         )
 
     def _channel(self, name: str) -> Series:
-        if name not in self._result.channels:
-            raise InputError(
-                f"channel {name!r}: was not recorded, and without it nobody knows where the body is; allowed: "
-                "runs of a scenario with channels = ('*',)"
-            )
-        return self._result[name]
+        return recorded(self._result, name, WHY)
 
 
 def _about_z(angle: Series) -> Series:

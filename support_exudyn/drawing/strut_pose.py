@@ -56,6 +56,11 @@ def _end(poses: Poses, body: str, point: Series, record: int) -> tuple[Series, S
     return pose.points(point, record)[0], pose.velocities(point, record)[0]
 
 
+def strut_axes(way: Series) -> Series:
+    """Axes of a strut in columns, shape (3, 3), as in `StrutPose`; way: from foot to head, shape (3,) [m]."""
+    return axes_along(way, np.zeros(3))[0]
+
+
 def axes_along(way: Series, rate: Series) -> tuple[Series, Series]:
     """Axes of a strut in columns, and their rate.
 

@@ -2,75 +2,31 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
+from support_exudyn.drawing.placed_pins import End, PlacedPin, placed_pins
 from support_exudyn.drawing.poses import Poses
 from support_exudyn.exporting.mesh_series import Frame, MeshSeries
 from support_exudyn.exporting.names import Named, numbered
+from support_exudyn.recorded import recorded
 from support_exudyn.result import Result
-from support_exudyn.scenario import Scenario
-from support_exudyn.spatial.lift import at
 from support_exudyn.trajectory import Series
-from user_forces.values import InputError, Vector3
-
-
-@dataclass(frozen=True)
-class PinPoint:
-    """A pin: its name in the channels, the body whose point it is, the point in the start posture [m]."""
-
-    name: str
-    body: str
-    point: Vector3
-    loose: bool
-
-
-def pin_points_of(scenario: Scenario) -> list[PinPoint]:
-    """All pins; in space all bearings.
-
-    Of a loose pin the journal's centre, in space its middle; of an ideal one the point that both bodies share.
-    In the plane a pin stands for those of a pair, and lies between them (z = 0).
-    """
-    loose = scenario.clearance_pins
-    found = []
-    for name, pin, place in _places(scenario):
-        first = pin not in loose or loose[pin].bore == "second"
-        body, point = (place[0], place[1]) if first else (place[2], place[3])
-        found.append(PinPoint(name, body, point, pin in loose))
-    return found
-
-
-Ends = tuple[str, Vector3, str, Vector3]
-
-
-def _places(scenario: Scenario) -> list[tuple[str, str, Ends]]:
-    """Name in the channels, name of the planar pin, and both bodies with their points."""
-    if scenario.dimensions == 3:
-        bearings = scenario.space.bearings.items()
-        return [
-            (name, b.pin, (b.first, b.first_point, b.second, b.second_point))
-            for name, b in bearings
-            if not b.is_guide
-        ]
-    return [
-        (name, name, (p.first, at(p.first_point, 0.0), p.second, at(p.second_point, 0.0)))
-        for name, p in scenario.linkage.pins.items()
-    ]
 
 
 class PinPoints:
-    """All pins of a run.
+    """All pins of a run; in space all bearings.
 
     Raises InputError if the run has not recorded a force, depth or slip.
     """
 
     def __init__(self, result: Result) -> None:
         self._result = result
-        self._pins = pin_points_of(result.scenario)
+        self._pins = placed_pins(result.scenario)
         poses = Poses(result)
         rows = result.time.size
-        self._places = _stacked([poses.of(pin.body).path(pin.point) for pin in self._pins], (rows, 3))
+        self._places = _stacked(
+            [poses.of(end.body).path(end.point) for end in map(_shown, self._pins)], (rows, 3)
+        )
         self._forces = _stacked([self._force(pin) for pin in self._pins], (rows, 3))
         self._depths = _stacked([self._contact(pin, "depth") for pin in self._pins], (rows,))
         self._slips = _stacked([self._contact(pin, "slip") for pin in self._pins], (rows,))
@@ -97,7 +53,7 @@ class PinPoints:
             frame=self.frame,
             point_constants={
                 "pin": numbers,
-                "loose": np.array([pin.loose for pin in self._pins], dtype=np.int32),
+                "loose": np.array([pin.loose is not None for pin in self._pins], dtype=np.int32),
             },
         )
 
@@ -114,27 +70,27 @@ class PinPoints:
             },
         )
 
-    def _force(self, pin: PinPoint) -> Series:
+    def _force(self, pin: PlacedPin) -> Series:
         axes = "xyz" if self._result.scenario.dimensions == 3 else "xy"
         force = np.zeros((self._result.time.size, 3))
         for k, axis in enumerate(axes):
             force[:, k] = self._channel(f"pin.{pin.name}.force_{axis}")
         return force
 
-    def _contact(self, pin: PinPoint, what: str) -> Series:
-        if not pin.loose:
+    def _contact(self, pin: PlacedPin, what: str) -> Series:
+        if pin.loose is None:
             return np.full(self._result.time.size, np.nan)
         return self._channel(f"pin.{pin.name}.{what}")
 
     def _channel(self, name: str) -> Series:
-        if name not in self._result.channels:
-            raise InputError(
-                f"channel {name!r}: was not recorded, and pins are written with it; allowed: runs of a "
-                "scenario with channels = ('*',)"
-            )
-        return self._result[name]
+        return recorded(self._result, name, "pins are written with it")
 
 
 def _stacked(of_pins: list[Series], shape: tuple[int, ...]) -> Series:
     """Arrays of this shape, one of each pin, also if there is no pin."""
     return np.array(of_pins).reshape(len(of_pins), *shape)
+
+
+def _shown(pin: PlacedPin) -> End:
+    """The end at which it is shown: the journal of a loose pin; of an ideal one both are at the same place."""
+    return pin.first if pin.loose is None else pin.journal

@@ -7,11 +7,15 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from support_exudyn.drawing.placed_pins import placed_pins
 from support_exudyn.drawing.poses import Poses
 from support_exudyn.pins import ClearancePin
+from support_exudyn.recorded import recorded
 from support_exudyn.result import Result
 from support_exudyn.trajectory import Series
 from user_forces.values import InputError, short
+
+WHY = "pictures show it"
 
 
 @dataclass(frozen=True)
@@ -59,12 +63,8 @@ class PinView:
 
 def pin_names(result: Result) -> list[str]:
     """All pins, by what channels call them; loose ones first."""
-    scenario = result.scenario
-    if scenario.dimensions == 3:
-        known = {name: one.pin for name, one in scenario.space.bearings.items() if not one.is_guide}
-    else:
-        known = {name: name for name in scenario.linkage.pins}
-    return sorted(known, key=lambda name: known[name] not in scenario.clearance_pins)
+    known = sorted(placed_pins(result.scenario), key=lambda pin: pin.loose is None)
+    return [pin.name for pin in known]
 
 
 def pin_view(result: Result, name: str | None = None) -> PinView | None:
@@ -78,39 +78,21 @@ def pin_view(result: Result, name: str | None = None) -> PinView | None:
     if name is not None and name not in names:
         raise InputError(f"pin = {short(name)}: no such pin; allowed: {', '.join(names) or 'none'}")
     name = name or names[0]
-    scenario = result.scenario
-    if scenario.dimensions == 3:
-        bearing = scenario.space.bearings[name]
-        plane, first, second = bearing.pin, bearing.first, bearing.second
-        points = {first: bearing.first_point, second: bearing.second_point}
-    else:
-        place = scenario.linkage.pins[name]
-        plane, first, second = name, place.first, place.second
-        points = {first: (*place.first_point, 0.0), second: (*place.second_point, 0.0)}
-    loose = scenario.clearance_pins.get(plane)
-    carrier, sign = (second, -1.0) if loose and loose.bore == "second" else (first, 1.0)
-    force = sign * np.column_stack([_channel(result, f"pin.{name}.force_{axis}") for axis in "xy"])
-    path = Poses(result).of(carrier).path(points[carrier])
-    if loose is None:
-        return PinView(name, second.replace("_", " "), force, path, None)
-    bore = Bore(loose, _eccentricity(result, name), np.hypot(*force.T) > 0.0, carrier)
+    pin = next(pin for pin in placed_pins(result.scenario) if pin.name == name)
+    sign = -1.0 if pin.bore_is_second else 1.0
+    force = sign * np.column_stack([recorded(result, f"pin.{name}.force_{axis}", WHY) for axis in "xy"])
+    path = Poses(result).of(pin.bore.body).path(pin.bore.point)
+    if pin.loose is None:
+        return PinView(name, pin.second.body.replace("_", " "), force, path, None)
+    bore = Bore(pin.loose, _eccentricity(result, name), np.hypot(*force.T) > 0.0, pin.bore.body)
     return PinView(name, "journal", force, path, bore)
 
 
 def _eccentricity(result: Result, name: str) -> Series:
     sides = ("left_", "right_") if result.scenario.dimensions == 3 else ("",)
     ends = [
-        np.column_stack([_channel(result, f"pin.{name}.{side}eccentricity_{axis}") for axis in "xy"])
+        np.column_stack([recorded(result, f"pin.{name}.{side}eccentricity_{axis}", WHY) for axis in "xy"])
         for side in sides
     ]
     middle: Series = np.mean(ends, axis=0)
     return middle
-
-
-def _channel(result: Result, name: str) -> Series:
-    if name not in result.channels:
-        raise InputError(
-            f"channel {name!r}: was not recorded, and pictures show it; allowed: runs of a scenario with "
-            "channels = ('*',)"
-        )
-    return result[name]

@@ -10,6 +10,7 @@ import numpy as np
 from support_exudyn.drawing.palette import COLOURS
 from support_exudyn.drawing.poses import Poses
 from support_exudyn.drawing.solid import Look, Role, Strut
+from support_exudyn.drawing.strut_pose import strut_pose
 from support_exudyn.loads.roof import Roof
 from support_exudyn.render.camera import Camera, fitted
 from support_exudyn.render.pin_view import PinView
@@ -109,14 +110,9 @@ class Scene:
 
     def _strut(self, strut: Strut, record: int) -> Iterator[tuple[Series, Series]]:
         """Of cylinder and rod; their x axis runs from foot to head."""
-        foot = self.poses.of(strut.foot).points(np.array([strut.foot_point]), record)[0]
-        head = self.poses.of(strut.head).points(np.array([strut.head_point]), record)[0]
-        along = (head - foot) / np.linalg.norm(head - foot)
-        across = np.cross([0.0, 0.0, 1.0], along)
-        across /= np.linalg.norm(across)
-        turn = np.column_stack([along, across, np.cross(along, across)])
-        yield foot, turn
-        yield head, turn
+        pose = strut_pose(strut, self.poses, record)
+        yield pose.foot, pose.axes
+        yield pose.head, pose.axes
 
     def camera(self, width: int, height: int) -> Camera:
         """That sees all of it over the whole run."""

@@ -13,8 +13,8 @@ from exudyn.utilities import NodeRigidBodyEP, ObjectRigidBody, VObjectRigidBody
 from scipy.spatial.transform import Rotation
 from trimesh import Trimesh
 
-from support_exudyn.drawing.palette import EDGE, Colour
-from support_exudyn.engine_graphics import engine_graphics
+from support_exudyn.drawing.palette import Colour
+from support_exudyn.engine_graphics import engine_surface
 from support_exudyn.render.camera import Camera
 from support_exudyn.trajectory import Series
 
@@ -63,7 +63,7 @@ class Stage:
 
     def _add(self, prop: Prop) -> None:
         """A body that nothing moves."""
-        drawn = engine_graphics(prop.mesh, prop.colour, EDGE if prop.edges else None)
+        drawn = engine_surface(prop.mesh, prop.colour, prop.edges).placed()
         node = self._system.AddNode(NodeRigidBodyEP(referenceCoordinates=[0, 0, 0, 1, 0, 0, 0]))
         self._system.AddObject(
             ObjectRigidBody(

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import subprocess
+import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -190,6 +192,16 @@ def test_narrow_terminals_keep_the_numbers(
     assert max(map(len, said.splitlines())) <= 80
     assert f"{result['pin.rear_base.depth'].min() * 1e3:.6g}" in said
     assert "…" not in said
+
+
+def test_show_ends_quietly_when_nobody_reads_on(runs: Path) -> None:
+    command = [sys.executable, "-m", "support_exudyn", "show", str(runs / "space.h5"), "--all"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        assert process.stdout is not None
+        process.stdout.close()
+        assert process.stderr is not None
+        assert process.stderr.read() == b""
+        assert process.wait() == 0
 
 
 def test_show_refuses_unknown_channels(runs: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from support_exudyn.coordinates import euler_parameters
-from support_exudyn.dressed_model import along
+from support_exudyn.drawing.strut_pose import strut_axes as along
 from support_exudyn.provenance import provenance
 from support_exudyn.spatial.motion import rotation
 from support_exudyn.view import checked_every, differing_versions, every_row

@@ -1,0 +1,66 @@
+"""Where the pins of a scenario are on their bodies, by the names that channels have for them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from support_exudyn.pins import ClearancePin
+from support_exudyn.scenario import Scenario
+from support_exudyn.spatial.lift import at
+from user_forces.values import Vector3
+
+
+@dataclass(frozen=True)
+class End:
+    """A body, or "ground", and the point of it at which the pin is, start posture [m]."""
+
+    body: str
+    point: Vector3
+
+
+@dataclass(frozen=True)
+class PlacedPin:
+    """A pin, in space a bearing; in the plane it stands for those of a pair and lies between them (z = 0).
+
+    Arguments:
+        name: as the channels know it.
+        first, second: its two ends.
+        loose: the scenario's pin if it has clearance, else None.
+    """
+
+    name: str
+    first: End
+    second: End
+    loose: ClearancePin | None
+
+    @property
+    def bore_is_second(self) -> bool:
+        """Whether the second body carries the bore; of an ideal pin the first one counts as doing so."""
+        return self.loose is not None and self.loose.bore == "second"
+
+    @property
+    def bore(self) -> End:
+        """The body that carries the bore, and its centre."""
+        return self.second if self.bore_is_second else self.first
+
+    @property
+    def journal(self) -> End:
+        """The body that carries the journal, and its centre."""
+        return self.first if self.bore_is_second else self.second
+
+
+def placed_pins(scenario: Scenario) -> list[PlacedPin]:
+    """All pins of a scenario, in the order of its machine; guides are none."""
+    loose = scenario.clearance_pins
+    if scenario.dimensions == 3:
+        return [
+            PlacedPin(name, End(b.first, b.first_point), End(b.second, b.second_point), loose.get(b.pin))
+            for name, b in scenario.space.bearings.items()
+            if not b.is_guide
+        ]
+    return [
+        PlacedPin(
+            name, End(p.first, at(p.first_point, 0.0)), End(p.second, at(p.second_point, 0.0)), loose.get(name)
+        )
+        for name, p in scenario.linkage.pins.items()
+    ]
