@@ -184,6 +184,4 @@ def check_fits(solution: Solution, of: Model, path: str | Path) -> None:
     """Raise InputError unless a solution file is of a model with as many coordinates."""
     wanted, found = int(of.mbs.systemData.ODE2Size()), int(solution["columnsExported"][0])
     if found != wanted:
-        raise InputError(
-            f"{path}: of a model with {found} coordinates; allowed: of the run's, with {wanted}"
-        )
+        raise InputError(f"{path}: of a model with {found} coordinates; allowed: of the run's, with {wanted}")
