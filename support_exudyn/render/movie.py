@@ -58,7 +58,7 @@ def _gif(path: Path, frames: Sequence[Path], rate: float, progress: Progress) ->
 
     def reduced() -> Iterator[Image.Image]:
         for number, frame in enumerate(frames):
-            yield _shrunk(frame).quantize(palette=palette, dither=Image.Dither.NONE)
+            yield _in_colours(_shrunk(frame), palette)
             progress((number + 1) / len(frames))
 
     images = reduced()
@@ -83,12 +83,26 @@ def _palette(samples: Sequence[Path]) -> Image.Image:
         wall.paste(picture, (0, n * picture.height))
     # one place stays free: what does not change from frame to frame is transparent
     most = wall.quantize(COLOURS - len(ALWAYS) - 1, method=Image.Quantize.MEDIANCUT)
-    chosen = (most.getpalette() or [])[: 3 * (COLOURS - len(ALWAYS) - 1)]
+    room = 3 * (COLOURS - len(ALWAYS) - 1)
+    chosen = ((most.getpalette() or []) + room * [0])[:room]
     for colour in ALWAYS:
         chosen += list(getrgb(colour))
     palette = Image.new("P", (1, 1))
     palette.putpalette(chosen)
     return palette
+
+
+def _in_colours(frame: Image.Image, palette: Image.Image) -> Image.Image:
+    """A frame in the colours of a palette; those that have a meaning just as they are, which Pillow rounds."""
+    reduced = frame.quantize(palette=palette, dither=Image.Dither.NONE)
+    pixels, chosen = np.asarray(frame), np.asarray(reduced).copy()
+    packed = pixels[:, :, 0].astype(np.int32) << 16 | pixels[:, :, 1].astype(np.int32) << 8 | pixels[:, :, 2]
+    for place, colour in enumerate(ALWAYS, start=COLOURS - len(ALWAYS) - 1):
+        red, green, blue = getrgb(colour)[:3]
+        chosen[packed == (red << 16 | green << 8 | blue)] = place
+    exact = Image.fromarray(chosen)
+    exact.putpalette(reduced.getpalette() or [])
+    return exact
 
 
 def _shrunk(path: Path) -> Image.Image:

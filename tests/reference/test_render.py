@@ -170,6 +170,7 @@ def test_frames_and_a_gif(bouncing: Result, tmp_path: Path) -> None:
             movie.seek(n)
             length += movie.info["duration"]
         assert length == 240.0
+        assert movie.convert("RGB").getpixel((318, 178)) == (255, 255, 255)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["run.gif", "run_frames"]
 
 
