@@ -30,6 +30,7 @@ from support_exudyn.render import render, still
 
 FOLDER = Path(__file__).parent / "pictures"
 MIDDLE = 4.0  # of the rise [s]
+RISE = (3.0, 5.0)  # [s]
 MOVIE_SIZE = (800, 450)
 MOVIE_RATE = 10.0  # frames a second
 MOVIE_SPEED = 2.0  # so many times as fast as the run
@@ -87,7 +88,7 @@ def journal_orbit(runs: Runs, path: Path) -> None:
 
 def spectrum(runs: Runs, path: Path) -> None:
     """Frequencies of the force during the rise."""
-    _save(force_spectrum(runs.loose, paper_machine.LOOSE_PIN, 3.0, 5.0), path)
+    _save(force_spectrum(runs.loose, paper_machine.LOOSE_PIN, *RISE), path)
 
 
 def map_step_stiffness(runs: Runs, path: Path) -> None:

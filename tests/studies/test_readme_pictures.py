@@ -1,0 +1,47 @@
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+from PIL import Image
+
+from studies import clearance_influence, readme_pictures
+from studies.paper_machine import loose_rise
+from studies.readme_pictures import FOLDER, PICTURES, Runs, main
+from support_exudyn import simulate
+
+README = Path(__file__).parents[2] / "README.md"
+QUICK = ("machine.png", "journal_orbit.png", "spectrum.png")  # rest: many runs, or a movie
+
+
+def test_the_readme_shows_what_is_made() -> None:
+    shown = re.findall(r"!\[.*?\]\(studies/pictures/(.*?)\)", README.read_text(encoding="utf-8"))
+    assert sorted(shown) == sorted(PICTURES)
+    assert sorted(path.name for path in FOLDER.iterdir()) == sorted(PICTURES)
+
+
+@pytest.mark.parametrize("name", PICTURES)
+def test_pictures_can_be_opened(name: str) -> None:
+    with Image.open(FOLDER / name) as picture:
+        assert picture.width >= 600
+        assert getattr(picture, "n_frames", 1) == (26 if name.endswith(".gif") else 1)
+
+
+def test_pictures_are_made(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    from dataclasses import replace
+
+    short = simulate(replace(loose_rise(1.5, 0.25, 5e-4), duration=0.1))
+    monkeypatch.setattr(Runs, "paper", {clearance_influence.DRY: short})
+    # in place of 3 to 5 s and of 4 s, which a short run has not
+    monkeypatch.setattr(readme_pictures, "MIDDLE", 0.05)
+    monkeypatch.setattr(readme_pictures, "RISE", (0.0, 0.1))
+    assert main([*QUICK, "--out", str(tmp_path)]) == 0
+    assert sorted(path.name for path in tmp_path.iterdir()) == sorted(QUICK)
+
+
+def test_a_picture_that_is_none_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as caught:
+        main(["cat.png"])
+    assert caught.value.code == 2
+    assert "cat.png: no such picture; allowed: machine.png" in capsys.readouterr().err
