@@ -33,7 +33,7 @@ PANELS = {
     RELATIVE["largest_pin_force"]: "largest force [%]",
     FARTHEST: "tip, farthest [mm]",
 }
-PURPLE, SKY = "#CC79A7", "#56B4E9"
+PURPLE, OLIVE = "#CC79A7", "#999933"
 # what an element is of by its words, the first that fits; colour
 KINDS = {
     "friction": style.SMOOTH,
@@ -41,7 +41,7 @@ KINDS = {
     "columns": style.THIRD,
     "tail": PURPLE,
     "start": style.IDEAL,
-    "space": SKY,
+    "space": OLIVE,
 }
 MARKERS = "osD^vP"
 SMALLEST = 1e-6  # changes below are not told apart from none [%, mm]

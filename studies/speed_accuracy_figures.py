@@ -27,17 +27,18 @@ COSTS: dict[str, Callable[[Row], float]] = {
 }
 HARDLY = 0.7  # decades
 SMALLEST = 1e-11  # errors below are those of the reference
-LOOKS = {  # by family: colour, marker
+# by family: colour, which none of `style` is that means something else, and marker
+LOOKS = {
     "redundant, python": ("#0072B2", "o"),
-    "redundant, symbolic": ("#56B4E9", "s"),
+    "redundant, symbolic": ("#332288", "s"),
     "redundant, growing steps": ("#004466", "^"),
     "reduced, python": ("#E69F00", "D"),
-    "reduced, compiled": ("#D55E00", "v"),
+    "reduced, compiled": ("#997700", "v"),
     "tree": ("#009E73", "P"),
     "trapezoidal, index 2": ("#CC79A7", "<"),
     "nothing located": ("#888888", "x"),
     "spectral radius": ("#999933", "1"),
-    "Newton's method": ("#882255", "2"),
+    "Newton's method": ("#661100", "2"),
     BUILT_IN: ("#444444", "+"),
     STOCK: ("#000000", "*"),
 }

@@ -9,7 +9,6 @@ import numpy as np
 import numpy.typing as npt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.patches import Circle
 
 from support_exudyn.figures import style, units
 from support_exudyn.figures.caption import caption
@@ -18,6 +17,7 @@ from support_exudyn.figures.units import Unit, readable
 from support_exudyn.figures.windows import said
 from support_exudyn.result import Result
 
+CORNERS = 181  # of the clearance circle
 MARGIN = 1.12  # of the largest eccentricity
 MANY = 20000  # points from which on a line is a picture within a PDF
 FLIGHT_WIDTH, CONTACT_WIDTH = 0.8, 1.6
@@ -63,9 +63,11 @@ def orbit(result: Result, pin: str | None = None, start: float = 0.0, until: flo
 def draw_path(axes: Axes, shown: Journal, unit: Unit) -> None:
     """The path in the colours of contact and flight, within the clearance circle, on equal axes."""
     x, y, contact = shown.path()
-    circle = Circle((0.0, 0.0), unit.scale * shown.clearance, fill=False, lw=1.0, ls=(0, (4, 2)), zorder=2)
-    circle.set_label("clearance circle")
-    axes.add_patch(circle)
+    radius, angle = unit.scale * shown.clearance, np.linspace(0.0, 2.0 * np.pi, CORNERS)
+    axes.plot(
+        radius * np.cos(angle), radius * np.sin(angle), color=style.IDEAL, ls=(0, (4, 2)), zorder=2,
+        label="clearance circle",
+    )  # fmt: skip
     for pieces, colour, width, label in (
         (~contact, style.FLIGHT, FLIGHT_WIDTH, "free flight"),
         (contact, style.CONTACT, CONTACT_WIDTH, "contact"),
@@ -76,10 +78,8 @@ def draw_path(axes: Axes, shown: Journal, unit: Unit) -> None:
                 rasterized=x.size > MANY, zorder=3,
             )  # fmt: skip
     if shown.touches:
-        at = unit.scale * shown.clearance
-        axes.plot(
-            at * np.cos(shown.directions), at * np.sin(shown.directions), label="touch", zorder=4, **TOUCH
-        )
+        directions = shown.directions
+        axes.plot(radius * np.cos(directions), radius * np.sin(directions), label="touch", zorder=4, **TOUCH)
     for n, mark, name in ((0, "o", "start"), (-1, "s", "end")):
         axes.plot(
             unit.scale * shown.x[n], unit.scale * shown.y[n], mark, ms=5, color=style.IDEAL, label=name,

@@ -231,6 +231,6 @@ def _words(result: Result, pin: str, found: Spectrum, first: float, last: float,
     if shortest < FINE_ENOUGH * found.spacing:
         text += (
             f"The shortest touch lasts {units.said(shortest, 's')}: a record_period of "
-            f"{units.said(shortest / FINE_ENOUGH, 's', 2)} would follow it. "
+            f"{units.said(shortest / FINE_ENOUGH, 's')} would follow it. "
         )
     return text.rstrip()
