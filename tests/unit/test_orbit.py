@@ -48,7 +48,8 @@ def test_flight_and_contact_are_parted_at_the_touches() -> None:
     assert np.nanmax(contact[1]) == pytest.approx(-1.5)
     assert np.nanmin(flight[1]) == pytest.approx(-1.5)
     assert np.nanmax(flight[1]) == pytest.approx(0.0)
-    assert [line.get_color() for line in path.lines[:2]] == [style.FLIGHT, style.CONTACT]
+    colours = {line.get_label(): line.get_color() for line in path.lines}
+    assert (colours["free flight"], colours["contact"]) == (style.FLIGHT, style.CONTACT)
 
 
 def test_the_two_flights_are_not_joined_through_the_contact() -> None:
