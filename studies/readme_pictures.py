@@ -93,9 +93,9 @@ def spectrum(runs: Runs, path: Path) -> None:
 
 def map_step_stiffness(runs: Runs, path: Path) -> None:
     """The map of `extremes` by step and stiffness: 169 of its scenes."""
-    found = [case for case in cases(quick=False) if case.group == STEP_STIFFNESS]
-    verdicts = judged(found, False, runs.workers)
-    drawn = extremes_figures.figures(list(zip(found, verdicts, strict=True)))
+    found = {n: case for n, case in enumerate(cases(quick=False)) if case.group == STEP_STIFFNESS}
+    verdicts = judged(list(found.values()), False, runs.workers, list(found))
+    drawn = extremes_figures.figures(list(zip(found.values(), verdicts, strict=True)))
     _save(drawn["map_step_stiffness"], path)
 
 

@@ -68,14 +68,22 @@ def lasted(place: int, name: str, duration: float) -> LongRun | str:
         return str(error)
 
 
-def run_cases(found: Sequence[Case], quick: bool, workers: int | Workers) -> list[Verdict]:
-    """Verdicts on cases, all of that form or some of them, in their order, under a progress bar."""
+def run_cases(
+    found: Sequence[Case], quick: bool, workers: int | Workers, places: Sequence[int] | None = None
+) -> list[Verdict]:
+    """Verdicts on cases, in their order, under a progress bar.
+
+    Arguments:
+        found: the cases.
+        quick: whether they are those of the quick form.
+        workers: number of processes, or a pool.
+        places: where each stands among all cases of that form; None: they are all of them.
+    """
 
     def crashed(error: ProcessEndedError) -> Verdict:
         return Verdict(SILENT, f"crash: {error.reason}")
 
-    numbers = {case.name: number for number, case in enumerate(_cases(quick))}
-    jobs = [(quick, numbers[case.name]) for case in found]
+    jobs = [(quick, number) for number in (range(len(found)) if places is None else places)]
     with worker_pool(workers) as pool, _bar(f"{len(found)} scenes") as told:
         return pool.run(jobs, judged, told, crashed)
 

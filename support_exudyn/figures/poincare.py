@@ -296,18 +296,28 @@ def _by_touch(result: Result, shown: Journal, start: float, until: float) -> Fig
     unit = readable("m/s", float(speeds.max()))
     drawing = Figure(figsize=style.size(170, 95))
     places, returns = drawing.subplots(1, 2)
-    _draw_touches(places, DEGREES * np.unwrap(shown.directions), unit.scale * speeds, unit)
+    _draw_touches(places, DEGREES * _together(shown.directions), unit.scale * speeds, unit)
     _draw_returns(returns, unit.scale * speeds, unit)
     drawing.suptitle(
         f"Poincare section by touches, pin {shown.pin}, {said(result, start, until)}", x=0.01, ha="left"
     )
+    none = period(result.scenario) is None
+    why = "The drive has no period" if none else f"Fewer than {FEWEST_PERIODS} periods of the drive lie here"
     caption(
         drawing,
-        f"The drive has no period here, so the run is looked at whenever journal and bore touch: {speeds.size} "
+        f"{why}, so the run is looked at whenever journal and bore touch: {speeds.size} "
         "touches, located in time. Directions are those of the last two records before the touch. On the "
         "dashed line of (b) the next touch is as fast as the one before; below it the journal comes to rest.",
     )
     return drawing
+
+
+def _together(directions: Series) -> Series:
+    """The same directions [rad] side by side where they fit into a turn, else from -pi to pi."""
+    side_by_side: Series = np.unwrap(directions)
+    if np.ptp(side_by_side) < 2.0 * np.pi:
+        return side_by_side
+    return (directions + np.pi) % (2.0 * np.pi) - np.pi
 
 
 def _draw_touches(axes: Axes, directions: Series, speeds: Series, unit: Unit) -> None:

@@ -90,16 +90,13 @@ class Strip:
         x, y = self._x(self._time), self._y(self._force)
         touching = np.ones(x.size, dtype=bool) if self._touching is None else self._touching
         colour = IDEAL if self._touching is None else CONTACT
-        turns = [0, *(np.flatnonzero(np.diff(touching.astype(int))) + 1).tolist(), x.size]
+        pressed = touching[1:] | touching[:-1]  # from record to record; there is a force at one of them
+        turns = [0, *(np.flatnonzero(np.diff(pressed.astype(int))) + 1).tolist(), pressed.size]
         for start, end in pairwise(turns):
-            last = min(end + 1, x.size)
-            points = [(float(a), float(b)) for a, b in zip(x[start:last], y[start:last], strict=True)]
+            points = [(float(a), float(b)) for a, b in zip(x[start : end + 1], y[start : end + 1], strict=True)]
             if len(points) > 1:
-                sheet.line(
-                    points,
-                    colour if touching[start] else FLIGHT,
-                    (1.3 if touching[start] else 3.0) * self._unit,
-                )
+                ink, width_ = (colour, 1.3) if pressed[start] else (FLIGHT, 3.0)
+                sheet.line(points, ink, width_ * self._unit)
         sheet.onto(picture)
 
     def cursor(self, picture: Image.Image, record_time: float, force: float) -> None:

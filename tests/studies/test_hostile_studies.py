@@ -18,10 +18,11 @@ import matplotlib.pyplot as plt
 import pytest
 
 from studies import __main__ as all_studies
-from studies import report, style
+from studies import report
 from studies.judging import hypercube
 from studies.judging.plausible import REFERENCE
 from studies.study import Number, Options, run_main, save_figures, write_summary
+from support_exudyn.figures import style
 from support_exudyn.files import writing_alone
 from support_exudyn.workers import ProcessEndedError, Workers
 from tests.hostile import DISKS, little_room, posix_only
