@@ -58,8 +58,9 @@ MAPS = {
 
 
 def figures(judged: Judged) -> dict[str, Figure]:
-    """All maps, by file name."""
-    return {f"map_{name}": _figure(one, judged) for name, one in MAPS.items()}
+    """All maps of which there are cases, by file name."""
+    groups = {case.group for case, _ in judged}
+    return {f"map_{name}": _figure(one, judged) for name, one in MAPS.items() if one.group in groups}
 
 
 def pictures() -> tuple[Picture, ...]:
