@@ -85,6 +85,7 @@ def test_without_xvfb_tests_are_skipped_but_where_all_is_to_be_checked(
 ) -> None:
     monkeypatch.setenv("PATH", str(tmp_path))
     monkeypatch.delenv("CI", raising=False)
+    monkeypatch.delenv("WITHOUT_XVFB", raising=False)
     if ci:
         monkeypatch.setenv("CI", "true")
     with pytest.raises(pytest.fail.Exception if ci else pytest.skip.Exception, match="apt-get install xvfb"):
