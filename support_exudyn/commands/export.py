@@ -17,7 +17,8 @@ from support_exudyn.result import Result
 from user_forces.values import InputError
 
 HELP = "moving meshes for ParaView (XDMF, VTU) and tables of all channels (CSV, HDF5)"
-FORMATS = ("xdmf", "vtu", "csv", "hdf5")
+USUAL = ("xdmf", "vtu", "csv", "hdf5")
+FORMATS = (*USUAL, "solution")
 SLOWEST, FASTEST = 1e-9, 1e9  # frames a second
 
 
@@ -33,11 +34,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--to",
         nargs="+",
         choices=FORMATS,
-        default=FORMATS,
+        default=USUAL,
         metavar="FORMAT",
         help="xdmf: NAME.xdmf and NAME_pins.xdmf, with one HDF5 file for both; vtu: a folder NAME_vtu with a "
         "file per step, machine.pvd and pins.pvd; csv: NAME.csv; hdf5: NAME_channels.h5 for MATLAB and others; "
-        "by default all",
+        "solution: NAME_solution.txt, Exudyn's own solution file, all records; by default all but the last",
     )
     parser.add_argument(
         "--out", type=folder, metavar="DIR", help="where to; by default NAME_export beside the run"
@@ -77,6 +78,7 @@ def run(given: argparse.Namespace) -> None:
         "vtu": lambda progress: to_vtu(result, out / f"{name}_vtu", sampling(MESHES), progress),
         "csv": lambda progress: to_csv(result, out / f"{name}.csv", sampling(TABLES), progress),
         "hdf5": lambda progress: to_hdf5(result, out / f"{name}_channels.h5", sampling(TABLES)),
+        "solution": lambda progress: (result.save_solution(out / f"{name}_solution.txt"),),
     }
     console = Console(stderr=True)
     for kind in dict.fromkeys(given.to):

@@ -29,6 +29,7 @@ from support_exudyn import (
     simulate,
     solver,
 )
+from support_exudyn.__main__ import main
 from support_exudyn.dressed_model import dressed
 from support_exudyn.model import model
 from support_exudyn.solution_file import read_solution, rows
@@ -330,3 +331,10 @@ def equations(mbs: Any) -> dict[str, Any]:
         ],
         "accelerations": start,
     }
+
+
+def test_it_can_be_exported(run: Result, tmp_path: Path) -> None:
+    run.save(tmp_path / "rise.h5")
+    assert main(["export", str(tmp_path / "rise.h5"), "--to", "solution"]) == 0
+    read = LoadSolutionFile(str(tmp_path / "rise_export" / "rise_solution.txt"), verbose=False)
+    assert read["data"][:, 0] == pytest.approx(run.time, abs=0.0)
