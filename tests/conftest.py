@@ -1,7 +1,14 @@
 """How long and how often hypothesis tries: `--hypothesis-profile=long` by hand, 50 times as often."""
 
+import signal
+
 from hypothesis import settings
 
 settings.register_profile("unit", parent=settings.default, deadline=None, max_examples=60)
 settings.register_profile("long", parent=settings.get_profile("unit"), max_examples=50 * 60)
 settings.load_profile("unit")  # pytest then loads the one that it is asked for
+
+# a shell without job control has what it starts in the background ignore interruptions, and the tests of
+# interruptions would wait for ever
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)
