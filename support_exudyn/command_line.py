@@ -70,6 +70,21 @@ def folder(text: str) -> Path:
     return Path(text)
 
 
+def say(text: str) -> None:
+    """Print a line; if nobody reads on (`| head`, a closed terminal), the work goes on without a word."""
+    try:
+        print(text, flush=True)
+    except BrokenPipeError:
+        hush()
+
+
+def hush() -> None:
+    """Let what is printed from now on go nowhere: at its end Python would try once more, and complain."""
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, sys.stdout.fileno())
+    os.close(nowhere)
+
+
 def answered(work: Callable[[], None]) -> int:
     """Do it; what the user can mend is said in a sentence. Returns the exit code."""
     try:

@@ -69,6 +69,11 @@ def to_xdmf(
     path = Path(path)
     if path.suffix != ".xdmf":
         raise InputError(f"path = {str(path)!r}: allowed: names that end in .xdmf, by which readers know it")
+    if ":" in path.stem:
+        raise InputError(
+            f"path = {str(path)!r}: allowed: names without ':', at which readers of XDMF part the name of the "
+            "HDF5 file from the place in it; VTU, CSV and HDF5 can have it"
+        )
     records = sampling.records(result.time)
     series, names = _meshes(result, records[0])
     store, table = f"{path.stem}_mesh.h5", f"{path.stem}_names.csv"

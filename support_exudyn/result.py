@@ -196,7 +196,9 @@ class Result:
         at all.
         """
         if not Path(path).exists():
-            raise FileNotFoundError(f"{path}: no such file")
+            raise FileNotFoundError(f"{path}: no such file; allowed: files that Result.save has written")
+        if Path(path).is_dir():
+            raise IsADirectoryError(f"{path}: is a folder; allowed: files that Result.save has written")
         data = Path(path).read_bytes()
         try:
             check_seal(data, FORMAT)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import sys
 import time
 from collections.abc import Callable
 from functools import partial
@@ -11,7 +12,7 @@ from pathlib import Path
 from rich.console import Console
 from rich.progress import Progress as Bar
 
-from support_exudyn.command_line import add_times, count, folder, number
+from support_exudyn.command_line import add_times, count, folder, number, say
 from support_exudyn.progress import Progress
 from support_exudyn.result import Result
 from user_forces.values import InputError
@@ -34,11 +35,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--to",
         nargs="+",
         choices=FORMATS,
-        default=USUAL,
         metavar="FORMAT",
         help="xdmf: NAME.xdmf and NAME_pins.xdmf, with one HDF5 file for both; vtu: a folder NAME_vtu with a "
         "file per step, machine.pvd and pins.pvd; csv: NAME.csv; hdf5: NAME_channels.h5 for MATLAB and others; "
-        "solution: NAME_solution.txt, Exudyn's own solution file, all records; by default all but the last",
+        "solution: NAME_solution.txt, Exudyn's own solution file, all records; by default all but the last "
+        "that the run has recorded enough for",
     )
     parser.add_argument(
         "--out", type=folder, metavar="DIR", help="where to; by default NAME_export beside the run"
@@ -81,14 +82,33 @@ def run(given: argparse.Namespace) -> None:
         "solution": lambda progress: (result.save_solution(out / f"{name}_solution.txt"),),
     }
     console = Console(stderr=True)
-    for kind in dict.fromkeys(given.to):
+    refused: dict[str, InputError] = {}
+    for kind in dict.fromkeys(given.to or USUAL):
         with Bar(console=console, transient=True, disable=not console.is_terminal) as bar:
             started = time.perf_counter()
             task = bar.add_task(kind, total=1.0)
-            files = work[kind](lambda share: bar.update(task, completed=share))  # noqa: B023  # used at once
+            try:
+                files = work[kind](lambda share: bar.update(task, completed=share))  # noqa: B023  # used at once
+            except InputError as error:
+                if given.to:
+                    raise
+                refused[kind] = error
+                continue
             took = time.perf_counter() - started
         size = sum(file.stat().st_size for file in files)
-        print(f"{kind}: {files[0]} ({_counted(len(files))}, {size / 1e6:.3g} MB, {took:.2g} s)")
+        say(f"{kind}: {files[0]} ({_counted(len(files))}, {size / 1e6:.3g} MB, {took:.2g} s)")
+        if kind in ("xdmf", "vtu") and given.end != given.start and result.time.size > 1:
+            _check_moves(len(sampling(MESHES).records(result.time)), kind)
+    if len(refused) == len(FORMATS):
+        raise refused[FORMATS[0]]
+    for kind, reason in refused.items():
+        print(f"{kind}: left out: {reason}", file=sys.stderr)
+
+
+def _check_moves(steps: int, kind: str) -> None:
+    """Say so if a mesh has a single step, which the user may not have meant."""
+    if steps == 1:
+        print(f"{kind}: a single step; more by a larger --frames-per-second or by --every", file=sys.stderr)
 
 
 def _counted(files: int) -> str:

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING
 
-from support_exudyn.command_line import add_times, folder, number
+from support_exudyn.command_line import add_times, folder, number, say
 from support_exudyn.figures.journal import chosen_pin, loose_pins
 from support_exudyn.figures.names import matching
 from support_exudyn.result import Result
@@ -73,7 +73,7 @@ def run(given: argparse.Namespace) -> None:
                 continue
             drawings.append(drawing)
             for path in style.save(drawing, out, name):
-                print(path)
+                say(str(path))
         if given.show:
             _show(drawings)
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import argparse
 import re
+import sys
 
-from support_exudyn.command_line import add_times, folder, number
+from support_exudyn.command_line import add_times, folder, number, say
 from support_exudyn.result import Result
 from user_forces.values import InputError, short
 
@@ -87,9 +88,15 @@ def run(given: argparse.Namespace) -> None:
             pin=given.pin,
             progress=lambda share: bar.update(task, completed=share),
         )
-    print(f"{len(written.frames)} frame{'s' * (len(written.frames) > 1)} in {out}")
+    say(f"{len(written.frames)} frame{'s' * (len(written.frames) > 1)} in {out}")
+    if len(written.frames) == 1 and result.time.size > 1:
+        step = given.speed / given.frames_per_second
+        print(
+            f"a single frame: less is shown of the run than the {step:g} s between two; more by a smaller --speed",
+            file=sys.stderr,
+        )
     if written.movie is not None:
-        print(f"{written.movie} ({written.movie.stat().st_size / 1e6:.1f} MB)")
+        say(f"{written.movie} ({written.movie.stat().st_size / 1e6:.3g} MB)")
 
 
 def _still(given: argparse.Namespace, result: Result) -> None:
@@ -104,7 +111,7 @@ def _still(given: argparse.Namespace, result: Result) -> None:
     picture = still(result, given.still, size=given.size, pin=given.pin)
     with whole_file(path) as temporary:
         Image.fromarray(picture).save(temporary, format="PNG")
-    print(path)
+    say(str(path))
 
 
 def size(text: str) -> tuple[int, int]:

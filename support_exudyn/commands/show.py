@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import argparse
 import math
-import os
 import sys
 from collections.abc import Sequence
 
 from rich import box
+from rich.cells import cell_len
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
 from support_exudyn import account
-from support_exudyn.command_line import add_times, folder
+from support_exudyn.command_line import add_times, folder, hush
 from support_exudyn.figures import windows
 from support_exudyn.figures.names import matching
 from support_exudyn.result import Result
@@ -38,11 +38,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(given: argparse.Namespace) -> None:
     """Print the tables; as many of them as are read, if another program takes them."""
     result = Result.load(given.run)
+    if sys.stdout is None:  # it was closed before the program began
+        return
     try:
         _tables(result, given)
         sys.stdout.flush()
-    except BrokenPipeError:  # `show RUN | head`: at its end Python would try once more, and complain
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    except BrokenPipeError:  # `show RUN | head`
+        hush()
 
 
 def _tables(result: Result, given: argparse.Namespace) -> None:
@@ -70,6 +72,8 @@ def _tables(result: Result, given: argparse.Namespace) -> None:
 
 
 def _show_channels(console: Console, rows: list[account.Row], title: str) -> None:
+    if not rows:  # nothing was recorded but the time
+        return
     header: tuple[str, ...] = ("channel", "unit", ">least", ">mean", ">largest", "meaning")
     taken = sum(max(len(row[n]) for row in rows) + 3 for n in range(len(header) - 1))
     if console.width - taken < NARROWEST:  # the numbers first
@@ -77,10 +81,23 @@ def _show_channels(console: Console, rows: list[account.Row], title: str) -> Non
     _show(console, title, header, rows)
 
 
+def _unbroken(header: Sequence[str], rows: Sequence[Sequence[str]]) -> int:
+    """Width of a table's names and numbers, with the least that words take; the terminal may be narrower."""
+    names = header or ("", "words")
+    wide = [
+        NARROWEST
+        if name in ("words", "meaning")
+        else max(cell_len(text) for text in (name, *(row[n] for row in rows)))
+        for n, name in enumerate(names)
+    ]
+    return sum(wide) + 3 * len(wide) + 2  # with what stands between and beside them
+
+
 def _show(console: Console, title: str, header: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
     """A table; columns whose header begins with > are of numbers. Without a header: names and words.
 
-    Names and numbers are never cut or broken; words are broken, at the width of the terminal.
+    Names and numbers are never cut or broken, even if the terminal is too narrow for them; words are broken, at
+    its width.
     """
     table = Table(
         box=box.SIMPLE_HEAD if header else None, show_header=bool(header), pad_edge=False, padding=(0, 1)
@@ -96,5 +113,8 @@ def _show(console: Console, title: str, header: Sequence[str], rows: Sequence[Se
         table.add_row(*(escape(cell) for cell in row))
     with console.capture() as shown:
         console.print(title, style="bold", markup=False)
-        console.print(table)
-    print("\n".join(line.rstrip() for line in shown.get().splitlines()), end="\n\n")
+    broad = Console(width=max(console.width, _unbroken(header, rows)), highlight=False)
+    with broad.capture() as told:
+        broad.print(table)
+    lines = (shown.get() + told.get()).splitlines()
+    print("\n".join(line.rstrip() for line in lines), end="\n\n")

@@ -99,10 +99,12 @@ def over_time(result: Result, channels: Sequence[str], start: float = 0.0, until
         channels: names, or patterns of them as in a shell.
         start, until: what of the run is drawn [s].
 
-    Raises InputError if a pattern matches no channel, if they are too many, or if no records lie between the
-    times.
+    Raises InputError if there are none, if a pattern matches no channel, if they are too many, or if no records
+    lie between the times.
     """
     names = matching(result.channels, channels)
+    if not names:
+        raise InputError("channels = []: none to draw; allowed: runs that have recorded more than their time")
     if len(names) > MOST:
         raise InputError(
             f"{len(names)} channels match; allowed in a figure: {MOST}; name fewer, such as {names[0]!r}"

@@ -23,8 +23,9 @@ def inside(result: Result, start: float, until: float, fewest: int = FEWEST) -> 
     if (count := int(found.sum())) < fewest:
         first, last = result.time[[0, -1]]
         raise InputError(
-            f"from {start:g} to {until:g} s: {count} records lie between; allowed: times around at least "
-            f"{fewest} of the {result.time.size} records, from {first:g} to {last:g} s"
+            f"from {max(start, first):g} to {min(until, last):g} s: {count} records lie "
+            f"between; allowed: times around at least {fewest} of the {result.time.size} records, "
+            f"from {first:g} to {last:g} s"
         )
     return found
 

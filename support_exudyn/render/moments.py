@@ -14,6 +14,7 @@ from user_forces.values import InputError
 MOST_FRAMES = 20_000
 SLOWEST, FASTEST = 1e-6, 1e3
 MOST_A_SECOND = 240.0
+LONGEST_STEP = 1e-3  # [s] to which the time of a single picture is printed at least
 
 
 @dataclass(frozen=True)
@@ -93,7 +94,8 @@ def moment(time: Series, at: float) -> Moments:
     """Of a single picture at a time [s]. Raises InputError if the run does not reach it."""
     check_between("time", at, float(time[0]), float(time[-1]), " s")
     times = np.array([at])
-    return Moments(times, nearest(time, times), time, 1e-3, 1.0, (float(time[0]), float(time[-1])))
+    step = min(LONGEST_STEP, float(np.median(np.diff(time)))) if time.size > 1 else LONGEST_STEP
+    return Moments(times, nearest(time, times), time, step, 1.0, (float(time[0]), float(time[-1])))
 
 
 def nearest(time: Series, asked: Series) -> npt.NDArray[np.intp]:

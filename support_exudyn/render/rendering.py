@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import os
+import re
 import shutil
 import tempfile
 from collections.abc import Iterator
@@ -15,7 +16,7 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
-from support_exudyn.files import whole_file
+from support_exudyn.files import is_alive, named, whole_file
 from support_exudyn.progress import Progress, silent
 from support_exudyn.render import movie as movies
 from support_exudyn.render.layout import Layout
@@ -34,6 +35,7 @@ RATE = 25.0
 FRAMES_SHARE = 0.85  # of the time that is spent before the movie
 NAME = "frame_{:04d}.png"
 FRAME = "frame_*.png"
+WORKSHOP = re.compile(r"\.frames_(\d+)_\w+")  # with the process that made it
 QUICKLY = 3  # compression of PNG
 
 
@@ -183,12 +185,32 @@ def _folder_for(folder: Path) -> Iterator[Path]:
         raise NotADirectoryError(
             errno.ENOTDIR, "a file stands where the folder of frames should be", str(folder)
         )
-    folder.parent.mkdir(parents=True, exist_ok=True)
-    workshop = Path(tempfile.mkdtemp(prefix=f".{folder.name[:40]}-", dir=folder.parent))
+    try:
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        _remove_leftovers(folder.parent)
+        workshop = Path(tempfile.mkdtemp(prefix=f".frames_{os.getpid()}_", dir=folder.parent))
+    except FileExistsError:
+        raise named(
+            NotADirectoryError(errno.ENOTDIR, "A file stands where a folder should be"), folder
+        ) from None
+    except OSError as error:  # of a name that nobody has given
+        raise named(error, folder) from None
     try:
         yield workshop
+    except OSError as error:
+        if error.errno is None or (error.filename and Path(str(error.filename)).parent != workshop):
+            raise  # of something else
+        raise named(error, folder) from error
     finally:
         shutil.rmtree(workshop, ignore_errors=True)
+
+
+def _remove_leftovers(folder: Path) -> None:
+    """Temporary folders of processes that were killed."""
+    for path in list(folder.glob(".frames_*")):
+        found = WORKSHOP.fullmatch(path.name)
+        if found and not is_alive(int(found.group(1))):
+            shutil.rmtree(path, ignore_errors=True)
 
 
 def _replace_frames(paths: list[Path], folder: Path) -> None:

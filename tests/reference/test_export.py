@@ -392,6 +392,12 @@ def test_a_run_without_the_motion_of_its_bodies_is_refused(tmp_path: Path) -> No
     assert list(tmp_path.iterdir()) == []
 
 
+def test_a_name_that_readers_of_xdmf_cannot_follow_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"12:30\.xdmf'.*: allowed: names without ':'"):
+        to_xdmf(run("plane"), tmp_path / "12:30.xdmf")
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_other_endings_than_xdmf_are_refused(tmp_path: Path) -> None:
     with pytest.raises(InputError, match=r"run\.xmf'.*: allowed: names that end in \.xdmf"):
         to_xdmf(run("plane"), tmp_path / "run.xmf")

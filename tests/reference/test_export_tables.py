@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import dataclasses
 import json
 import shutil
 import subprocess
@@ -12,7 +13,7 @@ import h5py
 import numpy as np
 import pytest
 
-from support_exudyn import Result
+from support_exudyn import Result, simulate
 from support_exudyn.__main__ import main
 from support_exudyn.export import Sampling, to_csv, to_hdf5
 from tests.reference.export_cases import by_vtk, run
@@ -111,6 +112,29 @@ def test_the_command_writes_everything_beside_the_run(saved: Path, capsys: pytes
     assert times == pytest.approx([0.02, 0.06], abs=1e-12)  # rounding of times of records
     with h5py.File(out / "rise_channels.h5", "r") as file:
         assert file["channels/time"].size == 41
+
+
+def test_what_a_run_has_not_recorded_enough_for_is_left_out_in_a_sentence(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    few = dataclasses.replace(run("ideal").scenario, channels=("tip.*",), duration=0.01)
+    path = simulate(few).save(tmp_path / "few.h5")
+    assert main(["export", str(path)]) == 0
+    assert {item.name for item in (tmp_path / "few_export").iterdir()} == {"few.csv", "few_channels.h5"}
+    said = capsys.readouterr()
+    assert [line.split(":")[0] for line in said.out.splitlines()] == ["csv", "hdf5"]
+    assert "xdmf: left out: channel" in said.err
+    assert main(["export", str(path), "--to", "csv", "vtu"]) == 1  # asked for, it is not left out
+
+
+def test_a_mesh_of_a_single_step_says_so(
+    saved: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ["export", str(saved), "--to", "vtu", "--out", str(tmp_path), "--until", "0.01"]
+    assert main(words) == 0
+    assert "vtu: a single step; more by" in capsys.readouterr().err
+    assert main([*words, "--every", "2"]) == 0
+    assert capsys.readouterr().err == ""
 
 
 def test_the_command_takes_a_rate_or_a_count_for_all_it_writes(saved: Path, tmp_path: Path) -> None:

@@ -204,6 +204,45 @@ def test_show_ends_quietly_when_nobody_reads_on(runs: Path) -> None:
         assert process.wait() == 0
 
 
+@pytest.mark.parametrize("words", [[], ["tip.*"], ["--all"]])
+def test_the_narrowest_terminals_cut_no_number(
+    runs: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, words: list[str]
+) -> None:
+    wide = shown(runs / "loose.h5", capsys, *words)
+    monkeypatch.setattr("support_exudyn.commands.show.PIPED", 30)
+    narrow = shown(runs / "loose.h5", capsys, *words)
+
+    def rows(said: str) -> list[list[str]]:
+        found = [line.split() for line in said.splitlines()]
+        return [row[:5] for row in found if row and row[0].startswith(("tip.", "pin.", "energy."))]
+
+    assert rows(narrow) == rows(wide)
+
+
+def test_a_run_of_nothing_but_its_time(runs: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    simulate(support(duration=0.01, channels=())).save(tmp_path / "time.h5")
+    assert "what was run" in shown(tmp_path / "time.h5", capsys, "--all")
+    assert main(["plot", str(tmp_path / "time.h5")]) == 1
+    assert "none to draw" in capsys.readouterr().err
+
+
+def test_show_says_nothing_where_there_is_no_output(runs: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "stdout", None)  # as after `>&-`
+    assert main(["show", str(runs / "loose.h5")]) == 0
+
+
+def test_all_figures_are_drawn_though_nobody_reads_their_names(runs: Path, tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "support_exudyn", "plot", str(runs / "crank.h5"), "--out", str(tmp_path)]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        assert process.stdout is not None
+        process.stdout.close()
+        assert process.stderr is not None
+        assert process.stderr.read() == b""
+        assert process.wait() == 0
+    pin = "slider_pin"
+    assert names(tmp_path) == both("overview", f"orbit_{pin}", f"poincare_{pin}", f"spectrum_{pin}")
+
+
 def test_show_refuses_unknown_channels(runs: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["show", str(runs / "loose.h5"), "tip.w"]) == 1
     assert "tip.x" in capsys.readouterr().err

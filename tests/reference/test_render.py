@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 from dataclasses import replace
@@ -21,10 +22,12 @@ from support_exudyn.loads.roof import Roof
 from support_exudyn.render import render, still
 from support_exudyn.render.camera import Camera, direction_of_view
 from support_exudyn.render.layout import Layout
+from support_exudyn.render.moments import moment
 from support_exudyn.render.movie import durations
 from support_exudyn.render.scene import Scene
 from support_exudyn.render.stage import Image as Picture
 from support_exudyn.render.stage import Prop, Stage
+from tests.hostile import DISKS, little_room
 from user_forces import InputError
 
 SIZE = (320, 180)
@@ -185,6 +188,12 @@ def test_frames_are_what_stills_are(bouncing: Result, tmp_path: Path) -> None:
     assert (np.abs(picture[machine].astype(int) - other.astype(int)).max(axis=-1) > 8).mean() < 0.05
 
 
+def test_the_time_of_a_still_is_told_as_finely_as_records_lie() -> None:
+    assert moment(np.arange(0.0, 2e-3, 1e-5), 1.5e-3).decimals == 5
+    assert moment(np.arange(0.0, 1.0, 0.1), 0.3).decimals == 3
+    assert moment(np.array([0.0]), 0.0).decimals == 3
+
+
 def test_slow_motion_has_more_frames(bouncing: Result, tmp_path: Path) -> None:
     written = render(bouncing, tmp_path / "f", start=0.05, end=0.06, speed=0.05, size=SIZE)
     assert len(written.frames) == 6
@@ -293,6 +302,29 @@ def test_a_file_in_place_of_the_folder_is_refused(bouncing: Result, tmp_path: Pa
     with pytest.raises(NotADirectoryError, match="folder of frames"):
         render(bouncing, tmp_path / "f", end=0.04, size=SIZE)
     assert [path.name for path in tmp_path.iterdir()] == ["f"]
+
+
+def test_leftovers_of_killed_processes_go(bouncing: Result, tmp_path: Path) -> None:
+    with subprocess.Popen([sys.executable, "-c", ""]) as gone:
+        pass
+    for process in (gone.pid, os.getpid()):
+        (tmp_path / f".frames_{process}_abc").mkdir()
+    render(bouncing, tmp_path / "f", end=0.04, size=SIZE, movie="none")
+    assert {path.name for path in tmp_path.iterdir()} == {f".frames_{os.getpid()}_abc", "f"}
+
+
+def test_a_folder_that_cannot_be_made_is_named(bouncing: Result, tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    with pytest.raises(OSError, match=r"a folder should be; it cannot be written: '.*file/frames'"):
+        render(bouncing, tmp_path / "file" / "frames", end=0.04, size=SIZE)
+
+
+@pytest.mark.parametrize("kind", DISKS)
+def test_a_full_disk_is_told_by_the_folder_of_the_frames(bouncing: Result, tmp_path: Path, kind: str) -> None:
+    with little_room(tmp_path, 12_000, kind) as place:
+        with pytest.raises(OSError, match=r"it cannot be written: '.*frames'"):
+            render(bouncing, place / "frames", end=0.1, size=SIZE, movie="none")
+        assert list(place.iterdir()) == []
 
 
 def test_an_mp4_without_its_library_is_refused(

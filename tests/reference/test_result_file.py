@@ -270,3 +270,10 @@ def test_a_failed_save_leaves_the_old_file(result: Result, tmp_path: Path) -> No
         broken.save(path)
     assert path.read_bytes() == before
     assert [p.name for p in tmp_path.iterdir()] == ["run.h5"]
+
+
+def test_a_folder_and_a_name_of_nothing_are_refused_with_what_is_allowed(tmp_path: Path) -> None:
+    with pytest.raises(IsADirectoryError, match=r"is a folder; allowed: files that Result\.save has written"):
+        Result.load(tmp_path)
+    with pytest.raises(FileNotFoundError, match=r"no such file; allowed: files that Result\.save has written"):
+        Result.load(tmp_path / "none.h5")
