@@ -1,4 +1,4 @@
-"""Parts of frames by motions and forces that are known: which record, where the journal is, which way arrows go."""
+"""Parts of frames by motions and forces that are known: records, where the journal is, which way arrows go."""
 
 from __future__ import annotations
 
@@ -45,13 +45,12 @@ def pressed(x: float, y: float, force: tuple[float, float], bore: str = "first")
     link = {
         f"rear_link__{name}": (0.0 * TIME, "m") for name in ("velocity_x", "velocity_y", "angular_velocity")
     }
-    found = synthetic.journal(
+    return synthetic.journal(
         replace(SCENARIO, pins={PIN: pin}), TIME, x * here, y * here,
         rear_link__x=(2.0 + TIME, "m"), rear_link__y=(1.0 + 0.0 * TIME, "m"),
         rear_link__angle=(0.0 * TIME, "rad"), **link,
         **{f"pin__{PIN}__force_{axis}": (one * here, "N") for axis, one in zip("xy", force, strict=True)},
     )  # fmt: skip
-    return found
 
 
 def view(*arguments: Any) -> PinView:
@@ -76,6 +75,11 @@ def test_speed_is_seconds_of_the_run_in_one_of_the_movie(speed: float, frames: i
     assert found.times == pytest.approx(0.2 + 0.04 * speed * np.arange(frames))
     assert TIME[found.records] == pytest.approx(found.times)
     assert found.pace == pace
+
+
+def test_frames_are_as_many_a_second_as_was_asked_for() -> None:
+    found = moments(TIME, None, None, 10.0, 2.0)
+    assert found.times == pytest.approx([0.0, 0.2, 0.4, 0.6, 0.8, 1.0])
 
 
 def test_a_trail_is_as_long_in_the_movie_at_any_speed() -> None:
