@@ -134,7 +134,11 @@ def test_errors_are_those_of_the_estimate() -> None:
         # rounding is that of the channel's largest value, not of each
         assert errors[n] == pytest.approx(estimate.error, rel=1e-6)
     drawing = over_time(found, ["rear_column.force"])
-    assert len(drawing.axes[0].collections) == 1  # the band
+    (band,) = drawing.axes[0].collections
+    around = band.get_paths()[0].vertices
+    at = around[np.isclose(around[:, 0], TIME[130])][:, 1]  # below and above
+    value = 1e-3 * found["rear_column.force"][130]
+    assert [at.min(), at.max()] == pytest.approx([value - 1e-3 * errors[130], value + 1e-3 * errors[130]])
     assert "rear_column.force" in figure_checks.words_below(drawing)
 
 
