@@ -99,8 +99,8 @@ def run(given: argparse.Namespace) -> None:
         say(f"{kind}: {files[0]} ({_counted(len(files))}, {size / 1e6:.3g} MB, {took:.2g} s)")
         if kind in ("xdmf", "vtu") and given.end != given.start and result.time.size > 1:
             _check_moves(len(sampling(MESHES).records(result.time)), kind)
-    if len(refused) == len(FORMATS):
-        raise refused[FORMATS[0]]
+    if len(refused) == len(USUAL):
+        raise refused[USUAL[0]]
     for kind, reason in refused.items():
         print(f"{kind}: left out: {reason}", file=sys.stderr)
 

@@ -12,9 +12,12 @@ import pytest
 from meshio.xdmf import TimeSeriesReader
 
 from support_exudyn import Result, simulate
+from support_exudyn.drawing.solid import Role
 from support_exudyn.export import Sampling, to_csv, to_hdf5, to_vtu, to_xdmf
 from support_exudyn.exporting import machine_mesh
-from tests.reference.cases import support
+from support_exudyn.exporting.pin_points import PinPoints
+from support_exudyn.render.pin_view import pin_view
+from tests.reference.cases import PIN, loose_support, support
 from tests.reference.export_cases import (
     Read,
     by_vtk,
@@ -250,6 +253,46 @@ def test_both_formats_hold_the_same(exported: Exported) -> None:
             assert set(here.point_data) == set(there.point_data)
             for name, values in here.point_data.items():
                 np.testing.assert_array_equal(values, there.point_data[name])
+
+
+def test_displacements_are_since_the_first_record_that_is_written(tmp_path: Path) -> None:
+    after = Sampling(after=0.05, every=25)
+    steps = by_vtk(to_vtu(run("plane"), tmp_path, after)[0])
+    assert not steps[0].point_data["displacement_m"].any()
+    moved = steps[-1].points - steps[0].points
+    assert np.abs(moved).max() > 1e-3
+    assert steps[-1].point_data["displacement_m"] == pytest.approx(moved, abs=ROUNDING)
+
+
+def test_roles_of_columns_are_those_of_their_parts() -> None:
+    found = {part.body: part.role for part in machine_mesh.parts_of(look_of("plane"))}
+    assert found["front_column_left cylinder"] is Role.CYLINDER
+    assert found["front_column_left rod"] is Role.ROD
+
+
+@pytest.mark.parametrize("bore", ["first", "second"])
+def test_a_loose_pin_is_at_its_journal_and_pressed_back_into_its_bore(bore: str) -> None:
+    """Whichever body has the bore: the eccentricity that was recorded lies between both bodies' points."""
+    scenario = loose_support(1.5, 0.0, duration=0.06)
+    pin = dataclasses.replace(scenario.clearance_pins[PIN], bore=bore)
+    result = simulate(dataclasses.replace(scenario, pins={PIN: pin}))
+    points, view = PinPoints(result), pin_view(result, PIN)
+    assert view is not None
+    assert view.bore is not None
+    number = [name.name for name in points.names].index(PIN)
+    pressed = 0
+    for record in range(result.time.size):
+        apart = points.frame(record).points[number] - view.path[record]
+        assert apart[:2] == pytest.approx(view.bore.eccentricity[record], abs=ROUNDING)
+        if view.bore.touching[record]:
+            pressed += 1
+            # without friction the force on the journal is along the line of centres, into the bore
+            size = view.size[record] * np.linalg.norm(apart)
+            assert view.force[record] @ apart[:2] == pytest.approx(-size, rel=1e-9)
+    assert pressed > 3
+    # the ground stands still: the journal on it, or the bore in it
+    still = view.path if bore == "first" else np.array([points.frame(k).points[number] for k in (0, 20, 60)])
+    assert np.ptp(still, axis=0) == pytest.approx([0.0, 0.0, 0.0], abs=ROUNDING)
 
 
 # --- velocities, and differences of positions ---

@@ -68,10 +68,14 @@ def test_hdf5_has_all_channels_with_units(kind: str, tmp_path: Path) -> None:
             group = file[f"onsets/{pin}"]
             columns = [group[name][:] for name in ("time", "speed", "parting_time", "parting_speed")]
             np.testing.assert_array_equal(np.array(columns).T, np.array(onsets).reshape(-1, 4))
-            assert group["speed"].attrs["unit"] == b"m/s"
+            units = [group[name].attrs["unit"] for name in ("time", "speed", "parting_time", "parting_speed")]
+            assert units == [b"s", b"m/s", b"s", b"m/s"]
             assert group.attrs["largest_force_N"] == result.largest_force[pin]
         assert Value.from_data(json.loads(file["json/scenario"][()])) == result.scenario
         assert json.loads(file["json/provenance"][()]) == result.provenance
+        assert json.loads(file["json/counts"][()]) == dataclasses.asdict(result.counts)
+        impulses = [dataclasses.asdict(impulse) for impulse in result.impulses]
+        assert json.loads(file["json/impulses"][()]) == impulses
 
 
 def test_hdf5_can_hold_some_of_the_records(tmp_path: Path) -> None:

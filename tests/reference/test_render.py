@@ -7,23 +7,28 @@ import subprocess
 import sys
 from dataclasses import replace
 from pathlib import Path
+from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
 import trimesh
 from PIL import Image
 from PIL.ImageColor import getrgb
+from scipy.spatial.transform import Rotation
 
 from studies.paper_machine import ideal_rise, loose_rise
 from support_exudyn import CubicStep, Held, Result, simulate
 from support_exudyn.__main__ import main
+from support_exudyn.exporting.machine_mesh import MachineMesh
 from support_exudyn.figures.style import CONTACT, FLIGHT
 from support_exudyn.loads.roof import Roof
-from support_exudyn.render import render, still
+from support_exudyn.render import painter, render, still
 from support_exudyn.render.camera import Camera, direction_of_view
+from support_exudyn.render.ink import Sheet
 from support_exudyn.render.layout import Layout
 from support_exudyn.render.moments import moment
 from support_exudyn.render.movie import durations
+from support_exudyn.render.pin_view import pin_view
 from support_exudyn.render.scene import Scene
 from support_exudyn.render.stage import Image as Picture
 from support_exudyn.render.stage import Prop, Stage
@@ -77,6 +82,23 @@ def test_the_camera_sees_points_where_the_ray_tracer_draws_them() -> None:
         assert (columns.mean() + 0.5, rows.mean() + 0.5) == pytest.approx(
             camera.pixels(np.array([point]))[0], abs=0.5
         )
+
+
+def test_the_ray_tracer_turns_props_and_has_their_colours() -> None:
+    camera = Camera(direction_of_view(), (0.0, 0.0, 0.0), 4.0, *SIZE)
+    bar = trimesh.creation.box((1.0, 0.05, 0.05))
+    bar.apply_translation([0.5, 0.0, 0.0])
+    turn = Rotation.from_euler("zxy", [50.0, 20.0, -30.0], degrees=True).as_matrix()
+    picture = Stage([Prop(bar, (1.0, 0.4, 0.0), edges=False)], camera).image([(np.zeros(3), turn)]).astype(int)
+    drawn = np.argwhere(picture[:, :, 2] < 100)[:, ::-1] + 0.5
+    ends = camera.pixels(np.array([[0.0, 0.0, 0.0], turn[:, 0]]))
+    # half of the bar's thickness of 2 pixels, and its edges
+    assert drawn.mean(axis=0) == pytest.approx(ends.mean(axis=0), abs=1.0)
+    along = (ends[1] - ends[0]) / np.linalg.norm(ends[1] - ends[0])
+    aside = (drawn - ends[0]) @ np.array([-along[1], along[0]])
+    assert np.abs(aside).max() < 4.0
+    red, green, blue = picture[drawn[:, 1].astype(int), drawn[:, 0].astype(int)].mean(axis=0)
+    assert red > 1.5 * green > 1.5 * blue
 
 
 def test_forward_is_to_the_left_and_up_is_up() -> None:
@@ -140,6 +162,116 @@ def test_the_mark_is_on_the_pin(bouncing: Result) -> None:
     x, y = bouncing.scenario.linkage.pins[LOOSE].first_point
     place = camera.pixels(np.array([[x, y, pin.mesh.bounds[0, 2]]]))[0]
     assert (column, row) == pytest.approx(place, abs=1.5)  # pixels; the mark's middle is rounded
+
+
+def test_surfaces_are_put_where_the_exported_mesh_has_them(bouncing: Result, spatial: Result) -> None:
+    for run in (bouncing, spatial):
+        scene, record = Scene(run), run.time.size - 1
+        expected = MachineMesh(run).frame(record).points
+        placed = [
+            prop.mesh.vertices @ turn.T + place
+            for prop, (place, turn) in zip(scene.props(), scene.places(record), strict=True)
+        ]
+        # rounding of places of some metres
+        assert np.concatenate(placed)[: len(expected)] == pytest.approx(expected, abs=1e-12)
+
+
+def test_the_coal_is_in_front_the_goaf_behind_and_the_roof_above(rising: Result) -> None:
+    scene = Scene(rising)
+    labels = {label.text: label.place for label in scene.labels(0)}
+    low, high = scene.points.min(axis=0), scene.points.max(axis=0)
+    assert labels["coal\nface"][0] > high[0]
+    assert labels["goaf"][0] < low[0]
+    assert labels["floor"][1] < scene.look.floor <= low[1]
+    assert labels["roof"][1] > scene.roof(0) >= high[1]  # without a roof that presses it is above the highest
+
+
+class Arrow(NamedTuple):
+    """As it was asked for."""
+
+    tail: np.ndarray
+    tip: np.ndarray
+    cut: bool
+
+    @property
+    def way(self) -> np.ndarray:
+        return self.tip - self.tail
+
+
+def painted(
+    run: Result, time: float, size: tuple[int, int], monkeypatch: pytest.MonkeyPatch
+) -> tuple[list[Arrow], list[str]]:
+    """Arrows and words of a still: the scale's arrow, the one in the machine, the one in the bore."""
+    arrows: list[Arrow] = []
+    words: list[str] = []
+    drawn, written = Sheet.arrow, painter.write
+
+    def arrow(sheet: Sheet, tail: Any, tip: Any, colour: str, thick: float, cut: bool = False) -> None:
+        arrows.append(Arrow(np.array(tail), np.array(tip), cut))
+        drawn(sheet, tail, tip, colour, thick, cut)
+
+    def write(picture: Any, place: Any, text: str, *rest: Any, **others: Any) -> None:
+        words.append(text)
+        written(picture, place, text, *rest, **others)
+
+    monkeypatch.setattr(Sheet, "arrow", arrow)
+    monkeypatch.setattr(painter, "write", write)
+    still(run, time, size=size)
+    return arrows, words
+
+
+def test_arrows_are_the_force_on_the_journal_in_the_scale_that_is_shown(
+    bouncing: Result, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    size, force = (640, 360), bouncing[f"pin.{LOOSE}.force"]
+    usual = np.quantile(force[force > 0.0], 0.97)
+    inner = np.flatnonzero((force > 0.3 * usual) & (force < 1.5 * usual))
+    assert inner.size
+    record = int(inner[0])
+    (scale, machine, bore), words = painted(bouncing, float(bouncing.time[record]), size, monkeypatch)
+    x, y = (
+        bouncing[f"pin.{LOOSE}.force_{axis}"][record] for axis in "xy"
+    )  # on the link, which has the journal
+    (bar,) = (float(word.removesuffix(" kN")) for word in words if word.endswith(" kN") and "." not in word)
+    pixels = scale.way[0] / (1e3 * bar)  # to a newton
+    assert scale.way[1] == 0.0
+    assert bore.way == pytest.approx([-pixels * x, -pixels * y])  # forward is to the left
+    view = direction_of_view().apply([x, y, 0.0])
+    assert machine.way == pytest.approx([pixels * view[0], -pixels * view[1]])
+    assert [arrow.cut for arrow in (scale, machine, bore)] == [False, False, False]
+    assert f"{force[record] / 1e3:.1f} kN" in words
+    assert f"t = {bouncing.time[record]:.3f} s" in words
+    assert "the arrow is cut short" not in words
+
+
+def test_the_arrow_of_a_force_beyond_the_scale_is_cut_and_says_so(
+    bouncing: Result, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    force = bouncing[f"pin.{LOOSE}.force"]
+    record = int(force.argmax())
+    beyond = replace(  # a hit ten times as hard
+        bouncing,
+        channels={
+            name: replace(one, values=np.where(np.arange(force.size) == record, 10.0, 1.0) * one.values)
+            if name.startswith(f"pin.{LOOSE}.force")
+            else one
+            for name, one in bouncing.channels.items()
+        },
+    )
+    (_, machine, bore), words = painted(beyond, float(bouncing.time[record]), (640, 360), monkeypatch)
+    assert machine.cut
+    assert bore.cut
+    assert f"{force[record] / 100.0:.1f} kN" in words
+    assert "the arrow is cut short" in words
+
+
+def test_in_space_the_middle_of_the_bearing_is_shown(spatial: Result) -> None:
+    view = pin_view(spatial, LOOSE)
+    assert view is not None
+    assert view.bore is not None
+    for k, axis in enumerate("xy"):
+        ends = [spatial[f"pin.{LOOSE}.{side}_eccentricity_{axis}"] for side in ("left", "right")]
+        assert view.bore.eccentricity[:, k] == pytest.approx(0.5 * (ends[0] + ends[1]))
 
 
 def test_a_run_in_space_is_shown(spatial: Result) -> None:

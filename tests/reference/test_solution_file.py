@@ -26,16 +26,20 @@ from support_exudyn import (
     SimulationError,
     SolverSettings,
     bore_area,
+    dressed_model,
     simulate,
     solver,
 )
 from support_exudyn.__main__ import main
-from support_exudyn.dressed_model import dressed
+from support_exudyn.drawing.poses import Poses
+from support_exudyn.drawing.solid import solids_of
+from support_exudyn.drawing.strut_pose import strut_pose
+from support_exudyn.dressed_model import POSITION, SHOWN, dressed
 from support_exudyn.model import model
 from support_exudyn.solution_file import read_solution, rows
 from support_exudyn.view import open_viewer
 from tests.processes import environment
-from tests.reference.cases import loose_slider_crank, loose_support, support
+from tests.reference.cases import PIN, loose_slider_crank, loose_support, support
 from user_forces import InputError
 
 STROKE, TIME = 0.02, 0.05  # [m], [s]
@@ -338,3 +342,74 @@ def test_it_can_be_exported(run: Result, tmp_path: Path) -> None:
     assert main(["export", str(tmp_path / "rise.h5"), "--to", "solution"]) == 0
     read = LoadSolutionFile(str(tmp_path / "rise_export" / "rise_solution.txt"), verbose=False)
     assert read["data"][:, 0] == pytest.approx(run.time, abs=0.0)
+
+
+# --- what is drawn is where the run was ---
+
+
+@pytest.mark.parametrize("name", ["redundant", "space", "crank"])
+def test_surfaces_and_columns_are_where_the_run_was(name: str) -> None:
+    result = simulate(RISES[name])
+    shown, poses = dressed(result.scenario), Poses(result)
+    record = result.time.size - 1
+    try:
+        SetSolutionState(shown.scene.mbs, rows(result, shown.scene), record, SHOWN)
+        for body, item in shown.scene.bodies.items():
+            for solid in solids_of(shown.look, body):
+                drawn = dressed_model._of_solid(solid, dressed_model._axes(shown.scene, body))
+                points = np.reshape(drawn["points"], (-1, 3))
+                ends = np.array([np.argmin(points, axis=0), np.argmax(points, axis=0)]).ravel()
+                there = [
+                    shown.scene.mbs.GetObjectOutputBody(item.object, POSITION, points[k], SHOWN) for k in ends
+                ]
+                where = poses.of(body).points(np.asarray(solid.mesh.vertices), record)
+                # each is a corner of the solid, where its body was; rounding of places of some metres
+                apart = np.linalg.norm(np.array(there)[:, None] - where[None], axis=-1).min(axis=1)
+                assert apart.max() < 1e-12, solid.name
+        for strut in shown.look.struts:
+            cylinder, rod = (
+                np.reshape(part()["points"], (-1, 3)) for part in dressed_model._parts(shown, strut)
+            )
+            expected = strut_pose(strut, poses, record)
+            for points, where in (
+                (cylinder, expected.cylinder(np.asarray(strut.cylinder.vertices))[0]),
+                (rod, expected.rod(np.asarray(strut.rod.vertices))[0]),
+            ):
+                for end in (np.min, np.max):
+                    assert end(points, axis=0) == pytest.approx(end(where, axis=0), abs=1e-12)
+    finally:
+        shown.scene.release()
+
+
+@pytest.mark.parametrize("bore", ["first", "second"])
+def test_journal_and_rim_of_a_loose_pin_are_on_their_bodies(bore: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    scenario = RISES["redundant"]
+    loose = dataclasses.replace(scenario.clearance_pins[PIN], bore=bore, eccentricity=(0.0, -0.0015))
+    scenario = dataclasses.replace(scenario, pins={PIN: loose})
+    place, bearing = scenario.linkage.pins[PIN], loose.contact.bearing
+    rims: list[tuple[np.ndarray, Any]] = []
+    drawn = dressed_model._of_rim
+
+    def of_rim(points: np.ndarray, axes: Any = dressed_model.STILL) -> dict[str, Any]:
+        rims.append((points, axes))
+        return drawn(points, axes)
+
+    monkeypatch.setattr(dressed_model, "_of_rim", of_rim)
+    shown = dressed(scenario)
+    try:
+        (journal,) = [solid for solid in shown.look.solids if solid.name == f"journal of {PIN}"]
+        on_second = bore == "first"
+        assert journal.body == (place.second if on_second else place.first)
+        centre = place.second_point if on_second else place.first_point
+        low, high = journal.mesh.bounds
+        # a polygon of 32 corners that touches its circle
+        assert 0.5 * (low + high)[:2] == pytest.approx(centre, abs=1e-12)
+        assert (high - low)[0] == pytest.approx(2.0 * bearing.journal_radius, rel=1e-9)
+        ((points, axes),) = rims  # of which body: its axes, or those of the ground
+        assert (axes is dressed_model.STILL) == on_second
+        away = points[:, :2] - np.array(place.first_point if on_second else place.second_point)
+        assert np.hypot(*away.T) == pytest.approx(bearing.bore_radius, abs=1e-12)
+        if not on_second:
+            assert axes.origin[:2] == pytest.approx(scenario.linkage.bodies[place.second].centre)
+    finally:
+        shown.scene.release()

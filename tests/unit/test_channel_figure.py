@@ -51,6 +51,27 @@ def test_units_are_those_that_are_read_best(unit: str, size: float, expected: tu
     assert readable(unit, size) == (expected[0], pytest.approx(expected[1]))
 
 
+PREFIXES = {"": 1.0, "k": 1e-3, "m": 1e3, "\u00b5": 1e6}
+
+
+@pytest.mark.parametrize("unit", units.SIZES)
+@pytest.mark.parametrize("exponent", range(-8, 9))
+def test_a_prefix_means_what_it_means_everywhere(unit: str, exponent: int) -> None:
+    size = 2.0 * 10.0**exponent
+    shown = readable(unit, size)
+    assert shown.name.endswith(unit)
+    assert shown.scale == PREFIXES[shown.name.removesuffix(unit)]
+    # and never smaller than a unit without a prefix that would do
+    assert not (shown.scale > 1.0 and shown.scale * size >= 1e4)
+
+
+@pytest.mark.parametrize("unit", units.ANGLES)
+def test_angles_are_shown_in_degrees(unit: str) -> None:
+    shown = readable(unit, 1.0)
+    assert shown.name.startswith("deg")
+    assert shown.scale == pytest.approx(180.0 / np.pi)
+
+
 def test_quantities_are_said_with_their_units() -> None:
     assert units.said(2.6e-4, "s") == "260 µs"
     assert units.said(-51234.0, "N", 4) == "-51.23 kN"
@@ -113,7 +134,11 @@ def test_errors_are_those_of_the_estimate() -> None:
         # rounding is that of the channel's largest value, not of each
         assert errors[n] == pytest.approx(estimate.error, rel=1e-6)
     drawing = over_time(found, ["rear_column.force"])
-    assert len(drawing.axes[0].collections) == 1  # the band
+    (band,) = drawing.axes[0].collections
+    around = band.get_paths()[0].vertices
+    at = around[np.isclose(around[:, 0], TIME[130])][:, 1]  # below and above
+    value = 1e-3 * found["rear_column.force"][130]
+    assert [at.min(), at.max()] == pytest.approx([value - 1e-3 * errors[130], value + 1e-3 * errors[130]])
     assert "rear_column.force" in figure_checks.words_below(drawing)
 
 

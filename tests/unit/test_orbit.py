@@ -84,6 +84,46 @@ def test_touches_lie_on_the_circle_in_the_direction_of_the_flight() -> None:
     assert (x, y) == (pytest.approx([1.5 * math.cos(angle)]), pytest.approx([1.5 * math.sin(angle)]))
 
 
+def test_the_direction_of_a_touch_is_that_of_the_flight_carried_on() -> None:
+    # along a straight line that misses the middle by 1 mm; it meets the circle of 1.5 mm between two records
+    reached = math.sqrt(1.25) * 1e-3
+    time = (reached + 0.75e-3) / 0.1
+    assert 18e-3 < time < 19e-3
+    x = 0.1 * TIME - 0.75e-3
+    x[19:] = 1.5e-3  # it is hit aside afterwards
+    run = synthetic.journal(SCENARIO, TIME, x, np.full_like(TIME, -1e-3), [Onset(time, 0.1)])
+    assert journal(run).directions == pytest.approx([math.atan2(-1e-3, reached)], abs=1e-9)  # rounding of times
+
+
+def test_a_parting_is_where_the_records_around_it_are() -> None:
+    # pressed in at the back, where the angle jumps from pi to -pi, it slides down and parts between two records
+    y = 4e-6 * (24.5 - TIME * 1e3)
+    x = np.where(TIME < 24.5e-3, -1.55e-3, -1.45e-3)
+    run = synthetic.journal(SCENARIO, TIME, x, y, [Onset(0.5e-3, 0.1, 24.5e-3, 0.1)])
+    here, there, _ = journal(run).path()
+    assert here.max() < -1.4e-3
+    parting = np.flatnonzero(np.isclose(np.hypot(here, there), CLEARANCE, rtol=1e-12))[-1]
+    # between y of 2 and -2 um
+    assert there[parting] == pytest.approx(0.0, abs=5e-6)
+    assert here[parting] == pytest.approx(-CLEARANCE, rel=1e-4)
+
+
+def test_a_parting_after_the_piece_is_not_drawn() -> None:
+    shown = journal(bouncing(), until=20e-3)
+    assert len(shown.path()[0]) == shown.time.size + 1  # the touch
+    assert len(journal(bouncing()).path()[0]) == TIME.size + 2
+
+
+def test_contact_is_deep_and_said_so() -> None:
+    drawing = orbit(bouncing())
+    depths = {line.get_color(): np.array(line.get_ydata()) for line in drawing.axes[1].lines}
+    assert np.nanmin(depths[style.CONTACT]) > -1e-9
+    assert np.nanmax(depths[style.CONTACT]) == pytest.approx(0.3)
+    assert "Deepest record: 0.3 mm" in figure_checks.words_below(drawing)
+    marks = {line.get_label(): line.get_markerfacecolor() for line in drawing.axes[0].lines}
+    assert (marks["start"], marks["end"]) == ("white", style.IDEAL)
+
+
 def test_start_and_end_are_marked() -> None:
     drawn = lines(orbit(bouncing(), start=2e-3, until=30e-3).axes[0])
     assert drawn["start"][1] == pytest.approx(-0.2)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from studies.slider_crank import scenarios
@@ -59,6 +60,9 @@ def test_a_journal_fits_its_bore() -> None:
     assert pin.body == "journal"
     # a polygon of 32 corners that touches its circle
     assert pin.mesh.bounds[1, 0] == pytest.approx(BEARING.journal_radius, rel=1e-9)
+    place = STAND.linkage.pins["pin"]
+    away = np.linalg.norm(solids["bore"].mesh.vertices[:, :2] - np.array(place.first_point), axis=1)
+    assert away.min() == pytest.approx(BEARING.bore_radius, rel=1e-9)  # corners of the bore are on its circle
     assert carrier(STAND, "pin") == "bore"
     other = replace(STAND, pins={"pin": replace(STAND.clearance_pins["pin"], bore="second")})
     assert carrier(other, "pin") == "journal"
