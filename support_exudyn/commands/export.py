@@ -98,14 +98,14 @@ def run(given: argparse.Namespace) -> None:
         size = sum(file.stat().st_size for file in files)
         say(f"{kind}: {files[0]} ({_counted(len(files))}, {size / 1e6:.3g} MB, {took:.2g} s)")
         if kind in ("xdmf", "vtu") and given.end != given.start and result.time.size > 1:
-            _check_moves(len(sampling(MESHES).records(result.time)), kind)
+            _tell_of_a_single_step(len(sampling(MESHES).records(result.time)), kind)
     if len(refused) == len(USUAL):
         raise refused[USUAL[0]]
     for kind, reason in refused.items():
         print(f"{kind}: left out: {reason}", file=sys.stderr)
 
 
-def _check_moves(steps: int, kind: str) -> None:
+def _tell_of_a_single_step(steps: int, kind: str) -> None:
     """Say so if a mesh has a single step, which the user may not have meant."""
     if steps == 1:
         print(f"{kind}: a single step; more by a larger --frames-per-second or by --every", file=sys.stderr)
