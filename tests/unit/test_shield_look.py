@@ -112,6 +112,45 @@ def test_pins_are_where_the_machine_has_them(scene: Scenario) -> None:
             assert middle == pytest.approx(scene.linkage.pins[name].second_point, abs=1e-9)
 
 
+@pytest.mark.parametrize("name", ["in space", "columns in two bodies, in space"])
+def test_left_and_right_are_on_the_sides_that_the_machine_has_them(name: str) -> None:
+    shown, space = look(SCENES[name]), SCENES[name].space
+    sided = [solid for solid in shown.solids if solid.body.endswith(("_left", "_right"))]
+    assert {"front_link_left", "front_link_right"} <= {solid.body for solid in sided}
+    for solid in sided:
+        beside = space.bodies[solid.body].centre[2]
+        assert (solid.mesh.bounds[:, 2].mean() > 0.0) == (beside > 0.0), solid.name
+    for strut in shown.struts:
+        assert (strut.foot_point[2] > 0.0) == strut.name.endswith("_right")  # as of bodies
+    assert space.bodies["front_link_left"].centre[2] < 0.0 < space.bodies["front_link_right"].centre[2]
+
+
+def test_what_there_is_once_lies_on_both_sides_of_the_plane_alike() -> None:
+    for solid in look(PLAIN).solids:
+        low, high = solid.mesh.bounds[:, 2]
+        assert low == pytest.approx(-high, abs=1e-9), solid.name  # rounding
+
+
+@pytest.mark.parametrize(("bore", "body"), [("first", "rear_link"), ("second", GROUND)])
+def test_a_loose_pin_moves_with_the_body_that_has_its_journal(bore: str, body: str) -> None:
+    loose = SCENES["loose pin"]
+    pin = replace(loose.clearance_pins["rear_base"], bore=bore)
+    shown = look(replace(loose, pins={"rear_base": pin}))
+    (journal,) = [solid for solid in shown.solids if solid.name == "pin_rear_base"]
+    assert journal.body == body
+
+
+def test_the_tail_beam_has_its_centre_of_mass_in_the_middle() -> None:
+    scenario = SCENES["tail beam of its own"]
+    (tail,) = [solid for solid in look(scenario).solids if solid.role is Role.TAIL]
+    hinge = np.array(scenario.linkage.pins["shield_tail"].second_point)
+    arm = np.array(scenario.linkage.bodies["tail_beam"].centre) - hinge
+    length = float(np.hypot(*arm))
+    along = (tail.mesh.vertices[:, :2] - hinge) @ arm / length
+    # its ends are round, by radii that differ by less than a tenth of it
+    assert 0.5 * (along.min() + along.max()) == pytest.approx(length, rel=0.1)
+
+
 def test_the_machine_stands_on_the_floor_and_its_roof_is_on_top(scene: Scenario) -> None:
     shown = look(scene)
     base = next(solid for solid in shown.solids if solid.role is Role.BASE)
