@@ -6,13 +6,18 @@ import sys
 from collections.abc import Sequence
 
 from support_exudyn.command_line import answered
-from support_exudyn.commands import command, parser
 
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Do what the command line asks for. Returns the exit code."""
+    return answered(lambda: _asked(argv))
+
+
+def _asked(argv: Sequence[str] | None) -> None:
+    from support_exudyn.commands import command, parser  # and libraries: long enough to be interrupted
+
     given = parser().parse_args(argv)
-    return answered(lambda: command(given.command).run(given))
+    command(given.command).run(given)
 
 
 if __name__ == "__main__":

@@ -92,7 +92,7 @@ def run(given: argparse.Namespace) -> None:
     if len(written.frames) == 1 and result.time.size > 1:
         step = given.speed / given.frames_per_second
         print(
-            f"a single frame: the run is shorter than the {step:g} s between two; more by a smaller --speed",
+            f"a single frame: less is shown than the {step:g} s between two; more by a smaller --speed",
             file=sys.stderr,
         )
     if written.movie is not None:

@@ -36,7 +36,7 @@ def orbit(result: Result, pin: str | None = None, start: float = 0.0, until: flo
     shown = journal(result, pin, start, until)
     drawing = Figure(figsize=style.size(170, 112))
     grid = drawing.add_gridspec(3, 2, width_ratios=(1.15, 1.0), height_ratios=(1.0, 1.0, 0.12))
-    unit = readable("m", float(np.hypot(shown.x, shown.y).max()))
+    unit = readable("m", max(shown.clearance, float(np.hypot(shown.x, shown.y).max())))
     place = drawing.add_subplot(grid[:2, 0])
     draw_path(place, shown, unit)
     place.set_title("a) path of the centre")

@@ -26,6 +26,7 @@ EVEN = 1e-6  # share of the spacing by which records may be off
 LETTERS = "ABC"  # of the peaks that are marked
 MANY = 1000  # frequencies from which on their axis is logarithmic
 CLOSE = 0.03  # of the width of a panel: letters closer would lie upon one another
+LOWEST = 1e-3  # amplitude of a peak, of the largest one; lower ones are ripple
 PROMINENCE = 3.0  # by how much a peak stands out of what is around it, as a factor of the amplitude
 FINE_ENOUGH = 10.0  # records within the shortest touch, for its spectrum not to be folded
 TINY = 1e-12  # of the largest amplitude: below, nothing is drawn
@@ -60,7 +61,9 @@ class Spectrum:
         if not self.amplitude.max() > 0.0:
             return []
         levels = np.log(np.maximum(self.amplitude, TINY * self.amplitude.max()))
-        found, _ = signal.find_peaks(levels, prominence=math.log(PROMINENCE))
+        found, _ = signal.find_peaks(
+            levels, height=math.log(LOWEST * self.amplitude.max()), prominence=math.log(PROMINENCE)
+        )
         highest = sorted(found.tolist(), key=lambda n: -self.amplitude[n])[:most]
         return [(float(self.frequency[n]), float(self.amplitude[n])) for n in highest]
 
@@ -181,7 +184,8 @@ def _draw(axes: Axes, found: Spectrum, colour: str) -> None:
         place = hertz.scale * frequency, unit.scale * height
         axes.plot(*place, "v", ms=4, color=style.IDEAL, mfc="white", mew=0.8)
         axes.annotate(letter, place, (0, above), textcoords="offset points", ha="center", fontsize=7)
-        label = f"{letter}: {frequency:.4g} ± {0.5 * found.resolution:.2g} Hz, {place[1]:.3g} {unit.name}"
+        half_a_bin = 0.5 * hertz.scale * found.resolution
+        label = f"{letter}: {place[0]:.4g} ± {half_a_bin:.2g} {hertz.name}, {place[1]:.3g} {unit.name}"
         axes.plot([], [], ls="none", label=label)
     if found.peaks():
         axes.legend(loc="upper right", fontsize=7, handlelength=0.0, title="highest peaks", title_fontsize=7)

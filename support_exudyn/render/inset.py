@@ -20,6 +20,7 @@ from support_exudyn.render.scales import round_up, said
 
 SHOWN = 0.2  # clearance in the picture, of the bore's radius, at least
 RING = 1.2  # radius of what is drawn about the bore, of the bore's
+ROUNDING = 1e-6  # of the clearance
 LONGEST = 1.6  # of an arrow, in radii of the bore
 TRAIL = 0.25  # how long the trail of the journal's centre is, in seconds of the movie
 HOUSING = to_hex(COLOURS[Role.BASE])
@@ -79,7 +80,11 @@ class Inset:
         touching = bool(self._bore.touching[record])
         if touching:
             away = math.dist(at, centre)
-            if away > 0.0:
+            if away < (1.0 - ROUNDING) * self._gap:  # an edge of a tilted one touches, elsewhere on the wall
+                shorter = min(1.0, LONGEST * self._radius / max(math.hypot(*force), 1e-9))
+                tip = (at[0] + shorter * force[0], at[1] + shorter * force[1])
+                sheet.arrow(at, tip, CONTACT, 7.0 * u, cut or shorter < 1.0)
+            elif away > 0.0:
                 n = ((at[0] - centre[0]) / away, (at[1] - centre[1]) / away)
                 wall = (centre[0] + self._radius * n[0], centre[1] + self._radius * n[1])
                 sheet.disc(wall, 6.0 * u, CONTACT, "#ffffff", 1.2 * u)
@@ -90,6 +95,8 @@ class Inset:
         sheet.onto(picture)
         left, top, right, _ = self._box
         write(picture, (left + 8 * u, top + 8 * u), self.title, 14 * u, anchor="lt", bold=True)
+        if self._bore.can_tilt:
+            write(picture, (right - 8 * u, top + 8 * u), "middle of the pin", 13 * u, FAINT, "rt")
         word = "contact" if touching else "free flight"
         write(
             picture,

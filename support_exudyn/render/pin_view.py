@@ -28,12 +28,14 @@ class Bore:
             that of the middle of the bearing.
         touching: whether it is in contact, shape (n,).
         carrier: name of the body that has the bore.
+        can_tilt: whether the journal may touch with an edge while its middle is away from the wall.
     """
 
     pin: ClearancePin
     eccentricity: Series
     touching: npt.NDArray[np.bool_]
     carrier: str
+    can_tilt: bool = False
 
 
 @dataclass(frozen=True)
@@ -84,7 +86,13 @@ def pin_view(result: Result, name: str | None = None) -> PinView | None:
     path = Poses(result).of(pin.bore.body).path(pin.bore.point)
     if pin.loose is None:
         return PinView(name, pin.second.body.replace("_", " "), force, path, None)
-    bore = Bore(pin.loose, _eccentricity(result, name), np.hypot(*force.T) > 0.0, pin.bore.body)
+    bore = Bore(
+        pin.loose,
+        _eccentricity(result, name),
+        np.hypot(*force.T) > 0.0,
+        pin.bore.body,
+        result.scenario.dimensions == 3,
+    )
     return PinView(name, "journal", force, path, bore)
 
 

@@ -243,6 +243,17 @@ def test_all_figures_are_drawn_though_nobody_reads_their_names(runs: Path, tmp_p
     assert names(tmp_path) == both("overview", f"orbit_{pin}", f"poincare_{pin}", f"spectrum_{pin}")
 
 
+def test_an_interruption_while_libraries_load_is_said_in_a_line(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def interrupted() -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("support_exudyn.commands.parser", interrupted)
+    assert main(["show", "run.h5"]) == 130
+    assert capsys.readouterr().err.startswith("interrupted")
+
+
 def test_show_refuses_unknown_channels(runs: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["show", str(runs / "loose.h5"), "tip.w"]) == 1
     assert "tip.x" in capsys.readouterr().err

@@ -25,6 +25,7 @@ from support_exudyn.loads.roof import Roof
 from support_exudyn.render import painter, render, still
 from support_exudyn.render.camera import Camera, direction_of_view
 from support_exudyn.render.ink import Sheet
+from support_exudyn.render.inset import Inset
 from support_exudyn.render.layout import Layout
 from support_exudyn.render.moments import moment
 from support_exudyn.render.movie import durations
@@ -272,6 +273,31 @@ def test_in_space_the_middle_of_the_bearing_is_shown(spatial: Result) -> None:
     for k, axis in enumerate("xy"):
         ends = [spatial[f"pin.{LOOSE}.{side}_eccentricity_{axis}"] for side in ("left", "right")]
         assert view.bore.eccentricity[:, k] == pytest.approx(0.5 * (ends[0] + ends[1]))
+
+
+def test_no_place_on_the_wall_is_marked_where_the_middle_of_the_journal_is_away_from_it(
+    spatial: Result,
+) -> None:
+    """An edge of a tilted journal touches elsewhere: only the journal's middle has the colour of contact."""
+    pin = pin_view(spatial)
+    assert pin is not None
+    assert pin.bore is not None
+    assert pin.bore.can_tilt
+    clearance = pin.bore.pin.contact.bearing.clearance
+    tilted = replace(
+        pin.bore,
+        eccentricity=np.array([[0.1 * clearance, 0.0], [1.1 * clearance, 0.0]]),
+        touching=np.array([True, True]),
+    )
+    inset = Inset((0, 0, 286, 286), tilted, 1.0)
+    seen = []
+    for record in (0, 1):
+        picture = Image.new("RGB", (286, 286))
+        inset.draw(picture, record, record, (0.0, 0.0), False)
+        seen.append(pixels_of(np.asarray(picture)[30:250], CONTACT))  # without the words
+    wall = inset.centre[0] - 80.0  # pixels; the journal's middle is never so far from the bore's
+    assert (seen[0][:, 1] > wall).all()
+    assert (seen[1][:, 1] < wall).any()
 
 
 def test_a_run_in_space_is_shown(spatial: Result) -> None:

@@ -52,6 +52,11 @@ def test_flight_and_contact_are_parted_at_the_touches() -> None:
     assert (colours["free flight"], colours["contact"]) == (style.FLIGHT, style.CONTACT)
 
 
+def test_a_short_path_is_shown_in_the_unit_of_the_clearance() -> None:
+    run = synthetic.journal(SCENARIO, TIME, np.zeros_like(TIME), -1e-6 * np.arange(TIME.size) / TIME.size)
+    assert orbit(run).axes[0].get_xlabel() == "eccentricity x [mm]"
+
+
 def test_the_two_flights_are_not_joined_through_the_contact() -> None:
     flight = lines(orbit(bouncing()).axes[0])["free flight"]
     assert np.isnan(flight[1]).any()

@@ -84,6 +84,22 @@ def test_peaks_are_the_highest_that_stand_out() -> None:
     assert spectrum(TIME, np.zeros_like(TIME)).peaks() == []
 
 
+def test_ripple_far_below_the_largest_amplitude_is_no_peak() -> None:
+    found = spectrum(TIME, tone(64.0, 9.0) + 1e-4 * tone(400.0, 9.0))
+    peaks = [round(frequency) for frequency, _ in found.peaks()]
+    assert peaks[0] == 64
+    assert 400 not in peaks
+
+
+def test_peaks_are_told_in_the_unit_of_the_axis() -> None:
+    drawing = force_spectrum(run(5e3 + tone(64.0, 3e3), TIME / 100.0), over_time=False)
+    (axes,) = drawing.axes
+    legend = axes.get_legend()
+    assert legend is not None
+    assert axes.get_xlabel() == "frequency [kHz]"
+    assert legend.get_texts()[0].get_text().startswith("A: 6.4 ± 0.05 kHz, 3")
+
+
 def test_records_off_the_grid_are_interpolated_and_a_last_one_left_out() -> None:
     values, spacing, resampled = equally_spaced(np.append(TIME, TIME[-1] + 0.3e-3), np.append(TIME, 7.0))
     assert (spacing, resampled) == (pytest.approx(SPACING), False)
