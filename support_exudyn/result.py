@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import math
 from collections.abc import Callable, Mapping
@@ -198,7 +199,9 @@ class Result:
         if not Path(path).exists():
             raise FileNotFoundError(f"{path}: no such file; allowed: files that Result.save has written")
         if Path(path).is_dir():
-            raise IsADirectoryError(f"{path}: is a folder; allowed: files that Result.save has written")
+            raise IsADirectoryError(
+                errno.EISDIR, "is a directory; allowed: files that Result.save has written", str(path)
+            )
         data = Path(path).read_bytes()
         try:
             check_seal(data, FORMAT)

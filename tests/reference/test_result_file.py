@@ -273,7 +273,9 @@ def test_a_failed_save_leaves_the_old_file(result: Result, tmp_path: Path) -> No
 
 
 def test_a_folder_and_a_name_of_nothing_are_refused_with_what_is_allowed(tmp_path: Path) -> None:
-    with pytest.raises(IsADirectoryError, match=r"is a folder; allowed: files that Result\.save has written"):
+    with pytest.raises(
+        IsADirectoryError, match=r"is a directory; allowed: files that Result\.save has written"
+    ):
         Result.load(tmp_path)
     with pytest.raises(FileNotFoundError, match=r"no such file; allowed: files that Result\.save has written"):
         Result.load(tmp_path / "none.h5")
