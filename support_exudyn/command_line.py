@@ -55,9 +55,9 @@ def number(text: str, low: float = -math.inf, high: float = math.inf) -> float:
 
 def add_times(parser: argparse.ArgumentParser, start: float | None = None, end: float | None = None) -> None:
     """Take --from and --until, times of a run, as `start` and `end` [s], with what they are if not given."""
-    say, time = parser.add_argument, partial(number, low=0.0)
-    say("--from", dest="start", type=time, default=start, metavar="T", help="first time [s] (the start)")
-    say("--until", dest="end", type=time, default=end, metavar="T", help="last time [s] (the end)")
+    add, time = parser.add_argument, partial(number, low=0.0)
+    add("--from", dest="start", type=time, default=start, metavar="T", help="first time [s] (the start)")
+    add("--until", dest="end", type=time, default=end, metavar="T", help="last time [s] (the end)")
 
 
 def folder(text: str) -> Path:

@@ -6,7 +6,7 @@ import argparse
 import math
 import os
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
 HELP = "figures of a run as PNG and PDF: channels over time, journal orbit, Poincare section, force spectrum"
 Draw = Callable[[], "Figure"]
+KINDS = ("orbit", "poincare", "spectrum")  # of figures of a pin
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -89,9 +90,8 @@ def _wanted(result: Result, given: argparse.Namespace) -> tuple[dict[str, Draw],
     found = _of_channels(result, given, given.channels) if given.channels else {}
     loose = chosen_pin(result, given.pin, loose=True) if given.orbit else None
     pin = loose or (chosen_pin(result, given.pin, loose=False) if given.pin or given.spectrum else None)
-    every = _of_pin(result, given, pin)
     kinds = {"orbit": given.orbit, "poincare": given.poincare or given.section, "spectrum": given.spectrum}
-    return found | {name: draw for name, draw in every.items() if kinds[name.split("_")[0]]}, set()
+    return found | _of_pin(result, given, pin, [kind for kind, wanted in kinds.items() if wanted]), set()
 
 
 def _overview(result: Result, given: argparse.Namespace) -> tuple[dict[str, Draw], set[str]]:
@@ -114,8 +114,10 @@ def _of_channels(result: Result, given: argparse.Namespace, names: list[str]) ->
     return {"channels": lambda: over_time(result, names, given.start, given.end)}
 
 
-def _of_pin(result: Result, given: argparse.Namespace, pin: str | None) -> dict[str, Draw]:
-    """Orbit, section and spectrum, as far as the pin can have them."""
+def _of_pin(
+    result: Result, given: argparse.Namespace, pin: str | None, kinds: Sequence[str] = KINDS
+) -> dict[str, Draw]:
+    """Figures of these kinds by file name, as far as the pin can have them."""
     from support_exudyn.figures.orbit import orbit
     from support_exudyn.figures.poincare import poincare
     from support_exudyn.figures.spectrum import force_spectrum
@@ -123,15 +125,14 @@ def _of_pin(result: Result, given: argparse.Namespace, pin: str | None) -> dict[
     ends = given.start, given.end
     pair = matching(result.channels, given.section)
     loose = pin if pin in loose_pins(result) else None
-    name = f"_{pin}" if pin else ""
     found: dict[str, Draw] = {}
     if loose is not None:
-        found[f"orbit{name}"] = lambda: orbit(result, loose, *ends)
+        found["orbit"] = lambda: orbit(result, loose, *ends)
     if loose is not None or given.poincare or pair:
-        found[f"poincare{name}"] = lambda: poincare(result, loose, *ends, phase=given.phase, channels=pair)
+        found["poincare"] = lambda: poincare(result, loose, *ends, phase=given.phase, channels=pair)
     if pin is not None:
-        found[f"spectrum{name}"] = lambda: force_spectrum(result, pin, *ends)
-    return found
+        found["spectrum"] = lambda: force_spectrum(result, pin, *ends)
+    return {f"{kind}_{pin}" if pin else kind: draw for kind, draw in found.items() if kind in kinds}
 
 
 def _show(drawings: list[Figure]) -> None:

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import argparse
-from functools import partial
 
 from support_exudyn.command_line import count, folder
 from support_exudyn.result import Result
 
 HELP = "open Exudyn's solution viewer on a run"
-MOST_SKIPPED = 200  # rows, as many as the viewer's slider has
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -23,9 +21,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--every",
-        type=partial(count, most=MOST_SKIPPED),
+        type=count,
         metavar="N",
-        help="records from frame to frame; by default the run takes about 10 s",
+        help="records from frame to frame, up to 200; by default the run takes about 10 s",
     )
 
 

@@ -51,16 +51,22 @@ class PlacedPin:
 
 def placed_pins(scenario: Scenario) -> list[PlacedPin]:
     """All pins of a scenario, in the order of its machine; guides are none."""
+    if scenario.dimensions == 2:
+        return list(planar_pins(scenario).values())
     loose = scenario.clearance_pins
-    if scenario.dimensions == 3:
-        return [
-            PlacedPin(name, End(b.first, b.first_point), End(b.second, b.second_point), loose.get(b.pin))
-            for name, b in scenario.space.bearings.items()
-            if not b.is_guide
-        ]
     return [
-        PlacedPin(
+        PlacedPin(name, End(b.first, b.first_point), End(b.second, b.second_point), loose.get(b.pin))
+        for name, b in scenario.space.bearings.items()
+        if not b.is_guide
+    ]
+
+
+def planar_pins(scenario: Scenario) -> dict[str, PlacedPin]:
+    """The pins of the plane, by name, also of a scenario in space."""
+    loose = scenario.clearance_pins
+    return {
+        name: PlacedPin(
             name, End(p.first, at(p.first_point, 0.0)), End(p.second, at(p.second_point, 0.0)), loose.get(name)
         )
         for name, p in scenario.linkage.pins.items()
-    ]
+    }

@@ -10,6 +10,7 @@ import numpy as np
 from shapely.geometry import Polygon
 from shapely.ops import unary_union
 
+from support_exudyn.drawing.placed_pins import planar_pins
 from support_exudyn.drawing.shapes import bar, bored, hull, plate, together, tube
 from support_exudyn.drawing.solid import Look, Role, Solid, Strut
 from support_exudyn.machine import GROUND, Column, Linkage, Slide
@@ -40,10 +41,9 @@ def look(scenario: Scenario) -> Look:
     for name, around in points.items():
         wide = max([margin, *(WALL * bore_radius(scenario, pin, margin) for pin in _pins_of(linkage, name))])
         outline = _outline(linkage, name, around, wide, size)
-        for pin, place in linkage.pins.items():
-            if carrier(scenario, pin) == name:
-                centre = place.first_point if place.first == name else place.second_point
-                outline = bored(outline, centre, bore_radius(scenario, pin, margin))
+        for pin in planar_pins(scenario).values():
+            if pin.bore.body == name:
+                outline = bored(outline, pin.bore.point[:2], bore_radius(scenario, pin.name, margin))
         if name == GROUND:
             solids.append(Solid(name, GROUND, Role.BASE, plate(outline, layers[name], 0.5 * thickness)))
             continue
@@ -65,12 +65,6 @@ def _layers(scenario: Scenario, apart: float) -> dict[str, float]:
 def _pins_of(linkage: Linkage, body: str) -> list[str]:
     """Names of the pins on a body."""
     return [name for name, place in linkage.pins.items() if body in (place.first, place.second)]
-
-
-def carrier(scenario: Scenario, pin: str) -> str:
-    """Name of the body that has a pin's bore; the first where nobody says it."""
-    place, loose = scenario.linkage.pins[pin], scenario.clearance_pins.get(pin)
-    return place.second if loose is not None and loose.bore == "second" else place.first
 
 
 def _outline(linkage: Linkage, body: str, around: Sequence[Vector2], wide: float, size: float) -> Polygon:
@@ -102,20 +96,16 @@ def _joining(parts: Sequence[Polygon], half_width: float) -> Polygon:
 
 def _pins(scenario: Scenario, layers: Mapping[str, float], thickness: float, margin: float) -> Iterator[Solid]:
     """Journals, through both bodies and a little out of them, on the one that has not the bore."""
-    for pin, place in scenario.linkage.pins.items():
-        bore = carrier(scenario, pin)
-        body, centre = place.second, place.second_point
-        if bore == place.second:
-            body, centre = place.first, place.first_point
-        loose = scenario.clearance_pins.get(pin)
-        radius = loose.contact.bearing.journal_radius if loose else 0.97 * bore_radius(scenario, pin, margin)
-        ends = [layers[place.first], layers[place.second]]
+    for name, pin in planar_pins(scenario).items():
+        body, centre, loose = pin.journal.body, pin.journal.point[:2], pin.loose
+        radius = loose.contact.bearing.journal_radius if loose else 0.97 * bore_radius(scenario, name, margin)
+        ends = [layers[pin.first.body], layers[pin.second.body]]
         near, far = min(ends) - 0.6 * thickness, max(ends) + 0.5 * thickness
         on_ground = [(GROUND, [z for _, z, _ in copies(None)])]
         copied = on_ground if body == GROUND else body_copies(scenario, body)
         for one, heights in copied:
             mesh = together(tube(at(centre, z + near), at(centre, z + far), radius) for z in heights)
-            yield Solid(f"pin_{pin}{one.removeprefix(body)}", one, Role.PIN, mesh)
+            yield Solid(f"pin_{name}{one.removeprefix(body)}", one, Role.PIN, mesh)
 
 
 def joined_points(linkage: Linkage) -> dict[str, list[Vector2]]:

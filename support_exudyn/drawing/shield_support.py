@@ -12,6 +12,7 @@ from trimesh import Trimesh
 
 from support_exudyn.columns import TwoBodyColumn
 from support_exudyn.drawing.cylinders import cylinder_and_rod
+from support_exudyn.drawing.placed_pins import planar_pins
 from support_exudyn.drawing.shapes import ROUND, bar, plate, together, tube
 from support_exudyn.drawing.shield_sizes import Sizes, sizes
 from support_exudyn.drawing.solid import Look, Role, Solid, Strut
@@ -23,7 +24,7 @@ from support_exudyn.spatial.lift import LEFT, RIGHT, SIDES, at
 from user_forces.values import Vector2
 
 UNDER = 0.043  # floor under the lowest point of the base, of the machine's extent
-ROUND_PIN = 0.4  # by how much pins stand out of their plates, of a plate's thickness
+PROUD = 0.4  # by how much pins stand out of their plates, of a plate's thickness
 
 
 def look(scenario: Scenario) -> Look:
@@ -211,14 +212,12 @@ class _Support:
     def _pins(self) -> Iterator[Solid]:
         """Round pins through their plates, each on the body that has the journal."""
         s = self.sizes
-        out = 0.5 * s.plate + ROUND_PIN * s.plate
-        reach = {"rear_base": s.bracket, "front_base": s.bracket, "front_column": 0.0}
-        for name, place in self.scenario.linkage.pins.items():
+        out = 0.5 * s.plate + PROUD * s.plate
+        reach = {"rear_base": s.bracket, "front_base": s.bracket}
+        for name, pin in planar_pins(self.scenario).items():
             if name.endswith(("_foot", "_head")):
                 continue  # balls
-            loose = self.scenario.clearance_pins.get(name)
-            first = loose is not None and loose.bore == "second"
-            body, centre = (place.first, place.first_point) if first else (place.second, place.second_point)
+            body, centre = pin.journal.body, pin.journal.point[:2]
             end = reach.get(name, s.cheek) + out
             if body == "front_link":
                 yield from self._of_pair(

@@ -60,14 +60,18 @@ def orbit(result: Result, pin: str | None = None, start: float = 0.0, until: flo
     return drawing
 
 
+def draw_circle(axes: Axes, radius: float) -> None:
+    """The clearance circle, a line so that the legend shows one; radius: in the unit of the axes."""
+    angle = np.linspace(0.0, 2.0 * np.pi, CORNERS)
+    x, y = radius * np.cos(angle), radius * np.sin(angle)
+    axes.plot(x, y, color=style.IDEAL, ls=(0, (4, 2)), zorder=2, label="clearance circle")
+
+
 def draw_path(axes: Axes, shown: Journal, unit: Unit) -> None:
     """The path in the colours of contact and flight, within the clearance circle, on equal axes."""
     x, y, contact = shown.path()
-    radius, angle = unit.scale * shown.clearance, np.linspace(0.0, 2.0 * np.pi, CORNERS)
-    axes.plot(
-        radius * np.cos(angle), radius * np.sin(angle), color=style.IDEAL, ls=(0, (4, 2)), zorder=2,
-        label="clearance circle",
-    )  # fmt: skip
+    radius = unit.scale * shown.clearance
+    draw_circle(axes, radius)
     for pieces, colour, width, label in (
         (~contact, style.FLIGHT, FLIGHT_WIDTH, "free flight"),
         (contact, style.CONTACT, CONTACT_WIDTH, "contact"),

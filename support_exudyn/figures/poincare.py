@@ -10,12 +10,12 @@ import numpy as np
 import numpy.typing as npt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.patches import Circle
 
 from support_exudyn.drives import Drive, Held, Reciprocating, Steady
 from support_exudyn.figures import style, units
 from support_exudyn.figures.caption import caption
 from support_exudyn.figures.journal import Journal, Series, journal, loose_pins
+from support_exudyn.figures.orbit import draw_circle
 from support_exudyn.figures.units import DEGREES, Unit, readable
 from support_exudyn.figures.windows import SLACK, inside, said, spacing
 from support_exudyn.machine import GROUND
@@ -25,30 +25,10 @@ from user_forces.values import InputError, short
 
 FEWEST_PERIODS = 3  # points that a section by periods is made of at least
 FEWEST_TOUCHES = 2  # for a return map
-CONTACT_MARK: dict[str, Any] = {
-    "marker": "o",
-    "ms": 3.0,
-    "color": style.CONTACT,
-    "mew": 0.0,
-    "ls": "none",
-    "zorder": 3,
-}
-FLIGHT_MARK: dict[str, Any] = {
-    "marker": "^",
-    "ms": 4.0,
-    "color": style.FLIGHT,
-    "mew": 0.0,
-    "ls": "none",
-    "zorder": 3,
-}
-PLAIN_MARK: dict[str, Any] = {
-    "marker": "o",
-    "ms": 3.0,
-    "color": style.IDEAL,
-    "mew": 0.0,
-    "ls": "none",
-    "zorder": 3,
-}
+DOT: dict[str, Any] = {"marker": "o", "ms": 3.0, "mew": 0.0, "ls": "none", "zorder": 3}
+CONTACT_MARK = {**DOT, "color": style.CONTACT}
+FLIGHT_MARK = {**DOT, "color": style.FLIGHT, "marker": "^", "ms": 4.0}
+PLAIN_MARK = {**DOT, "color": style.IDEAL}
 NARROW = 0.01  # share of its size below which only the spread of a channel is shown
 SAME = 1e-4  # ... and below which all points are the same, which they are then seen to be
 
@@ -221,9 +201,7 @@ def _draw_places(
     touching: npt.NDArray[np.bool_] = np.interp(section.time, result.time, result[depth]) > 0.0
     reach = max(shown.clearance, float(np.hypot(section.first, section.second).max()))
     unit = readable("m", reach)
-    circle = Circle((0.0, 0.0), unit.scale * shown.clearance, fill=False, lw=0.8, ls=(0, (4, 2)))
-    circle.set_label("clearance circle")
-    axes.add_patch(circle)
+    draw_circle(axes, unit.scale * shown.clearance)
     _marked(axes, unit.scale * section.first, unit.scale * section.second, touching)
     reach *= 1.12 * unit.scale
     axes.set(aspect="equal", xlim=(-reach, reach), ylim=(-reach, reach))

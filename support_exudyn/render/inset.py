@@ -79,18 +79,12 @@ class Inset:
         self._trail(sheet, first, record)
         touching = bool(self._bore.touching[record])
         if touching:
-            away = math.dist(at, centre)
-            if away < (1.0 - ROUNDING) * self._gap:  # an edge of a tilted one touches, elsewhere on the wall
-                shorter = min(1.0, LONGEST * self._radius / max(math.hypot(*force), 1e-9))
-                tip = (at[0] + shorter * force[0], at[1] + shorter * force[1])
-                sheet.arrow(at, tip, CONTACT, 7.0 * u, cut or shorter < 1.0)
-            elif away > 0.0:
-                n = ((at[0] - centre[0]) / away, (at[1] - centre[1]) / away)
-                wall = (centre[0] + self._radius * n[0], centre[1] + self._radius * n[1])
-                sheet.disc(wall, 6.0 * u, CONTACT, "#ffffff", 1.2 * u)
-                shorter = min(1.0, LONGEST * self._radius / max(math.hypot(*force), 1e-9))
-                tip = (wall[0] + shorter * force[0], wall[1] + shorter * force[1])
-                sheet.arrow(wall, tip, CONTACT, 7.0 * u, cut or shorter < 1.0)
+            tail = self._touched(at)
+            if tail != at:
+                sheet.disc(tail, 6.0 * u, CONTACT, "#ffffff", 1.2 * u)
+            shorter = min(1.0, LONGEST * self._radius / max(math.hypot(*force), 1e-9))
+            tip = (tail[0] + shorter * force[0], tail[1] + shorter * force[1])
+            sheet.arrow(tail, tip, CONTACT, 7.0 * u, cut or shorter < 1.0)
         sheet.disc(at, 4.0 * u, CONTACT if touching else FLIGHT, "#ffffff", 1.2 * u)
         sheet.onto(picture)
         left, top, right, _ = self._box
@@ -109,6 +103,14 @@ class Inset:
         )
         carrier = "base" if self._bore.carrier == GROUND else self._bore.carrier.replace("_", " ")
         write(picture, (left + 8 * u, self._box[3] - 8 * u), f"bore in {carrier}", 13 * u, FAINT)
+
+    def _touched(self, at: Point) -> Point:
+        """Where on the wall it touches; its middle, if a tilted one does so elsewhere along the pin."""
+        centre, away = self.centre, math.dist(at, self.centre)
+        if away < (1.0 - ROUNDING) * self._gap:
+            return at
+        out = self._radius / away
+        return centre[0] + out * (at[0] - centre[0]), centre[1] + out * (at[1] - centre[1])
 
     def _trail(self, sheet: Sheet, first: int, record: int) -> None:
         """Where the journal's centre has been."""

@@ -10,7 +10,7 @@ import pytest
 
 from studies.slider_crank import scenarios
 from support_exudyn import ClearancePin, Scenario
-from support_exudyn.drawing.plain import carrier
+from support_exudyn.drawing.placed_pins import planar_pins
 from support_exudyn.drawing.solid import Role
 from support_exudyn.linkages.impact_stand import ImpactStand
 from support_exudyn.machine import GROUND
@@ -63,7 +63,7 @@ def test_a_journal_fits_its_bore() -> None:
     place = STAND.linkage.pins["pin"]
     away = np.linalg.norm(solids["bore"].mesh.vertices[:, :2] - np.array(place.first_point), axis=1)
     assert away.min() == pytest.approx(BEARING.bore_radius, rel=1e-9)  # corners of the bore are on its circle
-    assert carrier(STAND, "pin") == "bore"
+    assert planar_pins(STAND)["pin"].bore.body == "bore"
     other = replace(STAND, pins={"pin": replace(STAND.clearance_pins["pin"], bore="second")})
-    assert carrier(other, "pin") == "journal"
+    assert planar_pins(other)["pin"].bore.body == "journal"
     assert {s.name: s for s in other.machine.look(other).solids}["pin_pin"].body == "bore"
