@@ -10,6 +10,7 @@ from typing import TypeVar
 import numpy as np
 import numpy.typing as npt
 
+from user_forces.quantity import Kilograms, KilogramSquareMetres, Metres, Pascals, Seconds, SquareMetres
 from user_forces.values import InputError, NonNegative, Positive, Value, value
 
 Quantity = TypeVar("Quantity", float, npt.NDArray[np.float64])  # one, or one for every instant
@@ -52,10 +53,10 @@ class OilColumn(ColumnModel):
             critical damping.
     """
 
-    bore_area: Positive
-    oil_length: Positive
-    bulk_modulus: Positive
-    damping_time: NonNegative = 1e-3
+    bore_area: SquareMetres[Positive]
+    oil_length: Metres[Positive]
+    bulk_modulus: Pascals[Positive]
+    damping_time: Seconds[NonNegative] = 1e-3
 
     def stiffness(self, extension: Quantity) -> Quantity:
         """k [N/m] at an extension from the start [m], or at many."""
@@ -96,12 +97,12 @@ class TwoBodyColumn(ColumnModel):
         drive: what holds the length: a constraint or oil.
     """
 
-    cylinder_mass: Positive
-    cylinder_centre: NonNegative
-    cylinder_inertia: Positive
-    rod_mass: Positive
-    rod_centre: NonNegative
-    rod_inertia: Positive
+    cylinder_mass: Kilograms[Positive]
+    cylinder_centre: Metres[NonNegative]
+    cylinder_inertia: KilogramSquareMetres[Positive]
+    rod_mass: Kilograms[Positive]
+    rod_centre: Metres[NonNegative]
+    rod_inertia: KilogramSquareMetres[Positive]
     drive: RigidColumn | OilColumn = field(default_factory=RigidColumn)
 
     @property

@@ -7,6 +7,7 @@ from abc import ABC, abstractmethod
 
 from pydantic import model_validator
 
+from user_forces.quantity import Metres, RadiansPerSecond, Seconds
 from user_forces.scalar import cos, is_number, maximum, minimum, sin
 from user_forces.values import NonNegative, Positive, Real, Value, value
 
@@ -79,9 +80,9 @@ class Stroke(Drive):
         start, end: [s], 3 and 5 by default; end > start >= 0.
     """
 
-    stroke: Real = 0.5
-    start: NonNegative = 3.0
-    end: Positive = 5.0
+    stroke: Metres[Real] = 0.5
+    start: Seconds[NonNegative] = 3.0
+    end: Seconds[Positive] = 5.0
 
     @model_validator(mode="after")
     def _ends_after_it_starts(self) -> Stroke:
@@ -162,7 +163,7 @@ class Steady(Drive):
         rate: speed [rad/s] of cranks, [m/s] of columns.
     """
 
-    rate: Real
+    rate: RadiansPerSecond[Real]
 
     def extension(self, t: float) -> float:
         """rate t [rad]."""
@@ -198,8 +199,8 @@ class Reciprocating(Drive):
         period: of raising and lowering once [s], > 0.
     """
 
-    stroke: Real = 0.5
-    period: Positive
+    stroke: Metres[Real] = 0.5
+    period: Seconds[Positive]
 
     @property
     def frequency(self) -> float:

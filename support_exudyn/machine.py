@@ -12,6 +12,14 @@ from typing import TYPE_CHECKING, Annotated
 from pydantic import Field, model_validator
 
 from support_exudyn.width import Width
+from user_forces.quantity import (
+    Kilograms,
+    KilogramSquareMetres,
+    Metres,
+    MetresPerSecond,
+    Radians,
+    RadiansPerSecond,
+)
 from user_forces.values import InputError, Positive, Real, Value, Vector2, value
 
 if TYPE_CHECKING:
@@ -37,13 +45,13 @@ class Part(Value):
         name: by which a machine knows it where a scenario models it otherwise.
     """
 
-    mass: Positive
-    centre: Vector2
-    inertia: Annotated[Real, Field(ge=0)] = (
+    mass: Kilograms[Positive]
+    centre: Metres[Vector2]
+    inertia: KilogramSquareMetres[Annotated[Real, Field(ge=0)]] = (
         0.0  # of a bar between two points that rounding has parted it is tiny
     )
     name: str = ""
-    moments: Moments | None = None
+    moments: KilogramSquareMetres[Moments] | None = None
 
     @model_validator(mode="after")
     def _moments_fit(self) -> Part:
@@ -119,13 +127,13 @@ class Body(Value):
         moments: integrals of x^2, y^2 and x y over its mass, as of a `Part`, in the start posture.
     """
 
-    mass: Positive
-    inertia: Positive
-    centre: Vector2
-    angle: Real = 0.0
-    velocity: Vector2 = (0.0, 0.0)
-    spin: Real = 0.0
-    moments: Moments | None = None
+    mass: Kilograms[Positive]
+    inertia: KilogramSquareMetres[Positive]
+    centre: Metres[Vector2]
+    angle: Radians[Real] = 0.0
+    velocity: MetresPerSecond[Vector2] = (0.0, 0.0)
+    spin: RadiansPerSecond[Real] = 0.0
+    moments: KilogramSquareMetres[Moments] | None = None
 
     @model_validator(mode="after")
     def _moments_fit(self) -> Body:
@@ -146,8 +154,8 @@ class PinPlace(Value):
 
     first: str
     second: str
-    first_point: Vector2
-    second_point: Vector2
+    first_point: Metres[Vector2]
+    second_point: Metres[Vector2]
 
 
 def pinned(first: str, second: str, point: Vector2) -> PinPlace:
@@ -167,8 +175,8 @@ class Column(Value):
 
     foot: str
     head: str
-    foot_point: Vector2
-    head_point: Vector2
+    foot_point: Metres[Vector2]
+    head_point: Metres[Vector2]
     driven: Annotated[bool, Field(strict=True)] = True
 
     @property
@@ -200,8 +208,8 @@ class Slide(Value):
     """
 
     body: str
-    point: Vector2
-    direction: Real = 0.0
+    point: Metres[Vector2]
+    direction: Radians[Real] = 0.0
     against: str = GROUND
 
 
@@ -215,7 +223,7 @@ class TracePoint(Value):
     """
 
     body: str
-    point: Vector2
+    point: Metres[Vector2]
 
 
 @value

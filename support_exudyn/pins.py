@@ -9,6 +9,7 @@ from pydantic import model_validator
 
 from user_forces.contact import JournalContact
 from user_forces.friction.law import FrictionLaw
+from user_forces.quantity import Metres
 from user_forces.values import Positive, Value, Vector2, value
 
 
@@ -33,7 +34,7 @@ class IdealPin(Pin):
     """
 
     friction: FrictionLaw | None = None
-    radius: Positive | None = None
+    radius: Metres[Positive] | None = None
 
     @model_validator(mode="after")
     def _friction_has_a_radius(self) -> IdealPin:
@@ -64,7 +65,7 @@ class ClearancePin(Pin):
 
     contact: JournalContact
     bore: Literal["first", "second"] = "first"
-    eccentricity: Vector2 = (0.0, 0.0)
+    eccentricity: Metres[Vector2] = (0.0, 0.0)
 
     @property
     def offset(self) -> Vector2:

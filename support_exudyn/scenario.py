@@ -21,6 +21,7 @@ from support_exudyn.recipes import Recipe, check_patterns, recipes
 from support_exudyn.spatial.layout import SpatialLinkage
 from support_exudyn.spatial.recipes import recipes as spatial_recipes
 from support_exudyn.two_bodies import with_two_bodies
+from user_forces.quantity import MetresPerSecondSquared, Seconds
 from user_forces.values import Fraction, InputError, Positive, Real, Value, Vector2, Whole, short, value
 
 ACCURACIES = {"draft": 1e-2, "standard": 1e-3, "reference": 1e-5}
@@ -158,14 +159,14 @@ class Scenario(Value):
     drive: Drive = field(default_factory=Held)
     drives: Mapping[str, Drive] = field(default_factory=dict)
     loads: Mapping[str, Load] = field(default_factory=dict)
-    duration: Positive
+    duration: Seconds[Positive]
     dimensions: Literal[2, 3] = 2
     start: Literal["concentric", "settled"] = "concentric"
-    gravity: Vector2 = (0.0, -9.81)
+    gravity: MetresPerSecondSquared[Vector2] = (0.0, -9.81)
     accuracy: Accuracy | None = None
     formulation: Literal["auto", "redundant", "tree", "reduced"] = "auto"
-    step: Annotated[Real, Field(gt=0, le=LARGEST_STEP)] = 5e-4
-    record_period: Positive = 1e-3
+    step: Seconds[Annotated[Real, Field(gt=0, le=LARGEST_STEP)]] = 5e-4
+    record_period: Seconds[Positive] = 1e-3
     channels: tuple[str, ...] = ALL_CHANNELS
     solver: SolverSettings = field(default_factory=SolverSettings)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import field
 
+from user_forces.quantity import Metres
 from user_forces.values import NonNegative, Positive, Value, value
 
 
@@ -21,11 +22,11 @@ class Width(Value):
         points: by traced point, half the distance [m] of two more of it, left and right.
     """
 
-    spreads: Mapping[str, NonNegative] = field(default_factory=dict)
-    pairs: Mapping[str, Positive] = field(default_factory=dict)
-    columns: Mapping[str, Positive] = field(default_factory=dict)
-    lengths: Mapping[str, Positive] = field(default_factory=dict)
-    points: Mapping[str, Positive] = field(default_factory=dict)
+    spreads: Mapping[str, Metres[NonNegative]] = field(default_factory=dict)
+    pairs: Mapping[str, Metres[Positive]] = field(default_factory=dict)
+    columns: Mapping[str, Metres[Positive]] = field(default_factory=dict)
+    lengths: Mapping[str, Metres[Positive]] = field(default_factory=dict)
+    points: Mapping[str, Metres[Positive]] = field(default_factory=dict)
 
     def scaled(self, factor: float) -> Width:
         """The same machine larger by a factor."""

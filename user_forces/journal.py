@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from pydantic import model_validator
 
+from user_forces.quantity import Metres
 from user_forces.values import Positive, Value, value
 
 
@@ -27,8 +28,8 @@ class JournalBearing(Value):
         clearance: radial clearance c [m], > 0 and < bore_radius.
     """
 
-    bore_radius: Positive
-    clearance: Positive
+    bore_radius: Metres[Positive]
+    clearance: Metres[Positive]
 
     @model_validator(mode="after")
     def _journal_has_a_radius(self) -> JournalBearing:

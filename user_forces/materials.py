@@ -7,6 +7,7 @@ from typing import Annotated
 
 from pydantic import Field
 
+from user_forces.quantity import KilogramsPerCubicMetre, Pascals
 from user_forces.values import Positive, Real, Value, value
 
 
@@ -22,9 +23,9 @@ class Material(Value):
     """
 
     name: str
-    elastic_modulus: Positive
+    elastic_modulus: Pascals[Positive]
     poisson_ratio: Annotated[Real, Field(ge=0, le=0.5)]
-    density: Positive
+    density: KilogramsPerCubicMetre[Positive]
 
     @property
     def compliance(self) -> float:

@@ -31,8 +31,17 @@ LARGEST = 1e30  # of any number: products of several neither overflow nor vanish
 DEEPEST = 32  # of plain data, in containers within containers; a scenario has 7
 
 
+def carries_unit(item: Any) -> bool:
+    """Whether this is a quantity with a unit, as pint makes them."""
+    return all(hasattr(item, name) for name in ("magnitude", "units", "to_base_units"))
+
+
 def _number(item: Any) -> float:
     """A plain float from a number of any kind, also a decimal or one of numpy; text and truths are none."""
+    if carries_unit(item):  # where a field has a unit that has been taken off
+        if not item.dimensionless:
+            raise ValueError("Input should be a number without a unit")
+        item = item.to_base_units().magnitude
     if isinstance(item, np.ndarray) and item.ndim == 0:
         item = item.item()
     if isinstance(item, bool) or not isinstance(item, (numbers.Real, Decimal)):

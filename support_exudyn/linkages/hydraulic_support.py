@@ -38,6 +38,7 @@ from support_exudyn.machine import (
 )
 from support_exudyn.plane import circle_intersection, direction, distance, moved, side
 from support_exudyn.width import Width
+from user_forces.quantity import Metres
 from user_forces.roots import bracketed_root
 from user_forces.values import InputError, Positive, Vector2, value
 
@@ -64,12 +65,12 @@ class Posture(NamedTuple):
     front_link: float
     shield: float
     canopy: float
-    rear_shield: Vector2  # C [m]
-    front_shield: Vector2  # D
-    hinge: Vector2  # I
-    front_head: Vector2  # E
-    rear_head: Vector2  # G
-    tip: Vector2
+    rear_shield: Metres[Vector2]  # C [m]
+    front_shield: Metres[Vector2]  # D
+    hinge: Metres[Vector2]  # I
+    front_head: Metres[Vector2]  # E
+    rear_head: Metres[Vector2]  # G
+    tip: Metres[Vector2]
 
 
 @value
@@ -94,22 +95,22 @@ class HydraulicSupport(Machine):
         width: lateral dimensions, for the spatial model; None: there are none.
     """
 
-    rear_base: Vector2
-    front_base: Vector2
-    rear_shield: Vector2
-    front_shield: Vector2
-    hinge: Vector2
-    front_foot: Vector2
-    front_head: Vector2
-    rear_foot: Vector2
-    rear_head: Vector2
-    tip: Vector2
+    rear_base: Metres[Vector2]
+    front_base: Metres[Vector2]
+    rear_shield: Metres[Vector2]
+    front_shield: Metres[Vector2]
+    hinge: Metres[Vector2]
+    front_foot: Metres[Vector2]
+    front_head: Metres[Vector2]
+    rear_foot: Metres[Vector2]
+    rear_head: Metres[Vector2]
+    tip: Metres[Vector2]
     parts: Mapping[str, tuple[Part, ...]]
-    start_hinge_height: Positive
+    start_hinge_height: Metres[Positive]
     width: Width | None = None
-    tail_hinge: Vector2 | None = None
-    tail_jack_foot: Vector2 | None = None
-    tail_jack_head: Vector2 | None = None
+    tail_hinge: Metres[Vector2] | None = None
+    tail_jack_foot: Metres[Vector2] | None = None
+    tail_jack_head: Metres[Vector2] | None = None
 
     @model_validator(mode="after")
     def _can_be_built(self) -> HydraulicSupport:

@@ -11,6 +11,7 @@
 from __future__ import annotations
 
 from support_exudyn.machine import Body, Linkage, Machine, PinPlace
+from user_forces.quantity import Kilograms, Metres, MetresPerSecond
 from user_forces.values import NonNegative, Positive, value
 
 
@@ -27,10 +28,10 @@ class ImpactStand(Machine):
         eccentricity: of the journal at the start, along +x [m], >= 0.
     """
 
-    bore_mass: Positive
-    journal_mass: Positive
-    speed: NonNegative
-    eccentricity: NonNegative = 0.0
+    bore_mass: Kilograms[Positive]
+    journal_mass: Kilograms[Positive]
+    speed: MetresPerSecond[NonNegative]
+    eccentricity: Metres[NonNegative] = 0.0
 
     @property
     def reduced_mass(self) -> float:

@@ -25,6 +25,7 @@ from support_exudyn.machine import (
     TracePoint,
     pinned,
 )
+from user_forces.quantity import Kilograms, KilogramSquareMetres, Metres, Radians
 from user_forces.values import Positive, Real, value
 
 
@@ -45,14 +46,14 @@ class SliderCrank(Machine):
         start_angle: of the crank at the start [rad].
     """
 
-    crank_length: Positive
-    rod_length: Positive
-    crank_mass: Positive
-    rod_mass: Positive
-    slider_mass: Positive
-    crank_inertia: Positive
-    rod_inertia: Positive
-    start_angle: Real = 0.0
+    crank_length: Metres[Positive]
+    rod_length: Metres[Positive]
+    crank_mass: Kilograms[Positive]
+    rod_mass: Kilograms[Positive]
+    slider_mass: Kilograms[Positive]
+    crank_inertia: KilogramSquareMetres[Positive]
+    rod_inertia: KilogramSquareMetres[Positive]
+    start_angle: Radians[Real] = 0.0
 
     @model_validator(mode="after")
     def _turns_right_round(self) -> SliderCrank:

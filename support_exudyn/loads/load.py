@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 from support_exudyn.drives import Drive
 from support_exudyn.machine import GROUND, Linkage
+from user_forces.quantity import Metres
 from user_forces.values import Value, Vector2, value
 
 
@@ -55,7 +56,7 @@ class Load(Value, ABC):
     """
 
     body: str
-    point: Vector2
+    point: Metres[Vector2]
 
     @abstractmethod
     def force(self, at: LoadedPoint) -> Vector2:

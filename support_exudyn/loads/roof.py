@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 from support_exudyn.drives import Drive
 from support_exudyn.loads.load import Load, LoadedPoint, Observed, Powers
+from user_forces.quantity import Metres, NewtonsPerMetre, SecondsPerMetre
 from user_forces.scalar import maximum
 from user_forces.values import NonNegative, Positive, Vector2, value
 
@@ -32,9 +33,9 @@ class Roof(Load):
     """
 
     descent: Drive
-    stiffness: Positive
-    gap: NonNegative = 0.0
-    damping: NonNegative = 0.0
+    stiffness: NewtonsPerMetre[Positive]
+    gap: Metres[NonNegative] = 0.0
+    damping: SecondsPerMetre[NonNegative] = 0.0
 
     def force(self, at: LoadedPoint) -> Vector2:
         """Force on the point: nothing forward, and down [N]."""

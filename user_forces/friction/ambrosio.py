@@ -5,6 +5,7 @@ from __future__ import annotations
 from pydantic import model_validator
 
 from user_forces.friction.law import FrictionLaw, against
+from user_forces.quantity import MetresPerSecond
 from user_forces.scalar import magnitude, maximum, minimum
 from user_forces.values import NonNegative, Positive, value
 
@@ -30,8 +31,8 @@ class Ambrosio(FrictionLaw):
     """
 
     sliding_coefficient: NonNegative
-    static_speed: NonNegative = 1e-4
-    dynamic_speed: Positive = 1e-2
+    static_speed: MetresPerSecond[NonNegative] = 1e-4
+    dynamic_speed: MetresPerSecond[Positive] = 1e-2
 
     @model_validator(mode="after")
     def _ramp_has_a_width(self) -> Ambrosio:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pydantic import model_validator
 
 from user_forces.friction.law import FrictionLaw, against, check_coefficients
+from user_forces.quantity import MetresPerSecond, SecondsPerMetre
 from user_forces.scalar import exp, magnitude, maximum, where
 from user_forces.values import NonNegative, Positive, value
 
@@ -29,8 +30,8 @@ class BengisuAkay(FrictionLaw):
 
     static_coefficient: NonNegative
     sliding_coefficient: NonNegative
-    static_speed: Positive = 1e-3
-    decay: Positive = 100.0
+    static_speed: MetresPerSecond[Positive] = 1e-3
+    decay: SecondsPerMetre[Positive] = 100.0
 
     @model_validator(mode="after")
     def _static_is_larger(self) -> BengisuAkay:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pydantic import model_validator
 
 from user_forces.friction.law import FrictionLaw, check_coefficients
+from user_forces.quantity import MetresPerSecond
 from user_forces.scalar import tanh
 from user_forces.values import NonNegative, Positive, value
 
@@ -27,7 +28,7 @@ class BrownMcPhee(FrictionLaw):
 
     static_coefficient: NonNegative
     sliding_coefficient: NonNegative
-    transition_speed: Positive = 1e-2
+    transition_speed: MetresPerSecond[Positive] = 1e-2
 
     @model_validator(mode="after")
     def _static_is_larger(self) -> BrownMcPhee:

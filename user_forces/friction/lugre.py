@@ -5,6 +5,7 @@ from __future__ import annotations
 from pydantic import model_validator
 
 from user_forces.friction.law import FrictionLaw, check_coefficients
+from user_forces.quantity import MetresPerSecond, PerMetre, SecondsPerMetre
 from user_forces.scalar import exp, magnitude, sign
 from user_forces.values import NonNegative, Positive, value
 
@@ -34,10 +35,10 @@ class LuGre(FrictionLaw):
 
     static_coefficient: NonNegative
     sliding_coefficient: Positive
-    stribeck_speed: Positive = 1e-2
-    bristle_stiffness: Positive = 1e5
-    bristle_damping: NonNegative = 10.0
-    viscosity: NonNegative = 0.0
+    stribeck_speed: MetresPerSecond[Positive] = 1e-2
+    bristle_stiffness: PerMetre[Positive] = 1e5
+    bristle_damping: SecondsPerMetre[NonNegative] = 10.0
+    viscosity: SecondsPerMetre[NonNegative] = 0.0
 
     @model_validator(mode="after")
     def _static_is_larger(self) -> LuGre:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pydantic import model_validator
 
 from user_forces.friction.law import FrictionLaw, against, check_coefficients
+from user_forces.quantity import MetresPerSecond
 from user_forces.scalar import exp, magnitude, step
 from user_forces.values import NonNegative, Positive, value
 
@@ -28,8 +29,8 @@ class Stribeck(FrictionLaw):
 
     static_coefficient: NonNegative
     sliding_coefficient: NonNegative
-    stribeck_speed: Positive = 1e-2
-    tolerance_speed: Positive = 1e-3
+    stribeck_speed: MetresPerSecond[Positive] = 1e-2
+    tolerance_speed: MetresPerSecond[Positive] = 1e-3
 
     @model_validator(mode="after")
     def _static_is_larger(self) -> Stribeck:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from user_forces.friction.law import FrictionLaw, against
+from user_forces.quantity import MetresPerSecond
 from user_forces.scalar import exp, magnitude, where
 from user_forces.values import NonNegative, Positive, value
 
@@ -26,7 +27,7 @@ class Threlfall(FrictionLaw):
     """
 
     sliding_coefficient: NonNegative
-    dynamic_speed: Positive = 1e-2
+    dynamic_speed: MetresPerSecond[Positive] = 1e-2
 
     def __call__(self, slip: float, normal_force: float, deflection: float = 0.0) -> float:
         """Tangential force [N] for a slip [m/s] and a normal force [N] >= 0."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from user_forces.normal.law import Touch
 from user_forces.normal.power_law import ElasticPower
+from user_forces.quantity import Metres, NewtonSecondsPerMetre
 from user_forces.scalar import step
 from user_forces.values import NonNegative, Positive, value
 
@@ -26,8 +27,8 @@ class AdamsImpact(ElasticPower):
     is minus the rate of depth.)
     """
 
-    full_damping: NonNegative
-    full_damping_depth: Positive
+    full_damping: NewtonSecondsPerMetre[NonNegative]
+    full_damping_depth: Metres[Positive]
 
     def __call__(self, depth: float, rate: float, touch: Touch) -> float:
         """Normal force [N] at depth [m] > 0, rate [m/s]."""

@@ -8,6 +8,7 @@ from abc import abstractmethod
 from user_forces.journal import JournalBearing
 from user_forces.normal.hysteresis import Hysteresis, exact_damping_factor
 from user_forces.normal.law import LoadError
+from user_forces.quantity import Metres, Pascals
 from user_forces.scalar import is_number, log, maximum, sqrt
 from user_forces.values import Positive, Restitution, value
 
@@ -30,8 +31,8 @@ class CylinderLaw(Hysteresis):
     """
 
     bearing: JournalBearing
-    length: Positive
-    effective_modulus: Positive
+    length: Metres[Positive]
+    effective_modulus: Pascals[Positive]
     restitution: Restitution
 
     def factor(self, restitution: float) -> float:

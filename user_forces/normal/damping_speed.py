@@ -10,6 +10,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 
 from user_forces.normal.law import Touch
+from user_forces.quantity import MetresPerSecond
 from user_forces.scalar import maximum, sqrt
 from user_forces.values import Positive, Value, value
 
@@ -70,7 +71,7 @@ class TouchSpeed(DampingSpeed):
         floor: smallest w [m/s], > 0.
     """
 
-    floor: Positive = 1e-3
+    floor: MetresPerSecond[Positive] = 1e-3
 
     def __call__(self, touch: Touch, elastic_energy: float) -> float:
         """w [m/s]; the energy is not used."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from user_forces.normal.cylinder import LogarithmicLaw
+from user_forces.quantity import Metres
 from user_forces.values import NonNegative, value
 
 
@@ -25,7 +26,7 @@ class Goldsmith(LogarithmicLaw):
     Eng. K 220 (2006) 21-34.
     """
 
-    reference_length: NonNegative = 0.0
+    reference_length: Metres[NonNegative] = 0.0
 
     @property
     def scale(self) -> float:

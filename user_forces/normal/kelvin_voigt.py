@@ -10,6 +10,7 @@ from pydantic import Field
 
 from user_forces.normal.law import Touch
 from user_forces.normal.power_law import ElasticPower
+from user_forces.quantity import NewtonSecondsPerMetre
 from user_forces.values import NonNegative, Real, value
 
 
@@ -32,7 +33,7 @@ class KelvinVoigt(ElasticPower):
     465-469.
     """
 
-    damping: NonNegative
+    damping: NewtonSecondsPerMetre[NonNegative]
     exponent: Annotated[Real, Field(ge=1, le=1)] = field(default=1.0)
 
     def __call__(self, depth: float, rate: float, touch: Touch) -> float:

@@ -8,6 +8,7 @@ from pydantic import Field
 
 from user_forces.normal.hysteresis import Hysteresis
 from user_forces.normal.law import NormalLaw
+from user_forces.quantity import NewtonsPerMetreToN
 from user_forces.scalar import power
 from user_forces.values import InputError, Positive, Real, value
 
@@ -21,7 +22,7 @@ class ElasticPower(NormalLaw):
         exponent: n [-], 1.5 for metals, from 1 to 3.
     """
 
-    stiffness: Positive
+    stiffness: NewtonsPerMetreToN[Positive]
     exponent: Annotated[Real, Field(ge=1, le=3)] = 1.5
 
     def elastic_force(self, depth: float) -> float:
