@@ -110,7 +110,7 @@ def hush() -> None:
 
 @contextmanager
 def shown_progress(what: str) -> Iterator[Progress]:
-    """A progress bar on standard error: gives what is to be told the share done. None where it is no terminal."""
+    """A progress bar on standard error: gives what is told the share done. None where it is no terminal."""
     from rich.console import Console  # which most refusals have no use for
     from rich.progress import BarColumn, TextColumn, TimeRemainingColumn
     from rich.progress import Progress as Bar
