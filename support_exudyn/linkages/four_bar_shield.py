@@ -9,8 +9,8 @@ r"""A shield beam on two links with a canopy on its hinge: what all four-bar shi
        B      A
     ===================== base (ground)
 
-x forward (towards the coal face), y up, both sides lumped into one plane. The four-bar has one degree of freedom
-and the canopy on its hinge another.
+x forward (towards the coal face), y up, both sides lumped into one plane. The four-bar has one degree of
+freedom and the canopy on its hinge another.
 """
 
 from __future__ import annotations
@@ -25,6 +25,8 @@ from typing import ClassVar, Generic, NamedTuple, Protocol, TypeVar
 import numpy as np
 from typing_extensions import Self
 
+from support_exudyn.drives import Drive
+from support_exudyn.linkages.path_check import check_path
 from support_exudyn.machine import (
     GROUND,
     Body,
@@ -50,6 +52,9 @@ TAIL_PLACES = ("tail_hinge", "tail_jack_foot", "tail_jack_head")
 FARTHEST = 1000.0  # [m] from the origin
 RODS = "_rods"  # after a column's name: parts that stand for its mass as long as it has none
 PRECISE = 1e-11  # [m] to which lengths of columns are met
+MOST_CORRECTIONS = 20  # of Newton's method; four do
+LOCKED = 1e-12  # [m^2] determinant of the columns' rates at which they hold nothing any more
+MOST_REMEMBERED = 64
 LONGEST_STEP = 0.2  # [rad] from one posture to the next, so that it is not taken for one behind a dead centre
 
 
@@ -100,7 +105,7 @@ class Strut(NamedTuple):
 
 
 class FourBarShield(Machine, ABC, Generic[P]):
-    """Closed-form kinematics and layout of four-bar shield supports; a kind of them says its fields and columns.
+    """Closed-form kinematics and layout of four-bar shield supports; a kind of them adds fields and columns.
 
     The names below are fields of every kind, see there. `STRUTS`: its two columns by name.
     """
@@ -285,6 +290,26 @@ class FourBarShield(Machine, ABC, Generic[P]):
                 rates[row, column] = along @ np.subtract(head, foot)
         return rates
 
+    def reached(self, lengths: Sequence[float], near: P) -> P | None:
+        """Posture with these lengths of its columns [m], searched for from one close to it; None if none."""
+        posture, turns = near, np.array([near.rear_link, near.canopy])
+        for _ in range(MOST_CORRECTIONS):
+            misfit = np.subtract(lengths, self.column_lengths(posture))
+            if float(np.abs(misfit).max()) < PRECISE:
+                return posture
+            rates = self.column_rates(posture)
+            if not np.isfinite(rates).all() or abs(np.linalg.det(rates)) < LOCKED:
+                return None
+            step = np.linalg.solve(rates, misfit)
+            if float(np.abs(step).max()) > LONGEST_STEP:
+                return None
+            turns = turns + step
+            found = self.posture(float(turns[0]), float(turns[1]))
+            if found is None:
+                return None
+            posture = found
+        return None
+
     @abstractmethod
     def extended(self, extension: float, near: P | None = None) -> P | None:
         """Posture with the driven columns longer than at the start by `extension` [m]; None if there is none.
@@ -318,6 +343,32 @@ class FourBarShield(Machine, ABC, Generic[P]):
     def _closing(self) -> set[tuple[float, float]]:
         """Ranges of extension that have been found to close; scenarios ask again and again."""
         return set()
+
+    def check_motion(self, drives: Mapping[str, Drive], duration: float) -> None:
+        """Raise InputError if the columns cannot follow their drives, by name; says which one, and when."""
+        if any(known == (drives, duration) for known in self._followed):
+            return
+        lead = drives[self.alike[0]]
+        if all(drives[name] == lead for name in self.alike) and all(
+            drives[name] == self.follower(name, drives[leader], duration)
+            for name, leader in self.leaders.items()
+        ):
+            self.check_extension(*lead.span(duration))
+        else:
+            check_path(self, drives, duration)
+        if len(self._followed) == MOST_REMEMBERED:
+            self._followed.clear()
+        self._followed.append((dict(drives), duration))
+
+    @property
+    def alike(self) -> tuple[str, ...]:
+        """Columns that `extended` extends alike."""
+        return tuple(name for name in self.STRUTS if name not in self.leaders)
+
+    @cached_property
+    def _followed(self) -> list[tuple[dict[str, Drive], float]]:
+        """Drives that have been found to be followed, and for how long; scenarios ask again and again."""
+        return []
 
     # --- layout ---
 
