@@ -50,7 +50,8 @@ class TableDrive(Drive):
                 raise ValueError(f"times[{n}] = {after} s: allowed: > {before} s, the one before")
         if self.extensions[0] != 0.0:
             raise ValueError(
-                f"extensions[0] = {self.extensions[0]} m: allowed: 0, for extension counts from the start posture"
+                f"extensions[0] = {self.extensions[0]} m: allowed: 0, for extension counts from the start "
+                "posture"
             )
         return self
 

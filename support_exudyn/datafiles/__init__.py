@@ -1,4 +1,4 @@
-"""Scenarios and other values as TOML files: read with messages that name file, key, value and range; written."""
+"""Scenarios and values as TOML files: read, with messages that name file, key, value and range; written."""
 
 from support_exudyn.datafiles.drive_table import read_drives
 from support_exudyn.datafiles.reading import read_value

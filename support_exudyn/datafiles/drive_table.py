@@ -34,8 +34,8 @@ def read_drives(path: Path, between: Literal["smooth", "linear"] = "smooth") -> 
     """The drives of a CSV file by the names of its columns.
 
     The first line names the columns with their units: one `time_s` or `time_ms`, the others NAME_mm, NAME_m,
-    or for cranks NAME_deg, NAME_rad. Every further line is a point; numbers have a point for the decimals and are
-    separated by commas.
+    or for cranks NAME_deg, NAME_rad. Every further line is a point; numbers have a point for the
+    decimals and are separated by commas.
 
     Raises InputError that names file, line and column; OSError if the file cannot be read.
     """
@@ -47,8 +47,8 @@ def read_drives(path: Path, between: Literal["smooth", "linear"] = "smooth") -> 
     names = [one.name for one in columns]
     if len(set(names)) < len(names) or names.count("time") != 1 or len(names) < 2:
         raise InputError(
-            f"{path}: line {number}: {short(','.join(header))}: allowed: one time_s or time_ms, and a name with unit "
-            "for each other column, all different"
+            f"{path}: line {number}: {short(','.join(header))}: allowed: one time_s or time_ms, and a name "
+            "with unit for each other column, all different"
         )
     if len(lines) - 1 > MOST_POINTS:
         raise InputError(f"{path}: has {len(lines) - 1} points; allowed: up to {MOST_POINTS}")
@@ -103,8 +103,8 @@ def _column(title: str, place: int, where: str) -> _Column:
             return _Column(name, title, unit, ending, place)
     allowed = [f"_{ending}" for unit in units for ending in unit.endings]
     raise InputError(
-        f"{where}: column {place + 1} = {short(title)}: has no unit at its end; allowed: time_s or time_ms, and names "
-        f"that end by {', '.join(allowed)}"
+        f"{where}: column {place + 1} = {short(title)}: has no unit at its end; allowed: time_s or time_ms, and "
+        f"names that end by {', '.join(allowed)}"
     )
 
 

@@ -55,7 +55,7 @@ def scenario_of(table: Mapping[str, Any], where: str, folder: Path) -> Scenario:
     """The scenario of a table that has been read already.
 
     Arguments:
-        table: as `load_toml` gives it; its numbers may also be int, float or Decimal that a program has put there.
+        table: as `load_toml` gives it; a program may have put numbers of its own there, also floats.
         where: what errors call it: the name of its file.
         folder: from which the files lie that it names.
 

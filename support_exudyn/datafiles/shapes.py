@@ -162,7 +162,7 @@ def field_shapes(cls: type[Value]) -> dict[str, FieldShape]:
 
     Raises InputError if a field is of a type that files have no form for.
     """
-    return dict(_field_shapes(cls))
+    return dict(_field_shapes(cls))  # type: ignore[arg-type]  # of values, which its hash is not of
 
 
 @cache
@@ -198,7 +198,7 @@ def _options(annotation: Any, metadata: Sequence[Any] = ()) -> list[tuple[Any, t
 def _either(shapes: Sequence[Shape]) -> Shape:
     """One shape; classes of values among several become one group."""
     groups = [one for one in shapes if isinstance(one, Group)]
-    rest = [one for one in shapes if not isinstance(one, Group)]
+    rest: list[Shape] = [one for one in shapes if not isinstance(one, Group)]
     if groups:
         rest.append(Group(tuple(base for one in groups for base in one.bases)))
     return rest[0] if len(rest) == 1 else Either(tuple(rest))

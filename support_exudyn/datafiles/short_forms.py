@@ -50,7 +50,10 @@ def _from_file(name: str, faults: Faults, folder: Path) -> MachineData | None:
 
 
 class ShortForms:
-    """Readers of the short forms. folder: from which files lie. data: the machine, None if it could not be read."""
+    """Readers of the short forms.
+
+    folder: from which files lie. data: the machine, None if it could not be read.
+    """
 
     def __init__(self, folder: Path, data: MachineData | None) -> None:
         self.folder = folder

@@ -91,7 +91,8 @@ class ShortPin(Value):
             given = getattr(self, name)
             if given is not None and not isinstance(self.stiffness, str):
                 raise ValueError(
-                    f"{name}: would be left unused, for the stiffness is given as a number; allowed: one of them"
+                    f"{name}: would be left unused, for the stiffness is given as a number; "
+                    "allowed: one of them"
                 )
             if isinstance(given, str) and given not in MATERIALS:
                 raise ValueError(f"{name} = {given!r}: allowed: {', '.join(MATERIALS)}, or a table")
@@ -102,7 +103,8 @@ class ShortPin(Value):
         radius = bore_radius if self.bore_radius is None else self.bore_radius
         if radius is None:
             raise InputError(
-                "bore_radius_mm: missing, and the machine's file says none for this pin; allowed: > 0, here or there"
+                "bore_radius_mm: missing, and the machine's file says none for this pin; "
+                "allowed: > 0, here or there"
             )
         bearing = JournalBearing(bore_radius=radius, clearance=self.clearance)
         contact = JournalContact(bearing=bearing, normal=self._normal(bearing), friction=self._friction())
