@@ -11,6 +11,7 @@ from support_exudyn.datafiles.scenario_file import (
     scenario_of,
     scenario_text,
 )
+from support_exudyn.datafiles.scenario_schema import scenario_schema
 from support_exudyn.datafiles.toml_text import load_toml, parsed, toml_text
 from support_exudyn.datafiles.writing import table_of
 
@@ -25,6 +26,7 @@ __all__ = [
     "save_scenario",
     "scenario_file_of",
     "scenario_of",
+    "scenario_schema",
     "scenario_text",
     "table_of",
     "toml_text",

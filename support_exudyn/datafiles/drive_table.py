@@ -103,8 +103,8 @@ def _column(title: str, place: int, where: str) -> _Column:
             return _Column(name, title, unit, ending, place)
     allowed = [f"_{ending}" for unit in units for ending in unit.endings]
     raise InputError(
-        f"{where}: column {place + 1} = {short(title)}: has no unit at its end; allowed: time_s or time_ms, and "
-        f"names that end by {', '.join(allowed)}"
+        f"{where}: column {place + 1} = {short(title)}: has no unit at its end; allowed: time_s or time_ms, "
+        f"and names that end by {', '.join(allowed)}"
     )
 
 

@@ -180,7 +180,7 @@ def _field_shapes(cls: type[Value]) -> Mapping[str, FieldShape]:
             unit=_unit(info.annotation, info.metadata),
             required=required and len(shapes) == len(options),
             allows_none=len(shapes) < len(options),
-            help=_help(cls).get(one.name, ""),
+            help=_help(cls).get(one.name, ""),  # type: ignore[arg-type]
         )
     return found
 

@@ -41,7 +41,7 @@ class DriveMode(Value):
 
 @value
 class DriveFile(Value):
-    """A displacement over time from a CSV file, whose first line names columns with units: `time_s,extension_mm`.
+    """A displacement over time from a CSV file, whose first line names columns as in `time_s,extension_mm`.
 
     Arguments:
         table: path of the file, from the folder of the scenario's file on.
