@@ -204,9 +204,6 @@ class Reader:
         if not all(_within(number, bound) for bound in shape.bounds):
             self.faults.wrong(place, item, allowed(shape, unit, ending))
             return FAILED
-        if 0.0 < number < 1.0 / LARGEST and any(limit == 0 for _, limit in shape.bounds):
-            self.faults.wrong(place, item, f"{allowed(shape, unit, ending)}, and not so near to zero")
-            return FAILED
         return int(number) if shape.whole else number
 
 

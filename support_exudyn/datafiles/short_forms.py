@@ -37,6 +37,9 @@ def read_machine_of(table: Mapping[str, Any], faults: Faults, folder: Path) -> M
 
 
 def _from_file(name: str, faults: Faults, folder: Path) -> MachineData | None:
+    if "\0" in name:
+        faults.wrong(("machine",), name, "a name that a file can have")
+        return None
     try:
         return read_machine(name, folder)
     except InputError as error:

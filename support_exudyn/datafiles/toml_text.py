@@ -45,7 +45,9 @@ def parsed(text: str, where: str) -> dict[str, Any]:
     except RecursionError:
         raise InputError(f"{where}: {TOO_DEEP}") from None
     except ValueError as error:  # of TOML, or of a whole number with thousands of digits
-        raise InputError(f"{where}: {error}; allowed: TOML") from None
+        last = f"at line {len(text.splitlines())}, the last"
+        said = str(error).replace("at end of document", last)
+        raise InputError(f"{where}: {said}; allowed: TOML") from None
     _check_depth(table, where)
     return table
 
