@@ -44,6 +44,7 @@ from support_exudyn import (
     Scenario,
     SolverSettings,
     Steady,
+    TableDrive,
     UniformSpeed,
     ravn_slider_crank,
     reference_support,
@@ -80,6 +81,11 @@ EXAMPLES = {
     "asked of results": 60,
     "recommend": 30,
     "options": 60,
+    "files of values": 250,
+    "files of scenarios": 60,
+    "scenario text": 100,
+    "scenario tree": 150,
+    "drive tables": 60,
     "all studies": 40,
 }
 OFTEN = (
@@ -285,7 +291,8 @@ def seeds() -> tuple[Value, ...]:
     )
     impact = Scenario(machine=stand, pins={"pin": loose}, duration=0.01, gravity=(0.0, 0.0))
     linkages = [crank.linkage(), support.detailed(("front_column",), ()), support.in_space(support.linkage())]
-    return (rise, heavy, space, apart, turning, impact, *linkages, OwnBody(jack=oil))
+    table = TableDrive(times=(0.0, 1.0, 2.5), extensions=(0.0, 0.1, 0.05))
+    return (rise, heavy, space, apart, turning, impact, *linkages, OwnBody(jack=oil), table)
 
 
 @cache

@@ -16,7 +16,7 @@ from typing import Protocol, cast
 from support_exudyn.command_line import Parser, say
 from support_exudyn.provenance import versions
 
-NAMES: tuple[str, ...] = ("show", "compare", "plot", "render", "view", "export")
+NAMES: tuple[str, ...] = ("run", "show", "compare", "plot", "render", "view", "export", "scenario", "schema")
 
 
 INSTALLED = "support-exudyn"
@@ -59,6 +59,14 @@ def parser() -> Parser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     whole.add_argument("--version", action=_Versions, nargs=0, help="versions of all that makes the numbers")
+    whole.add_argument(
+        "--import",
+        dest="imports",
+        action="append",
+        default=[],
+        metavar="MODULE",
+        help="import this module first: files may then hold its machines, laws, drives, loads; repeatable",
+    )
     several = whole.add_subparsers(
         dest="command", required=True, metavar="COMMAND", parser_class=Parser, title="commands"
     )

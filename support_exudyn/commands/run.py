@@ -1,0 +1,115 @@
+"""`run FILE`: a scenario's file, simulated and saved."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from support_exudyn import account
+from support_exudyn.command_line import add_json, answer, folder, say, shown_progress
+from support_exudyn.datafiles import ScenarioFile, read_scenario_file
+from support_exudyn.files import check_may_be_replaced, real_path
+from support_exudyn.result import Result
+from support_exudyn.scenario import ACCURACIES, LARGEST_GOAL, SMALLEST_GOAL
+from support_exudyn.simulate import simulate
+from user_forces.values import InputError, short
+
+HELP = "simulate a scenario's file and save the run"
+WHOLE = (0.0, float("inf"))  # run
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The scenario's file, and where the run goes."""
+    parser.add_argument("file", type=folder, metavar="FILE", help="a scenario, as TOML")
+    parser.add_argument(
+        "--out", type=folder, metavar="RUN", help="file of the run (beside the scenario, with the ending .h5)"
+    )
+    parser.add_argument(
+        "--accuracy",
+        type=accuracy,
+        metavar="A",
+        help=f"in place of the file's: {', '.join(ACCURACIES)}, or a relative error from {SMALLEST_GOAL:g} to "
+        f"{LARGEST_GOAL:g}",
+    )
+    add_json(parser)
+
+
+def accuracy(text: str) -> str | float:
+    """An accuracy from the command line."""
+    if text in ACCURACIES:
+        return text
+    try:
+        number = float(text)
+    except ValueError:
+        number = 0.0
+    if not SMALLEST_GOAL <= number <= LARGEST_GOAL:
+        raise argparse.ArgumentTypeError(
+            f"{short(text)}: allowed: {', '.join(ACCURACIES)}, or from {SMALLEST_GOAL:g} to {LARGEST_GOAL:g}"
+        )
+    return number
+
+
+def run(given: argparse.Namespace) -> None:
+    """Simulate it, save the run, and tell what came out."""
+    file = read_scenario_file(given.file)
+    out: Path = given.out or given.file.with_suffix(".h5")
+    if real_path(out) == real_path(given.file):
+        raise InputError(f"--out {out}: is the scenario itself; allowed: another file")
+    check_may_be_replaced(real_path(out))  # now, and not when all is computed
+    with shown_progress(given.file.stem) as progress:
+        result = simulate(file.scenario, accuracy=given.accuracy, errors=file.errors, progress=progress)
+    result.save(out)
+    if given.json:
+        answer(_object(result, out))
+    else:
+        _tell(result, file, out)
+    if result.goal is not None and not result.met:
+        print(
+            f"accuracy {result.goal:g}: NOT met, {result.worst_error:.1g} is estimated; refining did not help",
+            file=sys.stderr,
+        )
+
+
+def _tell(result: Result, file: ScenarioFile, out: Path) -> None:
+    """A short account."""
+    title = file.name or "run"
+    known = "± estimated numerical error" if result.coarser else "numerical errors not known: errors = true"
+    say(f"{title} ({known})")
+    say(_aligned(account.came_out(result, *WHOLE)))
+    points = [
+        name for name in account.telling(result) if name.rpartition(".")[0] in result.scenario.linkage.points
+    ]
+    if points:
+        say("\npaths: channel, unit, least, mean, largest")
+        say(_aligned([row[:-1] for row in account.of_channels(result, points, *WHOLE)]))
+    if touched := account.touches(result):
+        say("\ntouches: pin, which, time, lasts, approach, parting")
+        say(_aligned(touched))
+    say("")
+    say(_aligned(account.how(result)[:4]))
+    say(f"\n{out}")
+
+
+def _aligned(rows: list[account.Row]) -> str:
+    """Rows of texts in columns."""
+    if not rows:
+        return ""
+    wide = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    return "\n".join(
+        "  ".join(cell.ljust(width) for cell, width in zip(row, wide, strict=True)).rstrip() for row in rows
+    )
+
+
+def _object(result: Result, out: Path) -> dict[str, Any]:
+    """The same for scripts, in SI."""
+    return {
+        "run": out,
+        "accuracy": {"asked": result.goal, "met": result.met if result.goal is not None else None},
+        "counts": asdict(result.counts),
+        "wall_time_s": result.wall_time,
+        "numbers": {name: found._asdict() for name, found in account.numbers(result, *WHOLE).items()},
+        "touches": {pin: len(onsets) for pin, onsets in result.onsets.items()},
+    }

@@ -1,0 +1,42 @@
+"""`scenario RUN`: the scenario of a run as TOML, from which `run` makes the same run again."""
+
+from __future__ import annotations
+
+import argparse
+from dataclasses import replace
+
+from support_exudyn.command_line import folder, say
+from support_exudyn.datafiles import save_scenario, scenario_text
+from support_exudyn.result import Result
+from support_exudyn.scenario import Scenario
+
+HELP = "the scenario of a run as a TOML file, which `run` takes"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The run's file, and where the scenario goes."""
+    parser.add_argument("run", type=folder, metavar="RUN", help="file of a run, as Result.save writes it")
+    parser.add_argument("--out", type=folder, metavar="FILE", help="write it there, not to standard output")
+
+
+def run(given: argparse.Namespace) -> None:
+    """Write it, or print it."""
+    result = Result.load(given.run)
+    scenario, errors = asked(result)
+    if given.out is None:
+        say(scenario_text(scenario, errors=errors).rstrip("\n"))
+    else:
+        say(str(save_scenario(scenario, given.out, errors=errors)))
+
+
+def asked(result: Result) -> tuple[Scenario, bool]:
+    """What makes a result again, with its errors: the scenario, and whether `errors` have to be asked for.
+
+    A run to an accuracy is asked for by that again: it then finds the same settings.
+    """
+    if result.goal is not None:
+        return replace(result.scenario, accuracy=result.goal), False
+    first = result
+    while first.coarser is not None:  # the one that was given, of which the others are finer
+        first = first.coarser
+    return first.scenario, result.coarser is not None

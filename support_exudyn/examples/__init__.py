@@ -1,0 +1,1 @@
+"""Scenario files to begin with: copy one, change it, `python -m support_exudyn run FILE`."""

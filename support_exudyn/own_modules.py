@@ -1,0 +1,29 @@
+"""Modules of the user's own: machines, laws, drives and loads in them are known once they are imported."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterable
+from importlib import import_module
+
+from user_forces.values import InputError, short
+
+
+def import_modules(names: Iterable[str]) -> None:
+    """Import modules by name, from the working directory too.
+
+    Raises InputError that names the module if there is none of this name, or if it cannot be imported.
+    """
+    for name in names:
+        if "" not in sys.path:  # a program that is installed does not look there
+            sys.path.insert(0, "")
+        try:
+            import_module(name)
+        except ModuleNotFoundError as error:
+            missing = "no such module" if error.name in (name, name.partition(".")[0]) else str(error)
+            raise InputError(
+                f"--import {short(name)}: {missing}; allowed: a module in the working directory, or one that "
+                "is installed"
+            ) from None
+        except Exception as error:  # whatever a user's module does wrong
+            raise InputError(f"--import {name}: {type(error).__name__}: {error}") from error

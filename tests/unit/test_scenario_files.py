@@ -1,0 +1,351 @@
+"""Scenario files: what people write in short, what a program writes in full, and what is said of mistakes."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from importlib import resources
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from studies.paper_machine import bearing, ideal_rise, loose_pin, loose_rise
+from support_exudyn import (
+    CubicStep,
+    IdealPin,
+    OilColumn,
+    Scenario,
+    TableDrive,
+    UniformSpeed,
+    reference_support,
+    two_body_columns,
+)
+from support_exudyn.datafiles import (
+    load_toml,
+    parsed,
+    read_drives,
+    read_scenario,
+    read_scenario_file,
+    save_scenario,
+    scenario_file_of,
+    scenario_of,
+    scenario_text,
+)
+from tests import strategies as some
+from user_forces import (
+    STEEL,
+    CubicCoulomb,
+    Flores,
+    Hertz,
+    InputError,
+    TouchSpeed,
+    internal_contact_stiffness,
+)
+
+TOP = 'machine = "reference"\nduration_s = 5\n'
+LOOSE = "[pins.rear_base]\nclearance_mm = 1.5\nbore_radius_mm = 65.5\n"
+some.kinds()  # imports all modules: not while something is drawn
+EXAMPLES = resources.files("support_exudyn.examples")
+
+
+def scenario(text: str, folder: Path = Path()) -> Scenario:
+    return scenario_of(parsed(text, "a.toml"), "a.toml", folder)
+
+
+def refusal(text: str, folder: Path = Path()) -> str:
+    with pytest.raises(InputError) as caught:
+        scenario(text, folder)
+    return str(caught.value)
+
+
+def normal(text: str) -> object:
+    return scenario(TOP + LOOSE + text).clearance_pins["rear_base"].contact.normal
+
+
+# --- in short ---
+
+
+def test_the_papers_rise_in_short_is_that_of_the_studies() -> None:
+    with resources.as_file(EXAMPLES / "rise.toml") as path:
+        found = read_scenario(path)
+    expected = loose_rise(1.5, 0.25, 5e-4)
+    assert replace(found, solver=expected.solver) == expected
+
+
+def test_a_pin_in_short_is_that_of_the_studies() -> None:
+    found = scenario(TOP + LOOSE + "friction = 0.25\nrestitution = 0.9").pins["rear_base"]
+    assert found == loose_pin(1.5, 0.25)
+
+
+def test_usual_values_of_a_pin() -> None:
+    assert scenario(TOP + LOOSE).pins["rear_base"] == loose_pin(1.5, 0.0)
+
+
+def test_nothing_but_machine_and_duration_has_to_be_said() -> None:
+    assert scenario(TOP) == Scenario(machine=reference_support(), duration=5.0)
+
+
+def test_a_law_that_needs_a_restitution_only() -> None:
+    found = normal('law = "Flores"\nrestitution = 0.5\nstiffness_N_per_m_to_n = 1e10')
+    assert found == Flores(stiffness=1e10, restitution=0.5, damping_speed=TouchSpeed())
+
+
+def test_a_law_without_restitution() -> None:
+    assert normal('law = "Hertz"\nstiffness_N_per_m_to_n = 1e10') == Hertz(stiffness=1e10)
+
+
+def test_stiffness_of_materials_inside() -> None:
+    found = normal(
+        'law = "Hertz"\nstiffness = "internal"\nbore_material = "steel"\n'
+        'journal_material = {name = "soft", elastic_modulus_GPa = 207, poisson_ratio = 0.29, '
+        "density_kg_per_m3 = 7801}"
+    )
+    assert found == Hertz(stiffness=internal_contact_stiffness(bearing(1.5), STEEL, STEEL))
+
+
+def test_a_friction_law_as_a_table() -> None:
+    found = scenario(TOP + LOOSE + 'friction = {type = "CubicCoulomb", sliding_coefficient = 0.2}')
+    assert found.clearance_pins["rear_base"].contact.friction == CubicCoulomb(sliding_coefficient=0.2)
+
+
+def test_damping_speed_bore_and_eccentricity() -> None:
+    found = scenario(
+        TOP + LOOSE + 'bore = "second"\neccentricity_mm = [0, -1]\ndamping_speed = {type = "DepthSpeed"}'
+    ).clearance_pins["rear_base"]
+    assert (found.bore, found.eccentricity) == ("second", (0.0, -0.001))
+    assert type(found.contact.normal.damping_speed).__name__ == "DepthSpeed"  # type: ignore[attr-defined]
+
+
+def test_an_ideal_pin() -> None:
+    text = TOP + "[pins.rear_base]\nideal = true\nradius_mm = 60\n"
+    text += '[pins.rear_base.friction]\ntype = "CubicCoulomb"\nsliding_coefficient = 0.1'
+    rubbing = IdealPin(friction=CubicCoulomb(sliding_coefficient=0.1), radius=0.06)
+    assert scenario(text).pins == {"rear_base": rubbing}
+
+
+def test_long_and_short_forms_stand_side_by_side() -> None:
+    text = (
+        scenario_text(loose_rise(1.5, 0.25, 5e-4))
+        + "\n[pins.front_base]\nclearance_mm = 1\nbore_radius_mm = 60"
+    )
+    assert set(scenario(text).clearance_pins) == {"rear_base", "front_base"}
+
+
+@pytest.mark.parametrize(("mode", "kind"), [(1, UniformSpeed), (2, CubicStep)])
+def test_drive_modes_of_the_paper(mode: int, kind: type) -> None:
+    assert scenario(TOP + f"drive = {{mode = {mode}}}").drive == kind()
+    text = TOP + f"[drive]\nmode = {mode}\nstroke_mm = -100\nstart_s = 1\nend_ms = 2500"
+    assert scenario(text).drive == kind(stroke=-0.1, start=1.0, end=2.5)
+
+
+def test_drives_apart() -> None:
+    found = scenario(
+        TOP
+        + "[drives.front_column]\nmode = 1\n[columns.front_column]\n"
+        + 'type = "OilColumn"\nbore_area_mm2 = 1e5\noil_length_mm = 500\nbulk_modulus_GPa = 1.5'
+    )
+    assert found.drives == {"front_column": UniformSpeed()}
+    assert found.columns == {"front_column": OilColumn(bore_area=0.1, oil_length=0.5, bulk_modulus=1.5e9)}
+
+
+def test_a_drive_from_a_table(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("time_s,extension_mm\n0,0\n1,100\n")
+    found = scenario(TOP + 'drive = {table = "a.csv", between = "linear"}', tmp_path)
+    assert found.drive == TableDrive(times=(0.0, 1.0), extensions=(0.0, 0.1), between="linear")
+
+
+def test_one_table_drives_several_columns() -> None:
+    with resources.as_file(EXAMPLES / "columns_apart.toml") as path:
+        found = read_scenario(path)
+        assert found.drives == read_drives(path.with_name("columns_apart.csv"))
+
+
+def test_columns_of_two_bodies_take_their_masses_from_the_machine() -> None:
+    found = scenario(TOP + '[columns.front_column]\ntype = "TwoBodyColumn"\nrod_mass_kg = 300')
+    expected = replace(two_body_columns()["front_column"], rod_mass=300.0)
+    assert found.columns == {"front_column": expected}
+
+
+def test_a_machine_of_its_own_file(tmp_path: Path) -> None:
+    text = (resources.files("support_exudyn.machines") / "reference.toml").read_text("utf-8")
+    (tmp_path / "mine.toml").write_text(text, encoding="utf-8")
+    assert scenario('machine = "mine.toml"\nduration_s = 1', tmp_path).machine == reference_support()
+
+
+def test_a_load() -> None:
+    text = '[loads.roof]\ntype = "Roof"\nbody = "canopy"\npoint_mm = [0, 0]\nstiffness_kN_per_mm = 10\n'
+    found = scenario(TOP + text + "descent = {mode = 2, stroke_mm = 5, start_s = 0, end_s = 1}").loads["roof"]
+    assert found.descent == CubicStep(stroke=0.005, start=0.0, end=1.0)  # type: ignore[attr-defined]
+
+
+def test_what_people_say_of_it() -> None:
+    file = scenario_file_of(parsed('name = "a"\nerrors = true\n' + TOP, "a"), "a", Path())
+    assert (file.name, file.description, file.errors) == ("a", "", True)
+
+
+def test_programs_may_put_numbers_of_their_own() -> None:
+    table = load_toml(resources.files("support_exudyn.examples") / "rise.toml")  # type: ignore[arg-type]
+    table["pins"]["rear_base"]["clearance_mm"] = 0.1 + 0.2
+    found = scenario_of(table, "a", Path()).clearance_pins["rear_base"]
+    assert found.contact.bearing.clearance == float("0.30000000000000004e-3")
+
+
+# --- in full ---
+
+
+@given(st.data())
+@some.tried("files of scenarios")
+def test_scenarios_are_read_as_they_were_written(data: st.DataObject) -> None:
+    written = data.draw(some.values(Scenario))
+    found = scenario(scenario_text(written))
+    assert found == written
+    for name in ("pins", "columns", "parts", "drives", "loads"):  # the order of forces in a sum
+        assert list(getattr(found, name)) == list(getattr(written, name))
+
+
+@pytest.mark.parametrize("seed", [one for one in some.seeds() if isinstance(one, Scenario)])
+def test_machines_keep_their_order(seed: Scenario) -> None:
+    found = scenario(scenario_text(seed))
+    assert found == seed
+    if hasattr(seed.machine, "parts"):
+        assert list(found.machine.parts) == list(seed.machine.parts)  # type: ignore[attr-defined]
+
+
+def test_files_are_written_whole(tmp_path: Path) -> None:
+    path = save_scenario(ideal_rise(5e-4), tmp_path / "new" / "a.toml", name="rise", errors=True)
+    file = read_scenario_file(path)
+    assert (file.scenario, file.name, file.errors) == (ideal_rise(5e-4), "rise", True)
+    assert [one.name for one in path.parent.iterdir()] == ["a.toml"]
+
+
+# --- what is said of mistakes ---
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("", "a.toml: machine: missing; allowed: a path that ends in .toml"),
+        ('machine = "reference"', "a.toml: duration_s: missing; it has no default"),
+        ("machine = 3\nduration_s = 1", "a.toml: machine = 3: allowed: a path that ends in .toml"),
+        (
+            'machine = "no.toml"\nduration_s = 1',
+            "a.toml: machine = 'no.toml': allowed: a file that can be read (No such file or directory)",
+        ),
+        ('machine = "a\\u0000.toml"\nduration_s = 1', "a.toml: machine = 'a\\x00.toml': allowed: "),
+        (
+            'duration_s = 1\n[machine]\ntype = "Sup"',
+            "a.toml: machine.type = 'Sup': allowed: HydraulicSupport, ",
+        ),
+        ('nme = "a"\n' + TOP, "a.toml: nme: unknown key; did you mean name? allowed: name, description, "),
+        ("name = 3\n" + TOP, "a.toml: name = 3: allowed: a text"),
+        ("errors = 1\n" + TOP, "a.toml: errors = 1: allowed: true, false"),
+        ('type = "Held"\n' + TOP, "a.toml: type = 'Held': allowed: \"Scenario\""),
+        (TOP + "accuracy = 1", "a.toml: accuracy = 1.0: allowed: 'draft', "),
+        (TOP + 'accuracy = "best"', "a.toml: accuracy = 'best': allowed: 'draft', 'standard', 'reference', or"),
+        (TOP + "dimensions = 4", "a.toml: dimensions = 4: allowed: 2, 3"),
+        (TOP + "step_ms = 500", "a.toml: step_ms = 500: allowed: > 0 and <= 100"),
+        (TOP + "record_period_s = 6", "a.toml: record_period = 6.0 s: allowed: at most the duration, 5.0 s"),
+        (TOP + "solver = 3", "a.toml: solver = 3: allowed: a table"),
+        (TOP + "solver.impact_steps = 1", "a.toml: solver.impact_steps = 1: allowed: a whole number >= 16"),
+        (
+            TOP + LOOSE.replace("rear_base", "rear"),
+            "a.toml: pins.rear: the machine has no such pin; allowed: rear_base, ",
+        ),
+        (
+            TOP + "[columns.front]\ntype = 'RigidColumn'",
+            "a.toml: columns.front: the machine has no such column; allowed: front_column, rear_column",
+        ),
+        (TOP + "[drives.x]\nmode = 1", "a.toml: drives.x: the machine has no such driven part; allowed: "),
+        (TOP + LOOSE.replace("1.5", "-1"), "a.toml: pins.rear_base.clearance_mm = -1: allowed: > 0"),
+        (
+            TOP + LOOSE.replace("1.5", "70"),
+            "a.toml: pins.rear_base: JournalBearing: clearance = 0.07 m: leaves no journal",
+        ),
+        (TOP + "[pins.rear_base]\nfriction = 0.1", "a.toml: pins.rear_base.clearance_mm: missing; it has no"),
+        (TOP + LOOSE + "law = 'Hertzz'", "a.toml: pins.rear_base.law = 'Hertzz': allowed: 'CarvalhoMartins', "),
+        (
+            TOP + LOOSE + "law = 'Hertz'\nrestitution = 0.9",
+            "a.toml: pins.rear_base: restitution: the law Hertz has none",
+        ),
+        (
+            TOP + LOOSE + "stiffness_N_per_m_to_n = 1e10\nbore_material = 'steel'",
+            "a.toml: pins.rear_base: bore_material: would be left unused",
+        ),
+        (
+            TOP + LOOSE + "bore_material = 'wood'",
+            "a.toml: pins.rear_base.bore_material = 'wood': allowed: 'steel', ",
+        ),
+        (
+            TOP + LOOSE + "stiffness = 1e10",
+            "a.toml: pins.rear_base.stiffness: a number needs its unit in the key",
+        ),
+        (
+            TOP + LOOSE + "friction = 'wet'",
+            "a.toml: pins.rear_base.friction = 'wet': allowed: >= 0, or a table",
+        ),
+        (TOP + "[pins.rear_base]\nideal = false", "a.toml: pins.rear_base.ideal = false: allowed: true"),
+        (TOP + "pins = 3", "a.toml: pins = 3: allowed: a table of names, each a table of type "),
+        (TOP + "pins.rear_base = 1.5", "a.toml: pins.rear_base = 1.5: allowed: a table of type "),
+        (TOP + "[drive]\nmode = 3", "a.toml: drive.mode = 3: allowed: 1, 2"),
+        (TOP + "[drive]\nmode = 1\nend_s = 1", "a.toml: drive: end = 1.0 s: allowed: > start = 3.0 s"),
+        (TOP + "[drive]\nstroke_mm = 3", "a.toml: drive: says no mode, table or type; allowed: mode = 1 or 2"),
+        (TOP + "drive.table = 'no.csv'", "a.toml: drive.table = 'no.csv': allowed: a file that can be read"),
+        (TOP + "drives.table = 'no.csv'", "a.toml: drives.table = 'no.csv': allowed: a file that can be read"),
+        (TOP + "drive.table = 'a\\\\u0000'", "a.toml: drive.table = 'a"),
+        (TOP + "drives.table = 3", "a.toml: drives.table = 3: allowed: a table of type "),
+        (TOP + "channels = ['tip.z']", "a.toml: channels = 'tip.z'"),
+        (
+            TOP + "[columns.front_column]\ntype = 'TwoBodyColumn'\nrod_mass = 3",
+            "a.toml: columns.front_column.rod_mass: is written with its unit; allowed: rod_mass_kg, rod_mass_t",
+        ),
+    ],
+)
+def test_mistakes_are_said_with_file_key_value_and_range(tmp_path: Path, text: str, said: str) -> None:
+    assert refusal(text, tmp_path).startswith(said)
+
+
+def test_a_bore_that_nobody_gives_is_asked_for(tmp_path: Path) -> None:
+    text = (resources.files("support_exudyn.machines") / "reference.toml").read_text("utf-8")
+    (tmp_path / "mine.toml").write_text(re.sub(r"(?s)\[bore_radi.*?\n\n", "", text), encoding="utf-8")
+    said = refusal('machine = "mine.toml"\nduration_s = 1\n[pins.front_base]\nclearance_mm = 1', tmp_path)
+    assert said.startswith("a.toml: pins.front_base: bore_radius_mm: missing, and the machine's file says none")
+
+
+def test_a_column_of_the_file_and_a_drive_of_the_table_are_one_too_many(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("time_s,front_column_mm\n0,0\n1,100\n")
+    said = refusal(TOP + "[drives]\ntable = 'a.csv'\nfront_column = {mode = 1}", tmp_path)
+    assert said == "a.toml: drives.front_column: is a column of a.csv too; allowed: one of them"
+
+
+def test_what_the_csv_lacks_is_said_of_it(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("time_s,front_column_mm\n0,0\n1,x\n")
+    said = refusal(TOP + "drive.table = 'a.csv'", tmp_path)
+    assert said == f"{tmp_path}/a.csv: line 3, column front_column_mm: 'x': allowed: a number such as 12.5"
+
+
+def test_all_mistakes_are_told_at_once() -> None:
+    text = TOP + LOOSE.replace("1.5", "-1") + "[drive]\nmode = 3\n[solver]\nimpact_steps = 1"
+    assert len(refusal(text).splitlines()) == 3
+
+
+@pytest.mark.parametrize(
+    ("data", "said"),
+    [
+        (b"\xff\xfe", "byte 0 is not UTF-8"),
+        (b'machine = "reference', r"Unterminated string \(at line 1"),
+        (b"a = 1\nb = [\n", "at line 2, the last"),
+        (b"a = " + b"[" * 5000, "is nested too deep"),
+    ],
+)
+def test_what_is_no_toml_is_said_with_its_line(tmp_path: Path, data: bytes, said: str) -> None:
+    (tmp_path / "a.toml").write_bytes(data)
+    with pytest.raises(InputError, match=said) as caught:
+        read_scenario(tmp_path / "a.toml")
+    assert str(caught.value).startswith(f"{tmp_path}/a.toml: ")
+
+
+def test_a_file_that_is_not_there(tmp_path: Path) -> None:
+    with pytest.raises(FileNotFoundError, match=r"no\.toml"):
+        read_scenario(tmp_path / "no.toml")
