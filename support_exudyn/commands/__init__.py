@@ -13,7 +13,7 @@ from typing import Protocol, cast
 
 from support_exudyn.command_line import Parser
 
-NAMES: tuple[str, ...] = ("show", "plot", "render", "view", "export")
+NAMES: tuple[str, ...] = ("check", "show", "plot", "render", "view", "export")
 
 
 class Command(Protocol):
