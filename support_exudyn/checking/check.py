@@ -14,8 +14,8 @@ def check_machine(data: MachineData, stroke: float | None = None) -> Report:
 
     Arguments:
         data: the machine as its file describes it.
-        stroke: by how much its columns extend from the start on [m]; by default as the file says, otherwise three
-            tenths of the shortest column.
+        stroke: by how much its columns extend from the start on [m]; by default as the file says, otherwise
+            three tenths of the shortest column.
 
     Raises InputError if it cannot go so far, or if machines of this kind are not covered.
     """

@@ -15,7 +15,7 @@ from support_exudyn.linkages.slider_crank import SliderCrank
 from support_exudyn.machine_data import MachineData
 
 STATIONS, FINE = 13, 361  # of one revolution
-LONG = 2.5  # rod to crank: shorter rods press hard on the guide
+LONG = 2.0  # rod to crank: shorter rods press hard on the guide
 
 
 @dataclass(frozen=True)
@@ -53,12 +53,16 @@ def check_crank(data: MachineData, machine: SliderCrank) -> Report:
         )
     for name, radius in data.bore_radii.items():
         if radius > 0.5 * machine.crank_length:
-            warnings.append(f"bore_radius_mm.{name} = {1e3 * radius:g}: more than half the crank; is it a diameter?")
+            warnings.append(
+                f"bore_radius_mm.{name} = {1e3 * radius:g}: more than half the crank; is it a diameter?"
+            )
     if machine.crank_length > 5.0:
         warnings.append(f"crank_length_mm: {machine.crank_length:g} m; is it given in mm?")
     notes = [f"assumed: {said}" for said in data.assumed]
     if not data.bore_radii:
-        notes.append("no [bore_radius_mm]: a scenario that gives a pin a clearance has to say its bore's radius")
+        notes.append(
+            "no [bore_radius_mm]: a scenario that gives a pin a clearance has to say its bore's radius"
+        )
     notes.append("it is known in its plane only")
     notes += [f"source of {name}: {said}" for name, said in data.sources.items()]
     return Report(
@@ -69,7 +73,12 @@ def check_crank(data: MachineData, machine: SliderCrank) -> Report:
         warnings=warnings,
         notes=notes,
         numbers={
-            "degrees_of_freedom": {"counted": free.counted, "free": free.free, "driven": free.driven, "left": free.left},
+            "degrees_of_freedom": {
+                "counted": free.counted,
+                "free": free.free,
+                "driven": free.driven,
+                "left": free.left,
+            },
             "slider_least_m": min(travel),
             "slider_largest_m": max(travel),
             "closure_residual_m": residual,
@@ -108,7 +117,7 @@ def _turn(machine: SliderCrank, angle: float) -> Turn:
 def _sheet(machine: SliderCrank, told: list[Turn]) -> Sheet:
     pins = tuple(machine.linkage().pins)
     return Sheet(
-        "one revolution, crank driven (angles from +x in degrees; static forces in N, moment of the drive in N m)",
+        "one revolution, crank driven (angles from +x [degrees]; static forces [N], moment of the drive [N m])",
         ("crank", "slider [mm]", "rod", *pins, "guide", "drive"),
         [
             (

@@ -32,9 +32,9 @@ def crank_figure(name: str, machine: SliderCrank, fine: Sequence[Turn]) -> Figur
     left.set(title="slider; dead centres at 0 and 180 degrees", ylabel="x of the slider [mm]")
     for dead in (0.0, 180.0, 360.0):
         left.axvline(dead, color=GREY, ls=":", lw=0.8)
-    forces = {
-        pin: [float(np.hypot(*one.forces.pins[pin])) for one in fine] for pin in fine[0].forces.pins
-    } | {"guide": [abs(one.forces.slides["guide"]) for one in fine]}
+    forces = {pin: [float(np.hypot(*one.forces.pins[pin])) for one in fine] for pin in fine[0].forces.pins} | {
+        "guide": [abs(one.forces.slides["guide"]) for one in fine]
+    }
     for (pin, values), (colour, dashes) in zip(forces.items(), CURVES, strict=True):
         right.plot(degrees, values, color=colour, ls=dashes, lw=1.2, label=pin)
     right.set(title="static forces under weight", ylabel="force [N]")
@@ -58,8 +58,13 @@ def _machine(axes: Axes, machine: SliderCrank) -> None:
         pin = mm * r * math.cos(angle), mm * r * math.sin(angle)
         slider = mm * machine.slider_position(angle)
         axes.plot([0.0, pin[0]], [0.0, pin[1]], color=colour, ls=dashes, lw=3.0)
-        axes.plot([pin[0], slider], [pin[1], 0.0], color=colour, ls=dashes, lw=1.6, label=f"{degrees:.0f} degrees")
-        corners = ([slider - 2 * side, slider + 2 * side, slider + 2 * side, slider - 2 * side], [-side, -side, side, side])
+        axes.plot(
+            [pin[0], slider], [pin[1], 0.0], color=colour, ls=dashes, lw=1.6, label=f"{degrees:.0f} degrees"
+        )
+        corners = (
+            [slider - 2 * side, slider + 2 * side, slider + 2 * side, slider - 2 * side],
+            [-side, -side, side, side],
+        )
         axes.fill(*corners, fc="white", ec=colour, lw=1.2, zorder=3)
         axes.plot([0.0, pin[0], slider], [0.0, pin[1], 0.0], "o", ms=4, mfc="white", mec=colour, zorder=4)
     axes.annotate("main", (0.0, 0.0), xytext=(-4, -12), textcoords="offset points", ha="center", fontsize=8)
@@ -74,5 +79,5 @@ def _machine(axes: Axes, machine: SliderCrank) -> None:
     )  # fmt: skip
     axes.set(aspect="equal", xlabel="x, along the guide [mm]", ylabel="y [mm]")
     axes.set_title(f"crank {mm * r:g} mm, rod {mm * machine.rod_length:g} mm, at three angles of the crank")
-    axes.legend(loc="lower left", fontsize=8)
+    axes.legend(loc="lower right", fontsize=8)
     axes.grid(False)

@@ -34,7 +34,8 @@ class Mobility:
         return (
             f"degrees of freedom: 3 x {self.bodies} bodies - 2 x {self.pins} pins"
             + (f" - 2 x {self.guides} guides" if self.guides else "")
-            + f" = {self.counted} (rank of the constraints: {self.free}); driven: {self.driven}; left: {self.left}"
+            + f" = {self.counted} (by the rank of the constraints: {self.free}); driven: {self.driven}; "
+            f"left: {self.left}"
         )
 
 

@@ -24,7 +24,10 @@ class Sheet:
         widths = [max(len(row[n]) for row in table) for n in range(len(self.header))]
         yield self.title
         for row in table:
-            cells = [row[0].ljust(widths[0]), *(cell.rjust(w) for cell, w in zip(row[1:], widths[1:], strict=True))]
+            cells = [
+                row[0].ljust(widths[0]),
+                *(cell.rjust(w) for cell, w in zip(row[1:], widths[1:], strict=True)),
+            ]
             yield "  " + "  ".join(cells).rstrip()
 
 

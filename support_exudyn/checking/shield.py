@@ -41,7 +41,8 @@ def check_shield(data: MachineData, machine: Shield, stroke: float | None) -> Re
     facts = [
         free.said(),
         f"used range: hinge {_mm(ends[0].posture.hinge[1])} to {_mm(ends[1].posture.hinge[1])} mm, "
-        f"tip {_mm(ends[0].posture.tip[1])} to {_mm(ends[1].posture.tip[1])} mm above the origin (stroke {_mm(used)} mm)",
+        f"tip {_mm(ends[0].posture.tip[1])} to {_mm(ends[1].posture.tip[1])} mm above the origin "
+        f"(stroke {_mm(used)} mm)",
         f"closure: links and columns keep their lengths within {1e3 * residual:.1e} mm at {FINE} postures",
         f"tip wander: x from {_mm(min(tips))} to {_mm(max(tips))} mm, {_mm(wander)} mm; {RULE} allows "
         f"{_mm(WANDER)} mm: {'met' if wander <= WANDER else 'NOT met'}",
@@ -58,7 +59,12 @@ def check_shield(data: MachineData, machine: Shield, stroke: float | None) -> Re
         warnings=warnings,
         notes=[*missing(data, machine), *sources],
         numbers={
-            "degrees_of_freedom": {"counted": free.counted, "free": free.free, "driven": free.driven, "left": free.left},
+            "degrees_of_freedom": {
+                "counted": free.counted,
+                "free": free.free,
+                "driven": free.driven,
+                "left": free.left,
+            },
             "stroke_m": used,
             "tip_x_least_m": min(tips),
             "tip_x_largest_m": max(tips),
@@ -113,7 +119,7 @@ def _sheets(machine: Shield, told: Sequence[Station]) -> list[Sheet]:
         ],
     )
     forces = Sheet(
-        "static forces [kN], columns: push, negative: pull; angles in pins: between shield beam and link [degrees]",
+        "static forces [kN], columns: push, negative: pull; angles in pins: shield beam to link [degrees]",
         (
             *("stroke", "hinge y", *pins, *columns),
             *("angle rear_shield", "angle front_shield"),
@@ -152,8 +158,8 @@ def _limit_said(where: str, found: Limit | None) -> str:
     if found is None:
         return f"{where} the used range: no dead centre within three lengths of a column"
     return (
-        f"{where} the used range: way ends at a hinge height of {_mm(found.height)} mm, {_mm(found.margin)} mm away "
-        f"({found.why})"
+        f"{where} the used range: way ends at a hinge height of {_mm(found.height)} mm, "
+        f"{_mm(found.margin)} mm away ({found.why})"
     )
 
 
@@ -208,8 +214,8 @@ def _warnings(
     tilt = max(fine, key=lambda one: abs(one.posture.canopy))
     if abs(tilt.posture.canopy) > TILT:
         yield (
-            f"the canopy tilts by {math.degrees(tilt.posture.canopy):.2f} degrees at stroke {_mm(tilt.stroke)} mm "
-            "if the columns extend alike"
+            f"the canopy tilts by {math.degrees(tilt.posture.canopy):.2f} degrees at stroke {_mm(tilt.stroke)} "
+            "mm if the columns extend alike"
         )
     heights = [one.posture.hinge[1] for one in fine]
     if stroke > 0.0 and heights[-1] <= heights[0]:
@@ -238,6 +244,6 @@ def _column_warnings(machine: Shield, fine: Sequence[Station]) -> Iterator[str]:
         ratio = max(lengths) / min(lengths)
         if ratio > STAGES:
             yield (
-                f"{name} grows from {_mm(min(lengths))} to {_mm(max(lengths))} mm, {ratio:.2f} times as long; a "
-                f"cylinder of one stage manages less than {STAGES:g} times"
+                f"{name} grows from {_mm(min(lengths))} to {_mm(max(lengths))} mm, {ratio:.2f} times as long; "
+                f"a cylinder of one stage manages less than {STAGES:g} times"
             )

@@ -52,8 +52,8 @@ def shield_figure(
     name: str, machine: Shield, fine: Sequence[Station], limits: Mapping[str, Limit | None]
 ) -> Figure:
     """Drawing and curves of a support over its stroke; fine: postures, from the start on."""
-    drawing = Figure(figsize=style.size(180, 225))
-    grid = drawing.add_gridspec(3, 2, height_ratios=(2.1, 1.0, 1.0))
+    drawing = Figure(figsize=style.size(180, 205))
+    grid = drawing.add_gridspec(3, 2, height_ratios=(1.75, 1.0, 1.0))
     upper = grid[0, :].subgridspec(1, 2, width_ratios=(2.7, 1.0))
     _machine(drawing.add_subplot(upper[0]), machine, fine)
     _pivots(drawing.add_subplot(upper[1]), machine, fine)
@@ -95,8 +95,9 @@ def _machine(axes: Axes, machine: Shield, fine: Sequence[Station]) -> None:
     size = max(np.ptp([p[0] for p in at.values()]), np.ptp([p[1] for p in at.values()]))
     for pivot, (x, y) in at.items():
         axes.annotate(
-            LETTERS[pivot], (1e3 * x, 1e3 * y), xytext=_aside(pivot), textcoords="offset points", fontsize=8,
-            ha="center", va="center", bbox={"boxstyle": "round,pad=0.1", "fc": "white", "ec": "none", "alpha": 0.8},
+            LETTERS[pivot], (1e3 * x, 1e3 * y), xytext=_aside(pivot), textcoords="offset points",
+            fontsize=8, ha="center", va="center",
+            bbox={"boxstyle": "round,pad=0.1", "fc": "white", "ec": "none", "alpha": 0.8},
             zorder=6,
         )  # fmt: skip
     axes.axhline(0.0, color=GREY, lw=0.8)
@@ -110,7 +111,9 @@ def _machine(axes: Axes, machine: Shield, fine: Sequence[Station]) -> None:
         axes.plot([], [], color=colour, ls=dashes, lw=1.6, label=f"stroke {1e3 * one.stroke:.0f} mm")[0]
         for one, (colour, dashes) in zip(three, POSTURES, strict=True)
     ]
-    axes.legend(handles=handles, loc="lower center", bbox_to_anchor=(0.5, -0.26), ncols=3, fontsize=8)
+    axes.legend(handles=handles, loc="upper left", fontsize=7.5)
+    low, high = axes.get_ylim()
+    axes.set_ylim(low, high + 0.1 * (high - low))
     axes.set_xlim(right=1e3 * (right + 0.24 * size))
     axes.grid(False)
 
@@ -150,7 +153,9 @@ def _posture(
     for strut in machine.STRUTS.values():
         line(strut.foot[1], strut.head[1], width=3.2)
     points = np.array([point for name, point in at.items() if name != "tip"])
-    axes.plot(points[:, 0], points[:, 1], "o", ms=4.0 if strong else 2.5, mfc="white", mec=colour, mew=0.8, zorder=5)
+    axes.plot(
+        points[:, 0], points[:, 1], "o", ms=4.0 if strong else 2.5, mfc="white", mec=colour, mew=0.8, zorder=5
+    )
     if strong:
         axes.plot(*at["tip"], "D", ms=3.5, mfc="white", mec=colour, zorder=5)
         feet = {place for strut in machine.STRUTS.values() for body, place in strut if body == GROUND}
@@ -189,11 +194,20 @@ def _pivots(axes: Axes, machine: Shield, fine: Sequence[Station]) -> None:
         lines.append(("", f"{LETTERS[first]}-{LETTERS[second]}", "", f"{1e3 * apart:.0f}"))
     for name in machine.STRUTS:
         lengths = [1e3 * one.lengths[name] for one in fine]
-        lines.append(("", name, f"{lengths[0]:.0f}", f"to {lengths[-1]:.0f}"))
+        lines.append(("", name, "", f"{lengths[0]:.0f} to {lengths[-1]:.0f}"))
     for n, line in enumerate(lines):
         heavy = "bold" if line[1] in ("at the start", "lengths") else "normal"
         for x, text, side in zip((0.0, 0.1, 0.74, 1.0), line, ("left", "left", "right", "right"), strict=True):
-            axes.text(x, 1.0 - 0.047 * n, text, ha=side, va="top", fontsize=7.5, weight=heavy, transform=axes.transAxes)
+            axes.text(
+                x,
+                1.0 - 0.05 * n,
+                text,
+                ha=side,
+                va="top",
+                fontsize=7.5,
+                weight=heavy,
+                transform=axes.transAxes,
+            )
 
 
 def _tip_path(axes: Axes, fine: Sequence[Station]) -> None:

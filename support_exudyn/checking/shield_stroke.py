@@ -53,8 +53,8 @@ class Limit:
     """Where the way of a support ends, up or down.
 
     Arguments:
-        height: of the hinge [m]. margin: how far that is from the used range [m]. stroke: the extension there [m].
-        why: in words.
+        height: of the hinge [m]. margin: how far that is from the used range [m]. stroke: the extension
+            there [m]. why: in words.
     """
 
     height: float
@@ -153,7 +153,8 @@ def limit(machine: Shield, used: tuple[Station, Station], up: bool) -> Limit | N
             following is None
             or abs(following.rear_link - posture.rear_link) > LONGEST_STEP
             or sign * (following.hinge[1] - posture.hinge[1]) <= 0.0
-            or np.linalg.det(machine.column_rates(following)) * np.linalg.det(machine.column_rates(posture)) <= 0.0
+            or np.linalg.det(machine.column_rates(following)) * np.linalg.det(machine.column_rates(posture))
+            <= 0.0
         ):
             step /= 2.0
             continue

@@ -37,17 +37,18 @@ class Statics:
 def statics(linkage: Linkage, position: Array, gravity: Vector2 = GRAVITY) -> Statics:
     """Of a linkage whose bodies have moved from the start posture by `position` (3 bodies,) [m], [rad].
 
-    Solves C^T L + w = 0, C the Jacobian of the constraints, driven parts held, w the weight. The error is what the
-    residual can mean at the condition of C.
+    Solves C^T L + w = 0, C the Jacobian of the constraints, driven parts held, w the weight. The error is what
+    the residual can mean at the condition of C.
     """
     kinetics = kinetics_of(linkage)
     rows, weight = kinetics.rows(position), kinetics.weight(gravity)
     forces = np.linalg.lstsq(rows.T, -weight, rcond=None)[0]
     residual = float(np.abs(rows.T @ forces + weight).max()) + np.finfo(float).eps * float(np.abs(weight).max())
     error = residual * float(np.linalg.norm(np.linalg.pinv(rows.T), 2)) * len(weight) ** 0.5
-    pins, first = {}, 0
+    pins: dict[str, Array] = {}
+    first = 0
     for name in linkage.pins:
-        pins[name], first = forces[first : first + 2], first + 2
+        pins[name], first = np.array(forces[first : first + 2]), first + 2
     taken = iter(forces[first:].tolist())
     return Statics(
         pins,

@@ -32,8 +32,8 @@ def suspicions(data: MachineData, machine: FourBarShield[Any]) -> Iterator[str]:
     turned = math.degrees(machine.start().rear_link)
     if abs(turned) > 30.0:
         yield (
-            f"start_hinge_height_mm: the rear link starts {turned:.0f} degrees from the posture in which the pivots "
-            "are given; is the height that of the hinge, above the pivots' origin?"
+            f"start_hinge_height_mm: the rear link starts {turned:.0f} degrees from the posture in which the "
+            "pivots are given; is the height that of the hinge, above the pivots' origin?"
         )
 
 
@@ -58,7 +58,7 @@ def missing(data: MachineData, machine: FourBarShield[Any]) -> Iterator[str]:
 def extent(pivots: Mapping[str, Vector2]) -> float:
     """The larger of length and height of all pivots [m]."""
     spans = [max(axis) - min(axis) for axis in zip(*pivots.values(), strict=True)]
-    return max(spans)
+    return float(max(spans))
 
 
 def _masses(machine: FourBarShield[Any], size: float) -> Iterator[str]:
@@ -66,9 +66,9 @@ def _masses(machine: FourBarShield[Any], size: float) -> Iterator[str]:
     total = sum(masses.values())
     density = total / size**3
     if density < LIGHT:
-        yield f"masses: {total:.4g} kg in all is little for a support of {size:.2g} m; are they given in tonnes?"
+        yield f"masses: {total:.4g} kg in all is little for a support of {size:.2g} m; are they in tonnes?"
     if density > HEAVY:
-        yield f"masses: {total:.4g} kg in all is much for a support of {size:.2g} m; are they given in grams?"
+        yield f"masses: {total:.4g} kg in all is much for a support of {size:.2g} m; are they in grams?"
     for name, mass in masses.items():
         if mass > total - mass:
             yield f"parts.{name}: {mass:.4g} kg is more than all others together ({total - mass:.4g} kg)"
@@ -117,4 +117,3 @@ def _bores(data: MachineData, machine: FourBarShield[Any]) -> Iterator[str]:
                 f"bore_radius_mm: those of {one} and {other} are {1e3 * radii:.3g} mm together, and the pins "
                 f"{1e3 * apart:.4g} mm apart; are they diameters?"
             )
-

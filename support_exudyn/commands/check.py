@@ -19,8 +19,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "machine",
         metavar="FILE",
-        help="machine data file, a path that ends in .toml; or a machine that comes with the package: reference, "
-        "zf18000, two_leg_shield, slider_crank",
+        help="machine data file, a path that ends in .toml; or a machine that comes with the package: "
+        "reference, zf18000, two_leg_shield, slider_crank",
     )
     parser.add_argument(
         "--out", type=folder, metavar="DIR", help="where the figure goes; by default beside the file, or here"

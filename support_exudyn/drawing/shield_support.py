@@ -1,4 +1,4 @@
-"""What a four-column shield support looks like: proportions of a real one about the pivots of the machine."""
+"""What a shield support looks like: proportions of a real one about the pivots of the machine."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from support_exudyn.drawing.placed_pins import planar_pins
 from support_exudyn.drawing.shapes import ROUND, bar, plate, together, tube
 from support_exudyn.drawing.shield_sizes import Sizes, sizes
 from support_exudyn.drawing.solid import Look, Role, Solid, Strut
-from support_exudyn.linkages.hydraulic_support import TAIL, HydraulicSupport
+from support_exudyn.linkages.four_bar_shield import TAIL, FourBarShield
 from support_exudyn.machine import GROUND, Column, lumped
 from support_exudyn.plane import moved
 from support_exudyn.scenario import Scenario
@@ -28,7 +28,7 @@ PROUD = 0.4  # by how much pins stand out of their plates, of a plate's thicknes
 
 
 def look(scenario: Scenario) -> Look:
-    """The look of a scenario whose machine is a HydraulicSupport, of any size.
+    """The look of a scenario whose machine is a shield support, of any size.
 
     Pivots, and widths where the machine knows them, are those of the machine; plates, eyes and the like follow
     from their distances. Cylinders and rods fit the stroke of the scenario's drives.
@@ -178,7 +178,7 @@ class _Support:
     def _tail(self) -> Iterator[Solid]:
         """The tail beam, hanging from the lower end of the shield beam; nothing if the machine has none."""
         machine, linkage = self.scenario.machine, self.scenario.linkage
-        assert isinstance(machine, HydraulicSupport)  # whose look this is
+        assert isinstance(machine, FourBarShield)  # whose look this is
         if TAIL in linkage.bodies:
             near, centre = self.on_second["shield_tail"], linkage.bodies[TAIL].centre
             yield Solid(TAIL, TAIL, Role.TAIL, self._beam(near, centre))

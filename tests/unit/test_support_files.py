@@ -143,9 +143,7 @@ def test_a_missing_key_is_refused(tmp_path: Path) -> None:
 
 def test_an_unknown_key_of_a_part_is_refused(tmp_path: Path) -> None:
     message = refusal(tmp_path, "mass_kg = 400", "mass_t = 0.4")
-    assert message.startswith(
-        "parts.front_link[0].mass_t: unknown key (did you mean 'mass_kg'?); allowed: "
-    )
+    assert message.startswith("parts.front_link[0].mass_t: unknown key (did you mean 'mass_kg'?); allowed: ")
 
 
 def test_a_part_without_mass_is_refused(tmp_path: Path) -> None:
