@@ -111,9 +111,7 @@ def _machine(axes: Axes, machine: Shield, fine: Sequence[Station]) -> None:
         axes.plot([], [], color=colour, ls=dashes, lw=1.6, label=f"stroke {1e3 * one.stroke:.0f} mm")[0]
         for one, (colour, dashes) in zip(three, POSTURES, strict=True)
     ]
-    axes.legend(handles=handles, loc="upper left", fontsize=7.5)
-    low, high = axes.get_ylim()
-    axes.set_ylim(low, high + 0.1 * (high - low))
+    axes.legend(handles=handles, loc="lower right", bbox_to_anchor=(0.84, 0.13), fontsize=7.5)
     axes.set_xlim(right=1e3 * (right + 0.24 * size))
     axes.grid(False)
 
