@@ -60,7 +60,7 @@ class Schemas:
             rules += [{"not": {"required": list(two)}} for two in combinations(field.keys, 2)]
             if field.required and not all_optional:
                 if len(field.keys) == 1:
-                    required.append(field.name)
+                    required.append(field.keys[0])
                 else:
                     rules.append({"anyOf": [{"required": [key]} for key in field.keys]})
         found: Table = {"type": "object", "description": summary(cls), "properties": properties}

@@ -282,6 +282,11 @@ def _help(cls: type) -> Mapping[str, str]:
     for one in reversed(cls.__mro__):
         if one.__doc__ and "Arguments:" in one.__doc__:
             found |= dict(_entries(inspect.cleandoc(one.__doc__).partition("Arguments:")[2]))
+    names = "|".join(one.name for one in dataclass_fields(cls))
+    for text in list(found.values()):  # several in a line: `radius: [m], > 0. mass: [kg], > 0.`
+        first, *more = re.split(rf"(?<=\.) (?=(?:{names}): )", text)
+        found = {name: first if said == text else said for name, said in found.items()}
+        found |= {name: said for name, _, said in (one.partition(": ") for one in more)}
     return found
 
 
