@@ -19,6 +19,7 @@ from support_exudyn.linkages.impact_stand import ImpactStand
 from support_exudyn.linkages.slider_crank import SliderCrank, ravn_slider_crank
 from support_exudyn.loads import Load, LoadedPoint, Roof
 from support_exudyn.machine import Body, Column, Crank, Linkage, Machine, Part, PinPlace, Slide, TracePoint
+from support_exudyn.machines import load_support, reference_support, two_body_columns
 from support_exudyn.onset import Onset
 from support_exudyn.parts import Lumped, OwnBody, PartModel
 from support_exudyn.pins import ClearancePin, IdealPin, Pin
@@ -26,7 +27,6 @@ from support_exudyn.recommend import Recommendation, recommend
 from support_exudyn.result import Result
 from support_exudyn.scenario import Scenario, SolverSettings
 from support_exudyn.simulate import simulate
-from support_exudyn.supports import load_support, reference_support, two_body_columns
 from support_exudyn.table_drive import TableDrive
 from support_exudyn.width import Width
 

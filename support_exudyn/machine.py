@@ -24,6 +24,7 @@ from user_forces.values import InputError, Positive, Real, Value, Vector2, value
 
 if TYPE_CHECKING:
     from support_exudyn.drawing.solid import Look
+    from support_exudyn.drives import Drive
     from support_exudyn.scenario import Scenario
     from support_exudyn.spatial.layout import SpatialLinkage
 
@@ -327,6 +328,28 @@ class Machine(Value, ABC):
         The range is in m for columns and in rad for cranks; a machine that can follow any has nothing to check.
         """
         del lowest, highest
+
+    @property
+    def leaders(self) -> Mapping[str, str]:
+        """Driven parts that follow another unless a scenario says how they move, each with that; here none."""
+        return {}
+
+    def follower(self, name: str, lead: Drive, duration: float) -> Drive:
+        """How a part of `leaders` moves while what it follows is driven by `lead`, for so long [s].
+
+        By default the same. Raises InputError if it cannot follow.
+        """
+        del name, duration
+        return lead
+
+    def check_motion(self, drives: Mapping[str, Drive], duration: float) -> None:
+        """Raise InputError if the driven parts cannot follow their drives, by name, for so long [s].
+
+        By default each of them may be anywhere between the smallest and the largest extension of all.
+        """
+        spans = [drive.span(duration) for drive in drives.values()]
+        if spans:
+            self.check_extension(min(low for low, _ in spans), max(high for _, high in spans))
 
     def look(self, scenario: Scenario) -> Look:
         """What pictures of a scenario of this machine show, by default plates around what is joined."""

@@ -123,7 +123,9 @@ class Scenario(Value):
         columns: for each column that is not rigid and massless (or to say so), what it is, by name.
         parts: for each part that is not fixed to its body (or to say so), what it is, by name.
         drive: how all driven parts move: columns extend [m], cranks turn [rad]. Into an oil column it lets oil.
-        drives: for each driven part, a column or crank, that moves otherwise, how it does, by name.
+        drives: for each driven part, a column or crank, that moves otherwise, how it does, by name. A part that
+            follows another by the machine's making, such as the ram of a two-leg shield, does so unless it is
+            named here.
         loads: what presses on the machine besides its weight, by name; in the plane, redundant formulation.
         duration: end time [s], > 0; the run starts at 0.
         dimensions: 2: in the plane, both sides of a machine lumped; 3: in space, for machines that know their
@@ -275,9 +277,8 @@ class Scenario(Value):
                     "start = 'settled': is at rest, but the drive moves from the start on "
                     f"({drive.initial_speed} per s); allowed with this drive: 'concentric'"
                 )
-        spans = [drive.span(self.duration) for drive in self.drives_in_use]
-        # where parts are driven apart, all of them over the range of all: what the machine can answer
-        self.machine.check_extension(min(low for low, _ in spans), max(high for _, high in spans))
+        for drives in self._drives_in_plane:
+            self.machine.check_motion(drives, self.duration)
 
     def _check_loads(self) -> None:
         linkage = self._unloaded
@@ -369,7 +370,28 @@ class Scenario(Value):
             whole = self.space.columns[name].column
         if whole in self.linkage.columns and not self.linkage.columns[whole].driven:
             return Held()
-        return self.drives.get(name, self.drives.get(whole, self.drive))
+        said = self.drives.get(name, self.drives.get(whole))
+        if said is not None:
+            return said
+        return self._followers.get(whole, self.drive)
+
+    @cached_property
+    def _followers(self) -> dict[str, Drive]:
+        """Drives of the parts that follow others because nothing is said of them, by name."""
+        return {
+            name: self.machine.follower(name, self.drives.get(leader, self.drive), self.duration)
+            for name, leader in self.machine.leaders.items()
+            if name not in self.drives
+        }
+
+    @property
+    def _drives_in_plane(self) -> tuple[dict[str, Drive], ...]:
+        """The drives of all driven parts of the plane, by name; in space once for either side."""
+        if self.dimensions == 2:
+            return ({name: self.drive_of(name) for name in self.driven},)
+        parts = {name: self.space.parts_of_column(name) for name in self.linkage.driven}
+        sides = ({name: self.drive_of(part[n % len(part)]) for name, part in parts.items()} for n in (0, 1))
+        return tuple(sides)
 
     @property
     def driven(self) -> tuple[str, ...]:

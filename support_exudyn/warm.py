@@ -6,10 +6,10 @@ from dataclasses import replace
 
 from support_exudyn import reduced, tree
 from support_exudyn.columns import OilColumn
+from support_exudyn.machines import reference_support
 from support_exudyn.pins import ClearancePin
 from support_exudyn.progress import silent
 from support_exudyn.scenario import Scenario
-from support_exudyn.supports import reference_support
 from user_forces.contact import JournalContact
 from user_forces.journal import JournalBearing
 from user_forces.normal.hertz import Hertz

@@ -560,7 +560,7 @@ seed_trees = st.deferred(lambda: one_of(seed_data()))
 @cache
 def machine_tree() -> Any:
     """The reference support's file as a tree."""
-    return tomllib.loads((resources.files("support_exudyn.supports") / "reference.toml").read_text("utf-8"))
+    return tomllib.loads((resources.files("support_exudyn.machines") / "reference.toml").read_text("utf-8"))
 
 
 def toml(tree: Any) -> str:

@@ -4,27 +4,20 @@ from __future__ import annotations
 
 import argparse
 import math
-import sys
-from collections.abc import Sequence
 from dataclasses import asdict
 from typing import Any
 
-from rich import box
-from rich.cells import cell_len
 from rich.console import Console
-from rich.markup import escape
-from rich.table import Table
 
 from support_exudyn import account
-from support_exudyn.command_line import add_json, add_times, answer, folder, hush
+from support_exudyn.command_line import add_json, add_times, answer, folder
 from support_exudyn.figures import windows
 from support_exudyn.figures.names import matching
+from support_exudyn.printed_table import NARROWEST, printed, show_table
 from support_exudyn.result import Result
 
 HELP = "tables of what a run was and what came out of it"
-NARROWEST = 25  # characters that meanings are worth showing in
 WHOLE = (0.0, math.inf)  # run
-PIPED = 150  # characters of a line where there is no terminal
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -44,13 +37,7 @@ def run(given: argparse.Namespace) -> None:
     if given.json:
         answer(_object(result, given))
         return
-    if sys.stdout is None:  # it was closed before the program began
-        return
-    try:
-        _tables(result, given)
-        sys.stdout.flush()
-    except BrokenPipeError:  # `show RUN | head`
-        hush()
+    printed(lambda console: _tables(console, result, given))
 
 
 def _object(result: Result, given: argparse.Namespace) -> dict[str, Any]:
@@ -75,24 +62,23 @@ def _object(result: Result, given: argparse.Namespace) -> dict[str, Any]:
     }
 
 
-def _tables(result: Result, given: argparse.Namespace) -> None:
+def _tables(console: Console, result: Result, given: argparse.Namespace) -> None:
     names = matching(result.channels, given.channels)
     ends = given.start, given.end
     piece = "" if ends == WHOLE else f", {windows.said(result, *ends)}"
-    console = Console(width=None if sys.stdout.isatty() else PIPED, highlight=False)
     if names:
         _show_channels(console, account.of_channels(result, names, *ends), f"channels{piece}")
         return
     numbers = account.came_out(result, *ends)
-    _show(console, "what was run", (), account.what_was_run(result))
-    _show(console, "how", (), account.how(result))
+    show_table(console, "what was run", (), account.what_was_run(result))
+    show_table(console, "how", (), account.how(result))
     known = (
         "± estimated numerical error" if result.coarser else "numerical errors not known: no accuracy was asked"
     )
-    _show(console, f"what came out{piece} ({known})", ("number", ">value", ">±", "unit"), numbers)
+    show_table(console, f"what came out{piece} ({known})", ("number", ">value", ">±", "unit"), numbers)
     if rows := account.touches(result):
         header = ("pin", "touch", ">time", ">lasts", ">approach", ">parting")
-        _show(console, "touches, and speeds of approach and parting", header, rows)
+        show_table(console, "touches, and speeds of approach and parting", header, rows)
     telling = [name for name in result.channels if name != "time"] if given.all else account.telling(result)
     rest = len(result.channels) - 1 - len(telling)
     more = f" ({rest} more: --all)" if rest else ""
@@ -106,43 +92,4 @@ def _show_channels(console: Console, rows: list[account.Row], title: str) -> Non
     taken = sum(max(len(row[n]) for row in rows) + 3 for n in range(len(header) - 1))
     if console.width - taken < NARROWEST:  # the numbers first
         header, rows = header[:-1], [row[:-1] for row in rows]
-    _show(console, title, header, rows)
-
-
-def _unbroken(header: Sequence[str], rows: Sequence[Sequence[str]]) -> int:
-    """Width of a table's names and numbers, with the least that words take; the terminal may be narrower."""
-    names = header or ("", "words")
-    wide = [
-        NARROWEST
-        if name in ("words", "meaning")
-        else max(cell_len(text) for text in (name, *(row[n] for row in rows)))
-        for n, name in enumerate(names)
-    ]
-    return sum(wide) + 3 * len(wide) + 2  # with what stands between and beside them
-
-
-def _show(console: Console, title: str, header: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
-    """A table; columns whose header begins with > are of numbers. Without a header: names and words.
-
-    Names and numbers are never cut or broken, even if the terminal is too narrow for them; words are broken, at
-    its width.
-    """
-    table = Table(
-        box=box.SIMPLE_HEAD if header else None, show_header=bool(header), pad_edge=False, padding=(0, 1)
-    )
-    for name in header or ("", "words"):
-        table.add_column(
-            name.lstrip(">") if header else "",
-            justify="right" if name.startswith(">") else "left",
-            no_wrap=name not in ("words", "meaning"),
-            overflow="fold",
-        )
-    for row in rows:
-        table.add_row(*(escape(cell) for cell in row))
-    with console.capture() as shown:
-        console.print(title, style="bold", markup=False)
-    broad = Console(width=max(console.width, _unbroken(header, rows)), highlight=False)
-    with broad.capture() as told:
-        broad.print(table)
-    lines = (shown.get() + told.get()).splitlines()
-    print("\n".join(line.rstrip() for line in lines), end="\n\n")
+    show_table(console, title, header, rows)

@@ -29,7 +29,7 @@ from user_forces import InputError
 
 # --- machine data files ---
 
-MACHINE = (resources.files("support_exudyn.supports") / "reference.toml").read_text(encoding="utf-8")
+MACHINE = (resources.files("support_exudyn.machines") / "reference.toml").read_text(encoding="utf-8")
 
 
 @pytest.fixture(scope="module")

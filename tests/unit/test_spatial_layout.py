@@ -261,7 +261,7 @@ def test_impossible_bodies_and_bearings_are_refused() -> None:
 def reference_file() -> str:
     from importlib import resources
 
-    return (resources.files("support_exudyn.supports") / "reference.toml").read_text(encoding="utf-8")
+    return (resources.files("support_exudyn.machines") / "reference.toml").read_text(encoding="utf-8")
 
 
 def test_the_reference_has_the_widths_of_its_file() -> None:
@@ -280,8 +280,8 @@ def test_the_reference_has_the_widths_of_its_file() -> None:
         ("tip = 1140", 'tip = "wide"', "width_mm.points.tip = 'wide': allowed: a number"),
         ("tip = 1140", "tip = -1140", "points"),
         ("[width_mm.points]", "[width_mm.heights]", "width_mm.heights: unknown key"),
-        ("tip = 1140", "nose = 1140", "width.points.nose: there is none; allowed: tip"),
-        ("canopy = 1140", "roof = 1140", "width.spreads.roof: there is none"),
+        ("tip = 1140", "nose = 1140", "width_mm.points.nose: unknown key; allowed: tip"),
+        ("canopy = 1140", "roof = 1140", "width_mm.bodies.roof: unknown key"),
     ],
 )
 def test_what_does_not_fit_in_a_file_is_said(tmp_path: Path, old: str, new: str, said: str) -> None:
@@ -298,7 +298,7 @@ def test_a_width_that_is_no_table_is_said(tmp_path: Path) -> None:
     path = tmp_path / "machine.toml"
     text = reference_file().split("[width_mm.bodies]")[0]
     path.write_text("width_mm = 3\n" + text, encoding="utf-8")
-    with pytest.raises(InputError, match="width_mm = 3: allowed: tables"):
+    with pytest.raises(InputError, match="width_mm = 3: allowed: a table"):
         load_support(path)
     path.write_text(text, encoding="utf-8")
     assert load_support(path).width is None

@@ -12,6 +12,7 @@ from user_forces import InputError
 
 PIVOT_LINES = "\n".join(f"{name} = [{x}, {y}]" for name, (x, y) in PIVOTS_MM.items())
 FILE = f"""
+kind = "four_column_support"
 name = "a support"
 start_hinge_height_mm = 1800
 
@@ -131,7 +132,7 @@ def test_a_file_that_is_not_toml_is_refused(tmp_path: Path) -> None:
 def test_an_unknown_key_is_refused(tmp_path: Path) -> None:
     message = refusal(tmp_path, 'name = "a support"', 'title = "a support"')
     assert message.startswith(
-        "title: unknown key; allowed: columns, name, parts, pivots_mm, start_hinge_height_mm"
+        "title: unknown key; allowed: bore_radius_mm, columns, kind, masses_kg, name, parts, pivots_mm, "
     )
 
 
@@ -142,7 +143,7 @@ def test_a_missing_key_is_refused(tmp_path: Path) -> None:
 
 def test_an_unknown_key_of_a_part_is_refused(tmp_path: Path) -> None:
     message = refusal(tmp_path, "mass_kg = 400", "mass_t = 0.4")
-    assert message.startswith("parts.front_link[0].mass_t: unknown key; allowed: ")
+    assert message.startswith("parts.front_link[0].mass_t: unknown key (did you mean 'mass_kg'?); allowed: ")
 
 
 def test_a_part_without_mass_is_refused(tmp_path: Path) -> None:
@@ -152,14 +153,13 @@ def test_a_part_without_mass_is_refused(tmp_path: Path) -> None:
 
 def test_a_part_without_a_place_is_refused(tmp_path: Path) -> None:
     message = refusal(tmp_path, "centre_mm = [899, 2252]\n", "")
-    assert message.startswith("parts.canopy[1]: centre_mm or between: missing")
+    assert message.startswith("parts.canopy[1] = ")
+    assert "centre_mm or between: missing" in message
 
 
 def test_a_negative_mass_is_refused(tmp_path: Path) -> None:
     message = refusal(tmp_path, "mass_kg = 1500", "mass_kg = -1500")
-    assert "parts.shield[0]" in message
-    assert "mass = -1500" in message
-    assert "allowed: > 0" in message
+    assert message.startswith("parts.shield[0].mass_kg = -1500: allowed: a number > 0 ")
 
 
 def test_a_bar_between_unknown_pivots_is_refused(tmp_path: Path) -> None:
@@ -170,29 +170,29 @@ def test_a_bar_between_unknown_pivots_is_refused(tmp_path: Path) -> None:
 @pytest.mark.parametrize("wrong", ["[595]", "[595, 619, 0]", '["a", "b"]', "595"])
 def test_a_pivot_that_is_not_two_numbers_is_refused(tmp_path: Path, wrong: str) -> None:
     message = refusal(tmp_path, "front_base = [595, 619]", f"front_base = {wrong}")
-    assert message.startswith("pivots_mm.front_base = ")
-    assert "allowed: two numbers" in message or "allowed: a number" in message
+    said = wrong.replace('"', "'")
+    assert message == f"pivots_mm.front_base = {said}: allowed: two numbers [x, y] in mm"
 
 
 def test_a_pivot_that_is_not_finite_is_refused(tmp_path: Path) -> None:
-    assert "front_foot.0 = nan" in refusal(tmp_path, "front_foot = [1670, 202]", "front_foot = [nan, 202]")
+    message = refusal(tmp_path, "front_foot = [1670, 202]", "front_foot = [nan, 202]")
+    assert message == "pivots_mm.front_foot = [NaN, 202]: allowed: two numbers [x, y] in mm"
 
 
 def test_an_unknown_pivot_is_refused(tmp_path: Path) -> None:
     message = refusal(tmp_path, "hinge = [", "knee = [1, 2]\nhinge = [")
-    assert "knee" in message
-    assert "unknown field" in message
+    assert message.startswith("pivots_mm.knee: unknown key")
 
 
 def test_a_missing_pivot_is_refused(tmp_path: Path) -> None:
     message = refusal(tmp_path, "front_foot = [1670, 202]\n", "")
-    assert "front_foot: missing" in message
+    assert message == "pivots_mm.front_foot: missing; it has no default: front column on base"
 
 
 def test_an_unreachable_start_height_is_refused(tmp_path: Path) -> None:
     message = refusal(tmp_path, "start_hinge_height_mm = 1800", "start_hinge_height_mm = 5000")
-    assert "start_hinge_height = 5.0 m" in message
-    assert "allowed: " in message
+    assert message.startswith("start_hinge_height_mm = 5000: ")
+    assert message.endswith(" mm")
 
 
 @pytest.mark.parametrize(
@@ -262,7 +262,7 @@ def test_columns_are_read_from_a_file(tmp_path: Path) -> None:
     ("old", "new", "said"),
     [
         ("rod_mass_kg = 200", "", "columns.front_column.rod_mass_kg: missing"),
-        ("rod_mass_kg = 200", "rod_mass_kg = 0", "columns.front_column.rod_mass_kg = 0: allowed: > 0"),
+        ("rod_mass_kg = 200", "rod_mass_kg = 0", "columns.front_column.rod_mass_kg = 0: allowed: a number > 0"),
         ("rod_mass_kg = 200", "rod_mass_t = 0.2", "columns.front_column.rod_mass_t: unknown key"),
         ("[columns.front_column]", "[[columns]]", "columns = "),
     ],

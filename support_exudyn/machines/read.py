@@ -1,0 +1,116 @@
+"""From machine data files to machines."""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import replace
+from decimal import Decimal
+from difflib import get_close_matches
+from importlib import import_module, resources
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, cast
+
+from support_exudyn.columns import OilColumn, RigidColumn, TwoBodyColumn
+from support_exudyn.linkages.hydraulic_support import HydraulicSupport
+from support_exudyn.machine_data import MachineData
+from user_forces.values import InputError, short
+
+if TYPE_CHECKING:
+    from support_exudyn.machines.form import MachineForm
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+KINDS = ("four_column_support", "two_leg_shield", "slider_crank")  # each a module
+SHIPPED = ("reference", "zf18000", "two_leg_shield", "slider_crank")  # each a data file
+
+
+def form(kind: str) -> type[MachineForm]:
+    """What a data file of this kind of machine holds."""
+    return cast("type[MachineForm]", import_module(f"{__package__}.{kind}").Form)
+
+
+def load_machine(path: str | Path) -> MachineData:
+    """Read a machine data file of any kind into SI.
+
+    Raises InputError, naming file, key, value and what is allowed, for anything that does not fit; OSError if
+    there is no file.
+    """
+    path = Path(path)
+    try:
+        data = tomllib.loads(path.read_text(encoding="utf-8"), parse_float=Decimal)
+        found = form(_kind(data)).read(data)
+    except RecursionError:
+        raise InputError(f"{path}: is nested too deep; allowed: tables of numbers and lists of two") from None
+    except (ValueError, ArithmeticError) as error:
+        # of TOML, of UTF-8, of a number with thousands of digits, or ours
+        raise InputError(f"{path}: {error}") from None
+    return found if found.name else replace(found, name=path.stem)
+
+
+def shipped(name: str) -> MachineData:
+    """A machine that comes with the package, by its name in `SHIPPED`.
+
+    Raises InputError if there is none of this name.
+    """
+    if name not in SHIPPED:
+        near = get_close_matches(name, SHIPPED, n=1)
+        meant = f"; did you mean {near[0]!r}?" if near else ""
+        raise InputError(
+            f"machine = {short(name)}: there is none of this name; allowed: a file that ends in .toml, "
+            f"or one of {', '.join(SHIPPED)}{meant}"
+        )
+    with resources.as_file(resources.files(__package__) / f"{name}.toml") as path:
+        return load_machine(path)
+
+
+def reference_support() -> HydraulicSupport:
+    """The reference support that comes with the package."""
+    return cast(HydraulicSupport, shipped("reference").machine)
+
+
+def load_support(path: str | Path) -> HydraulicSupport:
+    """Read the data file of a four-column support into SI; for other kinds see `load_machine`.
+
+    Raises InputError, naming file and key, for anything that does not fit; OSError if there is no file.
+    """
+    machine = load_machine(path).machine
+    if not isinstance(machine, HydraulicSupport):
+        raise InputError(f"{path}: kind: is another machine; allowed: 'four_column_support'")
+    return machine
+
+
+def two_body_columns(
+    drive: RigidColumn | OilColumn | None = None, path: str | Path | None = None
+) -> dict[str, TwoBodyColumn]:
+    """Columns with mass, by name, for `Scenario.columns`: cylinder and rod each a uniform bar from its pin on.
+
+    Arguments:
+        drive: what holds their lengths; rigid if nothing is said.
+        path: of the machine data file whose `[columns.NAME]` say masses and lengths; by default that of the
+            reference support.
+
+    Raises as `load_machine` does.
+    """
+    columns = (shipped("reference") if path is None else load_machine(path)).columns
+    return dict(columns) if drive is None else {k: replace(item, drive=drive) for k, item in columns.items()}
+
+
+def machine_schema() -> dict[str, Any]:
+    """JSON Schema (draft 2020-12) of machine data files, for editors that check and complete them."""
+    from support_exudyn.machines.schema import whole_schema  # and pydantic's models, which a run has no use for
+
+    return whole_schema({kind: form(kind) for kind in KINDS})
+
+
+def _kind(data: dict[str, Any]) -> str:
+    allowed = f"allowed: {', '.join(map(repr, KINDS))}"
+    if "kind" not in data:
+        raise InputError(f"kind: missing; it says what the machine is; {allowed}")
+    kind = data["kind"]
+    if not isinstance(kind, str) or kind not in KINDS:
+        near = get_close_matches(kind, KINDS, n=1) if isinstance(kind, str) else []
+        raise InputError(f"kind = {short(kind)}: {allowed}" + (f"; did you mean {near[0]!r}?" if near else ""))
+    return kind
