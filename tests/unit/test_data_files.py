@@ -189,7 +189,7 @@ def test_a_table_says_its_type_where_there_are_several() -> None:
             LAW.replace("0.9", "1.5") + "[bearing]\nbore_radius_mm = 60\nclearance_mm = 1",
             "a.toml: normal.restitution = 1.5: allowed: >= 0 and <= 1",
         ),
-        (Drive, "stroke_mm = 1", "a.toml: type: missing; allowed: CubicStep, Held, "),
+        (Drive, "stroke_mm = 1", "a.toml: type: missing; allowed: CubicStep, "),
         (Drive, 'type = "CubicStp"', "a.toml: type = 'CubicStp': did you mean CubicStep? allowed: "),
         (Drive, 'type = "Hertz"', "a.toml: type = 'Hertz': allowed: CubicStep, "),
         (Drive, "type = 3", "a.toml: type = 3: allowed: CubicStep, "),
