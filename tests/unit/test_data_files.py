@@ -282,3 +282,11 @@ def test_what_is_no_toml_is_refused(text: str, said: str) -> None:
 
 def test_short_lists_are_written_in_a_line() -> None:
     assert toml_text({"a": [1, 2], "b": ["x, [", "\n"]}) == 'a = [1, 2]\nb = [\n    "x, [",\n    "\\n",\n]\n'
+
+
+def test_long_lists_of_numbers_are_written_in_lines() -> None:
+    numbers = [n / 8 for n in range(100)]
+    text = toml_text({"a": numbers})
+    assert parsed(text, "a")["a"] == numbers
+    assert len(text.splitlines()) < 10
+    assert max(map(len, text.splitlines())) <= 112
