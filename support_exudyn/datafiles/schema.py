@@ -7,7 +7,7 @@ from decimal import Decimal
 from itertools import combinations
 from typing import Any
 
-from support_exudyn.datafiles.reading import scaled
+from support_exudyn.datafiles.help_texts import summary
 from support_exudyn.datafiles.shapes import (
     Choice,
     Either,
@@ -21,8 +21,8 @@ from support_exudyn.datafiles.shapes import (
     Text,
     Truth,
     field_shapes,
-    summary,
 )
+from support_exudyn.datafiles.words import scaled
 from user_forces.quantity import Unit
 from user_forces.values import Value
 
