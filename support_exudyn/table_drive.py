@@ -5,7 +5,7 @@ from __future__ import annotations
 from bisect import bisect_left
 from collections.abc import Sequence
 from functools import cached_property
-from typing import Annotated, Literal
+from typing import Annotated, Literal, NamedTuple
 
 from pydantic import Field, model_validator
 
@@ -15,6 +15,17 @@ from user_forces.scalar import is_number
 from user_forces.values import NonNegative, Real, value
 
 MOST_POINTS = 1_000_000
+
+
+class Cubic(NamedTuple):
+    """a0 + a1 x + a2 x^2 + a3 x^3 [m], x = (t - begin)/length, both in s."""
+
+    begin: float
+    length: float
+    a0: float
+    a1: float
+    a2: float
+    a3: float
 
 
 @value
@@ -105,6 +116,18 @@ class TableDrive(Drive):
         """Smallest and largest extension [m] within this time [s]."""
         reached = [self.extensions[0], *self.extensions[: self._piece(duration)], self.extension(duration)]
         return min(reached), max(reached)  # between two points it only rises or only falls
+
+    def cubic(self, t: float) -> Cubic:
+        """The polynomial of the piece that a time [s] lies in; constant before and after all of them."""
+        n = self._piece(t)
+        if n in (0, len(self.times)):
+            return Cubic(0.0, 1.0, self.extensions[min(n, len(self.times) - 1)], 0.0, 0.0, 0.0)
+        begin, low = self.times[n - 1], self.extensions[n - 1]
+        length, rise = self.times[n] - begin, self.extensions[n] - low
+        if self.between == "linear":
+            return Cubic(begin, length, low, rise, 0.0, 0.0)
+        first, last = length * self._slopes[n - 1], length * self._slopes[n]
+        return Cubic(begin, length, low, first, 3.0 * rise - 2.0 * first - last, first + last - 2.0 * rise)
 
     def _piece(self, t: float) -> int:
         """How many points lie before a time [s]."""

@@ -13,6 +13,7 @@ from support_exudyn.kinetics import Kinetics, Matrix, kinetics_of
 from support_exudyn.loads.load import Load
 from support_exudyn.machine import Linkage
 from support_exudyn.scenario import Scenario
+from support_exudyn.table_drive import TableDrive
 from user_forces.friction.law import FrictionLaw
 from user_forces.normal.law import LoadError, NormalLaw
 
@@ -180,6 +181,8 @@ def _drive_time(scenario: Scenario, linkage: Linkage) -> float:
             times.append(drive.end - drive.start)
         elif isinstance(drive, Reciprocating):
             times.append(1.0 / drive.frequency)
+        elif isinstance(drive, TableDrive):
+            times.append(drive.times[-1] - drive.times[0])
         elif speed > 0.0 and turns:
             times.append(1.0 / speed)
     return min(times)

@@ -8,10 +8,13 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
+from rich.console import Console
+
 from support_exudyn import account
-from support_exudyn.command_line import add_json, answer, folder, say, shown_progress
+from support_exudyn.command_line import add_json, answer, folder, shown_progress
 from support_exudyn.datafiles import ScenarioFile, read_scenario_file
 from support_exudyn.files import check_may_be_replaced, real_path
+from support_exudyn.printed_table import printed, show_table
 from support_exudyn.result import Result
 from support_exudyn.scenario import ACCURACIES, LARGEST_GOAL, SMALLEST_GOAL
 from support_exudyn.simulate import simulate
@@ -65,7 +68,7 @@ def run(given: argparse.Namespace) -> None:
     if given.json:
         answer(_object(result, out))
     else:
-        _tell(result, file, out)
+        printed(lambda console: _tell(console, result, file, out))
     if result.goal is not None and not result.met:
         print(
             f"accuracy {result.goal:g}: NOT met, {result.worst_error:.1g} is estimated; refining did not help",
@@ -73,34 +76,23 @@ def run(given: argparse.Namespace) -> None:
         )
 
 
-def _tell(result: Result, file: ScenarioFile, out: Path) -> None:
+def _tell(console: Console, result: Result, file: ScenarioFile, out: Path) -> None:
     """A short account."""
-    title = file.name or "run"
+    title = file.name or "what came out"
     known = "± estimated numerical error" if result.coarser else "numerical errors not known: errors = true"
-    say(f"{title} ({known})")
-    say(_aligned(account.came_out(result, *WHOLE)))
-    points = [
-        name for name in account.telling(result) if name.rpartition(".")[0] in result.scenario.linkage.points
-    ]
+    rows = account.came_out(result, *WHOLE)
+    show_table(console, f"{title} ({known})", ("number", ">value", ">±", "unit"), rows)
+    linkage = result.scenario.linkage
+    points = [name for name in account.telling(result) if name.rpartition(".")[0] in linkage.points]
     if points:
-        say("\npaths: channel, unit, least, mean, largest")
-        say(_aligned([row[:-1] for row in account.of_channels(result, points, *WHOLE)]))
+        paths = [row[:-1] for row in account.of_channels(result, points, *WHOLE)]
+        show_table(console, "paths", ("channel", "unit", ">least", ">mean", ">largest"), paths)
     if touched := account.touches(result):
-        say("\ntouches: pin, which, time, lasts, approach, parting")
-        say(_aligned(touched))
-    say("")
-    say(_aligned(account.how(result)[:4]))
-    say(f"\n{out}")
-
-
-def _aligned(rows: list[account.Row]) -> str:
-    """Rows of texts in columns."""
-    if not rows:
-        return ""
-    wide = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    return "\n".join(
-        "  ".join(cell.ljust(width) for cell, width in zip(row, wide, strict=True)).rstrip() for row in rows
-    )
+        header = ("pin", "touch", ">time", ">lasts", ">approach", ">parting")
+        show_table(console, "touches, and speeds of approach and parting", header, touched)
+    assumed = [("assumed", sentence) for sentence in file.assumed]
+    show_table(console, "how", (), [*account.how(result)[:-1], *assumed])
+    print(out)
 
 
 def _object(result: Result, out: Path) -> dict[str, Any]:

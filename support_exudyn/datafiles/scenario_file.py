@@ -16,6 +16,7 @@ from support_exudyn.datafiles.writing import table_of
 from support_exudyn.drives import Drive
 from support_exudyn.files import whole_file
 from support_exudyn.machine import Machine
+from support_exudyn.machine_data import MachineData
 from support_exudyn.pins import Pin
 from support_exudyn.scenario import Scenario
 
@@ -27,13 +28,14 @@ class ScenarioFile:
     """What a scenario's file says.
 
     scenario: what is run. name, description: of people, for people. errors: whether it is run with estimated
-    errors, see `simulate`.
+    errors, see `simulate`. assumed: of the machine, because its file does not say it, in sentences.
     """
 
     scenario: Scenario
     name: str = ""
     description: str = ""
     errors: bool = False
+    assumed: tuple[str, ...] = ()
 
 
 def read_scenario(path: str | Path) -> Scenario:
@@ -74,14 +76,14 @@ def scenario_file_of(table: Mapping[str, Any], where: str, folder: Path) -> Scen
     rest = {key: item for key, item in table.items() if key not in HEAD}
     if rest.get("type", "Scenario") != "Scenario":
         faults.wrong(("type",), rest["type"], '"Scenario", or to leave it out')
-    scenario = _scenario(rest, faults, folder)
+    machine = read_machine_of(rest, faults, folder)
+    scenario = _scenario(rest, faults, folder, machine)
     faults.check()
-    return ScenarioFile(scenario, **head)
+    return ScenarioFile(scenario, **head, assumed=() if machine is None else machine.assumed)
 
 
-def _scenario(table: dict[str, Any], faults: Faults, folder: Path) -> Any:
+def _scenario(table: dict[str, Any], faults: Faults, folder: Path, machine: MachineData | None) -> Any:
     """A scenario, or FAILED."""
-    machine = read_machine_of(table, faults, folder)
     forms = ShortForms(folder, machine)
     reader = Reader(
         faults, {Pin: forms.pin, ColumnModel: forms.column, Drive: forms.drive, Machine: forms.machine}

@@ -11,6 +11,7 @@ from support_exudyn.datafiles.short_drive import DriveFile, DriveMode, DrivesFil
 from support_exudyn.datafiles.short_pin import ShortPin
 from support_exudyn.drives import Drive
 from support_exudyn.machine import Machine
+from support_exudyn.machines import SHIPPED
 from support_exudyn.pins import IdealPin, Pin
 from support_exudyn.scenario import Scenario
 
@@ -25,7 +26,7 @@ HEAD = {
 }
 MACHINE = {
     "type": "string",
-    "description": 'path of a machine\'s file from the folder of this one on, or "reference"',
+    "description": f"path of a machine's file from the folder of this one on, or one of {', '.join(SHIPPED)}",
 }
 
 

@@ -7,7 +7,7 @@ from decimal import Decimal
 from itertools import combinations
 from typing import Any
 
-from support_exudyn.datafiles.reading import scaled
+from support_exudyn.datafiles.help_texts import summary
 from support_exudyn.datafiles.shapes import (
     Choice,
     Either,
@@ -21,8 +21,8 @@ from support_exudyn.datafiles.shapes import (
     Text,
     Truth,
     field_shapes,
-    summary,
 )
+from support_exudyn.datafiles.words import scaled
 from user_forces.quantity import Unit
 from user_forces.values import Value
 
@@ -60,7 +60,7 @@ class Schemas:
             rules += [{"not": {"required": list(two)}} for two in combinations(field.keys, 2)]
             if field.required and not all_optional:
                 if len(field.keys) == 1:
-                    required.append(field.name)
+                    required.append(field.keys[0])
                 else:
                     rules.append({"anyOf": [{"required": [key]} for key in field.keys]})
         found: Table = {"type": "object", "description": summary(cls), "properties": properties}

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import inspect
-import re
 import types
 import typing
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -16,6 +15,7 @@ import annotated_types
 from pydantic.fields import FieldInfo
 from typing_extensions import Never
 
+from support_exudyn.datafiles.help_texts import help_texts
 from user_forces.quantity import Unit
 from user_forces.values import InputError, Value
 
@@ -180,7 +180,7 @@ def _field_shapes(cls: type[Value]) -> Mapping[str, FieldShape]:
             unit=_unit(info.annotation, info.metadata),
             required=required and len(shapes) == len(options),
             allows_none=len(shapes) < len(options),
-            help=_help(cls).get(one.name, ""),  # type: ignore[arg-type]
+            help=help_texts(cls).get(one.name, ""),  # type: ignore[arg-type]
         )
     return found
 
@@ -270,37 +270,3 @@ def _unit(annotation: Any, metadata: Sequence[Any] = ()) -> Unit | None:
         inner, *more = typing.get_args(annotation)
         return _unit(inner, more)
     return next(filter(None, map(_unit, typing.get_args(annotation))), None)
-
-
-ENTRY = re.compile(r"^(?P<names>\w+(?:, \w+)*): (?P<text>.*)$")
-
-
-@cache
-def _help(cls: type) -> Mapping[str, str]:
-    """What docstrings say of the fields of a class, those of its bases too."""
-    found: dict[str, str] = {}
-    for one in reversed(cls.__mro__):
-        if one.__doc__ and "Arguments:" in one.__doc__:
-            found |= dict(_entries(inspect.cleandoc(one.__doc__).partition("Arguments:")[2]))
-    return found
-
-
-def _entries(text: str) -> Iterator[tuple[str, str]]:
-    """Names and texts of an indented list `name: text`, one text over several lines."""
-    names: list[str] = []
-    words: list[str] = []
-    for line in [*text.splitlines()[1:], "end"]:
-        if line.strip() and not line.startswith("    "):  # a new section
-            break
-        if line.startswith("     ") or not line.strip():
-            words.append(line.strip())
-            continue
-        yield from ((name, " ".join(words).strip()) for name in names)
-        entry = ENTRY.match(line.strip())
-        names, words = (entry["names"].split(", "), [entry["text"]]) if entry else ([], [])
-    yield from ((name, " ".join(words).strip()) for name in names)
-
-
-def summary(cls: type) -> str:
-    """The first paragraph of a class's docstring, in one line."""
-    return " ".join((inspect.cleandoc(cls.__doc__ or "")).partition("\n\n")[0].split())

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Literal
 
 from pydantic import model_validator
@@ -17,12 +18,12 @@ class DriveMode(Value):
 
     Arguments:
         mode: 1: constant speed from rest, without transition (`UniformSpeed`); 2: a smooth inlet (`CubicStep`).
-        stroke: [m], 0.5 if nothing is said; negative to lower.
+        stroke: [m]; if nothing is said the machine's, else 0.5; negative to lower.
         start, end: of the stroke [s], 3 and 5 if nothing is said; end > start >= 0.
     """
 
     mode: Literal[1, 2]
-    stroke: Metres[Real] = 0.5
+    stroke: Metres[Real] | None = None
     start: Seconds[NonNegative] = 3.0
     end: Seconds[Positive] = 5.0
 
@@ -32,11 +33,12 @@ class DriveMode(Value):
             raise ValueError(f"end = {self.end} s: allowed: > start = {self.start} s")
         return self
 
-    @property
-    def drive(self) -> Stroke:
-        """The drive in full."""
+    def drive(self, stroke: float | None = None) -> Stroke:
+        """The drive in full; stroke: of the machine's file [m], if this has none."""
         kind = UniformSpeed if self.mode == 1 else CubicStep
-        return kind(stroke=self.stroke, start=self.start, end=self.end)
+        chosen = stroke if self.stroke is None else self.stroke
+        whole = kind(start=self.start, end=self.end)
+        return whole if chosen is None else replace(whole, stroke=chosen)
 
 
 @value

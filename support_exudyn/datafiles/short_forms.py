@@ -16,6 +16,7 @@ from support_exudyn.datafiles.short_pin import ShortPin
 from support_exudyn.drives import Drive
 from support_exudyn.machine import Machine
 from support_exudyn.machine_data import MachineData, read_machine
+from support_exudyn.machines import SHIPPED
 from support_exudyn.pins import IdealPin
 from user_forces.values import InputError
 
@@ -28,7 +29,7 @@ def read_machine_of(table: Mapping[str, Any], faults: Faults, folder: Path) -> M
     if isinstance(given, dict):
         found = Reader(faults).item(Group((Machine,)), given, ("machine",))
         return None if isinstance(found, Failed) else MachineData(found)
-    said = 'a path that ends in .toml, "reference", or a table [machine]'
+    said = f"a path that ends in .toml, one of {', '.join(SHIPPED)}, or a table [machine]"
     if given is None:
         faults.add(("machine",), f"missing; allowed: {said}")
     else:
@@ -43,12 +44,11 @@ def _from_file(name: str, faults: Faults, folder: Path) -> MachineData | None:
     try:
         return read_machine(name, folder)
     except InputError as error:
-        faults.lines += str(error).splitlines()
+        of_file = name.lower().endswith(".toml")  # which it then names itself
+        faults.lines += [line if of_file else f"{faults.where}: {line}" for line in str(error).splitlines()]
     except (OSError, ValueError) as error:  # ValueError: of names that no file can have
         reason = getattr(error, "strerror", None) or error
-        faults.wrong(
-            ("machine",), name, f'a file that can be read ({reason}), from {folder} on, or "reference"'
-        )
+        faults.wrong(("machine",), name, f"a file that can be read ({reason}), from {folder} on")
     return None
 
 
@@ -102,7 +102,9 @@ class ShortForms:
             return None
         if "mode" in item:
             mode = reader.value(DriveMode, item, place)
-            return FAILED if isinstance(mode, Failed) else mode.drive
+            if isinstance(mode, Failed) or self.data is None:
+                return FAILED
+            return mode.drive(self.data.stroke)
         if "table" in item:
             file = reader.value(DriveFile, item, place)
             return FAILED if isinstance(file, Failed) else self._read(reader, file, place)

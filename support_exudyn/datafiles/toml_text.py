@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import sys
+import textwrap
 from decimal import Decimal, InvalidOperation
 from pathlib import Path
 from typing import Any
@@ -18,7 +19,7 @@ else:
 LARGEST_FILE = 50_000_000  # bytes
 TOO_DEEP = f"is nested too deep; allowed: {DEEPEST} levels"
 LIST = re.compile(r"\[\n((?:\s+[^\[\]{}\n]+,\n)+)\s*\]")  # of numbers or texts, one a line
-LINE = 112
+LINE, INDENT = 112, "    "
 
 
 def load_toml(path: str | Path) -> dict[str, Any]:
@@ -83,6 +84,11 @@ def toml_text(table: dict[str, Any]) -> str:
 
 
 def _in_a_line(found: re.Match[str]) -> str:
-    """A list as it is written where it fits into a line."""
-    line = "[" + ", ".join(item.strip().removesuffix(",") for item in found[1].splitlines()) + "]"
-    return line if len(line) < LINE // 2 else found[0]
+    """A list as it is written where it fits into a line; of numbers, as many in a line as fit."""
+    items = [item.strip() for item in found[1].splitlines()]
+    line = "[" + " ".join(items).removesuffix(",") + "]"
+    if len(line) < LINE // 2:
+        return line
+    if any(item.startswith('"') for item in items):
+        return found[0]
+    return "[\n" + textwrap.fill(" ".join(items), LINE, initial_indent=INDENT, subsequent_indent=INDENT) + "\n]"

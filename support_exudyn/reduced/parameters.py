@@ -12,10 +12,12 @@ from support_exudyn.pins import ClearancePin
 from support_exudyn.reduced import layout
 from support_exudyn.reduced.drive import Matrix, Vector
 from support_exudyn.scenario import Scenario
+from support_exudyn.table_drive import TableDrive
 from user_forces.friction.ambrosio import Ambrosio
 from user_forces.normal.damping_speed import SMALLEST, TouchSpeed
 from user_forces.normal.power_law import ElasticPower, PowerLaw
 
+TABLE = slice(layout.ORIGIN, layout.A3 + 1)  # of a segment: what a cubic is
 SLOWEST = 1e-3  # [m/s], of what the journal may do in its bore, for scenes in which nothing falls
 
 
@@ -66,7 +68,7 @@ def segments(drive: Drive, duration: float) -> Matrix:
     """The drive between its breaks, one segment a row, see `layout`.
 
     Arguments:
-        drive: Held, Steady, CubicStep, UniformSpeed or Reciprocating.
+        drive: Held, Steady, CubicStep, UniformSpeed, Reciprocating or TableDrive.
         duration: of the run [s].
     """
     inner = sorted({t for t in drive.breaks if 0.0 < t < duration})
@@ -78,6 +80,8 @@ def segments(drive: Drive, duration: float) -> Matrix:
         row[layout.JUMP] = drive.speed_jump(begin)
         if isinstance(drive, Stroke):
             _fill(row, drive, 0.5 * (begin + end))
+        elif isinstance(drive, TableDrive):
+            row[TABLE] = drive.cubic(0.5 * (begin + end))
         elif isinstance(drive, Steady):
             row[layout.A1] = drive.rate
         elif isinstance(drive, Reciprocating):

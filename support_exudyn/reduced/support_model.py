@@ -19,10 +19,11 @@ from support_exudyn.reduced.jump import closed
 from support_exudyn.reduced.support import rear_pin
 from support_exudyn.reduced.support_dynamics import arms, balance, column_forces, motion, unforced
 from support_exudyn.reduced.support_posture import posture, rates
+from support_exudyn.table_drive import TableDrive
 from user_forces.values import Vector2
 
 PIN = "rear_base"
-DRIVES = (Held, Steady, CubicStep, UniformSpeed, Reciprocating)
+DRIVES = (Held, Steady, CubicStep, UniformSpeed, Reciprocating, TableDrive)
 # the same formulas for all records at once
 _posture, _rates, _arms = on_arrays(posture), on_arrays(rates), on_arrays(arms)
 _motion, _unforced, _column_forces = on_arrays(motion), on_arrays(unforced), on_arrays(column_forces)

@@ -189,7 +189,7 @@ def test_a_table_says_its_type_where_there_are_several() -> None:
             LAW.replace("0.9", "1.5") + "[bearing]\nbore_radius_mm = 60\nclearance_mm = 1",
             "a.toml: normal.restitution = 1.5: allowed: >= 0 and <= 1",
         ),
-        (Drive, "stroke_mm = 1", "a.toml: type: missing; allowed: CubicStep, Held, "),
+        (Drive, "stroke_mm = 1", "a.toml: type: missing; allowed: CubicStep, "),
         (Drive, 'type = "CubicStp"', "a.toml: type = 'CubicStp': did you mean CubicStep? allowed: "),
         (Drive, 'type = "Hertz"', "a.toml: type = 'Hertz': allowed: CubicStep, "),
         (Drive, "type = 3", "a.toml: type = 3: allowed: CubicStep, "),
@@ -282,3 +282,11 @@ def test_what_is_no_toml_is_refused(text: str, said: str) -> None:
 
 def test_short_lists_are_written_in_a_line() -> None:
     assert toml_text({"a": [1, 2], "b": ["x, [", "\n"]}) == 'a = [1, 2]\nb = [\n    "x, [",\n    "\\n",\n]\n'
+
+
+def test_long_lists_of_numbers_are_written_in_lines() -> None:
+    numbers = [n / 8 for n in range(100)]
+    text = toml_text({"a": numbers})
+    assert parsed(text, "a")["a"] == numbers
+    assert len(text.splitlines()) < 10
+    assert max(map(len, text.splitlines())) <= 112

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import replace
 from importlib import resources
 from pathlib import Path
@@ -308,7 +307,8 @@ def test_mistakes_are_said_with_file_key_value_and_range(tmp_path: Path, text: s
 
 def test_a_bore_that_nobody_gives_is_asked_for(tmp_path: Path) -> None:
     text = (resources.files("support_exudyn.machines") / "reference.toml").read_text("utf-8")
-    (tmp_path / "mine.toml").write_text(re.sub(r"(?s)\[bore_radi.*?\n\n", "", text), encoding="utf-8")
+    text = text.partition("[bore_radius_mm]")[0]  # which is the last table
+    (tmp_path / "mine.toml").write_text(text, encoding="utf-8")
     said = refusal('machine = "mine.toml"\nduration_s = 1\n[pins.front_base]\nclearance_mm = 1', tmp_path)
     assert said.startswith("a.toml: pins.front_base: bore_radius_mm: missing, and the machine's file says none")
 
