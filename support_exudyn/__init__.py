@@ -17,7 +17,7 @@ from support_exudyn.impulse import Impulse
 from support_exudyn.linkages.hydraulic_support import HydraulicSupport
 from support_exudyn.linkages.impact_stand import ImpactStand
 from support_exudyn.linkages.slider_crank import SliderCrank, ravn_slider_crank
-from support_exudyn.loads import Load, LoadedPoint, Roof
+from support_exudyn.loads import AppliedForce, FallingBlock, Load, LoadedPoint, Roof
 from support_exudyn.machine import Body, Column, Crank, Linkage, Machine, Part, PinPlace, Slide, TracePoint
 from support_exudyn.onset import Onset
 from support_exudyn.parts import Lumped, OwnBody, PartModel
@@ -30,6 +30,7 @@ from support_exudyn.supports import load_support, reference_support, two_body_co
 from support_exudyn.width import Width
 
 __all__ = [
+    "AppliedForce",
     "Body",
     "Channel",
     "ClearancePin",
@@ -40,6 +41,7 @@ __all__ = [
     "Drive",
     "Estimate",
     "Failure",
+    "FallingBlock",
     "Held",
     "HydraulicSupport",
     "IdealPin",

@@ -30,10 +30,18 @@ class LoadItem:
 
     def powers(self, t: float) -> Powers:
         """Powers [W] at the end of a step, t [s]."""
+        return self.load.powers(self._at(t))
+
+    def longest_step(self, t: float, number: int) -> float:
+        """How long the step from t [s] on may be [s], with so many in an impact."""
+        return self.load.longest_step(self._at(t), number)
+
+    def _at(self, t: float) -> LoadedPoint:
+        """The loaded point at the end of a step, t [s]."""
         output = exudyn.OutputVariableType
         x, y, _ = self.mbs.GetObjectOutput(self.object, output.Displacement)
         vx, vy, _ = self.mbs.GetObjectOutput(self.object, output.Velocity)
-        return self.load.powers(LoadedPoint(t, float(x), float(y), float(vx), float(vy)))
+        return LoadedPoint(t, float(x), float(y), float(vx), float(vy))
 
 
 def add_load(mbs: Any, load: Load, origin: Any, point: Any) -> LoadItem:
