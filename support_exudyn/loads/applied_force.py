@@ -16,14 +16,14 @@ class AppliedForce(Load):
 
         F = force (3 x^2 - 2 x^3),   x = (t - start)/(end - start) from 0 to 1
 
-    It is what a roof that follows the machine puts on it, where `Roof` gives way as the machine does. All that it
-    does to the point counts as work; it stores nothing.
+    It is what a roof that follows the machine puts on it, where `Roof` presses less as the machine gives way. All
+    that it does to the point counts as work; it stores nothing.
 
     Arguments:
         body, point: what it acts on, see `Load`; it stays with the point of the body.
         full_force: in the end, forward and up [N]; a roof presses down, (0, -1e6).
-        start, end: between which it comes on [s], 0 <= start < end; both 0: it acts from the start on, and a start
-            "settled" is settled under it.
+        start, end: between which it comes on [s], 0 <= start < end; both 0: it acts from the start on, and a
+            start "settled" is settled under it.
     """
 
     full_force: Newtons[Vector2]

@@ -18,7 +18,7 @@ from support_exudyn import ClearancePin, CubicStep, SolverSettings, reference_su
 from support_exudyn.eccentric import eccentric
 from user_forces import Ambrosio, Exact, Hertz, JournalBearing, JournalContact, KelvinVoigt, Threlfall
 
-PINS = study.PINS
+PINS = tuple(reference_support().linkage().pins)
 DRY, SMOOTH = study.FRICTIONS
 SUPPORT = reference_support()
 
