@@ -16,7 +16,7 @@ class AppliedForce(Load):
 
         F = force (3 x^2 - 2 x^3),   x = (t - start)/(end - start) from 0 to 1
 
-    It is what a roof that follows the machine puts on it, where `Roof` presses less as the machine gives way. All
+    It is what a roof that follows the machine puts on it, where `Roof` yields as the machine does. All
     that it does to the point counts as work; it stores nothing.
 
     Arguments:

@@ -41,7 +41,7 @@ class FallingBlock(Load):
 
     The force pushes the point down and the block up and never pulls; there is no friction along the face. The
     law is that of `user_forces.Exact`, with the damping made for the speed v0 of the first impact on something
-    that stands still: without weight that one gives back the restitution e, whatever the masses. The weight takes
+    that stands still: without weight that one gives back the restitution e, whatever the masses. Weight takes
     a little of it, the more the softer the impact is (0.49 for 0.50 where the force is a hundred times the
     weight). What comes later is slower and is damped less: its restitution is nearer to 1, for chi v/v0 then
     stands in place of chi.
