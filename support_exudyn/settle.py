@@ -22,8 +22,8 @@ CENTRING = (1.0, 0.3, 0.1, 0.03, 0.01, 1e-3, 1e-4, 1e-6, 0.0)
 def settle(scene: EngineScene) -> None:
     """Make the static equilibrium under gravity the initial state of the scene, at rest.
 
-    Elastic contact without friction. Velocities the machine asks for are set to zero. What loads bring along, such
-    as a falling block, hangs over its point meanwhile, and starts from there as it was to start.
+    Elastic contact without friction. Velocities the machine asks for are set to zero. What loads bring along
+    hangs over its point meanwhile, such as a block that falls, and starts from there as it was to start.
 
     Raises SimulationError if there is no equilibrium or it is not found.
     """
