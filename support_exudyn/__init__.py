@@ -17,7 +17,7 @@ from support_exudyn.impulse import Impulse
 from support_exudyn.linkages.hydraulic_support import HydraulicSupport
 from support_exudyn.linkages.impact_stand import ImpactStand
 from support_exudyn.linkages.slider_crank import SliderCrank, ravn_slider_crank
-from support_exudyn.loads import Load, LoadedPoint, Roof
+from support_exudyn.loads import AppliedForce, FallingBlock, Load, LoadedPoint, Roof
 from support_exudyn.machine import Body, Column, Crank, Linkage, Machine, Part, PinPlace, Slide, TracePoint
 from support_exudyn.machines import load_support, reference_support, two_body_columns
 from support_exudyn.onset import Onset
@@ -31,6 +31,7 @@ from support_exudyn.table_drive import TableDrive
 from support_exudyn.width import Width
 
 __all__ = [
+    "AppliedForce",
     "Body",
     "Channel",
     "ClearancePin",
@@ -41,6 +42,7 @@ __all__ = [
     "Drive",
     "Estimate",
     "Failure",
+    "FallingBlock",
     "Held",
     "HydraulicSupport",
     "IdealPin",

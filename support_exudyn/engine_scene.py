@@ -96,6 +96,11 @@ class EngineScene(Protocol):
         ...
 
     @property
+    def weights(self) -> Mapping[str, Any]:
+        """The engine's loads that are weights, by body."""
+        ...
+
+    @property
     def driven(self) -> tuple[DrivenParts, ...]:
         """All columns and cranks, by the drive that they follow."""
         ...

@@ -296,6 +296,10 @@ class Scenario(Value):
                 raise ValueError(
                     f"loads.{name}.body = {load.body!r}: no such body; allowed: {', '.join(linkage.bodies)}"
                 )
+            try:
+                load.check(self.gravity)
+            except InputError as error:
+                raise ValueError(f"loads.{name}.{error}") from None
 
     @property
     def jumps(self) -> bool:

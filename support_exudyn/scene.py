@@ -45,6 +45,7 @@ class Scene(InEngine):
     cranks: dict[str, CrankItem]
     slides: dict[str, SlideItem]
     loads: dict[str, LoadItem]
+    weights: dict[str, Any]  # loads of the engine, by body; none without gravity
     driven: tuple[DrivenParts, ...]  # all columns and cranks, by the drive that they follow
 
     @cached_property

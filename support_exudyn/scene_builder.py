@@ -67,10 +67,10 @@ class _Builder:
         item = self.mbs.AddObject(ObjectRigidBody2D(mass=body.mass, inertia=body.inertia, nodeNumber=node))
         return BodyItem(body, node, item, first=-1)
 
-    def add_weight(self, name: str, body: Body) -> None:
+    def add_weight(self, name: str, body: Body) -> Any:
         gx, gy = self.scenario.gravity
         weight = [body.mass * gx, body.mass * gy, 0.0]
-        self.mbs.AddLoad(LoadForceVector(markerNumber=self.marker(name, body.centre), loadVector=weight))
+        return self.mbs.AddLoad(LoadForceVector(markerNumber=self.marker(name, body.centre), loadVector=weight))
 
     def marker(self, body: str, point: Vector2) -> Any:
         """The marker on a body at a point of the start posture; parts that meet there share it."""
@@ -187,9 +187,8 @@ class _Builder:
             )
             for name, load in self.scenario.loads.items()
         }
-        if any(self.scenario.gravity):
-            for name, body in self.linkage.bodies.items():
-                self.add_weight(name, body)
+        heavy = self.linkage.bodies if any(self.scenario.gravity) else {}
+        weights = {name: self.add_weight(name, body) for name, body in heavy.items()}
         self.mbs.Assemble()
         data = self.mbs.systemData
         bodies = {
@@ -220,6 +219,7 @@ class _Builder:
             cranks=crank_items,
             slides={name: SlideItem(o, int(data.GetObjectLTGAE(o)[0])) for name, o in slides.items()},
             loads=loads,
+            weights=weights,
             driven=by_drive(self.mbs, self.scenario.drive_of, rigid_columns, oil_columns, crank_items),
         )
         for name, friction in frictions.items():

@@ -71,6 +71,7 @@ class Run:
         self.scene = scene
         self.pins = tuple(scene.loose_pins.values())
         self.frictions = tuple(scene.frictions.values())
+        self.strikers = tuple(item for item in scene.loads.values() if item.load.strikes)
         self.data = scene.mbs.systemData
         self.recorder = recorder
         self.progress = progress
@@ -84,6 +85,7 @@ class Run:
             force_rounding([item.filled for parts in scene.driven for item in parts.oil]),
         )
         self.locates = scenario.solver.locate
+        self.impact_steps = scenario.solver.impact_steps
         # what a load does need not show in accelerations, and long steps would pass over where it begins
         grows = scenario.solver.growth > 1.0 and not scene.loads
         self.smooth = _smooth_steps(scene) if grows else None
@@ -95,7 +97,7 @@ class Run:
         self.newton = NewtonFailures(scenario.step)
         # whether anything of the model has to follow a drive, and whether Python has to see every step
         self.follows = any(parts.moves(scenario.duration) for parts in scene.driven)
-        self.watches = bool(self.pins or self.frictions) or self.smooth is not None
+        self.watches = bool(self.pins or self.frictions or self.strikers) or self.smooth is not None
         columns = any(parts.rigid or parts.oil for parts in scene.driven if parts.moves(scenario.duration))
         if columns and recorder.integrates and scenario.step * FEW_STEPS > scenario.record_period:
             self.watches = True  # it is called in every step anyway, and a stretch costs more than it saves
@@ -341,6 +343,8 @@ class Run:
         largest = self.newton.length
         for pin in self.pins:
             largest = min(largest, pin.impact.step)
+        for striker in self.strikers:
+            largest = min(largest, striker.longest_step(t, self.impact_steps))
         if self.locates and self.plan.follows_break(t):
             largest = min(largest, self.plan.step / BREAK_REFINEMENT)
         if self.smooth is not None and largest == math.inf:

@@ -11,6 +11,7 @@ from shapely.ops import unary_union
 from trimesh import Trimesh
 
 from support_exudyn.columns import TwoBodyColumn
+from support_exudyn.drawing.blocks import blocks
 from support_exudyn.drawing.cylinders import cylinder_and_rod
 from support_exudyn.drawing.placed_pins import planar_pins
 from support_exudyn.drawing.shapes import ROUND, bar, plate, together, tube
@@ -71,6 +72,7 @@ class _Support:
             Solid("canopy", "canopy", Role.CANOPY, self._canopy()),
             *self._tail(),
             *self._pins(),
+            *blocks(self.scenario),
         ]
         struts: list[Strut] = []
         for name, column in {**self.columns, **self.jacks}.items():

@@ -59,6 +59,7 @@ class SpatialScene(InEngine):
     driven: tuple[DrivenParts, ...]  # all columns, by the drive that they follow
     frictions: dict[str, PinFriction] = field(default_factory=dict)  # of ideal pins: not covered
     loads: dict[str, LoadItem] = field(default_factory=dict)  # nor are they
+    weights: dict[str, Any] = field(default_factory=dict)  # are asked for where loads bring bodies along
 
     @property
     def gravity(self) -> Vector3:
