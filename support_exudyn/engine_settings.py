@@ -16,8 +16,12 @@ SMALLEST_STEP = 1e-13  # [s]
 MANY = 40
 
 
-def engine_settings(chosen: SolverSettings, duration: float, unknowns: int) -> Any:
-    """The engine's settings for a run of this duration [s] with so many coordinates and multipliers."""
+def engine_settings(chosen: SolverSettings, duration: float, unknowns: int, valves: bool = False) -> Any:
+    """The engine's settings for a run of this duration [s] with so many coordinates and multipliers.
+
+    valves: whether any open. Flow rises infinitely steeply where the pressure drop over a valve begins: no
+    residual becomes small there, but increments do, with a new Jacobian for each.
+    """
     settings = exudyn.SimulationSettings()
     integration = settings.timeIntegration
     integration.endTime = duration
@@ -33,7 +37,8 @@ def engine_settings(chosen: SolverSettings, duration: float, unknowns: int) -> A
     integration.generalizedAlpha.useIndex2Constraints = chosen.constraint_index == 2
     integration.generalizedAlpha.useNewmark = chosen.integrator == "trapezoidal"
     integration.newton.relativeTolerance = chosen.newton_tolerance
-    integration.newton.useModifiedNewton = chosen.newton == "modified"
+    integration.newton.useModifiedNewton = chosen.newton == "modified" and not valves
+    integration.newton.residualMode = 1 if valves else 0
     integration.newton.modifiedNewtonContractivity = 0.1  # renew the Jacobian early: a fifth faster here
     if unknowns > MANY:
         settings.linearSolver.solverType = exudyn.LinearSolverType.EigenSparse

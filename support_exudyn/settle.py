@@ -31,12 +31,16 @@ def settle(scene: EngineScene) -> None:
     def stiffness(clearance: float) -> Callable[[], float]:
         return lambda: share * weight / clearance
 
-    with ExitStack() as contacts:
+    with ExitStack() as for_a_while:
         for pin in scene.loose_pins.values():
-            contacts.enter_context(pin.settling(stiffness(pin.contact.bearing.clearance)))
+            for_a_while.enter_context(pin.settling(stiffness(pin.contact.bearing.clearance)))
+        for cylinder in scene.cylinders.values():
+            for_a_while.enter_context(cylinder.settling())
         for share in CENTRING:  # noqa: B007
             _solve(scene)
             data.SetODE2Coordinates(data.GetODE2Coordinates(), INITIAL)
+            for cylinder in scene.cylinders.values():
+                cylinder.follow()
             scene.reset_memory()  # of where journals have shifted to along their bores
     data.SetODE2Coordinates_t(0.0 * data.GetODE2Coordinates_t(INITIAL), INITIAL)
     scene.reset_memory()
