@@ -97,7 +97,7 @@ def _pistons_at_ends(scenario: Scenario, outcome: Outcome) -> Iterator[Failure]:
             if beyond.any():
                 first = int(np.argmax(beyond))
                 reason = (
-                    f"{name} is {end} by {abs(extension[first]):.4g} m, beyond the end of its cylinder; allowed: "
+                    f"{name} is {end} by {abs(extension[first]):.4g} m, beyond its cylinder's end; allowed: "
                     f"{-cylinder.oil_length:.4g} to {cylinder.rod_side_length:.4g} m from the start"
                 )
                 yield Failure(reason, ENDS, float(run.time[first]))

@@ -16,11 +16,13 @@ SMALLEST_STEP = 1e-13  # [s]
 MANY = 40
 
 
-def engine_settings(chosen: SolverSettings, duration: float, unknowns: int, valves: bool = False) -> Any:
+def engine_settings(chosen: SolverSettings, duration: float, unknowns: int, cylinders: bool = False) -> Any:
     """The engine's settings for a run of this duration [s] with so many coordinates and multipliers.
 
-    valves: whether any open. Flow rises infinitely steeply where the pressure drop over a valve begins: no
-    residual becomes small there, but increments do, with a new Jacobian for each.
+    cylinders: whether there are any. Their flow rises infinitely steeply where the pressure drop over a valve
+    begins: no residual becomes small there, but increments do. And the rows of pressures are not scaled by the
+    step as those of motions are: with a Jacobian of another step iterations end at a wrong place. So they are
+    judged by increments, with a new Jacobian for each.
     """
     settings = exudyn.SimulationSettings()
     integration = settings.timeIntegration
@@ -37,8 +39,8 @@ def engine_settings(chosen: SolverSettings, duration: float, unknowns: int, valv
     integration.generalizedAlpha.useIndex2Constraints = chosen.constraint_index == 2
     integration.generalizedAlpha.useNewmark = chosen.integrator == "trapezoidal"
     integration.newton.relativeTolerance = chosen.newton_tolerance
-    integration.newton.useModifiedNewton = chosen.newton == "modified" and not valves
-    integration.newton.residualMode = 1 if valves else 0
+    integration.newton.useModifiedNewton = chosen.newton == "modified" and not cylinders
+    integration.newton.residualMode = 1 if cylinders else 0
     integration.newton.modifiedNewtonContractivity = 0.1  # renew the Jacobian early: a fifth faster here
     if unknowns > MANY:
         settings.linearSolver.solverType = exudyn.LinearSolverType.EigenSparse

@@ -82,7 +82,7 @@ class Run:
             scenario.solver,
             scenario.duration,
             int(self.data.ODE2Size() + self.data.ODE1Size() + self.data.AEsize()),
-            self.valves,
+            bool(self.cylinders),
         )
         self.locates = scenario.solver.locate
         # what a load does need not show in accelerations, and long steps would pass over where it begins
