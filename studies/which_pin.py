@@ -33,7 +33,7 @@ from studies.which_pin_figures import figures, pictures
 from studies.which_pin_posture import UnderLoad, load_sheet, loads, posture_numbers
 from support_exudyn import ClearancePin, Result, Scenario, SolverSettings
 from support_exudyn.figures import style
-from support_exudyn.linkages.hydraulic_support import PINS
+from support_exudyn.linkages.four_bar_shield import PINS
 from user_forces import DepthSpeed, LankaraniNikravesh
 
 STUDY = "which_pin"

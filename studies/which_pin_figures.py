@@ -13,7 +13,7 @@ from studies.reporting.chapter import Picture
 from studies.study import Number
 from studies.which_pin_posture import UnderLoad
 from support_exudyn.figures import style
-from support_exudyn.linkages.hydraulic_support import PINS
+from support_exudyn.linkages.four_bar_shield import PINS
 
 MU = paper_machine.SLIDING_COEFFICIENT
 ALL = "all five"

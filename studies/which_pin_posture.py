@@ -15,7 +15,7 @@ from studies.rise import DEGREES, END, START
 from studies.slack import Press, Stand
 from studies.study import Number
 from support_exudyn import ClearancePin, CubicStep, Scenario, Steady, reference_support
-from support_exudyn.linkages.hydraulic_support import PINS
+from support_exudyn.linkages.four_bar_shield import PINS
 
 Matrix = npt.NDArray[np.float64]
 

@@ -10,10 +10,12 @@ One entry, `simulate`; everything else is a value that is handed in. SI units an
 
 from support_exudyn.channels import Channel
 from support_exudyn.columns import ColumnModel, OilColumn, RigidColumn, TwoBodyColumn, bore_area
+from support_exudyn.cylinder import HydraulicCylinder
 from support_exudyn.drives import CubicStep, Drive, Held, Reciprocating, Steady, Stroke, UniformSpeed
 from support_exudyn.errors import Failure, SimulationError
 from support_exudyn.estimate import Estimate
 from support_exudyn.impulse import Impulse
+from support_exudyn.inlet import ClosedInlet, Inlet, RampedOpening, SuddenOpening
 from support_exudyn.linkages.hydraulic_support import HydraulicSupport
 from support_exudyn.linkages.impact_stand import ImpactStand
 from support_exudyn.linkages.slider_crank import SliderCrank, ravn_slider_crank
@@ -35,6 +37,7 @@ __all__ = [
     "Body",
     "Channel",
     "ClearancePin",
+    "ClosedInlet",
     "Column",
     "ColumnModel",
     "Crank",
@@ -44,10 +47,12 @@ __all__ = [
     "Failure",
     "FallingBlock",
     "Held",
+    "HydraulicCylinder",
     "HydraulicSupport",
     "IdealPin",
     "ImpactStand",
     "Impulse",
+    "Inlet",
     "Linkage",
     "Load",
     "LoadedPoint",
@@ -60,6 +65,7 @@ __all__ = [
     "PartModel",
     "Pin",
     "PinPlace",
+    "RampedOpening",
     "Reciprocating",
     "Recommendation",
     "Result",
@@ -72,6 +78,7 @@ __all__ = [
     "SolverSettings",
     "Steady",
     "Stroke",
+    "SuddenOpening",
     "TableDrive",
     "TracePoint",
     "TwoBodyColumn",

@@ -35,14 +35,18 @@ def settle(scene: EngineScene) -> None:
         return lambda: share * weight / clearance
 
     hanging = _hanging(scene)
-    with ExitStack() as contacts:
+    with ExitStack() as for_a_while:
         for load, pull in hanging.values():
-            contacts.enter_context(load.hung(pull))
+            for_a_while.enter_context(load.hung(pull))
         for pin in scene.loose_pins.values():
-            contacts.enter_context(pin.settling(stiffness(pin.contact.bearing.clearance)))
+            for_a_while.enter_context(pin.settling(stiffness(pin.contact.bearing.clearance)))
+        for cylinder in scene.cylinders.values():
+            for_a_while.enter_context(cylinder.settling())
         for share in CENTRING:  # noqa: B007
             _solve(scene)
             data.SetODE2Coordinates(data.GetODE2Coordinates(), INITIAL)
+            for cylinder in scene.cylinders.values():
+                cylinder.follow()
             scene.reset_memory()  # of where journals have shifted to along their bores
     velocity = 0.0 * data.GetODE2Coordinates_t(INITIAL)
     for name in hanging:

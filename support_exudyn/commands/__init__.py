@@ -16,7 +16,31 @@ from typing import Protocol, cast
 from support_exudyn.command_line import Parser, say
 from support_exudyn.provenance import versions
 
-NAMES: tuple[str, ...] = ("check", "run", "show", "compare", "plot", "render", "view", "export", "scenario", "schema")
+NAMES: tuple[str, ...] = (
+    "check",
+    "run",
+    "show",
+    "compare",
+    "plot",
+    "render",
+    "view",
+    "export",
+    "scenario",
+    "schema",
+)
+
+INSTALLED = "support-exudyn"
+EPILOG = """\
+COMMAND --help tells what a command takes. Results go to standard output, progress and warnings to
+standard error; with --json the result is one JSON object in SI units. Files are written whole or not at
+all.
+
+exit codes:
+  0    done
+  1    not done, for a reason that is said in one line: an input, a file, a run that cannot be finished
+  2    the command line cannot be read
+  130  interrupted
+"""
 
 
 class Command(Protocol):
