@@ -27,6 +27,7 @@ from support_exudyn.result import Result
 from support_exudyn.scenario import Scenario, SolverSettings
 from support_exudyn.simulate import simulate
 from support_exudyn.supports import load_support, reference_support, two_body_columns
+from support_exudyn.table_drive import TableDrive
 from support_exudyn.width import Width
 
 __all__ = [
@@ -69,6 +70,7 @@ __all__ = [
     "SolverSettings",
     "Steady",
     "Stroke",
+    "TableDrive",
     "TracePoint",
     "TwoBodyColumn",
     "UniformSpeed",

@@ -7,8 +7,6 @@ import math
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-import numpy as np
-
 from support_exudyn.estimate import Estimate
 from support_exudyn.figures.journal import pins
 from support_exudyn.figures.units import readable, said
@@ -18,6 +16,7 @@ from support_exudyn.result import Result
 from user_forces.values import Value
 
 Row = tuple[str, ...]
+AT_ANY_STEP = ".largest_force"  # of the whole run, not only of the records
 TOUCHES = 3  # of every pin that are told one by one
 VERSIONS = ("support-exudyn", "exudyn", "python", "numpy", "scipy", "numba")
 ROUNDING = 1e-14  # share of a channel's largest value that is shown as zero
@@ -71,30 +70,36 @@ def how(result: Result) -> list[Row]:
     ]
 
 
-def came_out(result: Result, after: float, until: float) -> list[Row]:
-    """Numbers of the pins and of the energy between two times [s]: name, value, error, unit.
+def numbers(result: Result, after: float, until: float) -> dict[str, Estimate]:
+    """Numbers of the pins and of the energy between two times [s], in SI; an error that is not known is NaN.
 
-    Without an accuracy the errors are empty. Largest forces at any step and energies are of
-    the whole run.
+    Errors are known if an accuracy was asked for. Largest forces at any step and energies are of the whole run.
 
     Raises InputError if no record lies between.
     """
-    rows: list[Row] = []
     chosen = inside(result, after, until, fewest=1)
+    found: dict[str, Estimate] = {}
     if result.coarser is not None:
-        rows += [(name, *with_error(found)) for name, found in result.numbers(after, until).items()]
+        found |= result.numbers(after, until)
     else:
         for pin in pins(result):
             force = result[f"pin.{pin}.force"][chosen]
             for word, value in (("mean", force.mean()), ("spread", force.std()), ("largest", force.max())):
-                rows.append((f"pin.{pin}.force.{word}", *alone(float(value), "N")))
-        rows += [
-            (f"pin.{pin}.largest_force, any step of the run", *alone(f, "N"))
-            for pin, f in result.largest_force.items()
-        ]
-    for name, value in _energies(result).items():
-        rows.append((name, *alone(value, "J")))
-    return rows
+                found[f"pin.{pin}.force.{word}"] = Estimate(float(value), math.nan, "N")
+        for pin, largest in result.largest_force.items():
+            found[f"pin.{pin}{AT_ANY_STEP}"] = Estimate(largest, math.nan, "N")
+    return found | {name: Estimate(value, math.nan, "J") for name, value in _energies(result).items()}
+
+
+def came_out(result: Result, after: float, until: float) -> list[Row]:
+    """The same in the units in which they are read best: name, value, error (empty if not known), unit.
+
+    Raises InputError if no record lies between.
+    """
+    return [
+        (f"{name}, any step of the run" if name.endswith(AT_ANY_STEP) else name, *with_error(found))
+        for name, found in numbers(result, after, until).items()
+    ]
 
 
 def touches(result: Result) -> list[Row]:
@@ -120,18 +125,27 @@ def of_channels(result: Result, names: Iterable[str], after: float, until: float
     Raises InputError if no record lies between.
     """
     rows: list[Row] = []
-    chosen = inside(result, after, until, fewest=1)
     for name in names:
-        channel = result.channels[name]
-        values = channel.values[chosen]
-        largest = float(np.abs(values).max())
-        unit = readable(channel.unit, largest)
-        numbers = (
-            f"{unit.scale * (value if abs(value) > ROUNDING * largest else 0.0):.{DIGITS}g}"
-            for value in (float(f()) for f in (values.min, values.mean, values.max))
+        found = extent(result, name, after, until)
+        values = [found[word] for word in ("least", "mean", "largest")]
+        largest = max(map(abs, values))
+        unit = readable(found["unit"], largest)
+        told = (
+            f"{unit.scale * (value if abs(value) > ROUNDING * largest else 0.0):.{DIGITS}g}" for value in values
         )
-        rows.append((name, unit.name, *numbers, channel.meaning))
+        rows.append((name, unit.name, *told, found["meaning"]))
     return rows
+
+
+def extent(result: Result, name: str, after: float, until: float) -> dict[str, Any]:
+    """Unit, meaning, and least, mean and largest value in SI of a channel between two times [s].
+
+    Raises InputError if no record lies between.
+    """
+    channel = result.channels[name]
+    values = channel.values[inside(result, after, until, fewest=1)]
+    extreme = {"least": values.min(), "mean": values.mean(), "largest": values.max()}
+    return {"unit": channel.unit, "meaning": channel.meaning} | {k: float(v) for k, v in extreme.items()}
 
 
 def telling(result: Result) -> list[str]:
@@ -142,19 +156,15 @@ def telling(result: Result) -> list[str]:
 
 
 def with_error(found: Estimate) -> Row:
-    """A number, its error to its leading digits, and the unit in which both are."""
+    """A number, its error to its leading digits (empty if it is NaN), and the unit in which both are."""
     unit = readable(found.unit, abs(found.value))
     value, error = unit.scale * found.value, unit.scale * found.error
+    if math.isnan(error):
+        return f"{value:.{DIGITS}g}", "", unit.name
     if not (math.isfinite(error) and error > 0.0):
         return f"{value:.{DIGITS}g}", "not known" if error else "0", unit.name
     digits = min(max(0, 1 - math.floor(math.log10(error))), 9)
     return f"{value:.{digits}f}", f"{error:.1e}", unit.name
-
-
-def alone(value: float, unit: str) -> Row:
-    """A number of unknown error in the unit in which it is read best."""
-    shown = readable(unit, abs(value))
-    return f"{shown.scale * value:.{DIGITS}g}", "", shown.name
 
 
 def words(item: Any) -> str:

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import argparse
+import json
 import math
 import os
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
-from typing import NoReturn
+from typing import Any, NoReturn
 
 from support_exudyn.errors import SimulationError
+from support_exudyn.progress import Progress
 from support_exudyn.workers import NoProcessError, ProcessEndedError
 from user_forces.values import InputError, short
 
@@ -70,6 +73,26 @@ def folder(text: str) -> Path:
     return Path(text)
 
 
+def add_json(parser: argparse.ArgumentParser) -> None:
+    """Take --json: what came out as one JSON object on standard output, for scripts."""
+    parser.add_argument("--json", action="store_true", help="one JSON object instead of text, in SI units")
+
+
+def answer(data: Mapping[str, Any]) -> None:
+    """Print a JSON object; numbers that are none (not known, without end) as null."""
+    say(json.dumps(_finite(data), indent=1, ensure_ascii=False, allow_nan=False))
+
+
+def _finite(item: Any) -> Any:
+    if isinstance(item, Mapping):
+        return {str(key): _finite(value) for key, value in item.items()}
+    if isinstance(item, (list, tuple)):
+        return [_finite(value) for value in item]
+    if isinstance(item, Path):
+        return str(item)
+    return None if isinstance(item, float) and not math.isfinite(item) else item
+
+
 def say(text: str) -> None:
     """Print a line; if nobody reads on (`| head`, a closed terminal), the work goes on without a word."""
     try:
@@ -83,6 +106,22 @@ def hush() -> None:
     nowhere = os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, sys.stdout.fileno())
     os.close(nowhere)
+
+
+@contextmanager
+def shown_progress(what: str) -> Iterator[Progress]:
+    """A progress bar on standard error: gives what is told the share done. None where it is no terminal."""
+    from rich.console import Console  # which most refusals have no use for
+    from rich.progress import BarColumn, TextColumn, TimeRemainingColumn
+    from rich.progress import Progress as Bar
+
+    console = Console(stderr=True)
+    columns = TextColumn("{task.description}"), BarColumn(), TextColumn("{task.percentage:3.0f} %")
+    with Bar(
+        *columns, TimeRemainingColumn(), console=console, transient=True, disable=not console.is_terminal
+    ) as bar:
+        task = bar.add_task(what, total=1.0)
+        yield lambda share: bar.update(task, completed=share)
 
 
 def answered(work: Callable[[], None]) -> int:

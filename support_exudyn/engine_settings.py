@@ -16,8 +16,12 @@ SMALLEST_STEP = 1e-13  # [s]
 MANY = 40
 
 
-def engine_settings(chosen: SolverSettings, duration: float, unknowns: int) -> Any:
-    """The engine's settings for a run of this duration [s] with so many coordinates and multipliers."""
+def engine_settings(chosen: SolverSettings, duration: float, unknowns: int, rounding: float = 0.0) -> Any:
+    """The engine's settings for a run of this duration [s] with so many coordinates and multipliers.
+
+    rounding: of its forces [N]. Where a machine rests, Newton's method has nothing else to solve, and without
+    being told it would fail by it.
+    """
     settings = exudyn.SimulationSettings()
     integration = settings.timeIntegration
     integration.endTime = duration
@@ -33,6 +37,8 @@ def engine_settings(chosen: SolverSettings, duration: float, unknowns: int) -> A
     integration.generalizedAlpha.useIndex2Constraints = chosen.constraint_index == 2
     integration.generalizedAlpha.useNewmark = chosen.integrator == "trapezoidal"
     integration.newton.relativeTolerance = chosen.newton_tolerance
+    norm = rounding / unknowns  # the engine's norm of a residual
+    integration.newton.absoluteTolerance = max(integration.newton.absoluteTolerance, norm)
     integration.newton.useModifiedNewton = chosen.newton == "modified"
     integration.newton.modifiedNewtonContractivity = 0.1  # renew the Jacobian early: a fifth faster here
     if unknowns > MANY:

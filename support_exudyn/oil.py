@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import sys
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -70,6 +71,9 @@ class FilledColumn:
         return OilSeries(self.force(*moving), self.energy(length, extension), *self.powers(*moving))
 
 
+LENGTHS = 4  # that are rounded, each by up to half a unit in its last place, until there is a force
+
+
 class OilSeries(NamedTuple):
     """A column over time, shape (n,) each.
 
@@ -95,6 +99,13 @@ def fill(linkage: Linkage, models: Mapping[str, OilColumn], gravity: Vector2) ->
         name: FilledColumn(linkage.columns[name], model, loads[name] / model.stiffness(0.0))
         for name, model in models.items()
     }
+
+
+def force_rounding(columns: Iterable[FilledColumn]) -> float:
+    """By how much rounding of lengths lets the forces of these columns scatter [N]."""
+    return sum(
+        LENGTHS * sys.float_info.epsilon * one.model.stiffness(0.0) * one.column.start_length for one in columns
+    )
 
 
 def oil_series(filled: FilledColumn, motion: BodyMotion, drive: Drive, time: Series) -> OilSeries:

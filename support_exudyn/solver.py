@@ -26,6 +26,7 @@ from support_exudyn.engine_words import explained, first_line
 from support_exudyn.errors import Failure, SimulationError
 from support_exudyn.impulse import Impulse
 from support_exudyn.newton_failures import NewtonFailures
+from support_exudyn.oil import force_rounding
 from support_exudyn.onset import SHARE
 from support_exudyn.progress import Progress
 from support_exudyn.recorder import Recorder
@@ -77,7 +78,10 @@ class Run:
         self.solver: Any = exudyn.MainSolverImplicitSecondOrder()  # its stubs lack self
         self.impulses: list[Impulse] = []
         self.settings = engine_settings(
-            scenario.solver, scenario.duration, int(self.data.ODE2Size() + self.data.AEsize())
+            scenario.solver,
+            scenario.duration,
+            int(self.data.ODE2Size() + self.data.AEsize()),
+            force_rounding([item.filled for parts in scene.driven for item in parts.oil]),
         )
         self.locates = scenario.solver.locate
         # what a load does need not show in accelerations, and long steps would pass over where it begins

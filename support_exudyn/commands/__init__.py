@@ -8,12 +8,29 @@ module's. A further one is a file here and its name in NAMES.
 from __future__ import annotations
 
 import argparse
+import sys
 from importlib import import_module
+from pathlib import Path
 from typing import Protocol, cast
 
-from support_exudyn.command_line import Parser
+from support_exudyn.command_line import Parser, say
+from support_exudyn.provenance import versions
 
 NAMES: tuple[str, ...] = ("show", "plot", "render", "view", "export")
+
+
+INSTALLED = "support-exudyn"
+EPILOG = """\
+COMMAND --help tells what a command takes. Results go to standard output, progress and warnings to
+standard error; with --json the result is one JSON object in SI units. Files are written whole or not at
+all.
+
+exit codes:
+  0    done
+  1    not done, for a reason that is said in one line: an input, a file, a run that cannot be finished
+  2    the command line cannot be read
+  130  interrupted
+"""
 
 
 class Command(Protocol):
@@ -36,11 +53,31 @@ def command(name: str) -> Command:
 def parser() -> Parser:
     """Of the whole command line."""
     whole = Parser(
-        prog="python -m support_exudyn",
-        description="Look at runs: files that Result.save has written.",
+        prog=_called(),
+        description="Dynamics of linkages with clearance in their joints.",
+        epilog=EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    several = whole.add_subparsers(dest="command", required=True, metavar="COMMAND", parser_class=Parser)
+    whole.add_argument("--version", action=_Versions, nargs=0, help="versions of all that makes the numbers")
+    several = whole.add_subparsers(
+        dest="command", required=True, metavar="COMMAND", parser_class=Parser, title="commands"
+    )
     for name in NAMES:
         one = command(name)
-        one.add_arguments(several.add_parser(name, help=one.HELP, description=one.HELP))
+        one.add_arguments(
+            several.add_parser(name, help=one.HELP, description=f"{one.HELP[:1].upper()}{one.HELP[1:]}.")
+        )
     return whole
+
+
+def _called() -> str:
+    """By what name the program was started."""
+    return INSTALLED if Path(sys.argv[0]).stem == INSTALLED else "python -m support_exudyn"
+
+
+class _Versions(argparse.Action):
+    """Print the versions, asking for them only now, and end."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *others: object) -> None:
+        say("\n".join(f"{name} {number}" for name, number in versions().items()))
+        parser.exit()

@@ -9,10 +9,7 @@ from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
-from rich.console import Console
-from rich.progress import Progress as Bar
-
-from support_exudyn.command_line import add_times, count, folder, number, say
+from support_exudyn.command_line import add_json, add_times, answer, count, folder, number, say, shown_progress
 from support_exudyn.progress import Progress
 from support_exudyn.result import Result
 from user_forces.values import InputError
@@ -27,8 +24,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The run's file, what to write of it, and where to."""
     # RUN first: behind --to it would be taken for a format
     parser.usage = (
-        "%(prog)s [-h] RUN [--to FORMAT ...] [--out DIR] "
-        "[--every N | --frames-per-second F] [--from T] [--until T]"
+        "%(prog)s [-h] RUN [--to FORMAT ...] [--out DIR]\n"
+        "    [--every N | --frames-per-second F] [--from T] [--until T] [--json]"
     )
     parser.add_argument("run", type=folder, metavar="RUN", help="file of a run, as Result.save writes it")
     parser.add_argument(
@@ -53,6 +50,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="the records nearest to F times per second of the run; by default 25 for meshes, and all records "
         "for tables",
     )
+    add_json(parser)
     add_times(parser, 0.0)
 
 
@@ -81,28 +79,31 @@ def run(given: argparse.Namespace) -> None:
         "hdf5": lambda progress: to_hdf5(result, out / f"{name}_channels.h5", sampling(TABLES)),
         "solution": lambda progress: (result.save_solution(out / f"{name}_solution.txt"),),
     }
-    console = Console(stderr=True)
     refused: dict[str, InputError] = {}
+    written: dict[str, tuple[Path, ...]] = {}
     for kind in dict.fromkeys(given.to or USUAL):
-        with Bar(console=console, transient=True, disable=not console.is_terminal) as bar:
-            started = time.perf_counter()
-            task = bar.add_task(kind, total=1.0)
-            try:
-                files = work[kind](lambda share: bar.update(task, completed=share))  # noqa: B023  # used at once
-            except InputError as error:
-                if given.to:
-                    raise
-                refused[kind] = error
-                continue
+        started = time.perf_counter()
+        try:
+            with shown_progress(kind) as progress:
+                files = work[kind](progress)
+        except InputError as error:
+            if given.to:
+                raise
+            refused[kind] = error
+            continue
+        written[kind] = files
+        if not given.json:
+            size = sum(file.stat().st_size for file in files)
             took = time.perf_counter() - started
-        size = sum(file.stat().st_size for file in files)
-        say(f"{kind}: {files[0]} ({_counted(len(files))}, {size / 1e6:.3g} MB, {took:.2g} s)")
+            say(f"{kind}: {files[0]} ({_counted(len(files))}, {size / 1e6:.3g} MB, {took:.2g} s)")
         if kind in ("xdmf", "vtu") and given.end != given.start and result.time.size > 1:
             _tell_of_a_single_step(len(sampling(MESHES).records(result.time)), kind)
     if len(refused) == len(USUAL):
         raise refused[USUAL[0]]
     for kind, reason in refused.items():
         print(f"{kind}: left out: {reason}", file=sys.stderr)
+    if given.json:
+        answer({"written": written, "left_out": {kind: str(reason) for kind, reason in refused.items()}})
 
 
 def _tell_of_a_single_step(steps: int, kind: str) -> None:

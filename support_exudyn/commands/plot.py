@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from typing import TYPE_CHECKING
 
-from support_exudyn.command_line import add_times, folder, number, say
+from support_exudyn.command_line import add_json, add_times, answer, folder, number, say
 from support_exudyn.figures.journal import chosen_pin, loose_pins
 from support_exudyn.figures.names import matching
 from support_exudyn.result import Result
@@ -52,6 +52,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--out", type=folder, metavar="DIR", help="folder of the figures (RUN_figures beside the run)"
     )
+    add_json(parser)
     parser.add_argument("--show", action="store_true", help="open them in windows, too")
 
 
@@ -63,6 +64,7 @@ def run(given: argparse.Namespace) -> None:
     out = given.out or given.run.with_name(f"{given.run.stem}_figures")
     wanted, optional = _wanted(result, given)
     drawings = []
+    written = {}
     with style.look():
         for name, draw in wanted.items():
             try:
@@ -73,8 +75,12 @@ def run(given: argparse.Namespace) -> None:
                 print(f"{name}: left out: {error}", file=sys.stderr)
                 continue
             drawings.append(drawing)
-            for path in style.save(drawing, out, name):
+            paths = style.save(drawing, out, name)
+            written[name] = paths
+            for path in () if given.json else paths:
                 say(str(path))
+        if given.json:
+            answer({"figures": written})
         if given.show:
             _show(drawings)
 

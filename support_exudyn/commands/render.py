@@ -6,7 +6,7 @@ import argparse
 import re
 import sys
 
-from support_exudyn.command_line import add_times, folder, number, say
+from support_exudyn.command_line import add_json, add_times, answer, folder, number, say, shown_progress
 from support_exudyn.result import Result
 from user_forces.values import InputError, short
 
@@ -50,6 +50,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--size", type=size, default=(1280, 720), metavar="WxH", help="of frames in pixels, even (1280x720)")
     add("--pin", metavar="NAME", help="whose journal and force are shown (the first loose pin)")
     add("--still", type=number, metavar="T", help="a single picture at this time [s], and no movie")
+    add_json(parser)
 
 
 def run(given: argparse.Namespace) -> None:
@@ -60,22 +61,10 @@ def run(given: argparse.Namespace) -> None:
     if given.still is not None:
         _still(given, result)
         return
-    from rich.console import Console
-    from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
-
     from support_exudyn.render import render
 
     out = given.out or given.run.with_name(f"{given.run.stem}_frames")
-    bar = Progress(
-        TextColumn("{task.description}"),
-        BarColumn(),
-        TextColumn("{task.percentage:3.0f} %"),
-        TimeRemainingColumn(),
-        console=Console(stderr=True),
-        transient=True,
-    )
-    with bar:
-        task = bar.add_task(f"rendering {given.run.name}", total=1.0)
+    with shown_progress(f"rendering {given.run.name}") as progress:
         written = render(
             result,
             out,
@@ -86,8 +75,11 @@ def run(given: argparse.Namespace) -> None:
             movie=given.movie,
             size=given.size,
             pin=given.pin,
-            progress=lambda share: bar.update(task, completed=share),
+            progress=progress,
         )
+    if given.json:
+        answer({"frames": written.frames, "movie": written.movie})
+        return
     say(f"{len(written.frames)} frame{'s' * (len(written.frames) > 1)} in {out}")
     if len(written.frames) == 1 and result.time.size > 1:
         step = given.speed / given.frames_per_second
@@ -111,6 +103,9 @@ def _still(given: argparse.Namespace, result: Result) -> None:
     picture = still(result, given.still, size=given.size, pin=given.pin)
     with whole_file(path) as temporary:
         Image.fromarray(picture).save(temporary, format="PNG")
+    if given.json:
+        answer({"frames": [path], "movie": None})
+        return
     say(str(path))
 
 

@@ -6,6 +6,8 @@ import argparse
 import math
 import sys
 from collections.abc import Sequence
+from dataclasses import asdict
+from typing import Any
 
 from rich import box
 from rich.cells import cell_len
@@ -14,7 +16,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from support_exudyn import account
-from support_exudyn.command_line import add_times, folder, hush
+from support_exudyn.command_line import add_json, add_times, answer, folder, hush
 from support_exudyn.figures import windows
 from support_exudyn.figures.names import matching
 from support_exudyn.result import Result
@@ -32,12 +34,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "channels", nargs="*", metavar="CHANNEL", help="only these: names or patterns, such as 'pin.*.force'"
     )
     parser.add_argument("--all", action="store_true", help="all channels, not only those looked at first")
+    add_json(parser)
     add_times(parser, *WHOLE)
 
 
 def run(given: argparse.Namespace) -> None:
     """Print the tables; as many of them as are read, if another program takes them."""
     result = Result.load(given.run)
+    if given.json:
+        answer(_object(result, given))
+        return
     if sys.stdout is None:  # it was closed before the program began
         return
     try:
@@ -45,6 +51,28 @@ def run(given: argparse.Namespace) -> None:
         sys.stdout.flush()
     except BrokenPipeError:  # `show RUN | head`
         hush()
+
+
+def _object(result: Result, given: argparse.Namespace) -> dict[str, Any]:
+    """The same for scripts, in SI: every number with its error, and all channels unless some are asked for."""
+    ends = given.start, given.end
+    names = matching(result.channels, given.channels) or [name for name in result.channels if name != "time"]
+    return {
+        "run": given.run,
+        "scenario": result.scenario.to_data(),
+        "accuracy": {"asked": result.goal, "met": result.met if result.goal is not None else None},
+        "counts": asdict(result.counts),
+        "wall_time_s": result.wall_time,
+        "provenance": dict(result.provenance),
+        "numbers": {name: found._asdict() for name, found in account.numbers(result, *ends).items()},
+        "touches": {
+            pin: [
+                {"time_s": o.time, "speed_m_per_s": o.speed, "parting_time_s": o.parting_time} for o in onsets
+            ]
+            for pin, onsets in result.onsets.items()
+        },
+        "channels": {name: account.extent(result, name, *ends) for name in names},
+    }
 
 
 def _tables(result: Result, given: argparse.Namespace) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import subprocess
 import sys
@@ -13,6 +14,7 @@ import pytest
 from support_exudyn import Result, simulate
 from support_exudyn.__main__ import main
 from tests.reference.cases import loose_slider_crank, loose_support, support
+from user_forces.values import Value
 
 
 @pytest.fixture(scope="module")
@@ -257,3 +259,37 @@ def test_an_interruption_while_libraries_load_is_said_in_a_line(
 def test_show_refuses_unknown_channels(runs: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["show", str(runs / "loose.h5"), "tip.w"]) == 1
     assert "tip.x" in capsys.readouterr().err
+
+
+def test_show_for_scripts_has_what_the_tables_have(runs: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["show", str(runs / "loose.h5"), "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    result = Result.load(runs / "loose.h5")
+    assert Value.from_data(told["scenario"]) == result.scenario
+    numbers = {name: tuple(number.values()) for name, number in told["numbers"].items()}
+    assert {name: numbers[name] for name in result.numbers()} == dict(result.numbers())
+    assert told["channels"]["tip.x"]["largest"] == result["tip.x"].max()
+    assert set(told["channels"]) == set(result.channels) - {"time"}
+    assert [one["time_s"] for one in told["touches"]["rear_base"]] == [
+        o.time for o in result.onsets["rear_base"]
+    ]
+
+
+def test_show_for_scripts_says_null_where_errors_are_not_known(
+    runs: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["show", str(runs / "ideal.h5"), "tip.*", "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert {number["error"] for number in told["numbers"].values()} == {None}
+    assert all(name.startswith("tip.") for name in told["channels"])
+
+
+def test_plot_and_export_name_their_files_for_scripts(
+    runs: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["plot", str(runs / "ideal.h5"), "tip.x", "--out", str(tmp_path), "--json"]) == 0
+    figures = json.loads(capsys.readouterr().out)["figures"]
+    assert {Path(path) for path in figures["channels"]} == set(tmp_path.iterdir())
+    assert main(["export", str(runs / "ideal.h5"), "--to", "csv", "--out", str(tmp_path), "--json"]) == 0
+    written = json.loads(capsys.readouterr().out)
+    assert written == {"written": {"csv": [str(tmp_path / "ideal.csv")]}, "left_out": {}}

@@ -1,0 +1,31 @@
+"""Scenarios and values as TOML files: read, with messages that name file, key, value and range; written."""
+
+from support_exudyn.datafiles.drive_table import read_drives
+from support_exudyn.datafiles.reading import read_value
+from support_exudyn.datafiles.scenario_file import (
+    ScenarioFile,
+    read_scenario,
+    read_scenario_file,
+    save_scenario,
+    scenario_file_of,
+    scenario_of,
+    scenario_text,
+)
+from support_exudyn.datafiles.toml_text import load_toml, parsed, toml_text
+from support_exudyn.datafiles.writing import table_of
+
+__all__ = [
+    "ScenarioFile",
+    "load_toml",
+    "parsed",
+    "read_drives",
+    "read_scenario",
+    "read_scenario_file",
+    "read_value",
+    "save_scenario",
+    "scenario_file_of",
+    "scenario_of",
+    "scenario_text",
+    "table_of",
+    "toml_text",
+]

@@ -1,0 +1,151 @@
+"""Displacements over time from CSV."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Sequence
+from decimal import Decimal, InvalidOperation
+from pathlib import Path
+from typing import Literal, NamedTuple
+
+from support_exudyn.datafiles.place import nearest
+from support_exudyn.table_drive import MOST_POINTS, TableDrive
+from user_forces.quantity import Metres, Radians, Seconds, Unit
+from user_forces.values import LARGEST, InputError, short
+
+TIME: Unit = Seconds[float].__metadata__[0]  # type: ignore[attr-defined]
+LENGTH: Unit = Metres[float].__metadata__[0]  # type: ignore[attr-defined]
+ANGLE: Unit = Radians[float].__metadata__[0]  # type: ignore[attr-defined]
+LONGEST_NUMBER = 100  # characters
+LARGEST_FILE = 200_000_000  # bytes
+
+
+class _Column(NamedTuple):
+    """name: without unit. title: as the file has it. place: which of a line."""
+
+    name: str
+    title: str
+    unit: Unit
+    ending: str
+    place: int
+
+
+def read_drives(path: Path, between: Literal["smooth", "linear"] = "smooth") -> dict[str, TableDrive]:
+    """The drives of a CSV file by the names of its columns.
+
+    The first line names the columns with their units: one `time_s` or `time_ms`, the others NAME_mm, NAME_m,
+    or for cranks NAME_deg, NAME_rad. Every further line is a point; numbers have a point for the
+    decimals and are separated by commas.
+
+    Raises InputError that names file, line and column; OSError if the file cannot be read.
+    """
+    lines = _lines(path)
+    if not lines:
+        raise InputError(f"{path}: is empty; allowed: a first line such as time_s,extension_mm, and numbers")
+    number, header = lines[0]
+    columns = [_column(title, n, f"{path}: line {number}") for n, title in enumerate(header)]
+    names = [one.name for one in columns]
+    if len(set(names)) < len(names) or names.count("time") != 1 or len(names) < 2:
+        raise InputError(
+            f"{path}: line {number}: {short(','.join(header))}: allowed: one time_s or time_ms, and a name "
+            "with unit for each other column, all different"
+        )
+    if len(lines) - 1 > MOST_POINTS:
+        raise InputError(f"{path}: has {len(lines) - 1} points; allowed: up to {MOST_POINTS}")
+    for at, line in lines[1:]:
+        if len(line) != len(columns):
+            raise InputError(
+                f"{path}: line {at}: has {len(line)} items; allowed: {len(columns)}, as the first line"
+            )
+    values = {one.name: _values(lines[1:], one, path) for one in columns}
+    times = values.pop("time")
+    _check_times(times, lines[1:], columns[names.index("time")], path)
+    return {
+        name: _drive(times, found, between, f"{path}: column {columns[names.index(name)].title}")
+        for name, found in values.items()
+    }
+
+
+def one_drive(path: Path, column: str | None, between: Literal["smooth", "linear"]) -> TableDrive:
+    """The drive of a column of a file, or of the only one that it has. Raises as `read_drives` does."""
+    drives = read_drives(path, between)
+    if column is None and len(drives) == 1:
+        return next(iter(drives.values()))
+    if column is None:
+        raise InputError(
+            f"{path}: has {len(drives)} columns; say which by column; allowed: {', '.join(drives)}"
+        )
+    if column not in drives:
+        raise InputError(f"{path}: column = {short(column)}: no such column; {nearest(column, drives)}")
+    return drives[column]
+
+
+def _lines(path: Path) -> list[tuple[int, list[str]]]:
+    """The lines of a file that are not empty, each with its number and its items."""
+    if path.stat().st_size > LARGEST_FILE:
+        raise InputError(f"{path}: has more than {LARGEST_FILE} bytes; allowed: a table of points")
+    try:
+        with path.open(encoding="utf-8-sig", newline="") as file:
+            reader = csv.reader(file)
+            found = [(reader.line_num, [item.strip() for item in line]) for line in reader if any(line)]
+    except UnicodeDecodeError as error:
+        raise InputError(f"{path}: byte {error.start} is not UTF-8; allowed: text in UTF-8") from None
+    except csv.Error as error:
+        raise InputError(f"{path}: {error}; allowed: numbers separated by commas") from None
+    return found
+
+
+def _column(title: str, place: int, where: str) -> _Column:
+    name, _, ending = title.rpartition("_")
+    units = (TIME,) if name == "time" else (LENGTH, ANGLE)
+    for unit in units:
+        if name and ending in unit.endings:
+            return _Column(name, title, unit, ending, place)
+    allowed = [f"_{ending}" for unit in units for ending in unit.endings]
+    raise InputError(
+        f"{where}: column {place + 1} = {short(title)}: has no unit at its end; allowed: time_s or time_ms, and "
+        f"names that end by {', '.join(allowed)}"
+    )
+
+
+def _values(lines: Sequence[tuple[int, list[str]]], column: _Column, path: Path) -> tuple[float, ...]:
+    return tuple(_number(line[column.place], column, f"{path}: line {at}") for at, line in lines)
+
+
+def _number(text: str, column: _Column, where: str) -> float:
+    """A number in SI, rounded once."""
+    try:
+        written = Decimal(text) if 0 < len(text) <= LONGEST_NUMBER else Decimal("nan")
+    except InvalidOperation:
+        written = Decimal("nan")
+    if not written.is_finite() or abs(written.adjusted()) > 300:
+        raise InputError(f"{where}, column {column.title}: {short(text)}: allowed: a number such as 12.5")
+    number = column.unit.read(written, column.ending)
+    if abs(number) > LARGEST:
+        raise InputError(f"{where}, column {column.title}: {short(text)}: allowed: up to {LARGEST:g} in SI")
+    return number
+
+
+def _check_times(
+    times: Sequence[float], lines: Sequence[tuple[int, list[str]]], column: _Column, path: Path
+) -> None:
+    if len(times) < 2:
+        raise InputError(f"{path}: has {len(times)} points; allowed: two at least")
+    before = -1.0
+    for n, (time, (at, line)) in enumerate(zip(times, lines, strict=True)):
+        if time <= before or time < 0.0:
+            least = f"> {lines[n - 1][1][column.place]}, the time before" if n else ">= 0"
+            raise InputError(
+                f"{path}: line {at}, column {column.title}: {line[column.place]}: allowed: {least}"
+            )
+        before = time
+
+
+def _drive(
+    times: tuple[float, ...], extensions: tuple[float, ...], between: Literal["smooth", "linear"], where: str
+) -> TableDrive:
+    try:
+        return TableDrive(times=times, extensions=extensions, between=between)
+    except InputError as error:
+        text = str(error).removeprefix("TableDrive").lstrip(".: ")
+        raise InputError(f"{where}: {text}") from None

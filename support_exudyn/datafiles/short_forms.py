@@ -1,0 +1,150 @@
+"""What a scenario's file may say in short: by the machine, its pins and columns, and by tables of numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from support_exudyn.columns import TwoBodyColumn
+from support_exudyn.datafiles.drive_table import one_drive, read_drives
+from support_exudyn.datafiles.place import Faults, Place
+from support_exudyn.datafiles.reading import FAILED, Failed, Reader
+from support_exudyn.datafiles.shapes import Group
+from support_exudyn.datafiles.short_drive import DriveFile, DriveMode, DrivesFile
+from support_exudyn.datafiles.short_pin import ShortPin
+from support_exudyn.drives import Drive
+from support_exudyn.machine import Machine
+from support_exudyn.machine_data import MachineData, read_machine
+from support_exudyn.pins import IdealPin
+from user_forces.values import InputError
+
+
+def read_machine_of(table: Mapping[str, Any], faults: Faults, folder: Path) -> MachineData | None:
+    """The machine that a scenario's table names or holds; None, with the reason among the faults."""
+    given = table.get("machine")
+    if isinstance(given, str):
+        return _from_file(given, faults, folder)
+    if isinstance(given, dict):
+        found = Reader(faults).item(Group((Machine,)), given, ("machine",))
+        return None if isinstance(found, Failed) else MachineData(found)
+    said = 'a path that ends in .toml, "reference", or a table [machine]'
+    if given is None:
+        faults.add(("machine",), f"missing; allowed: {said}")
+    else:
+        faults.wrong(("machine",), given, said)
+    return None
+
+
+def _from_file(name: str, faults: Faults, folder: Path) -> MachineData | None:
+    try:
+        return read_machine(name, folder)
+    except InputError as error:
+        faults.lines += str(error).splitlines()
+    except (OSError, ValueError) as error:  # ValueError: of names that no file can have
+        reason = getattr(error, "strerror", None) or error
+        faults.wrong(
+            ("machine",), name, f'a file that can be read ({reason}), from {folder} on, or "reference"'
+        )
+    return None
+
+
+class ShortForms:
+    """Readers of the short forms.
+
+    folder: from which files lie. data: the machine, None if it could not be read.
+    """
+
+    def __init__(self, folder: Path, data: MachineData | None) -> None:
+        self.folder = folder
+        self.data = data
+
+    def machine(self, reader: Reader, item: Any, place: Place) -> Any:
+        """The machine, which has been read before all else."""
+        del reader, item, place
+        return FAILED if self.data is None else self.data.machine
+
+    def pin(self, reader: Reader, item: Any, place: Place) -> Any:
+        """A pin with `ideal = true`, or by its clearance."""
+        if not isinstance(item, dict) or "type" in item:
+            return None
+        if "ideal" in item:
+            if item["ideal"] is not True:
+                reader.faults.wrong(
+                    (*place, "ideal"), item["ideal"], "true; a loose pin has a clearance_mm instead"
+                )
+                return FAILED
+            return reader.value(IdealPin, {key: one for key, one in item.items() if key != "ideal"}, place)
+        short = reader.value(ShortPin, item, place)
+        if isinstance(short, Failed) or self.data is None:
+            return FAILED
+        try:
+            return short.pin(self.data.bore_radii.get(place[-1]))
+        except InputError as error:
+            for line in str(error).splitlines():
+                reader.faults.add(place, line)
+            return FAILED
+
+    def column(self, reader: Reader, item: Any, place: Place) -> Any:
+        """A column of two bodies whose masses the machine's file says."""
+        if not isinstance(item, dict) or item.get("type") != TwoBodyColumn.__name__ or len(place) != 2:
+            return None
+        if self.data is None or place[-1] not in self.data.columns:
+            return None
+        return reader.value(TwoBodyColumn, item, place, self.data.columns[place[-1]])
+
+    def drive(self, reader: Reader, item: Any, place: Place) -> Any:
+        """A mode of the paper, or a column of a file."""
+        if not isinstance(item, dict) or "type" in item:
+            return None
+        if "mode" in item:
+            mode = reader.value(DriveMode, item, place)
+            return FAILED if isinstance(mode, Failed) else mode.drive
+        if "table" in item:
+            file = reader.value(DriveFile, item, place)
+            return FAILED if isinstance(file, Failed) else self._read(reader, file, place)
+        kinds = ", ".join(Group((Drive,)).kinds)
+        reader.faults.add(
+            place, f"says no mode, table or type; allowed: mode = 1 or 2, table = a CSV file, type: {kinds}"
+        )
+        return FAILED
+
+    def _read(self, reader: Reader, file: DriveFile, place: Place) -> Any:
+        try:
+            return one_drive(self.folder / file.table, file.column, file.between)
+        except InputError as error:
+            reader.faults.lines += str(error).splitlines()
+        except (OSError, ValueError) as error:
+            _not_read(reader, file.table, error, (*place, "table"))
+        return FAILED
+
+    def drives(self, reader: Reader, table: Mapping[str, Any]) -> dict[str, Any]:
+        """The drives that `[drives] table = FILE` gives, by name; empty if it names none."""
+        given = table.get("drives")
+        if not isinstance(given, dict) or not isinstance(given.get("table"), str):
+            return {}
+        own = {key: one for key, one in given.items() if not isinstance(one, dict)}
+        file = reader.value(DrivesFile, own, ("drives",))
+        if isinstance(file, Failed):
+            return {"": FAILED}
+        try:
+            found: dict[str, Any] = dict(read_drives(self.folder / file.table, file.between))
+        except InputError as error:
+            reader.faults.lines += str(error).splitlines()
+            return {"": FAILED}
+        except (OSError, ValueError) as error:
+            _not_read(reader, file.table, error, ("drives", "table"))
+            return {"": FAILED}
+        for name in found.keys() & given.keys():
+            reader.faults.add(("drives", name), f"is a column of {file.table} too; allowed: one of them")
+        return found
+
+    @staticmethod
+    def without_file(given: Mapping[str, Any]) -> dict[str, Any]:
+        """What `[drives]` says besides its file."""
+        return {key: one for key, one in given.items() if isinstance(one, dict)}
+
+
+def _not_read(reader: Reader, name: str, error: OSError | ValueError, place: Place) -> None:
+    reason = getattr(error, "strerror", None) or error
+    reader.faults.wrong(place, name, f"a file that can be read ({reason})")

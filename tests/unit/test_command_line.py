@@ -1,0 +1,73 @@
+"""The command line as a whole: help, versions, exit codes, and JSON for scripts."""
+
+from __future__ import annotations
+
+import json
+import math
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from support_exudyn.__main__ import main
+from support_exudyn.command_line import answer
+from support_exudyn.commands import NAMES, command
+
+
+def test_help_tells_of_every_command_and_exit_code(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as end:
+        main(["--help"])
+    told = capsys.readouterr().out
+    assert end.value.code == 0
+    assert [name for name in NAMES if f"\n    {name} " not in told] == []
+    assert [code for code in ("0", "1", "2", "130") if f"\n  {code} " not in told] == []
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_help_of_a_command_fits_a_terminal(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as end:
+        main([name, "--help"])
+    lines = capsys.readouterr().out.splitlines()
+    assert end.value.code == 0
+    assert command(name).HELP[1:20] in " ".join(lines)
+    assert max(map(len, lines)) <= 80  # what argparse folds to without a terminal
+
+
+def test_versions_are_those_of_what_makes_the_numbers(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as end:
+        main(["--version"])
+    told = dict(line.split() for line in capsys.readouterr().out.splitlines())
+    assert end.value.code == 0
+    assert told["python"] == ".".join(map(str, sys.version_info[:3]))
+    assert {"support-exudyn", "exudyn", "numpy"} <= told.keys()
+
+
+def test_the_installed_command_is_the_module() -> None:
+    installed = Path(sys.executable).with_name("support-exudyn")
+    answers = [
+        subprocess.run([*start, "show", "no.h5"], capture_output=True, text=True, check=False)
+        for start in ([str(installed)], [sys.executable, "-m", "support_exudyn"])
+    ]
+    assert [(a.returncode, a.stdout) for a in answers] == [(1, "")] * 2
+    assert answers[0].stderr == answers[1].stderr
+    assert answers[0].stderr.startswith("error: no.h5")
+
+
+def test_a_wrong_command_line_is_told_with_the_name_it_was_called_by(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    with pytest.raises(SystemExit) as end:
+        main(["shaw"])
+    assert end.value.code == 2
+    assert "invalid choice: 'shaw'" in capsys.readouterr().err
+
+
+def test_json_has_no_number_that_is_none(capsys: pytest.CaptureFixture[str]) -> None:
+    answer({"a": math.nan, "b": [1.5, math.inf], "c": {"d": Path("x")}, "e": (True, None, "ä")})
+    assert json.loads(capsys.readouterr().out) == {
+        "a": None,
+        "b": [1.5, None],
+        "c": {"d": "x"},
+        "e": [True, None, "ä"],
+    }
