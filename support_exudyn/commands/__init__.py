@@ -16,7 +16,7 @@ from typing import Protocol, cast
 from support_exudyn.command_line import Parser, say
 from support_exudyn.provenance import versions
 
-NAMES: tuple[str, ...] = ("show", "plot", "render", "view", "export")
+NAMES: tuple[str, ...] = ("show", "plot", "render", "view", "export", "sweep", "chart")
 
 
 INSTALLED = "support-exudyn"

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import copy
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass
 from decimal import Decimal
 from pathlib import Path
 from typing import Any
 
-from support_exudyn.scenario import Scenario
-from support_exudyn.sweeping.plan import Inputs, Plan, Record
+from support_exudyn.sweeping.plan import Plan, Record
+from support_exudyn.datafiles.toml_text import load_toml
+from support_exudyn.sweeping.from_tables import maker
 from support_exudyn.sweeping.points import Point, Range, Varied, grid, latin_hypercube, side_by_side
 from user_forces.values import InputError, short
 
@@ -22,45 +20,22 @@ RANGE_KEYS = {"from", "to", "steps", "scale"}
 Table = dict[str, Any]
 
 
-@dataclass(frozen=True)
-class FromTable:
-    """Makes scenarios from a table of a scenario file with some of its fields replaced.
-
-    table: of the scenario file. where: what errors call it. folder: from which paths in it go on.
-    """
-
-    table: Table
-    where: str
-    folder: Path
-
-    def __call__(self, inputs: Inputs) -> Scenario:
-        """The scenario of a point; raises InputError."""
-        from support_exudyn.datafiles.scenario_file import scenario_of
-
-        return scenario_of(replaced(self.table, inputs), self.where, self.folder)
-
-
 def read_sweep(path: str | Path) -> Plan:
     """The plan that a file describes.
 
     Raises InputError that names file, key, value and what is allowed; OSError if there is no such file.
     """
-    from support_exudyn.datafiles.toml_text import load_toml
-
     path = Path(path)
     data = load_toml(path)
     try:
         _only(data, KEYS, "")
         table, where, folder = _scenario(data, path)
         varied = {name: _varied(item, f"vary.{name!r}") for name, item in _flat(_table(data, "vary"))}
-        for name in varied:
-            _keys(name)
-        if any(_keys(name)[0] == "machine" for name in varied):
-            table = {**table, "machine": _machine(table.get("machine"), folder)}
         return Plan(
             points=_points(data, varied),
-            scenario=FromTable(table, where, folder),
+            scenario=maker(table, where, folder, tuple(varied)),
             record=_record(_table(data, "record")),
+            errors=table.get("errors") is True,
             text=path.read_text(encoding="utf-8"),
         )
     except InputError as error:
@@ -69,8 +44,6 @@ def read_sweep(path: str | Path) -> Plan:
 
 def _scenario(data: Table, path: Path) -> tuple[Table, str, Path]:
     """Its table, what errors call it, and the folder from which its paths go on."""
-    from support_exudyn.datafiles.toml_text import load_toml
-
     given = data.get("scenario")
     if isinstance(given, dict):
         return given, f"{path}: scenario", path.parent
@@ -132,54 +105,6 @@ def _record(table: Table) -> Record:
     return Record(tuple(numbers), float(times["after_s"]), float(times["until_s"]), keep)
 
 
-# --- fields by their keys ---
-
-
-def replaced(table: Table, inputs: Mapping[str, Any]) -> Table:
-    """A copy of a table with some fields replaced or added.
-
-    inputs: values by their keys, joined by dots; of a list by its number from 0, "machine.parts.shield.0.mass_kg".
-
-    Raises InputError if a key leads into something that is no table.
-    """
-    whole = copy.deepcopy(table)
-    for name, item in inputs.items():
-        *above, last = _keys(name)
-        inner: Any = whole
-        for n, key in enumerate(above):
-            here = _at(inner, key, name)
-            inner = inner.setdefault(key, {}) if isinstance(inner, dict) else inner[here]
-            if not isinstance(inner, (dict, list)):
-                said = ".".join(above[: n + 1])
-                raise InputError(f"vary.{name!r}: {said} = {short(inner)} is no table; allowed: a field of a table")
-        inner[_at(inner, last, name)] = item
-    return whole
-
-
-def _at(inner: Any, key: str, name: str) -> Any:
-    """How a table or list is asked for a key."""
-    if isinstance(inner, dict):
-        return key
-    if not (key.isdecimal() and int(key) < len(inner)):
-        raise InputError(f"vary.{name!r}: {key!r} of a list; allowed: its items, from 0 to {len(inner) - 1}")
-    return int(key)
-
-
-def _keys(name: str) -> list[str]:
-    """The keys that a dotted one is made of, by TOML's own rules."""
-    from support_exudyn.datafiles.toml_text import tomllib
-
-    try:
-        inner: Any = tomllib.loads(f"{name} = 0")
-    except ValueError:
-        raise InputError(f"vary: {short(name)}: allowed: keys of a scenario file, joined by dots") from None
-    keys = []
-    while isinstance(inner, dict):
-        ((key, inner),) = inner.items()
-        keys.append(key)
-    return keys
-
-
 def _flat(table: Table, before: str = "") -> list[tuple[str, Any]]:
     """Fields by their dotted keys, whether these were quoted or not."""
     found = []
@@ -195,21 +120,6 @@ def _flat(table: Table, before: str = "") -> list[tuple[str, Any]]:
                 "{from = 0.0, to = 0.3, steps = 4}"
             )
     return found
-
-
-def _machine(given: Any, folder: Path) -> Table:
-    """The machine's own table, so that its fields can be replaced."""
-    from support_exudyn.datafiles.toml_text import load_toml
-    from support_exudyn.supports import reference_file
-
-    if isinstance(given, dict):
-        return given
-    if not isinstance(given, str):
-        raise InputError(f"machine = {short(given)}: allowed where fields of it vary: a machine file, or a table")
-    if given == "reference":
-        with reference_file() as file:
-            return load_toml(file)
-    return load_toml(folder / given)
 
 
 # --- what TOML gives ---

@@ -27,9 +27,12 @@ def program() -> dict[str, str]:
     return found | {"sources": _sources()}
 
 
-def key(scenario: Scenario) -> str:
-    """Of a run of this scenario with this program: hexadecimal digits of a SHA-256 digest."""
-    text = json.dumps([scenario.to_data(), program()], sort_keys=True, separators=(",", ":"))
+def key(scenario: Scenario, errors: bool = False) -> str:
+    """Of a run of this scenario with this program: hexadecimal digits of a SHA-256 digest.
+
+    errors: whether it is made with estimated errors, see `simulate`.
+    """
+    text = json.dumps([scenario.to_data(), errors, program()], sort_keys=True, separators=(",", ":"))
     return hashlib.sha256(text.encode()).hexdigest()[:LENGTH]
 
 

@@ -25,7 +25,7 @@ def in_processes(tasks: Iterable[Task], store: Store, workers: int) -> Iterator[
     def jobs() -> Iterator[tuple[Store, Task]]:
         nonlocal compiled
         for number, task in enumerate(tasks):
-            if not compiled and _is_compiled(task.scenario):
+            if not (compiled or task.again) and _is_compiled(task.scenario):
                 warm_up()  # once, for all processes
                 compiled = True
             keys[number] = task.key

@@ -48,12 +48,13 @@ class Plan:
 
     points: what is varied, for each run, all with the same names. scenario: makes one from that; it raises
     InputError for what cannot be run, which is a row of the table with this reason. record: what is noted.
-    text: of the file that says all this, if there is one; it is kept with the table.
+    errors: whether runs without an accuracy are made with estimated errors, see `simulate`. text: of the file that says all this, if there is one; it is kept with the table.
     """
 
     points: Sequence[Inputs]
     scenario: Callable[[Inputs], Scenario]
     record: Record = Record()
+    errors: bool = False
     text: str = ""
 
     @property

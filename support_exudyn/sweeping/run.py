@@ -134,7 +134,7 @@ class _Keeper:
             if not checked:
                 check_numbers(scenario, record)
                 checked = True
-            name = key(scenario)
+            name = key(scenario, self._plan.errors)
             places = self._places.setdefault(name, [])
             places.append(number)
             if len(places) > 1 and name not in self._rows:
@@ -146,7 +146,7 @@ class _Keeper:
                 self._rows[name] = number
                 self._set([number], row)
             else:
-                yield Task(name, scenario, record, again=whole)
+                yield Task(name, scenario, record, self._plan.errors, again=whole)
 
     def _is_good(self, row: Row, whole: bool) -> bool:
         """Whether what is known of a run is what is wanted."""

@@ -23,6 +23,7 @@ class Task:
     key: str
     scenario: Scenario
     record: Record
+    errors: bool = False
     again: bool = False
 
 
@@ -30,7 +31,7 @@ def computed(task: Task) -> tuple[Row, Result | None]:
     """Run it. The Result is None if it fails, which the row tells."""
     began = time.perf_counter()
     try:
-        result = simulate(task.scenario)
+        result = simulate(task.scenario, errors=task.errors)
         return row_of(task, result), result
     except (SimulationError, InputError) as error:
         reason = " ".join(str(error).split())
