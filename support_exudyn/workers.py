@@ -170,7 +170,9 @@ class Workers:
                 if whole:
                     continue
                 begun = [item for item in sorted(lost) if self._shares[item[1]] != NOT_BEGUN]
-                again.extend((number, job) for number, place, job in sorted(lost) if (number, place, job) not in begun)
+                again.extend(
+                    (number, job) for number, place, job in sorted(lost) if (number, place, job) not in begun
+                )
                 tries = TRIES if begun else tries - 1
                 if not tries:
                     raise NoProcessError

@@ -14,7 +14,7 @@ from typing import Any
 from support_exudyn.command_line import count, folder, say
 from support_exudyn.sweeping.run import Outcome, Told
 
-HELP = "run a scenario with some of its fields varied, on all cores or a cluster, into a store that can be continued"
+HELP = "run a scenario with fields of it varied, on all cores or a cluster, into a store that can be continued"
 EPILOG = """
 The store is a folder with a file for every run, named by a key of its inputs and of the program's versions, and
 one table of all, table.parquet and table.csv, with a row for every run. A sweep that was interrupted goes on
@@ -34,7 +34,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.formatter_class = argparse.RawDescriptionHelpFormatter
     parser.epilog = EPILOG
     parser.add_argument("file", type=folder, metavar="FILE", help="what is varied, as TOML")
-    parser.add_argument("--out", type=folder, metavar="DIR", help="the store; by default FILE_sweep beside FILE")
+    parser.add_argument(
+        "--out", type=folder, metavar="DIR", help="the store; by default FILE_sweep beside FILE"
+    )
     where = parser.add_mutually_exclusive_group()
     where.add_argument(
         "--workers",
@@ -50,7 +52,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "pip install 'support-exudyn[cluster]'",
     )
     parser.add_argument("--retry-failed", action="store_true", help="run again what has failed before")
-    parser.add_argument("--prune", action="store_true", help="remove runs from the store that FILE no longer asks for")
+    parser.add_argument(
+        "--prune", action="store_true", help="remove runs from the store that FILE no longer asks for"
+    )
     parser.add_argument("--dry-run", action="store_true", help="only tell how many runs there are to do")
     parser.add_argument("--json", action="store_true", help="one JSON object instead of text")
 
@@ -64,7 +68,9 @@ def run(given: argparse.Namespace) -> None:
     out = given.out or given.file.with_name(f"{given.file.stem}_sweep")
     if given.dry_run:
         outcome = known(plan, out, given.retry_failed)
-        _tell(outcome, given, f"{outcome.runs} runs, {outcome.runs - outcome.finished} to do; {_counts(outcome)}")
+        _tell(
+            outcome, given, f"{outcome.runs} runs, {outcome.runs - outcome.finished} to do; {_counts(outcome)}"
+        )
         return
     with _shown(len(plan.points)) as progress:
         outcome = sweep(

@@ -20,6 +20,7 @@ from user_forces.values import InputError, short
 if TYPE_CHECKING:
     import pyarrow as pa
 
+LOST = "#666666"  # runs without a result
 # curves: colours that are told apart by all readers, lightness and markers for grey prints
 CURVES = (
     (style.LOOSE, "o", "-"),
@@ -61,23 +62,27 @@ def sweep_chart(table: pa.Table, x: str, y: str, by: str | None = None) -> Figur
         there = chosen & ~np.isnan(values)
         order = np.flatnonzero(there)[np.argsort(places[there], kind="stable")]
         alone = len(np.unique(places[order])) == order.size
+        bars = None if errors is None else shown.scale * np.nan_to_num(errors[order])
         axes.errorbar(
-            places[order], shown.scale * values[order], None if errors is None else shown.scale * np.nan_to_num(errors[order]),
-            color=colour, marker=marker, ms=4.5, ls=dashes if alone and ticks is None else "none", lw=1.0, capsize=2.5,
-            elinewidth=0.8, label=label,
+            places[order], shown.scale * values[order], bars, color=colour, marker=marker, ms=5, mfc="none",
+            mew=1.2, ls=dashes if alone and ticks is None else "none", lw=1.0, capsize=2.5, elinewidth=0.8,
+            label=label,
         )  # fmt: skip
     lost = np.array([one != "done" for one in rows["status"]])
     if lost.any():
         axes.plot(
-            places[lost], np.zeros(int(lost.sum())), "x", color=style.CONTACT, ms=6, mew=1.4, clip_on=False, zorder=5,
-            transform=axes.get_xaxis_transform(), label=f"no result ({int(lost.sum())} runs)",
+            places[lost], np.zeros(int(lost.sum())), "x", color=LOST, ms=6, mew=1.4, clip_on=False,
+            zorder=5, transform=axes.get_xaxis_transform(), label=f"no result ({int(lost.sum())} runs)",
         )  # fmt: skip
     if ticks is not None:
         axes.set_xticks(range(len(ticks)), ticks)
     _label(axes, x, y, unit, shown.name)
     if by is not None or lost.any():
-        axes.legend(title=None if by is None else in_words(by), loc="best", alignment="left")
-    drawing.suptitle(f"{_bare(y, unit)} over {in_words(x)}", x=0.01, ha="left")
+        handles, labels = axes.get_legend_handles_labels()
+        sequence = sorted(range(len(labels)), key=lambda n: labels[n].startswith("no result"))  # these last
+        handles, labels = [handles[n] for n in sequence], [labels[n] for n in sequence]
+        axes.legend(handles, labels, title=None if by is None else in_words(by), loc="best", alignment="left")
+    drawing.suptitle(f"{_bare(y, unit)} over {in_words(x).partition(' [')[0]}", x=0.01, ha="left")
     caption(drawing, _words(rows, varied, x, by, known))
     return drawing
 
@@ -88,7 +93,7 @@ def varied_in(table: pa.Table) -> list[str]:
 
 
 def in_words(name: str) -> str:
-    """A key of a file with its unit as text: "pins.rear_base.clearance_mm" as "pins.rear_base.clearance [mm]"."""
+    """A key of a file with its unit as text: "pins.hinge.clearance_mm" as "pins.hinge.clearance [mm]"."""
     endings = {
         ending
         for one in vars(quantity).values()
@@ -115,7 +120,11 @@ def _curves(rows: Mapping[str, list[Any]], by: str | None, size: int) -> list[tu
     if len(values) > len(CURVES):
         raise InputError(f"{by}: has {len(values)} values; allowed for a curve each: up to {len(CURVES)}")
     return [
-        (f"{one:g}" if isinstance(one, float) else str(one), np.array([item == one for item in rows[by]]), curve)
+        (
+            f"{one:g}" if isinstance(one, float) else str(one),
+            np.array([item == one for item in rows[by]]),
+            curve,
+        )
         for one, curve in zip(values, CURVES, strict=False)
     ]
 

@@ -6,7 +6,7 @@ import copy
 from collections.abc import Mapping
 from typing import Any
 
-from support_exudyn.datafiles.toml_text import tomllib
+from support_exudyn.datafiles.toml_text import parsed
 from user_forces.values import InputError, short
 
 Table = dict[str, Any]
@@ -15,7 +15,8 @@ Table = dict[str, Any]
 def replaced(table: Table, inputs: Mapping[str, Any]) -> Table:
     """A copy of a table with some fields replaced or added.
 
-    inputs: values by their keys, joined by dots; of a list by its number from 0, "machine.parts.shield.0.mass_kg".
+    inputs: values by their keys, joined by dots; of a list by its number from 0, such as
+    "machine.parts.shield.0.mass_kg".
 
     Raises InputError if a key leads into something that is no table.
     """
@@ -28,7 +29,9 @@ def replaced(table: Table, inputs: Mapping[str, Any]) -> Table:
             inner = inner.setdefault(key, {}) if isinstance(inner, dict) else inner[here]
             if not isinstance(inner, (dict, list)):
                 said = ".".join(above[: n + 1])
-                raise InputError(f"vary.{name!r}: {said} = {short(inner)} is no table; allowed: a field of a table")
+                raise InputError(
+                    f"vary.{name!r}: {said} = {short(inner)} is no table; allowed: a field of a table"
+                )
         inner[_at(inner, last, name)] = item
     return whole
 
@@ -45,8 +48,8 @@ def _at(inner: Any, key: str, name: str) -> Any:
 def keys_of(name: str) -> list[str]:
     """The keys that a dotted one is made of, by TOML's own rules. Raises InputError if it is none."""
     try:
-        inner: Any = tomllib.loads(f"{name} = 0")
-    except ValueError:
+        inner: Any = parsed(f"{name} = 0", "vary")
+    except InputError:
         raise InputError(f"vary: {short(name)}: allowed: keys of a scenario file, joined by dots") from None
     keys = []
     while isinstance(inner, dict):

@@ -7,9 +7,9 @@ from decimal import Decimal
 from pathlib import Path
 from typing import Any
 
-from support_exudyn.sweeping.plan import Plan, Record
 from support_exudyn.datafiles.toml_text import load_toml
 from support_exudyn.sweeping.from_tables import maker
+from support_exudyn.sweeping.plan import Plan, Record
 from support_exudyn.sweeping.points import Point, Range, Varied, grid, latin_hypercube, side_by_side
 from user_forces.values import InputError, short
 
@@ -49,7 +49,7 @@ def _scenario(data: Table, path: Path) -> tuple[Table, str, Path]:
         return given, f"{path}: scenario", path.parent
     if not isinstance(given, str):
         raise InputError(
-            f"scenario = {short(given)}: allowed: the path of a scenario file, or a table, begun with [scenario]"
+            f"scenario = {short(given)}: allowed: the path of a scenario file, or a table [scenario]"
         )
     file = path.parent / given
     return load_toml(file), str(file), file.parent
@@ -66,7 +66,7 @@ def _points(data: Table, varied: Varied) -> list[Point]:
             raise InputError(f"{name}: means nothing here; allowed with method = 'latin_hypercube'")
     for name, one in varied.items():
         if isinstance(one, Range) and not one.steps:
-            raise InputError(f"vary.{name!r}.steps: missing; allowed with method = {method!r}: how many, from 2 on")
+            raise InputError(f"vary.{name!r}.steps: missing; allowed with method = {method!r}: from 2 on")
     return grid(varied) if method == "grid" else side_by_side(varied)
 
 

@@ -18,9 +18,7 @@ from user_forces.values import InputError, short
 MACHINE = "machine"
 
 
-def maker(
-    table: Table, where: str, folder: Path, names: tuple[str, ...]
-) -> Callable[[Inputs], Scenario]:
+def maker(table: Table, where: str, folder: Path, names: tuple[str, ...]) -> Callable[[Inputs], Scenario]:
     """What makes a scenario of a point.
 
     Arguments:
@@ -36,7 +34,9 @@ def maker(
     if not of_machine or isinstance(given, dict):  # one that stands in the scenario file is a table of it
         return plain
     if not isinstance(given, str):
-        raise InputError(f"{where}: machine = {short(given)}: allowed where fields of it vary: a machine, by its file")
+        raise InputError(
+            f"{where}: machine = {short(given)}: allowed where fields of it vary: a machine, by its file"
+        )
     file = machine_file(given, folder)
     return WithMachine(plain, load_toml(file), file, {name: name.partition(".")[2] for name in of_machine})
 

@@ -12,7 +12,12 @@ import user_forces
 from support_exudyn.provenance import versions
 from support_exudyn.scenario import Scenario
 
-MAKES_NO_NUMBERS = ("matplotlib", "meshio", "h5py", "pydantic")  # packages that a run's numbers do not depend on
+MAKES_NO_NUMBERS = (
+    "matplotlib",
+    "meshio",
+    "h5py",
+    "pydantic",
+)  # packages that a run's numbers do not depend on
 LOOKS = ("figures", "drawing", "render", "exporting", "commands", "sweeping")  # parts of ours that only look
 LENGTH = 32  # hexadecimal digits: 128 bits, no two runs will ever share one
 

@@ -43,7 +43,7 @@ def numbers(result: Result, record: Record) -> dict[str, Number]:
 
 
 def check_numbers(scenario: Scenario, record: Record) -> None:
-    """Raise InputError if a number that is named, not a pattern, is none that runs of the scenario could have."""
+    """Raise InputError if a number that is named, not a pattern, is none that its runs could have."""
     for name in record.numbers:
         channel, _, statistic = name.rpartition(".")
         if any(letter in name for letter in WILD) or _is_of_touches(name, scenario):
@@ -57,8 +57,8 @@ def check_numbers(scenario: Scenario, record: Record) -> None:
         if channel not in scenario.recipes:
             near = ", ".join(list(scenario.recipes)[:6])
             raise InputError(
-                f"numbers: {short(name)}: runs have no channel {short(channel)}; allowed: those of the scenario, "
-                f"such as {near}; or a pattern, if only some of the runs have it"
+                f"numbers: {short(name)}: runs have no channel {short(channel)}; allowed: those of the "
+                f"scenario, such as {near}; or a pattern, if only some of the runs have it"
             )
 
 

@@ -37,8 +37,8 @@ class Record:
         """Raise InputError if a run of this scenario has no record between the times."""
         if not (self.after <= scenario.duration and self.after <= self.until):
             raise InputError(
-                f"after_s = {self.after:g}, until_s = {self.until:g}: no record lies between; allowed: times from "
-                f"0 to the duration, {scenario.duration:g} s, the first before the second"
+                f"after_s = {self.after:g}, until_s = {self.until:g}: no record lies between; allowed: "
+                f"times from 0 to the duration, {scenario.duration:g} s, the first before the second"
             )
 
 
@@ -48,7 +48,8 @@ class Plan:
 
     points: what is varied, for each run, all with the same names. scenario: makes one from that; it raises
     InputError for what cannot be run, which is a row of the table with this reason. record: what is noted.
-    errors: whether runs without an accuracy are made with estimated errors, see `simulate`. text: of the file that says all this, if there is one; it is kept with the table.
+    errors: whether runs without an accuracy are made with estimated errors, see `simulate`. text: of the file
+    that says all this, if there is one; it is kept with the table.
     """
 
     points: Sequence[Inputs]

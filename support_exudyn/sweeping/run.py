@@ -26,8 +26,9 @@ SHARE = 0.02  # and this share of the time at most
 class Outcome:
     """How far a sweep is.
 
-    runs: of the plan. found: were in the store already. done, failed, killed: rows of the table. pruned: runs that were
-    removed from the store. table: where it is. missing: numbers that were asked for and that no run has.
+    runs: of the plan. table: where it is. found: were in the store already. done, failed, killed: rows of the
+    table. pruned: runs that were removed from the store. missing: numbers that were asked for and that no run
+    has.
     """
 
     runs: int
@@ -94,7 +95,9 @@ def sweep(
         if prune:
             outcome.pruned = store.prune(keeper.table.keys)
     outcome.missing = tuple(
-        name for name in plan.record.numbers if not any(c in name for c in "*?[") and name not in keeper.table.numbers
+        name
+        for name in plan.record.numbers
+        if not any(c in name for c in "*?[") and name not in keeper.table.numbers
     )
     return outcome
 
