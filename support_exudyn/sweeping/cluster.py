@@ -34,7 +34,7 @@ def on_cluster(tasks: Iterable[Task], store: Store, address: str) -> Iterator[Ro
     OSError if the scheduler cannot be reached.
     """
     try:
-        from distributed import Client, KilledWorker, as_completed
+        from distributed import CancelledError, Client, KilledWorker, as_completed
     except ImportError:
         raise InputError(
             f"scheduler = {address!r}: needs dask.distributed, which is not installed; "
@@ -67,7 +67,7 @@ def on_cluster(tasks: Iterable[Task], store: Store, address: str) -> Iterator[Ro
 
     here = to_run()
     with client:
-        done = as_completed([])
+        done = as_completed(loop=client.loop)
         try:
             further(done)
             while under_way or kept:
@@ -81,12 +81,15 @@ def on_cluster(tasks: Iterable[Task], store: Store, address: str) -> Iterator[Ro
                     row, image = future.result()
                 except KilledWorker as error:
                     yield Row(task.key, "killed", f"lost with its worker, again and again: {_said(error)}")
+                except CancelledError:
+                    raise OSError(f"scheduler = {address!r}: was lost; the same command goes on from here") from None
                 else:
                     yield _kept(store, row, image)
                 future.release()
                 further(done)
         finally:
-            client.cancel(list(under_way), force=True)
+            if client.status == "running":
+                client.cancel(list(under_way), force=True)
 
 
 def _kept(store: Store, row: Row, image: bytes | None) -> Row:
