@@ -90,9 +90,9 @@ def rows() -> list[tuple[str, ...]]:
             for workers in (1, 2):
                 one = timed(plan, workers)
                 found.setdefault((name, workers), []).append(one)
-                print(f"{name}, {workers}: {one}, overhead {1e3 * one.overhead:.3g} ms", file=sys.stderr)
+                print(f"{name}: {one}, {1e3 * one.overhead:.3g} ms", file=sys.stderr)
     best = {key: min(turns, key=lambda one: one.wall) for key, turns in found.items()}
-    lines = []
+    lines: list[tuple[str, ...]] = []
     for (name, workers), one in best.items():
         alone = best[name, 1]
         gain = alone.wall / one.wall

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import tempfile
 import threading
-from collections.abc import Iterable, Iterator
+from collections.abc import Generator, Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -22,7 +22,7 @@ REACHED = 20.0  # [s] within which a scheduler must answer
 ONE = threading.Lock()  # the engine runs once in a process, however many threads a worker has
 
 
-def on_cluster(tasks: Iterable[Task], store: Store, address: str) -> Iterator[Row]:
+def on_cluster(tasks: Iterable[Task], store: Store, address: str) -> Generator[Row, None, None]:
     """Rows as they come. Runs come back as the bytes of their files, and are put into the store here.
 
     A run whose worker is lost is done again by another; how often is the scheduler's setting
@@ -82,7 +82,9 @@ def on_cluster(tasks: Iterable[Task], store: Store, address: str) -> Iterator[Ro
                 except KilledWorker as error:
                     yield Row(task.key, "killed", f"lost with its worker, again and again: {_said(error)}")
                 except CancelledError:
-                    raise OSError(f"scheduler = {address!r}: was lost; the same command goes on from here") from None
+                    raise OSError(
+                        f"scheduler = {address!r}: was lost; the same command goes on from here"
+                    ) from None
                 else:
                     yield _kept(store, row, image)
                 future.release()

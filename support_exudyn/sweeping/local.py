@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Generator, Iterable, Iterator
 
 from support_exudyn.scenario import ERROR_CONTROLLED, Scenario
 from support_exudyn.sweeping.row import Row
@@ -12,7 +12,7 @@ from support_exudyn.warm import warm_up
 from support_exudyn.workers import ProcessEndedError, worker_pool
 
 
-def in_processes(tasks: Iterable[Task], store: Store, workers: int) -> Iterator[Row]:
+def in_processes(tasks: Iterable[Task], store: Store, workers: int) -> Generator[Row, None, None]:
     """Rows as they come; each process puts its runs into the store by itself.
 
     A run whose process ends is tried once more by itself; if that ends too its row is "killed".

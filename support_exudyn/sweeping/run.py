@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator, Iterator
+from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -73,14 +74,15 @@ def sweep(
         prune: remove what the store holds of other runs than those of the plan, when all is done.
         progress: is told how far it is after every row.
 
-    Raises InputError for numbers that no run can have, or if the cluster runs another program; OSError if the
-    store cannot be written to, or if another process is writing there.
+    Raises InputError if no run can be made of any point, for numbers that no run can have, or if the cluster
+    runs another program; OSError if the store cannot be written to, or if another process is writing there.
     """
     store = Store(Path(out))
     outcome = Outcome(len(plan.points), store.folder / FILE)
     with store.writing():
         keeper = _Keeper(plan, store, outcome, retry_failed, progress)
         tasks = keeper.tasks()
+        rows: Generator[Row, None, None]
         try:
             if scheduler:
                 from support_exudyn.sweeping.cluster import on_cluster
@@ -88,9 +90,13 @@ def sweep(
                 rows = on_cluster(tasks, store, scheduler)
             else:
                 rows = in_processes(tasks, store, workers or os.cpu_count() or 1)
-            for row in rows:
-                keeper.note(row)
+            with closing(
+                rows
+            ):  # after an interruption, too, its processes have ended when the table is written
+                for row in rows:
+                    keeper.note(row)
         finally:
+            keeper.look_again()
             keeper.write()
         if prune:
             outcome.pruned = store.prune(keeper.table.keys)
@@ -125,13 +131,14 @@ class _Keeper:
 
     def tasks(self) -> Iterator[Task]:
         """What is to be run, made while others run; all else goes straight into the table."""
-        checked = False
+        checked, refused = False, []
         record = self._plan.record
         for number, point in enumerate(self._plan.points):
             try:
                 scenario = self._plan.scenario(point)
                 record.check(scenario)
             except InputError as error:
+                refused.append(error)
                 self._set([number], Row("", "failed", " ".join(str(error).split())))
                 continue
             if not checked:
@@ -150,6 +157,8 @@ class _Keeper:
                 self._set([number], row)
             else:
                 yield Task(name, scenario, record, self._plan.errors, again=whole)
+        if len(refused) == len(self._plan.points):
+            raise refused[0]  # that is no sweep
 
     def _is_good(self, row: Row, whole: bool) -> bool:
         """Whether what is known of a run is what is wanted."""
@@ -164,6 +173,17 @@ class _Keeper:
         self._set(self._places[row.key], row)
         if time.monotonic() - self._written > self._wait:
             self.write()
+
+    def look_again(self) -> None:
+        """Note what was finished while nobody listened any more."""
+        for name, numbers in self._places.items():
+            if (
+                name not in self._rows
+                and (row := self._store.row(name)) is not None
+                and self._is_good(row, True)
+            ):
+                self._rows[name] = numbers[0]
+                self._set(numbers, row)
 
     def _set(self, numbers: list[int], row: Row) -> None:
         for number in numbers:
