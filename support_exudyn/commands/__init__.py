@@ -19,6 +19,8 @@ from support_exudyn.provenance import versions
 NAMES: tuple[str, ...] = (
     "check",
     "run",
+    "sweep",
+    "chart",
     "show",
     "compare",
     "plot",
