@@ -19,7 +19,9 @@ from support_exudyn.inlet import ClosedInlet, Inlet, RampedOpening, SuddenOpenin
 from support_exudyn.linkages.hydraulic_support import HydraulicSupport
 from support_exudyn.linkages.impact_stand import ImpactStand
 from support_exudyn.linkages.slider_crank import SliderCrank, ravn_slider_crank
+from support_exudyn.linkages.two_leg_shield import TwoLegShield
 from support_exudyn.loads import AppliedForce, FallingBlock, Load, LoadedPoint, Roof
+from support_exudyn.loads import Load, LoadedPoint, Roof
 from support_exudyn.machine import Body, Column, Crank, Linkage, Machine, Part, PinPlace, Slide, TracePoint
 from support_exudyn.machines import load_support, reference_support, two_body_columns
 from support_exudyn.onset import Onset
@@ -82,6 +84,7 @@ __all__ = [
     "TableDrive",
     "TracePoint",
     "TwoBodyColumn",
+    "TwoLegShield",
     "UniformSpeed",
     "Width",
     "bore_area",

@@ -67,7 +67,7 @@ def _machine(axes: Axes, machine: SliderCrank) -> None:
         )
         axes.fill(*corners, fc="white", ec=colour, lw=1.2, zorder=3)
         axes.plot([0.0, pin[0], slider], [0.0, pin[1], 0.0], "o", ms=4, mfc="white", mec=colour, zorder=4)
-    axes.annotate("main", (0.0, 0.0), xytext=(-4, -12), textcoords="offset points", ha="center", fontsize=8)
+    axes.annotate("main", (0.0, 0.0), xytext=(-7, -12), textcoords="offset points", ha="right", fontsize=8)
     first = math.radians(POSTURES[0][0])
     axes.annotate(
         "crank_pin", (mm * r * math.cos(first), mm * r * math.sin(first)), xytext=(6, 6),

@@ -201,7 +201,7 @@ def _warnings(
         yield f"the tip wanders {_mm(wander)} mm over the used height; {RULE} allows {_mm(WANDER)} mm"
     for where, found in limits.items():
         if found is not None and found.margin < NEAR:
-            yield f"{_mm(found.margin)} mm {where} the used range the support locks: {found.why}"
+            yield f"{_mm(found.margin)} mm {where} the used range the way ends: {found.why}"
     for pin in ("rear_shield", "front_shield"):
         worst = min(fine, key=lambda one: min(one.transmission[pin], math.pi - one.transmission[pin]))
         angle = worst.transmission[pin]

@@ -106,7 +106,7 @@ def _machine(axes: Axes, machine: Shield, fine: Sequence[Station]) -> None:
         top = three[number].posture.tip[1]
         _dimension(axes, right + (0.05 + 0.09 * n) * size, 0.0, top, POSTURES[number][0])
     axes.set(aspect="equal", xlabel="x, forward [mm]", ylabel="y [mm]")
-    axes.set_title("lowest, middle and highest posture; heights of the tip [mm]")
+    axes.set_title("lowest, middle and highest posture; heights of the tip [mm]", pad=10)
     handles = [
         axes.plot([], [], color=colour, ls=dashes, lw=1.6, label=f"stroke {1e3 * one.stroke:.0f} mm")[0]
         for one, (colour, dashes) in zip(three, POSTURES, strict=True)

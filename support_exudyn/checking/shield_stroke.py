@@ -18,7 +18,9 @@ Shield = FourBarShield[Any]
 STATIONS = 11  # postures that are told
 SHARE = 0.3  # of the shortest column: the stroke if nobody says one
 STRIDE = 0.005  # of the shortest column: step to where it locks
-FINEST = 1e-5  # [m] to which that is found
+FINEST = 1e-6  # [m] to which that is found
+IN_LINE = math.radians(3.0)  # what is left of an angle when the way has ended
+STUCK = "the columns cannot move the linkage farther"
 FARTHEST = 3.0  # times the shortest column: no farther is looked for it
 
 
@@ -77,14 +79,27 @@ def stations(machine: Shield, stroke: float, count: int = STATIONS) -> list[Stat
     linkage, posture, found = machine.linkage(), machine.start(), []
     reached = 0.0
     for goal in np.linspace(0.0, stroke, count):
-        pieces = 1 + int(abs(goal - reached) / (4.0 * STRIDE * _shortest(machine)))
-        for target in np.linspace(reached, goal, pieces + 1)[1:]:
-            posture = machine.extended(float(target), posture)
-            if posture is None:
-                raise InputError(f"stroke = {stroke} m: the columns cannot close the linkage at {target:.3f} m")
+        posture = _walk(machine, posture, reached, float(goal))
         reached = float(goal)
         found.append(_station(machine, linkage, reached, posture))
     return found
+
+
+def _walk(machine: Shield, posture: Any, reached: float, goal: float) -> Any:
+    """From a posture at one extension to that at another [m]; steps become shorter where it is tight."""
+    step = 4.0 * STRIDE * _shortest(machine)
+    while reached != goal:
+        target = goal if abs(goal - reached) <= step else reached + math.copysign(step, goal - reached)
+        following = machine.extended(target, posture)
+        if following is not None and abs(following.rear_link - posture.rear_link) < LONGEST_STEP:
+            reached, posture = target, following
+        elif step > FINEST:
+            step /= 2.0
+        else:
+            raise InputError(
+                f"stroke = {goal} m: the columns cannot close the linkage there; allowed: up to {reached:.4f} m"
+            )
+    return posture
 
 
 def _shortest(machine: Shield) -> float:
@@ -147,38 +162,30 @@ def limit(machine: Shield, used: tuple[Station, Station], up: bool) -> Limit | N
     shortest = _shortest(machine)
     step, sign = STRIDE * shortest, 1.0 if up else -1.0
     reached, posture = begin.stroke, begin.posture
+    why = ""
     while abs(reached - begin.stroke) < FARTHEST * shortest and step > FINEST:
         following = machine.extended(reached + sign * step, posture)
-        if (
-            following is None
-            or abs(following.rear_link - posture.rear_link) > LONGEST_STEP
-            or sign * (following.hinge[1] - posture.hinge[1]) <= 0.0
-            or np.linalg.det(machine.column_rates(following)) * np.linalg.det(machine.column_rates(posture))
-            <= 0.0
-        ):
+        if why := _obstacle(machine, posture, following, up):
             step /= 2.0
-            continue
-        reached, posture = reached + sign * step, following
+        else:
+            reached, posture = reached + sign * step, following
     if step > FINEST:
         return None
     height = posture.hinge[1]
-    return Limit(height, abs(height - begin.posture.hinge[1]), reached, _why(machine, posture))
+    return Limit(height, abs(height - begin.posture.hinge[1]), reached, why)
 
 
-def _why(machine: Shield, posture: Any) -> str:
-    """What is at its end in a posture just before the last one."""
-    b, a, c, d = machine.rear_base, machine.front_base, posture.rear_shield, posture.front_shield
-    straight = {
-        "front link and shield beam are in line": _between(d, a, c),
-        "rear link and shield beam are in line": _between(c, b, d),
-    }
-    why, angle = min(straight.items(), key=lambda item: min(item[1], math.pi - item[1]))
-    if min(angle, math.pi - angle) < math.radians(3.0):
-        return f"the four-bar locks: {why}"
-    _, hinge = machine.link_rates(posture)
-    if abs(hinge[1]) < 0.02 * math.hypot(*hinge):
-        return "the hinge comes no farther: the four-bar moves it sideways only"
-    return "the columns can move the linkage no farther"
+def _obstacle(machine: Shield, posture: Any, following: Any, up: bool) -> str:
+    """Why the way does not lead from a posture to the one that follows; empty if it does."""
+    if following is None or abs(following.rear_link - posture.rear_link) > LONGEST_STEP:
+        angle = _between(posture.front_shield, machine.front_base, posture.rear_shield)
+        if min(angle, math.pi - angle) < IN_LINE:
+            return "the four-bar opens: front link and shield beam are in line"
+        return STUCK
+    if (following.hinge[1] > posture.hinge[1]) is not up:
+        return f"the hinge is at its {'highest' if up else 'lowest'}: the links move it sideways only"
+    before, after = (np.linalg.det(machine.column_rates(one)) for one in (posture, following))
+    return STUCK if before * after <= 0.0 else ""
 
 
 def _between(corner: Vector2, first: Vector2, second: Vector2) -> float:

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from support_exudyn.command_line import folder, number, say
 from support_exudyn.machine_data import read_machine
+from user_forces.values import InputError
 
 HELP = "draw a machine and tell its mobility, closure, dead centres, static forces, and what looks wrong"
 FARTHEST = 1e5  # [mm]
@@ -40,7 +41,11 @@ def run(given: argparse.Namespace) -> None:
     from support_exudyn.figures import style
 
     data = read_machine(given.machine)
-    report = check_machine(data, None if given.stroke_mm is None else given.stroke_mm / 1e3)
+    try:
+        report = check_machine(data, None if given.stroke_mm is None else given.stroke_mm / 1e3)
+    except InputError as error:  # of a stroke that is too long
+        where = "stroke_mm" if given.stroke_mm is None else f"--stroke-mm {given.stroke_mm:g}"
+        raise InputError(f"{given.machine}: {where}: {error}") from None
     path = Path(given.machine)
     own = path.suffix.lower() == ".toml"
     out = given.out or (path.parent if own else Path())

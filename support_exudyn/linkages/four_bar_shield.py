@@ -349,16 +349,23 @@ class FourBarShield(Machine, ABC, Generic[P]):
         if any(known == (drives, duration) for known in self._followed):
             return
         lead = drives[self.alike[0]]
-        if all(drives[name] == lead for name in self.alike) and all(
-            drives[name] == self.follower(name, drives[leader], duration)
-            for name, leader in self.leaders.items()
-        ):
+        if all(drives[name] == lead for name in self.alike) and self._follow(drives, duration):
             self.check_extension(*lead.span(duration))
         else:
             check_path(self, drives, duration)
         if len(self._followed) == MOST_REMEMBERED:
             self._followed.clear()
         self._followed.append((dict(drives), duration))
+
+    def _follow(self, drives: Mapping[str, Drive], duration: float) -> bool:
+        """Whether the columns that follow others are driven as they would follow."""
+        try:
+            return all(
+                drives[name] == self.follower(name, drives[leader], duration)
+                for name, leader in self.leaders.items()
+            )
+        except InputError:  # nothing can follow so far
+            return False
 
     @property
     def alike(self) -> tuple[str, ...]:

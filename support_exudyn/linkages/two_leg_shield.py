@@ -17,6 +17,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 import numpy as np
@@ -24,7 +25,14 @@ from pydantic import model_validator
 
 from support_exudyn.drives import Drive, Held
 from support_exudyn.follower import following
-from support_exudyn.linkages.four_bar_shield import LONGEST_STEP, PRECISE, FourBarShield, Strut, turn
+from support_exudyn.linkages.four_bar_shield import (
+    LONGEST_STEP,
+    MOST_REMEMBERED,
+    PRECISE,
+    FourBarShield,
+    Strut,
+    turn,
+)
 from support_exudyn.machine import GROUND, Part
 from support_exudyn.plane import direction, moved
 from support_exudyn.width import Width
@@ -153,11 +161,23 @@ class TwoLegShield(FourBarShield[LegPosture]):
 
     def follower(self, name: str, lead: Drive, duration: float) -> Drive:
         """How the ram moves so that the canopy keeps level while the leg is driven."""
+        if name != "ram":
+            return super().follower(name, lead, duration)
+        for key, found in self._known:
+            if key == (lead, duration):
+                return found
         low, high = lead.span(duration)
-        if name != "ram" or low == high == 0.0:
-            return super().follower(name, lead, duration) if name != "ram" else Held()
         self.check_extension(low, high)
-        return following(lead, duration, self.level_ram)
+        drive: Drive = Held() if low == high == 0.0 else following(lead, duration, self.level_ram)
+        if len(self._known) == MOST_REMEMBERED:
+            self._known.clear()
+        self._known.append(((lead, duration), drive))
+        return drive
+
+    @cached_property
+    def _known(self) -> list[tuple[tuple[Drive, float], Drive]]:
+        """Drives of the ram by that of the leg and for how long; scenarios ask again and again."""
+        return []
 
     def level_ram(self, leg: np.ndarray) -> np.ndarray:
         """Extensions of the ram [m] that keep the canopy level, for extensions of the leg [m], shape (n,).

@@ -289,7 +289,7 @@ class ShieldForm(MachineForm):
         """What the machine says in metres by the names of its fields, in mm by the keys of the file."""
         message = message.removeprefix(f"{self.MACHINE.__name__}: ").removeprefix(f"{self.MACHINE.__name__}.")
         for name in (*self.MACHINE.pivots(),):
-            message = re.sub(rf"(?<![\w.]){name} = \((\S+), (\S+)\)", _pivot_in_mm(name), message)
+            message = re.sub(rf"(?<![\w.]){name} = \((\S+), (\S+)\)(?: m\b)?", _pivot_in_mm(name), message)
         message = message.replace("start_hinge_height = ", "start_hinge_height_mm = ")
         return SAYS_UNIT_TWICE.sub(r"\1", SAYS_METRES.sub(_in_mm, message))
 

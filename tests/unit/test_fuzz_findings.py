@@ -21,6 +21,7 @@ from support_exudyn.parts import PartModel
 from support_exudyn.spatial.layout import Bearing
 from tests import strategies as some
 from tests.sound import sound
+from tests.unit.cases import PIVOTS_MM
 from tests.unit.law_cases import BEARING, LENGTH, MODULUS
 from user_forces import Exact, Goldsmith, Hertz, InputError, Value
 from user_forces.normal.part import PartOf
@@ -189,24 +190,36 @@ def test_a_pivot_kilometres_away_is_refused(name: str) -> None:
 
 # --- files ---
 
-MACHINE = """
+PLACES = "\n".join(
+    f"{name} = [{x}, {y}]"
+    for name, (x, y) in PIVOTS_MM.items()
+    if name != "tip" and not name.startswith("tail")
+)
+MACHINE = (
+    """
+kind = "four_column_support"
 start_hinge_height_mm = 1800
 [pivots_mm]
+"""
+    + PLACES
+    + """
 {pivots}
 [[parts.rear_link]]
 mass_kg = 1
 between = {between}
 """
+)
+TIP = "tip = [3219, 2417]"
 
 
 @pytest.mark.parametrize(
     ("pivots", "between", "said"),
     [
-        ("parts = [1, 2]", "['a', 'b']", r"pivots_mm\.parts: unknown field"),
-        ("width = [1, 2]", "['width', 'width']", r"pivots_mm\.width: unknown field"),
-        ("a = [1, 2]", "[[1], 'a']", r"parts\.rear_link\[0\]\.between = \[\[1\], 'a'\]: allowed: two of a"),
-        ("a = [1, 1e300]", "['a', 'a']", r"pivots_mm\.a = 1e\+300: allowed: a number up to 1e\+30"),
-        (f"a = [1, 1{'0' * 400}]", "['a', 'a']", r"pivots_mm\.a = 1000.*allowed: a number"),
+        (f"{TIP}\nparts = [1, 2]", "['tip', 'hinge']", r"pivots_mm\.parts: unknown key"),
+        (f"{TIP}\nwidth = [1, 2]", "['width', 'width']", r"pivots_mm\.width: unknown key"),
+        (TIP, "[[1], 'tip']", r"parts\.rear_link\[0\]\.between\[0\] = \[1\]: allowed: a text"),
+        ("tip = [1, 1e300]", "['tip', 'tip']", r"pivots_mm\.tip = \[1, 1E\+300\]: allowed: two numbers"),
+        (f"tip = [1, 1{'0' * 400}]", "['tip', 'tip']", r"pivots_mm\.tip = \[1, 1000.*allowed: two numbers"),
     ],
 )
 def test_machine_files_that_were_a_traceback_are_refused(

@@ -1,0 +1,71 @@
+"""`python -m support_exudyn check FILE`: text, JSON, figures, exit codes."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from support_exudyn.__main__ import main
+from support_exudyn.machines import SHIPPED
+from tests.machine_files import written
+
+
+@pytest.mark.parametrize("name", SHIPPED)
+def test_shipped_machines_are_drawn(name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["check", name, "--out", str(tmp_path)]) == 0
+    said = capsys.readouterr()
+    assert "degrees of freedom: " in said.out
+    assert "left: 0" in said.out
+    assert said.err == ""
+    pixels = np.asarray(Image.open(tmp_path / f"{name}_check.png").convert("L"))
+    assert 0.01 < (pixels < 200).mean() < 0.3  # lines on white paper
+    edge = np.concatenate([pixels[0], pixels[-1], pixels[:, 0], pixels[:, -1]])
+    assert edge.min() > 200  # nothing is cut off
+    assert (tmp_path / f"{name}_check.pdf").read_bytes().startswith(b"%PDF")
+
+
+def test_a_file_of_ones_own_gets_its_figure_beside_it(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = written(tmp_path)
+    assert main(["check", str(path), "--json", "--stroke-mm", "300"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told["stroke_m"] == 0.3
+    assert told["warnings"] == []
+    assert len(told["stations"]) == 11
+    assert told["figures"] == [str(tmp_path / "ours_check.png"), str(tmp_path / "ours_check.pdf")]
+    assert all(Path(figure).exists() for figure in told["figures"])
+
+
+def test_warnings_are_no_failure(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = written(tmp_path, "canopy = 5200", "canopy = 52000")
+    assert main(["check", str(path)]) == 0
+    assert "warnings (1)\n  - parts.canopy[0]: 5.2e+04 kg is more" in capsys.readouterr().out
+
+
+def test_a_machine_that_cannot_be_built_is_told_in_a_line(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = written(tmp_path, "[0, 380]", "[0]")
+    assert main(["check", str(path)]) == 1
+    said = capsys.readouterr()
+    assert said.out == ""
+    assert said.err == (f"error: {path}: pivots_mm.rear_base = [0]: allowed: two numbers [x, y] in mm\n")
+    assert list(tmp_path.iterdir()) == [path]
+
+
+@pytest.mark.parametrize("asked", ["nothing.toml", "nothing", "\0.toml", "."])
+def test_what_is_not_there_is_told(asked: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["check", asked, "--out", str(tmp_path)]) == 1
+    assert capsys.readouterr().err.startswith("error: ")
+
+
+def test_a_stroke_that_is_no_number_is_a_wrong_command_line(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as ended:
+        main(["check", "reference", "--stroke-mm", "far"])
+    assert ended.value.code == 2
+    assert "allowed: a number" in capsys.readouterr().err

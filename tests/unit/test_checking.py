@@ -1,0 +1,297 @@
+"""What `check` says of a machine: against the paper's support, and statics against equilibrium written here."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from support_exudyn.checking import Report, check_machine
+from support_exudyn.checking.mobility import mobility
+from support_exudyn.checking.shield import check_shield
+from support_exudyn.checking.shield_stroke import Shield, Station, stations
+from support_exudyn.linkages.impact_stand import ImpactStand
+from support_exudyn.machine import lumped
+from support_exudyn.machine_data import MachineData, read_machine
+from support_exudyn.machines import load_machine
+from support_exudyn.plane import moved
+from tests.machine_files import OURS, written
+from user_forces import InputError
+
+G = 9.81
+SHIELDS = ("reference", "zf18000", "two_leg_shield")
+
+
+@pytest.fixture(scope="module")
+def reference() -> Report:
+    return check_machine(read_machine("reference"))
+
+
+def machine_of(name: str) -> tuple[MachineData, Shield]:
+    data = read_machine(name)
+    machine: Any = data.machine
+    return data, machine
+
+
+# --- the reference support: numbers from elsewhere, to the digits that are given ---
+
+
+@pytest.mark.parametrize(
+    ("at", "tip", "front", "rear", "force"),
+    [
+        (0, 3195.9, 83.19, 91.64, 58.8),
+        (2, 3199.4, 83.47, 91.42, 55.7),
+        (5, 3207.4, 83.76, 91.07, 51.2),
+        (8, 3216.1, 83.98, 90.74, 46.8),
+        (10, 3220.0, 84.16, 90.60, 44.0),
+    ],
+)
+def test_the_reference_support(
+    reference: Report, at: int, tip: float, front: float, rear: float, force: float
+) -> None:
+    station = reference.data()["stations"][at]
+    assert station["stroke_m"] == pytest.approx(0.05 * at, abs=1e-12)
+    assert 1e3 * station["tip_x_m"] == pytest.approx(tip, abs=0.051)
+    columns = {name: math.degrees(angle) for name, angle in station["columns_rad"].items()}
+    assert columns["front_column"] == pytest.approx(front, abs=0.0051)
+    assert columns["rear_column"] == pytest.approx(rear, abs=0.0051)
+    # "about": the force is told to 0.1 kN
+    assert 1e-3 * math.hypot(*station["pins_N"]["rear_base"]) == pytest.approx(force, abs=0.1)
+    assert abs(math.degrees(station["canopy_rad"])) < 0.022
+
+
+def test_the_reference_support_passes(reference: Report) -> None:
+    assert reference.warnings == []
+    assert reference.numbers["degrees_of_freedom"] == {"counted": 2, "free": 2, "driven": 2, "left": 0}
+    assert reference.numbers["tip_wander_m"] == pytest.approx(0.0241, abs=1e-4)
+    assert reference.numbers["closure_residual_m"] < 1e-11  # to which lengths are met
+    text = "\n".join(reference.lines())
+    assert "24.1 mm; MT/T 556-1996, 4.6.4 allows 80.0 mm: met" in text
+    assert "source of masses: assumed" in text
+
+
+@pytest.mark.parametrize("name", [*SHIELDS, "slider_crank"])
+def test_shipped_machines_give_nothing_to_worry_about(name: str) -> None:
+    assert check_machine(read_machine(name)).warnings == []
+
+
+# --- statics, independently ---
+
+
+def centres(machine: Shield, posture: Any) -> dict[str, np.ndarray]:
+    """Centres of mass of all bodies in a posture [m]."""
+    anchors = {
+        "rear_link": (machine.rear_base, machine.rear_base, posture.rear_link),
+        "front_link": (machine.front_base, machine.front_base, posture.front_link),
+        "shield": (machine.rear_shield, posture.rear_shield, posture.shield),
+        "canopy": (machine.hinge, posture.hinge, posture.canopy),
+    }
+    return {name: np.array(moved(lumped(machine.parts[name]).centre, *to)) for name, to in anchors.items()}
+
+
+def equilibrium(machine: Shield, station: Station) -> dict[str, Any]:
+    """Forces from three equations a body, written body by body."""
+    p = station.posture
+    at = {
+        "rear_base": np.array(machine.rear_base),
+        "front_base": np.array(machine.front_base),
+        "rear_shield": np.array(p.rear_shield),
+        "front_shield": np.array(p.front_shield),
+        "shield_canopy": np.array(p.hinge),
+    }
+    joins = {  # on the second body
+        "rear_base": (None, "rear_link"),
+        "front_base": (None, "front_link"),
+        "rear_shield": ("rear_link", "shield"),
+        "front_shield": ("front_link", "shield"),
+        "shield_canopy": ("shield", "canopy"),
+    }
+    bodies = ("rear_link", "front_link", "shield", "canopy")
+    centre = centres(machine, p)
+    matrix, right = np.zeros((12, 12)), np.zeros(12)
+
+    def act(body: str | None, column: int, force: np.ndarray, point: np.ndarray) -> None:
+        if body is None or body == "ground":
+            return
+        row, arm = 3 * bodies.index(body), point - centre[body]
+        matrix[row : row + 2, column] += force
+        matrix[row + 2, column] += arm[0] * force[1] - arm[1] * force[0]
+
+    for n, (pin, (first, second)) in enumerate(joins.items()):
+        for axis in range(2):
+            unit = np.eye(2)[axis]
+            act(second, 2 * n + axis, unit, at[pin])
+            act(first, 2 * n + axis, -unit, at[pin])
+    for n, strut in enumerate(machine.STRUTS.values()):
+        foot, head = (np.array(machine.place(*end, p)) for end in strut)
+        along = (head - foot) / np.linalg.norm(head - foot)
+        act(strut.head[0], 10 + n, along, head)
+        act(strut.foot[0], 10 + n, -along, foot)
+    for n, body in enumerate(bodies):
+        right[3 * n + 1] = G * lumped(machine.parts[body]).mass
+    found = np.linalg.solve(matrix, right)
+    pins = {pin: found[2 * n : 2 * n + 2] for n, pin in enumerate(joins)}
+    return pins | dict(zip(machine.STRUTS, found[10:], strict=True))
+
+
+@pytest.mark.parametrize("name", [*SHIELDS, "ours"])
+def test_pin_and_column_forces_are_those_of_equilibrium(name: str, tmp_path: Path) -> None:
+    data = load_machine(written(tmp_path)) if name == "ours" else read_machine(name)
+    machine: Any = data.machine
+    assert data.stroke is not None
+    for station in stations(machine, data.stroke, 5):
+        exact = equilibrium(machine, station)
+        # rounding of systems whose condition is some thousand; forces of 1e5 N
+        slack = 1e-6
+        assert station.forces.error < slack
+        for pin, force in station.forces.pins.items():
+            assert force == pytest.approx(exact[pin], abs=slack), pin
+        for column, push in station.forces.columns.items():
+            assert push == pytest.approx(exact[column], abs=slack), column
+
+
+@pytest.mark.parametrize("name", SHIELDS)
+def test_pushes_do_the_work_that_lifts_the_weight(name: str) -> None:
+    """Virtual work: sum of push times extension is the gain of potential energy, over a small step."""
+    data, machine = machine_of(name)
+    h, at = 1e-4, 0.5 * (data.stroke or 0.0)
+    before, here, after = stations(machine, at + h, 3)[0], stations(machine, at, 2)[-1], None
+    energies, lengths = [], []
+    for goal in (at - h, at + h):
+        station = stations(machine, goal, 2)[-1]
+        energies.append(
+            sum(G * lumped(machine.parts[n]).mass * c[1] for n, c in centres(machine, station.posture).items())
+        )
+        lengths.append(station.lengths)
+    assert before.stroke == 0.0
+    assert after is None
+    work = sum(push * (lengths[1][n] - lengths[0][n]) for n, push in here.forces.columns.items())
+    # central difference: h^2 times third derivatives; lengths are met to 1e-11 m of 2e-4
+    assert work == pytest.approx(energies[1] - energies[0], rel=1e-6)
+
+
+def test_a_slider_crank_by_hand() -> None:
+    """Moment of the drive by virtual work; the guide has no moment to bear since the pin is in its middle."""
+    data = read_machine("slider_crank")
+    machine: Any = data.machine
+    for one in check_machine(data).data()["stations"]:
+        a = one["crank_rad"]
+        lift = 0.5 * machine.crank_length * math.cos(a) * G * (machine.crank_mass + machine.rod_mass)
+        # rounding of 1 N m
+        assert one["drive_N_m"] == pytest.approx(lift, abs=1e-12)
+        assert one["pins_N"]["slider_pin"][0] == pytest.approx(0.0, abs=1e-3)
+
+
+def test_freedom_of_an_unheld_linkage() -> None:
+    linkage = read_machine("two_leg_shield").machine.linkage()
+    loose = mobility(replace(linkage, columns={"leg": linkage.columns["leg"]}))
+    assert (loose.free, loose.driven, loose.left) == (2, 1, 1)
+
+
+# --- limits of the way ---
+
+
+def test_the_way_up_ends_where_the_hinge_is_highest(reference: Report) -> None:
+    _, machine = machine_of("reference")
+    found = reference.numbers["dead_centres"]["above"]
+    assert found["why"].startswith("the hinge is at its highest")
+    _, hinge = machine.link_rates(stations(machine, found["stroke_m"], 3)[-1].posture)
+    # found to 1e-6 m of height, of which the slope is the square root
+    assert abs(hinge[1]) < 0.02 * abs(hinge[0])
+    heights = [closed[2][1] for t in np.linspace(-0.9, 0.0, 9001) if (closed := machine.four_bar(float(t)))]
+    assert found["hinge_height_m"] == pytest.approx(max(heights), abs=1e-4)
+
+
+def test_the_way_down_ends_where_two_links_are_in_line(reference: Report) -> None:
+    _, machine = machine_of("reference")
+    found = reference.numbers["dead_centres"]["below"]
+    assert found["why"].startswith("the four-bar opens: front link and shield beam")
+    last = stations(machine, found["stroke_m"] + 1e-4, 3)[-1].transmission["front_shield"]
+    # 1e-4 m before the end, of which the angle is the square root
+    assert math.pi - last < 0.1
+    assert found["margin_m"] > 1.0
+
+
+# --- what a colleague would say ---
+
+DOUBTS = {
+    "tip": ("front_base = [560, 700]", "front_base = [560, 1100]", "the tip wanders"),
+    "tonnes": (
+        "rear_link = 900\nfront_link = 700\nshield = 4200\ncanopy = 5200\nfront_column_rods = 350\n"
+        "rear_column_rods = 350",
+        "rear_link = 0.9\nfront_link = 0.7\nshield = 4.2\ncanopy = 5.2",
+        "are they in tonnes?",
+    ),
+    "heavy": ("canopy = 5200", "canopy = 52000", "is more than all others together"),
+    "pull": ("front_head = [2300, 2480]", "front_head = [1400, 2480]", "rear_column pulls instead of pushing"),
+    "flat": ("front_foot = [2050, 260]", "front_foot = [300, 260]", "degrees to the floor"),
+    "stages": ("stroke_mm = 600", "stroke_mm = 1150", "mm above the used range the way ends: "),
+    "bores": (
+        "[masses_kg]",
+        "[bore_radius_mm]\nrear_shield = 120\nfront_shield = 120\n[masses_kg]",
+        "diameters?",
+    ),
+    "centre": (
+        "[masses_kg]\n\nrear_link = 900\nfront_link = 700\nshield = 4200\ncanopy = 5200",
+        "[[parts.canopy]]\nmass_kg = 5200\ncentre_mm = [9200, 2560]\nlength_mm = 3000\n"
+        "[masses_kg]\nrear_link = 900\nfront_link = 700\nshield = 4200",
+        "parts.canopy: its centre of mass, (8",
+    ),
+    "tilt": ("front_head = [2300, 2480]", "front_head = [1400, 2480]", "the canopy tilts by"),
+}
+
+
+@pytest.mark.parametrize("doubt", DOUBTS)
+def test_doubts(tmp_path: Path, doubt: str) -> None:
+    old, new, said = DOUBTS[doubt]
+    report = check_machine(load_machine(written(tmp_path, old, new)))
+    assert any(said in warning for warning in report.warnings), report.warnings
+
+
+def test_our_own_support_gives_none(tmp_path: Path) -> None:
+    report = check_machine(load_machine(written(tmp_path)))
+    assert report.warnings == []
+    assert any("canopy: its 5200 kg are a uniform bar" in note for note in report.notes)
+    assert any("no [width_mm]" in note for note in report.notes)
+
+
+def test_metres_in_place_of_millimetres(tmp_path: Path) -> None:
+    text = OURS.replace("= 2050", "= 2.05").replace("= 600", "= 0.6")
+    for line in OURS.splitlines():
+        if " = [" in line:
+            name, x, y = line.replace(" = [", ", ").rstrip("]").split(", ")
+            text = text.replace(line, f"{name} = [{float(x) / 1e3}, {float(y) / 1e3}]")
+    report = check_machine(load_machine(written(tmp_path, text=text)))
+    assert any("are they given in metres?" in warning for warning in report.warnings)
+
+
+def test_a_stroke_that_nobody_says_is_chosen(tmp_path: Path) -> None:
+    report = check_machine(load_machine(written(tmp_path, "stroke_mm = 600", "")))
+    assert report.numbers["stroke_m"] == pytest.approx(0.3 * 1.7856, rel=1e-3)
+    assert any("no stroke_mm" in note for note in report.notes)
+
+
+def test_a_stroke_may_be_asked_for_and_may_be_too_long() -> None:
+    data, machine = machine_of("reference")
+    assert check_shield(data, machine, 0.1).numbers["stroke_m"] == 0.1
+    with pytest.raises(InputError, match="allowed: up to 1"):
+        check_machine(data, 5.0)
+    with pytest.raises(InputError, match="a crank turns right round"):
+        check_machine(read_machine("slider_crank"), 1.0)
+
+
+def test_a_stroke_downwards_is_looked_at_too() -> None:
+    data, machine = machine_of("reference")
+    down = check_shield(data, machine, -0.3)
+    assert down.warnings == []
+    assert down.numbers["dead_centres"]["below"]["margin_m"] == pytest.approx(0.92, abs=0.01)
+
+
+def test_other_machines_are_not_covered() -> None:
+    stand = ImpactStand(bore_mass=1.0, journal_mass=1.0, speed=0.1)
+    with pytest.raises(InputError, match="ImpactStand: not covered"):
+        check_machine(MachineData(stand))

@@ -1,0 +1,284 @@
+"""Machine files of all kinds: those that come with the package, and what is said of others."""
+
+from __future__ import annotations
+
+import re
+import sys
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from support_exudyn import HydraulicSupport, SliderCrank, load_support, ravn_slider_crank, reference_support
+from support_exudyn.linkages.two_leg_shield import TwoLegShield
+from support_exudyn.machine import lumped
+from support_exudyn.machine_data import read_machine
+from support_exudyn.machines import SHIPPED, load_machine, machine_schema, shipped
+from tests.machine_files import OURS, written
+from user_forces import InputError
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+
+def refusal(folder: Path, old: str, new: str, text: str = OURS) -> str:
+    path = written(folder, old, new, text)
+    with pytest.raises(InputError, match=re.escape(str(path))) as caught:
+        load_machine(path)
+    return str(caught.value).removeprefix(f"{path}: ")
+
+
+def text_of(name: str) -> str:
+    return (resources.files("support_exudyn.machines") / f"{name}.toml").read_text(encoding="utf-8")
+
+
+# --- those that come with the package ---
+
+
+@pytest.mark.parametrize(
+    ("name", "kind"),
+    [
+        ("reference", HydraulicSupport),
+        ("zf18000", HydraulicSupport),
+        ("two_leg_shield", TwoLegShield),
+        ("slider_crank", SliderCrank),
+    ],
+)
+def test_shipped_machines_are_of_their_kind_and_say_where_they_come_from(name: str, kind: type) -> None:
+    data = read_machine(name)
+    assert isinstance(data.machine, kind)
+    assert data.sources
+    assert data.bore_radii
+    assert data.name
+
+
+def test_the_reference_is_what_it_was() -> None:
+    data = read_machine("reference")
+    assert data.machine == reference_support()
+    assert data.stroke == 0.5
+    assert data.bore_radii["rear_base"] == 0.0655  # implied by the paper's Table 2
+    assert "assumed" in data.sources["bores"]
+
+
+def test_the_slider_crank_is_that_of_the_studies() -> None:
+    assert read_machine("slider_crank").machine == ravn_slider_crank()
+
+
+def test_the_full_size_support_is_the_reference_divided_by_0_65() -> None:
+    large, small = read_machine("zf18000").machine, reference_support()
+    assert isinstance(large, HydraulicSupport)
+    for name in HydraulicSupport.pivots():
+        # rounded to 1 mm
+        assert getattr(large, name) == pytest.approx(
+            tuple(x / 0.65 for x in getattr(small, name)), abs=5.001e-4
+        )
+    for body, parts in small.parts.items():
+        for one, other in zip(large.parts[body], parts, strict=True):
+            assert one.mass == pytest.approx(other.mass / 0.65**3, abs=5.001)  # rounded to 10 kg
+
+
+def test_a_name_that_nobody_has_is_told_the_others() -> None:
+    with pytest.raises(InputError, match=r"'zf1800'.*ends in \.toml.*zf18000.*did you mean 'zf18000'"):
+        read_machine("zf1800")
+    with pytest.raises(InputError, match=", ".join(SHIPPED)):
+        shipped("x")
+
+
+def test_a_path_starts_at_its_folder(tmp_path: Path) -> None:
+    written(tmp_path)
+    assert read_machine("ours.toml", tmp_path).name == "a support of ours"
+    with pytest.raises(FileNotFoundError):
+        read_machine("none.toml", tmp_path)
+
+
+def test_a_machine_without_a_name_is_called_like_its_file(tmp_path: Path) -> None:
+    assert load_machine(written(tmp_path, 'name = "a support of ours"', "")).name == "ours"
+
+
+# --- a pivot table and some masses make a machine ---
+
+
+def test_masses_alone_are_bars_between_pivots(tmp_path: Path) -> None:
+    data = load_machine(written(tmp_path))
+    machine = data.machine
+    assert isinstance(machine, HydraulicSupport)
+    (link,) = machine.parts["rear_link"]
+    assert (link.mass, link.centre) == (900.0, pytest.approx((-0.345, 0.855)))
+    # m l^2 / 12, rounding
+    assert link.inertia == pytest.approx(900.0 * (0.69**2 + 0.95**2) / 12.0, rel=1e-14)
+    canopy = machine.parts["canopy"]
+    assert [part.name for part in canopy] == ["", "front_column_rods", "rear_column_rods"]
+    assert canopy[1].centre == machine.front_head
+    assert lumped(canopy).mass == 5900.0
+    assert any("canopy" in said and "hinge to tip" in said for said in data.assumed)
+    assert data.stroke == 0.6
+
+
+def test_a_part_may_say_its_inertia(tmp_path: Path) -> None:
+    text = OURS.replace("canopy = 5200\n", "") + (
+        "[[parts.canopy]]\nmass_kg = 5200\ncentre_mm = [2200, 2560]\ninertia_kg_m2 = 5001.5\n"
+    )
+    machine = load_support(written(tmp_path, text=text))
+    assert (machine.parts["canopy"][0].inertia, machine.parts["canopy"][0].moments) == (5001.5, None)
+
+
+def test_numbers_are_rounded_once(tmp_path: Path) -> None:
+    machine = load_support(written(tmp_path, "[0, 380]", "[0.1, 380.3]"))
+    assert machine.rear_base == (0.0001, 0.3803)
+
+
+# --- mistakes ---
+
+MISTAKES = {
+    "point": ("[0, 380]", "[0]", "pivots_mm.rear_base = [0]: allowed: two numbers [x, y] in mm"),
+    "misspelled pivot": (
+        "rear_shield =",
+        "rear_sheild =",
+        "pivots_mm.rear_sheild: unknown key (did you mean 'rear_shield'?); allowed: ",
+    ),
+    "misspelled table": (
+        "[masses_kg]",
+        "[mass_kg]",
+        "mass_kg: unknown key (did you mean 'masses_kg'?); allowed: ",
+    ),
+    "wrong unit": (
+        "start_hinge_height_mm",
+        "start_hinge_height_m",
+        "start_hinge_height_m: unknown key (did you mean 'start_hinge_height_mm'?); allowed: ",
+    ),
+    "no pivot": ("tip = [3900, 2650]\n", "", "pivots_mm.tip: missing"),
+    "no mass": ("shield = 4200\n", "", "masses_kg.shield: missing"),
+    "negative": ("canopy = 5200", "canopy = -5200", "masses_kg.canopy = -5200: allowed: a number > 0"),
+    "no kind": (
+        'kind = "four_column_support"',
+        "",
+        "kind: missing; it says what the machine is; allowed: 'four_column_support', 'two_leg_shield', "
+        "'slider_crank'",
+    ),
+    "wrong kind": (
+        '"four_column_support"',
+        '"four_colum_support"',
+        "kind = 'four_colum_support': allowed: 'four_column_support', 'two_leg_shield', 'slider_crank'; did "
+        "you mean 'four_column_support'?",
+    ),
+    "height": (
+        "= 2050",
+        "= 5050",
+        "start_hinge_height_mm = 5050: the four-bar cannot bring the hinge there; allowed: ",
+    ),
+    "truth": ("= 2050", "= true", "start_hinge_height_mm = True: allowed: a number > 0"),
+    "name": ('"a support of ours"', "3", "name = 3: allowed: a text"),
+    "stroke": ("stroke_mm = 600", "stroke_mm = 0", "stroke_mm = 0: allowed: a number > 0"),
+    "both": (
+        "[masses_kg]",
+        '[[parts.shield]]\nmass_kg = 1\nbetween = ["hinge", "tip"]\n[masses_kg]',
+        "masses_kg.shield = 4200: parts.shield says it too; allowed: one of them",
+    ),
+    "metres": (
+        "[3900, 2650]",
+        "[3900000, 2650]",
+        "pivots_mm.tip = [3.9e+06, 2650]: allowed: from -1e+06 to 1e+06 mm (is it",
+    ),
+}
+
+
+@pytest.mark.parametrize("mistake", MISTAKES)
+def test_mistakes_are_told_by_key_value_and_what_is_allowed(tmp_path: Path, mistake: str) -> None:
+    old, new, said = MISTAKES[mistake]
+    assert refusal(tmp_path, old, new).startswith(said)
+
+
+def test_a_rod_shorter_than_the_crank_is_told_in_the_words_of_the_file(tmp_path: Path) -> None:
+    message = refusal(tmp_path, "rod_length_mm = 120", "rod_length_mm = 40", text_of("slider_crank"))
+    assert message.startswith("rod_length_mm = 40: allowed: > crank_length_mm = 50")
+
+
+def test_other_kinds_are_no_four_column_supports(tmp_path: Path) -> None:
+    path = written(tmp_path, text=text_of("slider_crank"))
+    with pytest.raises(InputError, match="allowed: 'four_column_support'"):
+        load_support(path)
+
+
+@pytest.mark.parametrize("name", SHIPPED)
+@given(data=st.data())
+@settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+def test_changed_files_are_read_or_refused(tmp_path: Path, name: str, data: st.DataObject) -> None:
+    lines = text_of(name).splitlines()
+    at = data.draw(st.integers(0, len(lines) - 1))
+    odd = ["1e999999999", "nan", "-0", "[]", "{}", '"x"', "true", "9" * 5000, "1979-05-27", "[[1]]", "-1e-400"]
+    key = lines[at].split("=")[0]
+    lines[at] = data.draw(
+        st.sampled_from([f"{key}= {data.draw(st.sampled_from(odd))}", "", lines[at] * 2, "[x]"])
+    )
+    path = tmp_path / "changed.toml"
+    path.write_text("\n".join(lines), encoding="utf-8")
+    try:
+        load_machine(path)
+    except InputError as error:
+        assert str(path) in str(error)  # noqa: PT017  # either is right
+
+
+# --- schema ---
+
+
+def fits(item: Any, schema: dict[str, Any], root: dict[str, Any]) -> bool:
+    """Whether data fit the part of JSON Schema that the machines' schema uses."""
+    if "$ref" in schema:
+        return fits(item, root["$defs"][schema["$ref"].rsplit("/", 1)[1]], root)
+    if "anyOf" in schema:
+        return any(fits(item, one, root) for one in schema["anyOf"])
+    if "const" in schema and item != schema["const"]:
+        return False
+    match schema.get("type"):
+        case "object":
+            named = schema.get("properties", {})
+            rest = schema.get("additionalProperties", True)
+            if not isinstance(item, dict) or any(key not in item for key in schema.get("required", ())):
+                return False
+            return all(
+                fits(one, named[key], root)
+                if key in named
+                else rest is True or (rest and fits(one, rest, root))
+                for key, one in item.items()
+            )
+        case "array":
+            long = schema.get("minItems", 0) <= len(item) <= schema.get("maxItems", 10**6)
+            return isinstance(item, list) and long and all(fits(one, schema["items"], root) for one in item)
+        case "number":
+            number = isinstance(item, (int, float)) and not isinstance(item, bool)
+            return number and item > schema.get("exclusiveMinimum", float("-inf"))
+        case "string":
+            return isinstance(item, str)
+    return schema.get("type") == "null" and item is None
+
+
+def kinds_that_fit(text: str) -> list[str]:
+    schema = machine_schema()
+    return [one["$ref"] for one in schema["oneOf"] if fits(tomllib.loads(text), one, schema)]
+
+
+@pytest.mark.parametrize("name", SHIPPED)
+def test_shipped_machines_fit_the_schema_as_one_kind(name: str) -> None:
+    assert len(kinds_that_fit(text_of(name))) == 1
+
+
+@pytest.mark.parametrize(
+    "mistake", ["point", "misspelled pivot", "no pivot", "negative", "no kind", "truth", "name"]
+)
+def test_the_schema_knows_mistakes(mistake: str) -> None:
+    old, new, _ = MISTAKES[mistake]
+    assert len(kinds_that_fit(OURS)) == 1
+    assert kinds_that_fit(OURS.replace(old, new, 1)) == []
+
+
+def test_the_schema_describes_every_pivot() -> None:
+    schema = machine_schema()
+    assert schema["$schema"].endswith("2020-12/schema")
+    for form in schema["$defs"].values():
+        for key, one in form["properties"].get("pivots_mm", {}).get("properties", {}).items():
+            assert "[mm]" in one["description"], key

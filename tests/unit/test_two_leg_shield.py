@@ -1,0 +1,160 @@
+"""The two-leg shield: its ram keeps the canopy level, along a smooth curve that is as good as exact."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from support_exudyn import CubicStep, Drive, Held, Scenario, Steady, UniformSpeed
+from support_exudyn.follower import Follower, following
+from support_exudyn.linkages.two_leg_shield import TwoLegShield
+from support_exudyn.machine_data import read_machine
+from support_exudyn.plane import distance
+from user_forces import InputError
+from user_forces.values import Value
+
+STROKE = 1.15
+
+
+@pytest.fixture(scope="module")
+def shield() -> TwoLegShield:
+    machine = read_machine("two_leg_shield").machine
+    assert isinstance(machine, TwoLegShield)
+    return machine
+
+
+@pytest.fixture(scope="module")
+def scenario(shield: TwoLegShield) -> Scenario:
+    return Scenario(machine=shield, drive=CubicStep(stroke=STROKE), duration=5.0)
+
+
+def test_it_starts_level_at_its_height(shield: TwoLegShield) -> None:
+    start = shield.start()
+    assert start.canopy == 0.0
+    assert start.hinge[1] == pytest.approx(1.7, abs=1e-12)  # the root's tolerance, 1e-15 rad, and rounding
+
+
+def test_the_tip_wanders_less_than_the_rule_allows(shield: TwoLegShield) -> None:
+    """MT/T 556-1996, 4.6.4: 80 mm; the design promises some 11 mm."""
+    posture, tips = shield.start(), []
+    for extension in np.linspace(0.0, STROKE, 116):
+        posture = shield.extended(float(extension), posture) or posture
+        tips.append(posture.tip[0])
+    assert shield.column_lengths(posture)[0] == pytest.approx(
+        shield.column_lengths(shield.start())[0] + STROKE, abs=1e-11
+    )
+    assert max(tips) - min(tips) < 0.0125
+
+
+def test_column_rates_are_derivatives_of_lengths(shield: TwoLegShield) -> None:
+    """Against central differences of the closed form; error h^2 times third derivatives of some metres."""
+    h = 1e-5
+    for turns in ((0.1, 0.0), (-0.2, 0.05), (0.2, -0.1)):
+        here = shield.posture(*turns)
+        assert here is not None
+        for n in range(2):
+            ahead = shield.posture(*(t + h * (k == n) for k, t in enumerate(turns)))
+            behind = shield.posture(*(t - h * (k == n) for k, t in enumerate(turns)))
+            assert ahead is not None
+            assert behind is not None
+            slope = np.subtract(shield.column_lengths(ahead), shield.column_lengths(behind)) / (2.0 * h)
+            assert shield.column_rates(here)[:, n] == pytest.approx(slope, abs=1e-8)
+
+
+def test_the_ram_follows_the_leg_within_a_nanometre(shield: TwoLegShield, scenario: Scenario) -> None:
+    """Against lengths of closed-form postures between the points that the curve was made from."""
+    ram, leg = scenario.drive_of("ram"), scenario.drive_of("leg")
+    assert isinstance(ram, Follower)
+    start, posture = shield.start(), shield.start()
+    at_start = distance(start.ram_foot, start.ram_head)
+    for t in np.linspace(3.0, 5.0, 401):
+        found = shield.extended(leg.extension(float(t)), posture)
+        assert found is not None
+        posture = found
+        exact = distance(posture.ram_foot, posture.ram_head) - at_start
+        assert ram.extension(float(t)) == pytest.approx(exact, abs=1e-9)
+    assert ram.extension(0.0) == 0.0
+
+
+def test_its_speed_is_the_derivative_of_its_extension(scenario: Scenario) -> None:
+    """Central differences; error h^2 / 6 times a third derivative of some m/s^3, and rounding 1e-16 / h."""
+    ram, h = scenario.drive_of("ram"), 1e-5
+    for t in np.linspace(3.1, 4.9, 37):
+        slope = (ram.extension(float(t) + h) - ram.extension(float(t) - h)) / (2.0 * h)
+        assert ram.speed(float(t)) == pytest.approx(slope, abs=1e-9)
+
+
+def test_breaks_jumps_and_starts_are_those_of_the_leg(shield: TwoLegShield) -> None:
+    sudden = UniformSpeed(stroke=0.5)
+    ram = Scenario(machine=shield, drive=sudden, duration=5.0).drive_of("ram")
+    assert ram.breaks == sudden.breaks
+    after = ram.speed(math.nextafter(3.0, 4.0))
+    # rounding of a time of 3 s moves the leg by 1e-16 m
+    assert ram.speed(3.0) + ram.speed_jump(3.0) == pytest.approx(after, rel=1e-12)
+    assert ram.speed(5.0) + ram.speed_jump(5.0) == pytest.approx(0.0, abs=1e-15)
+    steady = Scenario(machine=shield, drive=Steady(rate=0.1), duration=2.0).drive_of("ram")
+    assert steady.initial_speed == steady.speed(0.0) != 0.0
+
+
+def test_its_span_holds_all_of_it(scenario: Scenario) -> None:
+    ram = scenario.drive_of("ram")
+    low, high = ram.span(5.0)
+    values = [ram.extension(float(t)) for t in np.linspace(0.0, 5.0, 1001)]
+    # samples come near the ends as the cubic step does: it rests there
+    assert (min(values), max(values)) == pytest.approx((low, high), abs=1e-15)
+
+
+def test_a_span_knows_where_the_follower_turns_back() -> None:
+    """A parabola, whose largest value lies within."""
+    lead = CubicStep(stroke=1.0)
+    follower = following(lead, 5.0, lambda x: x * (1.0 - x))
+    assert follower.span(5.0) == pytest.approx((0.0, 0.25), abs=1e-14)  # rounding
+    assert follower.extension(4.0) == pytest.approx(0.25, abs=1e-14)
+
+
+def test_what_no_polynomial_follows_is_refused() -> None:
+    with pytest.raises(InputError, match="without bounds"):
+        following(CubicStep(stroke=1.0), 5.0, np.sqrt)
+
+
+def test_followers_are_written_and_read(scenario: Scenario) -> None:
+    ram = scenario.drive_of("ram")
+    assert Value.from_data(ram.to_data()) == ram
+
+
+def test_a_held_leg_holds_the_ram(shield: TwoLegShield) -> None:
+    assert Scenario(machine=shield, duration=1.0).drive_of("ram") == Held()
+
+
+def test_a_scenario_may_drive_the_ram(shield: TwoLegShield) -> None:
+    said: dict[str, Drive] = {"ram": CubicStep(stroke=-0.05)}
+    scenario = Scenario(machine=shield, drive=CubicStep(stroke=0.1), drives=said, duration=5.0)
+    assert scenario.drive_of("ram") == said["ram"]
+
+
+def test_the_ram_follows_the_drive_that_is_the_legs_own(shield: TwoLegShield) -> None:
+    leg = CubicStep(stroke=0.2)
+    one = Scenario(machine=shield, drives={"leg": leg}, duration=5.0)
+    other = Scenario(machine=shield, drive=leg, duration=5.0)
+    assert one.drive_of("ram") == other.drive_of("ram")
+
+
+@pytest.mark.parametrize(
+    ("drives", "said"),
+    [
+        ({"ram": CubicStep(stroke=-2.0)}, r"drives\.ram: ram cannot follow beyond 3\.99"),
+        ({"leg": CubicStep(stroke=3.0)}, r"column extension = 3\.0 m: .*allowed: up to 1\.53"),
+        ({"leg": CubicStep(stroke=3.0), "ram": Held()}, r"drives\.leg: leg cannot follow beyond"),
+    ],
+)
+def test_what_cannot_be_followed_is_told(shield: TwoLegShield, drives: dict[str, Drive], said: str) -> None:
+    with pytest.raises(InputError, match=said):
+        Scenario(machine=shield, drive=CubicStep(stroke=0.2), drives=drives, duration=5.0)
+
+
+def test_pivots_of_nonsense_are_refused(shield: TwoLegShield) -> None:
+    with pytest.raises(InputError, match=r"ram_foot.*is it given in mm"):
+        replace(shield, ram_foot=(339.0, 1753.0))
