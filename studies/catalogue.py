@@ -14,6 +14,7 @@ from studies import (
     scene_detail,
     slider_crank,
     speed_accuracy,
+    which_pin,
 )
 from studies.study import Options
 
@@ -21,6 +22,7 @@ STUDIES: dict[str, Callable[[Options], None]] = {
     clearance_influence.STUDY: clearance_influence.study,
     clearance_size.STUDY: clearance_size.study,
     drive_mode.STUDY: drive_mode.study,
+    which_pin.STUDY: which_pin.study,
     scene_detail.STUDY: scene_detail.study,
     claims.STUDY: claims.study,
     contact_laws.STUDY: contact_laws.study,

@@ -1,8 +1,8 @@
 """What does the oil inlet's drive mode do to the rise? (Section 5 of the paper.)
 
 Mode 1 starts and stops the columns suddenly, mode 2 gently; with the ideal pin and with 1.5 mm of clearance;
-on rigid columns, which pass a jump of speed on as an impulse, and on columns of oil, in which its peaks have a
-limit.
+on rigid columns, which pass a jump of speed on as an impulse, on columns of oil, in which its peaks have a
+limit, and on hydraulic cylinders, which no displacement drives but the oil that a valve lets in.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from studies import drive_mode_cylinders as cylinders
 from studies import paper_machine, rise
 from studies.drive_mode_figures import figures, pictures
 from studies.ladder import Ladder, run_ladders
@@ -38,8 +39,15 @@ from user_forces import value
 STUDY = "drive_mode"
 CLEARANCE_MM = 1.5
 MODES: dict[str, Drive] = {"mode 1": UniformSpeed(), "mode 2": CubicStep()}
+NAMES = {"rigid": "rigid columns", "oil": "columns of oil", "cylinder": "hydraulic cylinders"}
+SAID = {
+    "rigid": "At the jumps of mode 1 forces and accelerations do not exist; the largest are of what follows "
+    "them.",
+    "oil": "Oil: " + paper_machine.OIL_SAID,
+    "cylinder": "Cylinders: " + paper_machine.CYLINDERS_SAID,
+}
 PINS = ("ideal pin", f"{CLEARANCE_MM} mm")
-COLUMNS = ("rigid", "oil")
+COLUMNS = ("rigid", "oil", "cylinder")
 FRICTION = paper_machine.SLIDING_COEFFICIENT
 HALVINGS, QUICK_HALVINGS = 2, 1
 DURATION = 5.1  # the sudden stop at 5 s is part of it [s]
@@ -62,23 +70,24 @@ def case_name(mode: str, pin: str, columns: str) -> str:
 
 
 def scenarios(quick: bool) -> dict[str, Scenario]:
-    """Both modes, both pins, both kinds of columns."""
+    """Both modes, both pins, all kinds of columns."""
     step, steps = (2e-3, 16) if quick else (1e-3, 64)
     bases = {
         PINS[0]: paper_machine.ideal_rise(step),
         PINS[1]: paper_machine.loose_rise(CLEARANCE_MM, FRICTION, step, steps, symbolic=True),
     }
+
+    def run(mode: str, pin: str, columns: str) -> Scenario:
+        base = replace(bases[pin], duration=DURATION, record_period=step, drive=MODES[mode])
+        if columns == "cylinder":
+            return cylinders.scenario(base, mode)
+        return replace(base, columns=paper_machine.oil_columns() if columns == "oil" else {})
+
     return {
-        case_name(mode, pin, columns): replace(
-            bases[pin],
-            drive=drive,
-            columns=paper_machine.oil_columns() if columns == "oil" else {},
-            duration=DURATION,
-            record_period=step,
-        )
+        case_name(mode, pin, columns): run(mode, pin, columns)
         for columns in reversed(COLUMNS)  # the longest first
         for pin in reversed(PINS)
-        for mode, drive in MODES.items()
+        for mode in MODES
     }
 
 
@@ -153,10 +162,8 @@ def measure(ladders: Mapping[str, Ladder]) -> list[Number]:
     """All numbers of the study, but for those that are none."""
     numbers = []
     for case, ladder in ladders.items():
-        for name, (unit, get) in MEASURES.items():
+        for name, (unit, get) in _measures_of(ladder).items():
             numbers.append(ladder.number(name, case, unit, get))
-        if ladder.finest.impulses:
-            numbers += [ladder.number(name, case, "N s", get) for name, get in IMPULSES.items()]
     return numbers
 
 
@@ -175,17 +182,11 @@ def mode_sheet(numbers: Sequence[Number], columns: str) -> Sheet:
         if any(cells):
             rows.append((name.replace("_", " "), "N s", *cells))
     return Sheet(
-        f"Drive modes on {'rigid columns' if columns == 'rigid' else 'columns of oil'}",
+        f"Drive modes on {NAMES[columns]}",
         ("quantity", "unit", *(f"{mode}, {pin}" for pin in PINS for mode in MODES)),
         tuple(rows),
         f"Over the rise, friction {FRICTION} in the loose pin. ± is the change when all steps are halved a "
-        "last time. "
-        + (
-            "At the jumps of mode 1 forces and accelerations do not exist; the largest are of what follows "
-            "them."
-            if columns == "rigid"
-            else "Oil: " + paper_machine.OIL_SAID
-        ),
+        "last time. " + SAID[columns],
         left=2,
     )
 
@@ -255,7 +256,7 @@ SAID_CONVERGES = (
 
 def _measures_of(ladder: Ladder) -> dict[str, tuple[str, Get]]:
     impulses = {name: ("N s", get) for name, get in IMPULSES.items()} if ladder.finest.impulses else {}
-    return MEASURES | impulses
+    return MEASURES | impulses | (cylinders.MEASURES if ladder.finest.scenario.cylinders else {})
 
 
 def verdict(values: Sequence[float]) -> str:
@@ -299,16 +300,20 @@ def chapter(
             "row of the table of step halving).",
             "On columns of oil the sudden start is a finite load, and its peaks converge. "
             + paper_machine.OIL_SAID,
+            "On hydraulic cylinders nothing prescribes a displacement: pressures of both chambers are "
+            "coordinates of the engine's actuator, and the valve opens at once in mode 1, along ramps in mode "
+            "2. " + paper_machine.CYLINDERS_SAID,
             f"Every case is run at a step of {1e3 * first.results[0].scenario.step:g} ms, and with all steps "
             f"halved {len(first.results) - 1} times, those of impacts included. Values are of the finest run, "
             "± is the last change."
             + (" This is the quick form: its steps are coarser than those of the full one." if quick else ""),
         ),
-        findings=_findings(ladders, naive, numbers),
-        pictures=pictures(),
+        findings=(*_findings(ladders, naive, numbers), *cylinders.findings(numbers)),
+        pictures=(*pictures(), *cylinders.pictures()),
         sheets=(
             *(mode_sheet(numbers, columns) for columns in COLUMNS),
             saving_sheet(numbers),
+            cylinders.sheet(numbers),
             short_convergence_sheet(ladders, naive),
         ),
         quick=quick,
@@ -368,11 +373,13 @@ def study(chosen: Options) -> None:
     naive = run_cases(naive_scenarios(), chosen.workers)
     numbers = measure(ladders)
     with style.look():
-        drawings = figures({case: ladder.finest for case, ladder in ladders.items()})
+        finest = {case: ladder.finest for case, ladder in ladders.items()}
+        drawings = figures(finest) | cylinders.figures(finest)
     save_figures(chosen, drawings)
     for columns in COLUMNS:
         show_table(chosen.out / f"table_{columns}.txt", mode_sheet(numbers, columns))
     show_table(chosen.out / "table_saving.txt", saving_sheet(numbers))
+    show_table(chosen.out / "table_valves.txt", cylinders.sheet(numbers))
     show_table(chosen.out / "table_convergence.txt", convergence_sheet(ladders), width=170)
     chapter(ladders, naive, numbers, chosen.quick).save(chosen.out)
     write_summary(chosen.out, STUDY, numbers, time.perf_counter() - started)

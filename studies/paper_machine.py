@@ -7,9 +7,14 @@ from dataclasses import replace
 from support_exudyn import (
     ClearancePin,
     CubicStep,
+    Held,
+    HydraulicCylinder,
+    Inlet,
     OilColumn,
+    RampedOpening,
     Scenario,
     SolverSettings,
+    SuddenOpening,
     bore_area,
     reference_support,
 )
@@ -38,6 +43,25 @@ OIL_SAID = (
     "Assumed: two columns of 250 mm bore to a pair, 0.5 m of emulsion under the pistons at the start, bulk "
     "modulus 1.5 GPa: 295 kN/mm for a pair at the start of the rise, 147 kN/mm at its end; a damping time of "
     "1 ms, which is 6 % of critical damping at 20 Hz."
+)
+# the same columns as hydraulic cylinders, assumed. Pump of 31.5 MPa, as stations for supports are rated. Valve,
+# pipe and hoses of a pair let 354 l/min pass at 1 MPa: chosen so that the columns extend by 500 mm from 3 to 5
+# s, for which a pair takes 1500 l/min, more than such stations deliver. Seals: 25 kN at 0.25 m/s, 0.8 % of what
+# a pair can push
+ROD, ROD_SIDE_LENGTH = 0.23, 0.6  # [m], [m] at the start
+SYSTEM_PRESSURE, NOMINAL_FLOW, NOMINAL_DROP = 31.5e6, 354e-3 / 60.0, 1e6  # [Pa], [m^3/s], [Pa]
+HOSE_VOLUME, SEAL_DAMPING = 5e-3, 1e5  # [m^3] to either side of a pair, [N s/m]
+SUDDEN_OPENING, RAMPED_OPENING, RAMP = 0.75, 1.0, 0.5  # of the valve, and [s]
+INLETS: dict[str, Inlet] = {
+    "mode 1": SuddenOpening(extent=SUDDEN_OPENING),
+    "mode 2": RampedOpening(extent=RAMPED_OPENING, ramp=RAMP),
+}
+CYLINDERS_SAID = (
+    "Assumed: two columns of 250 mm bore and 230 mm rod to a pair, 0.5 m of emulsion under the pistons and "
+    "0.6 m around the rods at the start, 5 litres in the hoses of either side, bulk modulus 1.5 GPa; a pump of "
+    "31.5 MPa, an open tank, and a valve with pipe that lets 354 l/min of a pair pass at 1 MPa; seals with 25 "
+    "kN at 0.25 m/s. Mode 1 opens the valve to 75 % from 3 to 5 s at once, mode 2 wholly, along ramps of 0.5 s "
+    "at both ends. A rise of 500 mm in 2 s takes 3000 l/min in all, more than usual pump stations deliver."
 )
 
 SIZES_MM = (0.5, 1.0, 1.5, 2.0)  # the paper's clearances
@@ -99,3 +123,27 @@ def oil_columns() -> dict[str, OilColumn]:
     """Both pairs of columns on oil, alike."""
     oil = OilColumn(bore_area=bore_area(OIL_BORE, 2), oil_length=OIL_LENGTH, bulk_modulus=BULK_MODULUS)
     return {"front_column": oil, "rear_column": oil}
+
+
+def hydraulic_cylinders(inlet: Inlet) -> dict[str, HydraulicCylinder]:
+    """Both pairs of columns as hydraulic cylinders, alike, each with such a valve."""
+    cylinder = HydraulicCylinder(
+        bore_area=bore_area(OIL_BORE, 2),
+        rod_side_area=bore_area(OIL_BORE, 2) - bore_area(ROD, 2),
+        oil_length=OIL_LENGTH,
+        rod_side_length=ROD_SIDE_LENGTH,
+        bulk_modulus=BULK_MODULUS,
+        system_pressure=SYSTEM_PRESSURE,
+        nominal_flow=NOMINAL_FLOW,
+        nominal_drop=NOMINAL_DROP,
+        hose_volume=HOSE_VOLUME,
+        rod_side_hose_volume=HOSE_VOLUME,
+        damping=SEAL_DAMPING,
+        inlet=inlet,
+    )
+    return {"front_column": cylinder, "rear_column": cylinder}
+
+
+def on_cylinders(rise: Scenario, inlet: Inlet) -> Scenario:
+    """The same run on hydraulic cylinders, which this inlet moves in place of the drive."""
+    return replace(rise, columns=hydraulic_cylinders(inlet), drive=Held(), drives={})

@@ -10,14 +10,16 @@ One entry, `simulate`; everything else is a value that is handed in. SI units an
 
 from support_exudyn.channels import Channel
 from support_exudyn.columns import ColumnModel, OilColumn, RigidColumn, TwoBodyColumn, bore_area
+from support_exudyn.cylinder import HydraulicCylinder
 from support_exudyn.drives import CubicStep, Drive, Held, Reciprocating, Steady, Stroke, UniformSpeed
 from support_exudyn.errors import Failure, SimulationError
 from support_exudyn.estimate import Estimate
 from support_exudyn.impulse import Impulse
+from support_exudyn.inlet import ClosedInlet, Inlet, RampedOpening, SuddenOpening
 from support_exudyn.linkages.hydraulic_support import HydraulicSupport
 from support_exudyn.linkages.impact_stand import ImpactStand
 from support_exudyn.linkages.slider_crank import SliderCrank, ravn_slider_crank
-from support_exudyn.loads import Load, LoadedPoint, Roof
+from support_exudyn.loads import AppliedForce, FallingBlock, Load, LoadedPoint, Roof
 from support_exudyn.machine import Body, Column, Crank, Linkage, Machine, Part, PinPlace, Slide, TracePoint
 from support_exudyn.machines import load_support, reference_support, two_body_columns
 from support_exudyn.onset import Onset
@@ -31,9 +33,11 @@ from support_exudyn.table_drive import TableDrive
 from support_exudyn.width import Width
 
 __all__ = [
+    "AppliedForce",
     "Body",
     "Channel",
     "ClearancePin",
+    "ClosedInlet",
     "Column",
     "ColumnModel",
     "Crank",
@@ -41,11 +45,14 @@ __all__ = [
     "Drive",
     "Estimate",
     "Failure",
+    "FallingBlock",
     "Held",
+    "HydraulicCylinder",
     "HydraulicSupport",
     "IdealPin",
     "ImpactStand",
     "Impulse",
+    "Inlet",
     "Linkage",
     "Load",
     "LoadedPoint",
@@ -58,6 +65,7 @@ __all__ = [
     "PartModel",
     "Pin",
     "PinPlace",
+    "RampedOpening",
     "Reciprocating",
     "Recommendation",
     "Result",
@@ -70,6 +78,7 @@ __all__ = [
     "SolverSettings",
     "Steady",
     "Stroke",
+    "SuddenOpening",
     "TableDrive",
     "TracePoint",
     "TwoBodyColumn",

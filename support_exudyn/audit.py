@@ -35,6 +35,7 @@ COARSE = (
     "Steps are too long for what happens in them: take a smaller `step` or more `solver.impact_steps`, look "
     "whether friction is steep (its ramp from static to dynamic speed), or ask for an accuracy."
 )
+ENDS = "Close its inlet earlier, open it less, or take a longer cylinder."
 APART = 1e-4  # [m] that what is joined may be apart
 DRIFTED = "Take constraint_index 3, a smaller `step` or a smaller `solver.newton_tolerance`."
 
@@ -72,10 +73,34 @@ def _reasons(scenario: Scenario, outcome: Outcome, channels: Mapping[str, Channe
             f"turned over, {allowed:.3g} J"
         )
         yield Failure(reason, COARSE, float(time[first]))
+    yield from _pistons_at_ends(scenario, outcome)
     if (gap := joints_apart(scenario, outcome)) is not None and (gap > APART).any():
         first = int(np.argmax(gap > APART))
         reason = f"what is joined is {1e3 * gap.max():.3g} mm apart; allowed: {1e3 * APART:g} mm"
         yield Failure(reason, DRIFTED, float(time[first]))
+
+
+def _pistons_at_ends(scenario: Scenario, outcome: Outcome) -> Iterator[Failure]:
+    """Whether a piston has come to an end of its cylinder, which nothing in the model stops it at."""
+    run = outcome.trajectory
+    if not scenario.cylinders or not isinstance(run, Trajectory) or not run.position.size:
+        return
+    motion = BodyMotion(scenario.linkage, run.position, run.velocity, run.acceleration)
+    for name, cylinder in scenario.cylinders.items():
+        column = scenario.linkage.columns[name]
+        span = motion.place(column.head, column.head_point) - motion.place(column.foot, column.foot_point)
+        extension = np.hypot(*span.T) - column.start_length
+        for end, beyond in (
+            ("drawn in", extension < -cylinder.oil_length),
+            ("extended", extension > cylinder.rod_side_length),
+        ):
+            if beyond.any():
+                first = int(np.argmax(beyond))
+                reason = (
+                    f"{name} is {end} by {abs(extension[first]):.4g} m, beyond its cylinder's end; allowed: "
+                    f"{-cylinder.oil_length:.4g} to {cylinder.rod_side_length:.4g} m from the start"
+                )
+                yield Failure(reason, ENDS, float(run.time[first]))
 
 
 def energy_open(scenario: Scenario, channels: Mapping[str, Channel]) -> tuple[Series, float]:
@@ -114,7 +139,7 @@ def joints_apart(scenario: Scenario, outcome: Outcome) -> Series | None:
             apart = motion.place(pin.first, pin.first_point) - motion.place(pin.second, pin.second_point)
             gaps = np.maximum(gaps, np.hypot(*apart.T))
     for name, column in linkage.columns.items():
-        if name not in scenario.oil_columns:
+        if name not in scenario.giving:
             span = motion.place(column.head, column.head_point) - motion.place(column.foot, column.foot_point)
             drive = scenario.drive_of(name)
             wanted = column.start_length + np.array([drive.extension(t) for t in time.tolist()])

@@ -46,7 +46,8 @@ def settings_for(scenario: Scenario, goal: float) -> Scenario:
     finer = math.sqrt(GOAL_OF_SHARES / goal)
     times = timescales(plain)
     step = min(FLIGHT * times.flight, RESTING * times.resting, DRIVE * times.drive) / finer
-    impact_steps = round(IMPACT_STEPS * finer) if plain.clearance_pins else FEWEST_IMPACT_STEPS
+    impacts = plain.clearance_pins or any(load.strikes for load in plain.loads.values())
+    impact_steps = round(IMPACT_STEPS * finer) if impacts else FEWEST_IMPACT_STEPS
     solver = replace(
         scenario.solver,
         impact_steps=min(max(impact_steps, FEWEST_IMPACT_STEPS), MOST_AT_FIRST),

@@ -7,6 +7,7 @@ from typing import Any, Protocol
 
 import exudyn
 
+from support_exudyn.cylinder_item import CylinderItem
 from support_exudyn.driven_parts import DrivenParts
 from support_exudyn.impulse import Impulse
 from support_exudyn.load_item import LoadItem
@@ -23,12 +24,13 @@ class InEngine:
     """What every model in the engine can do.
 
     container: owns the system, and must live as long as it. mbs: the system. driven: all columns and cranks, by
-    the drive that they follow.
+    the drive that they follow. cylinders: the columns that follow none.
     """
 
     container: Any
     mbs: Any
     driven: tuple[DrivenParts, ...]
+    cylinders: dict[str, CylinderItem]
 
     def release(self) -> None:
         """Let go of the engine's model: what its user functions know would never be freed."""
@@ -39,9 +41,11 @@ class InEngine:
         self.container.Reset()
 
     def drive_to(self, t: float) -> None:
-        """Set every column and crank to where its drive has it at time t [s]."""
+        """Set every column, crank and valve to where it is at time t [s]."""
         for parts in self.driven:
             parts.move_to(t)
+        for cylinder in self.cylinders.values():
+            cylinder.open_to(t)
 
 
 class Massive(Protocol):
@@ -96,8 +100,18 @@ class EngineScene(Protocol):
         ...
 
     @property
+    def weights(self) -> Mapping[str, Any]:
+        """The engine's loads that are weights, by body."""
+        ...
+
+    @property
     def driven(self) -> tuple[DrivenParts, ...]:
         """All columns and cranks, by the drive that they follow."""
+        ...
+
+    @property
+    def cylinders(self) -> Mapping[str, CylinderItem]:
+        """Columns that are hydraulic cylinders, by name."""
         ...
 
     def drive_to(self, t: float) -> None:

@@ -16,11 +16,17 @@ SMALLEST_STEP = 1e-13  # [s]
 MANY = 40
 
 
-def engine_settings(chosen: SolverSettings, duration: float, unknowns: int, rounding: float = 0.0) -> Any:
+def engine_settings(
+    chosen: SolverSettings, duration: float, unknowns: int, rounding: float = 0.0, cylinders: bool = False
+) -> Any:
     """The engine's settings for a run of this duration [s] with so many coordinates and multipliers.
 
     rounding: of its forces [N]. Where a machine rests, Newton's method has nothing else to solve, and without
     being told it would fail by it.
+    cylinders: whether there are any. Their flow rises infinitely steeply where the pressure drop over a valve
+    begins: no residual becomes small there, but increments do. And the rows of pressures are not scaled by the
+    step as those of motions are: with a Jacobian of another step iterations end at a wrong place. So they are
+    judged by increments, with a new Jacobian for each.
     """
     settings = exudyn.SimulationSettings()
     integration = settings.timeIntegration
@@ -37,9 +43,11 @@ def engine_settings(chosen: SolverSettings, duration: float, unknowns: int, roun
     integration.generalizedAlpha.useIndex2Constraints = chosen.constraint_index == 2
     integration.generalizedAlpha.useNewmark = chosen.integrator == "trapezoidal"
     integration.newton.relativeTolerance = chosen.newton_tolerance
-    norm = rounding / unknowns  # the engine's norm of a residual
-    integration.newton.absoluteTolerance = max(integration.newton.absoluteTolerance, norm)
-    integration.newton.useModifiedNewton = chosen.newton == "modified"
+    if not cylinders:  # whose residual is of increments, in metres and pascals
+        norm = rounding / unknowns  # the engine's norm of a residual
+        integration.newton.absoluteTolerance = max(integration.newton.absoluteTolerance, norm)
+    integration.newton.useModifiedNewton = chosen.newton == "modified" and not cylinders
+    integration.newton.residualMode = 1 if cylinders else 0
     integration.newton.modifiedNewtonContractivity = 0.1  # renew the Jacobian early: a fifth faster here
     if unknowns > MANY:
         settings.linearSolver.solverType = exudyn.LinearSolverType.EigenSparse

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any, cast
 
@@ -16,6 +17,7 @@ from support_exudyn.loads.load import Load, LoadedPoint, Powers
 from support_exudyn.symbolic_force import Symbol, engine
 from support_exudyn.trajectory import LoadSeries, Series
 
+HANGS_BY = 0.01  # [m] that the spring would give under what hangs, if it were to carry it
 NAME = "springForceUserFunction"  # the engine's, of its Cartesian spring
 
 
@@ -30,10 +32,36 @@ class LoadItem:
 
     def powers(self, t: float) -> Powers:
         """Powers [W] at the end of a step, t [s]."""
+        return self.load.powers(self._at(t))
+
+    def longest_step(self, t: float, number: int) -> float:
+        """How long the step from t [s] on may be [s], with so many in an impact."""
+        return self.load.longest_step(self._at(t), number)
+
+    @contextmanager
+    def hung(self, weight: Any) -> Iterator[None]:
+        """What the load brings along hangs, without its weight, over its point for as long as this lasts.
+
+        weight: of it, a load of the engine. A spring that nothing stretches keeps it there.
+        """
+        pull = self.mbs.GetLoadParameter(weight, "loadVector")
+        stiffness = float(np.linalg.norm(pull)) / HANGS_BY
+        self.mbs.SetLoadParameter(weight, "loadVector", [0.0, 0.0, 0.0])
+        self.mbs.SetObjectParameter(self.object, NAME, 0)
+        self.mbs.SetObjectParameter(self.object, "stiffness", [0.0, stiffness, 0.0])
+        try:
+            yield
+        finally:
+            self.mbs.SetObjectParameter(self.object, "stiffness", [0.0, 0.0, 0.0])
+            self.mbs.SetObjectParameter(self.object, NAME, self.function)
+            self.mbs.SetLoadParameter(weight, "loadVector", pull)
+
+    def _at(self, t: float) -> LoadedPoint:
+        """The loaded point at the end of a step, t [s]."""
         output = exudyn.OutputVariableType
         x, y, _ = self.mbs.GetObjectOutput(self.object, output.Displacement)
         vx, vy, _ = self.mbs.GetObjectOutput(self.object, output.Velocity)
-        return self.load.powers(LoadedPoint(t, float(x), float(y), float(vx), float(vy)))
+        return LoadedPoint(t, float(x), float(y), float(vx), float(vy))
 
 
 def add_load(mbs: Any, load: Load, origin: Any, point: Any) -> LoadItem:

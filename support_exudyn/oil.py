@@ -87,14 +87,19 @@ class OilSeries(NamedTuple):
     loss: Series
 
 
+def static_loads(linkage: Linkage, gravity: Vector2) -> dict[str, float]:
+    """What every column carries in the start posture, all pins ideal [N]; positive pushes its ends apart."""
+    closed = kinetics_of(linkage)
+    weight = closed.weight(gravity)
+    tensions = closed.respond(np.zeros(weight.size), weight, 0.0)[1][closed.driven()]
+    return {name: -float(tension) for name, tension in zip(linkage.columns, tensions, strict=False)}
+
+
 def fill(linkage: Linkage, models: Mapping[str, OilColumn], gravity: Vector2) -> dict[str, FilledColumn]:
     """Columns of oil that hold the machine in its start posture, all pins ideal and the others rigid."""
     if not models:
         return {}
-    closed = kinetics_of(linkage)
-    weight = closed.weight(gravity)
-    tensions = closed.respond(np.zeros(weight.size), weight, 0.0)[1][closed.driven()]
-    loads = {name: -float(tension) for name, tension in zip(linkage.columns, tensions, strict=False)}
+    loads = static_loads(linkage, gravity)
     return {
         name: FilledColumn(linkage.columns[name], model, loads[name] / model.stiffness(0.0))
         for name, model in models.items()

@@ -19,7 +19,7 @@ from support_exudyn.body_motion import BodyMotion
 from support_exudyn.loads.load import Load, Observed
 from support_exudyn.machine import Body, Linkage
 from support_exudyn.pins import ClearancePin
-from support_exudyn.trajectory import ContactSeries, Series, Trajectory
+from support_exudyn.trajectory import ContactSeries, CylinderSeries, Series, Trajectory
 from user_forces.values import Vector2
 
 
@@ -135,8 +135,12 @@ def recipes(
     oil: Collection[str],
     rubbing: Collection[str] = (),
     loads: Mapping[str, Load] | None = None,
+    cylinders: Collection[str] = (),
 ) -> Recipes:
-    """All channels of a linkage with these loose pins, oil columns, ideal pins with friction, and loads."""
+    """All channels of a linkage with these loose pins, columns of oil, ideal pins with friction, and loads.
+
+    cylinders: which of the columns of oil have a valve and pressures.
+    """
     loads = loads or {}
     found = {"time": Recipe("s", "time", Part.NOTHING, lambda seen: seen.run.time)}
     for n, (name, body) in enumerate(linkage.bodies.items()):
@@ -145,6 +149,8 @@ def recipes(
         found |= _of_point(name)
     for name in linkage.columns:
         found |= _of_column(name, name in oil)
+        if name in cylinders:
+            found |= _of_cylinder(name)
     for name in linkage.cranks:
         found |= _of_crank(name)
     for name in linkage.slides:
@@ -155,7 +161,7 @@ def recipes(
             found |= _of_friction(name)
     for name, load in loads.items():
         found |= _of_load(name, load)
-    return found | _of_energy(_stored(bool(loose), bool(oil), bool(loads)), bool(loads))
+    return found | _of_energy(_stored(bool(loose), bool(oil), bool(loads)), bool(loads), bool(cylinders))
 
 
 def chosen(names: Iterable[str], patterns: Iterable[str]) -> list[str]:
@@ -232,6 +238,18 @@ def _of_column(name: str, oil: bool) -> Recipes:
             lambda seen: seen.run.columns[name],
         ),
     }
+
+
+def _of_cylinder(name: str) -> Recipes:
+    def said(what: str, unit: str, meaning: str, values: Callable[[CylinderSeries], Series]) -> Recipes:
+        return {f"{name}.{what}": Recipe(unit, meaning, OIL, lambda seen: values(seen.run.cylinders[name]))}
+
+    found = said("pressure", "Pa", "of the piston side", lambda c: c.pressure)
+    found |= said("rod_pressure", "Pa", "of the rod side", lambda c: c.rod_pressure)
+    found |= said("opening", "1", "of the valve; positive: pump to the piston side", lambda c: c.opening)
+    found |= said("flow", "m^3/s", "into the piston side", lambda c: c.flow)
+    found |= said("rod_flow", "m^3/s", "into the rod side", lambda c: c.rod_flow)
+    return found
 
 
 def _of_crank(name: str) -> Recipes:
@@ -335,7 +353,9 @@ def _stored(loose: bool, oil: bool, loaded: bool) -> Part:
     return found
 
 
-def _of_energy(stored: Part, loaded: bool) -> Recipes:
+def _of_energy(stored: Part, loaded: bool, pumped: bool) -> Recipes:
+    movers = ["the drive" if not loaded else "the drives"] + ["pumps"] * pumped + ["what moves loads"] * loaded
+    lost = "damping" + " and valves" * pumped
     places = "contacts, oil and loads" if loaded else "contacts and oil"
     integrals = Part.INTEGRALS
     balance = MOTION | stored | integrals
@@ -347,7 +367,7 @@ def _of_energy(stored: Part, loaded: bool) -> Recipes:
         "energy.elastic": Recipe("J", f"stored in {places}", stored, lambda seen: seen.stored),
         "energy.damping_loss": Recipe(
             "J",
-            f"dissipated by damping in {places} so far",
+            f"dissipated by {lost} in {places} so far",
             integrals,
             lambda seen: seen.run.damping_loss,
         ),
@@ -356,7 +376,7 @@ def _of_energy(stored: Part, loaded: bool) -> Recipes:
         ),
         "energy.work": Recipe(
             "J",
-            "work of the drive so far" if not loaded else "work of the drives and of what moves loads so far",
+            f"work of {' and of '.join(movers)} so far",
             integrals,
             lambda seen: seen.run.work,
         ),

@@ -26,7 +26,8 @@ class History:
     """Raw states at the records, one row each; see `channels` for what they mean.
 
     time (n,); position, velocity, acceleration (n, coordinates); multiplier (n, constraints);
-    memory (n, loose pins, fields of PinMemory); work, damping_loss, friction_loss (n,) [J]. What was not to be
+    memory (n, loose pins, fields of PinMemory); pressure (n, 2 cylinders) as the engine has it;
+    work, damping_loss, friction_loss (n,) [J]. What was not to be
     kept has rows without columns; integrals that were not are zero.
     """
 
@@ -36,6 +37,7 @@ class History:
     acceleration: np.ndarray
     multiplier: np.ndarray
     memory: np.ndarray
+    pressure: np.ndarray
     work: np.ndarray
     damping_loss: np.ndarray
     friction_loss: np.ndarray
@@ -54,7 +56,7 @@ class Recorder:
         # rigid columns that are held and ideal pins neither work nor lose anything
         works = any(parts.oil or (parts.multipliers and parts.moves(duration)) for parts in scene.driven)
         self.integrates = Part.INTEGRALS in needs and bool(
-            works or scene.loose_pins or scene.frictions or scene.loads
+            works or scene.loose_pins or scene.frictions or scene.loads or scene.cylinders
         )
         self._kept = tuple(part in needs for part in STATE)
         self.energies = RunningIntegrals(3)  # work of the drive, losses by damping and by friction
@@ -63,11 +65,14 @@ class Recorder:
         self._driven = tuple((parts.drive, parts.multipliers, parts.oil) for parts in scene.driven)
         self._frictions = tuple(scene.frictions.values())
         self._loads = tuple(scene.loads.values())
+        self._cylinders = tuple(scene.cylinders.values())
         self._mbs = scene.mbs
         # numbers one behind the other: with an object for each part of a record they take three times as much
         self._time = array("d")
         self._states = tuple(array("d") for _ in STATE)
         self._totals = array("d")
+        self._keeps_pressures = bool(self._cylinders) and Part.OIL in needs
+        self._pressures = array("d")
         self._powers_now = (0.0, 0.0, 0.0)  # [W]
         self._start: StepEnd | None = None  # of the step going on
 
@@ -84,6 +89,11 @@ class Recorder:
         """The columns' speed has jumped at t [s], which gave the bodies this energy [J]."""
         self.energies.totals[0] += energy
         self.energies.jump(t)
+
+    def switch(self, t: float) -> None:
+        """Valves have opened or closed at t [s], the end of the last step."""
+        if self.integrates:
+            self.energies.add(t, self._powers(t))
 
     def begin_step(self, t: float) -> None:
         """A step that may pass over records begins at t [s]."""
@@ -126,6 +136,8 @@ class Recorder:
             ),
             self.energies.totals,
         )
+        if self._keeps_pressures:
+            self._pressures.frombytes(data.GetODE1Coordinates().tobytes())
 
     def _keep(self, t: float, state: Sequence[Series | None], totals: Sequence[float]) -> None:
         """Add a record; parts of the state that are not to be kept may be None."""
@@ -157,6 +169,7 @@ class Recorder:
             acceleration,
             multiplier,
             memory.reshape(time.size, pins, len(PinMemory._fields)),
+            np.array(self._pressures).reshape(time.size, -1 if self._pressures else 0),
             *np.array(self._totals).reshape(time.size, 3).T,
         )
 
@@ -175,6 +188,10 @@ class Recorder:
                 damping += loss
         for load in self._loads:
             work, loss = load.powers(t)
+            columns += work
+            damping += loss
+        for cylinder in self._cylinders:
+            work, loss = cylinder.powers()
             columns += work
             damping += loss
         for rubbing in self._frictions:

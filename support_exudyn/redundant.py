@@ -13,6 +13,7 @@ import numpy as np
 from support_exudyn.body_motion import BodyMotion
 from support_exudyn.channels import needs
 from support_exudyn.contact_series import contact_series
+from support_exudyn.cylinder_item import UNIT, CylinderItem
 from support_exudyn.engine_scene import EngineScene
 from support_exudyn.joint_forces import JointForces
 from support_exudyn.load_item import load_series
@@ -27,7 +28,7 @@ from support_exudyn.settle import settle
 from support_exudyn.solver import Run
 from support_exudyn.spatial.outcome import outcome as outcome_in_space
 from support_exudyn.spatial.scene_builder import build as build_in_space
-from support_exudyn.trajectory import Outcome, Series, Trajectory
+from support_exudyn.trajectory import CylinderSeries, Outcome, Series, Trajectory
 from user_forces.values import InputError
 
 AnyScene = TypeVar("AnyScene", bound=EngineScene)
@@ -105,6 +106,12 @@ def trajectory(scene: Scene, history: History, needed: Part) -> Trajectory:
         for name, item in scene.oil_columns.items()
         if Part.OIL in needed
     }
+    cylinders = {
+        name: _cylinder_series(item, motion, history)
+        for name, item in scene.cylinders.items()
+        if Part.OIL in needed
+    }
+    giving = {name: series.force for name, series in (oil | cylinders).items()}
     contacts = {
         name: contact_series(
             motion, scene.linkage.pins[name], scene.scenario.clearance_pins[name], history.memory[:, n]
@@ -137,15 +144,22 @@ def trajectory(scene: Scene, history: History, needed: Part) -> Trajectory:
             for place in (scene.linkage.pins[name],)
             if Part.JOINTS in needed and Part.VELOCITY in needed
         },
-        columns=columns | {name: series.force for name, series in oil.items()},
+        columns=columns | giving,
         cranks=joints.cranks,
         slides=joints.slides,
-        oil_energy=sum((series.energy for series in oil.values()), np.zeros_like(history.time)),
+        oil_energy=sum((series.energy for series in (oil | cylinders).values()), np.zeros_like(history.time)),
         work=history.work,
         damping_loss=history.damping_loss,
         friction_loss=history.friction_loss,
         loads=loads,
+        cylinders=cylinders,
     )
+
+
+def _cylinder_series(item: CylinderItem, motion: BodyMotion, history: History) -> CylinderSeries:
+    """A hydraulic cylinder at the records."""
+    opening = np.array([item.filled.model.inlet.opening(t) for t in history.time.tolist()])
+    return item.filled.series(motion, UNIT * history.pressure[:, item.first : item.first + 2], opening)
 
 
 def _joint_forces(scene: Scene, multiplier: Series) -> JointForces:

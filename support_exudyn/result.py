@@ -19,6 +19,7 @@ from support_exudyn.channels import Channel
 from support_exudyn.counts import Counts
 from support_exudyn.estimate import Estimate, error, fall, measures, worst_error
 from support_exudyn.files import whole_file
+from support_exudyn.hdf5_writing import write_series
 from support_exudyn.impulse import Impulse
 from support_exudyn.onset import Onset
 from support_exudyn.scenario import Scenario
@@ -220,10 +221,11 @@ def _write(group: h5py.Group, result: Result) -> None:
     group.attrs["wall_time_s"] = result.wall_time
     group.attrs["provenance"] = json.dumps(dict(result.provenance))
     group.attrs["goal"] = json.dumps(result.goal)
-    for name, channel in result.channels.items():
-        data = group.create_dataset(f"channels/{name}", data=channel.values)
-        data.attrs["unit"] = channel.unit
-        data.attrs["meaning"] = channel.meaning
+    series = {
+        name: (channel.values, {"unit": channel.unit, "meaning": channel.meaning})
+        for name, channel in result.channels.items()
+    }
+    write_series(group.create_group("channels"), series)
     for name, onsets in result.onsets.items():
         data = group.create_dataset(f"onsets/{name}", data=np.array(onsets).reshape(-1, 4))
         data.attrs["columns"] = "time [s], approach speed [m/s], time of parting [s], speed of parting [m/s]"

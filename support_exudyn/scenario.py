@@ -11,6 +11,7 @@ from typing import Annotated, Literal
 from pydantic import Field, field_validator, model_validator
 
 from support_exudyn.columns import ColumnModel, OilColumn, TwoBodyColumn
+from support_exudyn.cylinder import HydraulicCylinder
 from support_exudyn.drives import Drive, Held
 from support_exudyn.eccentric import eccentric
 from support_exudyn.loads.load import Load
@@ -53,7 +54,8 @@ class SolverSettings(Value):
             step) to 1 (none). At 0.5 the joint forces are quiet at small steps; at 0.9 rounding
             shows in them below a step of 0.2 ms.
         newton_tolerance: relative tolerance of Newton's residual, > 0.
-        newton: "modified", which keeps a Jacobian as long as it serves, or "full", a new one each iteration.
+        newton: "modified", which keeps a Jacobian as long as it serves, or "full", a new one each iteration, as
+            hydraulic cylinders always have.
         impact_steps: how many steps an impact takes at least, from the touch to the parting of an undamped
             one of the same speed; 16 to 10000. Steps are so short from the touch until the surfaces part, or
             until the depth swings little any more. Errors are of second order; 512 delivers any
@@ -123,6 +125,7 @@ class Scenario(Value):
         columns: for each column that is not rigid and massless (or to say so), what it is, by name.
         parts: for each part that is not fixed to its body (or to say so), what it is, by name.
         drive: how all driven parts move: columns extend [m], cranks turn [rad]. Into an oil column it lets oil.
+            A `HydraulicCylinder` follows none, it has an inlet of its own.
         drives: for each driven part, a column or crank, that moves otherwise, how it does, by name. A part that
             follows another by the machine's making, such as the ram of a two-leg shield, does so unless it is
             named here.
@@ -231,6 +234,8 @@ class Scenario(Value):
             raise ValueError(
                 f"formulation = {self.formulation!r}: is planar; allowed in space: 'auto', 'redundant'"
             )
+        for name in self.cylinders:
+            raise ValueError(f"columns.{name} = HydraulicCylinder: is planar; allowed in space: OilColumn")
         for name in self.friction_pins:
             raise ValueError(f"pins.{name}.friction: is planar; allowed in space: friction of clearance pins")
         for name, bearing in space.bearings.items():
@@ -262,6 +267,18 @@ class Scenario(Value):
                 )
             for one in self.space.parts_of_column(name) if self.dimensions == 3 else (name,):
                 column.check_extension(self.drive_of(one).span(self.duration)[0], one)
+            if isinstance(column, HydraulicCylinder):
+                column.check_length(linkage.columns[name].start_length, name)
+                if name in self.drives:
+                    raise ValueError(
+                        f"drives.{name}: is a HydraulicCylinder, which follows no drive; allowed: none, but "
+                        f"columns.{name}.inlet"
+                    )
+        if self.cylinders and not self.driven and self.drive != Held():
+            raise ValueError(
+                f"drive = {type(self.drive).__name__}: nothing follows it, for all columns are "
+                "HydraulicCylinder, which move by their inlet; allowed: Held()"
+            )
 
     def _check_drives(self, linkage: Linkage) -> None:
         allowed = tuple(dict.fromkeys((*linkage.driven, *self.driven)))
@@ -296,6 +313,10 @@ class Scenario(Value):
                 raise ValueError(
                     f"loads.{name}.body = {load.body!r}: no such body; allowed: {', '.join(linkage.bodies)}"
                 )
+            try:
+                load.check(self.gravity)
+            except InputError as error:
+                raise ValueError(f"loads.{name}.{error}") from None
 
     @property
     def jumps(self) -> bool:
@@ -364,11 +385,12 @@ class Scenario(Value):
         return self.machine.in_space(self.linkage)
 
     def drive_of(self, name: str) -> Drive:
-        """The drive that a column or crank follows; `Held` for a column that is not driven."""
+        """The drive that a column or crank follows; `Held` for a column that is not driven or is a cylinder."""
         whole = name
         if self.dimensions == 3 and name in self.space.columns:  # one of a pair
             whole = self.space.columns[name].column
-        if whole in self.linkage.columns and not self.linkage.columns[whole].driven:
+        columns = self.linkage.columns
+        if whole in self.cylinders or (whole in columns and not columns[whole].driven):
             return Held()
         said = self.drives.get(name, self.drives.get(whole))
         if said is not None:
@@ -397,7 +419,7 @@ class Scenario(Value):
     def driven(self) -> tuple[str, ...]:
         """Names of all parts that follow a drive: columns, then cranks."""
         if self.dimensions == 2:
-            return self.linkage.driven
+            return tuple(name for name in self.linkage.driven if name not in self.cylinders)
         columns = self.space.columns.items()
         return tuple(name for name, column in columns if self.linkage.columns[column.column].driven)
 
@@ -412,16 +434,19 @@ class Scenario(Value):
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """Breaks of all drives in use and of loads [s], sorted."""
+        """Breaks of all drives in use, of loads and of valves [s], sorted."""
         of_drives = {t for drive in self.drives_in_use for t in drive.breaks}
-        return tuple(sorted(of_drives.union(*(load.breaks for load in self.loads.values()))))
+        of_valves = (cylinder.inlet.breaks for cylinder in self.cylinders.values())
+        return tuple(sorted(of_drives.union(*(load.breaks for load in self.loads.values()), *of_valves)))
 
     @property
     def recipes(self) -> dict[str, Recipe]:
         """All channels that could be asked for, by name."""
         if self.dimensions == 3:
             return spatial_recipes(self.space, self.clearance_pins, self.oil_columns)
-        return recipes(self.linkage, self.clearance_pins, self.oil_columns, self.friction_pins, self.loads)
+        return recipes(
+            self.linkage, self.clearance_pins, self.giving, self.friction_pins, self.loads, self.cylinders
+        )
 
     @property
     def goal(self) -> float | None:
@@ -444,6 +469,16 @@ class Scenario(Value):
         """The columns that give, and jacks that do, by name."""
         jacks = {self.machine.jacks[name]: part.jack for name, part in self.own_bodies.items()}
         return {name: oil for name, column in {**self.columns, **jacks}.items() if (oil := column.oil)}
+
+    @property
+    def cylinders(self) -> dict[str, HydraulicCylinder]:
+        """The columns that are hydraulic cylinders, by name."""
+        return {name: one for name, one in self.columns.items() if isinstance(one, HydraulicCylinder)}
+
+    @property
+    def giving(self) -> tuple[str, ...]:
+        """Names of the columns whose length no constraint holds: those of oil and cylinders."""
+        return *self.oil_columns, *self.cylinders
 
     @property
     def own_bodies(self) -> dict[str, OwnBody]:

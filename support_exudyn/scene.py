@@ -10,6 +10,7 @@ from typing import Any
 import exudyn
 import numpy as np
 
+from support_exudyn.cylinder_item import CylinderItem
 from support_exudyn.driven_parts import DrivenParts, OilColumnItem
 from support_exudyn.engine_scene import CURRENT, INITIAL, InEngine
 from support_exudyn.impulse import Impulse
@@ -42,9 +43,11 @@ class Scene(InEngine):
     loose_pins: dict[str, LoosePin]
     rigid_columns: dict[str, ColumnItem]
     oil_columns: dict[str, OilColumnItem]
+    cylinders: dict[str, CylinderItem]
     cranks: dict[str, CrankItem]
     slides: dict[str, SlideItem]
     loads: dict[str, LoadItem]
+    weights: dict[str, Any]  # loads of the engine, by body; none without gravity
     driven: tuple[DrivenParts, ...]  # all columns and cranks, by the drive that they follow
 
     @cached_property

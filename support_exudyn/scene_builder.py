@@ -23,7 +23,9 @@ from exudyn.itemInterface import (
 )
 
 from support_exudyn.connector import frame
+from support_exudyn.cylinder_item import CylinderItem
 from support_exudyn.driven_parts import OilColumnItem, by_drive
+from support_exudyn.filled_cylinder import FilledCylinder, fill_cylinders
 from support_exudyn.load_item import add_load
 from support_exudyn.loose_pin import LoosePin
 from support_exudyn.machine import GROUND, Body, Column, Crank, PinPlace, Slide
@@ -67,10 +69,10 @@ class _Builder:
         item = self.mbs.AddObject(ObjectRigidBody2D(mass=body.mass, inertia=body.inertia, nodeNumber=node))
         return BodyItem(body, node, item, first=-1)
 
-    def add_weight(self, name: str, body: Body) -> None:
+    def add_weight(self, name: str, body: Body) -> Any:
         gx, gy = self.scenario.gravity
         weight = [body.mass * gx, body.mass * gy, 0.0]
-        self.mbs.AddLoad(LoadForceVector(markerNumber=self.marker(name, body.centre), loadVector=weight))
+        return self.mbs.AddLoad(LoadForceVector(markerNumber=self.marker(name, body.centre), loadVector=weight))
 
     def marker(self, body: str, point: Vector2) -> Any:
         """The marker on a body at a point of the start posture; parts that meet there share it."""
@@ -135,6 +137,14 @@ class _Builder:
             ObjectConnectorSpringDamper(markerNumbers=self.ends(column), referenceLength=column.start_length)
         )
 
+    def filled_cylinders(self) -> dict[str, FilledCylinder]:
+        """Those that hold the machine at the start."""
+        return fill_cylinders(self.linkage, self.scenario.cylinders, self.scenario.gravity)
+
+    def add_cylinder(self, name: str, filled: FilledCylinder) -> CylinderItem:
+        settles = self.scenario.start == "settled"
+        return CylinderItem(self.mbs, filled, self.ends(self.linkage.columns[name]), settles)
+
     def ends(self, column: Column) -> list[Any]:
         """Markers of foot and head."""
         return [self.marker(column.foot, column.foot_point), self.marker(column.head, column.head_point)]
@@ -174,7 +184,7 @@ class _Builder:
         rigid = {
             name: self.add_rigid_column(column)
             for name, column in self.linkage.columns.items()
-            if name not in oil
+            if name not in self.scenario.giving
         }
         cranks = {name: self.add_crank(crank) for name, crank in self.linkage.cranks.items()}
         slides = {name: self.add_slide(slide) for name, slide in self.linkage.slides.items()}
@@ -187,9 +197,9 @@ class _Builder:
             )
             for name, load in self.scenario.loads.items()
         }
-        if any(self.scenario.gravity):
-            for name, body in self.linkage.bodies.items():
-                self.add_weight(name, body)
+        cylinders = {name: self.add_cylinder(name, filled) for name, filled in self.filled_cylinders().items()}
+        heavy = self.linkage.bodies if any(self.scenario.gravity) else {}
+        weights = {name: self.add_weight(name, body) for name, body in heavy.items()}
         self.mbs.Assemble()
         data = self.mbs.systemData
         bodies = {
@@ -217,9 +227,11 @@ class _Builder:
             loose_pins=loose,
             rigid_columns=rigid_columns,
             oil_columns=oil_columns,
+            cylinders=cylinders,
             cranks=crank_items,
             slides={name: SlideItem(o, int(data.GetObjectLTGAE(o)[0])) for name, o in slides.items()},
             loads=loads,
+            weights=weights,
             driven=by_drive(self.mbs, self.scenario.drive_of, rigid_columns, oil_columns, crank_items),
         )
         for name, friction in frictions.items():
@@ -232,6 +244,8 @@ class _Builder:
             pin.motion = scene.pin_motion(name)
         scene.drive_to(0.0)
         scene.start_moving()
+        for cylinder in cylinders.values():
+            cylinder.assembled()
         scene.start_rubbing()
         scene.reset_memory()
         return scene

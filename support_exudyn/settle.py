@@ -11,6 +11,8 @@ import exudyn
 from support_exudyn.engine_scene import INITIAL, EngineScene
 from support_exudyn.engine_settings import quiet_engine
 from support_exudyn.errors import Failure, SimulationError
+from support_exudyn.load_item import LoadItem
+from support_exudyn.scene_items import BodyItem
 
 # A journal in the middle of its bore has no stiffness. A centring spring in every loose pin is there at
 # first, stiff enough to hold the weight of the machine within the clearance, and is then taken away.
@@ -20,7 +22,8 @@ CENTRING = (1.0, 0.3, 0.1, 0.03, 0.01, 1e-3, 1e-4, 1e-6, 0.0)
 def settle(scene: EngineScene) -> None:
     """Make the static equilibrium under gravity the initial state of the scene, at rest.
 
-    Elastic contact without friction. Velocities the machine asks for are set to zero.
+    Elastic contact without friction. Velocities the machine asks for are set to zero. What loads bring along
+    hangs over its point meanwhile, such as a block that falls, and starts from there as it was to start.
 
     Raises SimulationError if there is no equilibrium or it is not found.
     """
@@ -31,15 +34,33 @@ def settle(scene: EngineScene) -> None:
     def stiffness(clearance: float) -> Callable[[], float]:
         return lambda: share * weight / clearance
 
-    with ExitStack() as contacts:
+    hanging = _hanging(scene)
+    with ExitStack() as for_a_while:
+        for load, pull in hanging.values():
+            for_a_while.enter_context(load.hung(pull))
         for pin in scene.loose_pins.values():
-            contacts.enter_context(pin.settling(stiffness(pin.contact.bearing.clearance)))
+            for_a_while.enter_context(pin.settling(stiffness(pin.contact.bearing.clearance)))
+        for cylinder in scene.cylinders.values():
+            for_a_while.enter_context(cylinder.settling())
         for share in CENTRING:  # noqa: B007
             _solve(scene)
             data.SetODE2Coordinates(data.GetODE2Coordinates(), INITIAL)
+            for cylinder in scene.cylinders.values():
+                cylinder.follow()
             scene.reset_memory()  # of where journals have shifted to along their bores
-    data.SetODE2Coordinates_t(0.0 * data.GetODE2Coordinates_t(INITIAL), INITIAL)
+    velocity = 0.0 * data.GetODE2Coordinates_t(INITIAL)
+    for name in hanging:
+        item = scene.bodies[name]
+        if isinstance(item, BodyItem):  # loads are planar
+            velocity[item.first : item.first + 3] = *item.body.velocity, item.body.spin
+    data.SetODE2Coordinates_t(velocity, INITIAL)
     scene.reset_memory()
+
+
+def _hanging(scene: EngineScene) -> dict[str, tuple[LoadItem, Any]]:
+    """By body that a load brings along, the load and the body's weight."""
+    brought = {item.load.against(name): item for name, item in scene.loads.items()}
+    return {body: (item, scene.weights[body]) for body, item in brought.items() if body in scene.weights}
 
 
 def _solve(scene: EngineScene) -> None:

@@ -71,21 +71,27 @@ class Run:
         self.scene = scene
         self.pins = tuple(scene.loose_pins.values())
         self.frictions = tuple(scene.frictions.values())
+        self.strikers = tuple(item for item in scene.loads.values() if item.load.strikes)
         self.data = scene.mbs.systemData
         self.recorder = recorder
         self.progress = progress
         self.plan = StepPlan(scenario.duration, scenario.record_period, scenario.step, scenario.breaks)
         self.solver: Any = exudyn.MainSolverImplicitSecondOrder()  # its stubs lack self
         self.impulses: list[Impulse] = []
+        self.cylinders = tuple(scene.cylinders.values())
+        self.valves = any(cylinder.moves(scenario.duration) for cylinder in self.cylinders)
         self.settings = engine_settings(
             scenario.solver,
             scenario.duration,
-            int(self.data.ODE2Size() + self.data.AEsize()),
+            int(self.data.ODE2Size() + self.data.ODE1Size() + self.data.AEsize()),
             force_rounding([item.filled for parts in scene.driven for item in parts.oil]),
+            bool(self.cylinders),
         )
         self.locates = scenario.solver.locate
+        self.impact_steps = scenario.solver.impact_steps
         # what a load does need not show in accelerations, and long steps would pass over where it begins
-        grows = scenario.solver.growth > 1.0 and not scene.loads
+        # and pressures are not interpolated at records that a step passes over
+        grows = scenario.solver.growth > 1.0 and not scene.loads and not scene.cylinders
         self.smooth = _smooth_steps(scene) if grows else None
         self.time = 0.0  # end of the last accepted step
         self.steps = self.cut_steps = self.failed_newton = 0
@@ -94,10 +100,14 @@ class Run:
         self.repeated = False  # that step is tried again, shorter
         self.newton = NewtonFailures(scenario.step)
         # whether anything of the model has to follow a drive, and whether Python has to see every step
-        self.follows = any(parts.moves(scenario.duration) for parts in scene.driven)
-        self.watches = bool(self.pins or self.frictions) or self.smooth is not None
+        self.follows = self.valves or any(parts.moves(scenario.duration) for parts in scene.driven)
+        self.watches = bool(self.pins or self.frictions or self.strikers) or self.smooth is not None
         columns = any(parts.rigid or parts.oil for parts in scene.driven if parts.moves(scenario.duration))
-        if columns and recorder.integrates and scenario.step * FEW_STEPS > scenario.record_period:
+        if (
+            (columns or self.valves)
+            and recorder.integrates
+            and scenario.step * FEW_STEPS > scenario.record_period
+        ):
             self.watches = True  # it is called in every step anyway, and a stretch costs more than it saves
         self.audited = -math.inf  # end of the last step that the recorder has been told of [s]
 
@@ -254,6 +264,7 @@ class Run:
         if breaking is None and self._is_to_be_cut(taken, goal - t):
             self.recorder.energies.totals[0] += self.scene.align(t)
             self.scene.refresh_memory()
+            self._tell_rates()
         if self.smooth is not None:
             self.recorder.begin_step(t)
         self.solver.it.currentStepSize = max(SMALLEST_STEP, goal - t)
@@ -311,7 +322,7 @@ class Run:
     def _solved(self, taken: float) -> None:
         """A step of this length [s] has been solved: what follows for the next?"""
         if self.newton.wants_new_jacobians:
-            self.solver.newton.useModifiedNewton = self.scene.scenario.solver.newton == "modified"
+            self.solver.newton.useModifiedNewton = self.settings.timeIntegration.newton.useModifiedNewton
         self.newton.solved(taken, any(pin.impact.begins_with_a_jump for pin in self.pins))
 
     def _look_for_smoothness(self, t: float, smooth: SmoothSteps) -> None:
@@ -326,8 +337,9 @@ class Run:
         self.repeated = False
 
     def _jump(self, t: float) -> None:
-        """Velocities after a break, if the speed of a drive jumps there."""
-        if any(drive.speed_jump(t) for drive in self.scene.scenario.drives_in_use):
+        """Velocities after a break, if the speed of a drive jumps there, and valves."""
+        jumps = any(drive.speed_jump(t) for drive in self.scene.scenario.drives_in_use)
+        if jumps:
             impulse = self.scene.jump(t)
             if impulse is not None:
                 self.impulses.append(impulse)
@@ -335,12 +347,24 @@ class Run:
             self.scene.refresh_memory()
             for pin in self.pins:
                 pin.begin_impact()
+        for cylinder in self.cylinders:
+            cylinder.switch(t)
+        self._tell_rates()
+        if self.cylinders and not jumps:
+            self.recorder.switch(t)
+
+    def _tell_rates(self) -> None:
+        """Velocities or valves have jumped: pressures change at other rates."""
+        for cylinder in self.cylinders:
+            cylinder.tell_rates()
 
     def _next_time(self, t: float) -> float:
         """Where the step that starts at t is to end: on the grid, or at an impact seen coming [s]."""
         largest = self.newton.length
         for pin in self.pins:
             largest = min(largest, pin.impact.step)
+        for striker in self.strikers:
+            largest = min(largest, striker.longest_step(t, self.impact_steps))
         if self.locates and self.plan.follows_break(t):
             largest = min(largest, self.plan.step / BREAK_REFINEMENT)
         if self.smooth is not None and largest == math.inf:

@@ -33,9 +33,9 @@ class Timescales:
     """Shortest times of a scene [s]; infinite where there is no such motion.
 
     flight: of a journal across its clearance. resting: of the vibration of a loaded contact, or of what a load
-    presses on, one over its angular frequency. drive: of the drive, its stroke, or one over a crank's speed, or
-    one over the angular frequency of what rises and falls. rubbing: in which friction, where it is steepest,
-    stops what slides under the load.
+    presses on, one over its angular frequency. drive: of the drive, its stroke, a valve's
+    ramp, or one over a crank's speed, or one over the angular frequency of what rises and falls. rubbing: in
+    which friction, where it is steepest, stops what slides under the load.
     """
 
     flight: float
@@ -135,7 +135,7 @@ def _under_loads(scenario: Scenario) -> list[float]:
     """One over the angular frequency of what stiff loads press on, in the start posture [s]."""
     linkage, found = scenario.linkage, []
     ideal = tuple(pin for pin in linkage.pins if pin not in scenario.clearance_pins)
-    rigid = tuple(column for column in linkage.columns if column not in scenario.oil_columns)
+    rigid = tuple(column for column in linkage.columns if column not in scenario.giving)
     for name, load in scenario.loads.items():
         free = kinetics_of(linkage, ideal, rigid)
         still = np.zeros(3 * len(linkage.bodies))
@@ -175,6 +175,7 @@ def _drive_time(scenario: Scenario, linkage: Linkage) -> float:
     cranks = bool(linkage.cranks)
     driving = [(drive, cranks) for drive in scenario.drives_in_use]
     driving += [(drive, False) for load in scenario.loads.values() for drive in load.drives]
+    times += [cylinder.inlet.shortest_time for cylinder in scenario.cylinders.values()]
     for drive, turns in driving:
         speed = abs(drive.initial_speed)
         if isinstance(drive, Stroke):

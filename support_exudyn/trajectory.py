@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 import numpy.typing as npt
@@ -49,6 +49,22 @@ class LoadSeries:
     observed: Mapping[str, Series]
 
 
+class CylinderSeries(NamedTuple):
+    """A hydraulic cylinder over time, shape (n,) each.
+
+    force: that pushes the ends apart [N]. energy: stored in the oil [J]. pressure, rod_pressure: of piston side
+    and rod side [Pa]. opening: of the valve. flow, rod_flow: into the piston side and the rod side [m^3/s].
+    """
+
+    force: Series
+    energy: Series
+    pressure: Series
+    rod_pressure: Series
+    opening: Series
+    flow: Series
+    rod_flow: Series
+
+
 @dataclass(frozen=True)
 class Trajectory:
     """A run at its records, for a linkage with b bodies.
@@ -59,7 +75,7 @@ class Trajectory:
     contacts: loose pins by name. columns: force (n,) [N] that pushes the ends apart.
     cranks: moment of the drive on the crank (n,) [N m]. slides: magnitude of force across and of moment (n, 2).
     oil_energy: stored in all columns (n,) [J]. work: of the drive so far, damping_loss, friction_loss: so far
-    (n,) [J]. loads: by name.
+    (n,) [J]. loads: by name. cylinders: of columns, by name.
     """
 
     time: Series
@@ -77,6 +93,7 @@ class Trajectory:
     friction_loss: Series
     friction_moments: Mapping[str, Series] = field(default_factory=dict)
     loads: Mapping[str, LoadSeries] = field(default_factory=dict)
+    cylinders: Mapping[str, CylinderSeries] = field(default_factory=dict)
 
 
 class Observed(Protocol):

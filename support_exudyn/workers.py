@@ -9,8 +9,16 @@ import multiprocessing
 import os
 import signal
 import threading
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import FIRST_EXCEPTION, Executor, Future, ProcessPoolExecutor, wait
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from concurrent.futures import (
+    FIRST_COMPLETED,
+    FIRST_EXCEPTION,
+    Executor,
+    Future,
+    ProcessPoolExecutor,
+    wait,
+)
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from typing import Any, TypeVar
@@ -21,6 +29,7 @@ T = TypeVar("T")
 
 CONTEXT = multiprocessing.get_context("spawn")  # the engine does not survive a fork
 PLACES = 4096  # jobs at once whose progress can be watched
+AHEAD = 2  # jobs of a stream for each process, one of them waiting
 POLL = 0.1  # how often progress is told [s]
 NOT_BEGUN = -1.0  # in place of the share of a job that waits
 TRIES = 2  # pools in a row whose processes may end before any work has begun
@@ -115,6 +124,76 @@ class Workers:
             if ended is None:
                 raise lost[min(lost)]
         return [done[n] if n in done or ended is None else ended(lost[n]) for n in range(len(jobs))]
+
+    def stream(
+        self, jobs: Iterable[tuple[Any, ...]], work: Callable[..., T]
+    ) -> Iterator[tuple[int, T | ProcessEndedError]]:
+        """Number of a job and what `work(place, *job)` returns, as each ends; for any number of jobs.
+
+        Jobs are taken as there is room for them, and nothing is held of those that have ended. As with `run`, a
+        job that raises ends all, and after the end of a process the jobs that were begun are done once more,
+        one at a time; in place of what one returns whose process ends again stands its ProcessEndedError.
+        """
+        source = enumerate(jobs)
+        free = list(range(min(PLACES, AHEAD * self._size)))
+        again: deque[tuple[int, tuple[Any, ...]]] = deque()
+        held: dict[Future[T], tuple[int, int, tuple[Any, ...]]] = {}  # place, number, job
+        tries = TRIES
+        try:
+            while True:
+                whole = True
+                while whole and free and (item := again.popleft() if again else next(source, None)):
+                    place = free.pop()
+                    self._shares[place] = NOT_BEGUN
+                    try:
+                        with kept_from_children():
+                            held[self._pool.submit(_do, place, work, item[1])] = (place, *item)
+                    except BrokenProcessPool:
+                        free.append(place)
+                        again.appendleft(item)
+                        whole = False
+                if not held and whole:
+                    return
+                finished, _ = wait(held, return_when=FIRST_COMPLETED if whole else "ALL_COMPLETED")
+                if any(isinstance(future.exception(), BrokenProcessPool) for future in finished):
+                    whole = False
+                    finished, _ = wait(held)
+                lost = []
+                for future in finished:
+                    place, number, job = held.pop(future)
+                    free.append(place)
+                    if isinstance(future.exception(), BrokenProcessPool):
+                        lost.append((number, place, job))
+                    else:
+                        tries = TRIES
+                        yield number, future.result()
+                if whole:
+                    continue
+                begun = [item for item in sorted(lost) if self._shares[item[1]] != NOT_BEGUN]
+                again.extend(
+                    (number, job) for number, place, job in sorted(lost) if (number, place, job) not in begun
+                )
+                tries = TRIES if begun else tries - 1
+                if not tries:
+                    raise NoProcessError
+                yield from self._once_more(begun, work)
+        finally:
+            _cancel(dict(enumerate(held)))
+
+    def _once_more(
+        self, begun: Sequence[tuple[int, int, tuple[Any, ...]]], work: Callable[..., T]
+    ) -> Iterator[tuple[int, T | ProcessEndedError]]:
+        """Jobs beside which a process has ended, by number and place: each by itself, then a new pool."""
+        try:
+            for number, place, job in begun:
+                self._renew(1)
+                done: dict[int, T] = {}
+                if self._go({place: job}, work, lambda shares: None, done):
+                    yield number, done[place]
+                else:
+                    yield number, ProcessEndedError(number, max(0.0, self._shares[place]), self._code())
+        finally:
+            self._renew(self._size)
 
     def _go(
         self,

@@ -68,7 +68,7 @@ class DeadLoad(Load):
 
 
 @value
-class FallingBlock(Load):
+class BareBlock(Load):
     """A block on an upright guide that falls on the point: what a load with a mass of its own takes."""
 
     mass: float

@@ -16,8 +16,20 @@ from typing import Protocol, cast
 from support_exudyn.command_line import Parser, say
 from support_exudyn.provenance import versions
 
-NAMES: tuple[str, ...] = ("run", "show", "compare", "plot", "render", "view", "export", "scenario", "schema")
-
+NAMES: tuple[str, ...] = (
+    "check",
+    "run",
+    "sweep",
+    "chart",
+    "show",
+    "compare",
+    "plot",
+    "render",
+    "view",
+    "export",
+    "scenario",
+    "schema",
+)
 
 INSTALLED = "support-exudyn"
 EPILOG = """\

@@ -20,6 +20,7 @@ COLOURS: dict[Role, Colour] = {
     Role.CYLINDER: (0.36, 0.38, 0.41),
     Role.ROD: (0.84, 0.86, 0.88),
     Role.PIN: (0.13, 0.13, 0.14),
+    Role.ROCK: (0.48, 0.45, 0.42),
     Role.BODY: (0.45, 0.58, 0.70),
 }
 EDGE: Colour = (0.16, 0.16, 0.17)

@@ -6,6 +6,8 @@ import math
 from dataclasses import dataclass
 
 from support_exudyn.drawing.plain import extent
+from support_exudyn.linkages.four_bar_shield import FourBarShield
+from support_exudyn.machine import GROUND
 from support_exudyn.scenario import Scenario
 
 GAP = 0.1  # between plates that pass each other, of their thickness
@@ -62,9 +64,9 @@ def sizes(scenario: Scenario) -> Sizes:
     """Of a scenario's machine: its widths, where it knows them; the rest by distances of its pivots."""
     linkage = scenario.linkage
     length = extent(linkage)
-    columns = [column for column in linkage.columns.values() if column.driven]
-    shortest = min(column.start_length for column in columns)
-    first, second = (column.foot_point for column in columns)
+    columns = {name: linkage.columns[name] for name in standing(scenario)}
+    shortest = min(column.start_length for column in columns.values())
+    feet = [column.foot_point for column in columns.values()]
     width = scenario.machine.widths()
     known = width.spreads if width else {}
 
@@ -72,14 +74,16 @@ def sizes(scenario: Scenario) -> Sizes:
         """Of a body over whose width the mass is spread evenly."""
         return known[body] * math.sqrt(12.0) if known.get(body) else share * length
 
-    apart = (width.columns.get("front_column") if width else None) or 0.077 * length
+    apart = (width.columns.get(next(iter(columns))) if width else None) or 0.077 * length
+    # so thick that two pairs one behind the other have room
+    beside = max(0.3 * math.dist(*feet), 0.03 * shortest) if len(feet) == 2 else math.inf
     eye = min(0.027 * length, 0.45 * _distance_of_eyes(scenario))
     return Sizes(
         length=length,
         pin=min(0.6 * eye, _bore(scenario) or 0.6 * eye),
         eye=eye,
         plate=0.009 * length,
-        column=min(0.085 * shortest, max(0.3 * math.dist(first, second), 0.03 * shortest), 0.8 * apart),
+        column=min(0.085 * shortest, beside, 0.8 * apart),
         canopy=wide("canopy", 0.285),
         shield=wide("shield", 0.275),
         rear_link=wide("rear_link", 0.175),
@@ -87,6 +91,13 @@ def sizes(scenario: Scenario) -> Sizes:
         front_links=(width.pairs.get("front_link") if width else None) or 0.1 * length,
         columns=apart,
     )
+
+
+def standing(scenario: Scenario) -> tuple[str, ...]:
+    """Names of the columns that stand on the base; the others stand on the shield beam."""
+    machine = scenario.machine
+    assert isinstance(machine, FourBarShield)  # whose sizes these are
+    return tuple(name for name, strut in machine.STRUTS.items() if strut.foot[0] == GROUND)
 
 
 def _distance_of_eyes(scenario: Scenario) -> float:

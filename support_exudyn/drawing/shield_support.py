@@ -1,4 +1,4 @@
-"""What a four-column shield support looks like: proportions of a real one about the pivots of the machine."""
+"""What a shield support looks like: proportions of a real one about the pivots of the machine."""
 
 from __future__ import annotations
 
@@ -11,24 +11,26 @@ from shapely.ops import unary_union
 from trimesh import Trimesh
 
 from support_exudyn.columns import TwoBodyColumn
+from support_exudyn.drawing.blocks import blocks
 from support_exudyn.drawing.cylinders import cylinder_and_rod
 from support_exudyn.drawing.placed_pins import planar_pins
 from support_exudyn.drawing.shapes import ROUND, bar, plate, together, tube
-from support_exudyn.drawing.shield_sizes import Sizes, sizes
+from support_exudyn.drawing.shield_sizes import Sizes, sizes, standing
 from support_exudyn.drawing.solid import Look, Role, Solid, Strut
-from support_exudyn.linkages.hydraulic_support import TAIL, HydraulicSupport
+from support_exudyn.linkages.four_bar_shield import TAIL, FourBarShield
 from support_exudyn.machine import GROUND, Column, lumped
-from support_exudyn.plane import moved
+from support_exudyn.plane import minus, moved, parts_of
 from support_exudyn.scenario import Scenario
 from support_exudyn.spatial.lift import LEFT, RIGHT, SIDES, at
 from user_forces.values import Vector2
 
 UNDER = 0.043  # floor under the lowest point of the base, of the machine's extent
+RAM = 0.6  # radius of a stabilising ram, of that of a column on the base
 PROUD = 0.4  # by how much pins stand out of their plates, of a plate's thickness
 
 
 def look(scenario: Scenario) -> Look:
-    """The look of a scenario whose machine is a HydraulicSupport, of any size.
+    """The look of a scenario whose machine is a shield support, of any size.
 
     Pivots, and widths where the machine knows them, are those of the machine; plates, eyes and the like follow
     from their distances. Cylinders and rods fit the stroke of the scenario's drives.
@@ -47,9 +49,18 @@ class _Support:
         self.on_second: dict[str, Vector2] = {name: pin.second_point for name, pin in linkage.pins.items()}
         self.columns = {name: column for name, column in linkage.columns.items() if column.driven}
         self.jacks = {name: column for name, column in linkage.columns.items() if not column.driven}
-        feet = [column.foot_point for column in self.columns.values()]
+        feet = [self.columns[name].foot_point for name in self._standing()]
         lowest = min(y for _, y in (*feet, self.on_first["rear_base"], self.on_first["front_base"]))
         self.floor = lowest - UNDER * self.sizes.length
+
+    def _standing(self) -> tuple[str, ...]:
+        """Columns that stand on the base."""
+        return standing(self.scenario)
+
+    def _beside(self, name: str) -> float:
+        """Half the distance of both columns of a pair [m]."""
+        width = self.scenario.machine.widths()
+        return (width.columns.get(name) if width else None) or self.sizes.columns
 
     def look(self) -> Look:
         """All of it."""
@@ -61,6 +72,7 @@ class _Support:
             Solid("canopy", "canopy", Role.CANOPY, self._canopy()),
             *self._tail(),
             *self._pins(),
+            *blocks(self.scenario),
         ]
         struts: list[Strut] = []
         for name, column in {**self.columns, **self.jacks}.items():
@@ -76,10 +88,10 @@ class _Support:
         """Two skids, a bridge between them, plates that carry the links, and sockets of the columns."""
         s, floor = self.sizes, self.floor
         rear, front = self.on_first["rear_base"], self.on_first["front_base"]
-        feet = [column.foot_point for column in self.columns.values()]
-        top = floor + 0.85 * (min(y for _, y in feet) - floor)
-        left = min(rear[0], front[0], *(x for x, _ in feet)) - 2.4 * s.eye
-        right = max(rear[0], front[0], *(x for x, _ in feet)) + 2.6 * s.column
+        feet = {name: self.columns[name].foot_point for name in self._standing()}
+        top = floor + 0.85 * (min(y for _, y in feet.values()) - floor)
+        left = min(rear[0], front[0], *(x for x, _ in feet.values())) - 2.4 * s.eye
+        right = max(rear[0], front[0], *(x for x, _ in feet.values())) + 2.6 * s.column
         high = top - floor
         skid = Polygon(
             [
@@ -103,9 +115,9 @@ class _Support:
         if inner > 0.5 * s.plate:  # the other plate of the front links' clevis
             clevis = _round([(front, 1.15 * s.eye), ((front[0], top), s.eye)])
             parts += [plate(clevis, side * inner, s.plate) for side in SIDES.values()]
-        for x, y in feet:
+        for name, (x, y) in feet.items():
             for side in SIDES.values():
-                z = side * s.columns
+                z = side * self._beside(name)
                 parts.append(tube((x, 0.5 * (floor + top), z), (x, y + 0.1 * s.column, z), 1.3 * s.column))
         return together(parts)
 
@@ -138,12 +150,29 @@ class _Support:
         box = bar(_between(rear, hinge, 0.5), _between(rear, hinge, 0.86), 0.75 * s.eye)
         parts = [plate(cheek, side * s.cheek, s.plate) for side in SIDES.values()]
         inside = 2.0 * s.cheek - 0.5 * s.plate
+        parts += self._lugs(rear, hinge)
         return together([*parts, plate(bar(low, high, 0.4 * s.eye), 0.0, inside), plate(box, 0.0, inside)])
+
+    def _lugs(self, rear: Vector2, hinge: Vector2) -> list[Trimesh]:
+        """Plates of the shield beam that carry the feet of rams, on both sides of each."""
+        s, found = self.sizes, []
+        for name, column in self.columns.items():
+            if name in self._standing():
+                continue
+            share, _ = parts_of(minus(column.foot_point, rear), minus(hinge, rear))
+            root = _between(rear, hinge, min(0.9, max(0.1, share)))
+            lug = _round([(column.foot_point, 0.7 * s.eye), (root, 1.4 * s.eye)])
+            for side in SIDES.values():
+                for apart in (-1.0, 1.0):
+                    z = side * self._beside(name) + apart * (self._radius(name) + 0.7 * s.plate)
+                    found.append(plate(lug, z, s.plate))
+        return found
 
     def _canopy(self) -> Trimesh:
         """A flat box that tapers to the tip, with sockets of the columns and lugs of the hinge under it."""
         s, hinge = self.sizes, self.on_second["shield_canopy"]
-        heads = [column.head_point for column in self.columns.values()]
+        pairs = {name: column.head_point for name, column in self.columns.items()}
+        heads = list(pairs.values())
         tip = self.scenario.linkage.points["tip"].point
         top = canopy_top(self.scenario)
         highest = max(hinge[1], *(y for _, y in heads))
@@ -169,16 +198,16 @@ class _Support:
         for inset in (1.3, 5.0):
             z = s.cheek - inset * s.plate
             parts += [plate(lug, side * z, s.plate) for side in SIDES.values()]
-        for x, y in heads:
+        for name, (x, y) in pairs.items():
             for side in SIDES.values():
-                z = side * s.columns
+                z = side * self._beside(name)
                 parts.append(tube((x, y + 0.25 * s.column, z), (x, bottom + 0.2 * high, z), 1.15 * s.column))
         return together(parts)
 
     def _tail(self) -> Iterator[Solid]:
         """The tail beam, hanging from the lower end of the shield beam; nothing if the machine has none."""
         machine, linkage = self.scenario.machine, self.scenario.linkage
-        assert isinstance(machine, HydraulicSupport)  # whose look this is
+        assert isinstance(machine, FourBarShield)  # whose look this is
         if TAIL in linkage.bodies:
             near, centre = self.on_second["shield_tail"], linkage.bodies[TAIL].centre
             yield Solid(TAIL, TAIL, Role.TAIL, self._beam(near, centre))
@@ -247,15 +276,19 @@ class _Support:
 
     def _meshes(self, name: str, column: Column) -> tuple[Trimesh, Trimesh]:
         shortest, longest = self._stroke(name, column)
-        radius = self.sizes.column if column.driven else min(0.4 * self.sizes.column, 0.1 * shortest)
+        radius = self._radius(name) if column.driven else min(0.4 * self.sizes.column, 0.1 * shortest)
         return cylinder_and_rod(shortest, longest, radius)
+
+    def _radius(self, name: str) -> float:
+        """Of a cylinder [m]; a ram's is smaller than that of a column on the base."""
+        return self.sizes.column if name in self._standing() else RAM * self.sizes.column
 
     def _struts(self, name: str, column: Column) -> Iterator[Strut]:
         """Both columns of a pair, or the jack in the middle."""
         cylinder, rod = self._meshes(name, column)
         sides = SIDES.items() if column.driven else (("", 0.0),)
         for side, sign in sides:
-            z = sign * self.sizes.columns
+            z = sign * self._beside(name)
             foot, head = at(column.foot_point, z), at(column.head_point, z)
             label = f"{name}_{side}" if side else name
             yield Strut(label, column.foot, column.head, foot, head, cylinder, rod)
@@ -267,7 +300,7 @@ class _Support:
             (f"{name}_cylinder", Role.CYLINDER, cylinder, column.foot_point),
             (f"{name}_rod", Role.ROD, rod, column.head_point),
         ):
-            yield from self._of_pair(body, role, _placed(mesh, column, end), self.sizes.columns)
+            yield from self._of_pair(body, role, _placed(mesh, column, end), self._beside(name))
 
     # --- bodies that there are two of ---
 

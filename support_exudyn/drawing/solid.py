@@ -22,6 +22,7 @@ class Role(Enum):
     CYLINDER = "cylinder"
     ROD = "rod"
     PIN = "pin"
+    ROCK = "rock"
     BODY = "body"  # of a machine that says no more of it
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from typing import NamedTuple
@@ -75,6 +76,10 @@ class Load(Value, ABC):
         del name
         return linkage
 
+    def check(self, gravity: Vector2) -> None:
+        """Raise InputError if it does not go with this gravity [m/s^2]; any does by default."""
+        del gravity
+
     def against(self, name: str) -> str:
         """The body that the opposite force acts on, if the load has this name: the ground by default."""
         del name
@@ -104,6 +109,16 @@ class Load(Value, ABC):
     def steepness(self) -> Vector2:
         """By how much the force grows at most with the point's way along x and y [N/m]."""
         return 0.0, 0.0
+
+    @property
+    def strikes(self) -> bool:
+        """Whether it strikes the machine, so that steps have to be shortened in time: see `longest_step`."""
+        return False
+
+    def longest_step(self, at: LoadedPoint, number: int) -> float:
+        """How long the next step may be [s] if an impact is to take so many; any by default."""
+        del at, number
+        return math.inf
 
     def largest(self, duration: float) -> Vector2:
         """The largest force in a run of this duration [s] if the point stayed in its start posture [N]."""

@@ -56,6 +56,7 @@ BARS = {  # ends of the uniform bars that stand for bodies of which the mass alo
     "shield": ("rear_shield", "hinge"),
     "canopy": ("hinge", "tip"),
 }
+SAYS_UNIT_TWICE = re.compile(r"(_mm = [^ :]+) mm\b")
 SAYS_METRES = re.compile(r"(?<![\w.])(-?\d+(?:\.\d+)?(?:e-?\d+)?)( to -?\d+(?:\.\d+)?)? m\b")
 
 
@@ -290,7 +291,7 @@ class ShieldForm(MachineForm):
         for name in (*self.MACHINE.pivots(),):
             message = re.sub(rf"(?<![\w.]){name} = \((\S+), (\S+)\)", _pivot_in_mm(name), message)
         message = message.replace("start_hinge_height = ", "start_hinge_height_mm = ")
-        return SAYS_METRES.sub(_in_mm, message)
+        return SAYS_UNIT_TWICE.sub(r"\1", SAYS_METRES.sub(_in_mm, message))
 
 
 PINS_SAID = {

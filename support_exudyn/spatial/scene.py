@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from support_exudyn.cylinder_item import CylinderItem
 from support_exudyn.driven_parts import DrivenParts, OilColumnItem
 from support_exudyn.engine_scene import CURRENT, INITIAL, InEngine
 from support_exudyn.impulse import Impulse
@@ -59,6 +60,8 @@ class SpatialScene(InEngine):
     driven: tuple[DrivenParts, ...]  # all columns, by the drive that they follow
     frictions: dict[str, PinFriction] = field(default_factory=dict)  # of ideal pins: not covered
     loads: dict[str, LoadItem] = field(default_factory=dict)  # nor are they
+    weights: dict[str, Any] = field(default_factory=dict)  # are asked for where loads bring bodies along
+    cylinders: dict[str, CylinderItem] = field(default_factory=dict)  # nor these
 
     @property
     def gravity(self) -> Vector3:

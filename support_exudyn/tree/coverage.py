@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import NoReturn
 
 from support_exudyn.columns import TwoBodyColumn
+from support_exudyn.cylinder import HydraulicCylinder
 from support_exudyn.scenario import Scenario
 from support_exudyn.tree.branches import LoopError, LooseError, branches
 from user_forces.values import InputError
@@ -20,6 +21,8 @@ def check(scenario: Scenario) -> None:
         # setting the variables of an expression and asking for it takes longer than calling the law
         _refuse("solver.backend", repr(scenario.solver.backend), "'auto', 'python'")
     for name, column in scenario.columns.items():
+        if isinstance(column, HydraulicCylinder):
+            _refuse(f"columns.{name}", "HydraulicCylinder, whose pressures are coordinates too", "OilColumn")
         if isinstance(column, TwoBodyColumn):
             _refuse(f"columns.{name}", "TwoBodyColumn, whose slide closes a loop", "OilColumn")
     for name, load in scenario.loads.items():

@@ -32,9 +32,9 @@ from tests.roof_cases import (
     STIFFNESS,
     TEN_MEGANEWTONS,
     TOP,
+    BareBlock,
     Branching,
     DeadLoad,
-    FallingBlock,
     Ram,
     over_the_canopy,
     over_the_ram,
@@ -140,7 +140,7 @@ def test_a_dead_load_takes_no_more_than_its_class() -> None:
 
 def test_a_load_may_bring_its_own_mass_along() -> None:
     # 250 kg meet 1 t that comes up at 1 m/s, after 10 mm; without weight, loss and outer force
-    block = FallingBlock(body="ram", point=TOP, mass=MASS / 4.0, gap=0.01, stiffness=STIFFNESS)
+    block = BareBlock(body="ram", point=TOP, mass=MASS / 4.0, gap=0.01, stiffness=STIFFNESS)
     scene = replace(thrown(0.01, 1e-4), loads={"block": block})
     result = simulate(scene)
     # the formulas of an elastic impact; second order in the steps: 1e-5
@@ -153,7 +153,7 @@ def test_a_load_may_bring_its_own_mass_along() -> None:
 
 @pytest.mark.parametrize("columns", [{}, ON_OIL], ids=["rigid", "oil"])
 def test_a_block_that_falls_on_the_canopy_gives_its_energy_to_the_audit(columns: dict[str, OilColumn]) -> None:
-    block = FallingBlock(body="canopy", point=OVER_THE_COLUMNS, mass=2000.0, gap=0.05, stiffness=1e8)
+    block = BareBlock(body="canopy", point=OVER_THE_COLUMNS, mass=2000.0, gap=0.05, stiffness=1e8)
     result = simulate(pressed_support(block, columns=columns, loads={"rock": block}, pins=LOOSE, step=1e-4))
     fallen = result.time < 0.1  # it lands after 0.101 s
     expected = OVER_THE_COLUMNS[1] - 0.5 * 9.81 * result.time**2

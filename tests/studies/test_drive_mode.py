@@ -35,7 +35,7 @@ def test_the_gentle_drive_saves_most_of_the_shock(numbers: Numbers) -> None:
     for columns in study.COLUMNS:
         for name, share in (
             ("largest_pin_force_in_rise", 0.5),  # 0.42 and 0.37
-            ("std_pin_force", 0.25),  # 0.17 and 0.19
+            ("std_pin_force", 0.25),  # 0.17 to 0.21
             ("ripple_pin_force", 0.1),  # 0.03
             ("largest_angular_acceleration", 0.25),  # 0.12 and 0.09
         ):
@@ -78,6 +78,32 @@ def test_clearance_does_not_make_the_first_peak_worse(numbers: Numbers) -> None:
     assert loose["value"] + loose["numerical_error"] < 1.01 * ideal["value"]
 
 
+def test_an_inlet_is_not_a_displacement(numbers: Numbers) -> None:
+    def value(name: str, mode: str, pin: str = IDEAL) -> float:
+        return float(numbers[name, study.case_name(mode, pin, "cylinder")]["value"])
+
+    for mode in study.MODES:
+        # sized for 500 mm, at the loads of the rise
+        assert value("settled_extension_front", mode) == pytest.approx(500.0, abs=5.0)
+        # the rear columns carry more: by half a per cent slower
+        assert 0.99 < value("speed_in_mid_rise_rear", mode) / value("speed_in_mid_rise_front", mode) < 0.997
+        # pressure at rest carries the weight: 45 kN on 0.098 m^2
+        assert 0.3 < value("pressure_after_rear", mode) < 0.7
+    # by what the oil gives; and where no liquid would follow
+    assert value("overshoot_front", "mode 1") > 10.0 * value("overshoot_front", "mode 2")
+    assert value("least_pressure_front", "mode 1") < 0.0 < value("least_pressure_front", "mode 2")
+    closed_at_once, ramped = (value("largest_pin_force_after_closing", mode, LOOSE) for mode in study.MODES)
+    assert ramped < 0.5 * closed_at_once
+
+
+def test_motion_on_cylinders_is_known_well(numbers: Numbers) -> None:
+    for pin in study.PINS:
+        for mode in study.MODES:
+            found = numbers["settled_extension_rear", study.case_name(mode, pin, "cylinder")]
+            # second order; what the pin does in between moves it by micrometres
+            assert found["numerical_error"] < 1e-3 * found["value"]
+
+
 def test_a_limit_is_told_from_none() -> None:
     assert study.verdict([1.0, 1.1, 1.125]) == study.CONVERGES
     assert study.verdict([1.0, 1.001, 1.003]) == study.CONVERGES  # below 1 %
@@ -91,4 +117,6 @@ def test_the_chapter_says_what_cannot_converge(out: Path) -> None:
     for picture in chapter.pictures:
         assert (out / f"{picture.stem}.png").read_bytes().startswith(b"\x89PNG")
     assert "N s" in (out / "table_rigid.txt").read_text(encoding="utf-8")
-    assert len(list((out / "runs").iterdir())) == 8
+    assert len(list((out / "runs").iterdir())) == 12
+    assert any("cavitate" in text for text in chapter.findings)
+    assert "l/min" in (out / "table_valves.txt").read_text(encoding="utf-8")

@@ -1,0 +1,56 @@
+"""`check FILE`: what can be said of a machine before it is run."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from functools import partial
+from pathlib import Path
+
+from support_exudyn.command_line import folder, number, say
+from support_exudyn.machine_data import read_machine
+
+HELP = "draw a machine and tell its mobility, closure, dead centres, static forces, and what looks wrong"
+FARTHEST = 1e5  # [mm]
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The machine's file, and what of it is looked at."""
+    parser.add_argument(
+        "machine",
+        metavar="FILE",
+        help="machine data file, a path that ends in .toml; or a machine that comes with the package: "
+        "reference, zf18000, two_leg_shield, slider_crank",
+    )
+    parser.add_argument(
+        "--out", type=folder, metavar="DIR", help="where the figure goes; by default beside the file, or here"
+    )
+    parser.add_argument(
+        "--stroke-mm",
+        type=partial(number, low=-FARTHEST, high=FARTHEST),
+        metavar="S",
+        help="by how much the columns extend from the start on [mm]; by default what the file says",
+    )
+    parser.add_argument("--json", action="store_true", help="one JSON object, SI units, on standard output")
+
+
+def run(given: argparse.Namespace) -> None:
+    """Print what was found, and write the figure."""
+    from support_exudyn.checking import check_machine  # and numpy's linear algebra
+    from support_exudyn.figures import style
+
+    data = read_machine(given.machine)
+    report = check_machine(data, None if given.stroke_mm is None else given.stroke_mm / 1e3)
+    path = Path(given.machine)
+    own = path.suffix.lower() == ".toml"
+    out = given.out or (path.parent if own else Path())
+    with style.look():
+        written = style.save(report.draw(), out, f"{path.stem if own else given.machine}_check")
+    if given.json:
+        say(json.dumps(report.data() | {"figures": [str(one) for one in written]}, indent=2))
+        return
+    for line in report.lines():
+        say(line)
+    say("")
+    for one in written:
+        say(str(one))

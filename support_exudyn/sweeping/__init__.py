@@ -1,0 +1,27 @@
+"""Sweeps: many runs of a scenario with some of its fields varied, in one store that can be continued.
+
+    from support_exudyn.sweeping import read_sweep, read_table, sweep
+
+    sweep(read_sweep("clearance.toml"), "clearance_sweep")
+    table = read_table("clearance_sweep")  # a pyarrow table; .to_pandas() where pandas is there
+
+A run has a key, made of its inputs and of the program; what the store holds under that key is not run again.
+"""
+
+from support_exudyn.sweeping.file import read_sweep
+from support_exudyn.sweeping.plan import Plan, Record
+from support_exudyn.sweeping.points import grid, latin_hypercube, side_by_side
+from support_exudyn.sweeping.run import Outcome, sweep
+from support_exudyn.sweeping.table import read_table
+
+__all__ = [
+    "Outcome",
+    "Plan",
+    "Record",
+    "grid",
+    "latin_hypercube",
+    "read_sweep",
+    "read_table",
+    "side_by_side",
+    "sweep",
+]

@@ -1,0 +1,122 @@
+"""The runs of a sweep on a Dask cluster; its machines need not see this one's disk."""
+
+from __future__ import annotations
+
+import tempfile
+import threading
+from collections.abc import Generator, Iterable, Iterator
+from pathlib import Path
+from typing import Any
+
+from support_exudyn.files import whole_file
+from support_exudyn.result import Result
+from support_exudyn.sweeping.key import program
+from support_exudyn.sweeping.row import Row
+from support_exudyn.sweeping.store import Store
+from support_exudyn.sweeping.work import Task, computed, run_into
+from user_forces.values import InputError
+
+AHEAD = 2  # runs for each thread of the cluster that wait there, so that none waits for us
+FEWEST = 4  # runs at once, also while no worker has come yet
+REACHED = 20.0  # [s] within which a scheduler must answer
+ONE = threading.Lock()  # the engine runs once in a process, however many threads a worker has
+
+
+def on_cluster(tasks: Iterable[Task], store: Store, address: str) -> Generator[Row, None, None]:
+    """Rows as they come. Runs come back as the bytes of their files, and are put into the store here.
+
+    A run whose worker is lost is done again by another; how often is the scheduler's setting
+    (`distributed.scheduler.allowed-failures`). If that is used up its row is "killed".
+
+    address: of the scheduler, such as "tcp://10.0.0.5:8786".
+
+    Raises InputError if dask.distributed is not installed, or if a worker runs another program than this one;
+    OSError if the scheduler cannot be reached.
+    """
+    try:
+        from distributed import CancelledError, Client, KilledWorker, as_completed
+    except ImportError:
+        raise InputError(
+            f"scheduler = {address!r}: needs dask.distributed, which is not installed; "
+            "pip install 'support-exudyn[cluster]'"
+        ) from None
+    try:
+        client = Client(address, timeout=REACHED, set_as_default=False)
+    except (OSError, ValueError, TypeError) as error:
+        reason = " ".join(str(error).split())
+        raise OSError(f"scheduler = {address!r}: cannot be reached ({reason}); is it running there?") from None
+    under_way: dict[Any, Task] = {}
+    source = iter(tasks)
+
+    def further(done: Any) -> None:
+        room = max(FEWEST, AHEAD * sum(client.nthreads().values()))
+        while len(under_way) < room and (task := next(here, None)) is not None:
+            # a name of its own every time: else the cluster might hold what an earlier sweep has left there
+            future = client.submit(_remote, task, program(), pure=False)
+            under_way[future] = task
+            done.add(future)
+
+    kept: list[Row] = []
+
+    def to_run() -> Iterator[Task]:
+        for task in source:
+            if task.again:  # it is read from our own disk
+                kept.append(run_into(store, task))
+            else:
+                yield task
+
+    here = to_run()
+    with client:
+        done = as_completed(loop=client.loop)
+        try:
+            further(done)
+            while under_way or kept:
+                while kept:
+                    yield kept.pop()
+                if not under_way:
+                    break
+                future = next(done)
+                task = under_way.pop(future)
+                try:
+                    row, image = future.result()
+                except KilledWorker as error:
+                    yield Row(task.key, "killed", f"lost with its worker, again and again: {_said(error)}")
+                except CancelledError:
+                    raise OSError(
+                        f"scheduler = {address!r}: was lost; the same command goes on from here"
+                    ) from None
+                else:
+                    yield _kept(store, row, image)
+                future.release()
+                further(done)
+        finally:
+            if client.status == "running":
+                client.cancel(list(under_way), force=True)
+
+
+def _kept(store: Store, row: Row, image: bytes | None) -> Row:
+    if image is not None:
+        with whole_file(store.run_file(row.key)) as temporary:
+            temporary.write_bytes(image)
+    return store.put(row)
+
+
+def _said(error: Exception) -> str:
+    return " ".join(str(error).split())
+
+
+def _remote(task: Task, ours: dict[str, str]) -> tuple[Row, bytes | None]:
+    """On a worker: a run's row, and its file's bytes if it is to be kept."""
+    theirs = program()
+    differing = sorted(name for name in {*ours, *theirs} if ours.get(name) != theirs.get(name))
+    if differing:
+        said = "; ".join(f"{n}: {theirs.get(n, 'none')} there, {ours.get(n, 'none')} here" for n in differing)
+        raise InputError(f"a worker of the cluster runs another program ({said}); allowed: the same everywhere")
+    with ONE:
+        row, result = computed(task)
+    return row, _image(result) if result is not None and task.record.keep_runs else None
+
+
+def _image(result: Result) -> bytes:
+    with tempfile.TemporaryDirectory(prefix="support-exudyn-") as folder:
+        return result.save(Path(folder) / "run.h5").read_bytes()

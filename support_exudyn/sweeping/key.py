@@ -1,0 +1,53 @@
+"""The key of a run: the same for the same inputs and the same program, another for any others."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from functools import cache
+from pathlib import Path
+
+import support_exudyn
+import user_forces
+from support_exudyn.provenance import versions
+from support_exudyn.scenario import Scenario
+
+MAKES_NO_NUMBERS = (
+    "matplotlib",
+    "meshio",
+    "h5py",
+    "pydantic",
+)  # packages that a run's numbers do not depend on
+LOOKS = ("figures", "drawing", "render", "exporting", "commands", "sweeping")  # parts of ours that only look
+LENGTH = 32  # hexadecimal digits: 128 bits, no two runs will ever share one
+
+
+@cache
+def program() -> dict[str, str]:
+    """What makes the numbers: versions of packages, and a digest of our own sources.
+
+    By the digest a change of the program is seen before it has a new version.
+    """
+    found = {name: text for name, text in versions().items() if name not in MAKES_NO_NUMBERS}
+    return found | {"sources": _sources()}
+
+
+def key(scenario: Scenario, errors: bool = False) -> str:
+    """Of a run of this scenario with this program: hexadecimal digits of a SHA-256 digest.
+
+    errors: whether it is made with estimated errors, see `simulate`.
+    """
+    text = json.dumps([scenario.to_data(), errors, program()], sort_keys=True, separators=(",", ":"))
+    return hashlib.sha256(text.encode()).hexdigest()[:LENGTH]
+
+
+def _sources() -> str:
+    digest = hashlib.sha256()
+    for package in (user_forces, support_exudyn):
+        root = Path(package.__path__[0])
+        for path in sorted(root.rglob("*.py")):
+            inside = path.relative_to(root)
+            if inside.parts[0] not in LOOKS:
+                digest.update(inside.as_posix().encode())
+                digest.update(path.read_bytes())
+    return digest.hexdigest()[:LENGTH]

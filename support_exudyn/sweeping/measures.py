@@ -1,0 +1,107 @@
+"""The numbers of a run that a sweep notes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from fnmatch import fnmatchcase
+
+import numpy as np
+
+from support_exudyn.estimate import Kind, error, measures
+from support_exudyn.result import Result
+from support_exudyn.scenario import Scenario
+from support_exudyn.sweeping.plan import Record
+from support_exudyn.sweeping.row import Number
+from user_forces.values import InputError, short
+
+STATISTICS: Mapping[str, Callable[[np.ndarray], float]] = {
+    "mean": np.mean,
+    "std": np.std,
+    "max": np.max,
+    "min": np.min,
+    "first": lambda values: float(values[0]),
+    "last": lambda values: float(values[-1]),
+    "spread": np.std,  # as `Result.numbers` calls them
+    "largest": np.max,
+}
+WILD = "*?["
+
+
+def numbers(result: Result, record: Record) -> dict[str, Number]:
+    """What is to be noted of a run, as far as it has it, with errors if the run tells them.
+
+    Raises InputError if no record lies between the times.
+    """
+    usual = measures(result, record.after, record.until)
+    found: dict[str, Kind] = {}
+    if not record.numbers:
+        found.update(usual)
+    for pattern in record.numbers:
+        found |= _matching(pattern, usual, result, record)
+    return {name: _number(kind, result) for name, kind in found.items()}
+
+
+def check_numbers(scenario: Scenario, record: Record) -> None:
+    """Raise InputError if a number that is named, not a pattern, is none that its runs could have."""
+    for name in record.numbers:
+        channel, _, statistic = name.rpartition(".")
+        if any(letter in name for letter in WILD) or _is_of_touches(name, scenario):
+            continue
+        if statistic not in STATISTICS:
+            raise InputError(
+                f"numbers: {short(name)}: no such number; allowed: a channel and one of "
+                f"{', '.join(STATISTICS)}, such as 'pin.rear_base.force.mean', patterns of such, "
+                "pin.NAME.largest_force, pin.NAME.onset_1.time"
+            )
+        if channel not in scenario.recipes:
+            near = ", ".join(list(scenario.recipes)[:6])
+            raise InputError(
+                f"numbers: {short(name)}: runs have no channel {short(channel)}; allowed: those of the "
+                f"scenario, such as {near}; or a pattern, if only some of the runs have it"
+            )
+
+
+def _is_of_touches(name: str, scenario: Scenario) -> bool:
+    parts = name.split(".")
+    return (
+        parts[0] == "pin"
+        and ".".join(parts[1:2]) in scenario.linkage.pins
+        and (parts[2:] == ["largest_force"] or (len(parts) == 4 and parts[2].startswith("onset_")))
+    )
+
+
+def _matching(pattern: str, usual: Mapping[str, Kind], result: Result, record: Record) -> dict[str, Kind]:
+    if not any(letter in pattern for letter in WILD):
+        channel, _, statistic = pattern.rpartition(".")
+        if pattern in usual:
+            return {pattern: usual[pattern]}
+        if channel in result.channels and statistic in STATISTICS:
+            return {pattern: _kind(result, channel, statistic, record)}
+        return {}
+    found = {name: kind for name, kind in usual.items() if fnmatchcase(name, pattern)}
+    for channel in result.channels:
+        for statistic in STATISTICS:
+            name = f"{channel}.{statistic}"
+            if channel != "time" and name not in found and fnmatchcase(name, pattern):
+                found[name] = _kind(result, channel, statistic, record)
+    return found
+
+
+def _kind(result: Result, channel: str, statistic: str, record: Record) -> Kind:
+    compute = STATISTICS[statistic]
+
+    def measure(run: Result) -> float:
+        # as of `Result.numbers`: times of records are sums of periods
+        inside = (run.time >= record.after - 1e-9) & (run.time <= record.until + 1e-9)
+        return float(compute(run[channel][inside]))
+
+    return Kind(result.unit(channel), measure)
+
+
+def _number(kind: Kind, result: Result) -> Number:
+    value = kind.measure(result)
+    if result.coarser is None:
+        return Number(value, None, kind.unit)
+    known = float(error(kind.measure, result, result.fall, kind.size))
+    return Number(value, known if math.isfinite(known) else None, kind.unit)

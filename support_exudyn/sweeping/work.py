@@ -1,0 +1,58 @@
+"""What is done for a run of a sweep, wherever that is."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+
+from support_exudyn.errors import SimulationError
+from support_exudyn.result import Result
+from support_exudyn.scenario import Scenario
+from support_exudyn.simulate import simulate
+from support_exudyn.sweeping.measures import numbers
+from support_exudyn.sweeping.plan import Record
+from support_exudyn.sweeping.row import Row
+from support_exudyn.sweeping.store import Store
+from user_forces.values import InputError
+
+
+@dataclass(frozen=True)
+class Task:
+    """A run to make, or, if `again` is set, one that is kept and of which other numbers are to be noted."""
+
+    key: str
+    scenario: Scenario
+    record: Record
+    errors: bool = False
+    again: bool = False
+
+
+def computed(task: Task) -> tuple[Row, Result | None]:
+    """Run it. The Result is None if it fails, which the row tells."""
+    began = time.perf_counter()
+    try:
+        result = simulate(task.scenario, errors=task.errors)
+        return row_of(task, result), result
+    except (SimulationError, InputError) as error:
+        reason = " ".join(str(error).split())
+        took = time.perf_counter() - began
+        return Row(task.key, "failed", reason, took, noted=task.record.digest), None
+
+
+def row_of(task: Task, result: Result) -> Row:
+    """Of a run that was finished."""
+    found = numbers(result, task.record)
+    return Row(task.key, "done", wall_time=result.wall_time, numbers=found, noted=task.record.digest)
+
+
+def run_into(store: Store, task: Task) -> Row:
+    """Run it, or read it if it is kept, and put all of it into the store."""
+    if task.again:
+        try:
+            return store.put(row_of(task, Result.load(store.run_file(task.key))))
+        except (InputError, FileNotFoundError):  # damaged since, and in a way that its size and age do not tell
+            pass
+    row, result = computed(task)
+    if result is not None and task.record.keep_runs:
+        result.save(store.run_file(task.key))
+    return store.put(row)

@@ -1,0 +1,75 @@
+"""Sweeps of runs of some milliseconds: a journal that bounces in a bore."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+from support_exudyn.sweeping import read_table
+from tests.processes import ROOT, environment
+
+STAND = """
+[scenario]
+duration_s = {duration}
+record_period_s = 1e-4
+step_s = 1e-4
+gravity_m_per_s2 = [0.0, 0.0]
+[scenario.machine]
+type = "ImpactStand"
+bore_mass_kg = 10.0
+journal_mass_kg = 1.0
+speed_m_per_s = 0.2
+[scenario.pins.pin]
+clearance_mm = 1.0
+bore_radius_mm = 65.5
+"""
+NUMBERS = ["pin.pin.force.mean", "pin.pin.force.max", "pin.pin.largest_force", "journal.x.last"]
+
+
+def write_sweep(folder: Path, vary: str, *, head: str = "", record: str = "", duration: float = 0.02) -> Path:
+    """The file of a sweep of the stand.
+
+    vary: lines of its table. head: of its top. record: lines in place of those that note NUMBERS.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    path = folder / "sweep.toml"
+    noted = record or f"numbers = {NUMBERS}"
+    text = f"{head}\n{STAND.format(duration=duration)}\n[vary]\n{vary}\n[record]\n{noted}\n"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def speeds(number: int) -> str:
+    """So many speeds, all different."""
+    return f'"machine.speed_m_per_s" = {{from = 0.1, to = 0.3, steps = {number}}}'
+
+
+def start(path: Path, *options: str) -> subprocess.Popen[str]:
+    """The command as a process in a session of its own."""
+    return subprocess.Popen(
+        [sys.executable, "-m", "support_exudyn", "sweep", str(path), *options],
+        cwd=ROOT,
+        env=environment(),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+
+
+def rows(store: Path) -> dict[str, tuple[int, int]]:
+    """Of finished runs, by key: what changes if one is made again."""
+    found = {}
+    for path in (store / "rows").glob("[!.]*.json"):
+        status = path.stat()
+        found[path.stem] = (status.st_ino, status.st_mtime_ns)
+    return found
+
+
+def columns(store: Path) -> dict[str, list[Any]]:
+    """The table but for times that runs took."""
+    table = read_table(store).to_pydict()
+    del table["wall_time_s"]
+    return table

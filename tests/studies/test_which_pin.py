@@ -1,0 +1,186 @@
+"""The findings on which pin matters, on the quick form of the study, and its closed form against itself."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from studies import rise, slack
+from studies import which_pin as study
+from studies.reporting.chapter import Chapter
+from studies.which_pin_posture import loads, mean_shift
+from support_exudyn import ClearancePin, CubicStep, SolverSettings, reference_support, simulate
+from support_exudyn.eccentric import eccentric
+from user_forces import Ambrosio, Exact, Hertz, JournalBearing, JournalContact, KelvinVoigt, Threlfall
+
+PINS = tuple(reference_support().linkage().pins)
+DRY, SMOOTH = study.FRICTIONS
+SUPPORT = reference_support()
+
+Numbers = dict[tuple[str, str], dict[str, Any]]
+
+
+@pytest.fixture(scope="module")
+def out(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("results")
+    assert study.main(["--quick", "--out", str(folder), "--workers", "2"]) == 0
+    return folder
+
+
+@pytest.fixture(scope="module")
+def numbers(out: Path) -> Numbers:
+    summary = json.loads((out / "summary.json").read_text(encoding="utf-8"))
+    return {(n["name"], n["case"]): n for n in summary["numbers"]}
+
+
+def alone(numbers: Numbers, name: str, friction: float) -> dict[str, float]:
+    return {pin: numbers[name, study.case_name((pin,), friction)]["value"] for pin in PINS}
+
+
+@pytest.mark.parametrize("friction", study.FRICTIONS)
+def test_front_links_pins_move_the_tip_most_and_the_hinge_hardly(numbers: Numbers, friction: float) -> None:
+    effects = alone(numbers, "mean_tip_shift_forward", friction)
+    # a link between two pins is pressed alike at both ends: those differ by 1 %, links by a quarter
+    assert study.in_order(effects) == "front_base = front_shield > rear_base = rear_shield > shield_canopy"
+
+
+@pytest.mark.parametrize("friction", study.FRICTIONS)
+@pytest.mark.parametrize("axis", ["tip_shift_forward", "tip_shift_up", "canopy_tilt"])
+def test_virtual_work_tells_where_the_worn_support_stands(numbers: Numbers, axis: str, friction: float) -> None:
+    for pins in (*((pin,) for pin in PINS), PINS):
+        case = study.case_name(pins, friction)
+        # first order in slack over length: 0.2 % alone, 0.6 to 0.8 % for five; the hinge alone, whose journal
+        # crosses its bore, 1 % of next to nothing
+        assert numbers[f"mean_{axis}", case]["value"] == pytest.approx(
+            numbers[f"closed_form_{axis}", case]["value"], rel=0.015
+        )
+
+
+@pytest.mark.parametrize("friction", study.FRICTIONS)
+def test_shifts_add_up_and_shaking_does_not(numbers: Numbers, friction: float) -> None:
+    whole = study.case_name(PINS, friction)
+    shift = sum(alone(numbers, "mean_tip_shift_forward", friction).values())
+    assert numbers["mean_tip_shift_forward", whole]["value"] == pytest.approx(shift, rel=0.01)  # 0.5 and 0.8 %
+    shaking = np.hypot.reduce(list(alone(numbers, "ripple_pin_forces", friction).values()))
+    assert numbers["ripple_pin_forces", whole]["value"] > 1.5 * shaking  # 2.0 and 3.2
+
+
+def test_friction_makes_the_shaking_and_hardly_moves_the_tip(numbers: Numbers) -> None:
+    for friction, other in ((DRY, SMOOTH),):
+        case, smooth = study.case_name(PINS, friction), study.case_name(PINS, other)
+        shift = (numbers["mean_tip_shift_forward", one]["value"] for one in (case, smooth))
+        assert np.ptp(list(shift)) < 0.2  # [mm] of 17
+        shaken, still = (numbers["ripple_pin_forces", one]["value"] for one in (case, smooth))
+        assert shaken > 8.0 * still  # 13
+
+
+def test_order_joins_what_is_alike() -> None:
+    effects = dict.fromkeys(PINS, 1.0) | {"shield_canopy": -2.0, "rear_base": 0.97}
+    assert study.in_order(effects) == "shield_canopy > rear_base = front_base = rear_shield = front_shield"
+
+
+# --- the closed form ---
+
+
+def test_influence_is_that_of_the_linkage_laid_out_anew() -> None:
+    stand = slack.standing(SUPPORT)
+    for name in PINS:
+        for axis in (0, 1):
+            opening = [0.0, 0.0]
+            opening[axis] = 1e-5
+            moved = eccentric(SUPPORT.linkage(), {name: (opening[0], opening[1])})
+            way = np.subtract(moved.points["tip"].point, SUPPORT.linkage().points["tip"].point)
+            # second order: 1e-5 m over links of 1 m, amplified twice
+            np.testing.assert_allclose(slack.influence(stand, name)[:2, axis], way / 1e-5, atol=1e-4)
+
+
+def test_shift_is_the_work_of_a_unit_force_at_the_tip() -> None:
+    stand = slack.standing(SUPPORT)
+    pins = dict.fromkeys(PINS, study.slack_pin(0.0))
+    tip = SUPPORT.linkage().points["tip"].point
+    weight = slack.forces(stand, {})
+    for axis, unit in ((slack.TIP_X, (1.0, 0.0)), (slack.TIP_Y, (0.0, 1.0))):
+        of_unit = slack.forces(stand, {}, [slack.Press("canopy", tip, unit)]) - weight
+        for n, (name, opening) in enumerate(slack.openings(stand, pins).items()):
+            # virtual work; rounding of forces of 5e4 N
+            work = of_unit[2 * n : 2 * n + 2] @ opening
+            assert slack.shifts(stand, pins)[name][axis] == pytest.approx(work, rel=1e-8, abs=1e-12)
+
+
+def test_journals_lie_along_their_load_by_clearance_and_depth() -> None:
+    stand = slack.standing(SUPPORT)
+    pin = study.slack_pin(0.0)
+    for name, opening in slack.openings(stand, dict.fromkeys(PINS, pin)).items():
+        first = 2 * PINS.index(name)
+        load = slack.forces(stand, {})[first : first + 2]
+        size = float(np.hypot(*load))
+        depth = float(np.hypot(*opening)) - pin.contact.bearing.clearance
+        assert pin.contact.normal.elastic_force(depth) == pytest.approx(size, rel=1e-9)  # of a root
+        assert opening @ load == pytest.approx(float(np.hypot(*opening)) * size, rel=1e-12)  # rounding
+
+
+def test_a_roof_turns_the_shift_around() -> None:
+    under = loads(study.slack_pin(0.0))
+    whole = {name: sum(one.mean(pin) for pin in PINS) for name, one in under.items()}
+    # the weight of links and shield leans the four-bar to the rear, what presses on the canopy in front pushes
+    # it forward: -17 and +19 mm
+    assert whole["weight alone"] < -0.015
+    assert whole["1 MN down over the columns"] > 0.015
+    orders = {study.in_order({pin: one.mean(pin) for pin in PINS}) for one in under.values()}
+    assert orders == {"front_base = front_shield > rear_base = rear_shield > shield_canopy"}
+
+
+def test_every_pin_may_have_its_own_law_and_clearance() -> None:
+    def pin(clearance: float, normal: Any, friction: Any = None) -> ClearancePin:
+        bearing = JournalBearing(bore_radius=0.0655, clearance=clearance)
+        rubs = {} if friction is None else {"friction": friction}
+        return ClearancePin(contact=JournalContact(bearing=bearing, normal=normal, **rubs))
+
+    own = {
+        "rear_base": pin(0.5e-3, Exact(stiffness=2.7e10, restitution=0.5), Ambrosio(sliding_coefficient=0.1)),
+        "front_base": pin(1.0e-3, study.slack_pin(0.0).contact.normal),
+        "rear_shield": pin(2.0e-3, KelvinVoigt(stiffness=4e8, damping=4e5)),
+        "front_shield": pin(
+            0.8e-3, Exact(stiffness=2e10, restitution=0.3), Threlfall(sliding_coefficient=0.15)
+        ),
+        "shield_canopy": pin(1.5e-3, Hertz(stiffness=2.7e10)),
+    }
+    ideal = study.scenarios(True)[study.IDEAL]
+    scene = replace(ideal, pins=own, start="settled", step=2e-3, solver=SolverSettings(impact_steps=16))
+    run, plain = simulate(scene), simulate(ideal)
+    shift = float(rise.departure(run, plain, "tip.x").mean())
+    # as `test_virtual_work_tells_where_the_worn_support_stands`
+    assert shift == pytest.approx(mean_shift(own)[slack.TIP_X], rel=0.01)
+    assert shift < -8e-3
+
+
+def test_the_closed_form_knows_inertia() -> None:
+    middle, early = slack.stands(SUPPORT, CubicStep(), [4.0, 3.1])
+    held = slack.standing(SUPPORT)
+    # 0.75 m/s^2 upward at the start, none in the middle of the stroke
+    assert early.acceleration[10] > 0.5
+    assert abs(middle.acceleration[10]) < 0.1
+    assert not held.acceleration.any()
+
+
+# --- what is written ---
+
+
+def test_every_file_is_there_and_the_chapter_can_be_read(out: Path) -> None:
+    chapter = Chapter.load(out)
+    assert len(chapter.pictures) == 4
+    for picture in chapter.pictures:
+        assert (out / f"{picture.stem}.png").read_bytes().startswith(b"\x89PNG")
+    tables = ("position", "forces", "shaking")
+    for table in (
+        *(f"{kind}_mu{mu}" for kind in tables for mu in ("0p25", "0")),
+        "together",
+        "closed_form",
+    ):
+        assert "all five" in (out / f"table_{table}.txt").read_text(encoding="utf-8")
+    assert len(list((out / "runs").glob("*.h5"))) == 13

@@ -1,0 +1,171 @@
+"""Inlets and the equations of a hydraulic cylinder, without the engine."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from support_exudyn import (
+    ClosedInlet,
+    CubicStep,
+    Held,
+    HydraulicCylinder,
+    Inlet,
+    RampedOpening,
+    Scenario,
+    SuddenOpening,
+    reference_support,
+)
+from support_exudyn.filled_cylinder import FilledCylinder, fill_cylinders
+from support_exudyn.formulations import formulation
+from support_exudyn.machine import GROUND, Column
+from tests.unit.cases import support
+from user_forces import InputError
+
+CYLINDER = HydraulicCylinder(
+    bore_area=0.1,
+    rod_side_area=0.02,
+    oil_length=0.5,
+    rod_side_length=1.0,
+    bulk_modulus=1.5e9,
+    system_pressure=30e6,
+    tank_pressure=0.5e6,
+    nominal_flow=6e-3,
+    damping=1e4,
+)
+COLUMN = Column(foot=GROUND, head="ram", foot_point=(0.0, 0.0), head_point=(0.0, 1.6))
+
+
+def filled(load: float = 4e4, **changes: Any) -> FilledCylinder:
+    return FilledCylinder(COLUMN, replace(CYLINDER, **changes), load)
+
+
+@pytest.mark.parametrize(
+    "inlet",
+    [
+        ClosedInlet(),
+        SuddenOpening(start=0.2, end=1.0, extent=-0.5),
+        RampedOpening(start=0.2, end=1.0, ramp=0.1, extent=0.7),
+        RampedOpening(start=0.0, end=1.0, ramp=0.5),
+    ],
+)
+def test_an_inlet_jumps_at_its_breaks_and_nowhere_else(inlet: Inlet) -> None:
+    tiny = 1e-9
+    for t in inlet.breaks:
+        before, after = inlet.opening(t - tiny), inlet.opening(t + tiny)
+        # a ramp of 0.1 s opens by 1e-8 in that time
+        assert inlet.opening(t) == pytest.approx(before, abs=1e-7)
+        assert inlet.opening(t) + inlet.opening_jump(t) == pytest.approx(after, abs=1e-7)
+    times = np.linspace(0.0, 1.2, 1201) + 0.0005
+    openings = np.array([inlet.opening(t) for t in times])
+    steep = np.abs(np.diff(openings)) > 0.011  # a ramp opens by 0.01 in a millisecond at most
+    jumps = [t for t in inlet.breaks if inlet.opening_jump(t) != 0.0]
+    assert steep.sum() == len(jumps)
+    assert inlet.opening(-1.0) == inlet.opening(2.0) == 0.0
+
+
+def test_wrong_inlets_are_refused() -> None:
+    with pytest.raises(InputError, match=r"end = 1\.0 s: allowed: > start"):
+        SuddenOpening(start=1.0, end=1.0)
+    with pytest.raises(InputError, match=r"ramp = 0\.6 s: allowed: at most half of end - start, 0\.5 s"):
+        RampedOpening(start=1.0, end=2.0, ramp=0.6)
+    with pytest.raises(InputError, match="extent"):
+        SuddenOpening(extent=1.5)
+
+
+def test_oil_flows_where_the_valve_and_the_pressures_say() -> None:
+    # 6 l/s at 1 MPa: 12 l/s at 4 MPa, half of it through a valve half open
+    assert CYLINDER.flows(26e6, 4.5e6, 0.5) == pytest.approx((6e-3, -6e-3))
+    # the other way round: piston side to the tank, pump to the rod side
+    assert CYLINDER.flows(4.5e6, 26e6, -0.5) == pytest.approx((-6e-3, 6e-3))
+    # against the valve's direction where a chamber has more pressure than the pump, less than the tank
+    assert CYLINDER.flows(34e6, 0.5e6 - 4e6, 1.0) == pytest.approx((-12e-3, 12e-3))
+    assert CYLINDER.flows(4e6, 1e6, 0.0) == (0.0, 0.0)
+
+
+@pytest.mark.parametrize("load", [4e4, -3e4, 0.0])
+def test_the_start_carries_the_load_with_one_chamber_at_tank_pressure(load: float) -> None:
+    one = filled(load)
+    piston, rod = one.start_pressures
+    assert one.model.force(piston, rod, 0.0) == pytest.approx(load, abs=1e-9)
+    assert min(piston, rod) == 0.5e6
+    assert one.closed_pressures(1.6) == (piston, rod)
+    # compressed by so little that the closed oil is a spring: its stiffness falls by 2 % a centimetre
+    softer = one.model.force(*one.closed_pressures(1.6 - 1e-6), 0.0)
+    assert (softer - load) / 1e-6 == pytest.approx(one.model.stiffness(0.0), rel=1e-4)
+
+
+@given(
+    extension=st.floats(-0.4, 0.9),
+    rate=st.floats(-0.5, 0.5),
+    pressures=st.tuples(st.floats(-5e6, 50e6), st.floats(-5e6, 50e6)),
+    opening=st.floats(-1.0, 1.0),
+)
+def test_energy_of_the_oil_changes_by_what_pumps_and_motion_do(
+    extension: float, rate: float, pressures: tuple[float, float], opening: float
+) -> None:
+    one, length, h = filled(), 1.6 + extension, 1e-7
+    rates = one.pressure_rates(length, rate, pressures, opening)
+    ends = [
+        one.energy(length + s * rate, pressures[0] + s * rates[0], pressures[1] + s * rates[1]) for s in (h, -h)
+    ]
+    change = (ends[0] - ends[1]) / (2.0 * h)
+    supply, loss = one.powers(rate, pressures, opening)
+    work = one.model.force(*pressures, rate) * rate
+    # rounding of energies of up to 1e5 J over the time between both
+    assert change == pytest.approx(supply - loss - work, rel=1e-4, abs=1e3)
+    assert loss >= 0.0
+
+
+def test_wrong_cylinders_are_refused() -> None:
+    both = {"front_column": CYLINDER, "rear_column": CYLINDER}
+    machine = support()
+
+    def scenario(**changes: Any) -> Any:
+        return Scenario(**({"machine": machine, "duration": 1.0, "drive": Held(), "columns": both} | changes))
+
+    assert scenario().driven == ()
+    assert not scenario().jumps
+    with pytest.raises(InputError, match=r"drives\.front_column: is a HydraulicCylinder.*front_column\.inlet"):
+        scenario(drives={"front_column": CubicStep()})
+    with pytest.raises(InputError, match=r"drive = CubicStep: nothing follows it.*allowed: Held\(\)"):
+        scenario(drive=CubicStep())
+    with pytest.raises(InputError, match=r"HydraulicCylinder: is planar; allowed in space: OilColumn"):
+        scenario(machine=reference_support(), dimensions=3)
+    with pytest.raises(InputError, match=r"oil_length = 5\.0 m: the column is .* long"):
+        scenario(columns={"front_column": replace(CYLINDER, oil_length=5.0)})
+    with pytest.raises(InputError, match=r"system_pressure = 1000\.0 Pa: allowed: > tank_pressure"):
+        scenario(columns={"front_column": replace(CYLINDER, system_pressure=1e3)})
+    for name in ("tree", "reduced"):
+        with pytest.raises(InputError, match="HydraulicCylinder"):
+            formulation(name).check(scenario(formulation=name))
+    # the other column follows the drive
+    mixed = scenario(columns={"front_column": CYLINDER}, drive=CubicStep())
+    assert mixed.driven == ("rear_column",)
+    assert mixed.giving == ("front_column",)
+
+
+def test_channels_and_breaks_are_those_of_the_valves() -> None:
+    inlet = SuddenOpening(start=0.2, end=0.7)
+    scenario = Scenario(
+        machine=support(), duration=1.0, columns={"front_column": replace(CYLINDER, inlet=inlet)}
+    )
+    assert {0.2, 0.7} <= set(scenario.breaks)
+    recipes = scenario.recipes
+    assert recipes["front_column.pressure"].unit == "Pa"
+    assert recipes["front_column.flow"].unit == "m^3/s"
+    assert "rear_column.pressure" not in recipes
+    assert "pumps" in recipes["energy.work"].meaning
+
+
+def test_the_static_loads_fill_them() -> None:
+    linkage = support().linkage()
+    both = dict.fromkeys(("front_column", "rear_column"), CYLINDER)
+    loads = {name: one.load for name, one in fill_cylinders(linkage, both, (0.0, -9.81)).items()}
+    assert sum(loads.values()) > 0.0
+    assert fill_cylinders(linkage, {}, (0.0, -9.81)) == {}
