@@ -68,4 +68,4 @@ def _columns(schemas: Schemas) -> dict[str, Any]:
         schemas.table(kind, all_optional=True) if kind is TwoBodyColumn else schemas.value(kind)
         for kind in kinds
     ]
-    return {"oneOf": [{**table, "required": ["type"]} for table in tables]}
+    return {"oneOf": [{"allOf": [table], "required": ["type"]} for table in tables]}

@@ -93,7 +93,10 @@ class Schemas:
                 return {"enum": list(shape.options)}
             case Fixed():
                 items = [self.item(one, unit, ending) for one in shape.items]
-                return {"type": "array", "prefixItems": items, "minItems": len(items), "maxItems": len(items)}
+                inside = (
+                    {"prefixItems": items} if any(one != items[0] for one in items) else {"items": items[0]}
+                )
+                return {"type": "array", **inside, "minItems": len(items), "maxItems": len(items)}
             case Several():
                 return {"type": "array", "items": self.item(shape.item, unit, ending)}
             case Named():
@@ -106,7 +109,11 @@ class Schemas:
     def group(self, group: Group) -> Table:
         """That of a table whose type says its class, and of the other ways to write its values."""
         kinds: Iterable[type[Value]] = group.kinds.values()
-        tables = [self.value(kind) | ({} if kind is group.usual else {"required": ["type"]}) for kind in kinds]
+        # not beside the reference, where older drafts, which some editors know only, do not look
+        tables = [
+            self.value(kind) if kind is group.usual else {"allOf": [self.value(kind)], "required": ["type"]}
+            for kind in kinds
+        ]
         short = [one for base, them in self.besides.items() if base in group.bases for one in them]
         every = [*short, *tables]
         return every[0] if len(every) == 1 else {"oneOf": every}

@@ -32,6 +32,7 @@ from support_exudyn.datafiles import (
     scenario_of,
     scenario_text,
 )
+from support_exudyn.machine_data import read_machine
 from tests import strategies as some
 from user_forces import (
     STEEL,
@@ -137,6 +138,15 @@ def test_drive_modes_of_the_paper(mode: int, kind: type) -> None:
     assert scenario(TOP + f"drive = {{mode = {mode}}}").drive == kind()
     text = TOP + f"[drive]\nmode = {mode}\nstroke_mm = -100\nstart_s = 1\nend_ms = 2500"
     assert scenario(text).drive == kind(stroke=-0.1, start=1.0, end=2.5)
+
+
+def test_the_machines_file_says_its_stroke_and_bores() -> None:
+    data = read_machine("zf18000")
+    found = scenario('machine = "zf18000"\nduration_s = 5\ndrive.mode = 2\npins.rear_base.clearance_mm = 1')
+    assert found.drive == CubicStep(stroke=data.stroke)
+    assert found.drive != CubicStep()
+    pin = found.clearance_pins["rear_base"]
+    assert pin.contact.bearing.bore_radius == data.bore_radii["rear_base"] != 0.0655
 
 
 def test_drives_apart() -> None:

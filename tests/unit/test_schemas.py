@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from jsonschema import Draft202012Validator
+from jsonschema import Draft7Validator, Draft202012Validator
 
 from support_exudyn import Scenario
 from support_exudyn.__main__ import main
@@ -122,6 +122,8 @@ def test_what_the_reader_refuses_is_refused(text: str) -> None:
     with pytest.raises(InputError):
         scenario_of(parsed(text, "a"), "a", FOLDER)
     assert faults(text)
+    # by editors too that know the draft of 2018 only
+    assert not Draft7Validator(scenario_schema()).is_valid(plain(parsed(text, "a")))
 
 
 def test_it_says_what_fields_are() -> None:
