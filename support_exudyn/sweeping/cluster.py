@@ -18,7 +18,7 @@ from user_forces.values import InputError
 
 AHEAD = 2  # runs for each thread of the cluster that wait there, so that none waits for us
 FEWEST = 4  # runs at once, also while no worker has come yet
-REACHED = 20.0  # [s] within which a scheduler must answer
+REACHED = 10.0  # [s] within which a scheduler must answer
 ONE = threading.Lock()  # the engine runs once in a process, however many threads a worker has
 
 
@@ -42,9 +42,10 @@ def on_cluster(tasks: Iterable[Task], store: Store, address: str) -> Generator[R
         ) from None
     try:
         client = Client(address, timeout=REACHED, set_as_default=False)
-    except (OSError, ValueError, TypeError) as error:
-        reason = " ".join(str(error).split())
-        raise OSError(f"scheduler = {address!r}: cannot be reached ({reason}); is it running there?") from None
+    except Exception as error:  # of many kinds
+        raise OSError(
+            f"scheduler = {address!r}: cannot be reached ({_said(error)}); is it running there?"
+        ) from None
     under_way: dict[Any, Task] = {}
     source = iter(tasks)
 

@@ -82,15 +82,18 @@ def latin_hypercube(varied: Varied, samples: int, seed: int) -> list[Point]:
 
     drawn = qmc.LatinHypercube(len(varied), seed=seed).random(samples)
     return [
-        {name: _drawn(one, float(share)) for (name, one), share in zip(varied.items(), row, strict=True)}
+        {
+            name: _drawn(one, float(share), samples)
+            for (name, one), share in zip(varied.items(), row, strict=True)
+        }
         for row in drawn
     ]
 
 
-def _drawn(one: Range | Choices, share: float) -> Any:
+def _drawn(one: Range | Choices, share: float, samples: int) -> Any:
     if isinstance(one, Range):
         return one.at(share)
-    return one[min(int(share * len(one)), len(one) - 1)]
+    return one[int(share * samples) * len(one) // samples]  # by its part, so that all come up equally often
 
 
 def _listed(one: Range | Choices) -> list[Any]:
