@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import logging
+import sys
 import tempfile
 import threading
 from collections.abc import Generator, Iterable, Iterator
@@ -40,6 +42,7 @@ def on_cluster(tasks: Iterable[Task], store: Store, address: str) -> Generator[R
             f"scheduler = {address!r}: needs dask.distributed, which is not installed; "
             "pip install 'support-exudyn[cluster]'"
         ) from None
+    logging.getLogger("distributed").setLevel(logging.CRITICAL)  # what goes wrong is said in a line of ours
     try:
         client = Client(address, timeout=REACHED, set_as_default=False)
     except Exception as error:  # of many kinds
@@ -66,6 +69,8 @@ def on_cluster(tasks: Iterable[Task], store: Store, address: str) -> Generator[R
             else:
                 yield task
 
+    if not client.nthreads():
+        print(f"{address}: no worker is there yet; waiting", file=sys.stderr, flush=True)
     here = to_run()
     with client:
         done = as_completed(loop=client.loop)
