@@ -124,8 +124,8 @@ def study(chosen: Options) -> None:
         caption=(
             f"Asked: an overhead of at most {1e3 * MOST_OVERHEAD:g} ms a run, and a gain of at least "
             f"{LEAST_GAIN:g} on two cores. Overhead: wall time less start and less the sum of the runs' own "
-            "times over the number of processes; making scenarios and keys, sending, saving run and row, and the "
-            "table. Start: importing the package in the processes, and loading what is compiled."
+            "times over the number of processes; making scenarios and keys, sending, saving run and row, and "
+            "the table. Start: importing the package in the processes, and loading what is compiled."
         ),
     )  # fmt: skip
     show_table(chosen.out / "sweep_overhead.txt", table, width=150)

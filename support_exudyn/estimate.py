@@ -98,6 +98,8 @@ def measures(result: Result, after: float, until: float) -> Mapping[str, Kind]:
         elif name in turning:
             found[f"{name}.spread"] = Kind(channel.unit, _over(name, np.std, after, until), fastest)
     for point in result.scenario.linkage.points:
+        if not {f"{point}.x", f"{point}.y"} <= result.channels.keys():
+            continue  # it was not asked for, and no error either, for whose sake it would have been recorded
         farthest = float(np.abs(_path(result, point)).max())
         for axis in ("x", "y"):
             found[f"{point}.{axis}.mean"] = Kind("m", _over(f"{point}.{axis}", np.mean, after, until), farthest)

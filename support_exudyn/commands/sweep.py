@@ -9,10 +9,12 @@ from contextlib import contextmanager
 from dataclasses import asdict
 from pathlib import Path
 from time import monotonic
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from support_exudyn.command_line import count, folder, say
-from support_exudyn.sweeping.run import Outcome, Told
+
+if TYPE_CHECKING:
+    from support_exudyn.sweeping.run import Outcome, Told
 
 HELP = "run a scenario with fields of it varied, on all cores or a cluster, into a store that can be continued"
 EPILOG = """

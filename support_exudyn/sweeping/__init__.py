@@ -8,11 +8,17 @@
 A run has a key, made of its inputs and of the program; what the store holds under that key is not run again.
 """
 
-from support_exudyn.sweeping.file import read_sweep
-from support_exudyn.sweeping.plan import Plan, Record
-from support_exudyn.sweeping.points import grid, latin_hypercube, side_by_side
-from support_exudyn.sweeping.run import Outcome, sweep
-from support_exudyn.sweeping.table import read_table
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from support_exudyn.sweeping.file import read_sweep
+    from support_exudyn.sweeping.plan import Plan, Record
+    from support_exudyn.sweeping.points import grid, latin_hypercube, side_by_side
+    from support_exudyn.sweeping.run import Outcome, sweep
+    from support_exudyn.sweeping.table import read_table
 
 __all__ = [
     "Outcome",
@@ -25,3 +31,22 @@ __all__ = [
     "side_by_side",
     "sweep",
 ]
+
+# imported when they are asked for: the processes that run have no use for tables
+_PLACES = {
+    "Outcome": "run",
+    "Plan": "plan",
+    "Record": "plan",
+    "grid": "points",
+    "latin_hypercube": "points",
+    "read_sweep": "file",
+    "read_table": "table",
+    "side_by_side": "points",
+    "sweep": "run",
+}
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _PLACES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f"{__name__}.{_PLACES[name]}"), name)

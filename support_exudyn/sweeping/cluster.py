@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import logging
+import sys
 import tempfile
 import threading
 from collections.abc import Generator, Iterable, Iterator
@@ -18,7 +20,7 @@ from user_forces.values import InputError
 
 AHEAD = 2  # runs for each thread of the cluster that wait there, so that none waits for us
 FEWEST = 4  # runs at once, also while no worker has come yet
-REACHED = 20.0  # [s] within which a scheduler must answer
+REACHED = 10.0  # [s] within which a scheduler must answer
 ONE = threading.Lock()  # the engine runs once in a process, however many threads a worker has
 
 
@@ -40,11 +42,13 @@ def on_cluster(tasks: Iterable[Task], store: Store, address: str) -> Generator[R
             f"scheduler = {address!r}: needs dask.distributed, which is not installed; "
             "pip install 'support-exudyn[cluster]'"
         ) from None
+    logging.getLogger("distributed").setLevel(logging.CRITICAL)  # what goes wrong is said in a line of ours
     try:
         client = Client(address, timeout=REACHED, set_as_default=False)
-    except (OSError, ValueError, TypeError) as error:
-        reason = " ".join(str(error).split())
-        raise OSError(f"scheduler = {address!r}: cannot be reached ({reason}); is it running there?") from None
+    except Exception as error:  # of many kinds
+        raise OSError(
+            f"scheduler = {address!r}: cannot be reached ({_said(error)}); is it running there?"
+        ) from None
     under_way: dict[Any, Task] = {}
     source = iter(tasks)
 
@@ -65,6 +69,8 @@ def on_cluster(tasks: Iterable[Task], store: Store, address: str) -> Generator[R
             else:
                 yield task
 
+    if not client.nthreads():
+        print(f"{address}: no worker is there yet; waiting", file=sys.stderr, flush=True)
     here = to_run()
     with client:
         done = as_completed(loop=client.loop)

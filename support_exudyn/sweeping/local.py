@@ -8,7 +8,6 @@ from support_exudyn.scenario import ERROR_CONTROLLED, Scenario
 from support_exudyn.sweeping.row import Row
 from support_exudyn.sweeping.store import Store
 from support_exudyn.sweeping.work import Task, run_into
-from support_exudyn.warm import warm_up
 from support_exudyn.workers import ProcessEndedError, worker_pool
 
 
@@ -26,6 +25,8 @@ def in_processes(tasks: Iterable[Task], store: Store, workers: int) -> Generator
         nonlocal compiled
         for number, task in enumerate(tasks):
             if not (compiled or task.again) and _is_compiled(task.scenario):
+                from support_exudyn.warm import warm_up  # and numba
+
                 warm_up()  # once, for all processes
                 compiled = True
             keys[number] = task.key

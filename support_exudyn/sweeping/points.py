@@ -9,8 +9,6 @@ from dataclasses import dataclass
 from decimal import Context, Decimal
 from typing import Any, Literal
 
-from scipy.stats import qmc
-
 from user_forces.values import InputError
 
 MOST = 1_000_000  # runs of a sweep
@@ -80,17 +78,22 @@ def latin_hypercube(varied: Varied, samples: int, seed: int) -> list[Point]:
     _check_number(samples)
     if not varied:
         raise InputError("vary: is empty; allowed: at least one field to vary")
+    from scipy.stats import qmc  # takes a second, and a grid has no use for it
+
     drawn = qmc.LatinHypercube(len(varied), seed=seed).random(samples)
     return [
-        {name: _drawn(one, float(share)) for (name, one), share in zip(varied.items(), row, strict=True)}
+        {
+            name: _drawn(one, float(share), samples)
+            for (name, one), share in zip(varied.items(), row, strict=True)
+        }
         for row in drawn
     ]
 
 
-def _drawn(one: Range | Choices, share: float) -> Any:
+def _drawn(one: Range | Choices, share: float, samples: int) -> Any:
     if isinstance(one, Range):
         return one.at(share)
-    return one[min(int(share * len(one)), len(one) - 1)]
+    return one[int(share * samples) * len(one) // samples]  # by its part, so that all come up equally often
 
 
 def _listed(one: Range | Choices) -> list[Any]:

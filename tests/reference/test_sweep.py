@@ -96,6 +96,18 @@ def test_patterns_note_what_runs_have(tmp_path: Path, ran: list[Task]) -> None:
     assert "pin.pin.force.mean_N" not in names
 
 
+def test_runs_that_record_little_have_the_numbers_of_that(tmp_path: Path, ran: list[Task]) -> None:
+    path = write_sweep(tmp_path, '"pins.rear_base.clearance_mm" = [1.0, 1.5]', record="after_s = 0.01")
+    text = path.read_text(encoding="utf-8")
+    rise = 'scenario = {machine = "reference", duration_s = 0.02, channels = ["pin.rear_base.force"]}'
+    path.write_text(rise + text[text.index("[vary]") - 1 :], encoding="utf-8")
+    extra = '"pins.rear_base.bore_radius_mm" = [65.5]\n[record]'
+    path.write_text(path.read_text(encoding="utf-8").replace("[record]", extra), encoding="utf-8")
+    names = read_table(do(path).table).column_names
+    assert "pin.rear_base.force.mean_N" in names
+    assert not [name for name in names if name.startswith("tip.")]
+
+
 def test_a_number_that_no_run_can_have_is_refused_before_any_is_made(tmp_path: Path, ran: list[Task]) -> None:
     path = write_sweep(tmp_path, speeds(2), record='numbers = ["pin.hinge.force.mean"]')
     with pytest.raises(InputError, match=r"runs have no channel 'pin.hinge.force'; allowed"):

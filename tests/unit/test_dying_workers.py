@@ -159,6 +159,37 @@ def test_a_script_that_starts_itself_again_is_told_what_is_missing(tmp_path: Pat
     assert "if __name__ == '__main__'" in last
 
 
+# --- streams ---
+
+
+def test_a_stream_tells_of_every_job_once_whatever_ends(pool: Workers, tmp_path: Path) -> None:
+    ways = ["at work", "killed", *["good"] * 12, "crashed", "killed once", *["good"] * 6]
+    taken: list[int] = []
+
+    def jobs() -> Iterator[tuple[str, Path]]:
+        for number, way in enumerate(ways):
+            taken.append(number)
+            folder = tmp_path / str(number)  # places are used again
+            folder.mkdir()
+            yield way, folder
+
+    found: dict[int, object] = {}
+    for number, one in pool.stream(jobs(), end):
+        assert number not in found
+        assert len(taken) - len(found) <= workers.AHEAD * 2  # no more than that many ahead
+        found[number] = one
+    assert set(found) == set(range(len(ways)))
+    lost = {number: one for number, one in found.items() if isinstance(one, ProcessEndedError)}
+    assert {number: (one.place, one.code) for number, one in lost.items()} == {1: (1, -9), 14: (14, -6)}
+
+
+def test_a_bug_ends_a_stream_and_the_pool_lives_on(pool: Workers, tmp_path: Path) -> None:
+    with pytest.raises(LookupError, match="a bug"):
+        list(pool.stream([("good", tmp_path), ("refused", tmp_path), ("good", tmp_path)], end))
+    assert len(list(pool.stream([("good", tmp_path)] * 9, end))) == 9
+    assert list(pool.stream([], end)) == []
+
+
 # --- interruptions ---
 
 INTERRUPTED = """

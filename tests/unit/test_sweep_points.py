@@ -1,0 +1,179 @@
+"""Points of a sweep, and the file that says them."""
+
+from __future__ import annotations
+
+from collections import Counter
+from decimal import Decimal
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from support_exudyn.sweeping import Record, grid, latin_hypercube, read_sweep, side_by_side
+from support_exudyn.sweeping.fields import keys_of, replaced
+from support_exudyn.sweeping.points import Range
+from support_exudyn.sweeping.row import Number, Row
+from user_forces.values import InputError
+
+SCENARIO = """
+machine = "reference"
+duration_s = 1.0
+[pins.rear_base]
+clearance_mm = 1.0
+bore_radius_mm = 65.5
+"""
+
+
+def unit(steps: int = 0) -> Range:
+    return Range(Decimal(0), Decimal(1), steps)
+
+
+# --- points ---
+
+
+def test_the_last_of_a_grid_varies_fastest() -> None:
+    assert grid({"a": [1, 2], "b": unit(3)}) == [
+        {"a": a, "b": Decimal(b)} for a in (1, 2) for b in ("0", "0.5", "1")
+    ]
+
+
+def test_lists_side_by_side_are_of_one_length() -> None:
+    assert side_by_side({"a": [1, 2], "b": ["x", "y"]}) == [{"a": 1, "b": "x"}, {"a": 2, "b": "y"}]
+    with pytest.raises(
+        InputError, match="a has 2, b has 1 values; allowed with method = 'list': as many in all"
+    ):
+        side_by_side({"a": [1, 2], "b": [1]})
+
+
+def test_too_many_are_refused_before_they_are_made() -> None:
+    with pytest.raises(InputError, match="1000000000 runs: allowed in a sweep: from 1 to 1000000"):
+        grid({name: unit(1000) for name in "abc"})
+
+
+def test_ranges_hit_their_ends_and_are_even_on_their_scale() -> None:
+    assert Range(Decimal("0.1"), Decimal("0.3"), 3).values == [Decimal("0.1"), Decimal("0.2"), Decimal("0.3")]
+    assert Range(Decimal(1), Decimal(100), 3, "log").values == [Decimal(1), Decimal(10), Decimal(100)]
+
+
+@given(samples=st.integers(1, 60), seed=st.integers(0, 2**32))
+def test_a_hypercube_has_one_point_in_each_part_of_each_range(samples: int, seed: int) -> None:
+    varied = {
+        "linear": Range(Decimal(-2), Decimal(6)),
+        "log": Range(Decimal(1), Decimal(1000), scale="log"),
+        "choice": ["a", "b", "c"],
+    }
+    points = latin_hypercube(varied, samples, seed)
+    assert points == latin_hypercube(varied, samples, seed)
+    parts = [float(point["linear"] + 2) / 8 * samples for point in points]
+    # rounding to twelve digits may move a point that lies on the border of two parts
+    assert sorted(int(part + 1e-9) for part in parts) == list(range(samples)) or any(
+        abs(part - round(part)) < 1e-8 for part in parts
+    )
+    assert all(1 <= point["log"] <= 1000 for point in points)
+    counts = Counter(point["choice"] for point in points)
+    assert max(counts.values()) - min(counts.get(one, 0) for one in "abc") <= 1
+
+
+def test_another_seed_gives_other_points() -> None:
+    assert latin_hypercube({"a": unit()}, 5, 1) != latin_hypercube({"a": unit()}, 5, 2)
+
+
+# --- fields by their keys ---
+
+
+def test_fields_are_replaced_where_their_keys_lead() -> None:
+    table = {"a": {"b": [{"c": 1}, {"c": 2}]}, "d": 3}
+    assert replaced(table, {"a.b.1.c": 5, "e.f": 6}) == {
+        "a": {"b": [{"c": 1}, {"c": 5}]},
+        "d": 3,
+        "e": {"f": 6},
+    }
+    assert table == {"a": {"b": [{"c": 1}, {"c": 2}]}, "d": 3}
+    assert keys_of('pins."a.b".c') == ["pins", "a.b", "c"]
+    for wrong in ("d.x", "a.b.7.c", "a.b.first.c"):
+        with pytest.raises(InputError, match=r"vary"):
+            replaced(table, {wrong: 1})
+
+
+# --- the file ---
+
+
+def write(folder: Path, text: str) -> Path:
+    (folder / "rise.toml").write_text(SCENARIO, encoding="utf-8")
+    (folder / "sweep.toml").write_text(text, encoding="utf-8")
+    return folder / "sweep.toml"
+
+
+def test_values_have_the_units_of_their_keys(tmp_path: Path) -> None:
+    text = """
+    scenario = "rise.toml"
+    method = "list"
+    [vary]
+    pins.rear_base.clearance_mm = [0.7, 1.5]
+    duration_s = {from = 0.5, to = 1.0, steps = 2}
+    "machine.pivots_mm.tip" = [[3219, 2417], [3000, 2400]]
+    [record]
+    numbers = ["tip.x.mean"]
+    after_s = 0.25
+    keep_runs = false
+    """
+    plan = read_sweep(write(tmp_path, text))
+    assert plan.record == Record(("tip.x.mean",), after=0.25, keep_runs=False)
+    assert plan.names == ("pins.rear_base.clearance_mm", "duration_s", "machine.pivots_mm.tip")
+    first, second = map(plan.scenario, plan.points)
+    assert [one.clearance_pins["rear_base"].contact.bearing.clearance for one in (first, second)] == [
+        7e-4,
+        1.5e-3,
+    ]
+    assert [one.duration for one in (first, second)] == [0.5, 1.0]
+    assert [one.machine.tip for one in (first, second)] == [(3.219, 2.417), (3.0, 2.4)]  # type: ignore[attr-defined]
+
+
+WRONG = {
+    "method = 'random'": r"method = 'random': allowed: 'grid', 'list', 'latin_hypercube'",
+    "samples = 3": r"samples: means nothing here; allowed with method = 'latin_hypercube'",
+    "method = 'latin_hypercube'\nvary.duration_s = [1.0]": r"samples = missing: allowed: a whole number",
+    "vary.duration_s = []": r"vary.'duration_s' = \[\]: allowed: at least one value",
+    "vary.duration_s = 1.0": r"vary.'duration_s' = 1.0: allowed: a list of values, or a range",
+    "vary.duration_s = {from = 0.1, to = 1.0}": r"vary.'duration_s'.steps: missing",
+    "vary.duration_s = {from = 0.1}": r"vary.'duration_s'.to = missing: allowed: a number",
+    "vary.duration_s = {from = 0.0, to = 1.0, steps = 3, scale = 'log'}": r"allowed with scale = 'log': > 0",
+    "vary.duration_s = {from = 0.1, to = 1.0, step = 3}": r"vary.'duration_s'.step: unknown key; allowed",
+    "record.after_s = -1": r"record.after_s = -1: allowed: a time in s, >= 0",
+    "record.number = ['tip.x.mean']": r"record.number: unknown key; allowed: after_s, keep_runs, numbers",
+    "vary.'a b' = [1]": r"vary: 'a b': allowed: keys of a scenario file, joined by dots",
+    "runs = 5": r"runs: unknown key; allowed: method, record",
+}
+
+
+@pytest.mark.parametrize("line", WRONG)
+def test_what_is_wrong_in_a_file_is_said(tmp_path: Path, line: str) -> None:
+    path = write(tmp_path, f'scenario = "rise.toml"\n{line}\n')
+    with pytest.raises(InputError, match=rf"sweep.toml: .*{WRONG[line]}"):
+        read_sweep(path)
+
+
+def test_a_scenario_is_needed(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"scenario = None: allowed: the path of a scenario file, or a table"):
+        read_sweep(write(tmp_path, "method = 'grid'"))
+    with pytest.raises(FileNotFoundError):
+        read_sweep(write(tmp_path, "scenario = 'other.toml'"))
+
+
+# --- rows ---
+
+
+def test_rows_are_read_as_they_were_written_or_not_at_all() -> None:
+    row = Row(
+        "abc", "done", wall_time=0.1, numbers={"b": Number(1 / 3, None, "N"), "a": Number(-0.0, 1e-9, "m")}
+    )
+    text = row.to_text()
+    again = Row.from_text(text)
+    assert again == row
+    assert list(again.numbers) == ["b", "a"]
+    for place in range(0, len(text), 7):
+        with pytest.raises(ValueError, match="digest"):
+            Row.from_text(text[:place] + chr(ord(text[place]) ^ 1) + text[place + 1 :])
+        with pytest.raises(ValueError, match="digest"):
+            Row.from_text(text[:place])
