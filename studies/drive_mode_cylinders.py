@@ -103,8 +103,8 @@ def sheet(numbers: Sequence[Number]) -> Sheet:
         ("quantity", "unit", *(f"{mode}, {pin}" for pin in PINS for mode in DRIVES)),
         tuple(rows),
         "Pressures and flows of the piston side of a pair, from 3 s on; settled and after: means from "
-        f"{LATE:g} s on. Losses include seals and contacts. A pressure below 0 is none that a liquid would bear: there a "
-        "real column would cavitate. ± is the last change under step halving.",
+        f"{LATE:g} s on. Losses include seals and contacts. No liquid bears a pressure below 0: "
+        "there a real column would cavitate. ± is the last change under step halving.",
         left=2,
     )
 
