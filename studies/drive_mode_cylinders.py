@@ -102,9 +102,9 @@ def sheet(numbers: Sequence[Number]) -> Sheet:
         "Motion, pressures and flow of the cylinders",
         ("quantity", "unit", *(f"{mode}, {pin}" for pin in PINS for mode in DRIVES)),
         tuple(rows),
-        f"Pressures and flows of the piston side of a pair, from 3 s on; settled and after: means from {LATE:g} "
-        "s on. Losses include seals and contacts. A pressure below 0 is none that a liquid would bear: there a "
-        "real column would cavitate. ± is the last change under step halving.",
+        "Pressures and flows of the piston side of a pair, from 3 s on; settled and after: means from "
+        f"{LATE:g} s on. Losses include seals and contacts. No liquid bears a pressure below 0: "
+        "there a real column would cavitate. ± is the last change under step halving.",
         left=2,
     )
 
@@ -147,8 +147,8 @@ def findings(numbers: Sequence[Number]) -> tuple[str, ...]:
         "Closing the valve at once strikes as opening it does: after 5 s the largest pin force is "
         f"{peaks('largest_pin_force_after_closing', 'cylinder')} (1.5 mm).",
         f"Valves and seals turn {shares[0]:.1f} % (mode 1) and {shares[1]:.1f} % (mode 2) of the pumps' work "
-        "into heat: the load needs so little of the pump's pressure that the valve sets the flow, and the inlet "
-        "is almost a displacement drive with oil.",
+        "into heat: the load needs so little of the pump's pressure that the valve sets the flow, and the "
+        "inlet is almost a displacement drive with oil.",
     )
 
 
@@ -167,7 +167,7 @@ def pictures() -> tuple[Picture, ...]:
             "cylinders",
             "The rise on hydraulic cylinders: how far the front columns are behind the displacement drive of "
             "the mode (a), their speed (b), pressure under the rear pistons (c) and pin force (d). Full lines "
-            "1.5 mm, dashed the ideal pin; grey in b: the displacement drives.",
+            "1.5 mm, dashed in c and d the ideal pin; grey in b: the displacement drives.",
         ),
         Picture(
             "cylinders_mode_1",
@@ -192,14 +192,15 @@ def rise_figure(results: Mapping[str, Result]) -> Figure:
             driven = np.array([drive.extension(at) for at in t.tolist()])
             behind = 1e3 * (driven - extension(run, "front_column")[inside])
             speed = 1e3 * np.gradient(extension(run, "front_column")[inside], t)
-            panels[0].plot(t, behind, lw=0.8, **look)
-            panels[1].plot(t, speed, lw=0.8, **look)
+            if pin != PINS[0]:  # hardly anything else with the ideal pin
+                panels[0].plot(t, behind, lw=0.8, **look)
+                panels[1].plot(t, speed, lw=0.8, **look)
             panels[2].plot(t, 1e-6 * run["rear_column.pressure"][inside], lw=0.8, **look)
             panels[3].plot(t, 1e-3 * run[rise.FORCE][inside], lw=0.8, **look)
         panels[1].plot(t, [1e3 * drive.speed(at) for at in t.tolist()], color="0.6", lw=1.6, zorder=0)
     labels = (
         "behind the drive [mm]",
-        "speed of front columns [mm/s]",
+        "speed, front [mm/s]",
         "pressure, rear [MPa]",
         "pin force [kN]",
     )

@@ -107,10 +107,13 @@ class HydraulicCylinder(ColumnModel):
 
     def supplies(self, opening: Quantity) -> tuple[Quantity, Quantity]:
         """Pressures [Pa] that the valve connects the piston side and the rod side to."""
-        forward = np.asarray(opening) >= 0.0
+        if isinstance(opening, float):  # asked for in every step
+            pump, tank = self.system_pressure, self.tank_pressure
+            return (pump, tank) if opening >= 0.0 else (tank, pump)
+        forward = opening >= 0.0
         piston = np.where(forward, self.system_pressure, self.tank_pressure)
         rod = np.where(forward, self.tank_pressure, self.system_pressure)
-        return piston, rod  # type: ignore[return-value]
+        return piston, rod
 
     def flows(self, pressure: Quantity, rod_pressure: Quantity, opening: Quantity) -> tuple[Quantity, Quantity]:
         """Into the piston side and into the rod side [m^3/s]."""

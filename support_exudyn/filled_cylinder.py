@@ -74,6 +74,8 @@ class FilledCylinder:
         """
         model = self.model
         supply, loss = 0.0, model.damping * rate * rate
+        if opening == 0.0:
+            return supply, loss
         both = zip(model.flows(*pressures, opening), model.supplies(opening), pressures, strict=True)
         for flow, connected, pressure in both:
             supply += float(flow * (connected + model.energy_density(pressure)))

@@ -20,9 +20,11 @@ ANGLES = {
     "rad/s": Unit("deg/s", DEGREES),
     "rad/s^2": Unit("deg/s²", DEGREES),
 }
+FLOW = Unit("l/min", 6e4)
 QUANTITIES = {
     "s": "time", "m": "length", "m/s": "speed", "N": "force", "N m": "moment", "J": "energy",
     "rad": "angle", "rad/s": "angular velocity", "rad/s^2": "angular acceleration",
+    "Pa": "pressure", "m^3/s": "flow", "1": "share",
 }  # fmt: skip
 # for each unit: below which size what is shown, the smallest first
 SIZES: dict[str, tuple[tuple[float, Unit], ...]] = {
@@ -31,6 +33,7 @@ SIZES: dict[str, tuple[tuple[float, Unit], ...]] = {
     "N": ((0.1, Unit("mN", 1e3)), (1e3, Unit("N", 1.0)), (math.inf, Unit("kN", 1e-3))),
     "N m": ((0.1, Unit("mN m", 1e3)), (1e3, Unit("N m", 1.0)), (math.inf, Unit("kN m", 1e-3))),
     "J": ((1e-4, Unit("µJ", 1e6)), (0.1, Unit("mJ", 1e3)), (1e3, Unit("J", 1.0)), (math.inf, Unit("kJ", 1e-3))),
+    "Pa": ((1e3, Unit("Pa", 1.0)), (1e5, Unit("kPa", 1e-3)), (math.inf, Unit("MPa", 1e-6))),
     "Hz": ((1e3, Unit("Hz", 1.0)), (math.inf, Unit("kHz", 1e-3))),
     "s": ((1e-3, Unit("µs", 1e6)), (0.1, Unit("ms", 1e3)), (math.inf, Unit("s", 1.0))),
 }
@@ -39,7 +42,7 @@ SIZES: dict[str, tuple[tuple[float, Unit], ...]] = {
 def readable(unit: str, size: float) -> Unit:
     """The unit in which a quantity is read best.
 
-    Degrees for radians; mm, kN and the like by the size of the quantity; others as they are.
+    Degrees for radians, litres a minute; mm, kN and the like by the size of the quantity; others as they are.
 
     Arguments:
         unit: of a channel, such as "N".
@@ -47,6 +50,8 @@ def readable(unit: str, size: float) -> Unit:
     """
     if unit in ANGLES:
         return ANGLES[unit]
+    if unit == "m^3/s":
+        return FLOW
     if size <= 0.0 or not math.isfinite(size):
         return Unit(unit, 1.0)
     return next((shown for limit, shown in SIZES.get(unit, ()) if size < limit * ROUNDED), Unit(unit, 1.0))

@@ -36,6 +36,8 @@ def run(error: float = 0.0) -> Result:
     [
         ("N", 5e4, ("kN", 1e-3)),
         ("N", 20.0, ("N", 1.0)),
+        ("Pa", 3e7, ("MPa", 1e-6)),
+        ("m^3/s", 0.02, ("l/min", 6e4)),
         ("m", 1.5e-3, ("mm", 1e3)),
         ("m", 3.0, ("m", 1.0)),
         ("m", 2e-5, ("µm", 1e6)),
@@ -51,7 +53,7 @@ def test_units_are_those_that_are_read_best(unit: str, size: float, expected: tu
     assert readable(unit, size) == (expected[0], pytest.approx(expected[1]))
 
 
-PREFIXES = {"": 1.0, "k": 1e-3, "m": 1e3, "\u00b5": 1e6}
+PREFIXES = {"": 1.0, "M": 1e-6, "k": 1e-3, "m": 1e3, "\u00b5": 1e6}
 
 
 @pytest.mark.parametrize("unit", units.SIZES)
