@@ -1,7 +1,7 @@
 """What does a sweep cost beside its runs, and how much faster are two cores than one?
 
-Measured in turns, in folders that are made for it. Nothing is asserted; the table of the last run that was kept
-stands in `studies/benchmarking/SWEEPS.md`. Measure on a machine that does nothing else.
+Measured in turns, in folders that are made for it. Nothing is asserted. Measure on a machine that does nothing
+else: two processes on two cores have none to spare.
 """
 
 from __future__ import annotations

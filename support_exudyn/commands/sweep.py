@@ -16,14 +16,12 @@ from support_exudyn.command_line import count, folder, say
 if TYPE_CHECKING:
     from support_exudyn.sweeping.run import Outcome, Told
 
-HELP = "run a scenario with fields of it varied, on all cores or a cluster, into a store that can be continued"
+HELP = "run a scenario with fields of it varied, into a store that can be continued"
 EPILOG = """
-The store is a folder with a file for every run, named by a key of its inputs and of the program's versions, and
-one table of all, table.parquet and table.csv, with a row for every run. A sweep that was interrupted goes on
-where it stopped; if the file is changed only those runs are made that the store does not hold. A run that
-fails is a row with its reason.
-
-exit codes, besides those of all commands: 3: the table is whole, but some of its rows are failures
+The store is a folder with a file for every run, named by a key of its inputs and of the program's versions,
+and one table, table.parquet and table.csv, with a row for every run. A sweep that was interrupted goes on
+where it stopped; after a change of FILE only those runs are made that the store does not hold. A run that
+fails is a row with its reason. Exit code 3: the table is whole, but some of its rows are failures.
 """
 FAILURES = 3  # exit code
 MOST_WORKERS = 1024
@@ -33,7 +31,6 @@ SHOWN = 12  # first rows and columns that are shown in a terminal
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The sweep's file, where the store is, and who runs it."""
-    parser.formatter_class = argparse.RawDescriptionHelpFormatter
     parser.epilog = EPILOG
     parser.add_argument("file", type=folder, metavar="FILE", help="what is varied, as TOML")
     parser.add_argument(
