@@ -21,7 +21,6 @@ from support_exudyn.linkages.impact_stand import ImpactStand
 from support_exudyn.linkages.slider_crank import SliderCrank, ravn_slider_crank
 from support_exudyn.linkages.two_leg_shield import TwoLegShield
 from support_exudyn.loads import AppliedForce, FallingBlock, Load, LoadedPoint, Roof
-from support_exudyn.loads import Load, LoadedPoint, Roof
 from support_exudyn.machine import Body, Column, Crank, Linkage, Machine, Part, PinPlace, Slide, TracePoint
 from support_exudyn.machines import load_support, reference_support, two_body_columns
 from support_exudyn.onset import Onset

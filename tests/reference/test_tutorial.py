@@ -86,7 +86,7 @@ def test_the_tip_moves_as_geometry_has_it(folder: Path) -> None:
 
 
 def shifted(machine: HydraulicSupport, stroke: float, offset: np.ndarray) -> np.ndarray:
-    """By how much the tip moves [m] if the rear link's lower end is so far off its pivot, columns as they are."""
+    """By how much the tip moves [m] if the rear link's lower end is so far off its pivot, its columns held."""
     posture = machine.extended(stroke)
     assert posture is not None
     points = {
