@@ -19,6 +19,7 @@ import numbers
 from abc import ABC
 from collections.abc import Mapping
 from decimal import Decimal
+from difflib import get_close_matches
 from typing import Annotated, Any, ClassVar, TypeVar
 
 import annotated_types
@@ -28,6 +29,7 @@ from pydantic.dataclasses import dataclass as pydantic_dataclass
 from typing_extensions import Self, dataclass_transform
 
 LARGEST = 1e30  # of any number: products of several neither overflow nor vanish
+NEAR = 4  # names that are told of many
 DEEPEST = 32  # of plain data, in containers within containers; a scenario has 7
 
 
@@ -146,8 +148,9 @@ def _value_of(data: Any, depth: int) -> Any:
     known = _kinds_of(Value)
     if not isinstance(kind, str) or kind not in known:
         raise InputError(
-            f"type = {short(kind)}: not a known type; known are {_names(known)}. "
-            "Import the module that defines it first."
+            f"type = {short(kind)}: not a known type; allowed: {len(known)} classes, such as "
+            f"{', '.join(get_close_matches(str(kind), known, NEAR, 0.0))}; one's own have to be imported first, "
+            "on a command line by --import MODULE"
         )
     return known[kind](**{_name(k): _rebuilt(v, depth + 1) for k, v in data.items() if k != "type"})
 

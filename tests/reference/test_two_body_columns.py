@@ -175,7 +175,7 @@ def test_a_machine_that_moves_at_the_start_has_columns_that_move_along() -> None
         def detailed(self, columns: object, parts: object) -> object:
             return replace(linkage, bodies=bodies)
 
-    moving = Moving(**{name: getattr(machine, name) for name in machine.__dataclass_fields__})
+    moving = Moving(**{name: getattr(machine, name) for name in machine.to_data() if name != "type"})
     detailed = support(machine=moving, columns=two_body_columns(), drive=RISE).linkage
     system = kinetics_of(detailed)
     velocity = np.concatenate([[*body.velocity, body.spin] for body in detailed.bodies.values()])

@@ -165,7 +165,7 @@ def test_a_law_inside_a_contact_comes_back_as_what_it_was() -> None:
 
 
 def test_data_of_an_unknown_type_is_refused() -> None:
-    with pytest.raises(InputError, match=r"type = 'Cube': not a known type; known are .*Ball"):
+    with pytest.raises(InputError, match=r"type = 'Cube': not a known type; allowed: .*CubicStep"):
         Value.from_data({"type": "Cube", "radius": 1.0})
 
 
