@@ -148,7 +148,7 @@ def _value_of(data: Any, depth: int) -> Any:
     known = _kinds_of(Value)
     if not isinstance(kind, str) or kind not in known:
         raise InputError(
-            f"type = {short(kind)}: not a known type; allowed: {len(known)} classes, such as "
+            f"type = {short(kind)}: not a known type; allowed: those of {len(known)} classes, such as "
             f"{', '.join(get_close_matches(str(kind), known, NEAR, 0.0))}; one's own have to be imported first, "
             "on a command line by --import MODULE"
         )
