@@ -28,8 +28,9 @@ from support_exudyn.parts import Lumped, OwnBody, PartModel
 from support_exudyn.pins import ClearancePin, IdealPin, Pin
 from support_exudyn.recommend import Recommendation, recommend
 from support_exudyn.result import Result
-from support_exudyn.scenario import Scenario, SolverSettings
+from support_exudyn.scenario import Scenario
 from support_exudyn.simulate import simulate
+from support_exudyn.solver_settings import SolverSettings
 from support_exudyn.table_drive import TableDrive
 from support_exudyn.width import Width
 

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from functools import reduce
 from operator import or_
 
-from support_exudyn.recipes import EVERYTHING, Part, Recipe, Seen, chosen
-from support_exudyn.scenario import ALL_CHANNELS, Scenario
+from support_exudyn.recipes import ALL_CHANNELS, EVERYTHING, Part, Recipe, Seen, chosen
+from support_exudyn.scenario import Scenario
 from support_exudyn.trajectory import Observed, Series, Trajectory
 
 

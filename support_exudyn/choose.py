@@ -7,13 +7,8 @@ from dataclasses import replace
 from typing import Literal
 
 from support_exudyn.formulations import covers, formulation
-from support_exudyn.scenario import (
-    ERROR_CONTROLLED,
-    LARGEST_STEP,
-    MOST_IMPACT_STEPS,
-    SMALLEST_TOLERANCE,
-    Scenario,
-)
+from support_exudyn.scenario import LARGEST_STEP, Scenario
+from support_exudyn.solver_settings import ERROR_CONTROLLED, MOST_IMPACT_STEPS, SMALLEST_TOLERANCE
 from support_exudyn.timescales import timescales
 
 FormulationName = Literal["redundant", "tree", "reduced"]

@@ -8,7 +8,7 @@ from typing import Any
 
 import exudyn
 
-from support_exudyn.scenario import SolverSettings
+from support_exudyn.solver_settings import SolverSettings
 
 SMALLEST_STEP = 1e-13  # [s]
 # Beyond so many unknowns the sparse solver is faster: an ideal rise in space (some 70) takes half as long,

@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from support_exudyn.scenario import ERROR_CONTROLLED
+from support_exudyn.solver_settings import ERROR_CONTROLLED
 from user_forces.values import InputError, short
 
 if TYPE_CHECKING:

@@ -46,6 +46,7 @@ MOTION = Part.POSITION | Part.VELOCITY
 CONTACT = MOTION | Part.CONTACTS
 OIL = MOTION | Part.OIL
 LOADED = MOTION | Part.LOADS
+ALL_CHANNELS = ("*",)  # the pattern that asks for everything
 
 
 @dataclass(frozen=True)

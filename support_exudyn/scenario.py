@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import field, replace
 from functools import cached_property
@@ -18,101 +17,20 @@ from support_exudyn.loads.load import Load
 from support_exudyn.machine import Linkage, Machine
 from support_exudyn.parts import OwnBody, PartModel
 from support_exudyn.pins import ClearancePin, IdealPin, Pin
-from support_exudyn.recipes import Recipe, check_patterns, recipes
+from support_exudyn.recipes import ALL_CHANNELS, Recipe, recipes
+from support_exudyn.scenario_checks import check
+from support_exudyn.solver_settings import ERROR_CONTROLLED, SolverSettings
 from support_exudyn.spatial.layout import SpatialLinkage
 from support_exudyn.spatial.recipes import recipes as spatial_recipes
 from support_exudyn.two_bodies import with_two_bodies
 from user_forces.quantity import MetresPerSecondSquared, Seconds
-from user_forces.values import Fraction, InputError, Positive, Real, Value, Vector2, Whole, short, value
+from user_forces.values import InputError, Positive, Real, Value, Vector2, short, value
 
 ACCURACIES = {"draft": 1e-2, "standard": 1e-3, "reference": 1e-5}
 Accuracy = Literal["draft", "standard", "reference"] | Real
 SMALLEST_GOAL, LARGEST_GOAL = 1e-8, 0.1
-SMALLEST_TOLERANCE = 1e-13  # rounding
 LARGEST_STEP = 0.1  # [s]
-MOST_IMPACT_STEPS = 10000
-MOST_SECTIONS = 64
-MOST_STEPS = 5_000_000  # some minutes of the redundant formulation
-ERROR_CONTROLLED = ("tree", "reduced")
-REFINED_TOLERANCE = 3  # power of the refinement by which the tolerance falls
 MOST_REFINED = 1e6  # by what factor a run can be refined
-ALL_CHANNELS = ("*",)
-
-
-@value
-class SolverSettings(Value):
-    """Settings of the time integration; all but `tolerance` and `backend` are of the redundant formulation.
-
-    Arguments:
-        integrator: "generalised_alpha", or "trapezoidal", the engine's rule of that name, which has no
-            spectral radius and needs constraints of index 2.
-        constraint_index: 3: constraints hold the positions; 2: the velocities, so that pins drift apart (on the
-            support by 1e-9 m in a rise, 1e-6 m in a second of impacts). The engine's generalised alpha has 3
-            only. With 2 cranks follow the drive's speed, and rigid columns that move are refused: the engine's
-            have no speed.
-        spectral_radius: rho at infinite frequency, from 0 (all high-frequency content damped out in a
-            step) to 1 (none). At 0.5 the joint forces are quiet at small steps; at 0.9 rounding
-            shows in them below a step of 0.2 ms.
-        newton_tolerance: relative tolerance of Newton's residual, > 0.
-        newton: "modified", which keeps a Jacobian as long as it serves, or "full", a new one each iteration, as
-            hydraulic cylinders always have.
-        impact_steps: how many steps an impact takes at least, from the touch to the parting of an undamped
-            one of the same speed; 16 to 10000. Steps are so short from the touch until the surfaces part, or
-            until the depth swings little any more. Errors are of second order; 512 delivers any
-            restitution within 1e-5.
-        locate: whether steps are cut so that touches and partings lie at their ends, and refined in impacts.
-            Without, all steps lie on the grid, also after breaks of the drive, and a contact is noticed at
-            the end of the step in which it begins or ends, as plain recipes do. A law is then told the speed
-            there; `Onset.time` is interpolated.
-        growth: by what factor steps may grow beyond `step`, from 1 to 64, while loose pins are closed, nothing
-            is in an impact and accelerations hardly change. Records that a step passes over are interpolated.
-            16 saves nine tenths of the steps with ideal pins, a third with a loose one that comes to rest, few
-            with one that vibrates; errors stay those of `step` where impacts decide. Under loads none grows.
-        tolerance: of the formulations with error control, from 1e-13 to 1e-2. Reduced: largest error of a step
-            as a share of the clearance, and of the speed of a fall through half of it. Tree: of that speed;
-            1e-5 is enough for most.
-        backend: what evaluates the force of clearance pins. "python": a Python function. "symbolic": the same
-            law as an expression of the engine (redundant). "compiled": by numba, the extra [fast], for laws
-            K depth^n with hysteresis damping and Ambrosio's friction or none (reduced). "auto": compiled where
-            that can be done in the reduced formulation, else Python.
-        sections: in how many places along its axis the contact of a loose pin is evaluated in space, 2 to 64,
-            the edges among them. Where a pin is not tilted any number gives the same; a tilted one on oil
-            columns driven unequally by 2 % is right to 2 % with 5 and to 4e-4 with 9.
-        most_steps: after how many steps, repeated ones among them, a run is given up, from 1 to 1e12.
-        audit: whether a run is refused whose energy does not add up by 5 % of what was turned over, whose
-            joints come apart by 0.1 mm, or whose journals are deeper in their bores than a fifth of the radius.
-    """
-
-    integrator: Literal["generalised_alpha", "trapezoidal"] = "generalised_alpha"
-    constraint_index: Literal[2, 3] = 3
-    spectral_radius: Fraction = 0.5
-    newton_tolerance: Annotated[Real, Field(gt=0, le=1e-3)] = 1e-8
-    newton: Literal["modified", "full"] = "modified"
-    impact_steps: Annotated[Whole, Field(ge=16, le=MOST_IMPACT_STEPS)] = 512
-    locate: Annotated[bool, Field(strict=True)] = True
-    growth: Annotated[Real, Field(ge=1, le=64)] = 1.0
-    tolerance: Annotated[Real, Field(ge=1e-13, le=1e-2)] = 1e-7
-    backend: Literal["auto", "python", "symbolic", "compiled"] = "auto"
-    sections: Annotated[Whole, Field(ge=2, le=MOST_SECTIONS)] = 5
-    most_steps: Annotated[Whole, Field(ge=1, le=10**12)] = MOST_STEPS
-    audit: Annotated[bool, Field(strict=True)] = True
-
-    @model_validator(mode="after")
-    def _fit_each_other(self) -> SolverSettings:
-        if self.integrator == "trapezoidal" and self.constraint_index != 2:
-            raise ValueError(
-                f"integrator = 'trapezoidal', constraint_index = {self.constraint_index}: allowed: 2 with this "
-                "integrator"
-            )
-        return self
-
-    def with_more_sections(self, factor: float) -> SolverSettings:
-        """Sections of loose pins so many times shorter, at most as many and at least as few as are allowed."""
-        return replace(self, sections=min(max(round(factor * (self.sections - 1)) + 1, 2), MOST_SECTIONS))
-
-    def with_smaller_tolerance(self, factor: float) -> SolverSettings:
-        """A tolerance factor^3 times smaller, at least the smallest that can be asked for."""
-        return replace(self, tolerance=max(SMALLEST_TOLERANCE, self.tolerance / factor**REFINED_TOLERANCE))
 
 
 @value
@@ -188,135 +106,8 @@ class Scenario(Value):
 
     @model_validator(mode="after")
     def _fits_the_machine(self) -> Scenario:
-        for name in self.parts:
-            if name not in self.machine.jacks:
-                raise ValueError(
-                    f"parts.{name}: the machine has no such part on a jack; "
-                    f"allowed: {', '.join(self.machine.jacks) or 'none'}"
-                )
-        try:
-            self._unloaded  # noqa: B018 - can it be laid out?
-        except InputError as error:
-            raise ValueError(str(error)) from None
-        self._check_loads()
-        linkage = self.linkage
-        if self.dimensions == 3:
-            self._check_space()
-        places = linkage.pins
-        for name in self.pins:
-            if name not in places:
-                raise ValueError(
-                    f"pins.{name}: the machine has no such pin; allowed: {', '.join(places) or 'none'}"
-                )
-        for name, place in places.items():
-            apart = math.dist(place.first_point, place.second_point)
-            if apart > 1e-9 and name not in self.clearance_pins:
-                raise ValueError(
-                    f"pins.{name}: its points on both bodies are {apart:.3g} m apart at the start; "
-                    "allowed for an ideal pin: 0, for a clearance pin: any"
-                )
-        if self.record_period > self.duration:
-            raise ValueError(
-                f"record_period = {self.record_period} s: allowed: at most the duration, {self.duration} s"
-            )
-        self._check_columns(linkage)
-        self._check_drives(linkage)
-        if self.channels != ALL_CHANNELS:
-            check_patterns(self.recipes, self.channels)
+        check(self)
         return self
-
-    def _check_space(self) -> None:
-        try:
-            space = self.space
-        except InputError as error:
-            raise ValueError(f"dimensions = 3: {error}") from None
-        if self.formulation in ERROR_CONTROLLED:
-            raise ValueError(
-                f"formulation = {self.formulation!r}: is planar; allowed in space: 'auto', 'redundant'"
-            )
-        for name in self.cylinders:
-            raise ValueError(f"columns.{name} = HydraulicCylinder: is planar; allowed in space: OilColumn")
-        for name in self.friction_pins:
-            raise ValueError(f"pins.{name}.friction: is planar; allowed in space: friction of clearance pins")
-        for name, bearing in space.bearings.items():
-            if bearing.pin not in self.clearance_pins and bearing.misfit:
-                raise ValueError(
-                    f"bearings.{name}: {bearing.misfit} at the start; allowed for an ideal pin: none, for a "
-                    "clearance pin: any"
-                )
-        self._check_pairs(space)
-
-    def _check_pairs(self, space: SpatialLinkage) -> None:
-        """Rigid columns of a pair cannot be driven apart: what they stand under is rigid, too."""
-        for name, column in space.columns.items():
-            if column.column in self.oil_columns:
-                continue
-            for other in space.parts_of_column(column.column):
-                if self.drive_of(other) != self.drive_of(name):
-                    raise ValueError(
-                        f"drives.{name}: is not the drive of {other}, and both are rigid; "
-                        "allowed for a pair of rigid columns: one drive, or columns of oil"
-                    )
-
-    def _check_columns(self, linkage: Linkage) -> None:
-        driven = [name for name, column in linkage.columns.items() if column.driven]
-        for name, column in self.columns.items():
-            if name not in driven:
-                raise ValueError(
-                    f"columns.{name}: the machine has no such column; allowed: {', '.join(driven) or 'none'}"
-                )
-            for one in self.space.parts_of_column(name) if self.dimensions == 3 else (name,):
-                column.check_extension(self.drive_of(one).span(self.duration)[0], one)
-            if isinstance(column, HydraulicCylinder):
-                column.check_length(linkage.columns[name].start_length, name)
-                if name in self.drives:
-                    raise ValueError(
-                        f"drives.{name}: is a HydraulicCylinder, which follows no drive; allowed: none, but "
-                        f"columns.{name}.inlet"
-                    )
-        if self.cylinders and not self.driven and self.drive != Held():
-            raise ValueError(
-                f"drive = {type(self.drive).__name__}: nothing follows it, for all columns are "
-                "HydraulicCylinder, which move by their inlet; allowed: Held()"
-            )
-
-    def _check_drives(self, linkage: Linkage) -> None:
-        allowed = tuple(dict.fromkeys((*linkage.driven, *self.driven)))
-        for name in self.drives:
-            if name not in allowed:
-                raise ValueError(
-                    f"drives.{name}: the machine has no such driven part; "
-                    f"allowed: {', '.join(allowed) or 'none'}"
-                )
-        for drive in self.drives_in_use:
-            if self.start == "settled" and drive.initial_speed != 0.0:
-                raise ValueError(
-                    "start = 'settled': is at rest, but the drive moves from the start on "
-                    f"({drive.initial_speed} per s); allowed with this drive: 'concentric'"
-                )
-        for drives in self._drives_in_plane:
-            self.machine.check_motion(drives, self.duration)
-
-    def _check_loads(self) -> None:
-        linkage = self._unloaded
-        taken = {"pin", "energy", "time", *linkage.bodies, *linkage.points, *linkage.driven, *linkage.columns}
-        taken |= {*linkage.pins, *linkage.slides}
-        for name, load in self.loads.items():
-            if self.dimensions == 3:
-                raise ValueError(f"loads.{name}: acts in the plane; allowed with dimensions = 3: no loads")
-            if name in taken:
-                raise ValueError(
-                    f"loads.{name}: the machine has something of this name; "
-                    f"allowed: all but {', '.join(sorted(taken))}"
-                )
-            if load.body not in linkage.bodies:
-                raise ValueError(
-                    f"loads.{name}.body = {load.body!r}: no such body; allowed: {', '.join(linkage.bodies)}"
-                )
-            try:
-                load.check(self.gravity)
-            except InputError as error:
-                raise ValueError(f"loads.{name}.{error}") from None
 
     @property
     def jumps(self) -> bool:
@@ -353,13 +144,13 @@ class Scenario(Value):
     @cached_property
     def linkage(self) -> Linkage:
         """The mechanism in its start posture, as far as it is modelled, with what loads bring along."""
-        linkage = self._unloaded
+        linkage = self.unloaded
         for name, load in self.loads.items():
             linkage = load.joined(linkage, name)
         return linkage
 
     @cached_property
-    def _unloaded(self) -> Linkage:
+    def unloaded(self) -> Linkage:
         """The machine's mechanism, as far as it is modelled.
 
         Raises InputError if its loose pins cannot start with the eccentricities that are asked for.
@@ -407,7 +198,7 @@ class Scenario(Value):
         }
 
     @property
-    def _drives_in_plane(self) -> tuple[dict[str, Drive], ...]:
+    def drives_in_plane(self) -> tuple[dict[str, Drive], ...]:
         """The drives of all driven parts of the plane, by name; in space once for either side."""
         if self.dimensions == 2:
             return ({name: self.drive_of(name) for name in self.driven},)

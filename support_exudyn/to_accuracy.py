@@ -9,9 +9,10 @@ import numpy as np
 from support_exudyn.choose import settings_for
 from support_exudyn.estimate import measured
 from support_exudyn.progress import Progress
+from support_exudyn.recipes import ALL_CHANNELS
 from support_exudyn.result import Result
 from support_exudyn.run_once import run_once
-from support_exudyn.scenario import ALL_CHANNELS, Scenario
+from support_exudyn.scenario import Scenario
 from user_forces.values import InputError
 
 FACTOR = 2.0  # by which steps are shorter from run to run

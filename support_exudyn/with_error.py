@@ -13,7 +13,8 @@ from support_exudyn.estimate import disagreement, rounding_share
 from support_exudyn.progress import Progress
 from support_exudyn.result import Result
 from support_exudyn.run_once import run_once
-from support_exudyn.scenario import ERROR_CONTROLLED, REFINED_TOLERANCE, SMALLEST_TOLERANCE, Scenario
+from support_exudyn.scenario import Scenario
+from support_exudyn.solver_settings import ERROR_CONTROLLED, REFINED_TOLERANCE, SMALLEST_TOLERANCE
 from support_exudyn.to_accuracy import with_measured
 from user_forces.values import InputError
 

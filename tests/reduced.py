@@ -8,7 +8,7 @@ import numpy as np
 
 from support_exudyn import Result, Scenario, simulate
 from support_exudyn.progress import Progress, silent
-from support_exudyn.scenario import MOST_STEPS
+from support_exudyn.solver_settings import MOST_STEPS
 
 
 def simulate_reduced(

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Generator, Iterable, Iterator
 
-from support_exudyn.scenario import ERROR_CONTROLLED, Scenario
+from support_exudyn.scenario import Scenario
+from support_exudyn.solver_settings import ERROR_CONTROLLED
 from support_exudyn.sweeping.row import Row
 from support_exudyn.sweeping.store import Store
 from support_exudyn.sweeping.work import Task, run_into

@@ -24,7 +24,7 @@ from support_exudyn import (
 from support_exudyn.estimate import disagreement, measures
 from support_exudyn.progress import Progress
 from support_exudyn.run_once import run_once
-from support_exudyn.scenario import MOST_IMPACT_STEPS, SMALLEST_TOLERANCE
+from support_exudyn.solver_settings import MOST_IMPACT_STEPS, SMALLEST_TOLERANCE
 from support_exudyn.with_error import LARGEST_ERROR
 from tests.reference.cases import FORCE, PIN, loose_support, support
 from tests.unit.test_formulations import SCENES

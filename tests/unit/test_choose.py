@@ -21,13 +21,8 @@ from support_exudyn.choose import (
     RESTING,
     settings_for,
 )
-from support_exudyn.scenario import (
-    LARGEST_GOAL,
-    LARGEST_STEP,
-    MOST_IMPACT_STEPS,
-    SMALLEST_GOAL,
-    SMALLEST_TOLERANCE,
-)
+from support_exudyn.scenario import LARGEST_GOAL, LARGEST_STEP, SMALLEST_GOAL
+from support_exudyn.solver_settings import MOST_IMPACT_STEPS, SMALLEST_TOLERANCE
 from support_exudyn.timescales import timescales
 from tests.reference.cases import loose_slider_crank, loose_support, slider_crank, support
 from tests.unit.test_formulations import COVERED, SCENES
