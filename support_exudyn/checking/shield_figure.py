@@ -105,14 +105,20 @@ def _machine(axes: Axes, machine: Shield, fine: Sequence[Station]) -> None:
     for n, number in enumerate((0, 2)):
         top = three[number].posture.tip[1]
         _dimension(axes, right + (0.05 + 0.09 * n) * size, 0.0, top, POSTURES[number][0])
-    axes.set(aspect="equal", xlabel="x, forward [mm]", ylabel="y [mm]")
+    # a box that shrank to its data would be given too little room for its labels
+    axes.set_aspect("equal", adjustable="datalim")
+    axes.set(xlabel="x, forward [mm]", ylabel="y [mm]")
     axes.set_title("lowest, middle and highest posture; heights of the tip [mm]", pad=10)
     handles = [
         axes.plot([], [], color=colour, ls=dashes, lw=1.6, label=f"stroke {1e3 * one.stroke:.0f} mm")[0]
         for one, (colour, dashes) in zip(three, POSTURES, strict=True)
     ]
-    axes.legend(handles=handles, loc="lower right", bbox_to_anchor=(0.84, 0.13), fontsize=7.5)
-    axes.set_xlim(right=1e3 * (right + 0.24 * size))
+    under_the_tip = (1e3 * right, 0.04e3 * size)  # nothing stands there
+    axes.legend(
+        handles=handles, loc="lower right", bbox_to_anchor=under_the_tip, bbox_transform=axes.transData,
+        fontsize=7.5,
+    )  # fmt: skip
+    axes.plot(1e3 * (right + 0.24 * size), 0.0)  # room for the dimensions
     axes.grid(False)
 
 

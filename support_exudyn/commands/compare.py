@@ -14,14 +14,13 @@ from support_exudyn.comparison import Difference, compared
 from support_exudyn.estimate import Estimate
 from support_exudyn.figures import windows
 from support_exudyn.figures.names import matching
-from support_exudyn.figures.units import readable
+from support_exudyn.figures.units import readable_change
 from support_exudyn.printed_table import printed, show_table
 from support_exudyn.result import Result
 from user_forces.values import InputError
 
 HELP = "by how much a second run differs from a first, channel by channel, with errors"
 WHOLE = (0.0, math.inf)  # run
-LITTLE = 1e-3  # share of a mean in whose unit a smaller difference is still told
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -82,7 +81,7 @@ def _table(console: Console, found: Mapping[str, Difference], title: str) -> Non
 
 def _row(name: str, one: Difference) -> tuple[str, ...]:
     means = max(abs(one.first.value), abs(one.second.value))
-    unit = readable(one.mean.unit, max(abs(one.largest.value), LITTLE * means))
+    unit = readable_change(one.mean.unit, means, abs(one.largest.value))
     numbers = (_said(number, unit.scale) for number in (one.first, one.second, one.mean, one.largest))
     return name, unit.name, *numbers, f"{one.time:.6g}"
 

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from support_exudyn.figures import style
 from support_exudyn.figures.caption import caption
-from support_exudyn.figures.units import readable
+from support_exudyn.figures.units import readable_change
 from user_forces import quantity
 from user_forces.quantity import Unit as Written
 from user_forces.values import InputError, short
@@ -53,7 +53,9 @@ def sweep_chart(table: pa.Table, x: str, y: str, by: str | None = None) -> Figur
     if np.isnan(values).all():
         raise InputError(f"{y}: no run has this number; allowed: {_some(_numbers(table))}")
     unit = _metadata(table, y).get("unit", "")
-    shown = readable(unit, float(np.nanmax(np.abs(values))))
+    shown = readable_change(
+        unit, float(np.nanmax(np.abs(values))), float(np.nanmax(values) - np.nanmin(values))
+    )
     known = f"{y}_error" in rows
     errors = np.array([np.nan if one is None else one for one in rows[f"{y}_error"]]) if known else None
     drawing = Figure(figsize=style.size(170, 95))

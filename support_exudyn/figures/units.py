@@ -14,6 +14,7 @@ class Unit(NamedTuple):
 
 
 ROUNDED = 1.0 - 1e-9  # so that a thousandth of something is read as that whichever way it was rounded
+LITTLE = 1e-3  # share of a quantity, in whose unit a smaller change is told
 DEGREES = 180.0 / math.pi
 ANGLES = {
     "rad": Unit("deg", DEGREES),
@@ -55,6 +56,17 @@ def readable(unit: str, size: float) -> Unit:
     if size <= 0.0 or not math.isfinite(size):
         return Unit(unit, 1.0)
     return next((shown for limit, shown in SIZES.get(unit, ()) if size < limit * ROUNDED), Unit(unit, 1.0))
+
+
+def readable_change(unit: str, size: float, change: float) -> Unit:
+    """The unit in which changes of a quantity are read best, if they are not next to nothing of it.
+
+    Arguments:
+        unit: of a channel, such as "N".
+        size: of its largest value, of either sign.
+        change: of it.
+    """
+    return readable(unit, max(change, LITTLE * size))
 
 
 def said(value: float, unit: str, digits: int = 3) -> str:
