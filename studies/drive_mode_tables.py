@@ -31,6 +31,8 @@ SAVED = (
     "std_angular_acceleration",
 )
 CONVERGES = "converges"
+DIVERGES = "does not converge"
+OPEN = "open: halved once only"
 SAID_CONVERGES = (
     "Impact steps are halved with the steps. Converges: the last change is below 1 % of the value, or less "
     "than 0.7 of the change before. Rigid columns: records at the jump itself hold the values before it."
@@ -119,7 +121,7 @@ def verdict(values: Sequence[float]) -> str:
     *before, last = (abs(b - a) for a, b in pairwise(values[-3:]))
     if last <= 0.01 * abs(values[-1]) or (before and last < 0.7 * before[0]):
         return CONVERGES
-    return "does not converge" if before else "open: halved once only"
+    return DIVERGES if before else OPEN
 
 
 def _steps(ladders: Mapping[str, Ladder]) -> list[str]:
