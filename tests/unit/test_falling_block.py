@@ -13,6 +13,7 @@ from support_exudyn import AppliedForce, FallingBlock, Load, LoadedPoint, Scenar
 from support_exudyn.drawing.blocks import blocks
 from support_exudyn.drawing.plain import look
 from support_exudyn.drawing.solid import Role
+from support_exudyn.load_item import _pull
 from tests.roof_cases import TOP, Ram
 from user_forces import InputError, delivered_restitution
 from user_forces.values import Value
@@ -154,3 +155,8 @@ def test_an_applied_force_has_come_on_when_it_says() -> None:
     for end in (0.0, 0.1):
         with pytest.raises(InputError, match=r"allowed: > start = 0\.1 s, or both 0"):
             replace(FORCE, end=end)
+
+
+def test_the_connector_pulls_its_ends_together_with_what_the_load_pushes_them_apart() -> None:
+    found = _pull(FORCE)(None, 0.3, 0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+    assert found == pytest.approx([-2e3, 5e4, 0.0])

@@ -23,9 +23,10 @@ from support_exudyn import (
     SuddenOpening,
     reference_support,
 )
+from support_exudyn.body_motion import BodyMotion
 from support_exudyn.filled_cylinder import FilledCylinder, fill_cylinders
 from support_exudyn.formulations import formulation
-from support_exudyn.machine import GROUND, Column
+from support_exudyn.machine import GROUND, Body, Column, Linkage
 from support_exudyn.recipes import Part
 from support_exudyn.timescales import timescales
 from support_exudyn.trajectory import CylinderSeries
@@ -245,3 +246,17 @@ def test_flows_and_pressures_stand_under_their_names() -> None:
         assert recipes[f"front_column.{what}"].values(seen) == getattr(series, field)
     for name in ("front_column.pressure", "energy.elastic", "energy.balance"):
         assert Part.OIL in recipes[name].needs
+
+
+@pytest.mark.parametrize("rate", [0.2, -0.3])
+def test_the_record_of_a_column_is_that_of_its_model(rate: float) -> None:
+    linkage = Linkage(bodies={"ram": Body(mass=1.0, inertia=1.0, centre=(0.0, 1.6))}, columns={"jack": COLUMN})
+    motion = BodyMotion(linkage, np.array([[0.0, 0.1, 0.0]]), np.array([[0.0, rate, 0.0]]), np.zeros((1, 3)))
+    one = filled()
+    series = one.series(motion, np.array([[3e6, 1e6]]), np.array([0.5]))
+    assert series.force == pytest.approx(3e6 * 0.1 - 1e6 * 0.02 - 1e4 * rate)  # seals hold it back
+    assert (series.pressure, series.rod_pressure, series.opening) == (3e6, 1e6, 0.5)
+    assert (series.flow, series.rod_flow) == pytest.approx(one.model.flows(3e6, 1e6, 0.5))
+    # p^2/2B in each chamber, which has become longer and shorter; B (exp(p/B) - 1 - p/B) is 1e-3 more
+    wanted = (9e12 * (0.1 * 0.6 + 1e-3) + 1e12 * (0.02 * 0.9 + 1e-3)) / 3e9
+    assert series.energy == pytest.approx(wanted, rel=2e-3)
