@@ -118,4 +118,4 @@ def _velocity_said(rows: Rows) -> str:
     cases = [case_name("mode 1", pin, "rigid") for pin in PINS]
     judged = [row[-1] for row in rows if row[0] in cases and row[1] == VELOCITY]
     good = judged and all(verdict == CONVERGES for verdict in judged)
-    return f"Angular velocities as in Fig. 13 b {'converge.' if good else 'are not shown to converge here'}."
+    return f"Angular velocities as in Fig. 13 b {'converge' if good else 'are not shown to converge here'}."
