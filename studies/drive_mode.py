@@ -33,7 +33,7 @@ def study(chosen: Options) -> None:
     ladders = run_ladders(scenarios(chosen.quick), halvings, chosen.workers)
     for name, ladder in ladders.items():
         ladder.finest.save(chosen.out / "runs" / f"{_file_name(name)}.h5")
-    naive = run_cases(naive_scenarios(), chosen.workers)
+    naive = run_cases(naive_scenarios(), 1)  # short: starting processes takes longer
     numbers = measure(ladders)
     with style.look():
         finest = {case: ladder.finest for case, ladder in ladders.items()}
