@@ -121,6 +121,10 @@ def findings(numbers: Sequence[Number]) -> tuple[str, ...]:
     def said(name: str, mode: str, digits: int = 2) -> str:
         return f"{found[name, case_name(mode, ideal)].value:.{digits}f}"
 
+    def of_both(name: str) -> str:
+        one, two = (1e-3 * found[name, case_name(mode, loose)].value for mode in DRIVES)
+        return f"{one:.0f} kN in mode 1 and {two:.0f} kN in mode 2"
+
     def peaks(name: str, columns: str) -> str:
         one, two = (1e-3 * found[name, f"{mode}, {loose}, {columns} columns"].value for mode in DRIVES)
         return f"{one:.0f} and {two:.0f} kN"
@@ -137,15 +141,16 @@ def findings(numbers: Sequence[Number]) -> tuple[str, ...]:
         f"{said('overshoot_front', 'mode 2', 3)} and {said('overshoot_rear', 'mode 2', 3)} mm (ideal pin).",
         f"Pressure under the rear pistons rises to {said('largest_pressure_rear', 'mode 1')} MPa in mode 1 and "
         f"{said('largest_pressure_rear', 'mode 2')} MPa in mode 2 (ideal pin) and settles at "
-        f"{said('pressure_after_rear', 'mode 1')} MPa; the least under the front ones is "
+        f"{said('pressure_after_rear', 'mode 1')} and {said('pressure_after_rear', 'mode 2')} MPa; "
+        "the least under the front ones is "
         f"{said('least_pressure_front', 'mode 1')} and {said('least_pressure_front', 'mode 2')} MPa. Below 0 a "
         "real column would cavitate.",
         "With 1.5 mm the largest pin force of the rise is, in modes 1 and 2, "
         f"{peaks(force, 'cylinder')} on cylinders and {peaks(force, 'oil')} on oil columns that a displacement "
         f"drives; the largest force of the front columns {peaks(front, 'cylinder')}, by displacement "
         f"{peaks(front, 'oil')}.",
-        "Closing the valve at once strikes as opening it does: after 5 s the largest pin force is "
-        f"{peaks('largest_pin_force_after_closing', 'cylinder')} (1.5 mm).",
+        f"Closing the valve strikes, too: from 5 s on the largest pin force is "
+        f"{of_both('largest_pin_force_after_closing')}, where that of the rise is {of_both(force)} (1.5 mm).",
         f"Valves and seals turn {shares[0]:.1f} % (mode 1) and {shares[1]:.1f} % (mode 2) of the pumps' work "
         "into heat: the load needs so little of the pump's pressure that the valve sets the flow, and the "
         "inlet is almost a displacement drive with oil.",
@@ -167,7 +172,7 @@ def pictures() -> tuple[Picture, ...]:
             "cylinders",
             "The rise on hydraulic cylinders: how far the front columns are behind the displacement drive of "
             "the mode (a), their speed (b), pressure under the rear pistons (c) and pin force (d). Full lines "
-            "1.5 mm, dashed in c and d the ideal pin; grey in b: the displacement drives.",
+            "1.5 mm, dashed in c and d the ideal pin; dotted in b the displacement drives.",
         ),
         Picture(
             "cylinders_mode_1",
@@ -197,7 +202,7 @@ def rise_figure(results: Mapping[str, Result]) -> Figure:
                 panels[1].plot(t, speed, lw=0.8, **look)
             panels[2].plot(t, 1e-6 * run["rear_column.pressure"][inside], lw=0.8, **look)
             panels[3].plot(t, 1e-3 * run[rise.FORCE][inside], lw=0.8, **look)
-        panels[1].plot(t, [1e3 * drive.speed(at) for at in t.tolist()], color="0.6", lw=1.6, zorder=0)
+        panels[1].plot(t, [1e3 * drive.speed(at) for at in t.tolist()], color=style.IDEAL, ls=":", lw=1.2)
     labels = (
         "behind the drive [mm]",
         "speed, front [mm/s]",
@@ -209,7 +214,7 @@ def rise_figure(results: Mapping[str, Result]) -> Figure:
         axes.set_title(f"{letter})")
     handles = [Line2D([], [], color=colour, label=f"{mode}, 1.5 mm") for mode, colour in COLOURS.items()]
     handles.append(Line2D([], [], color=style.IDEAL, ls=DASHES, label="ideal pin, both modes"))
-    handles.append(Line2D([], [], color="0.6", lw=1.6, label="displacement drives"))
+    handles.append(Line2D([], [], color=style.IDEAL, ls=":", lw=1.2, label="displacement drives"))
     drawing.legend(handles=handles, loc="outside lower center", ncols=2)
     drawing.suptitle("The rise on hydraulic cylinders")
     return drawing

@@ -16,7 +16,7 @@ import numpy as np
 
 from studies import paper_machine, rise
 from studies.reporting.chapter import Chapter, Sheet
-from studies.reporting.wording import by_case, how_sure, said
+from studies.reporting.wording import against, by_case, how_sure, said
 from studies.study import (
     Number,
     Options,
@@ -40,6 +40,7 @@ STUDY = "which_pin"
 CLEARANCE_MM = 1.5
 FRICTIONS = (paper_machine.SLIDING_COEFFICIENT, 0.0)
 CONDITIONS = ((0.25, 1.5), (0.1, 1.5), (0.25, 0.5), (0.0, 1.5))  # friction and clearance [mm], single pins
+ADDS_UP = 2.0  # [%]: shifts whose sum is off by less are said to add up; ten times that for shaking
 ALIKE = 0.05  # pins whose effects differ by less of the larger are said to be alike
 IDEAL = "ideal"
 ALL = "all five"
@@ -223,8 +224,13 @@ def ranking_sheet(found: Found, title: str, friction: float) -> Sheet:
     )
 
 
-def in_order(effects: Mapping[str, float]) -> str:
-    """Pins by the size of their effects, the largest first; those that are alike joined by =."""
+def in_order(effects: Mapping[str, float], errors: Mapping[str, float] | None = None) -> str:
+    """Pins by the size of their effects, the largest first; those that are alike joined by =.
+
+    errors: of the effects, zero by default. Between two groups stands > where every pin before is beyond the
+    errors larger than every pin after, else ?.
+    """
+    errors = errors or dict.fromkeys(effects, 0.0)
     first, *rest = sorted(effects, key=lambda name: -abs(effects[name]))
     groups = [[first]]
     for name in rest:
@@ -232,7 +238,22 @@ def in_order(effects: Mapping[str, float]) -> str:
             groups[-1].append(name)
         else:
             groups.append([name])
-    return " > ".join(" = ".join(sorted(group, key=PINS.index)) for group in groups)
+    text = ""
+    for n, group in enumerate(groups):
+        if n > 0:
+            before = [name for one in groups[:n] for name in one]
+            after = [name for one in groups[n:] for name in one]
+            least = min(abs(effects[name]) - errors[name] for name in before)
+            most = max(abs(effects[name]) + errors[name] for name in after)
+            text += " > " if least > most else " ? "
+        text += " = ".join(sorted(group, key=PINS.index))
+    return text
+
+
+def _order(row: Mapping[str, Number]) -> str:
+    """The order that numbers of pins make, by name of the pin."""
+    effects = {pin: number.value for pin, number in row.items()}
+    return in_order(effects, {pin: number.numerical_error for pin, number in row.items()})
 
 
 def condition_sheet(found: Found) -> Sheet:
@@ -243,7 +264,7 @@ def condition_sheet(found: Found) -> Sheet:
             cases = {pin: case_name((pin,), friction, size) for pin in PINS}
             if (name, cases[PINS[0]]) in found:
                 row = {pin: found[name, case] for pin, case in cases.items()}
-                order = in_order({pin: number.value for pin, number in row.items()})
+                order = _order(row)
                 what = f"{name.replace('_', ' ')} [{found[name, IDEAL].unit}]"
                 rows.append(
                     (what, f"{friction:g}, {size:g} mm", *(f"{n.value:.4g}" for n in row.values()), order)
@@ -252,7 +273,8 @@ def condition_sheet(found: Found) -> Sheet:
         "Orders with other frictions and clearances, each pin alone",
         ("effect", "friction, clearance", *PINS, "order"),
         tuple(rows),
-        f"Pins whose effects differ by less than {100.0 * ALIKE:g} % are joined by =.",
+        f"Neighbours whose effects differ by less than {100.0 * ALIKE:g} % are joined by =; ? stands where "
+        "numerical errors leave the order open.",
         left=2,
     )
 
@@ -267,7 +289,7 @@ def together_sheet(found: Found) -> Sheet:
                 whole = found[title, case_name(pins, friction)]
                 rows.append((
                     case_name(pins, friction), title.replace("_", " "), whole.unit, f"{expected:.4g}",
-                    _cell(whole), f"{100.0 * (whole.value / expected - 1.0):+.2g} %",
+                    _cell(whole), against(whole, replace(whole, value=expected)),
                 ))  # fmt: skip
     return Sheet(
         "Alone and together",
@@ -345,14 +367,13 @@ def chapter(found: Found, under_loads: Mapping[str, UnderLoad], quick: bool) -> 
         method=(
             f"The rise of the first study (mode 2, 500 mm from 3 to 5 s), with {CLEARANCE_MM} mm of radial "
             "clearance "
-            "in one pin, in two, or in all five. All pins have the bore of 131 mm and the contact that the "
-            "paper "
-            "gives its one pin: assumed, the others are not known. The support starts settled, standing on its "
+            f"{'in one pin' if quick else 'in one pin, in two'}, or in all five. All pins "
+            "have the bore of 131 mm and the contact that the paper gives its one pin: assumed, the others are "
+            "not known. The support starts settled, standing on its "
             "pins as one does that waits to be raised.",
             "The damping is that of `DepthSpeed`, which forgets how a contact once began, and not the "
             "textbook's, "
-            "which would make the shaking depend on whether the pin was set down gently or dropped. Starting "
-            "concentric gives the same numbers.",
+            "which would make the shaking depend on whether the pin was set down gently or dropped.",
             "Beside the runs stands a closed form: under its load a journal lies against its bore at "
             "clearance and "
             "depth; virtual work says how far that moves the tip. It is also what tells how the ranking "
@@ -390,7 +411,7 @@ def _findings(found: Found, under_loads: Mapping[str, UnderLoad]) -> tuple[str, 
 def _ranking(found: Found, title: str, friction: float) -> str:
     name = RANKED[title][0]
     rows = {pin: found[name, case_name((pin,), friction)] for pin in PINS}
-    order = in_order({pin: number.value for pin, number in rows.items()})
+    order = _order(rows)
     numbers = ", ".join(f"{pin} {said(rows[pin])}" for pin in ranked(found, name, friction))
     return (
         f"Pins {title}, friction {friction:g}: {order} ({name.replace('_', ' ')}: {numbers}; all five together "
@@ -401,12 +422,12 @@ def _ranking(found: Found, title: str, friction: float) -> str:
 def _together_said(found: Found, friction: float) -> str:
     shift = _excess(found, "mean_tip_shift_forward", friction, _sum)
     shaking = _excess(found, "ripple_pin_forces", friction, _root_of_squares)
+    adds = "shifts add up" if abs(shift) < ADDS_UP else "shifts do not add up"
+    told = "cannot be told" if abs(shaking) > 10.0 * ADDS_UP else "can be told"
     return (
         f"Friction {friction:g}: the tip's shift with all five is {shift:+.1f} % off the sum of the single "
-        "ones: "
-        f"shifts add up. The ripple of the pin forces is {shaking:+.0f} % off what independent vibrations "
-        "would give "
-        "(root of the sum of squares): shaking cannot be told from the single pins."
+        f"ones: {adds}. The ripple of the pin forces is {shaking:+.0f} % off what independent vibrations "
+        f"would give (root of the sum of squares): shaking {told} from the single pins."
     )
 
 
@@ -418,7 +439,7 @@ def _closed_form_said(found: Found) -> str:
     }
     worst = max(off, key=lambda case: off[case])
     return (
-        f"Virtual work gives the mean shift of all {len(off)} cases within {100.0 * off[worst]:.1f} % "
+        f"Virtual work gives the mean shift forward of all {len(off)} cases within {100.0 * off[worst]:.1f} % "
         f"({worst}): where a "
         "worn support stands can be told without a run."
     )
@@ -441,7 +462,12 @@ def _loads_said(under_loads: Mapping[str, UnderLoad]) -> str:
 def _conditions_said(found: Found) -> str:
     rows = [row for row in condition_sheet(found).rows if row[0].startswith("ripple")]
     orders = "; ".join(f"{row[1]}: {row[-1]}" for row in rows)
-    return f"The order by shaking depends on friction and clearance. By the ripple of the pin forces: {orders}."
+    same = len({row[-1] for row in rows}) == 1
+    depends = "is the same with every friction and clearance tried" if same else "depends on the conditions"
+    return (
+        f"The order by shaking {depends}. By the ripple of the pin forces (friction, clearance; ?: errors "
+        f"leave it open): {orders}."
+    )
 
 
 def _excess(found: Found, name: str, friction: float, add: Callable[[Sequence[float]], float]) -> float:

@@ -24,6 +24,7 @@ from exudyn.itemInterface import (
 )
 
 from support_exudyn.filled_cylinder import FilledCylinder
+from support_exudyn.inlet import ClosedInlet
 
 UNIT = 1e6  # of pressures in the engine [Pa]
 CURRENT = exudyn.ConfigurationType.Current
@@ -82,12 +83,10 @@ class CylinderItem:
         self.first = int(self._mbs.systemData.GetNodeLTGODE1(self.node)[0])
         self.tell_rates(INITIAL)
 
-    def moves(self, duration: float) -> bool:
-        """Whether its valve opens within this time [s]."""
-        return (
-            any(t < duration for t in self.filled.model.inlet.breaks)
-            or self.filled.model.inlet.opening(0.0) != 0.0
-        )
+    @property
+    def moves(self) -> bool:
+        """Whether its valve has to be followed: any that may open, for an inlet need not have breaks."""
+        return not isinstance(self.filled.model.inlet, ClosedInlet)
 
     def open_to(self, t: float) -> None:
         """Let the valve be as it is at time t [s]."""

@@ -79,7 +79,7 @@ class Run:
         self.solver: Any = exudyn.MainSolverImplicitSecondOrder()  # its stubs lack self
         self.impulses: list[Impulse] = []
         self.cylinders = tuple(scene.cylinders.values())
-        self.valves = any(cylinder.moves(scenario.duration) for cylinder in self.cylinders)
+        self.valves = any(cylinder.moves for cylinder in self.cylinders)
         self.settings = engine_settings(
             scenario.solver,
             scenario.duration,

@@ -27,7 +27,7 @@ def turns_by_itself(scene: EngineScene) -> bool:
     if scene.scenario.solver.constraint_index == 2:
         return False
     moving = [parts for parts in scene.driven if parts.moves(scene.scenario.duration)]
-    if any(cylinder.moves(scene.scenario.duration) for cylinder in scene.cylinders.values()):
+    if any(cylinder.moves for cylinder in scene.cylinders.values()):
         return False
     if any(parts.rigid or parts.oil for parts in moving) or not all(
         _is_formula(parts.drive) for parts in moving

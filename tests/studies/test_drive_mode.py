@@ -10,10 +10,13 @@ from typing import Any
 import pytest
 
 from studies import drive_mode as study
+from studies.drive_mode_cases import COLUMNS, MODES, PINS, case_name, naive_scenarios
+from studies.drive_mode_measures import peak_acceleration
+from studies.drive_mode_tables import CONVERGES, verdict
 from studies.reporting.chapter import Chapter
 from support_exudyn import simulate
 
-IDEAL, LOOSE = study.PINS
+IDEAL, LOOSE = PINS
 
 Numbers = dict[tuple[str, str], dict[str, Any]]
 
@@ -32,24 +35,22 @@ def numbers(out: Path) -> Numbers:
 
 
 def test_the_gentle_drive_saves_most_of_the_shock(numbers: Numbers) -> None:
-    for columns in study.COLUMNS:
+    for columns in COLUMNS:
         for name, share in (
             ("largest_pin_force_in_rise", 0.5),  # 0.42 and 0.37
             ("std_pin_force", 0.25),  # 0.17 to 0.21
             ("ripple_pin_force", 0.1),  # 0.03
             ("largest_angular_acceleration", 0.25),  # 0.12 and 0.09
         ):
-            sudden, gentle = (
-                numbers[name, study.case_name(mode, LOOSE, columns)]["value"] for mode in study.MODES
-            )
+            sudden, gentle = (numbers[name, case_name(mode, LOOSE, columns)]["value"] for mode in MODES)
             assert gentle < share * sudden
 
 
 def test_the_sudden_start_strikes_rigid_columns_only(numbers: Numbers) -> None:
     struck = {case for name, case in numbers if name.startswith("impulse")}
-    assert struck == {study.case_name("mode 1", pin, "rigid") for pin in study.PINS}
-    for pin in study.PINS:
-        case = study.case_name("mode 1", pin, "rigid")
+    assert struck == {case_name("mode 1", pin, "rigid") for pin in PINS}
+    for pin in PINS:
+        case = case_name("mode 1", pin, "rigid")
         for column in ("front_column", "rear_column"):
             # pushed at the start, held back at the end
             assert numbers[f"impulse_{column}_start", case]["value"] > 0.0
@@ -57,22 +58,22 @@ def test_the_sudden_start_strikes_rigid_columns_only(numbers: Numbers) -> None:
 
 
 def test_peaks_on_oil_have_a_limit(numbers: Numbers) -> None:
-    for pin in study.PINS:
+    for pin in PINS:
         for name in ("largest_pin_force_in_rise", "largest_rear_column_force"):
-            peak = numbers[name, study.case_name("mode 1", pin, "oil")]
+            peak = numbers[name, case_name("mode 1", pin, "oil")]
             # second order: at 1 ms 40 Hz has 25 steps a swing
             assert peak["numerical_error"] < 0.02 * peak["value"]
 
 
 def test_the_peak_of_the_stock_recipe_doubles_when_its_step_is_halved() -> None:
-    peaks = [study.peak_acceleration(simulate(case)) for case in study.naive_scenarios().values()]
+    peaks = [peak_acceleration(simulate(case)) for case in naive_scenarios().values()]
     # the acceleration is the jump over the step; what is smooth beside it is a thousandth
     assert [after / before for before, after in pairwise(peaks)] == pytest.approx([2.0, 2.0], rel=0.01)
 
 
 def test_clearance_does_not_make_the_first_peak_worse(numbers: Numbers) -> None:
     loose, ideal = (
-        numbers["largest_pin_force_in_rise", study.case_name("mode 1", pin, "oil")] for pin in (LOOSE, IDEAL)
+        numbers["largest_pin_force_in_rise", case_name("mode 1", pin, "oil")] for pin in (LOOSE, IDEAL)
     )
     # 3 % less, and both within half a per cent
     assert loose["value"] + loose["numerical_error"] < 1.01 * ideal["value"]
@@ -80,9 +81,9 @@ def test_clearance_does_not_make_the_first_peak_worse(numbers: Numbers) -> None:
 
 def test_an_inlet_is_not_a_displacement(numbers: Numbers) -> None:
     def value(name: str, mode: str, pin: str = IDEAL) -> float:
-        return float(numbers[name, study.case_name(mode, pin, "cylinder")]["value"])
+        return float(numbers[name, case_name(mode, pin, "cylinder")]["value"])
 
-    for mode in study.MODES:
+    for mode in MODES:
         # sized for 500 mm, at the loads of the rise
         assert value("settled_extension_front", mode) == pytest.approx(500.0, abs=5.0)
         # the rear columns carry more: by half a per cent slower
@@ -92,23 +93,23 @@ def test_an_inlet_is_not_a_displacement(numbers: Numbers) -> None:
     # by what the oil gives; and where no liquid would follow
     assert value("overshoot_front", "mode 1") > 10.0 * value("overshoot_front", "mode 2")
     assert value("least_pressure_front", "mode 1") < 0.0 < value("least_pressure_front", "mode 2")
-    closed_at_once, ramped = (value("largest_pin_force_after_closing", mode, LOOSE) for mode in study.MODES)
+    closed_at_once, ramped = (value("largest_pin_force_after_closing", mode, LOOSE) for mode in MODES)
     assert ramped < 0.5 * closed_at_once
 
 
 def test_motion_on_cylinders_is_known_well(numbers: Numbers) -> None:
-    for pin in study.PINS:
-        for mode in study.MODES:
-            found = numbers["settled_extension_rear", study.case_name(mode, pin, "cylinder")]
+    for pin in PINS:
+        for mode in MODES:
+            found = numbers["settled_extension_rear", case_name(mode, pin, "cylinder")]
             # second order; what the pin does in between moves it by micrometres
             assert found["numerical_error"] < 1e-3 * found["value"]
 
 
 def test_a_limit_is_told_from_none() -> None:
-    assert study.verdict([1.0, 1.1, 1.125]) == study.CONVERGES
-    assert study.verdict([1.0, 1.001, 1.003]) == study.CONVERGES  # below 1 %
-    assert study.verdict([1.0, 2.0, 4.0]) == "does not converge"
-    assert study.verdict([1.0, 2.0]) == "open: halved once only"
+    assert verdict([1.0, 1.1, 1.125]) == CONVERGES
+    assert verdict([1.0, 1.001, 1.003]) == CONVERGES  # below 1 %
+    assert verdict([1.0, 2.0, 4.0]) == "does not converge"
+    assert verdict([1.0, 2.0]) == "open: halved once only"
 
 
 def test_the_chapter_says_what_cannot_converge(out: Path) -> None:

@@ -14,7 +14,7 @@ from studies import rise, slack
 from studies import which_pin as study
 from studies.reporting.chapter import Chapter
 from studies.which_pin_posture import loads, mean_shift
-from support_exudyn import ClearancePin, CubicStep, SolverSettings, reference_support, simulate
+from support_exudyn import ClearancePin, CubicStep, Result, SolverSettings, reference_support, simulate
 from support_exudyn.eccentric import eccentric
 from user_forces import Ambrosio, Exact, Hertz, JournalBearing, JournalContact, KelvinVoigt, Threlfall
 
@@ -135,7 +135,7 @@ def test_a_roof_turns_the_shift_around() -> None:
     assert orders == {"front_base = front_shield > rear_base = rear_shield > shield_canopy"}
 
 
-def test_every_pin_may_have_its_own_law_and_clearance() -> None:
+def test_every_pin_may_have_its_own_law_and_clearance(out: Path) -> None:
     def pin(clearance: float, normal: Any, friction: Any = None) -> ClearancePin:
         bearing = JournalBearing(bore_radius=0.0655, clearance=clearance)
         rubs = {} if friction is None else {"friction": friction}
@@ -152,7 +152,7 @@ def test_every_pin_may_have_its_own_law_and_clearance() -> None:
     }
     ideal = study.scenarios(True)[study.IDEAL]
     scene = replace(ideal, pins=own, start="settled", step=2e-3, solver=SolverSettings(impact_steps=16))
-    run, plain = simulate(scene), simulate(ideal)
+    run, plain = simulate(scene), Result.load(out / "runs" / "ideal.h5")
     shift = float(rise.departure(run, plain, "tip.x").mean())
     # as `test_virtual_work_tells_where_the_worn_support_stands`
     assert shift == pytest.approx(mean_shift(own)[slack.TIP_X], rel=0.01)

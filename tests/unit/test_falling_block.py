@@ -13,6 +13,7 @@ from support_exudyn import AppliedForce, FallingBlock, Load, LoadedPoint, Scenar
 from support_exudyn.drawing.blocks import blocks
 from support_exudyn.drawing.plain import look
 from support_exudyn.drawing.solid import Role
+from support_exudyn.load_item import _pull
 from tests.roof_cases import TOP, Ram
 from user_forces import InputError, delivered_restitution
 from user_forces.values import Value
@@ -109,3 +110,53 @@ def test_loads_come_back_from_data(load: Load) -> None:
 def test_what_no_block_can_have_is_refused(field: str, number: float) -> None:
     with pytest.raises(InputError, match=rf"FallingBlock\.{field} = {number}"):
         replace(ROCK, **{field: number})
+
+
+def test_a_block_is_a_cube_and_its_guide_stands_upright() -> None:
+    scene = Scenario(machine=Ram(), loads={"rock": ROCK}, duration=0.1)
+    body = scene.linkage.bodies["rock"]
+    assert ROCK.side**3 * 2600.0 == pytest.approx(400.0)  # of broken rock, if nothing else is said
+    assert body.inertia == pytest.approx(400.0 * ROCK.side**2 / 6.0)  # of a cube about its centre
+    assert scene.linkage.slides["rock_guide"].direction == pytest.approx(0.5 * math.pi)
+
+
+def test_a_block_needs_a_speed_and_gravity_straight_down() -> None:
+    replace(ROCK, height=0.0, speed=1.0).check((0.0, -9.81))
+    with pytest.raises(InputError, match="one of them > 0"):
+        replace(ROCK, gravity=0.0).check((0.0, 0.0))
+    for gravity in ((1.0, -9.81), (0.0, 9.81)):
+        with pytest.raises(InputError, match="straight down"):
+            ROCK.check(gravity)
+    for exponent in (1.0, 3.0):
+        assert replace(ROCK, exponent=exponent).exponent == exponent
+    with pytest.raises(InputError, match=r"FallingBlock\.exponent = 3\.1"):
+        replace(ROCK, exponent=3.1)
+
+
+def test_steepness_is_that_of_the_first_impact_at_its_deepest() -> None:
+    rock = replace(ROCK, gravity=0.0, speed=STRIKING)
+    # all of m v0^2/2 in K depth^(n+1)/(n+1)
+    deepest = (2.5 * 0.5 * 400.0 * STRIKING**2 / 2e8) ** 0.4
+    along, against = rock.steepness
+    small = 1e-6 * deepest
+    forces = [-rock.force(LoadedPoint(0.0, 0.0, 0.2 + deepest + s, 0.0, 0.0))[1] for s in (small, -small)]
+    assert along == 0.0
+    assert against == pytest.approx((forces[0] - forces[1]) / (2.0 * small), rel=1e-6)  # central difference
+
+
+def test_an_applied_force_has_come_on_when_it_says() -> None:
+    assert FORCE.breaks == (0.1, 0.3)
+    assert FORCE.largest(0.2) == pytest.approx((1e3, -2.5e4))  # half of it
+    assert FORCE.largest(9.0) == FORCE.full_force
+    always = replace(FORCE, start=0.0, end=0.0)
+    assert (always.breaks, always.largest(0.0)) == ((), FORCE.full_force)
+    point = LoadedPoint(0.2, 0.0, 0.0, 0.0, 0.0)
+    assert FORCE.observed(point) == pytest.approx({"force_x": 1e3, "force_y": -2.5e4})
+    for end in (0.0, 0.1):
+        with pytest.raises(InputError, match=r"allowed: > start = 0\.1 s, or both 0"):
+            replace(FORCE, end=end)
+
+
+def test_the_connector_pulls_its_ends_together_with_what_the_load_pushes_them_apart() -> None:
+    found = _pull(FORCE)(None, 0.3, 0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+    assert found == pytest.approx([-2e3, 5e4, 0.0])

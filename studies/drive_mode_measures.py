@@ -1,0 +1,71 @@
+"""What is measured of the drive modes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+import numpy as np
+
+from studies import drive_mode_cylinders as cylinders
+from studies import rise
+from studies.ladder import Ladder
+from studies.study import Number
+from support_exudyn import Result
+
+Get = Callable[[Result], float]
+
+
+def _largest(channel: str, scale: float = 1.0) -> Get:
+    return lambda r: scale * float(np.abs(r[channel][rise.in_rise(r)]).max())
+
+
+def _ripple(channel: str, scale: float = 1.0) -> Get:
+    # from the very start on, which is where mode 1 strikes
+    return lambda r: scale * rise.ripple(r, r[channel], rise.START)
+
+
+MEASURES: dict[str, tuple[str, Get]] = {
+    "mean_pin_force": ("N", lambda r: float(r[rise.FORCE][rise.in_rise(r)].mean())),
+    "std_pin_force": ("N", lambda r: float(r[rise.FORCE][rise.in_rise(r)].std())),
+    "ripple_pin_force": ("N", _ripple(rise.FORCE)),
+    "largest_pin_force_in_rise": ("N", _largest(rise.FORCE)),
+    "largest_front_column_force": ("N", _largest("front_column.force")),
+    "largest_rear_column_force": ("N", _largest("rear_column.force")),
+    "largest_angular_acceleration": ("deg/s^2", _largest(rise.ACCELERATION, rise.DEGREES)),
+    "std_angular_acceleration": (
+        "deg/s^2",
+        lambda r: rise.DEGREES * float(r[rise.ACCELERATION][rise.in_rise(r)].std()),
+    ),
+    "ripple_angular_velocity": ("deg/s", _ripple(rise.SPEED, rise.DEGREES)),
+}
+
+
+def _impulse(column: str, place: int) -> Get:
+    return lambda r: r.impulses[place].columns[column]
+
+
+IMPULSES: dict[str, Get] = {
+    f"impulse_{column}_{end}": _impulse(column, place)
+    for place, end in enumerate(("start", "end"))
+    for column in ("front_column", "rear_column")
+}
+
+
+def peak_acceleration(result: Result) -> float:
+    """Largest angular acceleration of the rear link at any record [deg/s^2]."""
+    return rise.DEGREES * float(np.abs(result[rise.ACCELERATION]).max())
+
+
+def measure(ladders: Mapping[str, Ladder]) -> list[Number]:
+    """All numbers of the study, but for those that are none."""
+    numbers = []
+    for case, ladder in ladders.items():
+        for name, (unit, get) in measures_of(ladder).items():
+            numbers.append(ladder.number(name, case, unit, get))
+    return numbers
+
+
+def measures_of(ladder: Ladder) -> dict[str, tuple[str, Get]]:
+    """Unit and measure of every number of a case, by name."""
+    impulses = {name: ("N s", get) for name, get in IMPULSES.items()} if ladder.finest.impulses else {}
+    return MEASURES | impulses | (cylinders.MEASURES if ladder.finest.scenario.cylinders else {})

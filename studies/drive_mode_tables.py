@@ -1,0 +1,134 @@
+"""Tables of the drive modes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from itertools import pairwise
+
+from studies import paper_machine
+from studies.drive_mode_cases import COLUMNS, FRICTION, MODES, NAIVE, PINS, case_name
+from studies.drive_mode_measures import IMPULSES, MEASURES, measures_of, peak_acceleration
+from studies.ladder import Ladder
+from studies.reporting.chapter import Sheet
+from studies.reporting.wording import by_case
+from studies.study import Number, brief
+from support_exudyn import Result
+
+NAMES = {"rigid": "rigid columns", "oil": "columns of oil", "cylinder": "hydraulic cylinders"}
+SAID = {
+    "rigid": "At the jumps of mode 1 forces and accelerations do not exist; the largest are of what follows "
+    "them.",
+    "oil": "Oil: " + paper_machine.OIL_SAID,
+    "cylinder": "Cylinders: " + paper_machine.CYLINDERS_SAID,
+}
+SAVED = (
+    "largest_pin_force_in_rise",
+    "std_pin_force",
+    "ripple_pin_force",
+    "largest_front_column_force",
+    "largest_rear_column_force",
+    "largest_angular_acceleration",
+    "std_angular_acceleration",
+)
+CONVERGES = "converges"
+DIVERGES = "does not converge"
+OPEN = "open: halved once only"
+SAID_CONVERGES = (
+    "Impact steps are halved with the steps. Converges: the last change is below 1 % of the value, or less "
+    "than 0.7 of the change before. Rigid columns: records at the jump itself hold the values before it."
+)
+
+
+def mode_sheet(numbers: Sequence[Number], columns: str) -> Sheet:
+    """Both modes side by side."""
+    found = by_case(numbers)
+    cases = [case_name(mode, pin, columns) for pin in PINS for mode in MODES]
+    rows = []
+    for name, (unit, _) in MEASURES.items():
+        rows.append((name.replace("_", " "), unit, *(_cell(found[name, case]) for case in cases)))
+    for name in IMPULSES:
+        cells = [_cell(found[name, case]) if (name, case) in found else "" for case in cases]
+        if any(cells):
+            rows.append((name.replace("_", " "), "N s", *cells))
+    return Sheet(
+        f"Drive modes on {NAMES[columns]}",
+        ("quantity", "unit", *(f"{mode}, {pin}" for pin in PINS for mode in MODES)),
+        tuple(rows),
+        f"Over the rise, friction {FRICTION} in the loose pin. ± is the change when all steps are halved a "
+        "last time. " + SAID[columns],
+        left=2,
+    )
+
+
+def saving_sheet(numbers: Sequence[Number]) -> Sheet:
+    """What the gentle drive saves."""
+    found = by_case(numbers)
+    headings = [(pin, columns) for columns in COLUMNS for pin in PINS]
+    rows = []
+    for name in SAVED:
+        cells = []
+        for pin, columns in headings:
+            sudden, gentle = (found[name, case_name(mode, pin, columns)].value for mode in MODES)
+            struck = (pin, columns) == (PINS[0], "rigid")  # nothing gives: all of it is in the impulse
+            cells.append("impulse" if struck else f"{100.0 * (gentle / sudden - 1.0):+.0f} %")
+        rows.append((name.replace("_", " "), *cells))
+    return Sheet(
+        "What mode 2 changes against mode 1",
+        ("quantity", *(f"{pin}, {columns}" for pin, columns in headings)),
+        tuple(rows),
+        "Minus: mode 2 is gentler. Impulse: with rigid columns and the ideal pin nothing gives, and mode 1 "
+        "has no peak that could be compared.",
+    )
+
+
+def convergence_sheet(ladders: Mapping[str, Ladder]) -> Sheet:
+    """Every number at every step."""
+    rows = []
+    for case, ladder in ladders.items():
+        for name, (unit, get) in measures_of(ladder).items():
+            values = [get(result) for result in ladder.results]
+            rows.append((case, name.replace("_", " "), unit, *(f"{v:.7g}" for v in values), verdict(values)))
+    return Sheet(
+        "Step halving, every number",
+        ("case", "quantity", "unit", *_steps(ladders), "verdict"),
+        tuple(rows),
+        SAID_CONVERGES,
+        left=3,
+    )
+
+
+def short_convergence_sheet(ladders: Mapping[str, Ladder], naive: Mapping[str, Result]) -> Sheet:
+    """How far the numbers of each case still move; and the peaks that are no numbers."""
+    rows = []
+    for case, ladder in ladders.items():
+        columns = [[get(result) for result in ladder.results] for _, get in measures_of(ladder).values()]
+        last = max(abs(values[-1] - values[-2]) / abs(values[-1]) for values in columns)
+        good = sum(verdict(values) == CONVERGES for values in columns)
+        rows.append((case, f"{100.0 * last:.1g} %", f"{good} of {len(columns)}", ""))
+    peaks = ", ".join(f"{peak_acceleration(result):.0f}" for result in naive.values())
+    rows.append((NAIVE, "", "0 of 1", f"peak angular acceleration {peaks} deg/s² at 1, 0.5, 0.25 ms"))
+    return Sheet(
+        "Step halving",
+        ("case", "largest last change", "converge", "remark"),
+        tuple(rows),
+        f"{SAID_CONVERGES} All values stand in table_convergence.txt.",
+        wide=True,
+    )
+
+
+def verdict(values: Sequence[float]) -> str:
+    """Whether values under step halving tend to a limit."""
+    *before, last = (abs(b - a) for a, b in pairwise(values[-3:]))
+    if last <= 0.01 * abs(values[-1]) or (before and last < 0.7 * before[0]):
+        return CONVERGES
+    return DIVERGES if before else OPEN
+
+
+def _steps(ladders: Mapping[str, Ladder]) -> list[str]:
+    """Headings of the steps."""
+    number = len(next(iter(ladders.values())).results)
+    return ["step h", *(f"step h/{2**n}" for n in range(1, number))]
+
+
+def _cell(number: Number) -> str:
+    return brief(number.value, number.numerical_error)

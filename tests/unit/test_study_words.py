@@ -1,0 +1,100 @@
+"""What studies say of made-up numbers: orders that errors leave open, sums, convergence."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from studies import which_pin as pins
+from studies.drive_mode_cases import PINS as CASES
+from studies.drive_mode_cases import case_name
+from studies.drive_mode_tables import CONVERGES, DIVERGES, OPEN
+from studies.drive_mode_words import VELOCITY, _converging_said, _velocity_said
+from studies.reporting.wording import by_case
+from studies.study import Number
+
+A, B, C, D, E = pins.PINS
+SHIFT, RIPPLE = "mean_tip_shift_forward", "ripple_pin_forces"
+
+
+def made_up(errors: float = 0.0) -> dict[tuple[str, str], Number]:
+    """All numbers of the quick form: each pin has its own effect, and all five what they should together."""
+    numbers = []
+    for name, (unit, _) in pins.MEASURES.items():
+        for friction in pins.FRICTIONS:
+            singles = [10.0 * 2.0**n for n in range(len(pins.PINS))]
+            numbers += [
+                Number(name, pins.case_name((pin,), friction), value, unit, errors * value)
+                for pin, value in zip(pins.PINS, singles, strict=True)
+            ]
+            whole = pins._root_of_squares(singles) if name == RIPPLE else sum(singles)
+            numbers.append(Number(name, pins.case_name(pins.PINS, friction), whole, unit, 0.0))
+        numbers.append(Number(name, pins.IDEAL, 1.0, unit, 0.0))
+    return by_case(numbers)
+
+
+def test_an_order_is_open_where_errors_reach_over_it() -> None:
+    effects = {A: 100.0, B: -50.0, C: 20.0, D: 19.5, E: 1.0}
+    assert pins.in_order(effects) == f"{A} > {B} > {C} = {D} > {E}"
+    errors = dict.fromkeys(pins.PINS, 0.0)
+    assert pins.in_order(effects, errors | {A: 60.0}) == f"{A} ? {B} > {C} = {D} > {E}"
+    # the first reaches down to the third
+    assert pins.in_order(effects, errors | {A: 85.0}) == f"{A} ? {B} ? {C} = {D} > {E}"
+    assert pins.in_order(effects, errors | {E: 40.0}) == f"{A} > {B} > {C} = {D} ? {E}"
+
+
+@pytest.mark.parametrize(("errors", "sign"), [(0.0, " > "), (0.4, " ? ")])
+def test_rankings_know_the_errors(errors: float, sign: str) -> None:
+    found = made_up(errors)
+    order = sign.join(reversed(pins.PINS))
+    assert order in pins._ranking(found, "by the shaking", 0.25)
+    rows = pins.condition_sheet(found).rows
+    assert {row[-1] for row in rows} == {order}
+    assert [row[0] for row in pins.ranking_sheet(found, "by the shaking", 0.25).rows] == [
+        *reversed(pins.PINS), pins.ALL, pins.IDEAL,
+    ]  # fmt: skip
+    assert "is the same with every" in pins._conditions_said(found)
+
+
+def test_sums_are_said_to_add_up_if_they_do() -> None:
+    found = made_up()
+    said = pins._together_said(found, 0.25)
+    assert "+0.0 % off the sum of the single ones: shifts add up" in said
+    assert "shaking can be told" in said
+    assert {row[-1] for row in pins.together_sheet(found).rows} == {"+0 %"}
+    whole = pins.case_name(pins.PINS, 0.25)
+    for name in (SHIFT, RIPPLE):
+        found[name, whole] = replace(found[name, whole], value=3.0 * found[name, whole].value)
+    said = pins._together_said(found, 0.25)
+    assert "+200.0 % off the sum of the single ones: shifts do not add up" in said
+    assert "+200 % off" in said
+    assert "shaking cannot be told" in said
+    assert [row[-1] for row in pins.together_sheet(found).rows] == ["+200 %", "+200 %", "+0 %", "+0 %"]
+
+
+def test_the_worst_case_of_the_closed_form_is_told() -> None:
+    found = made_up()
+    for pin, off in ((A, 1.02), (B, 0.96)):
+        case = pins.case_name((pin,), 0.0)
+        form = found[SHIFT, case].value / off
+        found["closed_form_tip_shift_forward", case] = Number("form", case, form, "mm", 0.0)
+    assert f"all 2 cases within 4.0 % ({B}, mu_d = 0)" in pins._closed_form_said(found)
+    assert [row[-1] for row in pins.posture_sheet(found).rows] == ["+2.00 %", "-4.00 %"]
+
+
+def test_what_was_halved_once_is_not_said_to_diverge() -> None:
+    def row(verdict: str, name: str = "std pin force", pin: str = CASES[0]) -> tuple[str, ...]:
+        return case_name("mode 1", pin, "rigid"), name, "N", verdict
+
+    rows = [row(CONVERGES), row(OPEN), row(OPEN)]
+    assert _converging_said(rows) == (
+        "1 of 3 numbers converge under step halving. 2 changed by more than 1 %, and halved once only they "
+        "cannot be judged."
+    )
+    assert "Not so: std pin force in mode 1, ideal pin, rigid columns." in _converging_said([row(DIVERGES)])
+    assert _converging_said([row(CONVERGES)]) == "1 of 1 numbers converge under step halving."
+    good, bad = row(CONVERGES, VELOCITY), row(OPEN, VELOCITY, CASES[1])
+    assert _velocity_said([good, row(DIVERGES)]) == "Angular velocities as in Fig. 13 b converge."
+    for rows in ([good, bad], [row(CONVERGES)]):
+        assert _velocity_said(rows).endswith("are not shown to converge here.")
