@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import field, replace
 from functools import cached_property
 from typing import Annotated, Literal
@@ -295,7 +295,13 @@ class Scenario(Value):
                     f"({drive.initial_speed} per s); allowed with this drive: 'concentric'"
                 )
         for drives in self._drives_in_plane:
+            self._check_motion(drives)
+
+    def _check_motion(self, drives: Mapping[str, Drive]) -> None:
+        try:
             self.machine.check_motion(drives, self.duration)
+        except InputError as error:
+            raise ValueError(self._of_drives(drives, error)) from None
 
     def _check_loads(self) -> None:
         linkage = self._unloaded
@@ -400,11 +406,20 @@ class Scenario(Value):
     @cached_property
     def _followers(self) -> dict[str, Drive]:
         """Drives of the parts that follow others because nothing is said of them, by name."""
-        return {
-            name: self.machine.follower(name, self.drives.get(leader, self.drive), self.duration)
-            for name, leader in self.machine.leaders.items()
-            if name not in self.drives
-        }
+        leaders = self.machine.leaders.items()
+        return {name: self._follower(name, leader) for name, leader in leaders if name not in self.drives}
+
+    def _follower(self, name: str, leader: str) -> Drive:
+        try:
+            return self.machine.follower(name, self.drives.get(leader, self.drive), self.duration)
+        except InputError as error:
+            raise InputError(self._of_drives((leader,), error)) from None
+
+    def _of_drives(self, names: Collection[str], error: InputError) -> str:
+        """What is said of the drives of these parts, with the fields that say them."""
+        said = str(error)
+        fields = [f"drives.{name}" for name in names if name in self.drives] or ["drive"]
+        return said if said.startswith(("drive", "drives.")) else f"{' and '.join(fields)}: {said}"
 
     @property
     def _drives_in_plane(self) -> tuple[dict[str, Drive], ...]:
