@@ -34,6 +34,7 @@ from support_exudyn.datafiles import (
 )
 from support_exudyn.machine_data import read_machine
 from tests import strategies as some
+from tests.machine_files import OURS
 from user_forces import (
     STEEL,
     CubicCoulomb,
@@ -306,7 +307,7 @@ def test_files_are_written_whole(tmp_path: Path) -> None:
         ),
         (
             TOP + "drives.rear_column = {mode = 2, stroke_mm = 900}",
-            "a.toml: drives.rear_column: rear_column cannot follow beyond 4.397 s (front_column extended by 0 mm, ",
+            "a.toml: drives.rear_column: rear_column cannot follow beyond 4.397 s (front_column extended by ",
         ),
         (
             'machine = "two_leg_shield"\nduration_s = 5\ndrives.leg = {mode = 2, stroke_mm = 3000}',
@@ -363,7 +364,7 @@ def test_all_mistakes_are_told_at_once() -> None:
     ("data", "said"),
     [
         (b"\xff\xfe", "byte 0 is not UTF-8"),
-        (b'machine = "reference', "line 1: .*: Unterminated string"),
+        (b'machine = "reference', "Unterminated string .at line 1, the last"),
         (b"a = 1\nb = [\n", "at line 2, the last"),
         (b"a = 1\na = 2\n", r"line 2: 'a = 2': its key has been given before; allowed: once"),
         (b"[a.b]\n[a.b]\n", r"line 2: '\[a\.b\]': the table a\.b has been begun before; allowed: once"),
@@ -424,3 +425,59 @@ def test_angles_of_a_crank_are_taken(tmp_path: Path) -> None:
     (tmp_path / "a.csv").write_text("time_s,crank_deg,other_mm\n0,0,0\n1,180,10\n")
     text = 'machine = "slider_crank"\nduration_s = 1\ndrive = {table = "a.csv", column = "crank"}'
     assert scenario(text, tmp_path).drive.extension(1.0) == 3.141592653589793
+
+
+def test_what_was_assumed_of_the_machine_is_handed_on(tmp_path: Path) -> None:
+    (tmp_path / "ours.toml").write_text(OURS, encoding="utf-8")
+    found = scenario_file_of(parsed('machine = "ours.toml"\nduration_s = 1', "a.toml"), "a.toml", tmp_path)
+    assert found.assumed == read_machine("ours.toml", tmp_path).assumed != ()
+
+
+def test_a_stroke_of_no_time_is_refused() -> None:
+    said = refusal(TOP + "[drive]\nmode = 2\nstart_s = 3\nend_s = 3")
+    assert said.startswith("a.toml: drive: end = 3.0 s: allowed: > start = 3.0 s")
+
+
+def test_a_misspelt_key_is_not_called_missing_too() -> None:
+    said = refusal('machine = "reference"\ndurations_s = 5')
+    assert said.startswith("a.toml: durations_s: unknown key; did you mean duration_s")
+    assert len(said.splitlines()) == 1
+
+
+def test_long_refusals_and_long_values_are_cut() -> None:
+    many = "".join(f"x{n} = 1\n" for n in range(31))
+    lines = refusal(TOP + many).splitlines()
+    assert len(lines) == 31
+    assert lines[-1] == "a.toml: and 1 more"
+    told = refusal(TOP + f"solver = [{', '.join(['123456'] * 60)}]").partition(": allowed")[0]
+    assert len(told) == len("a.toml: solver = ") + 80
+
+
+@pytest.mark.parametrize("given", ["true", "1.0", "[1, 2, 3]", "[1]"])
+def test_kinds_of_values_are_told_apart(given: str) -> None:
+    """true is 1 for Python, and a list of three holds one of two."""
+    if given.startswith("["):
+        assert "gravity_m_per_s2" in refusal(TOP + f"gravity_m_per_s2 = {given}")
+    else:
+        assert refusal(TOP + f"[drive]\nmode = {given}").startswith(
+            f"a.toml: drive.mode = {given}: allowed: 1, 2"
+        )
+
+
+def test_numbers_too_small_to_be_told_from_nothing_are_nothing() -> None:
+    found = scenario(TOP + "gravity_m_per_s2 = [1e-999999, -9.81]")
+    assert found.gravity == (0.0, -9.81)
+
+
+def test_drives_of_a_table_may_be_joined_by_lines(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("time_s,front_column_mm,rear_column_mm\n0,0,0\n5,100,101\n")
+    text = TOP + "[drives]\ntable = 'a.csv'\nbetween = 'linear'"
+    found = scenario(text, tmp_path)
+    assert found.drives == read_drives(tmp_path / "a.csv", "linear")
+
+
+def test_the_bore_of_a_pin_is_its_own(tmp_path: Path) -> None:
+    bores = "[bore_radius_mm]\nrear_base = 65\nfront_base = 55\n[masses_kg]"
+    (tmp_path / "ours.toml").write_text(OURS.replace("[masses_kg]", bores), encoding="utf-8")
+    found = scenario('machine = "ours.toml"\nduration_s = 1\n[pins.front_base]\nclearance_mm = 1', tmp_path)
+    assert found.clearance_pins["front_base"].contact.bearing.bore_radius == 0.055
