@@ -124,12 +124,19 @@ def shown_progress(what: str) -> Iterator[Progress]:
         yield lambda share: bar.update(task, completed=share)
 
 
+def _sentence(error: Exception) -> str:
+    """What went wrong; with files of the system, which one and why."""
+    if isinstance(error, OSError) and error.filename is not None and error.strerror:
+        return f"{os.fsdecode(error.filename)}: {error.strerror}"
+    return str(error)
+
+
 def answered(work: Callable[[], None]) -> int:
     """Do it; what the user can mend is said in a sentence. Returns the exit code."""
     try:
         work()
     except (SimulationError, InputError, OSError, ProcessEndedError, NoProcessError) as error:
-        print(f"error: {error}", file=sys.stderr)
+        print(f"error: {_sentence(error)}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         print("interrupted; nothing half-written is left", file=sys.stderr)

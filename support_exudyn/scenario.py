@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import field, replace
 from functools import cached_property
 from typing import Annotated, Literal
@@ -191,11 +191,20 @@ class Scenario(Value):
     @cached_property
     def _followers(self) -> dict[str, Drive]:
         """Drives of the parts that follow others because nothing is said of them, by name."""
-        return {
-            name: self.machine.follower(name, self.drives.get(leader, self.drive), self.duration)
-            for name, leader in self.machine.leaders.items()
-            if name not in self.drives
-        }
+        leaders = self.machine.leaders.items()
+        return {name: self._follower(name, leader) for name, leader in leaders if name not in self.drives}
+
+    def _follower(self, name: str, leader: str) -> Drive:
+        try:
+            return self.machine.follower(name, self.drives.get(leader, self.drive), self.duration)
+        except InputError as error:
+            raise InputError(self.of_drives((leader,), error)) from None
+
+    def of_drives(self, names: Collection[str], error: InputError) -> str:
+        """What is said of the drives of these parts, with the fields that say them."""
+        said = str(error)
+        fields = [f"drives.{name}" for name in names if name in self.drives] or ["drive"]
+        return said if said.startswith(("drive", "drives.")) else f"{' and '.join(fields)}: {said}"
 
     @property
     def drives_in_plane(self) -> tuple[dict[str, Drive], ...]:

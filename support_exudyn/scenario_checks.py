@@ -128,7 +128,10 @@ def _check_drives(scenario: Scenario, linkage: Linkage) -> None:
                 f"({drive.initial_speed} per s); allowed with this drive: 'concentric'"
             )
     for drives in scenario.drives_in_plane:
-        scenario.machine.check_motion(drives, scenario.duration)
+        try:
+            scenario.machine.check_motion(drives, scenario.duration)
+        except InputError as error:
+            raise ValueError(scenario.of_drives(drives, error)) from None
 
 
 def _check_loads(scenario: Scenario) -> None:

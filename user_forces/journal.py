@@ -36,7 +36,7 @@ class JournalBearing(Value):
         if self.clearance >= self.bore_radius:
             raise ValueError(
                 f"clearance = {self.clearance} m: leaves no journal in a bore of radius {self.bore_radius} m; "
-                f"allowed: > 0 and < {self.bore_radius} (both in metres: is it given in mm?)"
+                f"allowed: > 0 and < {self.bore_radius} m (is it given in mm?)"
             )
         return self
 

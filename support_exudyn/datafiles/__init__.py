@@ -12,8 +12,9 @@ from support_exudyn.datafiles.scenario_file import (
     scenario_text,
 )
 from support_exudyn.datafiles.scenario_schema import scenario_schema
-from support_exudyn.datafiles.toml_text import load_toml, parsed, toml_text
+from support_exudyn.datafiles.toml_text import toml_text
 from support_exudyn.datafiles.writing import table_of
+from support_exudyn.toml_reading import load_toml, parsed
 
 __all__ = [
     "ScenarioFile",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from decimal import Decimal, InvalidOperation
 from pathlib import Path
 from typing import Literal, NamedTuple
@@ -16,8 +16,12 @@ from user_forces.values import LARGEST, InputError, short
 TIME: Unit = Seconds[float].__metadata__[0]  # type: ignore[attr-defined]
 LENGTH: Unit = Metres[float].__metadata__[0]  # type: ignore[attr-defined]
 ANGLE: Unit = Radians[float].__metadata__[0]  # type: ignore[attr-defined]
+SEPARATORS = {";": "semicolons", "\t": "tabs"}  # of other tables
 LONGEST_NUMBER = 100  # characters
 LARGEST_FILE = 200_000_000  # bytes
+
+
+Turns = Callable[[str], bool | None]
 
 
 class _Column(NamedTuple):
@@ -30,12 +34,14 @@ class _Column(NamedTuple):
     place: int
 
 
-def read_drives(path: Path, between: Literal["smooth", "linear"] = "smooth") -> dict[str, TableDrive]:
+def read_drives(
+    path: Path, between: Literal["smooth", "linear"] = "smooth", turns: Turns | None = None
+) -> dict[str, TableDrive]:
     """The drives of a CSV file by the names of its columns.
 
     The first line names the columns with their units: one `time_s` or `time_ms`, the others NAME_mm, NAME_m,
     or for cranks NAME_deg, NAME_rad. Every further line is a point; numbers have a point for the
-    decimals and are separated by commas.
+    decimals and are separated by commas. turns: of a name, whether it has to be an angle; None: it may be.
 
     Raises InputError that names file, line and column; OSError if the file cannot be read.
     """
@@ -45,30 +51,45 @@ def read_drives(path: Path, between: Literal["smooth", "linear"] = "smooth") -> 
     number, header = lines[0]
     columns = [_column(title, n, f"{path}: line {number}") for n, title in enumerate(header)]
     names = [one.name for one in columns]
+    for one in columns:
+        _check_unit(one, None if turns is None else turns(one.name), f"{path}: line {number}")
     if len(set(names)) < len(names) or names.count("time") != 1 or len(names) < 2:
         raise InputError(
             f"{path}: line {number}: {short(','.join(header))}: allowed: one time_s or time_ms, and a name "
-            "with unit for each other column, all different"
+            f"with unit for each other column, all different{_hint(lines)}"
         )
     if len(lines) - 1 > MOST_POINTS:
         raise InputError(f"{path}: has {len(lines) - 1} points; allowed: up to {MOST_POINTS}")
     for at, line in lines[1:]:
         if len(line) != len(columns):
             raise InputError(
-                f"{path}: line {at}: has {len(line)} items; allowed: {len(columns)}, as the first line"
+                f"{path}: line {at}: has {len(line)} items; allowed: {len(columns)}, as the first line "
+                "(decimals have a point, 12.5)"
             )
     values = {one.name: _values(lines[1:], one, path) for one in columns}
     times = values.pop("time")
     _check_times(times, lines[1:], columns[names.index("time")], path)
+    at, line = lines[1]
+    for one in columns:
+        if one.name != "time" and values[one.name][0] != 0.0:
+            raise InputError(
+                f"{path}: line {at}, column {one.title}: {line[one.place]}: allowed: 0, for extension "
+                "counts from the start posture"
+            )
     return {
         name: _drive(times, found, between, f"{path}: column {columns[names.index(name)].title}")
         for name, found in values.items()
     }
 
 
-def one_drive(path: Path, column: str | None, between: Literal["smooth", "linear"]) -> TableDrive:
-    """The drive of a column of a file, or of the only one that it has. Raises as `read_drives` does."""
-    drives = read_drives(path, between)
+def one_drive(
+    path: Path, column: str | None, between: Literal["smooth", "linear"], turning: bool | None = None
+) -> TableDrive:
+    """The drive of a column of a file, or of the only one that it has. Raises as `read_drives` does.
+
+    turning: whether it has to be an angle; None: it may be.
+    """
+    drives = read_drives(path, between, lambda name: turning if column in (None, name) else None)
     if column is None and len(drives) == 1:
         return next(iter(drives.values()))
     if column is None:
@@ -105,6 +126,23 @@ def _column(title: str, place: int, where: str) -> _Column:
     raise InputError(
         f"{where}: column {place + 1} = {short(title)}: has no unit at its end; allowed: time_s or time_ms, "
         f"and names that end by {', '.join(allowed)}"
+    )
+
+
+def _hint(lines: Sequence[tuple[int, list[str]]]) -> str:
+    """What may be wrong with a first line that is no list of columns."""
+    other = next((said for sign, said in SEPARATORS.items() if any(sign in item for item in lines[0][1])), "")
+    return f"; they are separated by commas, not by {other}, and decimals have a point" if other else ""
+
+
+def _check_unit(column: _Column, turning: bool | None, where: str) -> None:
+    """Raise InputError if a column is an angle where a length is wanted, or the other way round."""
+    if column.name == "time" or turning is None or turning is (column.unit is ANGLE):
+        return
+    driven, unit = ("cranks turn", ANGLE) if turning else ("columns of machines extend", LENGTH)
+    raise InputError(
+        f"{where}: column {column.place + 1} = {short(column.title)}: {driven}; allowed: names that end by "
+        f"{', '.join(f'_{ending}' for ending in unit.endings)}"
     )
 
 

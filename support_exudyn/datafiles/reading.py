@@ -24,6 +24,7 @@ from support_exudyn.datafiles.shapes import (
     field_shapes,
 )
 from support_exudyn.datafiles.words import allowed
+from support_exudyn.millimetres import in_millimetres
 from user_forces.quantity import Unit
 from user_forces.values import DEEPEST, LARGEST, InputError, Value
 
@@ -115,9 +116,9 @@ class Reader:
         name = cls.__name__
         if line.startswith(f"{name}."):
             whole = ".".join(filter(None, (said_place(place), line[len(name) + 1 :])))
-            self.faults.add((), whole)
+            self.faults.add((), _in_file_units(whole))
         else:
-            self.faults.add(place, line.removeprefix(f"{name}: "))
+            self.faults.add(place, _in_file_units(line.removeprefix(f"{name}: ")))
 
     def _item_of(self, field: FieldShape, item: Any, place: Place, ending: str) -> Any:
         if field.unit is not None and not ending and _holds_number(item):
@@ -142,7 +143,9 @@ class Reader:
         if isinstance(shape, Group):
             return self._group(shape, item, place)
         if not _is_for(shape, item):
-            self.faults.wrong(place, item, allowed(shape, unit, ending))
+            range_ = allowed(shape, unit, ending)
+            kind = "a number " if isinstance(shape, Number) and not range_.startswith("a ") else ""
+            self.faults.wrong(place, item, kind + range_)
             return FAILED
         match shape:
             case Number():
@@ -228,6 +231,11 @@ def read_value(
     found = Reader(faults, short_forms).item(Group((cls,)), table, ())
     faults.check()
     return found  # type: ignore[no-any-return]
+
+
+def _in_file_units(line: str) -> str:
+    """What a class says in metres, in mm; without the question whether that is what was given."""
+    return in_millimetres(line).replace(" (is it given in mm?)", "")
 
 
 def _has_no_default(cls: type[Value], name: str) -> bool:

@@ -11,7 +11,7 @@ from support_exudyn.columns import ColumnModel
 from support_exudyn.datafiles.place import Faults
 from support_exudyn.datafiles.reading import FAILED, Failed, Reader
 from support_exudyn.datafiles.short_forms import ShortForms, read_machine_of
-from support_exudyn.datafiles.toml_text import load_toml, toml_text
+from support_exudyn.datafiles.toml_text import toml_text
 from support_exudyn.datafiles.writing import table_of
 from support_exudyn.drives import Drive
 from support_exudyn.files import whole_file
@@ -19,8 +19,14 @@ from support_exudyn.machine import Machine
 from support_exudyn.machine_data import MachineData
 from support_exudyn.pins import Pin
 from support_exudyn.scenario import Scenario
+from support_exudyn.toml_reading import load_toml
+from user_forces.values import InputError
 
 HEAD: Mapping[str, type] = {"name": str, "description": str, "errors": bool}  # besides what a scenario has
+OTHER_FILES = {  # by a key that they have
+    "kind": "is the file of a machine; allowed: a scenario, which names it, `machine = FILE`; or `check` it",
+    "scenario": "is the file of a sweep; allowed: a scenario; or `sweep` it",
+}
 
 
 @dataclass(frozen=True)
@@ -74,6 +80,9 @@ def scenario_file_of(table: Mapping[str, Any], where: str, folder: Path) -> Scen
         if not isinstance(item, HEAD[key]):
             faults.wrong((key,), item, "a text" if HEAD[key] is str else "true, false")
     rest = {key: item for key, item in table.items() if key not in HEAD}
+    other = next((said for key, said in OTHER_FILES.items() if key in rest and "machine" not in rest), "")
+    if other:
+        raise InputError(f"{where}: {other}")
     if rest.get("type", "Scenario") != "Scenario":
         faults.wrong(("type",), rest["type"], '"Scenario", or to leave it out')
     machine = read_machine_of(rest, faults, folder)

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
 from support_exudyn.columns import TwoBodyColumn
 from support_exudyn.datafiles.drive_table import one_drive, read_drives
-from support_exudyn.datafiles.place import Faults, Place
+from support_exudyn.datafiles.place import Faults, Place, said
 from support_exudyn.datafiles.reading import FAILED, Failed, Reader
 from support_exudyn.datafiles.shapes import Group
 from support_exudyn.datafiles.short_drive import DriveFile, DriveMode, DrivesFile
@@ -41,6 +42,10 @@ def _from_file(name: str, faults: Faults, folder: Path) -> MachineData | None:
     if "\0" in name:
         faults.wrong(("machine",), name, "a name that a file can have")
         return None
+    own = _own(name, folder)
+    if own and name not in SHIPPED and not name.lower().endswith(".toml"):
+        faults.add((), f"machine = {said(name)}: there is none of this name; did you mean {own}?")
+        return None
     try:
         return read_machine(name, folder)
     except InputError as error:
@@ -48,8 +53,21 @@ def _from_file(name: str, faults: Faults, folder: Path) -> MachineData | None:
         faults.lines += [line if of_file else f"{faults.where}: {line}" for line in str(error).splitlines()]
     except (OSError, ValueError) as error:  # ValueError: of names that no file can have
         reason = getattr(error, "strerror", None) or error
-        faults.wrong(("machine",), name, f"a file that can be read ({reason}), from {folder} on")
+        meant = f"; did you mean {own}?" if own and isinstance(error, FileNotFoundError) else ""
+        faults.wrong(
+            ("machine",), name, f"a file that can be read ({reason}), from {folder.resolve()} on{meant}"
+        )
     return None
+
+
+def _own(name: str, folder: Path) -> str:
+    """The file of the same folder whose name is nearest; empty if none is near."""
+    try:
+        files = [one.name for one in folder.glob("*.toml")]
+    except OSError:
+        return ""
+    near = [f"{name}.toml"] if f"{name}.toml" in files else get_close_matches(name[:80], files, 1, 0.8)
+    return said(near[0]) if near else ""
 
 
 class ShortForms:
@@ -114,9 +132,18 @@ class ShortForms:
         )
         return FAILED
 
+    def _turns(self, name: str) -> bool | None:
+        """Whether what a drive of this name moves is a crank; None if nothing, or not only, is known."""
+        if self.data is None:
+            return None
+        linkage = self.data.machine.linkage()
+        if name == "drive":  # of all
+            return None if linkage.cranks and linkage.columns else bool(linkage.cranks)
+        return name in linkage.cranks if name in linkage.driven else None
+
     def _read(self, reader: Reader, file: DriveFile, place: Place) -> Any:
         try:
-            return one_drive(self.folder / file.table, file.column, file.between)
+            return one_drive(self.folder / file.table, file.column, file.between, self._turns(place[-1]))
         except InputError as error:
             reader.faults.lines += str(error).splitlines()
         except (OSError, ValueError) as error:
@@ -133,7 +160,7 @@ class ShortForms:
         if isinstance(file, Failed):
             return {"": FAILED}
         try:
-            found: dict[str, Any] = dict(read_drives(self.folder / file.table, file.between))
+            found: dict[str, Any] = dict(read_drives(self.folder / file.table, file.between, self._turns))
         except InputError as error:
             reader.faults.lines += str(error).splitlines()
             return {"": FAILED}

@@ -106,6 +106,11 @@ class ShortPin(Value):
                 "bore_radius_mm: missing, and the machine's file says none for this pin; "
                 "allowed: > 0, here or there"
             )
+        if self.clearance >= radius:  # which the class says in metres
+            raise InputError(
+                f"clearance_mm = {1e3 * self.clearance:g}: leaves no journal in a bore of bore_radius_mm = "
+                f"{1e3 * radius:g}; allowed: > 0 and < {1e3 * radius:g}"
+            )
         bearing = JournalBearing(bore_radius=radius, clearance=self.clearance)
         contact = JournalContact(bearing=bearing, normal=self._normal(bearing), friction=self._friction())
         return ClearancePin(contact=contact, bore=self.bore, eccentricity=self.eccentricity)

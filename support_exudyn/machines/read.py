@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import sys
 from dataclasses import replace
-from decimal import Decimal
 from difflib import get_close_matches
 from importlib import import_module, resources
 from pathlib import Path
@@ -13,15 +11,11 @@ from typing import TYPE_CHECKING, Any, cast
 from support_exudyn.columns import OilColumn, RigidColumn, TwoBodyColumn
 from support_exudyn.linkages.hydraulic_support import HydraulicSupport
 from support_exudyn.machine_data import MachineData
+from support_exudyn.toml_reading import load_toml
 from user_forces.values import InputError, short
 
 if TYPE_CHECKING:
     from support_exudyn.machines.form import MachineForm
-
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
 
 KINDS = ("four_column_support", "two_leg_shield", "slider_crank")  # each a module
 SHIPPED = ("reference", "zf18000", "two_leg_shield", "slider_crank")  # each a data file
@@ -39,14 +33,13 @@ def load_machine(path: str | Path) -> MachineData:
     there is no file.
     """
     path = Path(path)
+    data = load_toml(path)
     try:
-        data = tomllib.loads(path.read_text(encoding="utf-8"), parse_float=Decimal)
         found = form(_kind(data)).read(data)
-    except RecursionError:
-        raise InputError(f"{path}: is nested too deep; allowed: tables of numbers and lists of two") from None
-    except (ValueError, ArithmeticError) as error:
-        # of TOML, of UTF-8, of a number with thousands of digits, or ours
-        raise InputError(f"{path}: {error}") from None
+    except InputError as error:
+        raise InputError("\n".join(f"{path}: {line}" for line in str(error).splitlines())) from None
+    except ArithmeticError as error:  # of a number such as 1e999999999
+        raise InputError(f"{path}: {type(error).__name__}: allowed: numbers of a sensible size") from None
     return found if found.name else replace(found, name=path.stem)
 
 
@@ -107,6 +100,11 @@ def machine_schema() -> dict[str, Any]:
 
 def _kind(data: dict[str, Any]) -> str:
     allowed = f"allowed: {', '.join(map(repr, KINDS))}"
+    if "kind" not in data and "machine" in data:
+        raise InputError(
+            f"machine = {short(data['machine'])}: is a key of scenarios, which `run` takes; allowed: "
+            "the file of a machine, which says its kind"
+        )
     if "kind" not in data:
         raise InputError(f"kind: missing; it says what the machine is; {allowed}")
     kind = data["kind"]

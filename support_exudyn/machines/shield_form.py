@@ -28,6 +28,7 @@ from support_exudyn.machines.form import (
     radians,
     told,
 )
+from support_exudyn.millimetres import in_millimetres
 from support_exudyn.width import Width
 from user_forces.values import InputError, Vector2
 
@@ -57,7 +58,6 @@ BARS = {  # ends of the uniform bars that stand for bodies of which the mass alo
     "canopy": ("hinge", "tip"),
 }
 SAYS_UNIT_TWICE = re.compile(r"(_mm = [^ :]+) mm\b")
-SAYS_METRES = re.compile(r"(?<![\w.])(-?\d+(?:\.\d+)?(?:e-?\d+)?)( to -?\d+(?:\.\d+)?)? m\b")
 
 
 def places(columns: Mapping[str, str]) -> dict[str, str]:
@@ -291,7 +291,7 @@ class ShieldForm(MachineForm):
         for name in (*self.MACHINE.pivots(),):
             message = re.sub(rf"(?<![\w.]){name} = \((\S+), (\S+)\)(?: m\b)?", _pivot_in_mm(name), message)
         message = message.replace("start_hinge_height = ", "start_hinge_height_mm = ")
-        return SAYS_UNIT_TWICE.sub(r"\1", SAYS_METRES.sub(_in_mm, message))
+        return SAYS_UNIT_TWICE.sub(r"\1", in_millimetres(message))
 
 
 PINS_SAID = {
@@ -302,8 +302,3 @@ PINS_SAID = {
 
 def _pivot_in_mm(name: str) -> Any:
     return lambda found: f"pivots_mm.{name} = [{1e3 * float(found[1]):g}, {1e3 * float(found[2]):g}]"
-
-
-def _in_mm(found: re.Match[str]) -> str:
-    last = f" to {1e3 * float(found[2][4:]):g}" if found[2] else ""
-    return f"{1e3 * float(found[1]):g}{last} mm"

@@ -6,7 +6,7 @@ import copy
 from collections.abc import Mapping
 from typing import Any
 
-from support_exudyn.datafiles.toml_text import parsed
+from support_exudyn.toml_reading import parsed
 from user_forces.values import InputError, short
 
 Table = dict[str, Any]

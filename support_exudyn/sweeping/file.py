@@ -7,10 +7,10 @@ from decimal import Decimal
 from pathlib import Path
 from typing import Any
 
-from support_exudyn.datafiles.toml_text import load_toml
 from support_exudyn.sweeping.from_tables import maker
 from support_exudyn.sweeping.plan import Plan, Record
 from support_exudyn.sweeping.points import Point, Range, Varied, grid, latin_hypercube, side_by_side
+from support_exudyn.toml_reading import load_toml
 from user_forces.values import InputError, short
 
 METHODS = ("grid", "list", "latin_hypercube")

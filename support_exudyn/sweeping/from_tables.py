@@ -9,10 +9,11 @@ from pathlib import Path
 
 import support_exudyn
 from support_exudyn.datafiles.scenario_file import scenario_of
-from support_exudyn.datafiles.toml_text import load_toml, toml_text
+from support_exudyn.datafiles.toml_text import toml_text
 from support_exudyn.scenario import Scenario
 from support_exudyn.sweeping.fields import Table, keys_of, replaced
 from support_exudyn.sweeping.plan import Inputs
+from support_exudyn.toml_reading import load_toml
 from user_forces.values import InputError, short
 
 MACHINE = "machine"

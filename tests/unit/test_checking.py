@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -10,16 +11,17 @@ from typing import Any
 import numpy as np
 import pytest
 
+from support_exudyn import ravn_slider_crank
 from support_exudyn.checking import Report, check_machine
 from support_exudyn.checking.mobility import mobility
 from support_exudyn.checking.shield import check_shield
-from support_exudyn.checking.shield_stroke import Shield, Station, stations
+from support_exudyn.checking.shield_stroke import Shield, Station, _between, _cross, _station, stations
 from support_exudyn.linkages.impact_stand import ImpactStand
 from support_exudyn.machine import lumped
 from support_exudyn.machine_data import MachineData, read_machine
 from support_exudyn.machines import load_machine
 from support_exudyn.plane import moved
-from tests.machine_files import OURS, written
+from tests.machine_files import MASSES, OURS, written
 from user_forces import InputError
 
 G = 9.81
@@ -295,3 +297,149 @@ def test_other_machines_are_not_covered() -> None:
     stand = ImpactStand(bore_mass=1.0, journal_mass=1.0, speed=0.1)
     with pytest.raises(InputError, match="ImpactStand: not covered"):
         check_machine(MachineData(stand))
+
+
+# --- faults that nobody would have noticed ---
+
+
+def test_freedom_of_a_slider_crank() -> None:
+    """3 bodies, 3 pins, 1 guide without turn: 9 - 6 - 2 = 1, which the crank's drive takes."""
+    found = mobility(read_machine("slider_crank").machine.linkage())
+    assert (found.counted, found.free, found.driven, found.left) == (1, 1, 1, 0)
+
+
+def test_mobility_does_not_depend_on_size() -> None:
+    """The same linkage a million times smaller: turns are weighed by the path of a point."""
+    small = ravn_slider_crank()
+    small = replace(small, crank_length=1e-6 * small.crank_length, rod_length=1e-6 * small.rod_length)
+    found = mobility(small.linkage())
+    assert (found.free, found.left) == (1, 0)
+
+
+def test_the_guide_bears_what_the_rod_leaves_it() -> None:
+    """Equilibrium of the slider across the guide: its weight and the push of the pin."""
+    data = read_machine("slider_crank")
+    machine: Any = data.machine
+    for one in check_machine(data).data()["stations"]:
+        guide = abs(one["guide_N"])
+        # the pin's force is that of the slider on the rod; rounding of some N
+        assert guide == pytest.approx(abs(one["pins_N"]["slider_pin"][1] + G * machine.slider_mass), abs=1e-10)
+
+
+def test_the_error_of_forces_bounds_what_is_missed() -> None:
+    """Forces against those of the body-by-body equations: no farther apart than both errors together."""
+    data, machine = machine_of("reference")
+    station = stations(machine, data.stroke or 0.0, 3)[1]
+    exact = equilibrium(machine, station)
+    missed = max(float(np.abs(force - exact[pin]).max()) for pin, force in station.forces.pins.items())
+    size = max(float(np.abs(force).max()) for force in station.forces.pins.values())
+    assert station.forces.error > np.finfo(float).eps * size
+    assert missed < 2.0 * station.forces.error
+
+
+def test_the_residual_is_of_the_columns_too() -> None:
+    """A posture that is not where its extension says is missed by the difference."""
+    _, machine = machine_of("reference")
+    posture = machine.extended(0.1)
+    missed = _station(machine, machine.linkage(), 0.1 + 1e-4, posture).residual
+    assert missed == pytest.approx(1e-4, abs=1e-10)  # lengths are met to 1e-11 m
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        # the shortest column is 1.8 m: of one stage it would have to be longer than the other
+        ({"rear_foot": "[1150, 1900]"}, "times as long; a cylinder of one stage manages less than 1.9 times"),
+        ({"front_foot": "[2050, 3260]"}, "front_column: its head is below its foot"),
+        ({"rear_base": "[700, 500]", "front_base": "[-300, 600]"}, "rear and front link cross each other"),
+    ],
+)
+def test_further_doubts(tmp_path: Path, changes: dict[str, str], said: str) -> None:
+    text = OURS.replace("stroke_mm = 600", "stroke_mm = 530")
+    for name, place in changes.items():
+        text = re.sub(rf"\n{name} = \[.*\]", f"\n{name} = {place}", text)
+    warnings = check_machine(load_machine(written(tmp_path, text=text))).warnings
+    assert any(said in warning for warning in warnings), warnings
+
+
+def test_pivots_in_micrometres_and_masses_in_grams(tmp_path: Path) -> None:
+    text = OURS
+    for line in MASSES.strip().splitlines():
+        text = text.replace(line, f"{line}000")
+    warnings = check_machine(load_machine(written(tmp_path, text=text))).warnings
+    assert any("are they in grams?" in warning for warning in warnings), warnings
+
+
+def test_large_supports_are_asked_for_their_unit(tmp_path: Path) -> None:
+    text = re.sub(r"\[(-?\d+), (-?\d+)\]", lambda m: f"[{20 * int(m[1])}, {20 * int(m[2])}]", OURS)
+    text = text.replace("2050", "41000").replace("= 600", "= 6000")
+    warnings = check_machine(load_machine(written(tmp_path, text=text))).warnings
+    assert any("m apart; are they given in mm?" in warning for warning in warnings), warnings
+    assert any("are they in tonnes?" in warning for warning in warnings), warnings
+
+
+def test_what_crosses() -> None:
+    """Both ways have to part the ends of the other."""
+    assert _cross((0.0, 0.0), (2.0, 2.0), (0.0, 2.0), (2.0, 0.0))
+    assert not _cross((0.0, 0.0), (2.0, 2.0), (3.0, 4.0), (4.0, 3.0))  # beyond the end of the first
+    assert not _cross((3.0, 4.0), (4.0, 3.0), (0.0, 0.0), (2.0, 2.0))
+
+
+def test_angles_at_a_corner() -> None:
+    assert _between((1.0, 1.0), (2.0, 1.0), (1.0, 3.0)) == pytest.approx(0.5 * math.pi)
+    assert _between((0.0, 0.0), (1.0, 0.0), (-1.0, 1e-9)) == pytest.approx(math.pi - 1e-9)
+
+
+# --- slider-cranks ---
+
+
+def crank_file(folder: Path, **changes: str) -> Report:
+    """The check of a slider-crank of 153 mm and 306 mm, changed."""
+    lines = {
+        "kind": '"slider_crank"',
+        "crank_length_mm": "153",
+        "rod_length_mm": "320",
+        "crank_mass_kg": "0.038",
+        "rod_mass_kg": "0.076",
+        "slider_mass_kg": "0.038",
+    } | changes
+    text = "\n".join(f"{key} = {said}" for key, said in lines.items())
+    return check_machine(load_machine(written(folder, text=text)))
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"rod_length_mm": "290"}, "rod_length_mm is 1.90 times crank_length_mm"),
+        ({"bore_radius_mm": "{main = 80}"}, "bore_radius_mm.main = 80: more than half the crank"),
+        (
+            {"crank_length_mm": "153000", "rod_length_mm": "320000"},
+            "crank_length_mm: 153 m; is it given in",
+        ),
+    ],
+)
+def test_doubts_of_a_slider_crank(tmp_path: Path, changes: dict[str, str], said: str) -> None:
+    assert crank_file(tmp_path).warnings == []
+    assert any(said in warning for warning in crank_file(tmp_path, **changes).warnings)
+
+
+def test_the_steepest_rod_is_the_steepest_that_is_told(tmp_path: Path) -> None:
+    """sin = crank/rod where the crank stands upright."""
+    report = crank_file(tmp_path)
+    steepest = max(abs(one["rod_rad"]) for one in report.data()["stations"])
+    assert math.sin(steepest) == pytest.approx(153 / 320, abs=1e-12)  # rounding
+    assert f"steepest rod: {math.degrees(steepest):.2f} degrees" in "\n".join(report.lines())
+
+
+def test_forces_do_not_depend_on_where_a_crank_starts(tmp_path: Path) -> None:
+    level, turned = (crank_file(tmp_path, start_angle_deg=angle) for angle in ("0", "50"))
+    for one, other in zip(level.data()["stations"], turned.data()["stations"], strict=True):
+        assert one["drive_N_m"] == pytest.approx(other["drive_N_m"], abs=1e-12)  # rounding of 0.1 N m
+        for pin, force in one["pins_N"].items():
+            assert force == pytest.approx(other["pins_N"][pin], abs=1e-9)  # and of some N
+
+
+def test_the_rod_points_from_crank_to_slider(tmp_path: Path) -> None:
+    for one in crank_file(tmp_path).data()["stations"]:
+        height = 0.153 * math.sin(one["crank_rad"]) + 0.32 * math.sin(one["rod_rad"])
+        assert height == pytest.approx(0.0, abs=1e-12)  # rounding

@@ -182,7 +182,7 @@ MISTAKES = {
     "metres": (
         "[3900, 2650]",
         "[3900000, 2650]",
-        "pivots_mm.tip = [3.9e+06, 2650]: allowed: from -1e+06 to 1e+06 mm (is it",
+        "pivots_mm.tip = [3.9e+06, 2650]: allowed: from -1000000 to 1000000 mm (is it",
     ),
 }
 
@@ -221,6 +221,32 @@ def test_changed_files_are_read_or_refused(tmp_path: Path, name: str, data: st.D
         load_machine(path)
     except InputError as error:
         assert str(path) in str(error)  # noqa: PT017  # either is right
+
+
+def test_files_as_windows_writes_them(tmp_path: Path) -> None:
+    """With a byte-order mark and carriage returns."""
+    path = written(tmp_path, text="\ufeff" + text_of("reference").replace("\n", "\r\n"))
+    assert load_machine(path).machine == read_machine("reference").machine
+
+
+def test_every_line_of_a_refusal_names_the_file(tmp_path: Path) -> None:
+    path = written(
+        tmp_path, "start_hinge_height_mm = 2050\nstroke_mm = 600", "start_hinge_height_mm = 'a'\nstroke_mm = -1"
+    )
+    with pytest.raises(InputError) as caught:
+        load_machine(path)
+    lines = str(caught.value).splitlines()
+    assert len(lines) == 2
+    assert all(line.startswith(f"{path}: ") for line in lines)
+
+
+def test_what_is_no_machine_is_told(tmp_path: Path) -> None:
+    path = written(tmp_path, text='machine = "reference"\nduration_s = 1\n')
+    with pytest.raises(InputError, match=r"machine = 'reference': is a key of scenarios"):
+        load_machine(path)
+    path.write_bytes(b"name = '\xfc'")
+    with pytest.raises(InputError, match=r"ours\.toml: byte 8 is not UTF-8"):
+        load_machine(path)
 
 
 # --- schema ---

@@ -59,3 +59,11 @@ def test_times_hold_breaks_and_the_end_and_swings() -> None:
     swinging = list(times((Reciprocating(stroke=0.1, period=0.5),), 4.0))
     assert max(b - a for a, b in pairwise(swinging)) < 0.5 / 16.0
     assert len(list(times((Reciprocating(stroke=0.1, period=1e-3),), 1e6))) == path_check.MOST_SAMPLES
+
+
+def test_what_was_followed_for_a_while_is_looked_at_for_longer() -> None:
+    """The same drives: so far they go, and then no farther."""
+    front, rear = CubicStep(stroke=0.0), CubicStep(stroke=0.8, start=1.0, end=3.0)
+    driven(front, rear, duration=1.2)
+    with pytest.raises(InputError, match="rear_column cannot follow"):
+        driven(front, rear, duration=3.0)

@@ -34,6 +34,7 @@ from support_exudyn.datafiles import (
 )
 from support_exudyn.machine_data import read_machine
 from tests import strategies as some
+from tests.machine_files import OURS
 from user_forces import (
     STEEL,
     CubicCoulomb,
@@ -270,7 +271,7 @@ def test_files_are_written_whole(tmp_path: Path) -> None:
         (TOP + LOOSE.replace("1.5", "-1"), "a.toml: pins.rear_base.clearance_mm = -1: allowed: > 0"),
         (
             TOP + LOOSE.replace("1.5", "70"),
-            "a.toml: pins.rear_base: JournalBearing: clearance = 0.07 m: leaves no journal",
+            "a.toml: pins.rear_base: clearance_mm = 70: leaves no journal in a bore of bore_radius_mm = 65.5",
         ),
         (TOP + "[pins.rear_base]\nfriction = 0.1", "a.toml: pins.rear_base.clearance_mm: missing; it has no"),
         (TOP + LOOSE + "law = 'Hertzz'", "a.toml: pins.rear_base.law = 'Hertzz': allowed: 'CarvalhoMartins', "),
@@ -300,6 +301,22 @@ def test_files_are_written_whole(tmp_path: Path) -> None:
         (TOP + "[drive]\nmode = 3", "a.toml: drive.mode = 3: allowed: 1, 2"),
         (TOP + "[drive]\nmode = 1\nend_s = 1", "a.toml: drive: end = 1.0 s: allowed: > start = 3.0 s"),
         (TOP + "[drive]\nstroke_mm = 3", "a.toml: drive: says no mode, table or type; allowed: mode = 1 or 2"),
+        (
+            TOP + "drive.mode = 2\ndrive.stroke_mm = 5000",
+            "a.toml: drive: column extension = 5000 mm: the columns cannot close the linkage there; allowed: ",
+        ),
+        (
+            TOP + "drives.rear_column = {mode = 2, stroke_mm = 900}",
+            "a.toml: drives.rear_column: rear_column cannot follow beyond 4.397 s (front_column extended by ",
+        ),
+        (
+            'machine = "two_leg_shield"\nduration_s = 5\ndrives.leg = {mode = 2, stroke_mm = 3000}',
+            "a.toml: drives.leg: column extension = 3000 mm: the columns cannot close",
+        ),
+        (
+            TOP + LOOSE.replace("1.5", '"1.5"'),
+            "a.toml: pins.rear_base.clearance_mm = '1.5': allowed: a number > 0",
+        ),
         (TOP + "drive.table = 'no.csv'", "a.toml: drive.table = 'no.csv': allowed: a file that can be read"),
         (TOP + "drives.table = 'no.csv'", "a.toml: drives.table = 'no.csv': allowed: a file that can be read"),
         (TOP + "drive.table = 'a\\\\u0000'", "a.toml: drive.table = 'a"),
@@ -347,8 +364,13 @@ def test_all_mistakes_are_told_at_once() -> None:
     ("data", "said"),
     [
         (b"\xff\xfe", "byte 0 is not UTF-8"),
-        (b'machine = "reference', r"Unterminated string \(at line 1"),
+        (b'machine = "reference', "Unterminated string .at line 1, the last"),
         (b"a = 1\nb = [\n", "at line 2, the last"),
+        (b"a = 1\na = 2\n", r"line 2: 'a = 2': its key has been given before; allowed: once"),
+        (b"[a.b]\n[a.b]\n", r"line 2: '\[a\.b\]': the table a\.b has been begun before; allowed: once"),
+        (b"a = 1,5 # mm\n", r"line 1: 'a = 1,5 # mm': .*; allowed: decimals after a point, as in 1\.5"),
+        (b'kind = "slider_crank"\n', r"is the file of a machine; allowed: a scenario"),
+        (b'scenario = "b.toml"\n', r"is the file of a sweep; allowed: a scenario"),
         (b"a = " + b"[" * 5000, "is nested too deep"),
     ],
 )
@@ -362,3 +384,100 @@ def test_what_is_no_toml_is_said_with_its_line(tmp_path: Path, data: bytes, said
 def test_a_file_that_is_not_there(tmp_path: Path) -> None:
     with pytest.raises(FileNotFoundError, match=r"no\.toml"):
         read_scenario(tmp_path / "no.toml")
+
+
+def test_a_machine_of_nearly_the_same_name_is_told(tmp_path: Path) -> None:
+    (tmp_path / "shield.toml").write_text("")
+    assert "did you mean 'shield.toml'" in refusal('machine = "sheild.toml"\nduration_s = 1', tmp_path)
+    said = refusal('machine = "shield"\nduration_s = 1', tmp_path)
+    assert said == "a.toml: machine = 'shield': there is none of this name; did you mean 'shield.toml'?"
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        (TOP + "drive.table = 'a.csv'", "columns of machines extend; allowed: names that end by _mm, _m"),
+        (TOP + "drives.rear_column.table = 'a.csv'", "columns of machines extend"),
+        (
+            'machine = "slider_crank"\nduration_s = 1\ndrive = {table = "a.csv", column = "other"}',
+            "cranks turn",
+        ),
+        (
+            'machine = "slider_crank"\nduration_s = 1\n[drives]\ntable = "b.csv"',
+            "cranks turn; allowed: names that",
+        ),
+    ],
+)
+def test_angles_drive_cranks_and_lengths_columns(tmp_path: Path, text: str, said: str) -> None:
+    """By the number alone 10 degrees would be 175 mm."""
+    (tmp_path / "a.csv").write_text("time_s,turn_deg,other_mm\n0,0,0\n1,10,10\n")
+    (tmp_path / "b.csv").write_text("time_s,crank_mm\n0,0\n1,10\n")
+    text = text.replace("'a.csv'", "'a.csv'\ndrive.column = 'turn'") if "drive.table" in text else text
+    text = (
+        text.replace("table = 'a.csv'", "table = 'a.csv'\ndrives.rear_column.column = 'turn'", 1)
+        if ("rear_column" in text)
+        else text
+    )
+    assert said in refusal(text, tmp_path)
+
+
+def test_angles_of_a_crank_are_taken(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("time_s,crank_deg,other_mm\n0,0,0\n1,180,10\n")
+    text = 'machine = "slider_crank"\nduration_s = 1\ndrive = {table = "a.csv", column = "crank"}'
+    assert scenario(text, tmp_path).drive.extension(1.0) == 3.141592653589793
+
+
+def test_what_was_assumed_of_the_machine_is_handed_on(tmp_path: Path) -> None:
+    (tmp_path / "ours.toml").write_text(OURS, encoding="utf-8")
+    found = scenario_file_of(parsed('machine = "ours.toml"\nduration_s = 1', "a.toml"), "a.toml", tmp_path)
+    assert found.assumed == read_machine("ours.toml", tmp_path).assumed != ()
+
+
+def test_a_stroke_of_no_time_is_refused() -> None:
+    said = refusal(TOP + "[drive]\nmode = 2\nstart_s = 3\nend_s = 3")
+    assert said.startswith("a.toml: drive: end = 3.0 s: allowed: > start = 3.0 s")
+
+
+def test_a_misspelt_key_is_not_called_missing_too() -> None:
+    said = refusal('machine = "reference"\ndurations_s = 5')
+    assert said.startswith("a.toml: durations_s: unknown key; did you mean duration_s")
+    assert len(said.splitlines()) == 1
+
+
+def test_long_refusals_and_long_values_are_cut() -> None:
+    many = "".join(f"x{n} = 1\n" for n in range(31))
+    lines = refusal(TOP + many).splitlines()
+    assert len(lines) == 31
+    assert lines[-1] == "a.toml: and 1 more"
+    told = refusal(TOP + f"solver = [{', '.join(['123456'] * 60)}]").partition(": allowed")[0]
+    assert len(told) == len("a.toml: solver = ") + 80
+
+
+@pytest.mark.parametrize("given", ["true", "1.0", "[1, 2, 3]", "[1]"])
+def test_kinds_of_values_are_told_apart(given: str) -> None:
+    """true is 1 for Python, and a list of three holds one of two."""
+    if given.startswith("["):
+        assert "gravity_m_per_s2" in refusal(TOP + f"gravity_m_per_s2 = {given}")
+    else:
+        assert refusal(TOP + f"[drive]\nmode = {given}").startswith(
+            f"a.toml: drive.mode = {given}: allowed: 1, 2"
+        )
+
+
+def test_numbers_too_small_to_be_told_from_nothing_are_nothing() -> None:
+    found = scenario(TOP + "gravity_m_per_s2 = [1e-999999, -9.81]")
+    assert found.gravity == (0.0, -9.81)
+
+
+def test_drives_of_a_table_may_be_joined_by_lines(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("time_s,front_column_mm,rear_column_mm\n0,0,0\n5,100,101\n")
+    text = TOP + "[drives]\ntable = 'a.csv'\nbetween = 'linear'"
+    found = scenario(text, tmp_path)
+    assert found.drives == read_drives(tmp_path / "a.csv", "linear")
+
+
+def test_the_bore_of_a_pin_is_its_own(tmp_path: Path) -> None:
+    bores = "[bore_radius_mm]\nrear_base = 65\nfront_base = 55\n[masses_kg]"
+    (tmp_path / "ours.toml").write_text(OURS.replace("[masses_kg]", bores), encoding="utf-8")
+    found = scenario('machine = "ours.toml"\nduration_s = 1\n[pins.front_base]\nclearance_mm = 1', tmp_path)
+    assert found.clearance_pins["front_base"].contact.bearing.bore_radius == 0.055

@@ -1,0 +1,90 @@
+"""TOML files and texts as tables; numbers with a point are decimals, so that units round them once."""
+
+from __future__ import annotations
+
+import re
+import sys
+from decimal import Decimal, InvalidOperation
+from pathlib import Path
+from typing import Any
+
+from user_forces.values import DEEPEST, InputError, short
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+LARGEST_FILE = 50_000_000  # bytes
+TOO_DEEP = f"is nested too deep; allowed: {DEEPEST} levels"
+PLACE = re.compile(r" \(at line (\d+), column \d+\)$")  # after what the library says
+TWICE = re.compile(r"Cannot declare \((.*?),?\) twice")
+COMMA = re.compile(r"=\s*[-+]?\d+,\d+\s*(#.*)?$")  # a decimal comma
+
+
+def load_toml(path: str | Path) -> dict[str, Any]:
+    """The table of a TOML file; its numbers with a point or an exponent are of type Decimal.
+
+    Raises InputError, with file and line, if the file is no TOML; OSError if it cannot be read.
+    """
+    path = Path(path)
+    if "\0" in str(path):
+        raise InputError(f"{path!s:.80}: allowed: a name that a file can have")
+    if path.stat().st_size > LARGEST_FILE:
+        raise InputError(f"{path}: has more than {LARGEST_FILE} bytes; allowed: a text that people write")
+    try:
+        text = path.read_bytes().decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise InputError(f"{path}: byte {error.start} is not UTF-8; allowed: text in UTF-8") from None
+    return parsed(text, str(path))
+
+
+def parsed(text: str, where: str) -> dict[str, Any]:
+    """The table of a text in TOML, as `load_toml` gives it; `where` is what errors call it."""
+    try:
+        table = tomllib.loads(text, parse_float=_decimal)
+    except RecursionError:
+        raise InputError(f"{where}: {TOO_DEEP}") from None
+    except ValueError as error:  # of TOML, or of a whole number with thousands of digits
+        raise InputError(f"{where}: {_reason(str(error), text)}") from None
+    _check_depth(table, where)
+    return table
+
+
+def _reason(said: str, text: str) -> str:
+    """What is wrong with a text, from what the library says: with the line, and twofold keys by their name."""
+    place = PLACE.search(said)
+    if place is None:
+        last = f"at line {len(text.splitlines())}, the last"
+        return f"{said.replace('at end of document', last)}; allowed: TOML"
+    lines = text.replace("\r\n", "\n").split("\n")
+    line = lines[int(place[1]) - 1].strip() if int(place[1]) <= len(lines) else ""
+    what = PLACE.sub("", said)
+    if what == "Cannot overwrite a value":
+        what, allowed = "its key has been given before", "once"
+    elif twice := TWICE.match(what):
+        name = ".".join(re.findall(r"'([^']*)'", twice[1]))
+        what, allowed = f"the table {name} has been begun before", "once"
+    elif COMMA.search(line):
+        allowed = "decimals after a point, as in 1.5"
+    else:
+        allowed = "TOML"
+    return f"line {place[1]}: {short(line)}: {what}; allowed: {allowed}"
+
+
+def _decimal(text: str) -> Decimal:
+    try:
+        return Decimal(text.replace("_", ""))
+    except InvalidOperation:  # an exponent of 20 digits
+        raise ValueError(f"{text[:40]} is no number that can be read") from None
+
+
+def _check_depth(table: dict[str, Any], where: str) -> None:
+    """Raise InputError if tables lie in tables too deep; keys with many dots make them without brackets."""
+    level: list[Any] = [table]
+    for _ in range(DEEPEST):
+        inside = [item.values() if isinstance(item, dict) else item for item in level]
+        level = [item for items in inside for item in items if isinstance(item, (dict, list))]
+        if not level:
+            return
+    raise InputError(f"{where}: {TOO_DEEP}")
