@@ -6,6 +6,7 @@ import sys
 from dataclasses import replace
 from decimal import Decimal
 from difflib import get_close_matches
+from functools import lru_cache
 from importlib import import_module, resources
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
@@ -25,6 +26,7 @@ else:
 
 KINDS = ("four_column_support", "two_leg_shield", "slider_crank")  # each a module
 SHIPPED = ("reference", "zf18000", "two_leg_shield", "slider_crank")  # each a data file
+REMEMBERED = 8  # machines that are not read again as long as their text is the same
 
 
 def form(kind: str) -> type[MachineForm]:
@@ -40,14 +42,24 @@ def load_machine(path: str | Path) -> MachineData:
     """
     path = Path(path)
     try:
-        data = tomllib.loads(path.read_text(encoding="utf-8"), parse_float=Decimal)
-        found = form(_kind(data)).read(data)
+        found = _of_text(path.read_text(encoding="utf-8"))
     except RecursionError:
         raise InputError(f"{path}: is nested too deep; allowed: tables of numbers and lists of two") from None
     except (ValueError, ArithmeticError) as error:
         # of TOML, of UTF-8, of a number with thousands of digits, or ours
         raise InputError(f"{path}: {error}") from None
     return found if found.name else replace(found, name=path.stem)
+
+
+@lru_cache(maxsize=REMEMBERED)
+def _of_text(text: str) -> MachineData:
+    """The machine that a data file of this text describes.
+
+    The same text gives the same value, which remembers what motions it was found to follow: the scenarios of a
+    sweep ask for that again and again, and finding it takes longer than a short run.
+    """
+    data = tomllib.loads(text, parse_float=Decimal)
+    return form(_kind(data)).read(data)
 
 
 def shipped(name: str) -> MachineData:
