@@ -151,7 +151,9 @@ def steps() -> list[tuple[str, str]]:
             store.put(row)
             lap("its row")
     beside = sum(taken.values()) - taken["simulation"]
-    return [(step, f"{1e3 * one / STEPS_OF:.2f}") for step, one in (taken | {"all but simulation": beside}).items()]
+    return [
+        (step, f"{1e3 * one / STEPS_OF:.2f}") for step, one in (taken | {"all but simulation": beside}).items()
+    ]
 
 
 def study(chosen: Options) -> None:
@@ -160,7 +162,7 @@ def study(chosen: Options) -> None:
         title="Sweeps: processor time of a short run, by steps",
         header=("step", "a run [ms]"),
         rows=tuple(steps()),
-        caption=f"The mean of {STEPS_OF} runs in one process. Sending a run to its process and noting its row come "
+        caption=f"The mean of {STEPS_OF} runs in one process. Sending a run and noting its row come "
         "on top, with less than a millisecond.",
     )
     show_table(chosen.out / "sweep_steps.txt", apart, width=150)
