@@ -1,7 +1,12 @@
 """What does a sweep cost beside its runs, and how much faster are two cores than one?
 
 Measured in turns, in folders that are made for it. Nothing is asserted. Measure on a machine that does nothing
-else: two processes on two cores have none to spare.
+else: two processes on two cores have none to spare. What each step takes of the processor is measured apart, in
+this process alone; other work on the machine changes that little.
+
+The table of the last measurement that was kept is `studies/benchmarking/SWEEPS.md`, made by
+
+    python -m studies.sweep_overhead && cp results/sweep_overhead/SWEEPS.md studies/benchmarking/
 """
 
 from __future__ import annotations
@@ -19,15 +24,19 @@ from studies import paper_machine
 from studies.benchmarking import process
 from studies.reporting.chapter import Sheet
 from studies.study import Options, options, run_main, show_table
-from support_exudyn import Scenario
+from support_exudyn import Scenario, simulate
 from support_exudyn.files import whole_file
 from support_exudyn.sweeping import Plan, grid, read_table, sweep
+from support_exudyn.sweeping.key import key
 from support_exudyn.sweeping.plan import Inputs
 from support_exudyn.sweeping.run import Outcome
+from support_exudyn.sweeping.store import Store
+from support_exudyn.sweeping.work import Task, row_of
 
 STUDY = "sweep_overhead"
-SHORT, LONG = 300, 40  # runs of a sweep of short ones, of longer ones
-TURNS = 3
+SHORT, LONG = 300, 60  # runs of a sweep of short ones, of longer ones
+TURNS = 2
+STEPS_OF = 100  # short runs whose steps are measured apart
 MOST_OVERHEAD, LEAST_GAIN = 0.020, 1.8  # what was asked for [s a run; two cores over one]
 
 
@@ -112,8 +121,51 @@ def rows() -> list[tuple[str, ...]]:
     return lines
 
 
+def steps() -> list[tuple[str, str]]:
+    """What each step of a short run takes of the processor [ms], the mean of some."""
+    taken = dict.fromkeys(("scenario and key", "simulation", "numbers", "saving the run", "its row"), 0.0)
+    before = time.process_time()
+
+    def lap(step: str) -> None:
+        nonlocal before
+        now = time.process_time()
+        taken[step] += now - before
+        before = now
+
+    plan = PLANS["short"]
+    with tempfile.TemporaryDirectory() as folder:
+        store = Store(Path(folder))
+        for number in range(STEPS_OF + 1):
+            if number == 1:  # the first imports and compiles
+                taken = dict.fromkeys(taken, 0.0)
+            before = time.process_time()
+            scenario = plan.scenario(plan.points[number])
+            name = key(scenario)
+            lap("scenario and key")
+            result = simulate(scenario)
+            lap("simulation")
+            row = row_of(Task(name, scenario, plan.record), result)
+            lap("numbers")
+            result.save(store.run_file(name))
+            lap("saving the run")
+            store.put(row)
+            lap("its row")
+    beside = sum(taken.values()) - taken["simulation"]
+    return [
+        (step, f"{1e3 * one / STEPS_OF:.2f}") for step, one in (taken | {"all but simulation": beside}).items()
+    ]
+
+
 def study(chosen: Options) -> None:
-    """Measure, print and write the table."""
+    """Measure, print and write the tables."""
+    apart = Sheet(
+        title="Sweeps: processor time of a short run, by steps",
+        header=("step", "a run [ms]"),
+        rows=tuple(steps()),
+        caption=f"The mean of {STEPS_OF} runs in one process. Sending a run and noting its row come "
+        "on top, with less than a millisecond.",
+    )
+    show_table(chosen.out / "sweep_steps.txt", apart, width=150)
     table = Sheet(
         title=f"Sweeps: what they cost beside their runs, the fastest of {TURNS} turns",
         header=(
@@ -129,8 +181,8 @@ def study(chosen: Options) -> None:
         ),
     )  # fmt: skip
     show_table(chosen.out / "sweep_overhead.txt", table, width=150)
-    with whole_file(chosen.out / "sweep_overhead.md") as temporary:
-        words = "\n\n".join(["# Sweeps", process.machine(), table.markdown()])
+    with whole_file(chosen.out / "SWEEPS.md") as temporary:
+        words = "\n\n".join(["# Sweeps", process.machine(), table.markdown(), apart.markdown()])
         temporary.write_text(words + "\n", encoding="utf-8")
 
 

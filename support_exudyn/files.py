@@ -133,7 +133,9 @@ def writing_alone(folder: Path) -> Iterator[None]:
             owner = os.read(handle, 32).decode("ascii", "replace").strip() or "starting"
             os.close(handle)
             raise BlockingIOError(
-                errno.EWOULDBLOCK, f"another process ({owner}) is writing there; wait, or choose another folder"
+                errno.EWOULDBLOCK,
+                f"another process ({owner}) is writing there; wait, or choose another folder",
+                str(folder),
             ) from None
         except OSError as error:
             if error.errno not in (errno.ENOLCK, errno.ENOSYS, errno.EOPNOTSUPP):

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from support_exudyn.cylinder import HydraulicCylinder
-from support_exudyn.drives import Held
+from support_exudyn.drives import Drive, Held
 from support_exudyn.machine import Linkage
 from support_exudyn.recipes import ALL_CHANNELS, check_patterns
 from support_exudyn.solver_settings import ERROR_CONTROLLED
@@ -128,10 +129,14 @@ def _check_drives(scenario: Scenario, linkage: Linkage) -> None:
                 f"({drive.initial_speed} per s); allowed with this drive: 'concentric'"
             )
     for drives in scenario.drives_in_plane:
-        try:
-            scenario.machine.check_motion(drives, scenario.duration)
-        except InputError as error:
-            raise ValueError(scenario.of_drives(drives, error)) from None
+        _check_motion(scenario, drives)
+
+
+def _check_motion(scenario: Scenario, drives: Mapping[str, Drive]) -> None:
+    try:
+        scenario.machine.check_motion(drives, scenario.duration)
+    except InputError as error:
+        raise ValueError(scenario.of_drives(drives, error)) from None
 
 
 def _check_loads(scenario: Scenario) -> None:

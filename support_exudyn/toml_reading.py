@@ -27,16 +27,19 @@ def load_toml(path: str | Path) -> dict[str, Any]:
 
     Raises InputError, with file and line, if the file is no TOML; OSError if it cannot be read.
     """
-    path = Path(path)
+    return parsed(text_of(Path(path)), str(path))
+
+
+def text_of(path: Path) -> str:
+    """The text of a file that people write. Raises InputError if it is none, OSError if it cannot be read."""
     if "\0" in str(path):
         raise InputError(f"{path!s:.80}: allowed: a name that a file can have")
     if path.stat().st_size > LARGEST_FILE:
         raise InputError(f"{path}: has more than {LARGEST_FILE} bytes; allowed: a text that people write")
     try:
-        text = path.read_bytes().decode("utf-8-sig")
+        return path.read_bytes().decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise InputError(f"{path}: byte {error.start} is not UTF-8; allowed: text in UTF-8") from None
-    return parsed(text, str(path))
 
 
 def parsed(text: str, where: str) -> dict[str, Any]:

@@ -20,7 +20,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
-from typing import ClassVar, Generic, NamedTuple, Protocol, TypeVar
+from typing import Any, ClassVar, Generic, NamedTuple, Protocol, TypeVar
 
 import numpy as np
 from typing_extensions import Self
@@ -55,6 +55,7 @@ PRECISE = 1e-11  # [m] to which lengths of columns are met
 MOST_CORRECTIONS = 20  # of Newton's method; four do
 LOCKED = 1e-12  # [m^2] determinant of the columns' rates at which they hold nothing any more
 MOST_REMEMBERED = 64
+REMEMBERED = ("_closing", "_followed", "_known")  # what values of machines remember beside their fields
 LONGEST_STEP = 0.2  # [rad] from one posture to the next, so that it is not taken for one behind a dead centre
 
 
@@ -381,6 +382,16 @@ class FourBarShield(Machine, ABC, Generic[P]):
     def _followed(self) -> list[tuple[dict[str, Drive], float]]:
         """Drives that have been found to be followed, and for how long; scenarios ask again and again."""
         return []
+
+    def __getstate__(self) -> dict[str, Any]:
+        """What is sent to another process: all but what is only remembered, which may be much.
+
+        A copy, for it may be sent while another thread goes on to remember.
+        """
+        state = dict(self.__dict__)
+        for name in REMEMBERED:
+            state.pop(name, None)
+        return state
 
     # --- layout ---
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from difflib import get_close_matches
+from functools import lru_cache
 from importlib import import_module, resources
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
@@ -11,7 +12,7 @@ from typing import TYPE_CHECKING, Any, cast
 from support_exudyn.columns import OilColumn, RigidColumn, TwoBodyColumn
 from support_exudyn.linkages.hydraulic_support import HydraulicSupport
 from support_exudyn.machine_data import MachineData
-from support_exudyn.toml_reading import load_toml
+from support_exudyn.toml_reading import parsed, text_of
 from user_forces.values import InputError, short
 
 if TYPE_CHECKING:
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
 
 KINDS = ("four_column_support", "two_leg_shield", "slider_crank")  # each a module
 SHIPPED = ("reference", "zf18000", "two_leg_shield", "slider_crank")  # each a data file
+REMEMBERED = 8  # machines that are not read again as long as their text is the same
 
 
 def form(kind: str) -> type[MachineForm]:
@@ -33,14 +35,26 @@ def load_machine(path: str | Path) -> MachineData:
     there is no file.
     """
     path = Path(path)
-    data = load_toml(path)
+    text = text_of(path)
     try:
-        found = form(_kind(data)).read(data)
+        found = _of_text(text)
     except InputError as error:
+        parsed(text, str(path))  # what is no TOML is told with its line
         raise InputError("\n".join(f"{path}: {line}" for line in str(error).splitlines())) from None
     except ArithmeticError as error:  # of a number such as 1e999999999
         raise InputError(f"{path}: {type(error).__name__}: allowed: numbers of a sensible size") from None
     return found if found.name else replace(found, name=path.stem)
+
+
+@lru_cache(maxsize=REMEMBERED)
+def _of_text(text: str) -> MachineData:
+    """The machine that a data file of this text describes.
+
+    The same text gives the same value, which remembers what motions it was found to follow: the scenarios of a
+    sweep ask for that again and again, and finding it takes longer than a short run.
+    """
+    data = parsed(text, "")
+    return form(_kind(data)).read(data)
 
 
 def shipped(name: str) -> MachineData:

@@ -37,12 +37,26 @@ def on_cluster(tasks: Iterable[Task], store: Store, address: str) -> Generator[R
     """
     try:
         from distributed import CancelledError, Client, KilledWorker, as_completed
+        from distributed.comm import get_address_host_port
     except ImportError:
         raise InputError(
             f"scheduler = {address!r}: needs dask.distributed, which is not installed; "
             "pip install 'support-exudyn[cluster]'"
         ) from None
-    logging.getLogger("distributed").setLevel(logging.CRITICAL)  # what goes wrong is said in a line of ours
+    for name in [*logging.root.manager.loggerDict]:  # what goes wrong is said in a line of ours
+        if name.partition(".")[0] in (
+            "distributed",
+            "tornado",
+            "asyncio",
+        ):  # some of them have levels of their own
+            logging.getLogger(name).setLevel(logging.CRITICAL + 1)
+    try:  # before there is a client, which would wait for its own end
+        get_address_host_port(address, strict=True)
+    except ValueError as error:
+        raise InputError(
+            f"scheduler = {address!r}: {_said(error)}; allowed: an address such as tcp://10.0.0.5:8786"
+        ) from None
+    lost = OSError(f"scheduler = {address!r}: was lost; the same command goes on from here")
     try:
         client = Client(address, timeout=REACHED, set_as_default=False)
     except Exception as error:  # of many kinds
@@ -53,7 +67,10 @@ def on_cluster(tasks: Iterable[Task], store: Store, address: str) -> Generator[R
     source = iter(tasks)
 
     def further(done: Any) -> None:
-        room = max(FEWEST, AHEAD * sum(client.nthreads().values()))
+        try:
+            room = max(FEWEST, AHEAD * sum(client.nthreads().values()))
+        except OSError:  # of a connection that is closed
+            raise lost from None
         while len(under_way) < room and (task := next(here, None)) is not None:
             # a name of its own every time: else the cluster might hold what an earlier sweep has left there
             future = client.submit(_remote, task, program(), pure=False)
@@ -88,9 +105,7 @@ def on_cluster(tasks: Iterable[Task], store: Store, address: str) -> Generator[R
                 except KilledWorker as error:
                     yield Row(task.key, "killed", f"lost with its worker, again and again: {_said(error)}")
                 except CancelledError:
-                    raise OSError(
-                        f"scheduler = {address!r}: was lost; the same command goes on from here"
-                    ) from None
+                    raise lost from None
                 else:
                     yield _kept(store, row, image)
                 future.release()

@@ -124,6 +124,34 @@ def test_the_same_run_twice_in_a_plan_is_made_once(tmp_path: Path, ran: list[Tas
     assert table["pin.pin.force.mean_N"][0] == table["pin.pin.force.mean_N"][2]
 
 
+def test_the_same_run_twice_fills_both_rows_also_while_it_is_under_way(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def all_at_once(tasks, store, workers):  # type: ignore[no-untyped-def]
+        yield from [work.run_into(store, task) for task in list(tasks)]
+
+    monkeypatch.setattr("support_exudyn.sweeping.run.in_processes", all_at_once)
+    path = write_sweep(tmp_path, '"machine.speed_m_per_s" = [0.1, 0.2, 0.1]')
+    assert do(path).done == 3
+    assert columns(tmp_path / "store")["status"] == ["done"] * 3
+    assert do(path).found == 2  # runs, not rows
+
+
+def test_what_ends_after_an_interruption_stands_in_the_table(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted(tasks, store, workers):  # type: ignore[no-untyped-def]
+        for task in tasks:
+            work.run_into(store, task)
+            raise KeyboardInterrupt
+        yield
+
+    monkeypatch.setattr("support_exudyn.sweeping.run.in_processes", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        do(write_sweep(tmp_path, speeds(2)))
+    assert columns(tmp_path / "store")["status"] == ["done", "waiting"]
+
+
 # --- going on ---
 
 
@@ -239,7 +267,7 @@ def test_if_all_are_refused_the_sweep_is(tmp_path: Path, ran: list[Task]) -> Non
 def test_two_at_once_are_kept_apart(tmp_path: Path, ran: list[Task]) -> None:
     path = write_sweep(tmp_path, speeds(2))
     (tmp_path / "store").mkdir()
-    with writing_alone(tmp_path / "store"), pytest.raises(BlockingIOError, match="another process"):
+    with writing_alone(tmp_path / "store"), pytest.raises(BlockingIOError, match=r"another process.*store"):
         do(path)
     assert not ran
 

@@ -17,7 +17,7 @@ from tests.processes import linux_only, session_of, wait_until
 from tests.reference.sweep_cases import columns, rows, speeds, start, write_sweep
 
 pytestmark = linux_only
-RUNS = 24
+RUNS = 18
 SOON = 60.0  # [s]; what comes at all has come by then, on a busy machine too
 
 
@@ -46,7 +46,7 @@ def test_a_run_whose_process_is_killed_is_a_row_and_is_tried_again(
 def test_interrupted_killed_and_hurt_it_ends_as_if_left_alone(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    path = write_sweep(tmp_path, speeds(RUNS), duration=0.04)
+    path = write_sweep(tmp_path, speeds(RUNS), duration=0.02)
     store, processes = tmp_path / "store", []
     options = "--workers", "2", "--out", str(store)
     try:

@@ -1,0 +1,256 @@
+"""Keys of runs, the store of a sweep and its table, without any run."""
+
+from __future__ import annotations
+
+import os
+import pickle
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+from pyarrow import csv
+
+from support_exudyn import reference_support
+from support_exudyn.datafiles import read_scenario
+from support_exudyn.drives import CubicStep
+from support_exudyn.result import FORMAT
+from support_exudyn.scenario import Scenario
+from support_exudyn.sealed import seal
+from support_exudyn.sweeping import key as keys
+from support_exudyn.sweeping.plan import Plan, Record
+from support_exudyn.sweeping.row import Number, Row
+from support_exudyn.sweeping.store import Store
+from support_exudyn.sweeping.table import Table, read_table
+from tests.processes import ROOT, environment
+
+STAND = """
+duration_s = 0.02
+record_period_s = 1e-3
+machine = "reference"
+[pins.rear_base]
+clearance_mm = 1.0
+"""
+
+
+def scenario(folder: Path) -> Scenario:
+    path = folder / "scenario.toml"
+    path.write_text(STAND, encoding="utf-8")
+    return read_scenario(path)
+
+
+# --- keys ---
+
+CHANGES: dict[str, Any] = {
+    "duration": 0.03,
+    "dimensions": 3,
+    "start": "settled",
+    "gravity": (0.0, -9.82),
+    "accuracy": "draft",
+    "formulation": "redundant",
+    "step": 4e-4,
+    "record_period": 2e-3,
+    "channels": ("tip.*",),
+    "drive": CubicStep(),
+    "pins": {},
+}
+
+
+def test_a_key_depends_on_every_input_and_on_how_it_is_run(tmp_path: Path) -> None:
+    one = scenario(tmp_path)
+    fields = one.to_data()
+    longer = replace(one, solver=replace(one.solver, impact_steps=2 * one.solver.impact_steps))
+    heavier = replace(one, machine=replace(reference_support(), start_hinge_height=2.0))
+    assert fields.keys() - CHANGES.keys() <= {
+        "type", "machine", "solver", "columns", "parts", "drives", "loads"
+    }  # fmt: skip
+    others = [replace(one, **{name: item}) for name, item in CHANGES.items()]
+    found = [keys.key(one), keys.key(one, errors=True), *map(keys.key, [longer, heavier, *others])]
+    assert len(set(found)) == len(found)
+    assert keys.key(scenario(tmp_path)) == found[0]
+
+
+def test_the_program_is_told_by_names_and_contents_of_its_sources(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for package in ("user_forces", "support_exudyn"):
+        (tmp_path / package / "figures").mkdir(parents=True)
+        monkeypatch.setattr(keys, package, SimpleNamespace(__path__=[str(tmp_path / package)]))
+    file = tmp_path / "support_exudyn" / "law.py"
+    found = []
+    for text in ("a = 1", "a = 2"):
+        file.write_text(text, encoding="utf-8")
+        found.append(keys._sources())
+    found.append(keys._sources())
+    assert found[0] != found[1] == found[2]
+    file.rename(file.with_name("other.py"))
+    assert keys._sources() != found[1]
+    file.with_name("other.py").rename(file)
+    (tmp_path / "support_exudyn" / "figures" / "style.py").write_text("a = 3", encoding="utf-8")
+    assert keys._sources() == found[1]  # it only looks
+
+
+def test_what_is_left_out_of_the_program_is_not_asked_by_a_run() -> None:
+    script = (
+        "import sys\n"
+        "from support_exudyn import Scenario, reference_support, simulate\n"
+        "simulate(Scenario(machine=reference_support(), duration=0.01, step=1e-3))\n"
+        "print(*(name.split('.')[1] for name in sys.modules if name.startswith('support_exudyn.')))\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", script], cwd=ROOT, env=environment(), capture_output=True, text=True, check=True
+    )
+    loaded = set(done.stdout.split())
+    assert {"linkages", "machines", "solver"} <= loaded
+    assert not loaded & set(keys.LOOKS)
+
+
+# --- a machine is read once ---
+
+
+def test_the_same_text_of_a_machine_is_one_machine_and_another_text_another(tmp_path: Path) -> None:
+    assert reference_support() is reference_support()
+    text = (ROOT / "support_exudyn" / "machines" / "reference.toml").read_text(encoding="utf-8")
+    (tmp_path / "ours.toml").write_text(text, encoding="utf-8")
+    path = tmp_path / "scenario.toml"
+    path.write_text('machine = "ours.toml"\nduration_s = 0.02\n', encoding="utf-8")
+    first = read_scenario(path)
+    (tmp_path / "ours.toml").write_text(f"# a remark\n{text}", encoding="utf-8")
+    assert keys.key(read_scenario(path)) == keys.key(first)
+    assert "start_hinge_height_mm = " in text
+    changed = "\n".join(
+        "start_hinge_height_mm = 2000" if line.startswith("start_hinge_height_mm") else line
+        for line in text.splitlines()
+    )
+    (tmp_path / "ours.toml").write_text(changed, encoding="utf-8")
+    again = read_scenario(path)
+    assert again.machine.start_hinge_height == 2.0  # type: ignore[attr-defined]
+    assert keys.key(again) != keys.key(first)
+
+
+def test_what_a_machine_remembers_is_not_sent(tmp_path: Path) -> None:
+    machine = reference_support()
+    known = replace(scenario(tmp_path), drive=CubicStep(), duration=5.0).machine
+    assert known is machine
+    assert machine._followed
+    sent = pickle.loads(pickle.dumps(machine))
+    assert sent == machine
+    assert not {"_followed", "_closing"} & vars(sent).keys()
+    assert machine._followed  # it still knows
+
+
+# --- the store ---
+
+
+def row(name: str, **more: Any) -> Row:
+    return Row(name, "done", numbers={"force.mean": Number(1.0, 0.5, "N")}, **more)
+
+
+def kept(store: Store, name: str) -> Row:
+    store.runs.mkdir(parents=True, exist_ok=True)
+    store.rows.mkdir(parents=True, exist_ok=True)
+    store.run_file(name).write_bytes(seal(b"a run", FORMAT))
+    return store.put(row(name))
+
+
+def test_a_row_under_another_name_is_none(tmp_path: Path) -> None:
+    store = Store(tmp_path)
+    kept(store, "a")
+    (store.rows / "b.json").write_bytes((store.rows / "a.json").read_bytes())
+    assert store.row("b") is None
+    assert store.row("a") is not None
+
+
+def test_a_run_is_read_again_if_its_file_is_older_or_newer_than_its_row(tmp_path: Path) -> None:
+    store = Store(tmp_path)
+    known = kept(store, "a")
+    file = store.run_file("a")
+    assert (known.size, known.modified) == (file.stat().st_size, file.stat().st_mtime_ns)
+    assert known == store.row("a")
+    os.utime(file, ns=(0, 0))
+    assert store.has_run(known)  # copied elsewhere, say
+    file.write_bytes(file.read_bytes()[:-1] + b"?")
+    os.utime(file, ns=(0, 0))
+    assert not store.has_run(known)
+    file.unlink()
+    assert not store.has_run(known)
+
+
+def test_what_killed_processes_left_is_cleared_before_and_after(tmp_path: Path) -> None:
+    store = Store(tmp_path)
+    store.rows.mkdir()
+    ended = subprocess.Popen([sys.executable, "-c", ""])
+    ended.wait()
+
+    def leave() -> None:
+        for folder in (store.folder, store.rows, store.runs):
+            folder.mkdir(exist_ok=True)
+            (folder / f".a-{ended.pid}-xyz.json").write_text("half", encoding="utf-8")
+
+    leave()
+    with store.writing():
+        assert not list(store.folder.rglob(".a-*"))
+        leave()
+    assert not list(store.folder.rglob(".*"))
+
+
+def test_only_rows_and_runs_of_other_keys_are_pruned(tmp_path: Path) -> None:
+    store = Store(tmp_path)
+    for name in "abc":
+        kept(store, name)
+    note = store.runs / "notes.txt"
+    note.write_text("of the user", encoding="utf-8")
+    assert store.prune(["b"]) == 2
+    assert sorted(path.name for path in store.folder.rglob("*") if path.is_file()) == [
+        "b.h5", "b.json", "notes.txt"
+    ]  # fmt: skip
+
+
+def test_what_is_noted_is_told_apart_by_all_of_it() -> None:
+    digests = [
+        Record().digest,
+        Record(("a.mean",)).digest,
+        Record(after=1.0).digest,
+        Record(until=1.0).digest,
+    ]
+    assert len(set(digests)) == 4
+    assert Record(keep_runs=False).digest == Record().digest
+
+
+# --- the table ---
+
+
+def test_columns_are_in_the_order_of_the_first_row_whenever_rows_come(tmp_path: Path) -> None:
+    def no_scenario(point: Any) -> Scenario:
+        raise AssertionError
+
+    def of(names: str, value: float) -> dict[str, Number]:
+        return {name: Number(value, None if name == "c" else 0.25, "N") for name in names}
+
+    table = Table(Plan([{"x": 3, "y": "q"}, {"x": 1, "y": "p"}, {"x": 2, "y": "r"}], no_scenario))
+    table.set(2, Row("k2", "done", wall_time=0.5, numbers=of("ca", 2.0)))
+    table.set(1, Row("", "failed", "because"))
+    table.set(0, Row("k0", "done", wall_time=0.25, numbers=of("ab", 1.0)))
+    table.write(tmp_path)
+    found = read_table(tmp_path).to_pydict()
+    assert found == {
+        "x": [3, 1, 2],
+        "y": ["q", "p", "r"],
+        "key": ["k0", "", "k2"],
+        "status": ["done", "failed", "done"],
+        "reason": ["", "because", ""],
+        "wall_time_s": [0.25, None, 0.5],
+        "a_N": [1.0, None, 2.0],
+        "a_N_error": [0.25, None, 0.25],
+        "b_N": [1.0, None, None],
+        "b_N_error": [0.25, None, None],
+        "c_N": [None, None, 2.0],
+    }
+    assert list(found)[6:] == ["a_N", "a_N_error", "b_N", "b_N_error", "c_N"]
+    texts = csv.read_csv(tmp_path / "table.csv").to_pydict()
+    assert np.array_equal(texts["x"], found["x"])
+    assert texts["a_N"] == found["a_N"]
