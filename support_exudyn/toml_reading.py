@@ -56,23 +56,20 @@ def parsed(text: str, where: str) -> dict[str, Any]:
 
 def _reason(said: str, text: str) -> str:
     """What is wrong with a text, from what the library says: with the line, and twofold keys by their name."""
+    lines = text.replace("\r\n", "\n").splitlines()
     place = PLACE.search(said)
-    if place is None:
-        last = f"at line {len(text.splitlines())}, the last"
-        return f"{said.replace('at end of document', last)}; allowed: TOML"
-    lines = text.replace("\r\n", "\n").split("\n")
-    line = lines[int(place[1]) - 1].strip() if int(place[1]) <= len(lines) else ""
-    what = PLACE.sub("", said)
+    number = int(place[1]) if place else len(lines)
+    line = short(lines[number - 1].strip()) if 0 < number <= len(lines) else "''"
+    what = PLACE.sub("", said).removesuffix(" (at end of document)")
     if what == "Cannot overwrite a value":
-        what, allowed = "its key has been given before", "once"
-    elif twice := TWICE.match(what):
+        return f"line {number}: {line}: its key has been given before; allowed: once"
+    if twice := TWICE.match(what):
         name = ".".join(re.findall(r"'([^']*)'", twice[1]))
-        what, allowed = f"the table {name} has been begun before", "once"
-    elif COMMA.search(line):
-        allowed = "decimals after a point, as in 1.5"
-    else:
-        allowed = "TOML"
-    return f"line {place[1]}: {short(line)}: {what}; allowed: {allowed}"
+        return f"line {number}: {line}: the table {name} has been begun before; allowed: once"
+    if place is None:
+        return f"{said.replace('at end of document', f'at line {number}, the last')}; allowed: TOML"
+    comma = COMMA.search(lines[number - 1]) if number <= len(lines) else None
+    return f"line {number}: {line}: {what}; allowed: {'decimals after a point, as in 1.5' if comma else 'TOML'}"
 
 
 def _decimal(text: str) -> Decimal:

@@ -41,6 +41,7 @@ from user_forces import (
     Flores,
     Hertz,
     InputError,
+    Material,
     TouchSpeed,
     internal_contact_stiffness,
 )
@@ -481,3 +482,16 @@ def test_the_bore_of_a_pin_is_its_own(tmp_path: Path) -> None:
     (tmp_path / "ours.toml").write_text(OURS.replace("[masses_kg]", bores), encoding="utf-8")
     found = scenario('machine = "ours.toml"\nduration_s = 1\n[pins.front_base]\nclearance_mm = 1', tmp_path)
     assert found.clearance_pins["front_base"].contact.bearing.bore_radius == 0.055
+
+
+def test_materials_of_bore_and_journal_are_their_own() -> None:
+    soft = '{name = "soft", elastic_modulus_GPa = 100, poisson_ratio = 0.3, density_kg_per_m3 = 7800}'
+    found = normal(f'law = "Hertz"\nstiffness = "internal"\njournal_material = {soft}')
+    material = Material(name="soft", elastic_modulus=1e11, poisson_ratio=0.3, density=7800.0)
+    assert found == Hertz(stiffness=internal_contact_stiffness(bearing(1.5), STEEL, material))
+
+
+def test_a_scenarios_bore_goes_before_that_of_the_machines_file() -> None:
+    text = TOP + "[pins.rear_base]\nclearance_mm = 1\nbore_radius_mm = 44"
+    assert "rear_base" in read_machine("reference").bore_radii
+    assert scenario(text).clearance_pins["rear_base"].contact.bearing.bore_radius == 0.044
