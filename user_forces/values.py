@@ -149,8 +149,8 @@ def _value_of(data: Any, depth: int) -> Any:
     if not isinstance(kind, str) or kind not in known:
         raise InputError(
             f"type = {short(kind)}: not a known type; allowed: those of {len(known)} classes, such as "
-            f"{', '.join(get_close_matches(str(kind), known, NEAR, 0.0))}; one's own have to be imported first, "
-            "on a command line by --import MODULE"
+            f"{', '.join(get_close_matches(str(kind), known, NEAR, 0.0))}; one's own have to be imported "
+            "first, on a command line by --import MODULE"
         )
     return known[kind](**{_name(k): _rebuilt(v, depth + 1) for k, v in data.items() if k != "type"})
 
