@@ -105,8 +105,14 @@ def _is_decorated(item: Any) -> bool:
 def _kept(function: Function, **options: bool) -> Function:
     dispatcher: Any = function
     if numba is not None:
-        dispatcher = numba.njit(cache=True, error_model="numpy", **options)(function)
-        if not _is_kept_only_while_unchanged(dispatcher):
+        try:
+            dispatcher = numba.njit(cache=True, error_model="numpy", **options)(function)
+            kept = _is_kept_only_while_unchanged(dispatcher)
+        except (
+            RuntimeError
+        ):  # neither beside the program nor in a home may files be written: compiled each time
+            kept = False
+        if not kept:
             dispatcher = numba.njit(error_model="numpy", **options)(function)
     _written[dispatcher] = cast(FunctionType, function)
     return dispatcher  # type: ignore[no-any-return]

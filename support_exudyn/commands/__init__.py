@@ -41,6 +41,7 @@ exit codes:
   0    done
   1    not done, for a reason that is said in one line: an input, a file, a run that cannot be finished
   2    the command line cannot be read
+  3    a sweep is done, but some of its runs failed
   130  interrupted
 """
 

@@ -9,8 +9,8 @@ from collections.abc import Mapping
 from rich.console import Console
 
 from support_exudyn import account
-from support_exudyn.command_line import add_json, add_times, answer, folder
-from support_exudyn.comparison import Difference, compared
+from support_exudyn.command_line import add_json, add_times, answer, folder, say
+from support_exudyn.comparison import Difference, compared, same_to_the_bit
 from support_exudyn.estimate import Estimate
 from support_exudyn.figures import windows
 from support_exudyn.figures.names import matching
@@ -57,6 +57,8 @@ def run(given: argparse.Namespace) -> None:
     ends = given.start, given.end
     piece = "" if ends == WHOLE else f", {windows.said(first, *ends)}"
     printed(lambda console: _table(console, found, f"{given.second.name} less {given.first.name}{piece}"))
+    if same := same_to_the_bit(first, second):
+        say(f"the same to the bit: all records of {same} channels")
 
 
 def _object(one: Difference) -> dict[str, object]:

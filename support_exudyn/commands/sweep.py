@@ -84,6 +84,11 @@ def run(given: argparse.Namespace) -> None:
     for name in outcome.missing:
         print(f"{name}: no run has this number", file=sys.stderr)
     _tell(outcome, given, f"{outcome.runs} runs: {_counts(outcome)}")
+    if outcome.unmet:
+        print(
+            f"{outcome.unmet} runs are less accurate than asked for; the table's reason tells which",
+            file=sys.stderr,
+        )
     if outcome.done < outcome.runs:
         print("some runs have failed; their reasons are in the table", file=sys.stderr)
         raise SystemExit(FAILURES)

@@ -246,7 +246,9 @@ def _has_no_default(cls: type[Value], name: str) -> bool:
 def _unknown(key: str, shapes: Mapping[str, FieldShape], also: tuple[str, ...]) -> str:
     """What is said of a key that no field has: what it may have been meant to be."""
     for field in shapes.values():
-        if key == field.name or (field.unit is not None and key.startswith(f"{field.name}_")):
+        if field.unit is not None and key.startswith(f"{field.name}_"):
+            return f"has another unit; allowed: {', '.join(field.keys)}"
+        if key == field.name:
             return f"is written with its unit; allowed: {', '.join(field.keys)}"
     usual = [*also, *(one.keys[0] for one in shapes.values())]
     every = [*also, *(key for one in shapes.values() for key in one.keys)]

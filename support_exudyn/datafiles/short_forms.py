@@ -102,6 +102,10 @@ class ShortForms:
         try:
             return short.pin(self.data.bore_radii.get(place[-1]))
         except InputError as error:
+            if short.bore_radius is None and place[-1] not in self.data.bore_radii:
+                bores = ", ".join(self.data.bore_radii) or "no pin"
+                reader.faults.add(place, f"{error}; it says those of {bores}")
+                return FAILED
             for line in str(error).splitlines():
                 reader.faults.add(place, line)
             return FAILED

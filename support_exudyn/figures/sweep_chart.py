@@ -20,6 +20,7 @@ from user_forces.values import InputError, short
 if TYPE_CHECKING:
     import pyarrow as pa
 
+LITTLE = 1e-3  # share of a number in whose unit a smaller difference is still shown
 LOST = "#666666"  # runs without a result
 # curves: colours that are told apart by all readers, lightness and markers for grey prints
 CURVES = (
@@ -33,7 +34,8 @@ CURVES = (
 def sweep_chart(table: pa.Table, x: str, y: str, by: str | None = None) -> Figure:
     """One number over one varied field, with estimated errors as bars; runs that failed are marked on the axis.
 
-    Points are joined where there is but one for every place on the axis.
+    Points are joined where there is but one for every place on the axis and nothing else was varied: a line
+    between runs that differ in more than the axis tells would look like a course of the number.
 
     Arguments:
         table: of a sweep, as `read_table` gives it.
@@ -53,9 +55,9 @@ def sweep_chart(table: pa.Table, x: str, y: str, by: str | None = None) -> Figur
     if np.isnan(values).all():
         raise InputError(f"{y}: no run has this number; allowed: {_some(_numbers(table))}")
     unit = _metadata(table, y).get("unit", "")
-    shown = readable_change(
-        unit, float(np.nanmax(np.abs(values))), float(np.nanmax(values) - np.nanmin(values))
-    )
+    apart = float(np.nanmax(values) - np.nanmin(values))
+    shown = readable_change(unit, float(np.nanmax(np.abs(values))), apart)
+    alike = all(name in (x, by) or len(set(map(str, rows[name]))) == 1 for name in varied)
     known = f"{y}_error" in rows
     errors = np.array([np.nan if one is None else one for one in rows[f"{y}_error"]]) if known else None
     drawing = Figure(figsize=style.size(170, 95))
@@ -63,7 +65,7 @@ def sweep_chart(table: pa.Table, x: str, y: str, by: str | None = None) -> Figur
     for label, chosen, (colour, marker, dashes) in _curves(rows, by, len(values)):
         there = chosen & ~np.isnan(values)
         order = np.flatnonzero(there)[np.argsort(places[there], kind="stable")]
-        alone = len(np.unique(places[order])) == order.size
+        alone = alike and len(np.unique(places[order])) == order.size
         bars = None if errors is None else shown.scale * np.nan_to_num(errors[order])
         axes.errorbar(
             places[order], shown.scale * values[order], bars, color=colour, marker=marker, ms=5, mfc="none",

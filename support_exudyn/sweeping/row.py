@@ -24,8 +24,9 @@ class Row:
     """A run, or why there is none.
 
     status: "done"; "failed": it cannot be run, or could not be finished, and would not be if it were tried
-    again; "killed": its process ended. reason: why. wall_time: of the run [s]. noted: what was to be noted, see
-    `Record.digest`. size, modified: of the run's file [bytes; ns], when it was known to be whole.
+    again; "killed": its process ended. reason: why, or of a run that is done how far it is from its accuracy.
+    wall_time: of the run [s]. noted: what was to be noted, see `Record.digest`. size, modified: of the run's
+    file [bytes; ns], when it was known to be whole.
     """
 
     key: str

@@ -28,8 +28,8 @@ class Outcome:
     """How far a sweep is.
 
     runs: of the plan. table: where it is. found: were in the store already. done, failed, killed: rows of the
-    table. pruned: runs that were removed from the store. missing: numbers that were asked for and that no run
-    has.
+    table. unmet: done, but less accurate than asked for. pruned: runs that were removed from the store.
+    missing: numbers that were asked for and that no run has.
     """
 
     runs: int
@@ -38,6 +38,7 @@ class Outcome:
     done: int = 0
     failed: int = 0
     killed: int = 0
+    unmet: int = 0
     pruned: int = 0
     missing: tuple[str, ...] = ()
 
@@ -189,6 +190,7 @@ class _Keeper:
         for number in numbers:
             self.table.set(number, row)
             setattr(self._outcome, row.status, getattr(self._outcome, row.status) + 1)
+            self._outcome.unmet += row.status == "done" and bool(row.reason)
         self._progress(self._outcome)
 
     def write(self) -> None:

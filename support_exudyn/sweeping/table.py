@@ -25,7 +25,7 @@ UNIT_WORDS = {"^": "", "/": "_per_", " ": "_"}
 MEANINGS = {
     "key": "name of the run's files in the store",
     "status": "done, failed (it cannot be run, or stopped), killed (its process ended)",
-    "reason": "why there are no numbers",
+    "reason": "why there are no numbers, or why they are less accurate than asked for",
     "wall_time_s": "time that the run took",
 }
 

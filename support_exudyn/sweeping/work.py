@@ -42,7 +42,9 @@ def computed(task: Task) -> tuple[Row, Result | None]:
 def row_of(task: Task, result: Result) -> Row:
     """Of a run that was finished."""
     found = numbers(result, task.record)
-    return Row(task.key, "done", wall_time=result.wall_time, numbers=found, noted=task.record.digest)
+    met = result.goal is None or result.met
+    reason = "" if met else f"accuracy {result.goal:g}: NOT met, {result.worst_error:.1g} is estimated"
+    return Row(task.key, "done", reason, result.wall_time, found, task.record.digest)
 
 
 def run_into(store: Store, task: Task) -> Row:

@@ -12,7 +12,7 @@ import pytest
 
 from support_exudyn import CubicStep, Result, simulate
 from support_exudyn.__main__ import main
-from support_exudyn.comparison import compared
+from support_exudyn.comparison import compared, same_to_the_bit
 from tests.reference.cases import loose_slider_crank, loose_support, support
 from user_forces import InputError
 
@@ -66,6 +66,20 @@ def test_a_run_less_itself_is_nothing(runs: Path) -> None:
     (loose,) = of(runs, "loose")
     found = compared(loose, loose, ["tip.x"])["tip.x"]
     assert (found.mean.value, found.largest.value) == (0.0, 0.0)
+
+
+def test_runs_of_the_same_bits_are_told(runs: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    ideal, loose = of(runs, "ideal", "loose")
+    assert same_to_the_bit(loose, Result.load(runs / "loose.h5")) == len(loose.channels)
+    assert same_to_the_bit(ideal, loose) == 0
+    nudged = Result.load(runs / "loose.h5")
+    nudged["tip.x"][-1] = np.nextafter(nudged["tip.x"][-1], np.inf)
+    assert same_to_the_bit(loose, nudged) == 0
+    loose_file = str(runs / "loose.h5")
+    assert main(["compare", loose_file, loose_file, "tip.x"]) == 0
+    assert f"the same to the bit: all records of {len(loose.channels)} channels\n" in capsys.readouterr().out
+    assert main(["compare", str(runs / "ideal.h5"), loose_file, "tip.x"]) == 0
+    assert "to the bit" not in capsys.readouterr().out
 
 
 def test_common_records_of_different_periods_are_compared(runs: Path) -> None:

@@ -89,6 +89,22 @@ def test_without_a_list_the_usual_numbers_are_noted_with_their_errors(tmp_path: 
             assert table[f"{title}_error"][0] == error
 
 
+def test_runs_that_miss_their_accuracy_are_told(
+    tmp_path: Path, ran: list[Task], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = write_sweep(tmp_path, speeds(2))
+    text = path.read_text(encoding="utf-8").replace("[scenario]\n", '[scenario]\naccuracy = "draft"\n')
+    path.write_text(text, encoding="utf-8")
+    monkeypatch.setattr(Result, "met", False)  # as where every touch multiplies the errors before it
+    outcome = do(path)
+    table = read_table(outcome.table).to_pydict()
+    assert table["status"] == ["done", "done"]
+    assert outcome.unmet == 2
+    assert all(one.startswith("accuracy 0.01: NOT met, ") for one in table["reason"])
+    assert main(["sweep", str(path), "--out", str(path.parent / "store")]) == 0
+    assert "2 runs are less accurate than asked for" in capsys.readouterr().err
+
+
 def test_patterns_note_what_runs_have(tmp_path: Path, ran: list[Task]) -> None:
     path = write_sweep(tmp_path, speeds(2), record='numbers = ["pin.*.force.m??", "*.first"]')
     names = read_table(do(path).table).column_names

@@ -154,7 +154,7 @@ def test_a_table_says_its_type_where_there_are_several() -> None:
         (
             JournalBearing,
             "bore_radius_mm = 60\nclearance_kg = 1",
-            "a.toml: clearance_kg: is written with its unit; allowed: clearance_mm, clearance_m",
+            "a.toml: clearance_kg: has another unit; allowed: clearance_mm, clearance_m",
         ),
         (JournalBearing, "bore_radius_mm = 60", "a.toml: clearance_mm: missing; it has no default"),
         (

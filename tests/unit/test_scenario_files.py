@@ -327,6 +327,11 @@ def test_files_are_written_whole(tmp_path: Path) -> None:
             TOP + "[columns.front_column]\ntype = 'TwoBodyColumn'\nrod_mass = 3",
             "a.toml: columns.front_column.rod_mass: is written with its unit; allowed: rod_mass_kg, rod_mass_t",
         ),
+        (TOP + "duration_min = 1", "a.toml: duration_min: has another unit; allowed: duration_s, duration_ms"),
+        (
+            "kind = 'two_leg_shield'\nstroke_mm = 3\n[masses_kg]\ncanopy = 3",
+            "a.toml: kind: is a key of machines; allowed: a scenario, which names one by machine",
+        ),
     ],
 )
 def test_mistakes_are_said_with_file_key_value_and_range(tmp_path: Path, text: str, said: str) -> None:
@@ -342,6 +347,13 @@ def test_a_bore_that_nobody_gives_is_asked_for(tmp_path: Path) -> None:
     (tmp_path / "mine.toml").write_text(text, encoding="utf-8")
     said = refusal('machine = "mine.toml"\nduration_s = 1\n[pins.front_base]\nclearance_mm = 1', tmp_path)
     assert said.startswith("a.toml: pins.front_base: bore_radius_mm: missing, and the machine's file says none")
+
+
+def test_a_misspelt_pin_is_told_those_that_have_bores() -> None:
+    said = refusal(TOP + "[pins.rear_pin]\nclearance_mm = 1")
+    assert said.startswith("a.toml: pins.rear_pin: bore_radius_mm: missing")
+    assert "it says those of " in said
+    assert "rear_base" in said.partition("it says those of ")[2]
 
 
 def test_a_column_of_the_file_and_a_drive_of_the_table_are_one_too_many(tmp_path: Path) -> None:

@@ -1,0 +1,31 @@
+"""Compiled code where no file may be written to keep it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numba
+import pytest
+
+from support_exudyn import compiled
+
+
+def twice(value: float) -> float:
+    return 2.0 * value
+
+
+def test_what_cannot_be_kept_is_compiled_all_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[bool] = []
+    njit = numba.njit
+
+    def without_a_place(*args: Any, cache: bool = False, **options: Any) -> Any:
+        asked.append(cache)
+        if cache:  # as numba says it beside a read-only program of a user without a home
+            raise RuntimeError("cannot cache function 'twice': no locator available for file 'a.py'")
+        return njit(*args, **options)
+
+    monkeypatch.setattr(numba, "njit", without_a_place)
+    dispatcher = compiled._kept(twice)
+    monkeypatch.delitem(compiled._written, dispatcher)
+    assert dispatcher(21.0) == 42.0
+    assert asked[:2] == [True, False]  # then numba compiles helpers of its own
