@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from studies import slack, which_pin
+from studies import slack, which_pin_cases
 from support_exudyn import (
     AppliedForce,
     ClearancePin,
@@ -99,7 +99,7 @@ def test_times_in_disorder_are_refused() -> None:
 
 def test_worn_pins_let_a_roof_push_the_tip_forward() -> None:
     # all five pins slack, without friction: to the rear under the weight, forward under a roof of 1 MN
-    pins = dict.fromkeys(reference_support().linkage().pins, which_pin.slack_pin(0.0))
+    pins = dict.fromkeys(reference_support().linkage().pins, which_pin_cases.slack_pin(0.0))
     stand = slack.standing(reference_support())
     for presses, loads in (
         ([], {}),

@@ -10,16 +10,16 @@ from typing import Any
 import numpy as np
 import pytest
 
-from studies import rise, slack
-from studies import which_pin as study
+from studies import rise, slack, which_pin, which_pin_cases
 from studies.reporting.chapter import Chapter
 from studies.which_pin_posture import loads, mean_shift
+from studies.which_pin_tables import in_order
 from support_exudyn import ClearancePin, CubicStep, Result, SolverSettings, reference_support, simulate
 from support_exudyn.eccentric import eccentric
 from user_forces import Ambrosio, Exact, Hertz, JournalBearing, JournalContact, KelvinVoigt, Threlfall
 
 PINS = tuple(reference_support().linkage().pins)
-DRY, SMOOTH = study.FRICTIONS
+DRY, SMOOTH = which_pin_cases.FRICTIONS
 SUPPORT = reference_support()
 
 Numbers = dict[tuple[str, str], dict[str, Any]]
@@ -28,7 +28,7 @@ Numbers = dict[tuple[str, str], dict[str, Any]]
 @pytest.fixture(scope="module")
 def out(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("results")
-    assert study.main(["--quick", "--out", str(folder), "--workers", "2"]) == 0
+    assert which_pin.main(["--quick", "--out", str(folder), "--workers", "2"]) == 0
     return folder
 
 
@@ -39,21 +39,21 @@ def numbers(out: Path) -> Numbers:
 
 
 def alone(numbers: Numbers, name: str, friction: float) -> dict[str, float]:
-    return {pin: numbers[name, study.case_name((pin,), friction)]["value"] for pin in PINS}
+    return {pin: numbers[name, which_pin_cases.case_name((pin,), friction)]["value"] for pin in PINS}
 
 
-@pytest.mark.parametrize("friction", study.FRICTIONS)
+@pytest.mark.parametrize("friction", which_pin_cases.FRICTIONS)
 def test_front_links_pins_move_the_tip_most_and_the_hinge_hardly(numbers: Numbers, friction: float) -> None:
     effects = alone(numbers, "mean_tip_shift_forward", friction)
     # a link between two pins is pressed alike at both ends: those differ by 1 %, links by a quarter
-    assert study.in_order(effects) == "front_base = front_shield > rear_base = rear_shield > shield_canopy"
+    assert in_order(effects) == "front_base = front_shield > rear_base = rear_shield > shield_canopy"
 
 
-@pytest.mark.parametrize("friction", study.FRICTIONS)
+@pytest.mark.parametrize("friction", which_pin_cases.FRICTIONS)
 @pytest.mark.parametrize("axis", ["tip_shift_forward", "tip_shift_up", "canopy_tilt"])
 def test_virtual_work_tells_where_the_worn_support_stands(numbers: Numbers, axis: str, friction: float) -> None:
     for pins in (*((pin,) for pin in PINS), PINS):
-        case = study.case_name(pins, friction)
+        case = which_pin_cases.case_name(pins, friction)
         # first order in slack over length: 0.2 % alone, 0.6 to 0.8 % for five; the hinge alone, whose journal
         # crosses its bore, 1 % of next to nothing
         assert numbers[f"mean_{axis}", case]["value"] == pytest.approx(
@@ -61,9 +61,9 @@ def test_virtual_work_tells_where_the_worn_support_stands(numbers: Numbers, axis
         )
 
 
-@pytest.mark.parametrize("friction", study.FRICTIONS)
+@pytest.mark.parametrize("friction", which_pin_cases.FRICTIONS)
 def test_shifts_add_up_and_shaking_does_not(numbers: Numbers, friction: float) -> None:
-    whole = study.case_name(PINS, friction)
+    whole = which_pin_cases.case_name(PINS, friction)
     shift = sum(alone(numbers, "mean_tip_shift_forward", friction).values())
     assert numbers["mean_tip_shift_forward", whole]["value"] == pytest.approx(shift, rel=0.01)  # 0.5 and 0.8 %
     shaking = np.hypot.reduce(list(alone(numbers, "ripple_pin_forces", friction).values()))
@@ -72,7 +72,7 @@ def test_shifts_add_up_and_shaking_does_not(numbers: Numbers, friction: float) -
 
 def test_friction_makes_the_shaking_and_hardly_moves_the_tip(numbers: Numbers) -> None:
     for friction, other in ((DRY, SMOOTH),):
-        case, smooth = study.case_name(PINS, friction), study.case_name(PINS, other)
+        case, smooth = which_pin_cases.case_name(PINS, friction), which_pin_cases.case_name(PINS, other)
         shift = (numbers["mean_tip_shift_forward", one]["value"] for one in (case, smooth))
         assert np.ptp(list(shift)) < 0.2  # [mm] of 17
         shaken, still = (numbers["ripple_pin_forces", one]["value"] for one in (case, smooth))
@@ -81,7 +81,7 @@ def test_friction_makes_the_shaking_and_hardly_moves_the_tip(numbers: Numbers) -
 
 def test_order_joins_what_is_alike() -> None:
     effects = dict.fromkeys(PINS, 1.0) | {"shield_canopy": -2.0, "rear_base": 0.97}
-    assert study.in_order(effects) == "shield_canopy > rear_base = front_base = rear_shield = front_shield"
+    assert in_order(effects) == "shield_canopy > rear_base = front_base = rear_shield = front_shield"
 
 
 # --- the closed form ---
@@ -101,7 +101,7 @@ def test_influence_is_that_of_the_linkage_laid_out_anew() -> None:
 
 def test_shift_is_the_work_of_a_unit_force_at_the_tip() -> None:
     stand = slack.standing(SUPPORT)
-    pins = dict.fromkeys(PINS, study.slack_pin(0.0))
+    pins = dict.fromkeys(PINS, which_pin_cases.slack_pin(0.0))
     tip = SUPPORT.linkage().points["tip"].point
     weight = slack.forces(stand, {})
     for axis, unit in ((slack.TIP_X, (1.0, 0.0)), (slack.TIP_Y, (0.0, 1.0))):
@@ -114,7 +114,7 @@ def test_shift_is_the_work_of_a_unit_force_at_the_tip() -> None:
 
 def test_journals_lie_along_their_load_by_clearance_and_depth() -> None:
     stand = slack.standing(SUPPORT)
-    pin = study.slack_pin(0.0)
+    pin = which_pin_cases.slack_pin(0.0)
     for name, opening in slack.openings(stand, dict.fromkeys(PINS, pin)).items():
         first = 2 * PINS.index(name)
         load = slack.forces(stand, {})[first : first + 2]
@@ -125,13 +125,13 @@ def test_journals_lie_along_their_load_by_clearance_and_depth() -> None:
 
 
 def test_a_roof_turns_the_shift_around() -> None:
-    under = loads(study.slack_pin(0.0))
+    under = loads(which_pin_cases.slack_pin(0.0))
     whole = {name: sum(one.mean(pin) for pin in PINS) for name, one in under.items()}
     # the weight of links and shield leans the four-bar to the rear, what presses on the canopy in front pushes
     # it forward: -17 and +19 mm
     assert whole["weight alone"] < -0.015
     assert whole["1 MN down over the columns"] > 0.015
-    orders = {study.in_order({pin: one.mean(pin) for pin in PINS}) for one in under.values()}
+    orders = {in_order({pin: one.mean(pin) for pin in PINS}) for one in under.values()}
     assert orders == {"front_base = front_shield > rear_base = rear_shield > shield_canopy"}
 
 
@@ -143,14 +143,14 @@ def test_every_pin_may_have_its_own_law_and_clearance(out: Path) -> None:
 
     own = {
         "rear_base": pin(0.5e-3, Exact(stiffness=2.7e10, restitution=0.5), Ambrosio(sliding_coefficient=0.1)),
-        "front_base": pin(1.0e-3, study.slack_pin(0.0).contact.normal),
+        "front_base": pin(1.0e-3, which_pin_cases.slack_pin(0.0).contact.normal),
         "rear_shield": pin(2.0e-3, KelvinVoigt(stiffness=4e8, damping=4e5)),
         "front_shield": pin(
             0.8e-3, Exact(stiffness=2e10, restitution=0.3), Threlfall(sliding_coefficient=0.15)
         ),
         "shield_canopy": pin(1.5e-3, Hertz(stiffness=2.7e10)),
     }
-    ideal = study.scenarios(True)[study.IDEAL]
+    ideal = which_pin_cases.scenarios(True)[which_pin_cases.IDEAL]
     scene = replace(ideal, pins=own, start="settled", step=2e-3, solver=SolverSettings(impact_steps=16))
     run, plain = simulate(scene), Result.load(out / "runs" / "ideal.h5")
     shift = float(rise.departure(run, plain, "tip.x").mean())

@@ -6,81 +6,88 @@ from dataclasses import replace
 
 import pytest
 
-from studies import which_pin as pins
+from studies import which_pin_cases, which_pin_measures, which_pin_tables, which_pin_words
 from studies.drive_mode_cases import PINS as CASES
 from studies.drive_mode_cases import case_name
 from studies.drive_mode_tables import CONVERGES, DIVERGES, OPEN
 from studies.drive_mode_words import VELOCITY, _converging_said, _velocity_said
 from studies.reporting.wording import by_case
 from studies.study import Number
+from studies.which_pin_tables import together_sheet
+from support_exudyn.linkages.four_bar_shield import PINS
 
-A, B, C, D, E = pins.PINS
+A, B, C, D, E = PINS
 SHIFT, RIPPLE = "mean_tip_shift_forward", "ripple_pin_forces"
 
 
 def made_up(errors: float = 0.0) -> dict[tuple[str, str], Number]:
     """All numbers of the quick form: each pin has its own effect, and all five what they should together."""
     numbers = []
-    for name, (unit, _) in pins.MEASURES.items():
-        for friction in pins.FRICTIONS:
-            singles = [10.0 * 2.0**n for n in range(len(pins.PINS))]
+    for name, (unit, _) in which_pin_measures.MEASURES.items():
+        for friction in which_pin_cases.FRICTIONS:
+            singles = [10.0 * 2.0**n for n in range(len(PINS))]
             numbers += [
-                Number(name, pins.case_name((pin,), friction), value, unit, errors * value)
-                for pin, value in zip(pins.PINS, singles, strict=True)
+                Number(name, which_pin_cases.case_name((pin,), friction), value, unit, errors * value)
+                for pin, value in zip(PINS, singles, strict=True)
             ]
-            whole = pins._root_of_squares(singles) if name == RIPPLE else sum(singles)
-            numbers.append(Number(name, pins.case_name(pins.PINS, friction), whole, unit, 0.0))
-        numbers.append(Number(name, pins.IDEAL, 1.0, unit, 0.0))
+            whole = which_pin_tables.root_of_squares(singles) if name == RIPPLE else sum(singles)
+            numbers.append(Number(name, which_pin_cases.case_name(PINS, friction), whole, unit, 0.0))
+        numbers.append(Number(name, which_pin_cases.IDEAL, 1.0, unit, 0.0))
     return by_case(numbers)
 
 
 def test_an_order_is_open_where_errors_reach_over_it() -> None:
     effects = {A: 100.0, B: -50.0, C: 20.0, D: 19.5, E: 1.0}
-    assert pins.in_order(effects) == f"{A} > {B} > {C} = {D} > {E}"
-    errors = dict.fromkeys(pins.PINS, 0.0)
-    assert pins.in_order(effects, errors | {A: 60.0}) == f"{A} ? {B} > {C} = {D} > {E}"
+    assert which_pin_tables.in_order(effects) == f"{A} > {B} > {C} = {D} > {E}"
+    errors = dict.fromkeys(PINS, 0.0)
+    assert which_pin_tables.in_order(effects, errors | {A: 60.0}) == f"{A} ? {B} > {C} = {D} > {E}"
     # the first reaches down to the third
-    assert pins.in_order(effects, errors | {A: 85.0}) == f"{A} ? {B} ? {C} = {D} > {E}"
-    assert pins.in_order(effects, errors | {E: 40.0}) == f"{A} > {B} > {C} = {D} ? {E}"
+    assert which_pin_tables.in_order(effects, errors | {A: 85.0}) == f"{A} ? {B} ? {C} = {D} > {E}"
+    assert which_pin_tables.in_order(effects, errors | {E: 40.0}) == f"{A} > {B} > {C} = {D} ? {E}"
 
 
 @pytest.mark.parametrize(("errors", "sign"), [(0.0, " > "), (0.4, " ? ")])
 def test_rankings_know_the_errors(errors: float, sign: str) -> None:
     found = made_up(errors)
-    order = sign.join(reversed(pins.PINS))
-    assert order in pins._ranking(found, "by the shaking", 0.25)
-    rows = pins.condition_sheet(found).rows
+    order = sign.join(reversed(PINS))
+    assert order in which_pin_words._ranking(found, "by the shaking", 0.25)
+    rows = which_pin_tables.condition_sheet(found).rows
     assert {row[-1] for row in rows} == {order}
-    assert [row[0] for row in pins.ranking_sheet(found, "by the shaking", 0.25).rows] == [
-        *reversed(pins.PINS), pins.ALL, pins.IDEAL,
+    assert [row[0] for row in which_pin_tables.ranking_sheet(found, "by the shaking", 0.25).rows] == [
+        *reversed(PINS), which_pin_cases.ALL, which_pin_cases.IDEAL,
     ]  # fmt: skip
-    assert "is the same with every" in pins._conditions_said(found)
+    assert "is the same with every" in which_pin_words._conditions_said(found)
 
 
 def test_sums_are_said_to_add_up_if_they_do() -> None:
     found = made_up()
-    said = pins._together_said(found, 0.25)
+    said = which_pin_words._together_said(found, 0.25)
     assert "+0.0 % off the sum of the single ones: shifts add up" in said
     assert "shaking can be told" in said
-    assert {row[-1] for row in pins.together_sheet(found).rows} == {"+0 %"}
-    whole = pins.case_name(pins.PINS, 0.25)
+    assert {row[-1] for row in together_sheet(found).rows} == {"+0 %"}
+    whole = which_pin_cases.case_name(PINS, 0.25)
     for name in (SHIFT, RIPPLE):
         found[name, whole] = replace(found[name, whole], value=3.0 * found[name, whole].value)
-    said = pins._together_said(found, 0.25)
+    said = which_pin_words._together_said(found, 0.25)
     assert "+200.0 % off the sum of the single ones: shifts do not add up" in said
     assert "+200 % off" in said
     assert "shaking cannot be told" in said
-    assert [row[-1] for row in pins.together_sheet(found).rows] == ["+200 %", "+200 %", "+0 %", "+0 %"]
+    assert [row[-1] for row in together_sheet(found).rows] == [
+        "+200 %",
+        "+200 %",
+        "+0 %",
+        "+0 %",
+    ]
 
 
 def test_the_worst_case_of_the_closed_form_is_told() -> None:
     found = made_up()
     for pin, off in ((A, 1.02), (B, 0.96)):
-        case = pins.case_name((pin,), 0.0)
+        case = which_pin_cases.case_name((pin,), 0.0)
         form = found[SHIFT, case].value / off
         found["closed_form_tip_shift_forward", case] = Number("form", case, form, "mm", 0.0)
-    assert f"all 2 cases within 4.0 % ({B}, mu_d = 0)" in pins._closed_form_said(found)
-    assert [row[-1] for row in pins.posture_sheet(found).rows] == ["+2.00 %", "-4.00 %"]
+    assert f"all 2 cases within 4.0 % ({B}, mu_d = 0)" in which_pin_words._closed_form_said(found)
+    assert [row[-1] for row in which_pin_tables.posture_sheet(found).rows] == ["+2.00 %", "-4.00 %"]
 
 
 def test_what_was_halved_once_is_not_said_to_diverge() -> None:

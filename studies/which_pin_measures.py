@@ -1,0 +1,105 @@
+"""What `which_pin` measures of a run, against the one with ideal pins."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+import numpy as np
+
+from studies import rise
+from studies.study import (
+    Number,
+    Pair,
+)
+from studies.which_pin_cases import FORCES, IDEAL, SHAKEN
+from studies.which_pin_posture import posture_numbers
+from support_exudyn import Result
+from support_exudyn.linkages.four_bar_shield import PINS
+
+Get = Callable[[Result, Result], float]  # of a run and that of ideal pins
+
+
+def _mean_shift(channel: str, scale: float) -> Get:
+    return lambda run, ideal: scale * float(rise.departure(run, ideal, channel).mean())
+
+
+def _largest_shift(run: Result, ideal: Result) -> float:
+    along, up = (rise.departure(run, ideal, name) for name in ("tip.x", "tip.y"))
+    return 1e3 * float(np.hypot(along, up).max())
+
+
+def _mean(channel: str) -> Get:
+    return lambda run, ideal: float(run[channel][rise.in_rise(run)].mean())
+
+
+def _change(channel: str) -> Get:
+    return lambda run, ideal: 100.0 * (_mean(channel)(run, ideal) / _mean(channel)(ideal, ideal) - 1.0)
+
+
+def _largest(channel: str) -> Get:
+    return lambda run, ideal: float(np.abs(run[channel][rise.in_rise(run)]).max())
+
+
+def _ripple(channel: str, scale: float = 1.0) -> Get:
+    return lambda run, ideal: scale * rise.ripple(run, run[channel])
+
+
+def _pin_ripple(run: Result, ideal: Result) -> float:
+    """Root mean square of the ripples of all five pin forces [N]."""
+    return float(np.sqrt(np.mean([rise.ripple(run, run[f"pin.{name}.force"]) ** 2 for name in PINS])))
+
+
+def _most_changed(run: Result, ideal: Result) -> float:
+    return max(abs(_change(channel)(run, ideal)) for channel in FORCES)
+
+
+def _peak_over_ideal(run: Result, ideal: Result) -> float:
+    return max(_largest(channel)(run, ideal) / _largest(channel)(ideal, ideal) for channel in FORCES)
+
+
+def _lost(run: Result, ideal: Result) -> float:
+    inside = rise.in_rise(run)
+    lost = (run["energy.damping_loss"] + run["energy.friction_loss"])[inside]
+    return float(lost[-1] - lost[0])
+
+
+MEASURES: dict[str, tuple[str, Get]] = {
+    "mean_tip_shift_forward": ("mm", _mean_shift("tip.x", 1e3)),
+    "mean_tip_shift_up": ("mm", _mean_shift("tip.y", 1e3)),
+    "largest_tip_shift": ("mm", _largest_shift),
+    "mean_canopy_tilt": ("deg", _mean_shift("canopy.angle", rise.DEGREES)),
+    "largest_change_of_a_mean_force": ("%", _most_changed),
+    "largest_peak_over_ideal": ("1", _peak_over_ideal),
+    "ripple_pin_forces": ("N", _pin_ripple),
+    **{
+        f"ripple_{body}_angular_acceleration": (
+            "deg/s^2",
+            _ripple(f"{body}.angular_acceleration", rise.DEGREES),
+        )
+        for body in SHAKEN
+    },
+    "ripple_tip_forward": ("mm", _ripple("tip.x", 1e3)),
+    "energy_lost_in_rise": ("J", _lost),
+    **{f"mean_force_{name}": ("N", _mean(channel)) for channel, name in FORCES.items()},
+    **{f"change_of_mean_force_{name}": ("%", _change(channel)) for channel, name in FORCES.items()},
+    **{f"ripple_force_{name}": ("N", _ripple(channel)) for channel, name in FORCES.items()},
+    **{f"largest_force_{name}": ("N", _largest(channel)) for channel, name in FORCES.items()},
+}
+
+
+def measure(pairs: Mapping[str, Pair]) -> list[Number]:
+    """All numbers of the runs, and those of the closed form beside them."""
+    ideal = pairs[IDEAL].fine
+    numbers = [
+        pair.number(name, case, unit, _against(get, ideal))
+        for case, pair in pairs.items()
+        for name, (unit, get) in MEASURES.items()
+    ]
+    for case, pair in pairs.items():
+        if case != IDEAL:
+            numbers += posture_numbers(case, pair.fine.scenario)
+    return numbers
+
+
+def _against(get: Get, ideal: Result) -> Callable[[Result], float]:
+    return lambda result: get(result, ideal)
