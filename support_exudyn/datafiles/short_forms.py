@@ -70,6 +70,9 @@ def _own(name: str, folder: Path) -> str:
     return said(near[0]) if near else ""
 
 
+OF_CRANKS = 'none of cranks, for modes extend columns; type = "Steady" with rate_rpm, or a table in degrees'
+
+
 class ShortForms:
     """Readers of the short forms.
 
@@ -122,6 +125,9 @@ class ShortForms:
         """A mode of the paper, or a column of a file."""
         if not isinstance(item, dict) or "type" in item:
             return None
+        if "mode" in item and self._turns(place[-1]):
+            reader.faults.wrong((*place, "mode"), item["mode"], OF_CRANKS)
+            return FAILED
         if "mode" in item:
             mode = reader.value(DriveMode, item, place)
             if isinstance(mode, Failed) or self.data is None:

@@ -237,6 +237,10 @@ def test_files_are_written_whole(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "said"),
     [
+        (
+            'machine = "slider_crank"\nduration_s = 1\n[drive]\nmode = 2\nstroke_mm = 1',
+            "a.toml: drive.mode = 2: allowed: none of cranks",
+        ),
         ("", "a.toml: machine: missing; allowed: a path that ends in .toml"),
         ('machine = "reference"', "a.toml: duration_s: missing; it has no default"),
         ("machine = 3\nduration_s = 1", "a.toml: machine = 3: allowed: a path that ends in .toml"),
