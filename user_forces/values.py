@@ -147,7 +147,7 @@ def _value_of(data: Any, depth: int) -> Any:
     kind = data.get("type") if isinstance(data, Mapping) else None
     known = _kinds_of(Value)
     if not isinstance(kind, str) or kind not in known:
-        near = ", ".join(get_close_matches(str(kind), known, NEAR, 0.0))
+        near = ", ".join(get_close_matches(kind if isinstance(kind, str) else "", known, NEAR, 0.0))
         raise InputError(
             f"type = {short(kind)}: not a known type; allowed: those of {len(known)} classes, such as {near}; "
             "one's own have to be imported first, on a command line by --import MODULE"

@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 
 from support_exudyn.checking.statics import Statics, statics
-from support_exudyn.linkages.four_bar_shield import BODIES, LONGEST_STEP, FourBarShield
+from support_exudyn.linkages.four_bar_shield import LONGEST_STEP, FourBarShield
+from support_exudyn.linkages.shield_layout import BODIES
 from support_exudyn.machine import Linkage
 from support_exudyn.plane import direction, distance, minus, moved
 from user_forces.values import InputError, Vector2

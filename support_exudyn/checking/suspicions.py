@@ -6,7 +6,8 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from support_exudyn.linkages.four_bar_shield import BODIES, TAIL, TAIL_PLACES, FourBarShield
+from support_exudyn.linkages.four_bar_shield import FourBarShield
+from support_exudyn.linkages.shield_layout import BODIES, TAIL, TAIL_PLACES
 from support_exudyn.machine import GROUND, lumped
 from support_exudyn.machine_data import MachineData
 from support_exudyn.plane import distance

@@ -75,11 +75,6 @@ def scenario_of(table: Mapping[str, Any], where: str, folder: Path) -> Scenario:
 def scenario_file_of(table: Mapping[str, Any], where: str, folder: Path) -> ScenarioFile:
     """All that a table says. Arguments and errors as of `scenario_of`."""
     faults = Faults(where)
-    if "kind" in table and "machine" not in table:
-        faults.add(
-            ("kind",), 'is a key of machines; allowed: a scenario, which names one by machine = "FILE.toml"'
-        )
-        faults.check()
     head = {key: table[key] for key in HEAD if key in table}
     for key, item in head.items():
         if not isinstance(item, HEAD[key]):

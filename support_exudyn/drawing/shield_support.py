@@ -17,7 +17,8 @@ from support_exudyn.drawing.placed_pins import planar_pins
 from support_exudyn.drawing.shapes import ROUND, bar, plate, together, tube
 from support_exudyn.drawing.shield_sizes import Sizes, sizes, standing
 from support_exudyn.drawing.solid import Look, Role, Solid, Strut
-from support_exudyn.linkages.four_bar_shield import TAIL, FourBarShield
+from support_exudyn.linkages.four_bar_shield import FourBarShield
+from support_exudyn.linkages.shield_layout import TAIL
 from support_exudyn.machine import GROUND, Column, lumped
 from support_exudyn.plane import minus, moved, parts_of
 from support_exudyn.scenario import Scenario

@@ -66,7 +66,7 @@ def readable_change(unit: str, size: float, change: float) -> Unit:
         size: of its largest value, of either sign.
         change: of it.
     """
-    return readable(unit, max(change, LITTLE * size))
+    return readable(unit, max(change, LITTLE * size) if change > 0.0 else size)
 
 
 def said(value: float, unit: str, digits: int = 3) -> str:

@@ -18,7 +18,6 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import replace
 from functools import cached_property
 from typing import Any, ClassVar, Generic, NamedTuple, Protocol, TypeVar
 
@@ -27,17 +26,13 @@ from typing_extensions import Self
 
 from support_exudyn.drives import Drive
 from support_exudyn.linkages.path_check import check_path
+from support_exudyn.linkages.shield_layout import BODIES, TAIL, TAIL_PLACES, laid_out
 from support_exudyn.machine import (
     GROUND,
-    Body,
-    Column,
     Linkage,
     Machine,
     Part,
-    TracePoint,
     lumped,
-    pinned,
-    turned_moments,
 )
 from support_exudyn.plane import circle_intersection, direction, distance, minus, moved, side
 from support_exudyn.width import Width
@@ -45,12 +40,8 @@ from user_forces.roots import bracketed_root
 from user_forces.values import InputError, Vector2
 
 PINS = ("rear_base", "front_base", "rear_shield", "front_shield", "shield_canopy")
-BODIES = ("rear_link", "front_link", "shield", "canopy")
 FRAME = ("rear_base", "front_base", "rear_shield", "front_shield", "hinge", "tip")  # pivots of all of them
-TAIL = "tail_beam"  # part of the shield, and the body that it can be
-TAIL_PLACES = ("tail_hinge", "tail_jack_foot", "tail_jack_head")
 FARTHEST = 1000.0  # [m] from the origin
-RODS = "_rods"  # after a column's name: parts that stand for its mass as long as it has none
 PRECISE = 1e-11  # [m] to which lengths of columns are met
 MOST_CORRECTIONS = 20  # of Newton's method; four do
 LOCKED = 1e-12  # [m^2] determinant of the columns' rates at which they hold nothing any more
@@ -413,91 +404,7 @@ class FourBarShield(Machine, ABC, Generic[P]):
 
         Raises InputError if nothing is left of a body, or data of the tail beam are missing.
         """
-        p = self.start()
-        left_out = {*(column + RODS for column in columns), *parts}
-        turned = {"rear_link": p.rear_link, "front_link": p.front_link, "shield": p.shield, "canopy": p.canopy}
-        anchors = {  # a point of each body: where it is in the reference posture and at the start
-            "rear_link": (self.rear_base, self.rear_base),
-            "front_link": (self.front_base, self.front_base),
-            "shield": (self.rear_shield, p.rear_shield),
-            "canopy": (self.hinge, p.hinge),
-        }
-        lines = {  # by which a body's angle is measured
-            "rear_link": direction(self.rear_base, p.rear_shield),
-            "front_link": direction(self.front_base, p.front_shield),
-            "shield": direction(p.rear_shield, p.hinge),
-            "canopy": p.canopy,
-        }
-        bodies = {}
-        for name in BODIES:
-            lump = self._lump(name, left_out)
-            centre = moved(lump.centre, *anchors[name], turned[name])
-            bodies[name] = Body(
-                mass=lump.mass,
-                inertia=lump.inertia,
-                centre=centre,
-                angle=lines[name],
-                moments=turned_moments(lump.second_moments, turned[name]),
-            )
-        linkage = Linkage(
-            bodies=bodies,
-            pins={
-                "rear_base": pinned(GROUND, "rear_link", self.rear_base),
-                "front_base": pinned(GROUND, "front_link", self.front_base),
-                "rear_shield": pinned("rear_link", "shield", p.rear_shield),
-                "front_shield": pinned("front_link", "shield", p.front_shield),
-                "shield_canopy": pinned("shield", "canopy", p.hinge),
-            },
-            columns={
-                name: Column(
-                    foot=strut.foot[0],
-                    head=strut.head[0],
-                    foot_point=self.place(*strut.foot, p),
-                    head_point=self.place(*strut.head, p),
-                )
-                for name, strut in self.STRUTS.items()
-            },
-            points={"tip": TracePoint(body="canopy", point=p.tip)},
-        )
-        return self._with_tail(linkage) if TAIL in parts else linkage
-
-    def _lump(self, body: str, left_out: Collection[str]) -> Part:
-        """A body as one part, reference posture."""
-        kept = [part for part in self.parts[body] if part.name not in left_out]
-        if not kept or lumped(kept).inertia <= 0.0:
-            named = ", ".join(part.name for part in self.parts[body] if part.name in left_out)
-            raise InputError(f"parts.{body}: nothing with inertia is left without {named}; allowed: > 0 kg m^2")
-        return lumped(kept)
-
-    def _with_tail(self, linkage: Linkage) -> Linkage:
-        """The tail beam on its hinge on the shield beam, and its jack between both."""
-        hinge, foot, head = self.tail_hinge, self.tail_jack_foot, self.tail_jack_head
-        tail = [part for part in self.parts["shield"] if part.name == TAIL]
-        if hinge is None or foot is None or head is None or not tail:
-            missing = [name for name in TAIL_PLACES if getattr(self, name) is None]
-            missing += [] if tail else [f"a part of parts.shield named {TAIL}"]
-            raise InputError(f"parts.{TAIL}: the machine lacks {', '.join(missing)}; allowed: Lumped")
-        p, lump = self.start(), lumped(tail)
-
-        def at_start(point: Vector2) -> Vector2:
-            return moved(point, self.rear_shield, p.rear_shield, p.shield)
-
-        body = Body(
-            mass=lump.mass,
-            inertia=lump.inertia,
-            centre=at_start(lump.centre),
-            angle=direction(at_start(hinge), at_start(lump.centre)),
-            moments=turned_moments(lump.second_moments, p.shield),
-        )
-        jack = Column(
-            foot="shield", head=TAIL, foot_point=at_start(foot), head_point=at_start(head), driven=False
-        )
-        return replace(
-            linkage,
-            bodies={**linkage.bodies, TAIL: body},
-            pins={**linkage.pins, "shield_tail": pinned("shield", TAIL, at_start(hinge))},
-            columns={**linkage.columns, self.jacks[TAIL]: jack},
-        )
+        return laid_out(self, columns, parts)
 
 
 def turn(before: float, after: float) -> float:

@@ -22,7 +22,8 @@ from typing import TYPE_CHECKING, ClassVar, NamedTuple
 import numpy as np
 from pydantic import model_validator
 
-from support_exudyn.linkages.four_bar_shield import BODIES, PRECISE, TAIL, FourBarShield, Strut, turn
+from support_exudyn.linkages.four_bar_shield import PRECISE, FourBarShield, Strut, turn
+from support_exudyn.linkages.shield_layout import BODIES, TAIL
 from support_exudyn.machine import GROUND, Part
 from support_exudyn.plane import direction, moved
 from support_exudyn.width import Width

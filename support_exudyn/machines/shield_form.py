@@ -11,7 +11,8 @@ from typing import Any, ClassVar
 from pydantic import Field, model_validator
 
 from support_exudyn.columns import TwoBodyColumn
-from support_exudyn.linkages.four_bar_shield import BODIES, FRAME, PINS, RODS, TAIL, FourBarShield
+from support_exudyn.linkages.four_bar_shield import FRAME, PINS, FourBarShield
+from support_exudyn.linkages.shield_layout import BODIES, RODS, TAIL
 from support_exudyn.machine import GROUND, Part, bar
 from support_exudyn.machine_data import MachineData
 from support_exudyn.machines.form import (

@@ -334,7 +334,7 @@ def test_files_are_written_whole(tmp_path: Path) -> None:
         (TOP + "duration_min = 1", "a.toml: duration_min: has another unit; allowed: duration_s, duration_ms"),
         (
             "kind = 'two_leg_shield'\nstroke_mm = 3\n[masses_kg]\ncanopy = 3",
-            "a.toml: kind: is a key of machines; allowed: a scenario, which names one by machine",
+            "a.toml: is the file of a machine; allowed: a scenario, which names it",
         ),
     ],
 )
