@@ -109,6 +109,11 @@ class Value:
         return {"type": type(self).__name__} | {f.name: _plain(getattr(self, f.name)) for f in fields}
 
     @staticmethod
+    def of_name(name: str) -> type[Value]:
+        """The class of this name. Raises KeyError if there is none."""
+        return Value._register[name]
+
+    @staticmethod
     def from_data(data: Mapping[str, Any]) -> Any:
         """Rebuild the value that `to_data` wrote.
 

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import hashlib
 import json
+import sys
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import support_exudyn
 import user_forces
 from support_exudyn.provenance import versions
 from support_exudyn.scenario import Scenario
+from user_forces.values import Value
 
 MAKES_NO_NUMBERS = (
     "matplotlib",
@@ -19,6 +22,7 @@ MAKES_NO_NUMBERS = (
     "pydantic",
 )  # packages that a run's numbers do not depend on
 LOOKS = ("figures", "drawing", "render", "exporting", "commands", "sweeping")  # parts of ours that only look
+OURS = ("user_forces", "support_exudyn")
 LENGTH = 32  # hexadecimal digits: 128 bits, no two runs will ever share one
 
 
@@ -37,8 +41,29 @@ def key(scenario: Scenario, errors: bool = False) -> str:
 
     errors: whether it is made with estimated errors, see `simulate`.
     """
-    text = json.dumps([scenario.to_data(), errors, program()], sort_keys=True, separators=(",", ":"))
+    data = scenario.to_data()
+    text = json.dumps([data, errors, program(), _own(data)], sort_keys=True, separators=(",", ":"))
     return hashlib.sha256(text.encode()).hexdigest()[:LENGTH]
+
+
+def _own(data: Any) -> dict[str, str]:
+    """Digests of the modules of one's own whose classes these data are of, by name."""
+    modules = {Value.of_name(kind).__module__ for kind in _kinds(data)}
+    return {name: _source(name) for name in modules if name.partition(".")[0] not in OURS}
+
+
+def _kinds(data: Any) -> set[str]:
+    """Names of all classes in plain data."""
+    inside = data.values() if isinstance(data, dict) else data if isinstance(data, list) else ()
+    found = set().union(*map(_kinds, inside))
+    return found | {data["type"]} if isinstance(data, dict) and "type" in data else found
+
+
+@cache
+def _source(module: str) -> str:
+    """Digest of a module's file; empty if it has none, such as what is typed into a console."""
+    path = getattr(sys.modules.get(module), "__file__", None)
+    return hashlib.sha256(Path(path).read_bytes()).hexdigest()[:LENGTH] if path else ""
 
 
 def _sources() -> str:

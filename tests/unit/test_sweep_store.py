@@ -7,6 +7,7 @@ import pickle
 import subprocess
 import sys
 from dataclasses import replace
+from importlib import import_module
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -110,6 +111,25 @@ def test_what_is_left_out_of_the_program_is_not_asked_by_a_run() -> None:
 
 
 # --- a machine is read once ---
+
+
+def test_a_key_depends_on_the_source_of_laws_of_ones_own(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    law = tmp_path / "law_of_ones_own.py"
+    text = "from user_forces import Flores, value\n@value\nclass OnesOwn(Flores):\n    pass\n"
+    law.write_text(text, encoding="utf-8")
+    monkeypatch.syspath_prepend(str(tmp_path))
+    own = import_module("law_of_ones_own").OnesOwn(stiffness=1e10, restitution=0.9)
+    usual = scenario(tmp_path)
+    pin = usual.clearance_pins["rear_base"]
+    loose = replace(usual, pins={"rear_base": replace(pin, contact=replace(pin.contact, normal=own))})
+    before = keys.key(loose), keys.key(usual)
+    law.write_text(text + "# changed\n", encoding="utf-8")
+    keys._source.cache_clear()  # as in a new process
+    after = keys.key(loose), keys.key(usual)
+    assert after[0] != before[0]
+    assert after[1] == before[1]
 
 
 def test_the_same_text_of_a_machine_is_one_machine_and_another_text_another(tmp_path: Path) -> None:
