@@ -21,6 +21,7 @@ from concurrent.futures import (
 )
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
+from functools import partial
 from typing import Any, TypeVar
 
 from support_exudyn.interruption import kept_from_children
@@ -213,7 +214,7 @@ class Workers:
                         self._shares[place] = NOT_BEGUN
                     futures[place] = self._pool.submit(_do, place, work, job)
                 started = set(multiprocessing.active_children()) - others
-                self._code = lambda: _exit_code(started)
+                self._code = partial(_exit_code, self._pool, started)
         except BrokenProcessPool:
             whole = False
         except BaseException:
@@ -289,8 +290,11 @@ def _cancel(futures: Mapping[int, Future[T]]) -> None:
         future.cancel()
 
 
-def _exit_code(processes: set[Any]) -> int | None:
+def _exit_code(pool: Executor, processes: set[Any]) -> int | None:
     """Of the process that there was; None if that is not known."""
+    pool.shutdown(
+        cancel_futures=True
+    )  # its thread asks for the code, too; not all kinds of processes tell it twice
     for process in processes:
         process.join(SOON)
         return process.exitcode  # type: ignore[no-any-return]
