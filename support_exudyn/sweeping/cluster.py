@@ -35,34 +35,10 @@ def on_cluster(tasks: Iterable[Task], store: Store, address: str) -> Generator[R
     Raises InputError if dask.distributed is not installed, or if a worker runs another program than this one;
     OSError if the scheduler cannot be reached.
     """
-    try:
-        from distributed import CancelledError, Client, KilledWorker, as_completed
-        from distributed.comm import get_address_host_port
-    except ImportError:
-        raise InputError(
-            f"scheduler = {address!r}: needs dask.distributed, which is not installed; "
-            "pip install 'support-exudyn[cluster]'"
-        ) from None
-    for name in [*logging.root.manager.loggerDict]:  # what goes wrong is said in a line of ours
-        if name.partition(".")[0] in (
-            "distributed",
-            "tornado",
-            "asyncio",
-        ):  # some of them have levels of their own
-            logging.getLogger(name).setLevel(logging.CRITICAL + 1)
-    try:  # before there is a client, which would wait for its own end
-        get_address_host_port(address, strict=True)
-    except ValueError as error:
-        raise InputError(
-            f"scheduler = {address!r}: {_said(error)}; allowed: an address such as tcp://10.0.0.5:8786"
-        ) from None
+    client = _connected(address)
+    from distributed import CancelledError, KilledWorker, as_completed  # it is installed, then
+
     lost = OSError(f"scheduler = {address!r}: was lost; the same command goes on from here")
-    try:
-        client = Client(address, timeout=REACHED, set_as_default=False)
-    except Exception as error:  # of many kinds
-        raise OSError(
-            f"scheduler = {address!r}: cannot be reached ({_said(error)}); is it running there?"
-        ) from None
     under_way: dict[Any, Task] = {}
     source = iter(tasks)
 
@@ -113,6 +89,38 @@ def on_cluster(tasks: Iterable[Task], store: Store, address: str) -> Generator[R
         finally:
             if client.status == "running":
                 client.cancel(list(under_way), force=True)
+
+
+def _connected(address: str) -> Any:
+    """A client of the scheduler. Raises as `on_cluster` does."""
+    try:
+        from distributed import Client
+        from distributed.comm import get_address_host_port
+    except ImportError:
+        raise InputError(
+            f"scheduler = {address!r}: needs dask.distributed, which is not installed; "
+            "pip install 'support-exudyn[cluster]'"
+        ) from None
+    _hush()
+    try:  # before there is a client, which would wait for its own end
+        get_address_host_port(address, strict=True)
+    except ValueError as error:
+        raise InputError(
+            f"scheduler = {address!r}: {_said(error)}; allowed: an address such as tcp://10.0.0.5:8786"
+        ) from None
+    try:
+        return Client(address, timeout=REACHED, set_as_default=False)
+    except Exception as error:  # of many kinds
+        raise OSError(
+            f"scheduler = {address!r}: cannot be reached ({_said(error)}); is it running there?"
+        ) from None
+
+
+def _hush() -> None:
+    """Let Dask's log be silent: what goes wrong is said in a line of ours."""
+    for name in [*logging.root.manager.loggerDict]:  # some of them have levels of their own
+        if name.partition(".")[0] in ("distributed", "tornado", "asyncio"):
+            logging.getLogger(name).setLevel(logging.CRITICAL + 1)
 
 
 def _kept(store: Store, row: Row, image: bytes | None) -> Row:
