@@ -31,9 +31,10 @@ def read_sweep(path: str | Path) -> Plan:
         _only(data, KEYS, "")
         table, where, folder = _scenario(data, path)
         varied = {name: _varied(item, f"vary.{name!r}") for name, item in _flat(_table(data, "vary"))}
+        told = where if isinstance(data.get("scenario"), dict) else f"{where} as {path} varies it"
         return Plan(
             points=_points(data, varied),
-            scenario=maker(table, where, folder, tuple(varied)),
+            scenario=maker(table, told, folder, tuple(varied)),
             record=_record(_table(data, "record")),
             errors=table.get("errors") is True,
             text=path.read_text(encoding="utf-8"),

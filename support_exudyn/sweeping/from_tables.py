@@ -7,9 +7,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-import support_exudyn
+from support_exudyn import machines
 from support_exudyn.datafiles.scenario_file import scenario_of
 from support_exudyn.datafiles.toml_text import toml_text
+from support_exudyn.machines.read import shipped
 from support_exudyn.scenario import Scenario
 from support_exudyn.sweeping.fields import Table, keys_of, replaced
 from support_exudyn.sweeping.plan import Inputs
@@ -46,10 +47,8 @@ def machine_file(name: str, folder: Path) -> Path:
     """The data file of a machine: a path that ends in .toml, or the name of one that comes with the package."""
     if name.endswith(".toml"):
         return folder / name
-    found = sorted(Path(support_exudyn.__path__[0]).glob(f"*/{name}.toml"))
-    if not found:
-        raise InputError(f"machine = {short(name)}: allowed: a path that ends in .toml, 'reference'")
-    return found[0]
+    shipped(name)  # refuses what there is none of
+    return Path(machines.__path__[0]) / f"{name}.toml"
 
 
 @dataclass(frozen=True)
