@@ -59,6 +59,7 @@ from user_forces.normal.law import LoadError
 FIRST_STEP = 1e-4  # [s]
 WORTH_A_LOOK = 0.3  # share of the largest force so far from which a step may hold a larger one
 PARTS = 4  # of such a step
+PARTS_CLOSED = 8  # of a step in contact, when it is looked for what happens in it
 SHARE_OF_IMPACT = 0.1  # of an impact's duration is the first step after a touch
 SHORT = 1e-9  # [s]: a step that goes too far and is no longer has only itself to blame
 RELATIVE_TOLERANCE = 1e-13  # of the state; what counts is the absolute one
@@ -127,7 +128,8 @@ class PlainRun:
         )
         self.observe = plain(observe, contact_force=self.force)
         instead = {"contact_force": self.force, "within": _within}
-        self.event = plain(events.event, **instead)
+        # steps of DOP853 are so long that a contact swings in them, and PUSH is a sign only
+        self.event = plain(events.event, **instead, PARTS_CLOSED=PARTS_CLOSED, CUT_SAMPLES=1)
         self.peak = plain(peak, **instead)
 
     def go(self) -> int:
@@ -251,11 +253,17 @@ class PlainRun:
 
     def _place(self, what: int, path: Path, low: float, high: float) -> float:
         """When it happens [s], between two times."""
-        item = layout.PUSH if what == events.CUT else layout.DEPTH
+        item = {events.CUT: layout.PUSH, events.RETURN: layout.RATE}.get(what, layout.DEPTH)
 
         def value(t: float) -> float:
             return self._contact(t, path.at(t))[item]
 
+        if what == events.RETURN:  # where the cubic of its part turns
+            part = (path.end - path.begin) / PARTS_CLOSED
+            low = path.begin + part * min(int((high - path.begin) / part), PARTS_CLOSED - 1)
+            if not value(low) < 0.0 < value(low + part):
+                return high
+            high = low + part
         if low >= high:
             return high
         beyond = value(high) > 0.0
