@@ -14,6 +14,7 @@ from support_exudyn.connector import Frame, PinConnector, displacement_scale
 from support_exudyn.impact_steps import ImpactSteps
 from support_exudyn.onset import Action, Mobility, Onset, PinMemory, Verdict, goes_on, judge, judge_at_ends
 from support_exudyn.pin_motion import Motion, Moving, PinMotion
+from support_exudyn.pressed import NOT_KNOWN, Mobilities
 from support_exudyn.python_force import PythonForce
 from support_exudyn.symbolic_force import SymbolicForce
 from user_forces.contact import ContactForce, JournalContact
@@ -69,18 +70,20 @@ class LoosePin:
         self._changes = contact.friction.has_state or at is Attachment.MIDDLE or self.turns
         self._touch: tuple[object, ...] = ()
         # set when the scene is whole
-        self.mobility: Callable[[], Mobility] = lambda: Mobility(math.nan, math.nan, math.nan)  # as it is now
+        self.find_mobilities: Callable[[], Mobilities] = lambda: NOT_KNOWN  # as they are now
         self.motion: PinMotion | None = None
         self.step_size: Callable[[], float] = lambda: math.nan  # of the step being tried [s]
         self.locates = True  # touches and partings, see SolverSettings
         # at the last accepted step
         self.kept = PinMemory(False, 0.0, 0.0, 0.0)
+        self._alone = NOT_KNOWN.alone  # the journal's mobility by itself, when the memory's was found
         self._turn, self._turn_rate = 0.0, 0.0  # between the marker frames [rad], [rad/s]
         self._spin, self._spin_rate = 0.0, 0.0  # of the bore [rad/s], [rad/s^2]
         self._bore = (0.0, 0.0)  # angle and spin of a bore that turns in the connector's axes [rad], [rad/s]
         # the step being tried
         self.memory = self.kept  # with which its force is computed
-        self._here = self.memory.mobility  # the same in the axes of the connector's displacement
+        # in the axes of the connector's displacement: the memory's mobility, and that of the journal by itself
+        self._here = self._alone_here = self.memory.mobility
         self._bore_angle = 0.0  # of the bore's axes in those of the connector, expected at its end [rad]
         self.reached = self.memory  # at its end
         self.force: ContactForce = contact.force(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, None)
@@ -90,6 +93,7 @@ class LoosePin:
         self._step = 0.0
         self._eccentricity = (0.0, 0.0)  # at its end [m]
         self._mass = 1.0  # that moves as the depth does at its end, while in contact [kg]
+        self._least_mass = 1.0  # the same if no other loose pin holds anything, which steps follow [kg]
         self._tried_turn = (0.0, 0.0)
         self._tried_spin = 0.0
         self._tried_bore = self._bore
@@ -109,15 +113,16 @@ class LoosePin:
 
     # --- called by the solver ---
 
-    def start(self, memory: PinMemory, turn: float, bore: tuple[float, float]) -> None:
+    def start(self, memory: PinMemory, mobilities: Mobilities, turn: float, bore: tuple[float, float]) -> None:
         """Before the first step.
 
         Arguments:
             memory: of the pin.
+            mobilities: of its journal.
             turn: of the journal against the bore since the start posture [rad].
             bore: angle and spin of the bore [rad], [rad/s].
         """
-        self.kept = memory
+        self.kept = self._renewed(memory, mobilities)
         self._turn = turn
         self._bore = bore
 
@@ -170,7 +175,7 @@ class LoosePin:
         if self.locates:
             after = self.impact.follow if self.onset is None else self.impact.touch
             unknown = self._on_line and (self.onset is not None or not self.impact.calm(reached.depth))
-            after(reached.depth, reached.rate, self._moving_mass(reached) if unknown else self._mass)
+            after(reached.depth, reached.rate, self._find_least_mass() if unknown else self._least_mass)
         if self.onset is not None:
             self.onsets.append(self.onset)
             self.onset = None
@@ -183,11 +188,11 @@ class LoosePin:
     def begin_impact(self) -> None:
         """At the start, or when the drive's speed has jumped: the depth of a closed pin swings from now on."""
         if self.locates and self.kept.depth > 0.0:
-            self.impact.begin(self.kept.depth, self.kept.rate, self._moving_mass(self.kept))
+            self.impact.begin(self.kept.depth, self.kept.rate, self._find_least_mass())
 
-    def _moving_mass(self, memory: PinMemory) -> float:
-        """Mass [kg] that moves as the depth does, where the journal is now."""
-        return memory.mobility.mass(*self._place())
+    def _find_least_mass(self) -> float:
+        """Mass [kg] that moves at least as the depth does, where the journal is now."""
+        return self._alone.mass(*self._place())
 
     def _place(self) -> Vector2:
         """Where the journal is now in its bore, in the bore's axes [m]."""
@@ -228,7 +233,7 @@ class LoosePin:
             return math.inf
         self.reached = memory
         if not self._on_line:
-            self._mass = self._moving_mass(memory)
+            self._least_mass = self._find_least_mass()
         return None
 
     def _verdict(self, start: PinMemory, end_time: float) -> Verdict:
@@ -240,24 +245,29 @@ class LoosePin:
 
     def _impact_step(self, speed: float) -> float:
         """Length of the steps [s] in an impact of this speed [m/s] that begins where the journal is."""
-        return self.impact.length(speed, self.mobility().mass(*self._place()))
+        return self.impact.length(speed, self.find_mobilities().alone.mass(*self._place()))
 
     def _completed(self, verdict: Verdict) -> PinMemory:
         """The verdict's memory with what the laws need besides."""
         memory = verdict.memory
         if verdict.action is Action.REPEAT:
-            return memory.with_mobility(self.mobility())._replace(deflection=0.0)
+            return self._renewed(memory, self.find_mobilities())._replace(deflection=0.0)
         if verdict.onset is not None or verdict.anew:
-            memory = memory.with_mobility(self.mobility())
+            memory = self._renewed(memory, self.find_mobilities())
         sticks = memory.in_contact and verdict.onset is None
         return memory.slid(self.force.slip, self.force.deflection if sticks else 0.0)
+
+    def _renewed(self, memory: PinMemory, mobilities: Mobilities) -> PinMemory:
+        """A memory with the mobility that laws go by from now on; steps go by that of the journal by itself."""
+        self._alone = mobilities.alone
+        return memory.with_mobility(mobilities.held)
 
     def _recall(self, memory: PinMemory) -> None:
         self.memory = memory
         touch = memory[:2] + memory[6:]  # all but its motion
         if touch != self._touch or self._changes:
             self._touch = touch
-            self._here = self._turned(memory.mobility)
+            self._here, self._alone_here = self._turned(memory.mobility), self._turned(self._alone)
             self.engine_force.load(memory, self._here, self._step, self._guessed_spin, self._guessed_turn)
 
     def _turned(self, mobility: Mobility) -> Mobility:
@@ -319,7 +329,7 @@ class LoosePin:
         self._eccentricity = x, y
         in_contact, approach_speed, _, _, slip, deflection, *_ = self.memory
         if in_contact and not self._on_line:
-            self._mass = self._here.mass(x, y)
+            self._mass, self._least_mass = self._here.mass(x, y), self._alone_here.mass(x, y)
         spins = motion.spins(self.at)
         return self._force(
             x, y, vx, vy, *spins, in_contact, approach_speed, self._mass, deflection, slip, self._step

@@ -12,6 +12,9 @@ from collections.abc import Callable
 from enum import Enum
 from typing import NamedTuple
 
+import numpy as np
+import numpy.typing as npt
+
 from user_forces.normal.law import Touch
 from user_forces.roots import bracketed_root
 from user_forces.scalar import maximum
@@ -32,6 +35,11 @@ class Mobility(NamedTuple):
     xx: float
     xy: float
     yy: float
+
+    @staticmethod
+    def of(matrix: npt.NDArray[np.float64]) -> Mobility:
+        """From the matrix (2, 2)."""
+        return Mobility(float(matrix[0, 0]), float(matrix[0, 1]), float(matrix[1, 1]))
 
     def mass(self, x: float, y: float) -> float:
         """Mass [kg] that moves in the direction x, y: 1 / (n mobility n). Takes numbers or expressions."""
@@ -72,7 +80,10 @@ class PinMemory(NamedTuple):
 
     @property
     def mobility(self) -> Mobility:
-        """Mobility of the journal when the contact began, or was last pressed on again."""
+        """Mobility of the journal when the contact began, or was last pressed on again; see `pressed`.
+
+        The law goes by it until it is renewed, so what other pins do meanwhile changes no force at a stroke.
+        """
         return Mobility(self.mobility_xx, self.mobility_xy, self.mobility_yy)
 
     def with_mobility(self, mobility: Mobility) -> PinMemory:

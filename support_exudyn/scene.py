@@ -18,9 +18,10 @@ from support_exudyn.kinetics import Kinetics, Matrix
 from support_exudyn.load_item import LoadItem
 from support_exudyn.loose_pin import LoosePin
 from support_exudyn.machine import GROUND, Linkage
-from support_exudyn.onset import Mobility, PinMemory
+from support_exudyn.onset import PinMemory
 from support_exudyn.pin_friction import PinFriction
 from support_exudyn.pin_motion import PinEnd, PinMotion
+from support_exudyn.pressed import Mobilities, mobilities, normal
 from support_exudyn.scenario import Scenario
 from support_exudyn.scene_items import BodyItem, ColumnItem, CrankItem, IdealItem, SlideItem
 from support_exudyn.velocity_jump import align_velocities, jump_velocities
@@ -60,14 +61,24 @@ class Scene(InEngine):
         """The same with all pins ideal and all columns rigid."""
         return Kinetics(self.linkage, self.bodies, tuple(self.linkage.pins), tuple(self.linkage.columns))
 
-    def mobility(self, name: str, state: Any = CURRENT) -> Mobility:
-        """Mobility of a clearance pin's journal, in the axes of its bore; see `Kinetics.pin_mobility`."""
+    def mobilities(self, name: str, state: Any = CURRENT) -> Mobilities:
+        """Of a clearance pin's journal, by itself and with the other ones as they are pressed."""
         position = self.mbs.systemData.GetODE2Coordinates(state)
-        matrix = self.kinetics.pin_mobility(position, name)
+        answers = self.kinetics.pin_mobility(position, name, self._pressed(name, position))
         angle = self.bore_angle(name, position)
         axes = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
-        turned = axes.T @ matrix @ axes
-        return Mobility(float(turned[0, 0]), float(turned[0, 1]), float(turned[1, 1]))
+        return mobilities(answers, axes)
+
+    def _pressed(self, name: str, position: Matrix) -> dict[str, Matrix]:
+        """Normals of all clearance pins but one that are pressed."""
+        found = {}
+        for other, pin in self.loose_pins.items():
+            if other != name:
+                x, y = self.kinetics.relative(position, self.linkage.pins[other])[0].tolist()
+                along = normal(x, y, pin.contact.bearing.clearance)
+                if along is not None:
+                    found[other] = along
+        return found
 
     def bore_angle(self, name: str, position: Any) -> float:
         """Angle [rad] of the axes of the bore's body."""
@@ -153,10 +164,11 @@ class Scene(InEngine):
                 depth=state.depth,
                 rate=state.rate,
                 slip=state.slip,
-            ).with_mobility(self.mobility(name, INITIAL))
+            )
             bore, journal = self._ends(name)
             turn = self._turn(journal, position) - self._turn(bore, position)
-            pin.start(memory, turn, (self.bore_angle(name, position), self._turn(bore, rates)))
+            bore_motion = self.bore_angle(name, position), self._turn(bore, rates)
+            pin.start(memory, self.mobilities(name, INITIAL), turn, bore_motion)
 
     def refresh_memory(self) -> None:
         """Tell every clearance pin that velocities have jumped; contacts that go on go on."""

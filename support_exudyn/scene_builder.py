@@ -240,7 +240,7 @@ class _Builder:
             friction.assembled(scene.ideal_pins[name].first, *turns)
             friction.lagged = bool(loose) or self.scenario.jumps
         for name, pin in loose.items():
-            pin.mobility = partial(scene.mobility, name)
+            pin.find_mobilities = partial(scene.mobilities, name)
             pin.motion = scene.pin_motion(name)
         scene.drive_to(0.0)
         scene.start_moving()

@@ -72,11 +72,14 @@ class SpatialKinetics:
             solution = np.linalg.lstsq(system, right, rcond=None)[0]
         return solution[:size], solution[size:]
 
-    def bearing_mobility(self, bore: End, journal: End) -> Series:
-        """How the journal's middle answers an impulse across the bore, (2, 2) [1/kg], in the bore's axes."""
-        rate = np.array([self._rate(bore, journal, k) for k in (0, 1)])
-        answers: Series = (rate @ self.respond(rate.T, 0.0)[0]).T
-        return answers
+    def answers(self, rate: Series) -> Series:
+        """Velocities of which these are the rows (k, 6 bodies), by impulses along them (k, k) [1/kg]."""
+        found: Series = (rate @ self.respond(rate.T, 0.0)[0]).T
+        return found
+
+    def bearing_rate(self, bore: End, journal: End) -> Series:
+        """Rows that give the velocity of the journal's middle across the bore, in its axes (2, 6 bodies)."""
+        return np.array([self._rate(bore, journal, k) for k in (0, 1)])
 
     def _rate(self, bore: End, journal: End, axis: int) -> Series:
         """The row that gives the velocity of the journal's middle against the bore's along one of its axes."""

@@ -16,6 +16,7 @@ from support_exudyn.impulse import Impulse
 from support_exudyn.load_item import LoadItem
 from support_exudyn.onset import Mobility, PinMemory
 from support_exudyn.pin_friction import PinFriction
+from support_exudyn.pressed import Mobilities, held, normal
 from support_exudyn.scenario import Scenario
 from support_exudyn.scene_items import ColumnItem
 from support_exudyn.spatial.constraints import Row, all_rows, independent, matrix
@@ -97,10 +98,38 @@ class SpatialScene(InEngine):
         """Masses and the constraints of the model as matrices."""
         return SpatialKinetics(self.motion(state), self.rows)
 
-    def mobility(self, name: str, state: Any = CURRENT) -> Mobility:
-        """Mobility of the middle of a loose bearing's journal, in the axes of its bore."""
-        found = self.kinetics(state).bearing_mobility(*self.ends_of(name))
-        return Mobility(float(found[0, 0]), float(found[0, 1]), float(found[1, 1]))
+    def mobilities(self, name: str, state: Any = CURRENT) -> Mobilities:
+        """Of the middle of a loose bearing's journal, in the axes of its bore, for the law of its whole pin.
+
+        A bearing of a pair has a share of its pin's force and energy, so the law of the pin is told the mass
+        over that share. Bearings of the pin that are pressed move together: with both, it is the whole energy
+        and the mass that moves if both journals move alike, as in the plane. Other pins are held where they are
+        pressed, see `pressed`.
+        """
+        kinetics, normals = self.kinetics(state), self._normals(state)
+        bearings = self.linkage.bearings
+        along = {other: kinetics.bearing_rate(*self.ends_of(other)) for other in dict.fromkeys((name, *normals))}
+        parts = [part for part in along if bearings[part].pin == bearings[name].pin]
+        share = sum(bearings[part].share for part in parts)
+        together = sum(bearings[part].share * along[part] for part in parts) / share
+        others = [normals[other][None] @ along[other] for other in normals if other not in parts]
+        answers = kinetics.answers(np.concatenate([along[name], together, *others]))
+        alone, pressed = bearings[name].share * answers[:2, :2], share * held(answers[2:, 2:])
+        return Mobilities(Mobility.of(alone), Mobility.of(pressed))
+
+    def _normals(self, state: Any) -> dict[str, Series]:
+        """Along which the journals are pressed that are, in the axes of their bores."""
+        data, found = self.mbs.systemData, {}
+        at = data.GetODE2Coordinates(state).tolist(), data.GetODE2Coordinates_t(state).tolist()
+        for name, group in self.sections.items():
+            clearance = group[0].contact.bearing.clearance
+            touching = (normal(*pin.moving.when(*at)[1][:2], clearance) for pin in group)
+            if any(one is not None for one in touching):
+                x, y = group[0].whole.moving.when(*at)[1][:2]
+                size = np.hypot(x, y)
+                if size > 0.0:  # else it is wedged, and pressed in no direction
+                    found[name] = np.array([x, y]) / size
+        return found
 
     def ends_of(self, name: str) -> tuple[End, End]:
         """Bore and journal of a loose bearing."""
@@ -165,10 +194,11 @@ class SpatialScene(InEngine):
         """Give every section the memory that belongs to the initial state of the bodies."""
         data = self.mbs.systemData
         at = data.GetODE2Coordinates(INITIAL).tolist(), data.GetODE2Coordinates_t(INITIAL).tolist()
+        for pin in self.loose_pins.values():
+            pin.look_beside(*at)
         for name, group in self.sections.items():
-            mobility = self.mobility(name, INITIAL)
+            mobilities = self.mobilities(name, INITIAL)
             for pin in group:
-                pin.look_beside(*at)
                 force = self._force(pin, *at)
                 touching = force.depth > 0.0
                 memory = PinMemory(
@@ -177,9 +207,9 @@ class SpatialScene(InEngine):
                     depth=force.depth,
                     rate=force.rate,
                     slip=force.slip,
-                ).with_mobility(mobility)
+                )
                 bore, journal = pin.moving.when(*at)
-                pin.start(memory, journal[4], (0.0, bore[5]))
+                pin.start(memory, mobilities, journal[4], (0.0, bore[5]))
 
     def refresh_memory(self) -> None:
         """Tell every section that velocities have jumped; contacts that go on go on."""

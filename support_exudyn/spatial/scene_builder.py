@@ -181,7 +181,7 @@ class _Builder:
         for name, group in groups.items():
             whole = group[0].whole
             whole.sections = group
-            whole.find_mobility = partial(scene.mobility, name)
+            whole.find_mobilities = partial(scene.mobilities, name)
             whole.mover = self.mover(scene, group[0], 0.0)
             for pin in group:
                 pin.mover = self.mover(scene, pin, pin.section.place)

@@ -13,8 +13,9 @@ import numpy as np
 from support_exudyn.attachment import Attachment, in_plane
 from support_exudyn.impact_steps import ImpactSteps
 from support_exudyn.loose_pin import LoosePin
-from support_exudyn.onset import Mobility, Onset, PinMemory
+from support_exudyn.onset import Onset, PinMemory
 from support_exudyn.pin_motion import Motion
+from support_exudyn.pressed import NOT_KNOWN, Mobilities
 from support_exudyn.spatial.constraints import frame_of
 from support_exudyn.spatial.sections import ON_LINE, End, Section
 from user_forces.contact import JournalContact
@@ -190,9 +191,9 @@ class Journal:
 
     def __init__(self) -> None:
         # set when the scene is whole
-        self.find_mobility: Callable[[], Mobility] = lambda: Mobility(math.nan, math.nan, math.nan)
+        self.find_mobilities: Callable[[], Mobilities] = lambda: NOT_KNOWN
         self.mover: SectionMover | None = None
-        self._mobility: Mobility | None = None
+        self._mobilities: Mobilities | None = None
         self._place: Vector2 | None = None
         self.sections: list[SectionPin] = []
         self.onsets: list[Onset] = []  # of the journal, which was all apart
@@ -202,19 +203,25 @@ class Journal:
 
     def moved(self) -> None:
         """The bodies are elsewhere now."""
-        self._mobility = self._place = None
+        self._mobilities = self._place = None
 
-    def mobility(self) -> Mobility:
+    @property
+    def moving(self) -> SectionMover:
+        """How its middle moves."""
+        if self.mover is None:
+            raise RuntimeError("Journal.mover: is set by the scene")
+        return self.mover
+
+    def mobilities(self) -> Mobilities:
         """Of the middle of the journal, in the axes of its bore."""
-        if self._mobility is None:
-            self._mobility = self.find_mobility()
-        return self._mobility
+        if self._mobilities is None:
+            self._mobilities = self.find_mobilities()
+        return self._mobilities
 
     def place(self) -> Vector2:
         """Of the middle of the journal in its bore, in the bore's axes [m]."""
         if self._place is None:
-            assert self.mover is not None  # set by the scene
-            _, (x, y, *_) = self.mover.now()
+            _, (x, y, *_) = self.moving.now()
             self._place = x, y
         return self._place
 
@@ -306,7 +313,7 @@ class SectionPin(LoosePin):
         self.impact = ImpactSteps(contact.normal, impact_steps)  # steps of the whole
         self.ends = bore, journal
         self.mover: SectionMover | None = None  # set when the scene is whole
-        self.mobility = whole.mobility
+        self.find_mobilities = whole.mobilities
         self.slides = slides
         self._beside = 0.0, 0.0  # where the journal is along the bore at the last accepted step [m], [m/s]
 

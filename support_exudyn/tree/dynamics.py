@@ -10,6 +10,7 @@ over the links that both, or j, carry; b_b is the acceleration of the centre of 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -176,15 +177,27 @@ def moments(posture: Posture, body: str, point: Matrix, force: Matrix) -> Matrix
     return np.asarray(posture.tree.carried[number] * about)
 
 
-def pin_mobility(posture: Posture, place: PinPlace) -> Matrix:
-    """How a loose pin's eccentricity answers an impulse at the first instant, (2, 2) [1/kg], ground's axes."""
+def pin_mobility(posture: Posture, place: PinPlace, pressed: Sequence[tuple[PinPlace, Matrix]] = ()) -> Matrix:
+    """How a loose pin's eccentricity answers an impulse at the first instant, (2, 2) [1/kg], ground's axes.
+
+    pressed: places of other pins and their normals (2,). Each adds a row and a column, (2 + m, 2 + m), see
+    `pressed.mobilities`.
+    """
+    rows = [_eccentricity_rate(posture, place)]
+    rows += [along[None] @ _eccentricity_rate(posture, other) for other, along in pressed]
+    rate = np.concatenate(rows)
+    return np.asarray(rate @ np.linalg.solve(mass_matrix(posture)[0], rate.T))
+
+
+def _eccentricity_rate(posture: Posture, place: PinPlace) -> Matrix:
+    """What turns the coordinates' rates into that of a pin's eccentricity at the first instant, (2, n)."""
     motion = posture.motion()
     rate = np.zeros((2, posture.position.shape[1]))
     for sign, body, centre in ((1.0, place.second, place.second_point), (-1.0, place.first, place.first_point)):
         point = motion.point(body, centre).position
         for axis, unit in enumerate(np.eye(2)):
             rate[axis] += sign * moments(posture, body, point, unit[None])[0]
-    return np.asarray(rate @ np.linalg.solve(mass_matrix(posture)[0], rate.T))
+    return rate
 
 
 def _rotated(vector: Matrix, angle: Matrix) -> Matrix:

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from support_exudyn.oil import fill
-from support_exudyn.onset import Mobility
+from support_exudyn.pressed import Mobilities, mobilities
 from support_exudyn.progress import Progress
 from support_exudyn.scenario import Scenario
 from support_exudyn.trajectory import Outcome
@@ -41,16 +41,19 @@ def run(scenario: Scenario, progress: Progress) -> Outcome:
         position, velocity = settled(tree, scenario, forces), 0.0 * velocity
     forces(None, 0.0, 0, position.tolist(), velocity.tolist())
 
-    def mobility(name: str) -> Mobility:
+    def find_mobilities(name: str) -> Mobilities:
         now = Posture(tree, np.array([forces.position]), np.array([forces.velocity]))
-        return forces.pins[name].in_bore_axes(pin_mobility(now, linkage.pins[name]))
+        normals = [(linkage.pins[other], pin.normal()) for other, pin in forces.pins.items() if other != name]
+        pressed = [(place, along) for place, along in normals if along is not None]
+        answers = pin_mobility(now, linkage.pins[name], pressed)
+        return mobilities(answers, forces.pins[name].frame())
 
     for name, pin in forces.pins.items():
         pin.start = pin.place()
-        pin.remember(first_memory(pin, mobility(name)))
+        pin.remember(first_memory(pin, find_mobilities(name)))
     engine = Engine(tree, forces, scenario.gravity, position, velocity)
     error, most_steps = largest_error(tree, scenario), scenario.solver.most_steps
-    integration = Integration(engine, forces, mobility, drive, error, most_steps, progress)
+    integration = Integration(engine, forces, find_mobilities, drive, error, most_steps, progress)
     integration.go()
     return Aftermath(tree, scenario, filled, integration).outcome()
 

@@ -12,6 +12,7 @@ from support_exudyn.engine_settings import quiet_engine
 from support_exudyn.engine_words import explained
 from support_exudyn.errors import Failure, SimulationError
 from support_exudyn.onset import Mobility, Onset
+from support_exudyn.pressed import Mobilities
 from support_exudyn.progress import Progress
 from support_exudyn.tree.drive_pieces import Piece
 from support_exudyn.tree.engine import SMALLEST_STEP, Engine, settings
@@ -49,7 +50,7 @@ class Integration:
     Arguments:
         engine: the system.
         forces: on the coordinates, with the loose pins in their state at the start.
-        mobility: of a loose pin's journal at the stage evaluated last, by name.
+        find_mobilities: of a loose pin's journal at the stage evaluated last, by name.
         pieces: of the drive.
         error: root mean square error of a step [rad], [rad/s].
         most_steps: after which a run is given up.
@@ -60,13 +61,13 @@ class Integration:
         self,
         engine: Engine,
         forces: Forces,
-        mobility: Callable[[str], Mobility],
+        find_mobilities: Callable[[str], Mobilities],
         pieces: list[Piece],
         error: float,
         most_steps: int,
         progress: Progress,
     ) -> None:
-        self.engine, self.forces, self.mobility = engine, forces, mobility
+        self.engine, self.forces, self.find_mobilities = engine, forces, find_mobilities
         self.pins = forces.pins
         self.pieces = pieces
         self.most_steps = most_steps
@@ -216,10 +217,10 @@ class Integration:
                 if pin.onsets:
                     pin.onsets[-1] = pin.onsets[-1].parted(self.time, -pin.start.rate)
                 continue
-            mobility = self.mobility(name)
-            pin.remember(memory._replace(in_contact=True).with_mobility(mobility))
+            mobilities = self.find_mobilities(name)
+            pin.remember(memory._replace(in_contact=True).with_mobility(mobilities.held))
             if kind is Kind.TOUCH:
-                largest = min(largest, self._touch(pin, mobility))
+                largest = min(largest, self._touch(pin, mobilities.alone))
             else:
                 pin.start = pin.start._replace(rate=max(0.0, pin.start.rate))  # whatever rounding says
         self._remember()

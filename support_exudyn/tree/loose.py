@@ -9,6 +9,7 @@ import numpy as np
 
 from support_exudyn.onset import Mobility, Onset, PinMemory
 from support_exudyn.pins import ClearancePin
+from support_exudyn.pressed import normal
 from support_exudyn.tree.branches import Matrix
 from support_exudyn.tree.loads import TURN, push
 from user_forces.dependence import asks_for_mass
@@ -89,12 +90,15 @@ class LoosePin:
         x, y, *_ = self._bore.tolist()
         return x, y
 
-    def in_bore_axes(self, matrix: Matrix) -> Mobility:
-        """A mobility given in the ground's axes, (2, 2) [1/kg]."""
+    def frame(self) -> Matrix:
+        """Axes of the bore in columns, in the ground's (2, 2)."""
         c, s = self.axes()
-        axes = np.array([[c, -s], [s, c]])
-        turned = axes.T @ matrix @ axes
-        return Mobility(float(turned[0, 0]), float(turned[0, 1]), float(turned[1, 1]))
+        return np.array([[c, -s], [s, c]])
+
+    def normal(self) -> Matrix | None:
+        """Along which the journal is pressed at the stage evaluated last, (2,); None if it is not."""
+        place = self.place()
+        return normal(place.x, place.y, self.clearance)
 
     def mass(self, mobility: Mobility, x: float, y: float) -> float:
         """Mass [kg] that moves with an eccentricity x, y in the ground's axes."""

@@ -9,7 +9,8 @@ from scipy.optimize import root
 
 from support_exudyn.errors import Failure, SimulationError
 from support_exudyn.kinetics import kinetics_of
-from support_exudyn.onset import Mobility, PinMemory
+from support_exudyn.onset import PinMemory
+from support_exudyn.pressed import Mobilities
 from support_exudyn.scenario import Scenario
 from support_exudyn.settle import CENTRING
 from support_exudyn.tree.branches import Matrix, Tree
@@ -95,9 +96,9 @@ def _press(forces: Forces, pin: LoosePin, centring: float) -> None:
     push(forces.links, forces.points, forces.work, pin.pair, x, y, -pull * place.x, -pull * place.y)
 
 
-def first_memory(pin: LoosePin, mobility: Mobility) -> PinMemory:
+def first_memory(pin: LoosePin, mobilities: Mobilities) -> PinMemory:
     """What a loose pin remembers at the start, at the stage evaluated last."""
     place = pin.place()
     touching = place.depth > 0.0
     speed = max(0.0, place.rate) if touching else 0.0
-    return PinMemory(touching, speed, place.depth, place.rate).with_mobility(mobility)
+    return PinMemory(touching, speed, place.depth, place.rate).with_mobility(mobilities.held)

@@ -370,7 +370,7 @@ def test_a_scene_gives_the_mobility_in_the_axes_of_the_bore(bore: str, start_ang
     machine = slider_crank(0.05, 2.4, start_angle)
     pin = ClearancePin(contact=slider_crank_contact(), bore=bore)
     scene = build(Scenario(machine=machine, duration=0.01, pins={"slider_pin": pin}))
-    got = scene.mobility("slider_pin")
+    got = scene.mobilities("slider_pin").held
     fall = -math.asin(machine.crank_length * math.sin(start_angle) / machine.rod_length)
     bore_angle = 0.0 if bore == "first" else fall  # the slider does not turn, the rod does
     inertia = machine.rod_mass * machine.rod_length**2 / 4.0 + machine.rod_inertia
@@ -386,7 +386,7 @@ def test_a_scene_gives_the_mobility_in_the_axes_of_the_bore(bore: str, start_ang
 def test_a_pin_begins_with_the_mobility_of_the_start(bore: str) -> None:
     pin = ClearancePin(contact=paper_contact(1.5, 0.0), bore=bore)
     scene = build(support(pins={PIN: pin}))
-    assert scene.loose_pins[PIN].kept.mobility == scene.mobility(PIN, INITIAL)
+    assert scene.loose_pins[PIN].kept.mobility == scene.mobilities(PIN, INITIAL).held
 
 
 def test_other_loose_pins_transmit_no_impulse() -> None:
