@@ -24,6 +24,7 @@ from support_exudyn.engine_scene import EngineScene
 from support_exudyn.engine_settings import SMALLEST_STEP, engine_settings, quiet_engine
 from support_exudyn.engine_words import explained, first_line
 from support_exudyn.errors import Failure, SimulationError
+from support_exudyn.estimate import rounding_of_positions
 from support_exudyn.impulse import Impulse
 from support_exudyn.newton_failures import NewtonFailures
 from support_exudyn.oil import force_rounding
@@ -34,6 +35,7 @@ from support_exudyn.smooth_steps import SmoothSteps
 from support_exudyn.steps import StepPlan
 from support_exudyn.stretches import Stretch, solve_in_stretches
 from support_exudyn.symbolic_drive import turns_by_itself
+from support_exudyn.velocity_jump import slide
 from user_forces import Frictionless
 from user_forces.normal.law import LoadError
 
@@ -75,7 +77,13 @@ class Run:
         self.data = scene.mbs.systemData
         self.recorder = recorder
         self.progress = progress
-        self.plan = StepPlan(scenario.duration, scenario.record_period, scenario.step, scenario.breaks)
+        self.plan = StepPlan(
+            scenario.duration,
+            scenario.record_period,
+            scenario.step,
+            scenario.breaks,
+            rounding_of_positions(scenario),
+        )
         self.solver: Any = exudyn.MainSolverImplicitSecondOrder()  # its stubs lack self
         self.impulses: list[Impulse] = []
         self.cylinders = tuple(scene.cylinders.values())
@@ -181,17 +189,16 @@ class Run:
         """The equal steps from t [s] on."""
         if t >= self.plan.duration * (1.0 - 1e-12):
             return None
-        refined = self.locates and self.plan.follows_break(t)
-        return Stretch(*self.plan.stretch(t, self.plan.step / BREAK_REFINEMENT if refined else math.inf))
+        return Stretch(*self.plan.stretch(t, self._longest_step(t)))
 
-    def _arrive(self, t: float, steps: int, repeats: int) -> None:
+    def _arrive(self, t: float, steps: int, repeats: int) -> float:
         """A stretch of so many steps has ended at t [s]; so many had to be repeated."""
         self.steps += steps
         self.failed_newton += repeats
         self._count()
         if t == 0.0 and self.recorder.integrates:  # before the speed jumps; the engine tells the start later
             self._audit(self.scene.mbs, t)
-        self._at_stop(t, self.plan.break_at(t))
+        return self._arrived(t)
 
     # --- called by the engine ---
 
@@ -259,7 +266,7 @@ class Run:
             friction.accept()
         if self.smooth is not None:
             self._look_for_smoothness(t, self.smooth)
-        self._at_stop(t, breaking)
+        t = self._arrived(t)
         goal = self._next_time(t)
         if breaking is None and self._is_to_be_cut(taken, goal - t):
             self.recorder.energies.totals[0] += self.scene.align(t)
@@ -270,8 +277,20 @@ class Run:
         self.solver.it.currentStepSize = max(SMALLEST_STEP, goal - t)
         return True
 
-    def _at_stop(self, t: float, breaking: float | None) -> None:
-        """A step has ended at t: it may be a record, or a break of the drive."""
+    def _arrived(self, t: float) -> float:
+        """A step has ended at t [s], and stops may follow that are not worth a step; from when it goes on [s]."""
+        self._at_stop(t)
+        while (stop := self.plan.rest(t, self._longest_step(t))) is not None:
+            slide(self.scene, stop - t)
+            self.data.SetTime(stop)
+            self.solver.it.currentTime = t = stop
+            self.recorder.after_step(t, True)
+            self._at_stop(t)
+        return t
+
+    def _at_stop(self, t: float) -> None:
+        """The run is at t: it may be a record, or a break of the drive."""
+        breaking = self.plan.break_at(t)
         self.time = t
         if self.plan.is_record(t):
             self.recorder.record(t)
@@ -358,8 +377,8 @@ class Run:
         for cylinder in self.cylinders:
             cylinder.tell_rates()
 
-    def _next_time(self, t: float) -> float:
-        """Where the step that starts at t is to end: on the grid, or at an impact seen coming [s]."""
+    def _longest_step(self, t: float) -> float:
+        """How long a step from t [s] on may be [s]; infinite: as the plan says."""
         largest = self.newton.length
         for pin in self.pins:
             largest = min(largest, pin.impact.step)
@@ -367,6 +386,11 @@ class Run:
             largest = min(largest, striker.longest_step(t, self.impact_steps))
         if self.locates and self.plan.follows_break(t):
             largest = min(largest, self.plan.step / BREAK_REFINEMENT)
+        return largest
+
+    def _next_time(self, t: float) -> float:
+        """Where the step that starts at t is to end: on the grid, or at an impact seen coming [s]."""
+        largest = self._longest_step(t)
         if self.smooth is not None and largest == math.inf:
             goal = self.plan.far_time(t, self.smooth.size)
         else:

@@ -12,6 +12,24 @@ import numpy.typing as npt
 Series = npt.NDArray[np.float64]
 
 CLOSE = 1e-9  # times closer than this share of a step are the same
+# The shortest time that is worth a step of its own. Constraints hold positions, which are rounded; accelerations
+# are their differences over the step's square, so that in a step h rounding r leaves r/h^2 of them. Who does not
+# solve there but moves on by the rates that the last step has ended with, misses by how much accelerations
+# change: a h/T of those that count, a, with T the shortest time scale. Both are alike for
+#     h^3 = r T / a
+# and below that a step makes worse what it is made for. The steps that are allowed follow the scene's shortest
+# time scale, contacts and all, and stand for T; a is of the order of the weight's. No more than a share of
+# those steps, for a scene may have steps that are as short themselves.
+ACCELERATION = 10.0  # [m/s^2]
+SHARE_OF_STEP = 0.1
+
+
+def shortest_step(rounding: float, largest: float) -> float:
+    """Time [s] below which a rest is not worth a step, where steps may be so long [s]; see above.
+
+    rounding: of positions [m].
+    """
+    return min(SHARE_OF_STEP * largest, math.cbrt(rounding * largest / ACCELERATION))
 
 
 class StepPlan:
@@ -22,10 +40,19 @@ class StepPlan:
         record_period: time between records [s]; the end is a record too.
         step: largest step [s].
         breaks: further times to land on [s].
+        rounding: of positions [m], see `shortest_step`.
     """
 
-    def __init__(self, duration: float, record_period: float, step: float, breaks: Iterable[float]) -> None:
+    def __init__(
+        self,
+        duration: float,
+        record_period: float,
+        step: float,
+        breaks: Iterable[float],
+        rounding: float = 0.0,
+    ) -> None:
         self.duration = duration
+        self.rounding = rounding
         self.record_period = record_period
         self.step = step
         self._rounding = 4.0 * math.ulp(duration)  # of times and their differences [s]
@@ -66,7 +93,21 @@ class StepPlan:
         before, after = self._stops_around(t)
         parts, size = self._parts(before, after, largest)
         done = math.floor((t - before + self._tolerance) / size)
-        return after if done + 1 >= parts else before + (done + 1) * size
+        following = after if done + 1 >= parts else before + (done + 1) * size
+        if following == after or following - t >= shortest_step(self.rounding, size):
+            return following
+        beyond = after if done + 2 >= parts else before + (done + 2) * size
+        return 0.5 * (t + beyond)  # an event lay just before a time of the grid: two steps, and none too long
+
+    def rest(self, t: float, largest: float = math.inf) -> float | None:
+        """The stop just after t [s] that is not worth a step of its own; None if there is none.
+
+        largest: step that is allowed there [s].
+        """
+        if t >= self.duration - self._tolerance:
+            return None
+        after = self._stops_around(t)[1]
+        return after if after - t < shortest_step(self.rounding, min(self.step, largest)) else None
 
     def stretch(self, t: float, largest: float = math.inf) -> tuple[float, int]:
         """End [s] of the equal steps that begin at t [s], and their number: up to a record or a break.
