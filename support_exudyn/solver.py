@@ -230,7 +230,7 @@ class Run:
         """After a step that is only looked at for its energies; the start of a stretch is told once more."""
         if t > self.audited:
             self.audited = t
-            self.recorder.after_step(t, self.plan.break_at(t) is not None)
+            self.recorder.after_step(t, bool(self.plan.breaks_at(t)))
         return True
 
     def _after_newton(self, mbs: Any, t: float) -> list[float]:
@@ -251,8 +251,8 @@ class Run:
 
     def _after_step(self, mbs: Any, t: float) -> bool:
         """After every accepted step, and once at the start."""
-        breaking, taken = self.plan.break_at(t), t - self.time
-        kink = breaking is not None
+        taken = t - self.time
+        kink = bool(self.plan.breaks_at(t))
         if self.trying:
             self.trying = False
             self.steps += 1
@@ -268,7 +268,7 @@ class Run:
             self._look_for_smoothness(t, self.smooth)
         t = self._arrived(t)
         goal = self._next_time(t)
-        if breaking is None and self._is_to_be_cut(taken, goal - t):
+        if not self.plan.breaks_at(t) and self._is_to_be_cut(taken, goal - t):
             self.recorder.energies.totals[0] += self.scene.align(t)
             self.scene.refresh_memory()
             self._tell_rates()
@@ -290,14 +290,13 @@ class Run:
 
     def _at_stop(self, t: float) -> None:
         """The run is at t: it may be a record, or a break of the drive."""
-        breaking = self.plan.break_at(t)
         self.time = t
         if self.plan.is_record(t):
             self.recorder.record(t)
             self._check_finite()
             self.progress(t / self.plan.duration)
-        if breaking is not None:
-            self._jump(breaking)
+        if breaks := self.plan.breaks_at(t):
+            self._jump(t, breaks)
 
     def _is_to_be_cut(self, taken: float, following: float) -> bool:
         """Whether far shorter steps follow on one of this length [s], or the next will be cut.
@@ -355,19 +354,22 @@ class Run:
             smooth.restart()
         self.repeated = False
 
-    def _jump(self, t: float) -> None:
-        """Velocities after a break, if the speed of a drive jumps there, and valves."""
-        jumps = any(drive.speed_jump(t) for drive in self.scene.scenario.drives_in_use)
-        if jumps:
-            impulse = self.scene.jump(t)
+    def _jump(self, t: float, breaks: list[float]) -> None:
+        """Velocities after the breaks that t [s] is, if the speed of a drive jumps there, and valves."""
+        drives = self.scene.scenario.drives_in_use
+        jumps = [b for b in breaks if any(drive.speed_jump(b) for drive in drives)]
+        for b in jumps:
+            impulse = self.scene.jump(b)
             if impulse is not None:
                 self.impulses.append(impulse)
             self.recorder.jump(t, 0.0 if impulse is None else impulse.energy)
+        if jumps:
             self.scene.refresh_memory()
             for pin in self.pins:
                 pin.begin_impact()
         for cylinder in self.cylinders:
-            cylinder.switch(t)
+            for b in breaks:
+                cylinder.switch(b)
         self._tell_rates()
         if self.cylinders and not jumps:
             self.recorder.switch(t)

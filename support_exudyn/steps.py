@@ -61,13 +61,18 @@ class StepPlan:
         # one that differs from the end by rounding only is the end
         self.breaks = sorted(t for t in set(breaks) if 0.0 <= t < duration - self._tolerance)
         self._around = (math.inf, math.inf)  # the stops last asked for [s]
-        self._after_breaks = [
-            self.next_time(b) - self._tolerance for b in self.breaks
-        ]  # ends of steps from them
+        # ends of steps from them
+        self._after_breaks = [self.next_time(self._beyond_rests(b)) - self._tolerance for b in self.breaks]
 
     def next_time(self, t: float, largest: float = math.inf) -> float:
         """The next grid time after t [s]; on a finer grid if steps may not be larger than so [s]."""
         return self._grid_time(t, min(self.step, largest))
+
+    def _beyond_rests(self, t: float) -> float:
+        """The last of the stops after t [s] up to which no step is made."""
+        while (stop := self.rest(t)) is not None:
+            t = stop
+        return t
 
     def far_time(self, t: float, size: float) -> float:
         """The last record that a step of this size [s] from t [s] reaches, not beyond a break.
@@ -151,12 +156,10 @@ class StepPlan:
         n = round(t / self.record_period)
         return abs(t - n * self.record_period) <= self._tolerance
 
-    def break_at(self, t: float) -> float | None:
-        """The break that time t [s] is, if it is one."""
-        for b in self.breaks[bisect_left(self.breaks, t - 2.0 * self._tolerance) : self._breaks_until(t) + 1]:
-            if abs(t - b) <= self._tolerance:
-                return b
-        return None
+    def breaks_at(self, t: float) -> list[float]:
+        """The breaks that time t [s] is: several may differ by rounding."""
+        near = self.breaks[bisect_left(self.breaks, t - 2.0 * self._tolerance) : self._breaks_until(t) + 1]
+        return [b for b in near if abs(t - b) <= self._tolerance]
 
     def _stops_around(self, t: float) -> tuple[float, float]:
         """The last stop (record or break) not after t, and the first after it [s]."""
