@@ -212,10 +212,15 @@ def rounding_of_forces(scenario: Scenario) -> float:
     """
     if scenario.formulation in ERROR_CONTROLLED:
         return 0.0
-    bodies = scenario.linkage.bodies.values()
-    size = max(math.hypot(*body.centre) for body in bodies)
     step = min(scenario.step, scenario.record_period)
-    return ROUNDINGS * max(body.mass for body in bodies) * size * sys.float_info.epsilon / step**2
+    heaviest = max(body.mass for body in scenario.linkage.bodies.values())
+    return heaviest * rounding_of_positions(scenario) / step**2
+
+
+def rounding_of_positions(scenario: Scenario) -> float:
+    """What rounding leaves in the positions that constraints hold [m], as forces show it: R size epsilon."""
+    size = max(math.hypot(*body.centre) for body in scenario.linkage.bodies.values())
+    return ROUNDINGS * size * sys.float_info.epsilon
 
 
 def rounding_share(result: Result) -> float:

@@ -24,6 +24,7 @@ from support_exudyn.engine_scene import EngineScene
 from support_exudyn.engine_settings import SMALLEST_STEP, engine_settings, quiet_engine
 from support_exudyn.engine_words import explained, first_line
 from support_exudyn.errors import Failure, SimulationError
+from support_exudyn.estimate import rounding_of_positions
 from support_exudyn.impulse import Impulse
 from support_exudyn.newton_failures import NewtonFailures
 from support_exudyn.oil import force_rounding
@@ -34,6 +35,7 @@ from support_exudyn.smooth_steps import SmoothSteps
 from support_exudyn.steps import StepPlan
 from support_exudyn.stretches import Stretch, solve_in_stretches
 from support_exudyn.symbolic_drive import turns_by_itself
+from support_exudyn.velocity_jump import slide
 from user_forces import Frictionless
 from user_forces.normal.law import LoadError
 
@@ -75,7 +77,13 @@ class Run:
         self.data = scene.mbs.systemData
         self.recorder = recorder
         self.progress = progress
-        self.plan = StepPlan(scenario.duration, scenario.record_period, scenario.step, scenario.breaks)
+        self.plan = StepPlan(
+            scenario.duration,
+            scenario.record_period,
+            scenario.step,
+            scenario.breaks,
+            rounding_of_positions(scenario),
+        )
         self.solver: Any = exudyn.MainSolverImplicitSecondOrder()  # its stubs lack self
         self.impulses: list[Impulse] = []
         self.cylinders = tuple(scene.cylinders.values())
@@ -181,17 +189,16 @@ class Run:
         """The equal steps from t [s] on."""
         if t >= self.plan.duration * (1.0 - 1e-12):
             return None
-        refined = self.locates and self.plan.follows_break(t)
-        return Stretch(*self.plan.stretch(t, self.plan.step / BREAK_REFINEMENT if refined else math.inf))
+        return Stretch(*self.plan.stretch(t, self._longest_step(t)))
 
-    def _arrive(self, t: float, steps: int, repeats: int) -> None:
+    def _arrive(self, t: float, steps: int, repeats: int) -> float:
         """A stretch of so many steps has ended at t [s]; so many had to be repeated."""
         self.steps += steps
         self.failed_newton += repeats
         self._count()
         if t == 0.0 and self.recorder.integrates:  # before the speed jumps; the engine tells the start later
             self._audit(self.scene.mbs, t)
-        self._at_stop(t, self.plan.break_at(t))
+        return self._arrived(t)
 
     # --- called by the engine ---
 
@@ -223,7 +230,7 @@ class Run:
         """After a step that is only looked at for its energies; the start of a stretch is told once more."""
         if t > self.audited:
             self.audited = t
-            self.recorder.after_step(t, self.plan.break_at(t) is not None)
+            self.recorder.after_step(t, bool(self.plan.breaks_at(t)))
         return True
 
     def _after_newton(self, mbs: Any, t: float) -> list[float]:
@@ -244,8 +251,8 @@ class Run:
 
     def _after_step(self, mbs: Any, t: float) -> bool:
         """After every accepted step, and once at the start."""
-        breaking, taken = self.plan.break_at(t), t - self.time
-        kink = breaking is not None
+        taken = t - self.time
+        kink = bool(self.plan.breaks_at(t))
         if self.trying:
             self.trying = False
             self.steps += 1
@@ -259,9 +266,9 @@ class Run:
             friction.accept()
         if self.smooth is not None:
             self._look_for_smoothness(t, self.smooth)
-        self._at_stop(t, breaking)
+        t = self._arrived(t)
         goal = self._next_time(t)
-        if breaking is None and self._is_to_be_cut(taken, goal - t):
+        if not self.plan.breaks_at(t) and self._is_to_be_cut(taken, goal - t):
             self.recorder.energies.totals[0] += self.scene.align(t)
             self.scene.refresh_memory()
             self._tell_rates()
@@ -270,15 +277,26 @@ class Run:
         self.solver.it.currentStepSize = max(SMALLEST_STEP, goal - t)
         return True
 
-    def _at_stop(self, t: float, breaking: float | None) -> None:
-        """A step has ended at t: it may be a record, or a break of the drive."""
+    def _arrived(self, t: float) -> float:
+        """A step has ended at t [s], and stops may follow that are not worth a step; from when it goes on [s]."""
+        self._at_stop(t)
+        while (stop := self.plan.rest(t, self._longest_step(t))) is not None:
+            slide(self.scene, stop - t)
+            self.data.SetTime(stop)
+            self.solver.it.currentTime = t = stop
+            self.recorder.after_step(t, True)
+            self._at_stop(t)
+        return t
+
+    def _at_stop(self, t: float) -> None:
+        """The run is at t: it may be a record, or a break of the drive."""
         self.time = t
         if self.plan.is_record(t):
             self.recorder.record(t)
             self._check_finite()
             self.progress(t / self.plan.duration)
-        if breaking is not None:
-            self._jump(breaking)
+        if breaks := self.plan.breaks_at(t):
+            self._jump(t, breaks)
 
     def _is_to_be_cut(self, taken: float, following: float) -> bool:
         """Whether far shorter steps follow on one of this length [s], or the next will be cut.
@@ -336,19 +354,22 @@ class Run:
             smooth.restart()
         self.repeated = False
 
-    def _jump(self, t: float) -> None:
-        """Velocities after a break, if the speed of a drive jumps there, and valves."""
-        jumps = any(drive.speed_jump(t) for drive in self.scene.scenario.drives_in_use)
-        if jumps:
-            impulse = self.scene.jump(t)
+    def _jump(self, t: float, breaks: list[float]) -> None:
+        """Velocities after the breaks that t [s] is, if the speed of a drive jumps there, and valves."""
+        drives = self.scene.scenario.drives_in_use
+        jumps = [b for b in breaks if any(drive.speed_jump(b) for drive in drives)]
+        for b in jumps:
+            impulse = self.scene.jump(b)
             if impulse is not None:
                 self.impulses.append(impulse)
             self.recorder.jump(t, 0.0 if impulse is None else impulse.energy)
+        if jumps:
             self.scene.refresh_memory()
             for pin in self.pins:
                 pin.begin_impact()
         for cylinder in self.cylinders:
-            cylinder.switch(t)
+            for b in breaks:
+                cylinder.switch(b)
         self._tell_rates()
         if self.cylinders and not jumps:
             self.recorder.switch(t)
@@ -358,8 +379,8 @@ class Run:
         for cylinder in self.cylinders:
             cylinder.tell_rates()
 
-    def _next_time(self, t: float) -> float:
-        """Where the step that starts at t is to end: on the grid, or at an impact seen coming [s]."""
+    def _longest_step(self, t: float) -> float:
+        """How long a step from t [s] on may be [s]; infinite: as the plan says."""
         largest = self.newton.length
         for pin in self.pins:
             largest = min(largest, pin.impact.step)
@@ -367,6 +388,11 @@ class Run:
             largest = min(largest, striker.longest_step(t, self.impact_steps))
         if self.locates and self.plan.follows_break(t):
             largest = min(largest, self.plan.step / BREAK_REFINEMENT)
+        return largest
+
+    def _next_time(self, t: float) -> float:
+        """Where the step that starts at t is to end: on the grid, or at an impact seen coming [s]."""
+        largest = self._longest_step(t)
         if self.smooth is not None and largest == math.inf:
             goal = self.plan.far_time(t, self.smooth.size)
         else:

@@ -12,6 +12,24 @@ import numpy.typing as npt
 Series = npt.NDArray[np.float64]
 
 CLOSE = 1e-9  # times closer than this share of a step are the same
+# The shortest time that is worth a step of its own. Constraints hold positions, which are rounded; accelerations
+# are their differences over the step's square, so that in a step h rounding r leaves r/h^2 of them. Who does not
+# solve there but moves on by the rates that the last step has ended with, misses by how much accelerations
+# change: a h/T of those that count, a, with T the shortest time scale. Both are alike for
+#     h^3 = r T / a
+# and below that a step makes worse what it is made for. The steps that are allowed follow the scene's shortest
+# time scale, contacts and all, and stand for T; a is of the order of the weight's. No more than a share of
+# those steps, for a scene may have steps that are as short themselves.
+ACCELERATION = 10.0  # [m/s^2]
+SHARE_OF_STEP = 0.1
+
+
+def shortest_step(rounding: float, largest: float) -> float:
+    """Time [s] below which a rest is not worth a step, where steps may be so long [s]; see above.
+
+    rounding: of positions [m].
+    """
+    return min(SHARE_OF_STEP * largest, math.cbrt(rounding * largest / ACCELERATION))
 
 
 class StepPlan:
@@ -22,10 +40,19 @@ class StepPlan:
         record_period: time between records [s]; the end is a record too.
         step: largest step [s].
         breaks: further times to land on [s].
+        rounding: of positions [m], see `shortest_step`.
     """
 
-    def __init__(self, duration: float, record_period: float, step: float, breaks: Iterable[float]) -> None:
+    def __init__(
+        self,
+        duration: float,
+        record_period: float,
+        step: float,
+        breaks: Iterable[float],
+        rounding: float = 0.0,
+    ) -> None:
         self.duration = duration
+        self.rounding = rounding
         self.record_period = record_period
         self.step = step
         self._rounding = 4.0 * math.ulp(duration)  # of times and their differences [s]
@@ -34,13 +61,18 @@ class StepPlan:
         # one that differs from the end by rounding only is the end
         self.breaks = sorted(t for t in set(breaks) if 0.0 <= t < duration - self._tolerance)
         self._around = (math.inf, math.inf)  # the stops last asked for [s]
-        self._after_breaks = [
-            self.next_time(b) - self._tolerance for b in self.breaks
-        ]  # ends of steps from them
+        # ends of steps from them
+        self._after_breaks = [self.next_time(self._beyond_rests(b)) - self._tolerance for b in self.breaks]
 
     def next_time(self, t: float, largest: float = math.inf) -> float:
         """The next grid time after t [s]; on a finer grid if steps may not be larger than so [s]."""
         return self._grid_time(t, min(self.step, largest))
+
+    def _beyond_rests(self, t: float) -> float:
+        """The last of the stops after t [s] up to which no step is made."""
+        while (stop := self.rest(t)) is not None:
+            t = stop
+        return t
 
     def far_time(self, t: float, size: float) -> float:
         """The last record that a step of this size [s] from t [s] reaches, not beyond a break.
@@ -66,7 +98,21 @@ class StepPlan:
         before, after = self._stops_around(t)
         parts, size = self._parts(before, after, largest)
         done = math.floor((t - before + self._tolerance) / size)
-        return after if done + 1 >= parts else before + (done + 1) * size
+        following = after if done + 1 >= parts else before + (done + 1) * size
+        if following == after or following - t >= shortest_step(self.rounding, size):
+            return following
+        beyond = after if done + 2 >= parts else before + (done + 2) * size
+        return 0.5 * (t + beyond)  # an event lay just before a time of the grid: two steps, and none too long
+
+    def rest(self, t: float, largest: float = math.inf) -> float | None:
+        """The stop just after t [s] that is not worth a step of its own; None if there is none.
+
+        largest: step that is allowed there [s].
+        """
+        if t >= self.duration - self._tolerance:
+            return None
+        after = self._stops_around(t)[1]
+        return after if after - t < shortest_step(self.rounding, min(self.step, largest)) else None
 
     def stretch(self, t: float, largest: float = math.inf) -> tuple[float, int]:
         """End [s] of the equal steps that begin at t [s], and their number: up to a record or a break.
@@ -110,12 +156,10 @@ class StepPlan:
         n = round(t / self.record_period)
         return abs(t - n * self.record_period) <= self._tolerance
 
-    def break_at(self, t: float) -> float | None:
-        """The break that time t [s] is, if it is one."""
-        for b in self.breaks[bisect_left(self.breaks, t - 2.0 * self._tolerance) : self._breaks_until(t) + 1]:
-            if abs(t - b) <= self._tolerance:
-                return b
-        return None
+    def breaks_at(self, t: float) -> list[float]:
+        """The breaks that time t [s] is: several may differ by rounding."""
+        near = self.breaks[bisect_left(self.breaks, t - 2.0 * self._tolerance) : self._breaks_until(t) + 1]
+        return [b for b in near if abs(t - b) <= self._tolerance]
 
     def _stops_around(self, t: float) -> tuple[float, float]:
         """The last stop (record or break) not after t, and the first after it [s]."""

@@ -25,7 +25,7 @@ def solve_in_stretches(
     mbs: Any,
     settings: Any,
     following: Callable[[float], Stretch | None],
-    arrive: Callable[[float, int, int], None],
+    arrive: Callable[[float, int, int], float],
 ) -> bool:
     """Integrate from 0; whether it could be finished.
 
@@ -34,13 +34,12 @@ def solve_in_stretches(
         following: the stretch that begins at a time [s], None: the run ends there.
         arrive: is called at the start and after every stretch with the time [s], the number of steps taken, and
             how often one was repeated because Newton's method did not converge: with half the step, as are then
-            all that are left of the stretch.
+            all that are left of the stretch. It says from when the run goes on [s].
     """
     if not solver.InitializeSolver(mbs, settings):
         return False
     it = solver.it
-    t = 0.0
-    arrive(t, 0, 0)
+    t = arrive(0.0, 0, 0)
     while (stretch := following(t)) is not None:
         size = (stretch.end - float(it.currentTime)) / stretch.steps
         it.endTime = stretch.end
@@ -51,6 +50,6 @@ def solve_in_stretches(
         if abs(t - stretch.end) < ROUNDING * size:  # of a sum of steps; the next stretch makes up for it
             t = stretch.end
         repeats = max(0, round(math.log2(size / float(it.currentStepSize))))
-        arrive(t, int(it.currentStepIndex) - 1, repeats)  # the engine counts from 1 in every stretch
+        t = arrive(t, int(it.currentStepIndex) - 1, repeats)  # the engine counts from 1 in every stretch
     solver.FinalizeSolver(mbs, settings)
     return True

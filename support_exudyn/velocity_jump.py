@@ -13,6 +13,7 @@ import numpy as np
 from support_exudyn.impulse import Impulse
 
 if TYPE_CHECKING:
+    from support_exudyn.engine_scene import EngineScene
     from support_exudyn.scene import Scene
 
 
@@ -30,6 +31,21 @@ def align_velocities(scene: Scene, time: float) -> float:
     )
     data.SetODE2Coordinates_t(before + change)
     return -float(impulses @ rates)
+
+
+def slide(scene: EngineScene, rest: float) -> None:
+    """Move on by a time [s] that is not worth a step, by the rates that the last one has ended with.
+
+    Positions are then off by third order in it, and velocities and pressures by second. See
+    `steps.shortest_step`.
+    """
+    data = scene.mbs.systemData
+    velocity, acceleration = data.GetODE2Coordinates_t(), data.GetODE2Coordinates_tt()
+    data.SetODE2Coordinates(data.GetODE2Coordinates() + rest * (velocity + 0.5 * rest * acceleration))
+    data.SetODE2Coordinates_t(velocity + rest * acceleration)
+    if scene.cylinders:
+        data.SetODE1Coordinates(data.GetODE1Coordinates() + rest * data.GetODE1Coordinates_t())
+    scene.refresh_memory()
 
 
 def jump_velocities(scene: Scene, time: float) -> Impulse | None:
