@@ -35,7 +35,7 @@ class _Column(NamedTuple):
 
 
 def read_drives(
-    path: Path, between: Literal["smooth", "linear"] = "smooth", turns: Turns | None = None
+    path: Path, between: Literal["smooth", "linear"] = TableDrive.between, turns: Turns | None = None
 ) -> dict[str, TableDrive]:
     """The drives of a CSV file by the names of its columns.
 

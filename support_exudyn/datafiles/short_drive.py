@@ -8,6 +8,7 @@ from typing import Literal
 from pydantic import model_validator
 
 from support_exudyn.drives import CubicStep, Stroke, UniformSpeed
+from support_exudyn.table_drive import TableDrive
 from user_forces.quantity import Metres, Seconds
 from user_forces.values import NonNegative, Positive, Real, Value, value
 
@@ -18,14 +19,14 @@ class DriveMode(Value):
 
     Arguments:
         mode: 1: constant speed from rest, without transition (`UniformSpeed`); 2: a smooth inlet (`CubicStep`).
-        stroke: [m]; if nothing is said the machine's, else 0.5; negative to lower.
-        start, end: of the stroke [s], 3 and 5 if nothing is said; end > start >= 0.
+        stroke: [m]; if nothing is said the machine's, else that of `Stroke`; negative to lower.
+        start, end: of the stroke [s], those of `Stroke` if nothing is said; end > start >= 0.
     """
 
     mode: Literal[1, 2]
     stroke: Metres[Real] | None = None
-    start: Seconds[NonNegative] = 3.0
-    end: Seconds[Positive] = 5.0
+    start: Seconds[NonNegative] = Stroke.start
+    end: Seconds[Positive] = Stroke.end
 
     @model_validator(mode="after")
     def _is_a_stroke(self) -> DriveMode:
@@ -53,7 +54,7 @@ class DriveFile(Value):
 
     table: str
     column: str | None = None
-    between: Literal["smooth", "linear"] = "smooth"
+    between: Literal["smooth", "linear"] = TableDrive.between
 
 
 @value
@@ -65,4 +66,4 @@ class DrivesFile(Value):
     """
 
     table: str
-    between: Literal["smooth", "linear"] = "smooth"
+    between: Literal["smooth", "linear"] = TableDrive.between

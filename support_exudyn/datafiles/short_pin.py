@@ -13,11 +13,10 @@ from support_exudyn.datafiles.shapes import Group, Names
 from support_exudyn.pins import ClearancePin
 from user_forces.contact import JournalContact
 from user_forces.friction.ambrosio import Ambrosio
-from user_forces.friction.frictionless import Frictionless
 from user_forces.friction.law import FrictionLaw
 from user_forces.journal import JournalBearing
 from user_forces.materials import STEEL, STEEL_35CRMO, Material
-from user_forces.normal.damping_speed import DampingSpeed, TouchSpeed
+from user_forces.normal.damping_speed import DampingSpeed
 from user_forces.normal.law import NormalLaw
 from user_forces.normal.power_law import ElasticPower
 from user_forces.quantity import Metres, NewtonsPerMetreToN
@@ -59,8 +58,7 @@ class ShortPin(Value):
         restitution: of an impact, > 0 and <= 1; 0.9 if nothing is said.
         friction: sliding coefficient of Ambrosio's law, >= 0, 0: none; or a friction law as a table.
         law: of the normal force: one that needs a stiffness and a restitution only.
-        damping_speed: what the damping of the law is scaled with; the speed of the touch, at least 1 mm/s, if
-            nothing is said.
+        damping_speed: what the damping of the law is scaled with; the law's own default if nothing is said.
         stiffness: K of K depth^1.5: "external" or "internal", Hertz's for spheres that touch from outside or
             inside, from radii and materials; or a number [N/m^1.5], > 0.
         bore_material, journal_material: names or tables; steel and 35CrMo if nothing is said.
@@ -77,8 +75,8 @@ class ShortPin(Value):
     stiffness: Literal["external", "internal"] | NewtonsPerMetreToN[Positive] = "external"
     bore_material: NamedMaterial | Material | None = None
     journal_material: NamedMaterial | Material | None = None
-    bore: Literal["first", "second"] = "first"
-    eccentricity: Metres[Vector2] = (0.0, 0.0)
+    bore: Literal["first", "second"] = ClearancePin.bore
+    eccentricity: Metres[Vector2] = ClearancePin.eccentricity
 
     @model_validator(mode="after")
     def _nothing_is_left_unused(self) -> ShortPin:
@@ -120,8 +118,8 @@ class ShortPin(Value):
         given: dict[str, Any] = {"stiffness": self._stiffness(bearing)}
         if "restitution" in _fields_of(self.law):
             given["restitution"] = USUAL_RESTITUTION if self.restitution is None else self.restitution
-        if "damping_speed" in _fields_of(self.law):
-            given["damping_speed"] = self.damping_speed or TouchSpeed()
+        if self.damping_speed is not None:
+            given["damping_speed"] = self.damping_speed
         return law(**given)  # type: ignore[no-any-return]
 
     def _stiffness(self, bearing: JournalBearing) -> float:
@@ -136,7 +134,7 @@ class ShortPin(Value):
     def _friction(self) -> FrictionLaw:
         if isinstance(self.friction, FrictionLaw):
             return self.friction
-        return Ambrosio(sliding_coefficient=self.friction) if self.friction else Frictionless()
+        return Ambrosio(sliding_coefficient=self.friction) if self.friction else JournalContact.friction
 
 
 def _fields_of(law: str) -> set[str]:

@@ -42,7 +42,6 @@ from user_forces import (
     Hertz,
     InputError,
     Material,
-    TouchSpeed,
     internal_contact_stiffness,
 )
 
@@ -77,12 +76,8 @@ def test_the_papers_rise_in_short_is_that_of_the_studies() -> None:
 
 
 def test_a_pin_in_short_is_that_of_the_studies() -> None:
-    found = scenario(TOP + LOOSE + "friction = 0.25\nrestitution = 0.9").pins["rear_base"]
-    assert found == loose_pin(1.5, 0.25)
-
-
-def test_usual_values_of_a_pin() -> None:
-    assert scenario(TOP + LOOSE).pins["rear_base"] == loose_pin(1.5, 0.0)
+    text = 'friction = 0.25\nrestitution = 0.9\ndamping_speed = {type = "TouchSpeed"}'
+    assert scenario(TOP + LOOSE + text).pins["rear_base"] == loose_pin(1.5, 0.25)
 
 
 def test_nothing_but_machine_and_duration_has_to_be_said() -> None:
@@ -91,7 +86,7 @@ def test_nothing_but_machine_and_duration_has_to_be_said() -> None:
 
 def test_a_law_that_needs_a_restitution_only() -> None:
     found = normal('law = "Flores"\nrestitution = 0.5\nstiffness_N_per_m_to_n = 1e10')
-    assert found == Flores(stiffness=1e10, restitution=0.5, damping_speed=TouchSpeed())
+    assert found == Flores(stiffness=1e10, restitution=0.5)
 
 
 def test_a_law_without_restitution() -> None:
@@ -114,10 +109,10 @@ def test_a_friction_law_as_a_table() -> None:
 
 def test_damping_speed_bore_and_eccentricity() -> None:
     found = scenario(
-        TOP + LOOSE + 'bore = "second"\neccentricity_mm = [0, -1]\ndamping_speed = {type = "DepthSpeed"}'
+        TOP + LOOSE + 'bore = "second"\neccentricity_mm = [0, -1]\ndamping_speed = {type = "TouchSpeed"}'
     ).clearance_pins["rear_base"]
     assert (found.bore, found.eccentricity) == ("second", (0.0, -0.001))
-    assert type(found.contact.normal.damping_speed).__name__ == "DepthSpeed"  # type: ignore[attr-defined]
+    assert type(found.contact.normal.damping_speed).__name__ == "TouchSpeed"  # type: ignore[attr-defined]
 
 
 def test_an_ideal_pin() -> None:

@@ -1,0 +1,129 @@
+"""What a file leaves out is what Python leaves out: no default has two sources."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from studies.paper_machine import bearing
+from support_exudyn import ClearancePin, CubicStep, Scenario, UniformSpeed, ravn_slider_crank, reference_support
+from support_exudyn.datafiles import parsed, read_value, scenario_of, table_of, toml_text
+from support_exudyn.datafiles.shapes import Group, field_shapes
+from support_exudyn.datafiles.short_drive import DriveFile, DriveMode, DrivesFile
+from support_exudyn.datafiles.short_pin import USUAL_RESTITUTION, ShortPin, simple_laws
+from support_exudyn.drives import Stroke
+from support_exudyn.linkages.slider_crank import SliderCrank
+from support_exudyn.machine_data import read_machine
+from support_exudyn.table_drive import TableDrive
+from tests import strategies as some
+from user_forces import (
+    STEEL,
+    STEEL_35CRMO,
+    DepthSpeed,
+    InputError,
+    JournalBearing,
+    JournalContact,
+    NormalLaw,
+    Value,
+    external_contact_stiffness,
+)
+
+TOP = 'machine = "reference"\nduration_s = 5\n'
+LOOSE = "[pins.rear_base]\nclearance_mm = 1.5\nbore_radius_mm = 65.5\n"
+some.kinds()  # imports all modules: not while something is drawn
+# what a short form makes, and which of its fields have no default there
+MADE: dict[type[Value], tuple[tuple[type[Value], ...], set[str]]] = {
+    ShortPin: (
+        (
+            ClearancePin,
+            JournalContact,
+            JournalBearing,
+            *(Group((NormalLaw,)).kinds[law] for law in simple_laws()),
+        ),
+        {"clearance", "bore_radius", "restitution", "law", "stiffness", "bore_material", "journal_material"},
+    ),
+    DriveMode: ((CubicStep, UniformSpeed), {"mode"}),
+    DriveFile: ((TableDrive,), {"table", "column"}),
+    DrivesFile: ((TableDrive,), {"table"}),
+}
+
+
+def read(text: str) -> Scenario:
+    return scenario_of(parsed(text, "a.toml"), "a.toml", Path())
+
+
+def defaults(cls: type[Value]) -> dict[str, Any]:
+    """Of its fields that have one."""
+    found = some.fields_of(cls).items()
+    return {name: info.get_default(call_default_factory=True) for name, info in found if not info.is_required()}
+
+
+@pytest.mark.parametrize("law", simple_laws())
+def test_a_pin_in_short_is_what_python_makes_of_the_same_inputs(law: str) -> None:
+    kind: Any = Group((NormalLaw,)).kinds[law]
+    said = {
+        "stiffness": external_contact_stiffness(bearing(1.5), STEEL, STEEL_35CRMO),
+        "restitution": USUAL_RESTITUTION,
+    }
+    normal = kind(**{name: item for name, item in said.items() if name in some.fields_of(kind)})
+    pin = ClearancePin(contact=JournalContact(bearing=bearing(1.5), normal=normal))
+    expected = Scenario(machine=reference_support(), duration=5.0, pins={"rear_base": pin})
+    assert read(TOP + LOOSE + f'law = "{law}"') == expected
+
+
+def test_a_pin_of_which_nothing_is_said_is_damped_by_its_depth() -> None:
+    law = read(TOP + LOOSE).clearance_pins["rear_base"].contact.normal
+    assert law.damping_speed == DepthSpeed()  # type: ignore[attr-defined]
+
+
+@pytest.mark.parametrize("short", MADE, ids=lambda cls: cls.__name__)
+def test_every_default_of_a_short_form_is_that_of_what_it_makes(short: type[Value]) -> None:
+    made, own = MADE[short]
+    shared = [(name, cls) for name in some.fields_of(short) if name not in own for cls in made]
+    for name, item in defaults(short).items():
+        if name in own:
+            continue
+        there = [defaults(cls)[name] for cls in made if name in defaults(cls)]
+        assert there, f"{short.__name__}.{name} has a default that nothing in Python has"
+        usual = {None, *([0.0] if name == "friction" else [])}  # which mean: whatever the class has
+        assert item in usual or all(one == item for one in there), name
+    assert shared
+
+
+@pytest.mark.parametrize("mode", [1, 2])
+def test_a_mode_in_short_is_pythons(mode: int) -> None:
+    kind: Callable[[], Stroke] = UniformSpeed if mode == 1 else CubicStep
+    assert read(TOP + f"drive.mode = {mode}").drive == kind()
+
+
+@pytest.mark.parametrize("kind", some.kinds(), ids=lambda cls: cls.__name__)
+def test_a_class_of_which_a_file_says_the_least_is_pythons(kind: type[Value]) -> None:
+    examples = some.examples_of(kind)
+    needed = [name for name, info in some.fields_of(kind).items() if info.is_required()]
+    for example in examples:
+        try:
+            least = kind(**{name: getattr(example, name) for name in needed})
+            full = table_of(least, says_type=False)
+        except InputError:
+            continue  # which needs more, or is not for files
+        keys = {key: item for key, item in full.items() if _field(kind, key) in needed}
+        assert read_value(kind, parsed(toml_text(keys), "a.toml"), "a.toml") == least
+
+
+def _field(kind: type[Value], key: str) -> str:
+    return next(one.name for one in field_shapes(kind).values() if key in (one.name, *one.keys))
+
+
+def test_a_machine_of_which_a_file_says_the_least_is_pythons(tmp_path: Path) -> None:
+    crank = ravn_slider_crank()
+    lengths = {f"{name}_mm": 1e3 * getattr(crank, name) for name in ("crank_length", "rod_length")}
+    masses = {f"{name}_kg": getattr(crank, name) for name in ("crank_mass", "rod_mass", "slider_mass")}
+    lines = [f"{key} = {float(item)!r}" for key, item in (lengths | masses).items()]
+    path = tmp_path / "crank.toml"
+    path.write_text('kind = "slider_crank"\nname = "a"\n' + "\n".join(lines), encoding="utf-8")
+    found = read_machine(str(path), tmp_path).machine
+    assert isinstance(found, SliderCrank)
+    assert found.start_angle == defaults(SliderCrank)["start_angle"]
