@@ -23,10 +23,11 @@ from studies.reporting.chapter import Sheet
 from support_exudyn import Failure, Result, Scenario, SimulationError
 from support_exudyn.command_line import Parser, answered, count, folder
 from support_exudyn.figures import style
-from support_exudyn.files import remove_leftovers, whole_file, writing_alone
+from support_exudyn.files import whole_file, writing_alone
 from support_exudyn.provenance import versions
 from support_exudyn.sweep import run_all
 from support_exudyn.workers import Workers
+from support_exudyn.workshop import remove_leftovers
 
 MOST_BARS = 12  # more runs than that share one progress bar
 

@@ -10,12 +10,11 @@ their times, nothing between them.
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
 
 import h5py
 
-from support_exudyn.exporting import vtu
+from support_exudyn.exporting import vtu, xdmf
 from support_exudyn.exporting.channels_hdf5 import write_channels
 from support_exudyn.exporting.machine_mesh import MachineMesh
 from support_exudyn.exporting.mesh_series import MeshSeries
@@ -24,7 +23,6 @@ from support_exudyn.exporting.pin_points import PinPoints
 from support_exudyn.exporting.sampling import Sampling
 from support_exudyn.exporting.tables import write_csv
 from support_exudyn.exporting.whole_set import whole_set
-from support_exudyn.exporting.xdmf import MovingMeshWriter
 from support_exudyn.progress import Progress, silent
 from support_exudyn.result import Result
 from user_forces.values import InputError
@@ -79,11 +77,12 @@ def to_xdmf(
     store, table = f"{path.stem}_mesh.h5", f"{path.stem}_names.csv"
     indexes = [_index(path.stem, mesh, ".xdmf") for mesh in series]
     _check_room(series, len(records))
-    of_pins = f"{path.stem}_pins.xdmf"  # which an earlier export of another machine may have left
-    with whole_set(path.parent, (store, table), indexes, stale=lambda name: name == of_pins) as folder:
+    earlier = f"{path.stem}_pins.xdmf"  # which an earlier export of another machine may have left
+    stale = {earlier} if xdmf.refers(path.parent / earlier, store) else set()
+    with whole_set(path.parent, (store, table), indexes, stale) as folder:
         # made in memory: on a full disk HDF5 would end the whole process
         with h5py.File(store, "w", driver="core", backing_store=False) as file:
-            writers = [MovingMeshWriter(mesh, file, store) for mesh in series]
+            writers = [xdmf.MovingMeshWriter(mesh, file, store) for mesh in series]
             for step, record in enumerate(records):
                 for writer in writers:
                     writer.write_step(float(result.time[record]), record)
@@ -113,7 +112,8 @@ def to_vtu(
     steps = {mesh.name: [vtu.step_name(mesh.name, step) for step in range(len(records))] for mesh in series}
     files = ["names.csv", *(name for of_mesh in steps.values() for name in of_mesh)]
     indexes = [f"{mesh.name}.pvd" for mesh in series]
-    with whole_set(folder, files, indexes, stale=_is_of_vtu) as temporary:
+    stale = vtu.earlier(folder, "machine") | vtu.earlier(folder, "pins")
+    with whole_set(folder, files, indexes, stale) as temporary:
         for step, record in enumerate(records):
             for mesh in series:
                 vtu.write_step(temporary / steps[mesh.name][step], mesh, record)
@@ -182,8 +182,3 @@ def _check_room(series: list[MeshSeries], steps: int) -> None:
 def _index(stem: str, mesh: MeshSeries, suffix: str) -> str:
     """The machine's index has the name that was asked for, the others theirs behind it."""
     return f"{stem}{suffix}" if mesh.name == "machine" else f"{stem}_{mesh.name}{suffix}"
-
-
-def _is_of_vtu(name: str) -> bool:
-    """Whether a file is a step of this or an earlier export, or an index of it."""
-    return re.fullmatch(r"(machine|pins)(_\d{5,}\.vtu|\.pvd)", name) is not None

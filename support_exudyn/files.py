@@ -6,20 +6,14 @@ import errno
 import os
 import re
 import stat
-import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
-from typing import Any
 
-try:
-    import fcntl as _fcntl
-except ImportError:  # Windows
-    _fcntl = None  # type: ignore[assignment]
+from support_exudyn.workshop import fcntl, workshop
 
-fcntl: Any = _fcntl
-LONGEST_STEM = 40  # characters of a name that its temporary file shares: with all of them it might be too long
-LOCK = ".lock"
+LOCK = ".support_exudyn.lock"
+HOLDER = re.compile(rb"(\d+\n)?")  # what is in a lock: the process that has it
 REFUSED = "it cannot be written"
 
 
@@ -29,36 +23,32 @@ def whole_file(path: str | Path) -> Iterator[Path]:
 
     Missing folders are made. A link stays, and the file that it points to is written. What is written is on the
     disk before it takes its place, so that `path` is whole after a power cut too. After an error or an
-    interruption `path` is as it was before; of a process that is killed a temporary file stays, see
-    `remove_leftovers`.
+    interruption `path` is as it was before; of a process that is killed a folder stays, see `workshop`.
 
     Raises OSError that names `path` if it cannot be written: before the block where that can be known, after it
     otherwise (a full disk).
     """
-    try:
-        real = real_path(path)
-        real.parent.mkdir(parents=True, exist_ok=True)
-        check_may_be_replaced(real)
-        handle, name = tempfile.mkstemp(
-            prefix=f".{real.stem[:LONGEST_STEM]}-{os.getpid()}-", suffix=real.suffix, dir=real.parent
-        )
-    except FileExistsError:
-        raise named(NotADirectoryError(errno.ENOTDIR, "A file stands where a folder should be"), path) from None
-    except OSError as error:  # of a name that nobody has given
-        raise named(error, path) from None
-    os.close(handle)
-    temporary = Path(name)
-    try:
-        yield temporary
-        temporary.chmod(0o666 & ~_umask())
-        write_through(temporary)
-        temporary.replace(real)
-    except OSError as error:
-        if error.errno is None or error.filename not in (None, name, temporary):
-            raise  # of something else
-        raise named(error, path) from error
-    finally:
-        temporary.unlink(missing_ok=True)
+    with ExitStack() as held:
+        try:
+            real = real_path(path)
+            real.parent.mkdir(parents=True, exist_ok=True)
+            check_may_be_replaced(real)
+            temporary = held.enter_context(workshop(real.parent)) / f"x{real.suffix}"  # never too long
+            temporary.touch()
+        except FileExistsError:
+            raise named(
+                NotADirectoryError(errno.ENOTDIR, "A file stands where a folder should be"), path
+            ) from None
+        except OSError as error:  # of a name that nobody has given
+            raise named(error, path) from None
+        try:
+            yield temporary
+            write_through(temporary)
+            temporary.replace(real)
+        except OSError as error:
+            if error.errno is None or error.filename not in (None, str(temporary), temporary):
+                raise  # of something else
+            raise named(error, path) from error
 
 
 def real_path(path: str | Path) -> Path:
@@ -85,6 +75,24 @@ def check_may_be_replaced(path: Path) -> None:
         raise PermissionError(errno.EACCES, "The file is read-only")
 
 
+def contents(path: str | Path, most: int) -> bytes:
+    """All bytes of a file.
+
+    Raises OSError that names it if it cannot be read, is no regular file (a pipe, a device), or has more than
+    `most` bytes: all that is read of others' files is read here, so that nothing of them is without an end.
+    """
+    handle = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
+    with os.fdopen(handle, "rb", closefd=True) as file:
+        status = os.fstat(handle)
+        if not stat.S_ISREG(status.st_mode):
+            raise OSError(errno.EINVAL, "is no regular file; allowed: files", str(path))
+        data = file.read(most + 1) if status.st_size <= most else b""
+        if status.st_size > most or len(data) > most:
+            size = max(status.st_size, len(data))
+            raise OSError(errno.EFBIG, f"has {size} bytes or more; allowed: up to {most}", str(path))
+    return data
+
+
 def named(error: OSError, path: str | Path) -> OSError:
     """The same error, of the name that was given."""
     return type(error)(error.errno, f"{error.strerror}; {REFUSED}", str(path))
@@ -99,17 +107,6 @@ def write_through(path: Path) -> None:
         os.close(handle)
 
 
-LEFTOVER = re.compile(r"\..+-(\d+)-\w+(\.\w+)?")  # name of a temporary file, with the process that made it
-
-
-def remove_leftovers(folder: Path, below: bool = False) -> None:
-    """Remove temporary files of `whole_file` whose process is gone, in a folder, or in all below it too."""
-    for path in list(folder.rglob(".*") if below else folder.iterdir()):
-        found = LEFTOVER.fullmatch(path.name)
-        if found and not is_alive(int(found.group(1))):
-            path.unlink(missing_ok=True)
-
-
 @contextmanager
 def writing_alone(folder: Path) -> Iterator[None]:
     """Keep other processes that ask for it, too, from a folder while the block runs.
@@ -117,14 +114,14 @@ def writing_alone(folder: Path) -> Iterator[None]:
     The lock ends with the process, however it ends. Where the system has no such lock (Windows, some network
     disks) nobody is kept out.
 
-    Raises OSError that names the process which is writing there.
+    Raises OSError that names the process which is writing there, or a file of the lock's name that is none.
     """
     if fcntl is None:
         yield
         return
     path = folder / LOCK
     while True:
-        handle = os.open(path, os.O_RDWR | os.O_CREAT, 0o666)
+        handle = _opened(path)
         try:
             fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
             if _is_open(path, handle):
@@ -152,37 +149,29 @@ def writing_alone(folder: Path) -> Iterator[None]:
         os.close(handle)
 
 
+def _opened(path: Path) -> int:
+    """A lock, opened; made if missing. Raises OSError if something else has its name."""
+    try:
+        handle = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK, 0o666)
+    except OSError as error:
+        if error.errno in (errno.ELOOP, errno.EISDIR, errno.ENXIO):
+            raise _no_lock(path) from None
+        raise
+    regular = stat.S_ISREG(os.fstat(handle).st_mode)
+    if regular and HOLDER.fullmatch(os.pread(handle, 64, 0)):
+        return handle
+    os.close(handle)
+    raise _no_lock(path)
+
+
+def _no_lock(path: Path) -> OSError:
+    said = "is no lock of this program, which needs the name; allowed: move it elsewhere"
+    return FileExistsError(errno.EEXIST, said, str(path))
+
+
 def _is_open(path: Path, handle: int) -> bool:
     """Whether a path is the file that is open."""
     try:
         return os.path.samestat(path.stat(), os.fstat(handle))
     except FileNotFoundError:
         return False
-
-
-def is_alive(process: int) -> bool:
-    """Whether a process runs; yes where that cannot be asked without harm."""
-    if os.name != "posix":
-        return True
-    try:
-        os.kill(process, 0)
-    except ProcessLookupError:
-        return False
-    except OSError:
-        pass
-    return not _has_ended(process)
-
-
-def _has_ended(process: int) -> bool:
-    """Whether a process has ended, though nobody has waited for it; no where the system does not tell."""
-    try:
-        text = Path(f"/proc/{process}/stat").read_text(encoding="utf-8", errors="replace")
-    except OSError:
-        return False
-    return text.rpartition(")")[2].split()[:1] in (["Z"], ["X"])  # the name before it may hold anything
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask

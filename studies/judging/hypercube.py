@@ -22,10 +22,11 @@ import user_forces
 from studies.judging.plausible import Sample
 from studies.judging.plausible_runs import measures
 from support_exudyn import SimulationError
-from support_exudyn.files import remove_leftovers, whole_file
+from support_exudyn.files import whole_file
 from support_exudyn.provenance import installed
 from support_exudyn.warm import warm_up
 from support_exudyn.workers import ProcessEndedError, Workers, worker_pool
+from support_exudyn.workshop import remove_leftovers
 from user_forces.values import InputError
 
 FOLDER = "machines"

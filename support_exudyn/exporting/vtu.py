@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from pathlib import Path
 from xml.etree import ElementTree
@@ -9,6 +10,9 @@ from xml.etree import ElementTree
 import meshio
 
 from support_exudyn.exporting.mesh_series import MeshSeries
+from support_exudyn.files import contents
+
+LARGEST_INDEX = 200_000_000  # bytes
 
 
 def step_name(series: str, step: int) -> str:
@@ -25,6 +29,17 @@ def write_step(path: Path, series: MeshSeries, record: int) -> None:
         point_data={**series.point_constants, **frame.data},
         cell_data={name: [data] for name, data in series.cell_constants.items()},
     ).write(path, file_format="vtu")
+
+
+def earlier(folder: Path, series: str) -> set[str]:
+    """Files of an earlier export, as the index of a series names them; none if there is no such index."""
+    index = f"{series}.pvd"
+    try:
+        text = contents(folder / index, LARGEST_INDEX).decode("utf-8", "replace")
+    except OSError:
+        return set()
+    steps = re.findall(rf'file="({series}_\d{{5,}}\.vtu)"', text)
+    return {index, *steps} if steps else set()
 
 
 def write_index(path: Path, files: Sequence[str], times: Sequence[float]) -> None:

@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 import errno
-import os
-import re
-import shutil
-import tempfile
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import contextmanager, suppress
+from collections.abc import Collection, Iterable, Iterator, Sequence
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
-from support_exudyn.files import REFUSED, check_may_be_replaced, is_alive, named, real_path, write_through
+from support_exudyn.files import REFUSED, check_may_be_replaced, named, real_path, write_through
+from support_exudyn.workshop import remove_leftovers, workshop
 from user_forces.values import InputError
 
 RUN = b"support_exudyn result "  # as files of runs begin, see `support_exudyn.result`
-TEMPORARY = re.compile(r"\.export_(\d+)_\w+")  # with the process that made it
 
 
 @contextmanager
@@ -23,7 +19,7 @@ def whole_set(
     folder: Path,
     files: Sequence[str],
     indexes: Sequence[str],
-    stale: Callable[[str], bool] = lambda name: False,
+    stale: Collection[str] = (),
 ) -> Iterator[Path]:
     """A temporary folder to write files to; they take their places in `folder` if nothing goes wrong.
 
@@ -34,40 +30,41 @@ def whole_set(
     Arguments:
         folder: made if missing.
         files, indexes: names of all that the block writes.
-        stale: tells of names in the folder whether they are of an earlier set; what this one lacks is removed.
+        stale: files in the folder that are known to be of an earlier set; what this one lacks is removed.
 
     Raises OSError that names what cannot be written; InputError if one of the files is a run.
     """
     asked = folder
-    try:
-        folder = real_path(folder)
-        made = not folder.exists()
-        folder.mkdir(parents=True, exist_ok=True)
-        _remove_leftovers(folder)
-        temporary = Path(tempfile.mkdtemp(prefix=f".export_{os.getpid()}_", dir=folder))
-    except FileExistsError:
-        raise named(
-            NotADirectoryError(errno.ENOTDIR, "A file stands where a folder should be"), asked
-        ) from None
-    except OSError as error:
-        raise named(error, asked) from None
-    done = False
-    try:
-        _check_each(folder / name for name in (*files, *indexes))
-        yield temporary
-        for name in (*files, *indexes):
-            write_through(temporary / name)
-        _put_in_place(temporary, folder, files, indexes, stale)
-        done = True
-    except OSError as error:
-        if error.errno is None or REFUSED in str(error.strerror):
-            raise
-        raise named(error, _meant(error, temporary, folder)) from error
-    finally:
-        shutil.rmtree(temporary, ignore_errors=True)
-        if made and not done:
-            with suppress(OSError):  # somebody else has put something there
-                folder.rmdir()
+    with ExitStack() as held:
+        try:
+            folder = real_path(folder)
+            made = not folder.exists()
+            folder.mkdir(parents=True, exist_ok=True)
+            remove_leftovers(folder)
+            if made:
+                held.callback(_remove_if_empty, folder)
+            temporary = held.enter_context(workshop(folder))
+        except FileExistsError:
+            raise named(
+                NotADirectoryError(errno.ENOTDIR, "A file stands where a folder should be"), asked
+            ) from None
+        except OSError as error:
+            raise named(error, asked) from None
+        try:
+            _check_each(folder / name for name in (*files, *indexes))
+            yield temporary
+            for name in (*files, *indexes):
+                write_through(temporary / name)
+            _put_in_place(temporary, folder, files, indexes, stale)
+        except OSError as error:
+            if error.errno is None or REFUSED in str(error.strerror):
+                raise
+            raise named(error, _meant(error, temporary, folder)) from error
+
+
+def _remove_if_empty(folder: Path) -> None:
+    with suppress(OSError):
+        folder.rmdir()
 
 
 def _check_each(paths: Iterable[Path]) -> None:
@@ -80,13 +77,13 @@ def _check_each(paths: Iterable[Path]) -> None:
 
 
 def _put_in_place(
-    temporary: Path, folder: Path, files: Sequence[str], indexes: Sequence[str], stale: Callable[[str], bool]
+    temporary: Path, folder: Path, files: Sequence[str], indexes: Sequence[str], stale: Collection[str]
 ) -> None:
     for name in indexes:
         (folder / name).unlink(missing_ok=True)
-    for path in list(folder.iterdir()):
-        if stale(path.name) and path.name not in files:
-            path.unlink()
+    for name in stale:
+        if name not in files:
+            (folder / name).unlink(missing_ok=True)
     for name in (*files, *indexes):
         (temporary / name).replace(folder / name)
 
@@ -102,11 +99,3 @@ def check_is_no_run(path: Path) -> None:
     with suppress(FileNotFoundError, NotADirectoryError), path.open("rb") as file:
         if file.read(len(RUN)) == RUN:
             raise InputError(f"{path}: is a run, which would be lost; allowed: another name")
-
-
-def _remove_leftovers(folder: Path) -> None:
-    """Of processes that are gone."""
-    for path in list(folder.iterdir()):
-        found = TEMPORARY.fullmatch(path.name)
-        if found and not is_alive(int(found.group(1))):
-            shutil.rmtree(path, ignore_errors=True)

@@ -10,8 +10,18 @@ import h5py
 from meshio.xdmf import TimeSeriesWriter
 
 from support_exudyn.exporting.mesh_series import MeshSeries
+from support_exudyn.files import contents
 
+LARGEST_INDEX = 1_000_000_000  # bytes
 COMPRESSION: dict[str, Any] = {"compression": "gzip", "compression_opts": 4, "shuffle": True}
+
+
+def refers(path: Path, store: str) -> bool:
+    """Whether a file is one of `MovingMeshWriter`, whose data are in the HDF5 file of this name."""
+    try:
+        return f">{store}:/".encode() in contents(path, LARGEST_INDEX)
+    except OSError:
+        return False
 
 
 class MovingMeshWriter(TimeSeriesWriter):  # type: ignore[misc]  # meshio has no types

@@ -4,19 +4,17 @@ from __future__ import annotations
 
 import errno
 import os
-import re
-import shutil
-import tempfile
 from collections.abc import Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 from PIL import Image
+from PIL.PngImagePlugin import PngInfo
 
-from support_exudyn.files import is_alive, named, whole_file
+from support_exudyn.files import named, whole_file
 from support_exudyn.progress import Progress, silent
 from support_exudyn.render import movie as movies
 from support_exudyn.render.layout import Layout
@@ -27,6 +25,7 @@ from support_exudyn.render.scene import Scene
 from support_exudyn.render.stage import Image as Picture
 from support_exudyn.render.stage import Stage
 from support_exudyn.result import Result
+from support_exudyn.workshop import remove_leftovers, workshop
 from user_forces.values import InputError
 
 SIZE = (1280, 720)
@@ -35,8 +34,8 @@ RATE = 25.0
 FRAMES_SHARE = 0.85  # of the time that is spent before the movie
 NAME = "frame_{:04d}.png"
 FRAME = "frame_*.png"
-WORKSHOP = re.compile(r"\.frames_(\d+)_\w+")  # with the process that made it
 QUICKLY = 3  # compression of PNG
+MAKER = "support_exudyn"
 
 
 @dataclass(frozen=True)
@@ -92,8 +91,8 @@ def render(
     target = _movie_path(folder, movie, movie_path)
     show = _Show(result, size, pin, shown)
     number = shown.times.size
-    with _folder_for(folder) as workshop:
-        paths = [workshop / NAME.format(n) for n in range(number)]
+    with _folder_for(folder) as made:
+        paths = [made / NAME.format(n) for n in range(number)]
         share = FRAMES_SHARE if target else 1.0
         with ThreadPoolExecutor(1) as painters:  # paints and writes while the next one is traced
             painted: Future[None] | None = None
@@ -154,7 +153,7 @@ class _Show:
 
     def save(self, machine: Picture, number: int, path: Path) -> None:
         """Write it."""
-        self.frame(machine, number).save(path, format="PNG", compress_level=QUICKLY)
+        self.frame(machine, number).save(path, format="PNG", compress_level=QUICKLY, pnginfo=_signed())
 
 
 def _processors() -> int:
@@ -185,32 +184,39 @@ def _folder_for(folder: Path) -> Iterator[Path]:
         raise NotADirectoryError(
             errno.ENOTDIR, "a file stands where the folder of frames should be", str(folder)
         )
-    try:
-        folder.parent.mkdir(parents=True, exist_ok=True)
-        _remove_leftovers(folder.parent)
-        workshop = Path(tempfile.mkdtemp(prefix=f".frames_{os.getpid()}_", dir=folder.parent))
-    except FileExistsError:
-        raise named(
-            NotADirectoryError(errno.ENOTDIR, "A file stands where a folder should be"), folder
-        ) from None
-    except OSError as error:  # of a name that nobody has given
-        raise named(error, folder) from None
-    try:
-        yield workshop
-    except OSError as error:
-        if error.errno is None or (error.filename and Path(str(error.filename)).parent != workshop):
-            raise  # of something else
-        raise named(error, folder) from error
-    finally:
-        shutil.rmtree(workshop, ignore_errors=True)
+    with ExitStack() as held:
+        try:
+            folder.parent.mkdir(parents=True, exist_ok=True)
+            remove_leftovers(folder.parent)
+            made = held.enter_context(workshop(folder.parent))
+        except FileExistsError:
+            raise named(
+                NotADirectoryError(errno.ENOTDIR, "A file stands where a folder should be"), folder
+            ) from None
+        except OSError as error:  # of a name that nobody has given
+            raise named(error, folder) from None
+        try:
+            yield made
+        except OSError as error:
+            if error.errno is None or (error.filename and Path(str(error.filename)).parent != made):
+                raise  # of something else
+            raise named(error, folder) from error
 
 
-def _remove_leftovers(folder: Path) -> None:
-    """Temporary folders of processes that were killed."""
-    for path in list(folder.glob(".frames_*")):
-        found = WORKSHOP.fullmatch(path.name)
-        if found and not is_alive(int(found.group(1))):
-            shutil.rmtree(path, ignore_errors=True)
+def _signed() -> PngInfo:
+    """What a frame says of itself: who has made it."""
+    said = PngInfo()
+    said.add_text("Software", MAKER)
+    return said
+
+
+def _is_ours(path: Path) -> bool:
+    """Whether a frame says that this program has made it."""
+    try:
+        with Image.open(path, formats=["PNG"]) as opened:
+            return opened.info.get("Software") == MAKER
+    except (OSError, ValueError, SyntaxError):
+        return False
 
 
 def _replace_frames(paths: list[Path], folder: Path) -> None:
@@ -220,5 +226,5 @@ def _replace_frames(paths: list[Path], folder: Path) -> None:
     for path in paths:
         path.replace(folder / path.name)
     for old in folder.glob(FRAME):
-        if old.name not in new and old.stem.removeprefix("frame_").isdigit():
+        if old.name not in new and old.stem.removeprefix("frame_").isdigit() and _is_ours(old):
             old.unlink()

@@ -9,15 +9,23 @@ A run's file is written before its row, each whole: where there is a row, there 
 
 from __future__ import annotations
 
+import errno
+import re
 from collections.abc import Collection, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from support_exudyn.files import remove_leftovers, whole_file, writing_alone
+from support_exudyn.files import whole_file, writing_alone
 from support_exudyn.result import FORMAT
 from support_exudyn.sealed import check_seal
+from support_exudyn.sweeping.key import LENGTH
 from support_exudyn.sweeping.row import Row
+from support_exudyn.workshop import remove_leftovers
+
+KEY = re.compile(rf"[0-9a-f]{{{LENGTH}}}")
+TABLES = ("table.parquet", "table.csv")
+RUN = FORMAT.rpartition(" ")[0].encode() + b" "  # as files of runs of any version begin
 
 
 @dataclass(frozen=True)
@@ -42,7 +50,17 @@ class Store:
 
     @contextmanager
     def writing(self) -> Iterator[None]:
-        """Write there alone. Raises OSError if another process does, or if it cannot be written to."""
+        """Write there alone. Raises OSError if another process does, or if it cannot be written to.
+
+        Also if a table is there without a store: it is somebody else's, and would be lost.
+        """
+        for name in TABLES:
+            if (self.folder / name).exists() and not self.rows.exists():
+                raise FileExistsError(
+                    errno.EEXIST,
+                    "is of no sweep, and would be lost; allowed: another folder",
+                    str(self.folder / name),
+                )
         self.rows.mkdir(parents=True, exist_ok=True)
         self.runs.mkdir(exist_ok=True)
         with writing_alone(self.folder):
@@ -91,12 +109,22 @@ class Store:
         return True
 
     def prune(self, keys: Collection[str]) -> int:
-        """Remove rows and runs of all other keys. Returns of how many."""
+        """Remove rows of all other keys, and their runs. Returns of how many.
+
+        Files that only have such names stay: what goes is a row that fits its digest, and what begins as a run.
+        """
         wanted = set(keys)
         gone = set()
-        for folder in (self.rows, self.runs):
-            for path in folder.iterdir():
-                if path.stem not in wanted and path.suffix in (".json", ".h5"):
-                    path.unlink()
-                    gone.add(path.stem)
+        for path in (*self.rows.glob("*.json"), *self.runs.glob("*.h5")):
+            if path.stem not in wanted and self._is_ours(path):
+                path.unlink()
+                gone.add(path.stem)
         return len(gone)
+
+    def _is_ours(self, path: Path) -> bool:
+        if not (KEY.fullmatch(path.stem) and path.is_file()) or path.is_symlink():
+            return False
+        if path.suffix == ".json":
+            return self.row(path.stem) is not None
+        with path.open("rb") as file:
+            return file.read(len(RUN)) == RUN

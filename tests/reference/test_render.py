@@ -33,7 +33,7 @@ from support_exudyn.render.pin_view import pin_view
 from support_exudyn.render.scene import Scene
 from support_exudyn.render.stage import Image as Picture
 from support_exudyn.render.stage import Prop, Stage
-from tests.hostile import DISKS, little_room
+from tests.hostile import DISKS, left_behind, little_room, with_own_files
 from user_forces import InputError
 
 SIZE = (320, 180)
@@ -377,12 +377,13 @@ def test_an_mp4_has_all_frames(bouncing: Result, tmp_path: Path) -> None:
 
 def test_earlier_frames_are_replaced_and_nothing_else(bouncing: Result, tmp_path: Path) -> None:
     folder = tmp_path / "f"
-    folder.mkdir()
-    for name in ("frame_0000.png", "frame_0044.png", "frame_best.png", "notes.txt"):
+    render(bouncing, folder, end=0.04, size=SIZE, movie="none", speed=0.5)
+    assert len(list(folder.iterdir())) > 2
+    for name in ("frame_0044.png", "frame_best.png", "notes.txt"):
         (folder / name).write_text("mine")
     render(bouncing, folder, end=0.04, size=SIZE, movie="none")
     assert sorted(path.name for path in folder.iterdir()) == [
-        *("frame_0000.png", "frame_0001.png", "frame_best.png", "notes.txt")
+        *("frame_0000.png", "frame_0001.png", "frame_0044.png", "frame_best.png", "notes.txt")
     ]
     assert (folder / "notes.txt").read_text() == "mine"
     assert (folder / "frame_0000.png").read_bytes().startswith(b"\x89PNG")
@@ -462,13 +463,15 @@ def test_a_file_in_place_of_the_folder_is_refused(bouncing: Result, tmp_path: Pa
     assert [path.name for path in tmp_path.iterdir()] == ["f"]
 
 
-def test_leftovers_of_killed_processes_go(bouncing: Result, tmp_path: Path) -> None:
-    with subprocess.Popen([sys.executable, "-c", ""]) as gone:
-        pass
-    for process in (gone.pid, os.getpid()):
-        (tmp_path / f".frames_{process}_abc").mkdir()
+def test_leftovers_of_killed_processes_go_and_files_of_others_stay(bouncing: Result, tmp_path: Path) -> None:
+    left, own = left_behind(tmp_path), with_own_files(tmp_path)
+    made = {tmp_path / "f" / f"frame_{n:04d}.png" for n in (900, 901)}
+    (tmp_path / "f").mkdir()
+    (tmp_path / "f" / "frame_0900.png").write_text("of the user", encoding="utf-8")
+    Image.new("RGB", (4, 4)).save(tmp_path / "f" / "frame_0901.png")
     render(bouncing, tmp_path / "f", end=0.04, size=SIZE, movie="none")
-    assert {path.name for path in tmp_path.iterdir()} == {f".frames_{os.getpid()}_abc", "f"}
+    assert os.name == "nt" or not left.exists()
+    assert all(path.exists() for path in (*own, *made))
 
 
 def test_a_folder_that_cannot_be_made_is_named(bouncing: Result, tmp_path: Path) -> None:

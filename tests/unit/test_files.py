@@ -6,7 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from support_exudyn.files import remove_leftovers, whole_file
+from support_exudyn.files import whole_file
+from support_exudyn.workshop import OWNER, PREFIX, remove_leftovers
+from tests.hostile import left_behind, posix_only, with_own_files
 
 
 def names(folder: Path) -> list[str]:
@@ -67,7 +69,7 @@ def test_temporary_file_has_the_same_ending(tmp_path: Path) -> None:
     # writers of pictures choose the format by it
     with whole_file(tmp_path / "figure.png") as temporary:
         assert temporary.suffix == ".png"
-        assert temporary.parent == tmp_path
+        assert temporary.parent.parent == tmp_path
 
 
 @pytest.mark.skipif(os.name == "nt", reason="no file modes on Windows")
@@ -78,35 +80,47 @@ def test_file_may_be_read_like_any_other_new_file(tmp_path: Path) -> None:
     assert (tmp_path / "whole").stat().st_mode == (tmp_path / "plain").stat().st_mode
 
 
-@pytest.mark.skipif(os.name == "nt", reason="other processes cannot be asked for on Windows")
-def test_leftovers_of_dead_processes_are_removed_and_nothing_else(tmp_path: Path) -> None:
-    gone = 2**22 + 1  # no process has such a number
-    leftover = tmp_path / f".run-{gone}-ab_1cd.json"
-    bare = tmp_path / f".whole-{gone}-abcd"
-    kept = [tmp_path / "run.json", tmp_path / f".run-{os.getpid()}-ab1cd.json", tmp_path / ".gitignore"]
-    for path in (leftover, bare, *kept):
-        path.write_text("")
+@posix_only
+def test_what_nobody_holds_and_says_that_it_is_ours_is_removed_and_nothing_else(tmp_path: Path) -> None:
+    own = with_own_files(tmp_path) + with_own_files(tmp_path / "deeper")
+    left = [left_behind(tmp_path), left_behind(tmp_path / "deeper")]
     remove_leftovers(tmp_path)
-    assert names(tmp_path) == sorted(path.name for path in kept)
+    assert [path.exists() for path in left] == [False, True]
+    remove_leftovers(tmp_path, below=True)
+    assert not left[1].exists()
+    assert all(path.read_text(encoding="utf-8") == "of the user" for path in own)
 
 
-def test_a_leftover_can_be_told_by_its_name(tmp_path: Path) -> None:
+@posix_only
+def test_a_link_with_the_name_of_a_leftover_leads_nowhere(tmp_path: Path) -> None:
+    left = left_behind(tmp_path / "elsewhere")
+    (tmp_path / f"{PREFIX}link").symlink_to(left)
+    inside = tmp_path / f"{PREFIX}inside"
+    inside.mkdir()
+    (inside / OWNER).symlink_to(left / OWNER)
+    remove_leftovers(tmp_path)
+    assert left.exists()
+    assert inside.exists()
+
+
+def test_what_is_being_written_is_no_leftover(tmp_path: Path) -> None:
     with whole_file(tmp_path / "a-run.json") as temporary:
         remove_leftovers(tmp_path)  # its process is this one
-        assert f"-{os.getpid()}-" in temporary.name
         assert temporary.exists()
+    assert names(tmp_path) == ["a-run.json"]
 
 
-@pytest.mark.skipif(sys.platform != "linux", reason="asks /proc")
+@pytest.mark.skipif(sys.platform != "linux", reason="forks")
 def test_what_a_process_left_behind_that_nobody_has_waited_for_is_removed(tmp_path: Path) -> None:
     ended = os.fork()
     if not ended:
+        held = whole_file(tmp_path / "row.json")
+        held.__enter__()
         os._exit(0)
-    left = tmp_path / f".row-{ended}-abc_1.json"
-    left.write_text("half", encoding="utf-8")
     try:
         os.waitid(os.P_PID, ended, os.WEXITED | os.WNOWAIT)  # it has ended, and stays in the list of processes
+        assert len(names(tmp_path)) == 1
         remove_leftovers(tmp_path)
-        assert not left.exists()
+        assert names(tmp_path) == []
     finally:
         os.waitpid(ended, 0)

@@ -12,7 +12,8 @@ from pathlib import Path
 import pytest
 
 from support_exudyn import files
-from support_exudyn.files import LOCK, remove_leftovers, whole_file, writing_alone
+from support_exudyn.files import LOCK, contents, whole_file, writing_alone
+from support_exudyn.workshop import remove_leftovers
 from tests.hostile import DISKS, little_room, posix_only
 from tests.processes import ROOT, environment, wait_until
 
@@ -104,7 +105,7 @@ def test_a_link_stays_and_its_file_is_written(tmp_path: Path, exists: bool) -> N
     link.symlink_to(target)
     with whole_file(link) as temporary:
         temporary.write_text("new", encoding="utf-8")
-        assert temporary.parent == target.parent  # a rename does not reach from disk to disk
+        assert temporary.parent.parent == target.parent  # a rename does not reach from disk to disk
     assert link.is_symlink()
     assert target.read_text(encoding="utf-8") == "new"
     assert names(target.parent) == ["run.json"]
@@ -155,7 +156,7 @@ from pathlib import Path
 from support_exudyn.files import whole_file, writing_alone
 folder = Path(sys.argv[1])
 with writing_alone(folder), whole_file(folder / "row.json") as temporary:
-    print(temporary.name, flush=True)
+    print(temporary.parent.name, flush=True)
     time.sleep(120.0)
 """
 
@@ -182,7 +183,7 @@ def test_a_folder_has_one_writer_and_is_free_when_that_is_killed(tmp_path: Path)
 
 @posix_only
 def test_a_lock_is_left_and_taken_again_and_keeps_out_the_same_process_too(tmp_path: Path) -> None:
-    (tmp_path / LOCK).write_text("12345 left by somebody\n", encoding="utf-8")
+    (tmp_path / LOCK).write_text("12345\n", encoding="utf-8")
     for _ in range(3):
         with writing_alone(tmp_path):
             with pytest.raises(BlockingIOError, match=rf"\({os.getpid()}\)"), writing_alone(tmp_path):
@@ -191,6 +192,45 @@ def test_a_lock_is_left_and_taken_again_and_keeps_out_the_same_process_too(tmp_p
             with writing_alone(tmp_path / "deeper"):
                 assert names(tmp_path / "deeper") == [LOCK]
     assert names(tmp_path) == ["deeper"]
+
+
+@posix_only
+@pytest.mark.parametrize("kind", ["text", "link", "folder", "pipe"])
+def test_what_only_has_the_name_of_a_lock_is_kept(tmp_path: Path, kind: str) -> None:
+    lock, notes = tmp_path / LOCK, tmp_path / "notes.txt"
+    notes.write_text("of the user", encoding="utf-8")
+    make = {
+        "text": lambda: lock.write_text("of the user", encoding="utf-8"),
+        "link": lambda: lock.symlink_to(notes),
+        "folder": lock.mkdir,
+        "pipe": lambda: os.mkfifo(lock),
+    }
+    make[kind]()
+    with pytest.raises(FileExistsError, match="is no lock of this program"), writing_alone(tmp_path):
+        pytest.fail("the work is begun")
+    assert names(tmp_path) == sorted([LOCK, "notes.txt"])
+    assert notes.read_text(encoding="utf-8") == "of the user"
+    assert kind != "text" or lock.read_text(encoding="utf-8") == "of the user"
+
+
+# --- what is read ---
+
+
+@posix_only
+def test_what_has_no_end_is_not_read(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe")
+    with (tmp_path / "sparse").open("wb") as file:
+        file.truncate(10**12)
+    for path, said in (
+        (tmp_path / "pipe", "no regular"),
+        (Path("/dev/zero"), "no regular"),
+        (tmp_path / "sparse", "1000000000000 bytes or more; allowed: up to 1000"),
+    ):
+        with pytest.raises(OSError, match=said) as caught:
+            contents(path, 1000)
+        assert caught.value.filename == str(path)
+    (tmp_path / "whole").write_bytes(b"x" * 1000)
+    assert contents(tmp_path / "whole", 1000) == b"x" * 1000
 
 
 TAKE = """

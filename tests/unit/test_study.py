@@ -7,6 +7,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -14,8 +15,10 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from studies.ladder import Ladder
-from studies.study import Number, Pair, brief, options, rounded
+from studies.study import Number, Pair, brief, options, output_folder, rounded
 from support_exudyn.command_line import count
+from support_exudyn.workshop import PREFIX
+from tests.hostile import left_behind, posix_only, with_own_files
 
 sizes = st.floats(1e-9, 1e9)
 values = sizes | sizes.map(lambda x: -x)
@@ -157,3 +160,14 @@ def test_the_error_of_a_ladder_of_second_order_falls_by_four() -> None:
 def test_a_pairs_number_is_the_finer_ones() -> None:
     pair = Pair(coarse=Run(3.0), fine=Run(2.5))  # type: ignore[arg-type]
     assert pair.number("force", "ideal", "N", value_of, 2.0) == Number("force", "ideal", 2.5, "N", 0.5, 2.0)
+
+
+@posix_only
+def test_of_hidden_files_in_its_folder_a_study_removes_those_that_are_known_for_its_own(tmp_path: Path) -> None:
+    own = with_own_files(tmp_path) + with_own_files(tmp_path / "which_pin")
+    left = [left_behind(tmp_path, "a"), left_behind(tmp_path / "which_pin", "b")]
+    with output_folder(tmp_path):
+        assert not any(path.exists() for path in left)
+        left_behind(tmp_path / "which_pin" / "runs")
+    assert not list(tmp_path.rglob(f"{PREFIX}abc"))
+    assert all(path.read_text(encoding="utf-8") == "of the user" for path in own)

@@ -23,10 +23,13 @@ from support_exudyn.result import FORMAT
 from support_exudyn.scenario import Scenario
 from support_exudyn.sealed import seal
 from support_exudyn.sweeping import key as keys
+from support_exudyn.sweeping.key import LENGTH
 from support_exudyn.sweeping.plan import Plan, Record
 from support_exudyn.sweeping.row import Number, Row
 from support_exudyn.sweeping.store import Store
 from support_exudyn.sweeping.table import Table, read_table
+from support_exudyn.workshop import PREFIX
+from tests.hostile import left_behind, posix_only, with_own_files
 from tests.processes import ROOT, environment
 
 STAND = """
@@ -200,34 +203,43 @@ def test_a_run_is_read_again_if_its_file_is_older_or_newer_than_its_row(tmp_path
     assert not store.has_run(known)
 
 
-def test_what_killed_processes_left_is_cleared_before_and_after(tmp_path: Path) -> None:
+@posix_only
+def test_what_killed_processes_left_is_cleared_before_and_after_and_files_of_others_stay(
+    tmp_path: Path,
+) -> None:
     store = Store(tmp_path)
-    store.rows.mkdir()
-    ended = subprocess.Popen([sys.executable, "-c", ""])
-    ended.wait()
-
-    def leave() -> None:
-        for folder in (store.folder, store.rows, store.runs):
-            folder.mkdir(exist_ok=True)
-            (folder / f".a-{ended.pid}-xyz.json").write_text("half", encoding="utf-8")
-
-    leave()
+    folders = (store.folder, store.rows, store.runs)
+    own = [path for folder in folders for path in with_own_files(folder)]
+    for folder in folders:
+        left_behind(folder)
     with store.writing():
-        assert not list(store.folder.rglob(".a-*"))
-        leave()
-    assert not list(store.folder.rglob(".*"))
+        assert not any((folder / f"{PREFIX}abc").exists() for folder in folders)
+        for folder in folders:
+            left_behind(folder)
+    assert not any((folder / f"{PREFIX}abc").exists() for folder in folders)
+    assert all(path.read_text(encoding="utf-8") == "of the user" for path in own)
 
 
 def test_only_rows_and_runs_of_other_keys_are_pruned(tmp_path: Path) -> None:
     store = Store(tmp_path)
-    for name in "abc":
+    names = [letter * LENGTH for letter in "abc"]
+    for name in names:
         kept(store, name)
-    note = store.runs / "notes.txt"
-    note.write_text("of the user", encoding="utf-8")
-    assert store.prune(["b"]) == 2
-    assert sorted(path.name for path in store.folder.rglob("*") if path.is_file()) == [
-        "b.h5", "b.json", "notes.txt"
-    ]  # fmt: skip
+    own = [store.runs / "notes.txt", store.runs / "rise.h5", store.rows / f"{'d' * LENGTH}.json",
+           store.runs / f"{'d' * LENGTH}.h5", store.rows / "notes.json"]  # fmt: skip
+    for path in own:
+        path.write_text("of the user", encoding="utf-8")
+    assert store.prune([names[1]]) == 2
+    assert {path for path in store.folder.rglob("*") if path.is_file()} == {
+        store.run_file(names[1]), store.rows / f"{names[1]}.json", *own
+    }  # fmt: skip
+
+
+def test_a_table_of_others_is_not_overwritten(tmp_path: Path) -> None:
+    (tmp_path / "table.csv").write_text("of the user", encoding="utf-8")
+    with pytest.raises(FileExistsError, match="is of no sweep, and would be lost"), Store(tmp_path).writing():
+        pytest.fail("the work is begun")
+    assert [path.name for path in tmp_path.iterdir()] == ["table.csv"]
 
 
 def test_what_is_noted_is_told_apart_by_all_of_it() -> None:

@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-import os
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
 from support_exudyn.exporting.whole_set import whole_set
-from support_exudyn.files import remove_leftovers
-from tests.hostile import DISKS, little_room, posix_only
+from tests.hostile import DISKS, left_behind, little_room, posix_only, with_own_files
 from user_forces import InputError
 
 FILES, INDEXES = ("a.bin", "b.bin"), ("all.index",)
@@ -65,7 +61,7 @@ def test_there_is_no_index_while_files_are_replaced(tmp_path: Path, monkeypatch:
 def test_stale_files_go_and_others_stay(tmp_path: Path) -> None:
     for name in ("c.bin", "mine.txt"):
         (tmp_path / name).write_text("old", encoding="utf-8")
-    with whole_set(tmp_path, FILES, INDEXES, stale=lambda name: name.endswith(".bin")) as temporary:
+    with whole_set(tmp_path, FILES, INDEXES, stale={"a.bin", "c.bin"}) as temporary:
         for name in (*FILES, *INDEXES):
             (temporary / name).write_text("new", encoding="utf-8")
     assert sorted(texts(tmp_path)) == ["a.bin", "all.index", "b.bin", "mine.txt"]
@@ -121,13 +117,7 @@ def test_a_run_is_not_overwritten(tmp_path: Path) -> None:
 
 @posix_only
 def test_what_a_killed_process_has_left_is_removed_by_the_next(tmp_path: Path) -> None:
-    with subprocess.Popen([sys.executable, "-c", "pass"]) as gone:
-        gone.wait()
-    left, running = tmp_path / f".export_{gone.pid}_abc", tmp_path / f".export_{os.getppid()}_abc"
-    for folder in (left, running):
-        folder.mkdir()
-        (folder / "a.bin").write_text("half", encoding="utf-8")
-    remove_leftovers(tmp_path)  # of single files, which passes over folders
+    left, own = left_behind(tmp_path), with_own_files(tmp_path)
     write(tmp_path, "new")
     assert not left.exists()
-    assert running.exists()
+    assert all(path.exists() for path in own)

@@ -1,0 +1,70 @@
+"""Temporary folders of our own: what a killed process leaves is known for ours, and nothing else is removed."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import stat
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import Any
+
+try:
+    import fcntl as _fcntl
+except ImportError:  # Windows
+    _fcntl = None  # type: ignore[assignment]
+
+fcntl: Any = _fcntl
+PREFIX = ".support_exudyn-"
+OWNER = ".owner-of-this-folder"
+MARK = b"Made by support_exudyn: this folder and all in it may be removed when no process holds this file.\n"
+
+
+@contextmanager
+def workshop(parent: Path) -> Iterator[Path]:
+    """A new folder below `parent`, gone with all that is in it after the block.
+
+    It says in a file whose it is; that file is locked until the block ends, however the process ends. Raises
+    OSError if it cannot be made.
+    """
+    folder = Path(tempfile.mkdtemp(prefix=PREFIX, dir=parent))
+    handle = -1
+    try:
+        handle = os.open(folder / OWNER, os.O_RDWR | os.O_CREAT | os.O_EXCL, 0o666)
+        if fcntl is not None:
+            with suppress(OSError):  # a disk without locks: what is left there is never known to be left
+                fcntl.flock(handle, fcntl.LOCK_EX)
+        os.write(handle, MARK)  # now that it is locked
+        yield folder
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
+        if handle >= 0:
+            os.close(handle)
+        shutil.rmtree(folder, ignore_errors=True)  # Windows and network disks keep files that are open
+
+
+def remove_leftovers(folder: Path, below: bool = False) -> None:
+    """Remove folders of `workshop` that no process holds any more, in a folder, or in all below it too.
+
+    A name alone proves nothing: what is removed has the file that says whose it is, to the letter.
+    """
+    for path in list((folder.rglob if below else folder.glob)(f"{PREFIX}*")):
+        if fcntl is not None and stat.S_ISDIR(path.lstat().st_mode):
+            _remove_if_left(path)
+
+
+def _remove_if_left(folder: Path) -> None:
+    try:
+        handle = os.open(folder / OWNER, os.O_RDWR | os.O_NOFOLLOW | os.O_NONBLOCK)
+    except OSError:  # nobody has said that it is ours
+        return
+    try:
+        if stat.S_ISREG(os.fstat(handle).st_mode) and os.read(handle, len(MARK) + 1) == MARK:
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            shutil.rmtree(folder, ignore_errors=True)
+    except OSError:  # it is held, or the disk has no locks
+        pass
+    finally:
+        os.close(handle)
