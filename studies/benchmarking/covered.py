@@ -16,6 +16,8 @@ from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
+import numpy as np
+
 from studies.benchmarking.estimates import tight_numbers
 from studies.benchmarking.fresh_scenes import Fresh
 from support_exudyn import Failure, Result, Scenario, SimulationError, simulate
@@ -30,6 +32,7 @@ FINER = (3.0, 1.5)  # times shorter steps than those of a run; and of its refere
 WITNESS = (8.0, 4.0)  # the same against the first run of "standard", where another formulation judges
 SHARP = 0.25  # of the error claimed that a reference's own error may be
 SURELY = 4.0  # times its own error that a reference has to be beyond the error claimed to count however blunt
+OF_DISTANCE = 0.5  # of the distance of a less fine run that a reference's own error is taken to be
 ROUNDING = 1e-12  # of a number, that references are not believed beyond
 
 
@@ -49,15 +52,15 @@ class Reference(NamedTuple):
     coarser: Mapping[str, float]
 
     def error(self, name: str) -> float:
-        """Of a number: how far the less fine run is away, at least as far as those of its family are mostly.
+        """Of a number: half of how far the less fine run is away, which for second order is a third of that.
 
-        Two runs can agree in a number by chance. Of a family, such as all forces, the root of the mean square
-        of their distances counts, as shares of each.
+        Two runs can agree in a number by chance: it is at least as far as the middle one of its family, such as
+        all forces, as a share of each.
         """
-        family = [one for one in self.numbers if _family(one) == _family(name)]
-        shares = [self._away(one) / abs(self.numbers[one]) for one in family if self.numbers[one]]
-        usual = math.sqrt(sum(share**2 for share in shares) / max(1, len(shares)))
-        return max(self._away(name), (usual + ROUNDING) * abs(self.numbers[name]))
+        family = [one for one in self.numbers if _family(one) == _family(name) and self.numbers[one]]
+        shares = [self._away(one) / abs(self.numbers[one]) for one in family]
+        usual = float(np.median(shares)) if shares else 0.0
+        return OF_DISTANCE * max(self._away(name), (usual + ROUNDING) * abs(self.numbers[name]))
 
     def _away(self, name: str) -> float:
         return abs(self.numbers[name] - self.coarser.get(name, math.nan))
