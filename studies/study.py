@@ -219,6 +219,15 @@ def brief(value: float, error: float) -> str:
 
 
 @contextmanager
+def bar(name: str) -> Iterator[Callable[[Sequence[float]], None]]:
+    """One progress bar for many jobs: gives what is told the share done of each."""
+    columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.percentage:3.0f} %"))
+    with Progress(*columns, TimeRemainingColumn(), console=Console(stderr=True)) as bars:
+        task = bars.add_task(name, total=1.0)
+        yield lambda shares: bars.update(task, completed=sum(shares) / max(1, len(shares)))
+
+
+@contextmanager
 def output_folder(out: Path) -> Iterator[None]:
     """An output folder made ready, for this process alone: better to fail now than after the work.
 

@@ -81,7 +81,7 @@ def check(name: str, scenario: Scenario, tight: Result) -> Check:
     """Run a scenario to its accuracy and compare all its numbers with those of a tight run."""
     scene = SCENES[name]
     result = simulate(scenario)
-    found, known = result.numbers(scene.after), tight_numbers(scene, tight)
+    found, known = result.numbers(scene.after), tight_numbers(scene.after, tight)
     names = [name for name in found if name in known]
     true = np.array([abs(found[name].value - known[name]) for name in names])
     wrong = [
@@ -109,7 +109,7 @@ def tight(scene: Scene) -> Result:
     return simulate(compiled if is_compiling() else plain)
 
 
-def tight_numbers(scene: Scene, run: Result) -> Mapping[str, float]:
-    """The usual numbers of a run that has no estimate."""
-    found = measures(run, scene.after, float("inf"))
+def tight_numbers(after: float, run: Result) -> Mapping[str, float]:
+    """The usual numbers, from a time on [s], of a run that has no estimate."""
+    found = measures(run, after, float("inf"))
     return {name: kind.measure(run) for name, kind in found.items()}

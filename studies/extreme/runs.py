@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 import signal
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from functools import cache
 from typing import Any
-
-from rich.console import Console
-from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
 from studies.extreme import long_runs
 from studies.extreme.cases import cases
 from studies.extreme.judge import SILENT, Case, Verdict, judge
 from studies.extreme.long_runs import LongRun
+from studies.study import bar
 from support_exudyn import SimulationError
 from support_exudyn.workers import ProcessEndedError, Workers, report, worker_pool
 
@@ -84,21 +82,13 @@ def run_cases(
         return Verdict(SILENT, f"crash: {error.reason}")
 
     jobs = [(quick, number) for number in (range(len(found)) if places is None else places)]
-    with worker_pool(workers) as pool, _bar(f"{len(found)} scenes") as told:
+    with worker_pool(workers) as pool, bar(f"{len(found)} scenes") as told:
         return pool.run(jobs, judged, told, crashed)
 
 
 def run_long(duration: float, workers: int | Workers) -> dict[str, LongRun | str]:
     """Long runs by name; those that failed say why."""
     jobs = [(name, duration) for name in long_runs.SCENES]
-    with worker_pool(workers) as pool, _bar(f"{len(jobs)} long runs") as told:
+    with worker_pool(workers) as pool, bar(f"{len(jobs)} long runs") as told:
         found = pool.run(jobs, lasted, told, lambda error: f"crash: {error.reason}")
     return dict(zip(long_runs.SCENES, found, strict=True))
-
-
-@contextmanager
-def _bar(name: str) -> Iterator[Callable[[list[float]], None]]:
-    columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.percentage:3.0f} %"))
-    with Progress(*columns, TimeRemainingColumn(), console=Console(stderr=True)) as bars:
-        task = bars.add_task(name, total=1.0)
-        yield lambda shares: bars.update(task, completed=sum(shares) / max(1, len(shares)))

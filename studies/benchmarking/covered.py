@@ -1,0 +1,204 @@
+"""Whether the errors that runs tell of their numbers cover those that they have, number by number.
+
+A number is judged by the reference whose own error is told apart from the error claimed: one of another
+formulation where that is sharp enough, else one of the same at much finer settings. If no reference is sharp
+enough, the number is set apart; but where another formulation is surely further away than the error claimed,
+that counts, however blunt it is.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cache
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from studies.benchmarking.estimates import tight_numbers
+from studies.benchmarking.fresh_scenes import Fresh
+from support_exudyn import Failure, Result, Scenario, SimulationError, simulate
+from support_exudyn.choose import FormulationName, settings_for
+from support_exudyn.formulations import covers
+from support_exudyn.scenario import ACCURACIES, Accuracy
+from support_exudyn.solver_settings import ERROR_CONTROLLED, MOST_IMPACT_STEPS
+
+# tolerances of a reference, and of its own error
+TIGHT: Mapping[FormulationName, tuple[float, float]] = {"reduced": (1e-12, 1e-10), "tree": (1e-11, 1e-9)}
+FINER = (3.0, 1.5)  # times shorter steps than those of a run; and of its reference's own error
+WITNESS = (8.0, 4.0)  # the same against the first run of "standard", where another formulation judges
+SHARP = 0.25  # of the error claimed that a reference's own error may be
+SURELY = 4.0  # times its own error that a reference has to be beyond the error claimed to count however blunt
+OF_DISTANCE = 0.5  # of the distance of a less fine run that a reference's own error is taken to be
+ROUNDING = 1e-12  # of a number, that references are not believed beyond
+
+
+def _family(name: str) -> str:
+    """What a number is of: numbers that go wrong alike."""
+    if "force" in name:
+        return "force"
+    kind, field = name.split(".")[-2:]
+    return field if kind.startswith("onset") else kind
+
+
+class Reference(NamedTuple):
+    """Numbers of a scene by one formulation, at very fine settings and at less fine ones."""
+
+    formulation: str
+    numbers: Mapping[str, float]
+    coarser: Mapping[str, float]
+
+    def error(self, name: str) -> float:
+        """Of a number: half of how far the less fine run is away, which for second order is a third of that.
+
+        Two runs can agree in a number by chance: it is at least as far as the middle one of its family, such as
+        all forces, as a share of each.
+        """
+        family = [one for one in self.numbers if _family(one) == _family(name) and self.numbers[one]]
+        shares = [self._away(one) / abs(self.numbers[one]) for one in family]
+        usual = float(np.median(shares)) if shares else 0.0
+        return OF_DISTANCE * max(self._away(name), (usual + ROUNDING) * abs(self.numbers[name]))
+
+    def _away(self, name: str) -> float:
+        return abs(self.numbers[name] - self.coarser.get(name, math.nan))
+
+
+@dataclass(frozen=True)
+class Judged:
+    """A number of a run: its value, the error claimed, how far the reference is away, and its own error.
+
+    by: formulation of the reference; empty if none is sharp enough. ratio: true error over the claimed one.
+    """
+
+    name: str
+    value: float
+    claimed: float
+    away: float
+    own: float
+    by: str
+
+    @property
+    def apart(self) -> bool:
+        """Whether no reference can tell."""
+        return not self.by
+
+    @property
+    def ratio(self) -> float:
+        """True error over the claimed one, 0 if there is none."""
+        if self.away == 0.0:
+            return 0.0
+        return self.away / self.claimed if self.claimed > 0.0 else math.inf
+
+
+@dataclass(frozen=True)
+class Row:
+    """A run of a scene to an accuracy. refused: why, else empty. met: whether it says that it was reached."""
+
+    kind: str
+    number: int
+    accuracy: str
+    formulation: str = ""
+    refused: str = ""
+    met: bool = False
+    judged: tuple[Judged, ...] = ()
+
+
+@cache
+def digest() -> str:
+    """Of how scenes are judged: of this file."""
+    return hashlib.sha256(Path(__file__).read_bytes()).hexdigest()
+
+
+def rows(scene: Fresh) -> Iterator[Row]:
+    """A scene run to all of its accuracies, and judged."""
+    runs = {accuracy: simulate(at(scene, accuracy), throw=False) for accuracy in accuracies(scene)}
+    good = [run for run in runs.values() if isinstance(run, Result)]
+    known = list(references(scene, good)) if good else []
+    for accuracy, run in runs.items():
+        row = Row(scene.kind, scene.number, str(accuracy))
+        if isinstance(run, Failure):
+            yield replace(row, refused=run.reason)
+            continue
+        yield replace(row, formulation=run.scenario.formulation, met=run.met, judged=tuple(judged(run, known)))
+
+
+def at(scene: Fresh, accuracy: Accuracy) -> Scenario:
+    """The scene with an accuracy."""
+    return replace(scene.scenario, accuracy=accuracy)
+
+
+def accuracies(scene: Fresh) -> tuple[Accuracy, ...]:
+    """To which it is run: to "reference" only where steps are chosen, for nothing finer could judge it else."""
+    chosen = settings_for(scene.scenario, ACCURACIES["standard"])
+    steps_are_chosen = chosen.formulation in ERROR_CONTROLLED
+    return tuple(a for a in scene.accuracies if a != "reference" or steps_are_chosen)
+
+
+def references(scene: Fresh, runs: Sequence[Result]) -> Iterator[Reference]:
+    """All that can be had, the sharpest first: of formulations with error control, and of the engine's."""
+    plain = replace(scene.scenario, accuracy=None)
+    sharp = False
+    for name, tolerances in TIGHT.items():
+        if covers(name, plain):
+            pair = [
+                replace(plain, formulation=name, solver=replace(plain.solver, tolerance=tolerance))
+                for tolerance in tolerances
+            ]
+            if (found := _pair(name, pair)) is not None:
+                sharp = True
+                yield found
+    witness = settings_for(replace(plain, formulation="redundant"), ACCURACIES["standard"])
+    first, factors = (witness, WITNESS) if sharp else (_finest(runs), FINER)
+    if first is not None:
+        pair = [first.refined(factor) for factor in factors]
+        if (found := _pair("redundant", pair)) is not None:
+            yield found
+
+
+def _finest(runs: Sequence[Result]) -> Scenario | None:
+    """The finest settings of runs that can be made finer still; None if there are none."""
+    for run in reversed(runs):
+        if FINER[0] * run.scenario.solver.impact_steps <= MOST_IMPACT_STEPS:
+            return run.scenario
+    return None
+
+
+def _pair(name: str, pair: Sequence[Scenario]) -> Reference | None:
+    """None if one of the runs fails."""
+    try:
+        fine, coarse = (tight_numbers(0.0, simulate(run)) for run in pair)
+    except SimulationError:
+        return None
+    return Reference(name, fine, coarse)
+
+
+def judged(run: Result, known: Sequence[Reference]) -> Iterator[Judged]:
+    """All numbers of a run beside what is known of them."""
+    for name, number in run.numbers().items():
+        yield judge(name, number.value, number.error, run.scenario.formulation, known)
+
+
+def judge(name: str, value: float, claimed: float, formulation: str, known: Sequence[Reference]) -> Judged:
+    """A number beside references, of which those of another formulation go first; see the module."""
+    found = sorted(
+        (
+            Judged(name, value, claimed, _distance(value, one, name), one.error(name), one.formulation)
+            for one in known
+            if name in one.numbers
+        ),
+        key=lambda one: one.by == formulation,
+    )
+    for one in found:
+        if one.away - SURELY * one.own > claimed:
+            return one
+    for one in found:
+        if one.own <= SHARP * claimed:
+            return one
+    return replace(found[0], by="") if found else Judged(name, value, claimed, math.nan, math.nan, "")
+
+
+def _distance(value: float, reference: Reference, name: str) -> float:
+    return abs(value - reference.numbers[name])

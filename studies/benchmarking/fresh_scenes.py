@@ -1,0 +1,337 @@
+"""Scenes of every kind that nobody has seen before, drawn from a seed: what errors are measured on.
+
+Each is a tenth of a second or so of a machine whose clearances, stiffnesses, laws, damping, friction, starts
+and drives are drawn from what is physically sensible. The same seed and number give the same scene, whatever
+else is drawn.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from studies import paper_machine
+from support_exudyn import (
+    ClearancePin,
+    CubicStep,
+    Drive,
+    FallingBlock,
+    Held,
+    HydraulicCylinder,
+    Inlet,
+    Machine,
+    OilColumn,
+    OwnBody,
+    RampedOpening,
+    Reciprocating,
+    Scenario,
+    SolverSettings,
+    Steady,
+    SuddenOpening,
+    UniformSpeed,
+    bore_area,
+    ravn_slider_crank,
+    reference_support,
+)
+from support_exudyn.scenario import Accuracy
+from user_forces import (
+    Ambrosio,
+    BengisuAkay,
+    BrownMcPhee,
+    CubicCoulomb,
+    DampingSpeed,
+    DepthSpeed,
+    Exact,
+    Flores,
+    FrictionLaw,
+    Frictionless,
+    Gonthier,
+    HuGuo,
+    HuntCrossley,
+    InputError,
+    JournalBearing,
+    JournalContact,
+    LankaraniNikravesh,
+    LeeWang,
+    Threlfall,
+    TouchSpeed,
+)
+from user_forces.normal.power_law import PowerLaw
+
+LAWS: tuple[type[PowerLaw], ...] = (
+    *(LankaraniNikravesh, Exact, HuntCrossley, Gonthier, Flores, LeeWang, HuGuo),
+)
+RUBBING: tuple[type[FrictionLaw], ...] = (Ambrosio, Ambrosio, CubicCoulomb, BrownMcPhee, Threlfall, BengisuAkay)
+SHORTEST = 0.04  # [s] of a run of the support
+RECORDS = 200  # of a run
+MOST_STEPS = 200_000  # of a run; none of these scenes is worth more
+REFERENCE_SHARE = 5  # each fifth scene is also run to the accuracy "reference"
+DRAWS = 100  # scenes that do not fit together are drawn again
+SPEED_OF_STROKE = 0.3  # [m/s], the fastest that columns extend
+
+
+@dataclass(frozen=True)
+class Fresh:
+    """A scene of a seed: its number, kind, and scenario, in which no accuracy is asked for yet."""
+
+    seed: int
+    number: int
+    kind: str
+    scenario: Scenario
+
+    @property
+    def accuracies(self) -> tuple[Accuracy, ...]:
+        """To which accuracies it is run."""
+        share = self.number // len(KINDS) % REFERENCE_SHARE == 0
+        return ("draft", "standard", "reference") if share else ("draft", "standard")
+
+
+def fresh(seed: int, number: int) -> Fresh:
+    """The scene of a seed with this number, both from 0 on; kinds follow each other in turn."""
+    kind = list(KINDS)[number % len(KINDS)]
+    random = np.random.default_rng([seed, number])
+    for _ in range(DRAWS):
+        try:
+            scenario = KINDS[kind](random)
+            scenario.linkage  # noqa: B018  # journals may not fit where they are to start
+        except InputError:
+            continue
+        return Fresh(seed, number, kind, scenario)
+    raise RuntimeError(f"seed {seed}, scene {number}: {DRAWS} draws gave no {kind} that fits together")
+
+
+# --- what is drawn ---
+
+
+def _between(random: np.random.Generator, low: float, high: float) -> float:
+    """Evenly by its logarithm."""
+    return float(low * (high / low) ** random.uniform())
+
+
+def _contact(random: np.random.Generator, size: float, stiffness: float) -> JournalContact:
+    """A pin's contact; size, stiffness: of its bearing, in those of the support."""
+    bearing = JournalBearing(
+        bore_radius=paper_machine.BORE_RADIUS * size, clearance=_between(random, 1e-4, 3e-3) * size
+    )
+    law = LAWS[random.integers(len(LAWS))]
+    exponent = 1.5 if random.uniform() < 0.7 else float(random.uniform(1.0, 2.0))
+    normal = law(
+        stiffness=stiffness
+        * _between(random, 0.1, 5.0)
+        * paper_machine.stiffness(1.5)
+        * 1e-4 ** (1.5 - exponent),
+        exponent=exponent,
+        restitution=float(random.uniform(0.3, 0.98)),
+        damping_speed=_damping_speed(random),
+    )
+    return JournalContact(bearing=bearing, normal=normal, friction=_friction(random))
+
+
+def _damping_speed(random: np.random.Generator) -> DampingSpeed:
+    return DepthSpeed() if random.uniform() < 0.6 else TouchSpeed(floor=_between(random, 1e-4, 1e-2))
+
+
+def _friction(random: np.random.Generator) -> FrictionLaw:
+    if random.uniform() < 0.4:
+        return Frictionless()
+    law = RUBBING[random.integers(len(RUBBING))]
+    coefficient = float(random.uniform(0.02, 0.4))
+    if law is not Ambrosio:
+        return law(sliding_coefficient=coefficient)
+    static = _between(random, 1e-4, 1e-3)
+    return Ambrosio(
+        sliding_coefficient=coefficient,
+        static_speed=static,
+        dynamic_speed=static * _between(random, 3.0, 100.0),
+    )
+
+
+def _pin(random: np.random.Generator, size: float = 1.0, stiffness: float = 1.0) -> ClearancePin:
+    contact = _contact(random, size, stiffness)
+    away = contact.bearing.clearance * float(random.uniform(0.0, 1.0)) if random.uniform() < 0.3 else 0.0
+    angle = float(random.uniform(0.0, 2.0 * math.pi))
+    return ClearancePin(
+        contact=contact,
+        bore="first" if random.uniform() < 0.5 else "second",
+        eccentricity=(away * math.cos(angle), away * math.sin(angle)),
+    )
+
+
+def _duration(random: np.random.Generator, longest: float) -> float:
+    return _between(random, SHORTEST, longest)
+
+
+def _drive(random: np.random.Generator, duration: float) -> Drive:
+    """Of columns: none, or as far as the fastest of them goes in that time [s]."""
+    far = float(random.uniform(-1.0, 1.0)) * SPEED_OF_STROKE * duration
+    begin, end = (share * duration for share in sorted(random.uniform(0.0, 1.0, 2).tolist()))
+    drives: tuple[Callable[[], Drive], ...] = (
+        Held,
+        lambda: CubicStep(stroke=far, start=begin, end=end + 0.2 * duration),
+        lambda: UniformSpeed(stroke=0.3 * far, start=begin, end=end + 0.2 * duration),
+        lambda: Reciprocating(stroke=0.2 * abs(far), period=duration * float(random.uniform(0.5, 2.0))),
+    )
+    return drives[random.integers(len(drives))]()
+
+
+def _start(random: np.random.Generator, scenario: Scenario) -> Scenario:
+    """Settled in a quarter of all cases, if no journal is to start elsewhere; the drive then begins later."""
+    if random.uniform() > 0.25:
+        return scenario
+    pins = {
+        name: replace(pin, eccentricity=(0.0, 0.0)) if isinstance(pin, ClearancePin) else pin
+        for name, pin in scenario.pins.items()
+    }
+    return replace(scenario, pins=pins, start="settled")
+
+
+def _scene(
+    random: np.random.Generator,
+    machine: Machine,
+    pins: Mapping[str, ClearancePin],
+    longest: float,
+    **more: object,
+) -> Scenario:
+    duration = _duration(random, longest)
+    fields: dict[str, object] = {
+        "machine": machine, "pins": pins, "duration": duration, "record_period": duration / RECORDS,
+        "drive": _drive(random, duration), "solver": SolverSettings(most_steps=MOST_STEPS),
+    }  # fmt: skip
+    return _start(random, Scenario(**(fields | more)))  # type: ignore[arg-type]
+
+
+def _oil(random: np.random.Generator) -> OilColumn:
+    return OilColumn(
+        bore_area=bore_area(float(random.uniform(0.15, 0.3)), 2),
+        oil_length=float(random.uniform(0.2, 0.8)),
+        bulk_modulus=_between(random, 7e8, 2e9),
+        damping_time=_between(random, 3e-4, 3e-3),
+    )
+
+
+def _columns(oil: OilColumn) -> dict[str, OilColumn]:
+    return {"front_column": oil, "rear_column": oil}
+
+
+# --- the kinds ---
+
+
+def _rear_pin(random: np.random.Generator) -> Scenario:
+    """Of three, one asks for the engine's formulation, and one of those that may starts settled."""
+    scene = _scene(random, reference_support(), {paper_machine.LOOSE_PIN: _pin(random)}, 0.4)
+    return replace(scene, formulation="redundant", start="concentric") if random.uniform() < 0.33 else scene
+
+
+def _any_pin(random: np.random.Generator) -> Scenario:
+    machine = reference_support()
+    names = list(machine.linkage().pins)
+    return _scene(random, machine, {names[random.integers(len(names))]: _pin(random)}, 0.12)
+
+
+def _several_pins(random: np.random.Generator) -> Scenario:
+    machine = reference_support()
+    names = random.permutation(list(machine.linkage().pins)).tolist()
+    chosen = names[: int(random.integers(2, len(names) + 1))]
+    return _scene(random, machine, {name: _pin(random) for name in chosen}, 0.08)
+
+
+def _on_oil(random: np.random.Generator) -> Scenario:
+    """Of three, one asks for the engine's formulation where the tree would do."""
+    machine = reference_support()
+    names = list(machine.linkage().pins)
+    name = paper_machine.LOOSE_PIN if random.uniform() < 0.6 else names[random.integers(len(names))]
+    scene = _scene(random, machine, {name: _pin(random)}, 0.2, columns=_columns(_oil(random)))
+    return replace(scene, formulation="redundant") if random.uniform() < 0.33 else scene
+
+
+def _on_cylinders(random: np.random.Generator) -> Scenario:
+    duration = _duration(random, 0.12)
+    begin, end = (duration * float(random.uniform(low, low + 0.5)) for low in (0.0, 0.5))
+    ramp = 0.4 * max(end - begin, 0.02)
+    extent = float(random.uniform(-1.0, 1.0))
+    inlets: tuple[Inlet, ...] = (
+        SuddenOpening(start=begin, end=end + 0.02, extent=extent),
+        RampedOpening(start=begin, end=end + 0.02, ramp=ramp, extent=extent),
+    )
+    cylinder = paper_machine.hydraulic_cylinders(inlets[random.integers(2)])["front_column"]
+    cylinder = replace(cylinder, bulk_modulus=_between(random, 7e8, 2e9))
+    columns: dict[str, HydraulicCylinder] = {"front_column": cylinder, "rear_column": cylinder}
+    pins = {paper_machine.LOOSE_PIN: _pin(random)} if random.uniform() < 0.8 else {}
+    scene = _scene(random, reference_support(), pins, 0.3, columns=columns, drive=Held())
+    return replace(scene, duration=duration, record_period=duration / RECORDS, start="concentric")
+
+
+def _under_block(random: np.random.Generator) -> Scenario:
+    """A rock on the canopy, with and without a loose pin, columns rigid or on oil."""
+    machine = reference_support()
+    tip = machine.linkage().points["tip"].point
+    hinge = machine.start().hinge
+    share = float(random.uniform(0.2, 0.8))
+    block = FallingBlock(
+        body="canopy",
+        point=(tip[0] + share * (hinge[0] - tip[0]), tip[1]),
+        mass=_between(random, 100.0, 3000.0),
+        height=float(random.uniform(0.0, 0.05)) + 1e-4,
+        speed=float(random.uniform(0.5, 4.0)),
+        stiffness=_between(random, 1e8, 3e9),
+        restitution=float(random.uniform(0.2, 0.9)),
+    )
+    names = list(machine.linkage().pins)
+    pins = {names[random.integers(len(names))]: _pin(random)} if random.uniform() < 0.6 else {}
+    columns = _columns(_oil(random)) if random.uniform() < 0.5 else {}
+    return replace(
+        _scene(random, machine, pins, 0.12, columns=columns, loads={"rock": block}), start="concentric"
+    )
+
+
+def _tail_beam(random: np.random.Generator) -> Scenario:
+    jack = OilColumn(
+        bore_area=bore_area(float(random.uniform(0.1, 0.18))),
+        oil_length=float(random.uniform(0.15, 0.5)),
+        bulk_modulus=_between(random, 7e8, 2e9),
+        damping_time=_between(random, 3e-4, 3e-3),
+    )
+    columns = _columns(_oil(random)) if random.uniform() < 0.5 else {}
+    pins = {paper_machine.LOOSE_PIN: _pin(random)}
+    parts = {"tail_beam": OwnBody(jack=jack)}
+    return _scene(random, reference_support(), pins, 0.15, parts=parts, columns=columns)
+
+
+def _crank(random: np.random.Generator) -> Scenario:
+    """At most a revolution, at 200 to 6000 revolutions a minute; half of them without weight."""
+    speed = 2.0 * math.pi / 60.0 * _between(random, 200.0, 6000.0)
+    duration = float(random.uniform(0.1, 1.0)) * 2.0 * math.pi / speed
+    scene = Scenario(
+        machine=replace(ravn_slider_crank(), start_angle=float(random.uniform(0.0, 2.0 * math.pi))),
+        pins={"slider_pin": _pin(random, 0.15, 0.1)},
+        drive=Steady(rate=speed),
+        duration=duration,
+        record_period=duration / RECORDS,
+        gravity=(0.0, -9.81 if random.uniform() < 0.5 else 0.0),
+        solver=SolverSettings(most_steps=MOST_STEPS),
+    )
+    return replace(scene, formulation="redundant") if random.uniform() < 0.33 else scene
+
+
+def _in_space(random: np.random.Generator) -> Scenario:
+    machine = reference_support()
+    names = list(machine.linkage().pins)
+    name = paper_machine.LOOSE_PIN if random.uniform() < 0.5 else names[random.integers(len(names))]
+    columns = _columns(_oil(random)) if random.uniform() < 0.5 else {}
+    return _scene(random, machine, {name: _pin(random)}, 0.08, columns=columns, dimensions=3)
+
+
+KINDS: Mapping[str, Callable[[np.random.Generator], Scenario]] = {
+    "rear pin": _rear_pin,
+    "any pin": _any_pin,
+    "several pins": _several_pins,
+    "oil columns": _on_oil,
+    "cylinders": _on_cylinders,
+    "falling block": _under_block,
+    "tail beam": _tail_beam,
+    "slider-crank": _crank,
+    "space": _in_space,
+}
