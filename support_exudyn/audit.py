@@ -58,13 +58,13 @@ def _reasons(scenario: Scenario, outcome: Outcome, channels: Mapping[str, Channe
     for name, channel in channels.items():
         if not np.isfinite(channel.values).all():
             first = float(time[np.argmin(np.isfinite(channel.values))])
-            yield Failure(f"{name} is no longer a finite number", COARSE, first)
+            yield Failure(f"{name} is no longer a finite number", COARSE, first, finer=True)
     for name, pin in scenario.clearance_pins.items():
         if (depth := channels.get(f"pin.{name}.depth")) is not None:
             place = int(np.argmax(depth.values))
             deepest, bearing = float(depth.values[place]), pin.contact.bearing
             if deepest > DEEPEST * bearing.bore_radius:
-                yield Failure(too_deep(name, deepest, bearing), SOFT, float(time[place]))
+                yield Failure(too_deep(name, deepest, bearing), SOFT, float(time[place]), finer=True)
     open_by, allowed = energy_open(scenario, channels)
     if (open_by > allowed).any():
         first = int(np.argmax(open_by > allowed))
@@ -72,12 +72,12 @@ def _reasons(scenario: Scenario, outcome: Outcome, channels: Mapping[str, Channe
             f"energy does not add up: it is open by {open_by.max():.3g} J; allowed: {OPEN:.0%} of what was "
             f"turned over, {allowed:.3g} J"
         )
-        yield Failure(reason, COARSE, float(time[first]))
+        yield Failure(reason, COARSE, float(time[first]), finer=True)
     yield from _pistons_at_ends(scenario, outcome)
     if (gap := joints_apart(scenario, outcome)) is not None and (gap > APART).any():
         first = int(np.argmax(gap > APART))
         reason = f"what is joined is {1e3 * gap.max():.3g} mm apart; allowed: {1e3 * APART:g} mm"
-        yield Failure(reason, DRIFTED, float(time[first]))
+        yield Failure(reason, DRIFTED, float(time[first]), finer=True)
 
 
 def _pistons_at_ends(scenario: Scenario, outcome: Outcome) -> Iterator[Failure]:

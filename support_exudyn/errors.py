@@ -10,12 +10,14 @@ class Failure:
     """Why, when and where a run stopped.
 
     reason: what went wrong. advice: what to change. time [s]: when. state: named values at that time.
+    finer: whether shorter steps may make the run possible.
     """
 
     reason: str
     advice: str
     time: float
     state: dict[str, float] = field(default_factory=dict)
+    finer: bool = False
 
     def __str__(self) -> str:
         values = ", ".join(f"{name} = {value:.6g}" for name, value in self.state.items())

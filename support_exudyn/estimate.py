@@ -208,9 +208,10 @@ def rounding_of_forces(scenario: Scenario) -> float:
         R mass size epsilon / step^2
 
     Constraints of index 3 hold positions, which are rounded by a share of the machine's size; accelerations
-    are their differences over the step's square. Other formulations do not divide by steps.
+    are their differences over the step's square. Other formulations do not divide by steps, nor does what
+    joints of the plane carry, see `reactions`.
     """
-    if scenario.formulation in ERROR_CONTROLLED:
+    if scenario.formulation in ERROR_CONTROLLED or scenario.dimensions == 2:
         return 0.0
     step = min(scenario.step, scenario.record_period)
     heaviest = max(body.mass for body in scenario.linkage.bodies.values())

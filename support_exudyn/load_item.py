@@ -132,6 +132,7 @@ def load_series(name: str, load: Load, motion: BodyMotion, time: Series) -> Load
     ]
     observed = [load.observed(at) for at in found]
     return LoadSeries(
+        np.array([load.force(at) for at in found]).reshape(-1, 2),
         np.array([load.stored(at) for at in found]),
         {name: np.array([values[name] for values in observed]) for name in load.channels},
     )

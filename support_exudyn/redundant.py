@@ -21,6 +21,7 @@ from support_exudyn.oil import oil_series
 from support_exudyn.progress import Progress
 from support_exudyn.recipes import Part
 from support_exudyn.recorder import History, Recorder
+from support_exudyn.redundant_forces import FOLLOWING, Applied, Following, following, with_causes
 from support_exudyn.scenario import Scenario
 from support_exudyn.scene import Scene
 from support_exudyn.scene_builder import build
@@ -75,8 +76,8 @@ def _run(scene: AnyScene, progress: Progress, outcome: Callable[[AnyScene, Progr
 
 
 def _outcome(scene: Scene, progress: Progress) -> Outcome:
-    needed = needs(scene.scenario)
-    recorder = Recorder(scene, needed)
+    needed = with_causes(needs(scene.scenario))
+    recorder = Recorder(scene, needed & ~FOLLOWING)
     solving = Run(scene, recorder, progress)
     counts = solving.go()
     return Outcome(
@@ -95,12 +96,8 @@ def trajectory(scene: Scene, history: History, needed: Part) -> Trajectory:
     def ordered(series: Series, part: Part) -> Series:
         return series[:, order] if part in needed else series
 
-    motion = BodyMotion(
-        scene.linkage,
-        ordered(history.position, Part.POSITION),
-        ordered(history.velocity, Part.VELOCITY),
-        ordered(history.acceleration, Part.ACCELERATION),
-    )
+    position, velocity = ordered(history.position, Part.POSITION), ordered(history.velocity, Part.VELOCITY)
+    motion = BodyMotion(scene.linkage, position, velocity, np.zeros_like(velocity))
     oil = {
         name: oil_series(item.filled, motion, scene.scenario.drive_of(name), history.time)
         for name, item in scene.oil_columns.items()
@@ -124,29 +121,20 @@ def trajectory(scene: Scene, history: History, needed: Part) -> Trajectory:
         for name, load in scene.scenario.loads.items()
         if Part.LOADS in needed
     }
-    # the multiplier of a distance is the tension
-    columns = {
-        name: -history.multiplier[:, item.multiplier]
-        for name, item in scene.rigid_columns.items()
-        if Part.JOINTS in needed
-    }
-    joints = _joint_forces(scene, history.multiplier) if Part.JOINTS in needed else JointForces()
+    found = Following(velocity[:, :0], JointForces(), {}, {})
+    if needed & FOLLOWING:
+        found = following(scene, motion, history.time, Applied(contacts, giving, loads))
     return Trajectory(
         time=history.time,
-        position=motion.position,
-        velocity=motion.velocity,
-        acceleration=motion.acceleration,
-        ideal_pins=joints.pins,
+        position=position,
+        velocity=velocity,
+        acceleration=found.acceleration,
+        ideal_pins=found.joints.pins,
         contacts=contacts,
-        friction_moments={
-            name: item.series(joints.pins[name], motion.spin(place.first), motion.spin(place.second))
-            for name, item in scene.frictions.items()
-            for place in (scene.linkage.pins[name],)
-            if Part.JOINTS in needed and Part.VELOCITY in needed
-        },
-        columns=columns | giving,
-        cranks=joints.cranks,
-        slides=joints.slides,
+        friction_moments=found.friction_moments,
+        columns={**found.columns, **giving},
+        cranks=found.joints.cranks,
+        slides=found.joints.slides,
         oil_energy=sum((series.energy for series in (oil | cylinders).values()), np.zeros_like(history.time)),
         work=history.work,
         damping_loss=history.damping_loss,
@@ -160,16 +148,3 @@ def _cylinder_series(item: CylinderItem, motion: BodyMotion, history: History) -
     """A hydraulic cylinder at the records."""
     opening = np.array([item.filled.model.inlet.opening(t) for t in history.time.tolist()])
     return item.filled.series(motion, UNIT * history.pressure[:, item.first : item.first + 2], opening)
-
-
-def _joint_forces(scene: Scene, multiplier: Series) -> JointForces:
-    """Forces of ideal pins, cranks and slides from the multipliers (n, constraints)."""
-    return JointForces(
-        # the engine's joint equation is second minus first, so its multiplier acts on the second reversed
-        pins={name: -multiplier[:, item.first : item.first + 2] for name, item in scene.ideal_pins.items()},
-        # the multiplier of a crank's angle is the moment against it
-        cranks={name: -multiplier[:, item.multiplier] for name, item in scene.cranks.items()},
-        slides={
-            name: np.abs(multiplier[:, item.first : item.first + 2]) for name, item in scene.slides.items()
-        },
-    )

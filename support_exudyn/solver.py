@@ -415,12 +415,7 @@ class Run:
             state[f"pin.{name}.depth"] = pin.memory.depth
             state[f"pin.{name}.rate"] = pin.memory.rate
             state[f"pin.{name}.approach_speed"] = pin.memory.approach_speed
-        return Failure(
-            reason,
-            advice,
-            self.time,
-            state,
-        )
+        return Failure(reason, advice, self.time, state, finer=advice is not FEWER_STEPS)
 
 
 def _smooth_steps(scene: EngineScene) -> SmoothSteps:

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from support_exudyn.choose import settings_for
+from support_exudyn.errors import SimulationError
 from support_exudyn.estimate import measured
 from support_exudyn.progress import Progress
 from support_exudyn.recipes import ALL_CHANNELS
@@ -27,32 +28,47 @@ def run_to_accuracy(scenario: Scenario, progress: Progress) -> Result:
 
     At least three runs, each with half the steps' length of the one before; how errors follow from their
     distances is told in `estimate`. Refined until the worst of the numbers that the accuracy is of is as asked,
-    or until refining does not help.
+    or until refining does not help. A run whose steps were too long to finish it does not count; once there is
+    a result with its errors, one that fails ends the refining.
 
-    Raises InputError if the formulation does not cover the scenario, SimulationError if a run fails.
+    Raises InputError if the formulation does not cover the scenario, SimulationError if no three runs in a row
+    can be finished.
     """
     goal = scenario.goal
     assert goal is not None
-    chosen = with_measured(settings_for(scenario, goal))
-    last = best = run_once(chosen, _part(progress, 0))
-    wall_time, off, least, in_vain = last.wall_time, np.inf, np.inf, 0
-    for n in range(1, MOST_RUNS):
-        if (finer_settings := _finer(chosen)) is None:
-            break
-        chosen = finer_settings
-        finer = run_once(chosen, _part(progress, n))
-        wall_time += finer.wall_time
-        last = replace(finer, coarser=_without_oldest(last), goal=goal)
-        if n < FEWEST_RUNS - 1:
-            continue
-        before, off = off, last.worst_error
-        if off < least or n == FEWEST_RUNS - 1:  # with steps too short, rounding makes it worse again
-            least, best = off, last
-        in_vain = in_vain + 1 if off > FALLS * before else 0
-        if off <= goal or in_vain == PATIENCE:
+    chosen: Scenario | None = with_measured(settings_for(scenario, goal))
+    last: Result | None = None
+    best: Result | None = None
+    trouble: SimulationError | None = None
+    wall_time, off, least, in_vain, in_a_row = 0.0, np.inf, np.inf, 0, 0
+    for n in range(MOST_RUNS):
+        assert chosen is not None
+        try:
+            run = run_once(chosen, _part(progress, n))
+        except SimulationError as error:
+            if best is not None:
+                break
+            if not error.failure.finer:
+                raise trouble or error from None
+            last, in_a_row, trouble = None, 0, trouble or error
+        else:
+            wall_time, in_a_row = wall_time + run.wall_time, in_a_row + 1
+            last = replace(run, coarser=_without_oldest(last), goal=goal)
+            if in_a_row >= FEWEST_RUNS:
+                before, off = off, last.worst_error
+                if off < least or best is None:  # with steps too short, rounding makes it worse again
+                    least, best = off, last
+                in_vain = in_vain + 1 if off > FALLS * before else 0
+                if off <= goal or in_vain == PATIENCE:
+                    break
+        if (chosen := _finer(chosen)) is None:
             break
     progress(1.0)
-    return replace(best if best.coarser else last, wall_time=wall_time)
+    found = best or last
+    if found is None or (trouble is not None and best is None):
+        assert trouble is not None  # else something would have been found
+        raise trouble
+    return replace(found, wall_time=wall_time)
 
 
 def with_measured(scenario: Scenario) -> Scenario:
@@ -63,9 +79,9 @@ def with_measured(scenario: Scenario) -> Scenario:
     return replace(scenario, channels=(*scenario.channels, *missing))
 
 
-def _without_oldest(result: Result) -> Result:
+def _without_oldest(result: Result | None) -> Result | None:
     """Only three runs are kept: with the next finer one, this and the one before."""
-    if result.coarser is None:
+    if result is None or result.coarser is None:
         return result
     return replace(result, coarser=replace(result.coarser, coarser=None))
 

@@ -42,9 +42,10 @@ class ContactSeries:
 class LoadSeries:
     """A load at the records, shape (n,) each.
 
-    stored: energy [J]. observed: values of its channels, by name.
+    force: on the loaded point (n, 2) [N]. stored: energy [J]. observed: values of its channels, by name.
     """
 
+    force: Series
     stored: Series
     observed: Mapping[str, Series]
 

@@ -1,7 +1,8 @@
 """Runs at the steps that a scenario has, at half and at a quarter of them: every number has its error.
 
-The first two tell an error of the second. The third has to agree with the second within that error; else
-nothing is known of the numbers, and the run is refused.
+The first two tell an error of the second. The third has to agree with the second within that error. If it does
+not, if errors are too large to tell anything, or if steps were too long for the run to be finished, steps are
+halved again, a few times. If that does not help, nothing is known of the numbers, and the run is refused.
 """
 
 from __future__ import annotations
@@ -18,7 +19,8 @@ from support_exudyn.solver_settings import ERROR_CONTROLLED, REFINED_TOLERANCE, 
 from support_exudyn.to_accuracy import with_measured
 from user_forces.values import InputError
 
-SHARES = (1.0 / 7.0, 2.0 / 7.0, 4.0 / 7.0)  # of the work, run by run
+SHARES = (1.0 / 7.0, 2.0 / 7.0, 4.0 / 7.0)  # of the work, run by run, if these will do
+MOST_RUNS = 6
 LARGEST_ERROR = 0.5  # of the worst number: beyond it a run tells nothing
 UNCERTAIN = (
     "Take a smaller `step` and more `solver.impact_steps` (with steps below 2e-5 s rounding shows: then a "
@@ -30,33 +32,66 @@ UNCERTAIN = (
 def run_with_error(scenario: Scenario, progress: Progress) -> Result:
     """The run at a quarter of a scenario's steps, whose `coarser` ones are those at half of them and at them.
 
+    At still shorter steps where those do not do, with up to three coarser runs.
+
     Raises InputError if the formulation does not cover the scenario, or has no finer settings; SimulationError
     if a run fails, or if its numbers do not settle when steps are halved.
     """
-    done, runs = 0.0, []
-    for chosen, share in zip(_settings(scenario), SHARES, strict=True):
-        runs.append(run_once(chosen, _part(progress, done, share)))
+    chosen: Scenario | None = _coarsest(scenario)
+    result: Result | None = None
+    doubt: Failure | None = None
+    done, wall_time = 0.0, 0.0
+    for n in range(MOST_RUNS):
+        assert chosen is not None
+        share = SHARES[n] if n < len(SHARES) else 0.0
+        try:
+            run = run_once(chosen, _part(progress, done, share))
+        except SimulationError as error:
+            if not error.failure.finer:
+                raise error if doubt is None else SimulationError(doubt) from error
+            result, doubt = None, doubt or error.failure
+        else:
+            wall_time += run.wall_time
+            result = replace(run, coarser=_without_oldest(result))
+            if result.coarser is not None and result.coarser.coarser is not None:
+                doubt = _doubt(result)
+                if doubt is None:
+                    progress(1.0)
+                    return replace(result, wall_time=wall_time)
         done += share
-    progress(1.0)
-    first, second, third = runs
-    second = replace(second, coarser=first)
-    result = replace(third, coarser=second, wall_time=sum(run.wall_time for run in runs))
-    told = second.worst_error + rounding_share(third)
-    moved = disagreement(second, third)
+        if (chosen := _finer(chosen)) is None:
+            break
+    assert doubt is not None  # else one of them would do
+    raise SimulationError(doubt)
+
+
+def _doubt(result: Result) -> Failure | None:
+    """Why the numbers of a run are not to be believed; None if they are."""
+    before = result.coarser
+    assert before is not None
+    told = before.worst_error + rounding_share(result)
+    moved = disagreement(before, result)
     if not moved <= told:
         reason = (
             f"its numbers do not settle: halving the steps tells an error of {told:.2g}, halving them again "
             f"moves the numbers by {moved:.2g}"
         )
-        raise SimulationError(Failure(reason, UNCERTAIN, scenario.duration))
+        return Failure(reason, UNCERTAIN, result.scenario.duration)
     if not result.worst_error <= LARGEST_ERROR:
         reason = f"its numbers are uncertain by {result.worst_error:.0%}; allowed: {LARGEST_ERROR:.0%}"
-        raise SimulationError(Failure(reason, UNCERTAIN, scenario.duration))
-    return result
+        return Failure(reason, UNCERTAIN, result.scenario.duration)
+    return None
 
 
-def _settings(scenario: Scenario) -> tuple[Scenario, Scenario, Scenario]:
-    """The scenario and two finer ones. Raises InputError, before anything is run, if there are none."""
+def _without_oldest(result: Result | None) -> Result | None:
+    """A run with its two coarser ones: what the estimate of its error takes."""
+    if result is None or result.coarser is None or result.coarser.coarser is None:
+        return result
+    return replace(result, coarser=replace(result.coarser, coarser=replace(result.coarser.coarser, coarser=None)))
+
+
+def _coarsest(scenario: Scenario) -> Scenario:
+    """The scenario as it is run first. Raises InputError, before anything is run, if two finer ones are not."""
     coarse = with_measured(scenario)
     least = SMALLEST_TOLERANCE * 2.0 ** (2 * REFINED_TOLERANCE)
     if coarse.formulation in ERROR_CONTROLLED and coarse.solver.tolerance < least:
@@ -64,8 +99,17 @@ def _settings(scenario: Scenario) -> tuple[Scenario, Scenario, Scenario]:
             f"solver.tolerance = {coarse.solver.tolerance:g}: cannot be made finer twice; allowed with errors: "
             f"from {least:g} on"
         )
-    half = coarse.refined()
-    return coarse, half, half.refined()
+    coarse.refined().refined()
+    return coarse
+
+
+def _finer(scenario: Scenario) -> Scenario | None:
+    """The same with steps half as long; None if there are no finer settings."""
+    try:
+        finer = scenario.refined()
+    except InputError:
+        return None
+    return None if finer == scenario else finer
 
 
 def _part(progress: Progress, done: float, share: float) -> Progress:

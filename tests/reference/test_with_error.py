@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import chain, cycle
 
 import numpy as np
 import pytest
@@ -25,7 +26,7 @@ from support_exudyn.estimate import disagreement, measures
 from support_exudyn.progress import Progress
 from support_exudyn.run_once import run_once
 from support_exudyn.solver_settings import MOST_IMPACT_STEPS, SMALLEST_TOLERANCE
-from support_exudyn.with_error import LARGEST_ERROR
+from support_exudyn.with_error import LARGEST_ERROR, MOST_RUNS
 from tests.reference.cases import FORCE, PIN, loose_support, support
 from tests.unit.test_formulations import SCENES
 from user_forces import InputError
@@ -157,8 +158,8 @@ def test_a_machine_at_rest_is_certain() -> None:
 
 
 def plant(monkeypatch: pytest.MonkeyPatch, factors: Sequence[float]) -> None:
-    """Runs whose forces in the loose pin are so many times as large, one after another."""
-    left = iter(factors)
+    """Runs whose forces in the loose pin are so many times as large, one after another; then the last two."""
+    left = chain(factors, cycle(factors[-2:]))
 
     def run(scenario: Scenario, progress: Progress) -> Result:
         result, factor = run_once(replace(scenario, duration=0.03), progress), next(left)
@@ -191,7 +192,7 @@ def test_a_failure_is_had_as_a_value(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_numbers_that_settle_too_slowly_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     # distances are a third and a sixth of what they are shares of: several times the last may be left
-    plant(monkeypatch, (1.0, 1.5, 1.8))
+    plant(monkeypatch, (1.0, 1.5, 1.8, 2.2, 2.7, 3.3))
     failure = simulate(FALL, errors=True, throw=False)
     assert isinstance(failure, Failure)
     told = re.fullmatch(r"its numbers are uncertain by (\d+)%; allowed: 50%", failure.reason)
@@ -202,6 +203,49 @@ def test_numbers_that_settle_too_slowly_are_refused(monkeypatch: pytest.MonkeyPa
     plant(monkeypatch, (1.0, 1.1, 1.14))
     result = simulate(FALL, errors=True)
     assert 0.1 < result.worst_error < LARGEST_ERROR
+
+
+def test_numbers_that_settle_later_are_had_at_shorter_steps(monkeypatch: pytest.MonkeyPatch) -> None:
+    plant(monkeypatch, (1.0, 1.0, 1.05, 1.06, 1.06))
+    result = simulate(FALL, errors=True)
+    assert result.scenario.step == FALL.step / 8.0
+    assert result.worst_error > 0.01  # of the last three
+    # and so are those that were too uncertain at first
+    plant(monkeypatch, (1.0, 1.5, 1.8, 1.81, 1.81))
+    result = simulate(FALL, errors=True)
+    assert result.scenario.step == FALL.step / 16.0
+    assert 0.01 < result.worst_error < LARGEST_ERROR
+
+
+def fail_first(monkeypatch: pytest.MonkeyPatch, failure: Failure, often: int) -> list[Scenario]:
+    """The first runs end like this; the list of all that were begun."""
+    begun: list[Scenario] = []
+
+    def run(scenario: Scenario, progress: Progress) -> Result:
+        begun.append(scenario)
+        if len(begun) <= often:
+            raise SimulationError(failure)
+        return run_once(replace(scenario, duration=0.03), progress)
+
+    monkeypatch.setattr(with_error, "run_once", run)
+    return begun
+
+
+def test_steps_that_are_too_long_are_halved_until_a_run_can_be_finished(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    coarse = Failure("energy does not add up", "Take a smaller step.", 0.01, finer=True)
+    begun = fail_first(monkeypatch, coarse, 2)
+    result = simulate(FALL, errors=True)
+    assert [one.step for one in begun] == [FALL.step / 2**n for n in range(5)]
+    assert result.scenario.step == FALL.step / 16.0
+    assert result.coarser is not None
+    assert result.coarser.coarser is not None
+    assert result.coarser.coarser.coarser is None
+    # not for ever
+    begun = fail_first(monkeypatch, coarse, 100)
+    assert simulate(FALL, errors=True, throw=False) == coarse
+    assert len(begun) == MOST_RUNS
 
 
 def test_a_run_that_fails_ends_it(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,0 +1,45 @@
+"""Second derivatives of drives, which say only how far they are and how fast."""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+
+import numpy as np
+
+from support_exudyn.drives import Drive
+from support_exudyn.trajectory import Series
+
+# [s] over which speeds are compared: no drive changes so fast, and rounding of speeds is far less
+BACK = 1e-5
+CLOSE = 1e-9  # [s] and share of its time by which a break is the same time
+
+
+def accelerations(drive: Drive, time: Series, duration: float) -> Series:
+    """Rate of a drive's speed at times from 0 on [s], (n,) [m/s^2], [rad/s^2].
+
+        (3 v(t) - 4 v(t - d) + v(t - 2 d)) / (2 d)
+
+    At a break it is the value before it, at the start that after it. duration: of the run [s].
+    """
+    if drive.span(duration) == (0.0, 0.0):
+        return np.zeros_like(time)
+    breaks = sorted(drive.breaks)
+    return np.array([_at(drive, breaks, t) for t in time.tolist()])
+
+
+def _at(drive: Drive, breaks: list[float], t: float) -> float:
+    if t <= 0.0:
+        return _at_the_start(drive, breaks)
+    close = CLOSE * max(1.0, t)
+    place = bisect_left(breaks, t - close)
+    if place < len(breaks) and breaks[place] <= t + close:
+        t = breaks[place]  # beyond it the speed may be another
+    d = min(BACK, (t - (breaks[place - 1] if place else 0.0)) / 3.0)
+    return (3.0 * drive.speed(t) - 4.0 * drive.speed(t - d) + drive.speed(t - 2.0 * d)) / (2.0 * d)
+
+
+def _at_the_start(drive: Drive, breaks: list[float]) -> float:
+    """The same with times after the start."""
+    d = min([BACK, *(b / 3.0 for b in breaks if b > 0.0)])
+    first = drive.initial_speed + drive.speed_jump(0.0)
+    return (4.0 * drive.speed(d) - 3.0 * first - drive.speed(2.0 * d)) / (2.0 * d)
