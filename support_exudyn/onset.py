@@ -21,6 +21,10 @@ from user_forces.scalar import maximum
 # K (v0 share h)^n, a relative 1e-5 of an impact of a hundred steps even for n = 1; the speed is exact anyway.
 SHARE = 0.001
 BEYOND = 0.1  # of that share is a cut step aimed behind the touch or parting, so as not to end before it
+# How far the true course of a depth may be off the cubic, as a share of the change of the rate: its rate, in the
+# middle and times four, and the depth, per length of the step. Of a swing of which the step is a third it keeps
+# within both.
+DOUBT, DOUBT_OF_DEPTH = 0.5, 1.0 / 64.0
 
 
 class Mobility(NamedTuple):
@@ -166,6 +170,33 @@ class DepthPath(NamedTuple):
         q = -0.5 * (b + math.copysign(math.sqrt(max(0.0, b * b - 4.0 * a * self.rate0)), b))
         roots = [root for root in (self.rate0 / q if q else 0.0, q / a if a else 1.0) if 0.0 <= root <= 1.0]
         return roots[0] if roots else 0.5
+
+    def may_turn(self, doubt: float = DOUBT) -> bool:
+        """Whether the rate, of one sign at both ends, may pass zero in between.
+
+        doubt: how far it may be off this cubic's, see `DOUBT`.
+        """
+        sign = -1.0 if self.rate0 + self.rate1 < 0.0 else 1.0
+        rate0, rate1, bend = sign * self.rate0, sign * self.rate1, sign * self._bend
+        off = doubt * self._swing
+        slope, bend = rate1 - rate0 - bend - off, bend + off
+        # the lowest point of rate0 + slope x + bend x^2, if it lies between the ends
+        return slope < 0.0 < slope + 2.0 * bend and 4.0 * bend * rate0 <= slope * slope
+
+    @property
+    def doubt(self) -> float:
+        """How far the true depth may be off this cubic [m]."""
+        return DOUBT_OF_DEPTH * self.step * self._swing
+
+    @property
+    def _bend(self) -> float:
+        """Second coefficient of the rate as a polynomial of the fraction [m/s]."""
+        return 3.0 * (self.rate0 + self.rate1) - 6.0 * (self.depth1 - self.depth0) / self.step
+
+    @property
+    def _swing(self) -> float:
+        """By how much the rate changes within the step, and back [m/s]."""
+        return abs(self.rate1 - self.rate0) + abs(self._bend)
 
     def crossing(self, a: float, b: float) -> float:
         """The fraction between a and b at which the depth passes zero, its signs there being different."""
