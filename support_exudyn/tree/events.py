@@ -69,8 +69,8 @@ def _in_contact(renews: bool, start: Place, end: Place, step: float, met: float)
         return Event(Kind.PARTING, 1.0)
     if end.depth < -met:
         return _parting(path, met)
-    if turns:
-        turn = path.turning_point()
+    turn = path.turns_up() if turns else None
+    if turn is not None:
         lowest = path.depth(turn)
         if step > SHORT and met < abs(lowest) < path.doubt:
             return Event(Kind.UNCLEAR, 0.0)
