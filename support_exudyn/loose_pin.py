@@ -214,7 +214,7 @@ class LoosePin:
         if self._spin_was_wrong():
             return math.inf
         depth, rate, slip = force[:3]
-        if goes_on(start, depth, rate):
+        if goes_on(start, depth, rate, self._step):
             self.reached = start.at(depth, rate, slip, force.deflection)
             return None
         return self._decided(start, self._verdict(start, t))

@@ -24,6 +24,10 @@ from user_forces.scalar import maximum
 # K (v0 share h)^n, a relative 1e-5 of an impact of a hundred steps even for n = 1; the speed is exact anyway.
 SHARE = 0.001
 BEYOND = 0.1  # of that share is a cut step aimed behind the touch or parting, so as not to end before it
+# How far the true course of a depth may be off the cubic, as a share of the change of the rate: its rate, in the
+# middle and times four, and the depth, per length of the step. Of a swing of which the step is a third it keeps
+# within both.
+DOUBT, DOUBT_OF_DEPTH = 0.5, 1.0 / 64.0
 
 
 class Mobility(NamedTuple):
@@ -168,15 +172,55 @@ class DepthPath(NamedTuple):
             + self.rate1 * x * (3.0 * x - 2.0)
         )
 
-    def turning_point(self) -> float:
-        """The fraction at which the rate passes zero, its signs at both ends being different."""
-        change = 6.0 * (self.depth1 - self.depth0) / self.step
-        a = 3.0 * (self.rate0 + self.rate1) - change
-        b = change - 4.0 * self.rate0 - 2.0 * self.rate1
-        # of the two roots of a x^2 + b x + rate0 without cancellation, and the one within the step
-        q = -0.5 * (b + math.copysign(math.sqrt(max(0.0, b * b - 4.0 * a * self.rate0)), b))
-        roots = [root for root in (self.rate0 / q if q else 0.0, q / a if a else 1.0) if 0.0 <= root <= 1.0]
-        return roots[0] if roots else 0.5
+    def turns_up(self) -> float | None:
+        """The fraction within the step at which the rate passes zero on its way up; None if it does not."""
+        return self._turn(1.0)
+
+    def turns_down(self) -> float | None:
+        """The same on its way down."""
+        return self._turn(-1.0)
+
+    def _turn(self, sign: float) -> float | None:
+        """The root of the rate, rate0 + slope x + bend x^2, at which it has a slope of this sign."""
+        bend = self._bend
+        slope = self.rate1 - self.rate0 - bend
+        square = slope * slope - 4.0 * bend * self.rate0
+        if not square > 0.0:
+            return None
+        there = sign * math.sqrt(square)  # the slope at the root
+        # without cancellation
+        if slope * there > 0.0:
+            x = -2.0 * self.rate0 / (slope + there)
+        else:
+            x = (there - slope) / (2.0 * bend) if bend else math.inf
+        return x if 0.0 < x <= 1.0 else None
+
+    def may_turn(self, doubt: float = DOUBT) -> bool:
+        """Whether the rate, of one sign at both ends, may pass zero in between.
+
+        doubt: how far it may be off this cubic's, see `DOUBT`.
+        """
+        sign = -1.0 if self.rate0 + self.rate1 < 0.0 else 1.0
+        rate0, rate1, bend = sign * self.rate0, sign * self.rate1, sign * self._bend
+        off = doubt * self._swing
+        slope, bend = rate1 - rate0 - bend - off, bend + off
+        # the lowest point of rate0 + slope x + bend x^2, if it lies between the ends
+        return slope < 0.0 < slope + 2.0 * bend and 4.0 * bend * rate0 <= slope * slope
+
+    @property
+    def doubt(self) -> float:
+        """How far the true depth may be off this cubic [m]."""
+        return DOUBT_OF_DEPTH * self.step * self._swing
+
+    @property
+    def _bend(self) -> float:
+        """Second coefficient of the rate as a polynomial of the fraction [m/s]."""
+        return 3.0 * (self.rate0 + self.rate1) - 6.0 * (self.depth1 - self.depth0) / self.step
+
+    @property
+    def _swing(self) -> float:
+        """By how much the rate changes within the step, and back [m/s]."""
+        return abs(self.rate1 - self.rate0) + abs(self._bend)
 
     def crossing(self, a: float, b: float) -> float:
         """The fraction between a and b at which the depth passes zero, its signs there being different."""
@@ -187,32 +231,32 @@ def first_rise(path: DepthPath) -> float | None:
     """Fraction at which a pin that starts the step apart first touches; None if it does not."""
     if path.depth0 > 0.0:
         return 0.0
-    if path.depth1 > 0.0:
-        return path.crossing(0.0, 1.0)
-    if path.rate0 > 0.0 > path.rate1:  # up and down again within the step
-        top = path.turning_point()
-        if path.depth(top) > 0.0:
-            return path.crossing(0.0, top)
-    return None
+    top = path.turns_down()
+    if top is not None and path.depth(top) > 0.0:  # perhaps up and down again within the step
+        return path.crossing(0.0, top)
+    return path.crossing(0.0, 1.0) if path.depth1 > 0.0 else None
 
 
 def last_return(path: DepthPath) -> float | None:
     """Fraction at which a pin in contact, having parted within the step, touches again; None if not."""
-    if path.depth0 > 0.0 and path.depth1 > 0.0 and path.rate0 < 0.0 < path.rate1:
-        bottom = path.turning_point()
-        if path.depth(bottom) < 0.0:
+    if path.depth0 > 0.0 and path.depth1 > 0.0:
+        bottom = path.turns_up()
+        if bottom is not None and path.depth(bottom) < 0.0:
             return path.crossing(bottom, 1.0)
     return None
 
 
-def goes_on(start: PinMemory, depth: float, rate: float) -> bool:
+def goes_on(start: PinMemory, depth: float, rate: float, step: float) -> bool:
     """Whether in a step from `start` to this depth [m] and rate [m/s] surely nothing has happened to the pin.
 
     It stayed closed without being pressed on anew, or apart without turning back. If not, `judge` says what.
     """
+    before = start.rate
+    change = 6.0 * (depth - start.depth) / step if step > 0.0 else 3.0 * (before + rate)
+    monotone = abs(3.0 * (before + rate) - change) <= abs(rate - before)  # the rate of the cubic
     if start.in_contact:
-        return depth > 0.0 and not start.rate < 0.0 <= rate
-    return depth <= 0.0 and start.depth <= 0.0 and not start.rate > 0.0 > rate
+        return depth > 0.0 and monotone and not before < 0.0 <= rate
+    return depth <= 0.0 and start.depth <= 0.0 and monotone and not before > 0.0 > rate
 
 
 def judge(
@@ -266,12 +310,12 @@ def _judge_contact(
         if SHARE < parting < 1.0 - SHARE:  # else the last step would push too long or too hard
             return _cut(parting, SHARE, path, start, end_time)
         return Verdict(Action.ACCEPT, end._replace(in_contact=False, approach_speed=0.0))
-    return _gone_on(start, end, forgets)
+    anew = start.rate < 0.0 <= end.rate or path.turns_up() is not None
+    return _gone_on(end, anew, forgets)
 
 
-def _gone_on(start: PinMemory, end: PinMemory, forgets: bool) -> Verdict:
-    """The verdict on a step over which the contact goes on."""
-    anew = start.rate < 0.0 <= end.rate
+def _gone_on(end: PinMemory, anew: bool, forgets: bool) -> Verdict:
+    """The verdict on a step over which the contact goes on; anew: it has been pressed on again."""
     if anew and forgets:
         end = end._replace(approach_speed=0.0)
     return Verdict(Action.ACCEPT, end, anew=anew)
@@ -290,7 +334,7 @@ def judge_at_ends(
     end = start.moved(depth, rate)
     if start.in_contact:
         if depth > 0.0:
-            return _gone_on(start, end, forgets)
+            return _gone_on(end, start.rate < 0.0 <= end.rate, forgets)
         return Verdict(Action.ACCEPT, end._replace(in_contact=False, approach_speed=0.0))
     if depth <= 0.0:
         return Verdict(Action.ACCEPT, end)

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 
 from support_exudyn.compiled import compiled
+from support_exudyn.onset import DOUBT, DOUBT_OF_DEPTH
 from support_exudyn.reduced.drive import Matrix, Vector
 from support_exudyn.reduced.equations import observe
 from support_exudyn.reduced.layout import (
@@ -34,10 +35,6 @@ CUT_MET = 1e-9  # PUSH, of the order of 1, at which a cut of tension is met; the
 NEAR_CUT = 0.5  # PUSH below which a step is looked at for two cuts,
 CUT_SAMPLES = 4  # in so many parts
 AT_ZERO = 1e-13  # depth [m] that is a touch or parting just made; those are met to a tenth of it
-# How far the true course may be off the cubic, as a share of the change of the rate: the rate itself in the
-# middle of the part (times four), and the depth (per length of the part). A swing of which the part is a third
-# keeps within both.
-DOUBT, DOUBT_OF_DEPTH = 0.5, 1.0 / 64.0
 Found = tuple[int, float, float]  # what, and fractions of the step between which it happens
 
 
@@ -72,7 +69,7 @@ def bend(r0: float, r1: float, mean: float) -> float:
 
 @compiled
 def may_turn(r0: float, r1: float, mean: float) -> bool:
-    """Whether a rate [m/s] of one sign at both ends, and its mean, may have passed zero in between."""
+    """Whether a rate [m/s] of one sign at both ends may pass zero in between, see `DepthPath.may_turn`."""
     if r0 + r1 < 0.0:
         r0, r1, mean = -r0, -r1, -mean
     curved = bend(r0, r1, mean)
@@ -102,19 +99,18 @@ def parting(d0: float, r0: float, d1: float, r1: float, h: float) -> Found:
 
 
 @compiled
-def in_contact(renews: bool, remembers: bool, d0: float, r0: float, d1: float, r1: float, h: float) -> Found:
+def in_contact(renews: bool, d0: float, r0: float, d1: float, r1: float, h: float) -> Found:
     """What happens in a part that begins in contact.
 
     Arguments:
         renews: something changes where a contact is pressed on again.
-        remembers: and that is more than the moving mass: it forgets its touch speed.
         d0, r0, d1, r1: depth [m] and rate [m/s] at both ends.
         h: length of the part [s].
     """
     turns = r0 < 0.0 <= r1
     if h > SHORT and not turns and not r0 > 0.0 > r1:
         lowest = min(d0, d1) - h * max(abs(r0), abs(r1))
-        if (remembers or (lowest <= 0.0 < d1)) and may_turn(r0, r1, (d1 - d0) / h):
+        if (renews or lowest <= 0.0 < d1) and may_turn(r0, r1, (d1 - d0) / h):
             return TOO_LONG, 0.0, 0.0
     if d1 <= 0.0:
         return parting(d0, r0, d1, r1, h)
@@ -211,7 +207,6 @@ def touching(
 ) -> Found:
     """What happens in a step that begins in contact, see `in_flight` for the arguments."""
     renews = p[BY_DEPTH] != 0.0
-    remembers = renews and memory[TOUCH_SPEED] > 0.0
     d0, r0, push = max(start[DEPTH], 0.0), start[RATE], start[PUSH]
     # a step that begins on a cut and ends beyond it only grazes it; landing would go back to its start
     crosses = abs(push) > CUT_MET
@@ -220,7 +215,7 @@ def touching(
         if n + 1 < PARTS_CLOSED:
             look(p, segment, memory, t, h, (n + 1) / PARTS_CLOSED, path, y, there)
             d1, r1, push_then = there[DEPTH], there[RATE], there[PUSH]
-        what, low, high = in_contact(renews, remembers, d0, r0, d1, r1, h / PARTS_CLOSED)
+        what, low, high = in_contact(renews, d0, r0, d1, r1, h / PARTS_CLOSED)
         if what == TOO_LONG:
             return TOO_LONG, 0.0, 0.0
         if crosses and (push < 0.0) != (push_then < 0.0):

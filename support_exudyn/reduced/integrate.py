@@ -47,6 +47,7 @@ ORDER = 0.2 - 0.75 * STEADY
 SMALLEST_STEP = 1e-13  # [s]
 LANDED = 1e-14  # depth [m] at which a touch or parting is met; rounding of the posture is some 1e-16
 LANDINGS = 12
+TURNS = 3
 SMALLEST_SINE = 0.01  # of the angles that vanish at a dead centre: nearer to it the run is given up
 SHARE_OF_WAY = 0.5  # of the way to a dead centre is the longest step, so that none is stepped over
 CLOSE = 1e-12  # [s]: a record that lies so little behind the end of a step belongs to it
@@ -81,7 +82,7 @@ def land(
     """Make a step of h [s] again so that it ends where something happens, see `event`; its length [s].
 
     A touch or parting is met by Newton's method on the depth at the end of the step, kept by bisection where it
-    was seen. Where a contact turns, the force is continuous, and one look is enough.
+    was seen.
     """
     before, after = low * h, high * h
     length = 0.5 * (before + after)
@@ -89,7 +90,7 @@ def land(
         advance(p, segment, memory, t, length, y, k, end, contact, weights)
         report[EVALUATIONS] += STAGES - 1
         depth = contact[DEPTH]
-        if what == RETURN or abs(depth) <= LANDED or n == LANDINGS:
+        if abs(depth) <= LANDED or n == LANDINGS:
             break
         if (depth > 0.0) == (what == TOUCH):
             after = max(length, before)
@@ -140,6 +141,42 @@ def land_on_cut(
         else:
             high, at_high = length, value
             at_low *= 0.5
+    return length
+
+
+@compiled
+def land_on_turn(
+    p: Vector,
+    segment: Vector,
+    memory: Vector,
+    t: float,
+    h: float,
+    before: float,
+    guess: float,
+    y: Vector,
+    k: Matrix,
+    end: Vector,
+    contact: Vector,
+    weights: Vector,
+    report: Vector,
+) -> float:
+    """Make a step of h [s] again so that it ends where the rate, `before` at its start, passes zero; its length.
+
+    The first look is at a guessed fraction. By false position (Illinois).
+    """
+    low, high, at_low, at_high = 0.0, h, before, contact[RATE]
+    length = guess * h
+    for n in range(TURNS):
+        advance(p, segment, memory, t, length, y, k, end, contact, weights)
+        report[EVALUATIONS] += STAGES - 1
+        value = contact[RATE]
+        if value == 0.0 or n + 1 == TURNS:
+            break
+        if value < 0.0:
+            low, at_low = length, value
+        else:
+            high, at_high = length, value
+        length = (low * at_high - high * at_low) / (at_high - at_low)
     return length
 
 
@@ -249,6 +286,10 @@ def run_segment(
         was_cut = now[PUSH] < 0.0
         if what == CUT:
             h = land_on_cut(p, segment, memory, t, h, now[PUSH], y, k, end, then, weights, report)
+            fit(h, y, end, k, path)
+            last = h >= stop - t
+        elif what == RETURN:
+            h = land_on_turn(p, segment, memory, t, h, now[RATE], high, y, k, end, then, weights, report)
             fit(h, y, end, k, path)
             last = h >= stop - t
         elif what != NOTHING and low < 1.0:

@@ -23,6 +23,9 @@ from support_exudyn.reduced.runge_kutta import within
 
 PEAK_SAMPLES = 8
 NEAR_PEAK = 0.8  # share of the largest force so far from which a step is looked at more closely
+NEAR_TOP = 0.98  # and of which its largest sample is, if the top between two is looked for
+GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)  # by golden section: share that is left of an interval
+NARROWINGS = 24  # to 1e-5 of it
 
 
 @compiled
@@ -35,6 +38,16 @@ def record(segment: Vector, memory: Vector, t: float, y: Vector, rows: Matrix, n
         rows[MEMORY_ROW + i, n] = memory[i]
     drive = driven(segment, t)
     rows[EXTENSION, n], rows[SPEED, n], rows[ACCELERATION, n] = drive
+
+
+@compiled
+def force_at(
+    p: Vector, segment: Vector, memory: Vector, t: float, h: float, x: float, path: Matrix, y: Vector, there: Vector
+) -> float:
+    """Magnitude of the contact force [N] at a fraction x of a step; y and there are overwritten."""
+    within(path, x, y)
+    observe(p, segment, memory, t + x * h, y, there)
+    return size(there)
 
 
 @compiled
@@ -53,25 +66,35 @@ def peak(
 ) -> float:
     """The largest force [N] so far, a step in contact included whose ends have the forces first and last [N].
 
-    Of a step with forces near the largest so far: that at points between, and the top of the parabola through
-    three of them, wherever it lies between these. y and there are overwritten.
+    Of a step with forces near the largest so far: that at points between, and the highest between these, which
+    may be a corner (where what limits the damping changes). y and there are overwritten.
     """
     if max(first, last) <= NEAR_PEAK * largest:
         return largest
-    a, b = first, first
+    top, at = first, 0
     for n in range(1, PEAK_SAMPLES + 1):
-        c = last
+        force = last
         if n < PEAK_SAMPLES:
-            x = n / PEAK_SAMPLES
-            within(path, x, y)
-            observe(p, segment, memory, t + x * h, y, there)
-            c = size(there)
-        largest = max(largest, c)
-        bend = 2.0 * b - a - c
-        if n > 1 and bend > 0.0 and abs(c - a) <= 2.0 * bend:  # the top is not beyond its neighbours
-            largest = max(largest, b + 0.125 * (c - a) * (c - a) / bend)
-        a, b = b, c
-    return largest
+            force = force_at(p, segment, memory, t, h, n / PEAK_SAMPLES, path, y, there)
+        if force > top:
+            top, at = force, n
+    if top <= NEAR_TOP * largest:
+        return largest
+    low, high = max(0.0, (at - 1) / PEAK_SAMPLES), min(1.0, (at + 1) / PEAK_SAMPLES)
+    one, other = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
+    at_one = force_at(p, segment, memory, t, h, one, path, y, there)
+    at_other = force_at(p, segment, memory, t, h, other, path, y, there)
+    for _ in range(NARROWINGS):
+        top = max(top, at_one, at_other)
+        if at_one > at_other:
+            high, other, at_other = other, one, at_one
+            one = high - GOLDEN * (high - low)
+            at_one = force_at(p, segment, memory, t, h, one, path, y, there)
+        else:
+            low, one, at_one = one, other, at_other
+            other = low + GOLDEN * (high - low)
+            at_other = force_at(p, segment, memory, t, h, other, path, y, there)
+    return max(largest, top)
 
 
 @compiled

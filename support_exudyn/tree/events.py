@@ -19,6 +19,7 @@ PARTS = 4  # of a step in free flight, each looked at
 SAMPLES = 8  # of a step in contact
 SHORT = 1e-9  # [s]: in so short a step what cannot be told apart is taken as it ends
 MET = 1e-7  # depth as a share of the clearance at which a touch or a parting is met
+DOUBT_IN_FLIGHT = 1.0 / 32.0  # how far a journal may be off its cubic, as a share of the cubic's last term
 
 
 class Kind(Enum):
@@ -38,36 +39,44 @@ class Event(NamedTuple):
 
 
 def event(
-    in_contact: bool, forgets: bool, start: Place, end: Place, step: float, clearance: float
+    in_contact: bool, renews: bool, start: Place, end: Place, step: float, clearance: float
 ) -> Event | None:
     """The first thing that happens in a step [s].
 
     Arguments:
         in_contact: at its start.
-        forgets: whether a contact that is pressed on again begins anew.
+        renews: whether something changes where a contact is pressed on again.
         start, end: of the step.
         clearance: [m].
     """
     met = MET * clearance
     if in_contact:
-        return _in_contact(forgets, start, end, step, met)
+        return _in_contact(renews, start, end, step, met)
     return _apart(start, end, step, clearance, met)
 
 
 # --- in contact ---
 
 
-def _in_contact(forgets: bool, start: Place, end: Place, step: float, met: float) -> Event | None:
+def _in_contact(renews: bool, start: Place, end: Place, step: float, met: float) -> Event | None:
     path = DepthPath(max(start.depth, 0.0), start.rate, end.depth, end.rate, step)
+    turns = start.rate < 0.0 <= end.rate
+    if step > SHORT and not turns and not start.rate > 0.0 > end.rate:
+        lowest = min(path.depth0, end.depth) - step * max(abs(start.rate), abs(end.rate))
+        if (renews or lowest <= 0.0 < end.depth) and path.may_turn():
+            return Event(Kind.UNCLEAR, 0.0)
     if abs(end.depth) <= met and end.rate < 0.0:
         return Event(Kind.PARTING, 1.0)
     if end.depth < -met:
         return _parting(path, met)
-    if start.rate < 0.0 < end.rate:
-        turn = path.turning_point()
-        if path.depth(turn) < -met:
+    turn = path.turns_up() if turns else None
+    if turn is not None:
+        lowest = path.depth(turn)
+        if step > SHORT and met < abs(lowest) < path.doubt:
+            return Event(Kind.UNCLEAR, 0.0)
+        if lowest < -met:
             return Event(Kind.PARTING, path.crossing(0.0, turn))
-        if forgets:
+        if renews:
             return Event(Kind.RETURN, turn)
     return None
 
@@ -105,6 +114,16 @@ class _Flight(NamedTuple):
         (px, py), (vx, vy) = self._at(x), self._slope(x)
         return px * vx + py * vy
 
+    @property
+    def doubt(self) -> float:
+        """How far the true depth may be off [m]."""
+        h, s, e = self.step, self.start, self.end
+        last = math.hypot(
+            h * (s.vx + e.vx) - 2.0 * (e.x - s.x),
+            h * (s.vy + e.vy) - 2.0 * (e.y - s.y),
+        )
+        return DOUBT_IN_FLIGHT * last
+
     def _at(self, x: float) -> Vector2:
         y, h, s, e = 1.0 - x, self.step, self.start, self.end
         a, b, c, d = y * y * (1.0 + 2.0 * x), x * x * (3.0 - 2.0 * x), h * x * y * y, -h * x * x * y
@@ -132,7 +151,10 @@ def _apart(start: Place, end: Place, step: float, clearance: float, met: float) 
         high = n / PARTS
         falling = flight.rate(high) < 0.0
         top = float(brentq(flight.rate, low, high)) if rising and falling else high
-        if flight.depth(top) > met:
+        highest = flight.depth(top)
+        if top < high and step > SHORT and met < abs(highest) < flight.doubt:
+            return Event(Kind.UNCLEAR, 0.0)
+        if highest > met:
             if apart:
                 return Event(Kind.TOUCH, float(brentq(flight.depth, low, top, xtol=1e-15)))
             # the surfaces have just parted and must be seen apart first

@@ -377,14 +377,37 @@ def test_a_law_that_does_not_forget_keeps_the_approach_speed(start: State, end: 
     assert gone_on(start, end, False) == accepted(memory_of(True, 0.3, *end), anew=True)
 
 
-@given(start=st.tuples(deep, closing), end=st.tuples(deep, closing | opening), forgets=st.booleans())
-def test_nothing_is_forgotten_on_the_way_in_and_where_it_turns(start: State, end: State, forgets: bool) -> None:
-    assert gone_on(start, end, forgets) == accepted(memory_of(True, 0.3, *end))
+even = st.floats(0.34, 0.66)  # share of the first rate in the mean of a rate that only rises, or only falls
 
 
-@given(start=st.tuples(deep, opening), end=st.tuples(deep, opening), forgets=st.booleans())
-def test_nothing_is_forgotten_on_the_way_out(start: State, end: State, forgets: bool) -> None:
-    assert gone_on(start, end, forgets) == accepted(memory_of(True, 0.3, *end))
+@given(depth=deep, first=closing, last=closing | opening, share=even, forgets=st.booleans())
+def test_nothing_is_forgotten_on_the_way_in_and_where_it_turns(
+    depth: float, first: float, last: float, share: float, forgets: bool
+) -> None:
+    end = depth + H * (share * first + (1.0 - share) * last), last
+    assert gone_on((depth, first), end, forgets) == accepted(memory_of(True, 0.3, *end))
+
+
+@given(depth=deep, first=opening, last=opening, share=even, forgets=st.booleans())
+def test_nothing_is_forgotten_on_the_way_out(
+    depth: float, first: float, last: float, share: float, forgets: bool
+) -> None:
+    end = 2.0 * depth + H * (share * first + (1.0 - share) * last), last
+    assert gone_on((2.0 * depth, first), end, forgets) == accepted(memory_of(True, 0.3, *end))
+
+
+@given(turn=st.floats(0.05, 0.9), back=st.floats(0.02, 0.5), speed=st.floats(1e-3, 0.1), closes=st.booleans())
+def test_a_dip_within_a_step_is_a_contact_pressed_on_again(
+    turn: float, back: float, speed: float, closes: bool
+) -> None:
+    # the rate passes zero twice: up at one fraction of the step, down at another
+    other = turn + back * (1.0 - turn) if closes else turn - back * turn
+    first, last = sorted((turn, other))
+    x = Polynomial([0.0, 1.0 / H])
+    rate = (1.0 if last == turn else -1.0) * speed * (x - first) * (x - last)
+    depth = rate.integ() + 5e-4
+    verdict, _ = judged(depth, speed=0.3, forgets=True)
+    assert verdict == accepted(memory_of(True, 0.0, float(depth(H)), float(rate(H))), anew=True)
 
 
 # --- memory ---
