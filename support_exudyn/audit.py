@@ -16,6 +16,7 @@ from support_exudyn.errors import Failure
 from support_exudyn.scenario import Scenario
 from support_exudyn.trajectory import Outcome, Series, Trajectory
 from user_forces.journal import JournalBearing
+from user_forces.lawful import UNLAWFUL
 
 # Depth of a journal as a share of the bore's radius. Laws and geometry are those of small depths; the reference
 # support meets 1 % of it.
@@ -27,6 +28,7 @@ SOFT = (
 # Energy that the balance may be open by, as a share of what was turned over: kinetic, potential and elastic
 # energy, losses and work. The reference support closes to 1e-5.
 OPEN = 0.05
+GIVEN_BACK = 1e-3  # share of the same by which a loss may become less: powers are integrated over steps
 ROUNDING = 1e-8  # [m] by which the weight of all bodies would have to be lifted to make up for rounding
 ROUNDING_AT_REST = 1e-12  # [J/kg], of bodies that nothing moves: that of a speed of a micrometre a second
 ENERGY = "energy."
@@ -49,7 +51,7 @@ def too_deep(pin: str, depth: float, bearing: JournalBearing) -> str:
 
 
 def audit(scenario: Scenario, outcome: Outcome, channels: Mapping[str, Channel]) -> Failure | None:
-    """The first reason not to believe a run; None if there is none. What was not recorded is not looked at."""
+    """The first reason not to believe a run; None if there is none. channels: all of them, whatever is asked for."""
     return next(_reasons(scenario, outcome, channels), None)
 
 
@@ -60,7 +62,7 @@ def _reasons(scenario: Scenario, outcome: Outcome, channels: Mapping[str, Channe
             first = float(time[np.argmin(np.isfinite(channel.values))])
             yield Failure(f"{name} is no longer a finite number", COARSE, first, finer=True)
     for name, pin in scenario.clearance_pins.items():
-        if (depth := channels.get(f"pin.{name}.depth")) is not None:
+        if (depth := channels.get(f"pin.{name}.depth")) is not None:  # in space the edges have one each
             place = int(np.argmax(depth.values))
             deepest, bearing = float(depth.values[place]), pin.contact.bearing
             if deepest > DEEPEST * bearing.bore_radius:
@@ -73,6 +75,7 @@ def _reasons(scenario: Scenario, outcome: Outcome, channels: Mapping[str, Channe
             f"turned over, {allowed:.3g} J"
         )
         yield Failure(reason, COARSE, float(time[first]), finer=True)
+    yield from _losses(scenario, outcome, channels)
     yield from _pistons_at_ends(scenario, outcome)
     if (gap := joints_apart(scenario, outcome)) is not None and (gap > APART).any():
         first = int(np.argmax(gap > APART))
@@ -80,10 +83,52 @@ def _reasons(scenario: Scenario, outcome: Outcome, channels: Mapping[str, Channe
         yield Failure(reason, DRIFTED, float(time[first]), finer=True)
 
 
+def _losses(scenario: Scenario, outcome: Outcome, channels: Mapping[str, Channel]) -> Iterator[Failure]:
+    """Whether what is lost becomes less, though nothing is given back but what friction laws have stored.
+
+    Laws are looked at one by one while a run goes on, too, see `lawful`; what has a state only here.
+    """
+    largest = max(outcome.largest_force.values(), default=0.0)
+    stored = sum(
+        float(np.abs(contact.deflection).max()) * largest
+        for name, pin in scenario.clearance_pins.items()
+        if pin.contact.friction.has_state
+        for contact in outcome.trajectory.contacts_of(name)
+        if contact.deflection is not None
+    )
+    time, allowed = channels["time"].values, GIVEN_BACK * turned_over(channels) + rounding_of_energy(scenario)
+    lost = {name: channels[ENERGY + name].values for name in ("damping_loss", "friction_loss")}
+    for name, more in (("damping_loss", 0.0), ("friction_loss", stored)):
+        back = np.maximum.accumulate(lost[name]) - lost[name]
+        if (back > allowed + more).any():
+            first = int(np.argmax(back > allowed + more))
+            yield Failure(
+                f"{ENERGY}{name} becomes less by {back.max():.3g} J; allowed: {allowed + more:.3g} J, "
+                f"{_who_loses(scenario, name)}",
+                UNLAWFUL,
+                float(time[first]),
+            )
+
+
+def _who_loses(scenario: Scenario, kind: str) -> str:
+    """What of a scenario may lose energy in this way, with its laws."""
+    pins = scenario.clearance_pins.items()
+    if kind == "friction_loss":
+        laws = [(f"pins.{name}", pin.contact.friction) for name, pin in pins]
+        laws += [(f"pins.{name}", pin.friction) for name, pin in scenario.friction_pins.items() if pin.friction]
+    else:
+        laws = [(f"pins.{name}", pin.contact.normal) for name, pin in pins]
+    found = [f"{name} = {type(law).__name__}" for name, law in laws]
+    if kind == "damping_loss":
+        found += [f"loads.{name} = {type(load).__name__}" for name, load in scenario.loads.items()]
+        found += [f"columns.{name}" for name in scenario.giving]
+    return "of " + ", ".join(found)
+
+
 def _pistons_at_ends(scenario: Scenario, outcome: Outcome) -> Iterator[Failure]:
     """Whether a piston has come to an end of its cylinder, which nothing in the model stops it at."""
     run = outcome.trajectory
-    if not scenario.cylinders or not isinstance(run, Trajectory) or not run.position.size:
+    if not scenario.cylinders or not isinstance(run, Trajectory):
         return
     motion = BodyMotion(scenario.linkage, run.position, run.velocity, run.acceleration)
     for name, cylinder in scenario.cylinders.items():
@@ -104,17 +149,15 @@ def _pistons_at_ends(scenario: Scenario, outcome: Outcome) -> Iterator[Failure]:
 
 
 def energy_open(scenario: Scenario, channels: Mapping[str, Channel]) -> tuple[Series, float]:
-    """By how much the energy balance is open at the records (n,) [J], and what is allowed.
-
-    Zeros if energies are not recorded.
-    """
-    names = (ENERGY + "balance", *(ENERGY + name for name in TURNED))
-    if any(name not in channels for name in names):
-        return np.zeros(1), 0.0
-    mass = sum(body.mass for body in scenario.linkage.bodies.values())
-    rounding = (ROUNDING * float(np.hypot(*scenario.gravity)) + ROUNDING_AT_REST) * mass
-    allowed = OPEN * turned_over(channels) + rounding
+    """By how much the energy balance is open at the records (n,) [J], and what is allowed."""
+    allowed = OPEN * turned_over(channels) + rounding_of_energy(scenario)
     return np.abs(channels[ENERGY + "balance"].values), allowed
+
+
+def rounding_of_energy(scenario: Scenario) -> float:
+    """By how much rounding may leave an energy open [J]."""
+    mass = sum(body.mass for body in scenario.linkage.bodies.values())
+    return (ROUNDING * float(np.hypot(*scenario.gravity)) + ROUNDING_AT_REST) * mass
 
 
 def turned_over(channels: Mapping[str, Channel]) -> float:
@@ -126,10 +169,10 @@ def turned_over(channels: Mapping[str, Channel]) -> float:
 def joints_apart(scenario: Scenario, outcome: Outcome) -> Series | None:
     """Largest distance of what ideal pins, rigid columns and guides hold together, at the records (n,) [m].
 
-    None for runs in space, and if the motion was not recorded.
+    None for runs in space.
     """
     run = outcome.trajectory
-    if not isinstance(run, Trajectory) or not run.position.size:
+    if not isinstance(run, Trajectory):
         return None
     linkage, time = scenario.linkage, run.time
     motion = BodyMotion(linkage, run.position, run.velocity, run.acceleration)

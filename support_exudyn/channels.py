@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import reduce
 from operator import or_
@@ -21,17 +22,22 @@ class Channel:
 
 
 def channels(scenario: Scenario, run: Trajectory | Observed) -> dict[str, Channel]:
-    """The channels that a scenario asks for, by name."""
+    """The channels that a scenario asks for, by name; all if its run is audited, which looks at all of them."""
     seen = Seen(scenario.linkage, scenario.gravity, run) if isinstance(run, Trajectory) else run
+    recipes = scenario.recipes if scenario.solver.audit else _asked(scenario)
     return {
-        name: Channel(recipe.values(seen), recipe.unit, recipe.meaning)
-        for name, recipe in _asked(scenario).items()
+        name: Channel(recipe.values(seen), recipe.unit, recipe.meaning) for name, recipe in recipes.items()
     }
 
 
+def asked(scenario: Scenario, found: Mapping[str, Channel]) -> dict[str, Channel]:
+    """Those of the channels found that a scenario asks for."""
+    return {name: found[name] for name in _asked(scenario)}
+
+
 def needs(scenario: Scenario) -> Part:
-    """What of a run the channels that are asked for are computed from."""
-    if scenario.channels == ALL_CHANNELS:
+    """What of a run its channels are computed from: everything if it is audited, whatever is asked for."""
+    if scenario.solver.audit or scenario.channels == ALL_CHANNELS:
         return EVERYTHING
     return reduce(or_, (recipe.needs for recipe in _asked(scenario).values()), Part.NOTHING)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, TypeVar
@@ -9,6 +10,7 @@ from typing import Any, TypeVar
 from support_exudyn.drives import Drive
 from support_exudyn.oil import FilledColumn
 from support_exudyn.scene_items import ColumnItem, CrankItem
+from user_forces.lawful import LawError
 
 Item = TypeVar("Item")
 
@@ -51,6 +53,8 @@ class DrivenParts:
         drive = self.drive
         # at the start the speed is the one just after it
         state = drive.extension(t), drive.speed(t) if t > 0.0 else drive.initial_speed
+        if not math.isfinite(state[0] + state[1]):
+            raise LawError(f"{type(drive).__name__} has an extension of {state[0]:g} and a speed of {state[1]:g}")
         if state != self.state:
             self.state = state
             self._set(*state)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -16,6 +17,7 @@ from support_exudyn.body_motion import BodyMotion
 from support_exudyn.loads.load import Load, LoadedPoint, Powers
 from support_exudyn.symbolic_force import Symbol, engine
 from support_exudyn.trajectory import LoadSeries, Series
+from user_forces.lawful import ROUNDING, LawError
 
 HANGS_BY = 0.01  # [m] that the spring would give under what hangs, if it were to carry it
 NAME = "springForceUserFunction"  # the engine's, of its Cartesian spring
@@ -33,6 +35,14 @@ class LoadItem:
     def powers(self, t: float) -> Powers:
         """Powers [W] at the end of a step, t [s]."""
         return self.load.powers(self._at(t))
+
+    def look(self, t: float, name: str) -> None:
+        """Raise LawError if the load gives at t [s] what it should lose, but for rounding, or no number."""
+        at = self._at(t)
+        work, loss = self.load.powers(at)
+        size = abs(work) + math.hypot(*self.load.force(at)) * math.hypot(at.vx, at.vy)
+        if not loss >= -ROUNDING * size:
+            raise LawError(f"{name}: {type(self.load).__name__} loses {loss:.6g} W; allowed: >= 0")
 
     def longest_step(self, t: float, number: int) -> float:
         """How long the step from t [s] on may be [s], with so many in an impact."""

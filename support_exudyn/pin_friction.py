@@ -19,6 +19,7 @@ from exudyn.itemInterface import MarkerNodeCoordinate, NodePointGround, ObjectCo
 
 from support_exudyn.trajectory import Series
 from user_forces.friction.law import FrictionLaw
+from user_forces.lawful import LawError
 
 
 class PinFriction:
@@ -60,6 +61,14 @@ class PinFriction:
         """What is dissipated now [W]."""
         spin = self._spin(self._data.GetODE2Coordinates_t())
         return -self.moment(self._force(), spin) * spin
+
+    def look(self, name: str) -> None:
+        """Raise LawError, for what is dissipated now cannot be."""
+        spin, force = self._spin(self._data.GetODE2Coordinates_t()), self._force()
+        raise LawError(
+            f"{name}: {type(self.law).__name__} gives a moment of {self.moment(force, spin):.6g} N m along the turning at "
+            f"{spin:.6g} rad/s and {force:.6g} N"
+        )
 
     def add_moment(self, forces: Series, force: float, rates: Series) -> None:
         """Add the moment for a pin force [N] and rates of all coordinates (n,) to the forces on them (n,)."""

@@ -87,7 +87,7 @@ def _line(contact: JournalContact) -> list[str]:
         "    last = depth, rate",
         "    if not in_contact or depth <= 0.0: return 0.0",
         *pressed,
-        f"    return {asked} if {asked} > 0.0 else 0.0",
+        f"    return 0.0 if {asked} <= 0.0 else {asked}",  # what is no number is not cut
     ]
 
 

@@ -61,10 +61,11 @@ class Recorder:
         self._kept = tuple(part in needs for part in STATE)
         self.energies = RunningIntegrals(3)  # work of the drive, losses by damping and by friction
         self._data = scene.mbs.systemData
-        self._pins = tuple(scene.loose_pins.values())
+        self._pins = tuple(scene.loose_pins.items())
+        self._looks = scene.scenario.solver.audit  # whether what is lost is
         self._driven = tuple((parts.drive, parts.multipliers, parts.oil) for parts in scene.driven)
-        self._frictions = tuple(scene.frictions.values())
-        self._loads = tuple(scene.loads.values())
+        self._frictions = tuple(scene.frictions.items())
+        self._loads = tuple(scene.loads.items())
         self._cylinders = tuple(scene.cylinders.values())
         self._mbs = scene.mbs
         # numbers one behind the other: with an object for each part of a record they take three times as much
@@ -116,7 +117,7 @@ class Recorder:
             data.GetODE2Coordinates_t(),
             data.GetODE2Coordinates_tt(),
             data.GetAECoordinates(),
-            _memories([pin.kept for pin in self._pins]),
+            _memories([pin.kept for _, pin in self._pins]),
             np.array(self.energies.totals),
             np.array(self._powers_now),
         )
@@ -132,7 +133,7 @@ class Recorder:
                 data.GetODE2Coordinates_t() if velocity else None,
                 data.GetODE2Coordinates_tt() if acceleration else None,
                 data.GetAECoordinates() if multiplier else None,
-                _memories([pin.kept for pin in self._pins]) if memory else None,
+                _memories([pin.kept for _, pin in self._pins]) if memory else None,
             ),
             self.energies.totals,
         )
@@ -186,22 +187,31 @@ class Recorder:
                 work, loss = item.filled.powers(*self._length(item), drive.extension(t), speed)
                 columns += work
                 damping += loss
-        for load in self._loads:
+        for name, load in self._loads:
             work, loss = load.powers(t)
+            if self._looks and not loss >= 0.0:
+                load.look(t, name)
             columns += work
             damping += loss
         for cylinder in self._cylinders:
             work, loss = cylinder.powers()
             columns += work
             damping += loss
-        for rubbing in self._frictions:
-            friction += rubbing.power()
-        for pin in self._pins:
+        for name, rubbing in self._frictions:
+            lost = rubbing.power()
+            if self._looks and not lost >= 0.0:
+                rubbing.look(name)
+            friction += lost
+        for name, pin in self._pins:
             force = pin.force
             if force.depth > 0.0:
                 elastic = pin.contact.normal.elastic_force(force.depth) if pin.memory.in_contact else 0.0
-                damping += (force.normal_force - elastic) * force.rate
-                friction -= force.friction_force * force.slip
+                lost = (force.normal_force - elastic) * force.rate
+                rubbed = force.friction_force * force.slip
+                if self._looks and not (lost >= 0.0 >= rubbed and elastic >= 0.0):
+                    pin.look(elastic, name)
+                damping += lost
+                friction -= rubbed
         return columns, damping, friction
 
 

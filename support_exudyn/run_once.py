@@ -5,14 +5,15 @@ from __future__ import annotations
 import time
 
 from support_exudyn.audit import audit
-from support_exudyn.channels import channels
+from support_exudyn.channels import asked, channels
 from support_exudyn.collector import paused_collector
-from support_exudyn.errors import SimulationError
+from support_exudyn.errors import Failure, SimulationError
 from support_exudyn.formulations import formulation
 from support_exudyn.progress import Progress
 from support_exudyn.provenance import provenance
 from support_exudyn.result import Result
 from support_exudyn.scenario import Scenario
+from user_forces.lawful import UNLAWFUL, LawError, look_at_rest
 
 
 def run_once(scenario: Scenario, progress: Progress) -> Result:
@@ -23,6 +24,8 @@ def run_once(scenario: Scenario, progress: Progress) -> Result:
     """
     chosen = formulation(scenario.formulation)
     chosen.check(scenario)
+    if scenario.solver.audit:
+        _look_at_laws(scenario)
     began = time.perf_counter()
     with paused_collector():
         outcome = chosen.run(scenario, progress)
@@ -31,7 +34,7 @@ def run_once(scenario: Scenario, progress: Progress) -> Result:
         raise SimulationError(failure)
     return Result(
         scenario=scenario,
-        channels=found,
+        channels=asked(scenario, found),
         onsets=outcome.onsets,
         largest_force=outcome.largest_force,
         impulses=outcome.impulses,
@@ -39,3 +42,12 @@ def run_once(scenario: Scenario, progress: Progress) -> Result:
         wall_time=time.perf_counter() - began,
         provenance=provenance(),
     )
+
+
+def _look_at_laws(scenario: Scenario) -> None:
+    """Raise SimulationError if the law of a pin cannot be one even at rest."""
+    for name, pin in scenario.clearance_pins.items():
+        try:
+            look_at_rest(pin.contact)
+        except LawError as error:
+            raise SimulationError(Failure(str(error.at(name)), UNLAWFUL, 0.0)) from error

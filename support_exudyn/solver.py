@@ -37,7 +37,9 @@ from support_exudyn.stretches import Stretch, solve_in_stretches
 from support_exudyn.symbolic_drive import turns_by_itself
 from support_exudyn.velocity_jump import slide
 from user_forces import Frictionless
+from user_forces.lawful import UNLAWFUL, LawError
 from user_forces.normal.law import LoadError
+from user_forces.values import InputError
 
 REPEAT_ERROR = 1e6  # above any tolerance of the engine's discontinuous iteration: the step is repeated
 SMALLEST_IMPACT_STEP = 1e-11  # [s], well above the rounding of times
@@ -140,14 +142,18 @@ class Run:
                     finished = self._go_in_stretches()
         except exudyn.ExudynError as error:
             cause = error.__cause__  # set if a function of ours raised
+            if isinstance(cause, LawError):
+                raise SimulationError(self._failure(str(cause), UNLAWFUL)) from error
             if isinstance(cause, LoadError):
                 raise SimulationError(self._failure("a contact is overloaded", str(cause))) from error
             if cause is not None and not isinstance(cause, ArithmeticError):
                 raise cause from None
             if cause is None:
+                self._probe()
                 raise SimulationError(self._failure(explained(error), engine_words.ADVICE)) from error
             raise SimulationError(self._failure(first_line(cause))) from error
         if not finished or self.time < self.plan.duration * (1.0 - 1e-9):
+            self._probe()
             advice = f"{ADVICE} {STEEP}" if self.newton.of_step and self._has_friction() else ADVICE
             raise SimulationError(self._failure("the solver gave up", advice))
         return Counts(
@@ -236,10 +242,14 @@ class Run:
     def _after_newton(self, mbs: Any, t: float) -> list[float]:
         """After a step that would end at t has been solved: [error, recommended step]."""
         again, shortest = False, math.inf
-        for pin in self.pins:
-            step = pin.after_newton(t)
-            if step is not None:
-                again, shortest = True, min(shortest, step)
+        name = ""
+        try:
+            for name, pin in self.scene.loose_pins.items():
+                step = pin.after_newton(t)
+                if step is not None:
+                    again, shortest = True, min(shortest, step)
+        except LawError as error:
+            raise error.at(name) from None
         if not again:
             return [0.0, -1.0]
         if shortest == math.inf:
@@ -297,6 +307,16 @@ class Run:
             self.progress(t / self.plan.duration)
         if breaks := self.plan.breaks_at(t):
             self._jump(t, breaks)
+
+    def _probe(self) -> None:
+        """The run could not go on: raise SimulationError if a law is why."""
+        for name, pin in self.scene.loose_pins.items():
+            try:
+                pin.probe()
+            except LawError as error:
+                raise SimulationError(self._failure(str(error.at(name)), UNLAWFUL)) from error
+            except InputError:  # it has its own words for where it ends
+                continue
 
     def _is_to_be_cut(self, taken: float, following: float) -> bool:
         """Whether far shorter steps follow on one of this length [s], or the next will be cut.

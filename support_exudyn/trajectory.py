@@ -96,6 +96,10 @@ class Trajectory:
     loads: Mapping[str, LoadSeries] = field(default_factory=dict)
     cylinders: Mapping[str, CylinderSeries] = field(default_factory=dict)
 
+    def contacts_of(self, pin: str) -> list[ContactSeries]:
+        """Where a loose pin touches: in the plane in one place."""
+        return [self.contacts[pin]]
+
 
 class Observed(Protocol):
     """A run that is known otherwise, such as one in space, from which its own recipes compute channels."""
@@ -103,6 +107,10 @@ class Observed(Protocol):
     @property
     def time(self) -> Series:
         """Of the records (n,) [s]."""
+        ...
+
+    def contacts_of(self, pin: str) -> list[ContactSeries]:
+        """Where a loose pin touches, section by section."""
         ...
 
 

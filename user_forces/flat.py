@@ -14,6 +14,7 @@ from types import SimpleNamespace
 from typing import Any, cast
 
 from user_forces.contact import ContactForce, JournalContact, SlipHistory
+from user_forces.lawful import look
 from user_forces.normal.law import Touch
 from user_forces.scalar import Expression
 
@@ -49,14 +50,14 @@ class Line(Expression):
         return self.line(f"{text(yes)} if {self.name} else {text(no)}")
 
     def larger(self, other: Expression | float) -> Line:
-        """The larger of both."""
-        o = text(other)
-        return self.line(f"{self.name} if {self.name} > {o} else {o}")
+        """The larger of both, see `scalar.maximum`."""
+        a, o = self.name, text(other)
+        return self.line(f"{a} if {a} > {o} or {a} != {a} else {o}")
 
     def smaller(self, other: Expression | float) -> Line:
-        """The smaller of both."""
-        o = text(other)
-        return self.line(f"{self.name} if {self.name} < {o} else {o}")
+        """The smaller of both, see `scalar.minimum`."""
+        a, o = self.name, text(other)
+        return self.line(f"{a} if {a} < {o} or {a} != {a} else {o}")
 
     def __add__(self, other: Any) -> Line:
         return self.line(f"{self.name} + {text(other)}")
@@ -114,7 +115,7 @@ def lines(names: Iterable[str]) -> tuple[Formulas, list[Any]]:
 
 
 def flat_force(contact: JournalContact) -> FlatForce:
-    """`contact.force` as a flat function of floats, bit for bit the same.
+    """`contact.force` as a flat function of floats, bit for bit the same, that raises LawError if it is none.
 
     Its arguments, all floats: x, y, vx, vy, bore_spin, journal_spin as of `JournalContact.force`; in_contact:
     whether there is a touch, whose speed and mass follow; deflection, slip and step of SlipHistory.
@@ -137,6 +138,8 @@ def flat_force(contact: JournalContact) -> FlatForce:
         f"        return {without}",
         *depth_check(contact, texts["depth"]),
         *(f"    {line}" for line in pressed),
+        f"    if not -inf < {texts['normal_force']} + {texts['friction_force']} < inf:",
+        f"        not_finite({', '.join(texts[name] for name in ContactForce._fields[:5])})",
         f"    return {_tuple(texts)}",
     ]
     return cast(FlatForce, compiled(source, contact)["force"])
@@ -206,6 +209,7 @@ def compiled(source: Iterable[str], contact: JournalContact, **known: object) ->
         "Touch": Touch,
         "normal_law": contact.normal,
         "friction_law": contact.friction,
+        "not_finite": partial(look, contact),
         **known,
     }
     exec(compile("\n".join(source), f"<{type(contact.normal).__name__}>", "exec"), space)

@@ -57,21 +57,21 @@ def where(condition: object, yes: float, no: float) -> float:
 
 
 def maximum(a: float, b: float) -> float:
-    """The larger of both."""
+    """The larger of both; no number if one of them is none, so that it is not lost where a law is cut."""
     if isinstance(a, Expression):
         return cast(float, a.larger(b))
     if isinstance(b, Expression):
         return cast(float, b.larger(a))
-    return a if a > b else b
+    return a if a > b or a != a else b
 
 
 def minimum(a: float, b: float) -> float:
-    """The smaller of both."""
+    """The smaller of both; no number if one of them is none."""
     if isinstance(a, Expression):
         return cast(float, a.smaller(b))
     if isinstance(b, Expression):
         return cast(float, b.smaller(a))
-    return a if a < b else b
+    return a if a < b or a != a else b
 
 
 def sqrt(x: float) -> float:

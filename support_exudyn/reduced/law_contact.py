@@ -9,6 +9,7 @@ from support_exudyn.reduced.layout import TOUCH_SPEED, TOUCHING
 from user_forces.contact import JournalContact
 from user_forces.dependence import asks_for_mass
 from user_forces.flat import flat_force
+from user_forces.lawful import look
 from user_forces.normal.law import Touch
 
 _moving_mass = plain(moving_mass)
@@ -46,6 +47,8 @@ class LawContact:
         if in_contact and depth > 0.0:
             self.calls += 1
             elastic = self._elastic_force(depth)
+            if not ((normal - elastic) * rate >= 0.0 >= friction * slip and elastic >= 0.0):
+                look(self.contact, depth, rate, slip, normal, friction, elastic)
         # in the order of `layout`
         out[:] = (
             depth,

@@ -54,6 +54,7 @@ from support_exudyn.reduced.law_contact import LawContact
 from support_exudyn.reduced.outline import Outline
 from support_exudyn.reduced.plain_records import PlainRecords
 from support_exudyn.reduced.records import peak, size
+from user_forces.lawful import UNLAWFUL, LawError
 from user_forces.normal.law import LoadError
 
 FIRST_STEP = 1e-4  # [s]
@@ -208,10 +209,10 @@ class PlainRun:
             return False
         try:
             solver.step()
-        except (ValueError, OverflowError, ZeroDivisionError) as error:  # overloaded, or it does not close
+        except (ValueError, ArithmeticError) as error:  # overloaded, or it does not close
             self.first_step = SHORTEN * solver.h_abs  # perhaps only the step that was tried went too far
             if self.first_step < SHORT:
-                if isinstance(error, LoadError):
+                if isinstance(error, (LoadError, LawError)):
                     raise
                 report[NOT_A_NUMBER] = 1.0
                 self.code = STUCK
@@ -313,3 +314,6 @@ def run_plain(made: Outline, most_steps: int, progress: Progress) -> tuple[int, 
     except LoadError as error:
         failure = Failure("a contact is overloaded", str(error), float(made.report[STOPPED_AT]))
         raise SimulationError(failure) from error
+    except LawError as error:
+        said = str(error.at(made.model.PIN))
+        raise SimulationError(Failure(said, UNLAWFUL, float(made.report[STOPPED_AT]))) from error

@@ -74,6 +74,12 @@ class Observation:
             for name, group in self.scene.sections.items()
         }
 
+    def contacts_of(self, pin: str) -> list[ContactSeries]:
+        """Of all sections of the bearings that make up a loose pin."""
+        bearings = self.scene.linkage.bearings
+        groups = [group for name, group in self.sections.items() if bearings[name].pin == pin]
+        return [section.contact for group in groups for section in group]
+
     def _section(self, pin: SectionPin, memory: Series) -> SectionSeries:
         bore, journal = pin.ends
         moving = section_motion(self.motion, bore, journal, pin.section.place, pin.at, pin.slides)

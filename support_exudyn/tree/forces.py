@@ -13,6 +13,7 @@ from support_exudyn.scenario import Scenario
 from support_exudyn.tree.branches import Matrix, Tree
 from support_exudyn.tree.loads import FORCE, WIDTH, evaluate
 from support_exudyn.tree.loose import LoosePin
+from user_forces.lawful import LawError
 from user_forces.normal.law import LoadError
 from user_forces.values import Vector2
 
@@ -47,7 +48,7 @@ class Forces:
             name: LoosePin(pin, n, *arrays, _angle(tree, ends[n][0][0]))
             for n, (name, pin) in enumerate(loose.items())
         }
-        self.touching: list[LoosePin] = []
+        self.touching: list[tuple[str, LoosePin]] = []
         # what a law has raised since this was last set to None
         self.trouble: LoadError | ArithmeticError | None = None
         self.position: list[float] = []  # that were evaluated last: coordinates [rad] and rates [rad/s]
@@ -62,12 +63,14 @@ class Forces:
         """Generalised forces [N m] at t [s]; the engine's user function."""
         self.position, self.velocity = position, velocity
         self.evaluations += 1
+        name = ""
         evaluate(*self._arrays, t, *position, *velocity)
         try:
-            for pin in self.touching:
+            for name, pin in self.touching:
                 pin.add_force()
         except (LoadError, ArithmeticError) as error:  # perhaps only because the step is too long
-            self.trouble = error
+            if self.trouble is None:  # what follows from it are no numbers
+                self.trouble = error.at(name) if isinstance(error, LawError) else error
             return [math.nan] * len(position)
         return self._force.tolist()  # type: ignore[no-any-return]
 
@@ -77,7 +80,7 @@ class Forces:
 
     def watch(self) -> None:
         """Look anew which pins touch."""
-        self.touching = [pin for pin in self.pins.values() if pin.memory.in_contact]
+        self.touching = [(name, pin) for name, pin in self.pins.items() if pin.memory.in_contact]
 
 
 def _ends(tree: Tree, name: str, bore_first: bool) -> tuple[tuple[str, Vector2], tuple[str, Vector2]]:

@@ -20,6 +20,7 @@ from support_exudyn.tree.events import Kind, event
 from support_exudyn.tree.forces import Forces
 from support_exudyn.tree.history import History
 from support_exudyn.tree.loose import LoosePin
+from user_forces.lawful import UNLAWFUL, LawError
 from user_forces.normal.law import LoadError, Touch
 
 FIRST_STEP = 1e-5  # [s]
@@ -245,6 +246,8 @@ class Integration:
         trouble = self._trouble
         if isinstance(trouble, LoadError):
             raise SimulationError(self._failure("a contact is overloaded", str(trouble)))
+        if isinstance(trouble, LawError):
+            raise SimulationError(self._failure(str(trouble), UNLAWFUL))
         raise SimulationError(self._failure(str(trouble) if trouble else "the step became too short"))
 
     def _failure(self, reason: str, advice: str = ADVICE) -> Failure:

@@ -10,6 +10,7 @@ import numpy as np
 
 from support_exudyn.body_motion import BodyMotion
 from support_exudyn.contact_series import acting, contact_series, ends
+from support_exudyn.errors import Failure, SimulationError
 from support_exudyn.machine import PinPlace
 from support_exudyn.oil import FilledColumn, OilSeries
 from support_exudyn.pins import ClearancePin
@@ -19,6 +20,7 @@ from support_exudyn.tree.drive_pieces import extension, speed
 from support_exudyn.tree.dynamics import PointForce, Posture, accelerations
 from user_forces.arrays import as_number, values_of
 from user_forces.contact import SHALLOWEST
+from user_forces.lawful import UNLAWFUL, LawError, look
 from user_forces.values import Vector2
 
 
@@ -98,9 +100,23 @@ class Observation:
             pressed = (self.at.memories[name][:, 0] > 0.5) & (contact.depth > 0.0)
             depth = as_number(np.maximum(contact.depth, SHALLOWEST))
             elastic = values_of(self.loose[name].contact.normal.elastic_force(depth), len(rate))
-            total[1] += np.where(pressed, (contact.normal_force - elastic) * rate, 0.0)
-            total[2] -= contact.friction_force * contact.slip
+            lost = np.where(pressed, (contact.normal_force - elastic) * rate, 0.0)
+            rubbed = contact.friction_force * contact.slip
+            total[1] += lost
+            total[2] -= rubbed
+            odd = pressed & ~((lost >= 0.0) & (rubbed <= 0.0) & (elastic >= 0.0))
+            for n in np.flatnonzero(odd).tolist():
+                seen = (contact.depth, rate, contact.slip, contact.normal_force, contact.friction_force, elastic)
+                self._look(name, n, [float(values[n]) for values in seen])
         return total
+
+    def _look(self, name: str, n: int, seen: list[float]) -> None:
+        """Raise SimulationError if what a pin's laws gave at an instant cannot be a force, see `look`."""
+        try:
+            look(self.loose[name].contact, *seen)
+        except LawError as error:
+            failure = Failure(str(error.at(name)), UNLAWFUL, float(self.at.time[n]))
+            raise SimulationError(failure) from error
 
     def _place(self, name: str) -> PinPlace:
         return self.motion.linkage.pins[name]
