@@ -21,10 +21,20 @@ from studies.judging import hypercube
 from studies.judging.claim_list import CLAIMS
 from studies.judging.evidence import Evidence, Measured
 from studies.judging.plausible import FACTORS, REFERENCE, Sample, samples
-from studies.judging.plausible_runs import CASES, TOLERANCES, evidence, largest_force, measures, oil_scenarios
+from studies.judging.plausible_runs import CASES, TOLERANCE, evidence, largest_force, measures, oil_scenarios
 from studies.judging.verdicts import Ruling, percent, rule
 from studies.reporting.chapter import Chapter, Sheet
-from studies.study import Number, Options, options, run_main, run_pairs, save_figures, show_table, write_summary
+from studies.study import (
+    Number,
+    Options,
+    measured,
+    options,
+    run_main,
+    run_with_errors,
+    save_figures,
+    show_table,
+    write_summary,
+)
 from support_exudyn.figures import style
 from support_exudyn.files import whole_file
 
@@ -195,8 +205,8 @@ def chapter(rulings: Sequence[Ruling], rows: Sequence[hypercube.Row], quick: boo
             "computed: the ideal pin and four clearances in mode 2, the ideal pin and 1.5 mm in mode 1 (rigid "
             "columns). They are computed with the two free coordinates of the support alone, an independent "
             "formulation that agrees with the engine's runs of the chapters before.",
-            f"Every run is made at two tolerances, {TOLERANCES[0]:g} and {TOLERANCES[1]:g}; their distance is "
-            "the numerical error. A comparison of two numbers whose errors overlap is open, and open ones are "
+            f"Every run is made three times, the first at a tolerance of {TOLERANCE:g}, each with half the steps "
+            "of the one before; how fast their distances fall tells the numerical error. A comparison of two numbers whose errors overlap is open, and open ones are "
             "not counted.",
         ),
         findings=_findings(rulings, rows, run),
@@ -253,11 +263,11 @@ def study(chosen: Options) -> None:
 
 def reference_evidence(chosen: Options) -> Evidence:
     """The reference support's measures, with those of the runs on columns of oil."""
-    pairs = run_pairs(oil_scenarios(chosen.quick), chosen.workers)
+    results = run_with_errors(oil_scenarios(chosen.quick), chosen.workers)
     known = {
         case: {"largest_force": Measured(n.value, n.numerical_error)}
-        for case, pair in pairs.items()
-        for n in [pair.number("largest_force", case, "N", largest_force)]
+        for case, result in results.items()
+        for n in [measured("largest_force", case, "N", result, largest_force)]
     }
     return Evidence(dict(evidence(measures(REFERENCE)).measures) | known)
 

@@ -58,8 +58,8 @@ def pictures() -> tuple[Picture, ...]:
             "Fig. 12 (a, b), and their change against the ideal pin (c, d). Counterpart of the "
             "paper's Fig. 11."),
         Picture("trends_with_clearance", "Mean, standard deviation and ripple of the pin force, and ripple of "
-            "the rear link's motion, over the clearance; crosses: the paper's (Table 3). Bars: change "
-            "when all steps are halved."),
+            "the rear link's motion, over the clearance; crosses: the paper's (Table 3). Bars: "
+            "estimated errors."),
     )  # fmt: skip
 
 

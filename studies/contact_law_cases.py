@@ -32,9 +32,9 @@ ASKED = tuple(n / 20 for n in range(1, 20))  # e = 0.05, 0.1 ... 0.95
 FEW = (0.1, 0.3, 0.5, 0.7, 0.9)  # for laws whose damping factor is another's
 QUICK_ASKED = (0.1, 0.5, 0.9)  # of all laws in the quick form
 SPEED = 0.2  # of free impacts [m/s]
-# by whether the form is the quick one: of the coarser of the two runs of a case
-IMPACT_STEPS = {False: 192, True: 96}  # of a free impact
-RISE_IMPACT_STEPS = {False: 64, True: 32}  # of an impact in a rise
+# by whether the form is the quick one: of the coarsest of the three runs of a case
+IMPACT_STEPS = {False: 96, True: 48}  # of a free impact
+RISE_IMPACT_STEPS = {False: 32, True: 16}  # of an impact in a rise
 RISE_STEP = {False: 2e-3, True: 4e-3}  # of a rise between impacts, and time between records [s]
 LOOP_RESTITUTION = 0.5
 CLEARANCE_MM = 1.5

@@ -47,13 +47,15 @@ from studies.reporting.wording import by_case, how_sure, percent, said
 from studies.study import (
     Number,
     Options,
-    Pair,
+    counted,
+    measured,
     options,
     rounded,
     run_cases,
     run_main,
-    run_pairs,
+    run_with_errors,
     save_figures,
+    save_run,
     show_table,
     write_summary,
 )
@@ -67,11 +69,11 @@ STUDY = "contact_laws"
 # --- measures ---
 
 
-def restitution_numbers(pairs: Mapping[str, Pair], expected: Mapping[str, float]) -> list[Number]:
+def restitution_numbers(results: Mapping[str, Result], expected: Mapping[str, float]) -> list[Number]:
     """Delivered restitution and its closed form, by case."""
     numbers = []
     for case, closed_form in expected.items():
-        numbers.append(pairs[case].number("delivered_restitution", case, "1", delivered_restitution))
+        numbers.append(measured("delivered_restitution", case, "1", results[case], delivered_restitution))
         numbers.append(Number("closed_form_restitution", case, closed_form, "1", 0.0))
     return numbers
 
@@ -82,18 +84,23 @@ RISE_MEASURES: dict[str, tuple[str, Callable[[Result], float]]] = {
     "largest_pin_force_any_step": ("N", lambda r: float(r.largest_force[LOOSE])),
     "energy_dissipated": ("J", lambda r: r.dissipated),
     "energy_error": ("J", lambda r: r.energy_error),
-    "touches": ("1", lambda r: float(len(r.onsets[LOOSE]))),
-    "clamped_steps": ("1", lambda r: float(r.counts.clamped_steps)),
 }
+RISE_COUNTS: dict[str, Callable[[Result], int]] = {
+    "touches": lambda r: len(r.onsets[LOOSE]),
+    "clamped_steps": lambda r: r.counts.clamped_steps,
+}
+RISE_UNITS = {name: unit for name, (unit, _) in RISE_MEASURES.items()} | dict.fromkeys(RISE_COUNTS, "1")
 
 
-def rise_numbers(pairs: Mapping[str, Pair]) -> list[Number]:
+def rise_numbers(results: Mapping[str, Result]) -> list[Number]:
     """Mean and spread over the records from 3 to 5 s, the rest over the whole run, by case."""
-    return [
-        pair.number(name, case, unit, measure)
-        for case, pair in pairs.items()
-        for name, (unit, measure) in RISE_MEASURES.items()
-    ]
+    numbers = []
+    for case, result in results.items():
+        numbers += [
+            measured(name, case, unit, result, measure) for name, (unit, measure) in RISE_MEASURES.items()
+        ]
+        numbers += [counted(name, case, result, count) for name, count in RISE_COUNTS.items()]
+    return numbers
 
 
 # --- tables ---
@@ -134,14 +141,14 @@ def rise_table(numbers: Sequence[Number], quick: bool) -> Sheet:
     found = by_case(numbers)
     rows = []
     for case in dict.fromkeys(n.case for n in numbers):
-        row = [found[name, case] for name in RISE_MEASURES]
+        row = [found[name, case] for name in RISE_UNITS]
         rows.append((row_title(case), *(rounded(n.value, n.numerical_error) for n in row)))
     return Sheet(
         title=f"Rise of the reference support, {CLEARANCE_MM} mm, restitution {RESTITUTION}",
-        header=("law", *(f"{name.replace('_', ' ')} [{unit}]" for name, (unit, _) in RISE_MEASURES.items())),
+        header=("law", *(f"{name.replace('_', ' ')} [{unit}]" for name, unit in RISE_UNITS.items())),
         rows=tuple(rows),
         caption=(
-            "± is the change when all steps are halved. Mean and std: 3 to 5 s, every "
+            "± is the estimated error, of three runs. Mean and std: 3 to 5 s, every "
             f"{1e3 * RISE_STEP[quick]:g} ms; the rest: 0 to 5 s. Laws without damping, or with little under "
             "load, never come to rest: their numbers are those of a chaotic vibration, and the ± says so."
         ),
@@ -186,8 +193,8 @@ def _method(quick: bool) -> tuple[str, ...]:
         f"bore radius of {1e3 * bearing.bore_radius:g} mm.",
         "A contact that does not part is damped by the depth it reaches (DepthSpeed); two more rises use the "
         "textbook's speed of the last touch, with two floors below which that speed is not let fall.",
-        f"An undamped free impact takes {IMPACT_STEPS[quick]} steps, one in the rise "
-        f"{RISE_IMPACT_STEPS[quick]}. Between impacts the step is {1e3 * RISE_STEP[quick]:g} ms, and so is the "
+        f"In the first run an undamped free impact takes {IMPACT_STEPS[quick]} steps, one in the rise "
+        f"{RISE_IMPACT_STEPS[quick]}. Between impacts its step is {1e3 * RISE_STEP[quick]:g} ms, and so is the "
         "time between two records. "
         f"{how_sure(quick)}",
     )
@@ -270,28 +277,28 @@ def study(chosen: Options) -> None:
     impacts = {case: free_impact(law, SPEED, IMPACT_STEPS[chosen.quick]) for case, (law, _) in laws.items()}
     lifted = rises(chosen.quick)
     with worker_pool(chosen.workers) as pool:
-        done = run_pairs(lifted | impacts, pool)
+        done = run_with_errors(lifted | impacts, pool)
         loops = run_cases(
             {name: free_impact(law, SPEED, 128, records=800) for name, law in loop_laws().items()}, pool
         )
     restitutions = restitution_numbers(done, {case: expected for case, (_, expected) in laws.items()})
-    pairs = {name: done[name] for name in lifted}
-    measured = rise_numbers(pairs)
-    for name, pair in pairs.items():
-        pair.fine.save(chosen.out / "runs" / f"{_file_name(name)}.h5")
+    risen = {name: done[name] for name in lifted}
+    numbers = rise_numbers(risen)
+    for name, result in risen.items():
+        save_run(result, chosen.out, _file_name(name))
     with style.look():
         drawings = {
             "delivered_restitution": restitution_figure(restitutions),
             "force_depth_loops": loop_figure(loops),
-            "rise_under_each_law": rise_figure(measured),
-            "permanent_contact": permanent_figure(pairs),
+            "rise_under_each_law": rise_figure(numbers),
+            "permanent_contact": permanent_figure(risen),
         }
     save_figures(chosen, drawings)
-    tables = [restitution_table(restitutions), rise_table(measured, chosen.quick)]
+    tables = [restitution_table(restitutions), rise_table(numbers, chosen.quick)]
     for name, table in zip(("restitution_table", "rise_table"), tables, strict=True):
         show_table(chosen.out / f"{name}.txt", table, width=200)
-    chapter(restitutions, measured, chosen.quick).save(chosen.out)
-    write_summary(chosen.out, STUDY, [*restitutions, *measured], time.perf_counter() - started)
+    chapter(restitutions, numbers, chosen.quick).save(chosen.out)
+    write_summary(chosen.out, STUDY, [*restitutions, *numbers], time.perf_counter() - started)
 
 
 def _file_name(case: str) -> str:

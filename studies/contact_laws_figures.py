@@ -19,7 +19,6 @@ from studies.law_catalogue import POWER_LAWS, title
 from studies.reporting.chapter import Picture
 from studies.study import (
     Number,
-    Pair,
 )
 from support_exudyn import Result
 from support_exudyn.figures import style
@@ -101,11 +100,11 @@ def rise_figure(numbers: Sequence[Number]) -> Figure:
             axes.xaxis.set_minor_formatter(NullFormatter())
     panels[0].set_yticks(rows, [row_title(case) for case in cases], fontsize=7)
     panels[0].invert_yaxis()
-    drawing.suptitle("Rise of the support, 1.5 mm clearance (bars: change when all steps are halved)")
+    drawing.suptitle("Rise of the support, 1.5 mm clearance (bars: estimated error)")
     return drawing
 
 
-def permanent_figure(pairs: Mapping[str, Pair]) -> Figure:
+def permanent_figure(results: Mapping[str, Result]) -> Figure:
     """What becomes of the vibration after the last bounce, by how a contact that does not part is damped."""
     drawing = Figure(figsize=style.size(170, 125))
     whole, rest = drawing.subplots(2, 1)
@@ -121,12 +120,10 @@ def permanent_figure(pairs: Mapping[str, Pair]) -> Figure:
     ]
     for axes, (begin, end) in ((whole, (0.0, 0.5)), (rest, (0.5, 1.5))):
         for case, colour, dashes, label in curves:
-            result = pairs[case].fine
+            result = results[case]
             axes.plot(result.time, 1e-3 * result[rise.FORCE], color=colour, ls=dashes, lw=0.9, label=label)
         axes.set(xlim=(begin, end), xlabel="time [s]", ylabel="pin force [kN]")
-    inside = [
-        pairs[c].fine[rise.FORCE][(pairs[c].fine.time > 0.5) & (pairs[c].fine.time < 1.5)] for c, *_ in curves
-    ]
+    inside = [results[c][rise.FORCE][(results[c].time > 0.5) & (results[c].time < 1.5)] for c, *_ in curves]
     _fit(rest, [1e-3 * force for force in inside])
     whole.set_title("a) the fall into the bore")
     rest.set_title("b) what is left of it")
@@ -164,7 +161,7 @@ def pictures() -> tuple[Picture, ...]:
         Picture(
             "rise_under_each_law",
             "The rise under each law: mean force and its standard deviation from 3 to 5 s, largest force and "
-            "energy lost from 0 to 5 s. Bars are the change when all steps are halved.",
+            "energy lost from 0 to 5 s. Bars are the estimated errors.",
         ),
         Picture(
             "permanent_contact",

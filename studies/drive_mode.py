@@ -18,33 +18,39 @@ from studies.drive_mode_figures import figures
 from studies.drive_mode_measures import measure
 from studies.drive_mode_tables import convergence_sheet, mode_sheet, saving_sheet
 from studies.drive_mode_words import chapter
-from studies.ladder import run_ladders
-from studies.study import Options, options, run_cases, run_main, save_figures, show_table, write_summary
+from studies.study import (
+    Options,
+    options,
+    run_cases,
+    run_main,
+    run_with_errors,
+    save_figures,
+    save_run,
+    show_table,
+    write_summary,
+)
 from support_exudyn.figures import style
 
 STUDY = cases.STUDY
-HALVINGS, QUICK_HALVINGS = 2, 1
 
 
 def study(chosen: Options) -> None:
     """Run, measure, draw and write everything into the output folder."""
     started = time.perf_counter()
-    halvings = QUICK_HALVINGS if chosen.quick else HALVINGS
-    ladders = run_ladders(scenarios(chosen.quick), halvings, chosen.workers)
-    for name, ladder in ladders.items():
-        ladder.finest.save(chosen.out / "runs" / f"{_file_name(name)}.h5")
+    results = run_with_errors(scenarios(chosen.quick), chosen.workers)
+    for name, result in results.items():
+        save_run(result, chosen.out, _file_name(name))
     naive = run_cases(naive_scenarios(), 1)  # short: starting processes takes longer
-    numbers = measure(ladders)
+    numbers = measure(results)
     with style.look():
-        finest = {case: ladder.finest for case, ladder in ladders.items()}
-        drawings = figures(finest) | cylinders.figures(finest)
+        drawings = figures(results) | cylinders.figures(results)
     save_figures(chosen, drawings)
     for columns in COLUMNS:
         show_table(chosen.out / f"table_{columns}.txt", mode_sheet(numbers, columns))
     show_table(chosen.out / "table_saving.txt", saving_sheet(numbers))
     show_table(chosen.out / "table_valves.txt", cylinders.sheet(numbers))
-    show_table(chosen.out / "table_convergence.txt", convergence_sheet(ladders), width=170)
-    chapter(ladders, naive, numbers, chosen.quick).save(chosen.out)
+    show_table(chosen.out / "table_convergence.txt", convergence_sheet(results), width=170)
+    chapter(results, naive, numbers, chosen.quick).save(chosen.out)
     write_summary(chosen.out, STUDY, numbers, time.perf_counter() - started)
 
 

@@ -104,7 +104,7 @@ def sheet(numbers: Sequence[Number]) -> Sheet:
         tuple(rows),
         "Pressures and flows of the piston side of a pair, from 3 s on; settled and after: means from "
         f"{LATE:g} s on. Losses include seals and contacts. No liquid bears a pressure below 0: "
-        "there a real column would cavitate. ± is the last change under step halving.",
+        "there a real column would cavitate. ± is the estimated error.",
         left=2,
     )
 

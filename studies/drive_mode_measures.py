@@ -8,8 +8,7 @@ import numpy as np
 
 from studies import drive_mode_cylinders as cylinders
 from studies import rise
-from studies.ladder import Ladder
-from studies.study import Number
+from studies.study import Number, measured
 from support_exudyn import Result
 
 Get = Callable[[Result], float]
@@ -56,16 +55,16 @@ def peak_acceleration(result: Result) -> float:
     return rise.DEGREES * float(np.abs(result[rise.ACCELERATION]).max())
 
 
-def measure(ladders: Mapping[str, Ladder]) -> list[Number]:
+def measure(results: Mapping[str, Result]) -> list[Number]:
     """All numbers of the study, but for those that are none."""
     numbers = []
-    for case, ladder in ladders.items():
-        for name, (unit, get) in measures_of(ladder).items():
-            numbers.append(ladder.number(name, case, unit, get))
+    for case, result in results.items():
+        for name, (unit, get) in measures_of(result).items():
+            numbers.append(measured(name, case, unit, result, get))
     return numbers
 
 
-def measures_of(ladder: Ladder) -> dict[str, tuple[str, Get]]:
+def measures_of(result: Result) -> dict[str, tuple[str, Get]]:
     """Unit and measure of every number of a case, by name."""
-    impulses = {name: ("N s", get) for name, get in IMPULSES.items()} if ladder.finest.impulses else {}
-    return MEASURES | impulses | (cylinders.MEASURES if ladder.finest.scenario.cylinders else {})
+    impulses = {name: ("N s", get) for name, get in IMPULSES.items()} if result.impulses else {}
+    return MEASURES | impulses | (cylinders.MEASURES if result.scenario.cylinders else {})

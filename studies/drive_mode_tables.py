@@ -8,10 +8,9 @@ from itertools import pairwise
 from studies import paper_machine
 from studies.drive_mode_cases import COLUMNS, FRICTION, MODES, NAIVE, PINS, case_name
 from studies.drive_mode_measures import IMPULSES, MEASURES, measures_of, peak_acceleration
-from studies.ladder import Ladder
 from studies.reporting.chapter import Sheet
 from studies.reporting.wording import by_case
-from studies.study import Number, brief
+from studies.study import Number, brief, halvings
 from support_exudyn import Result
 
 NAMES = {"rigid": "rigid columns", "oil": "columns of oil", "cylinder": "hydraulic cylinders"}
@@ -32,7 +31,6 @@ SAVED = (
 )
 CONVERGES = "converges"
 DIVERGES = "does not converge"
-OPEN = "open: halved once only"
 SAID_CONVERGES = (
     "Impact steps are halved with the steps. Converges: the last change is below 1 % of the value, or less "
     "than 0.7 of the change before. Rigid columns: records at the jump itself hold the values before it."
@@ -54,8 +52,7 @@ def mode_sheet(numbers: Sequence[Number], columns: str) -> Sheet:
         f"Drive modes on {NAMES[columns]}",
         ("quantity", "unit", *(f"{mode}, {pin}" for pin in PINS for mode in MODES)),
         tuple(rows),
-        f"Over the rise, friction {FRICTION} in the loose pin. ± is the change when all steps are halved a "
-        "last time. " + SAID[columns],
+        f"Over the rise, friction {FRICTION} in the loose pin. ± is the estimated error. " + SAID[columns],
         left=2,
     )
 
@@ -81,27 +78,27 @@ def saving_sheet(numbers: Sequence[Number]) -> Sheet:
     )
 
 
-def convergence_sheet(ladders: Mapping[str, Ladder]) -> Sheet:
+def convergence_sheet(results: Mapping[str, Result]) -> Sheet:
     """Every number at every step."""
     rows = []
-    for case, ladder in ladders.items():
-        for name, (unit, get) in measures_of(ladder).items():
-            values = [get(result) for result in ladder.results]
+    for case, result in results.items():
+        for name, (unit, get) in measures_of(result).items():
+            values = [get(run) for run in halvings(result)]
             rows.append((case, name.replace("_", " "), unit, *(f"{v:.7g}" for v in values), verdict(values)))
     return Sheet(
         "Step halving, every number",
-        ("case", "quantity", "unit", *_steps(ladders), "verdict"),
+        ("case", "quantity", "unit", "step h", "step h/2", "step h/4", "verdict"),
         tuple(rows),
         SAID_CONVERGES,
         left=3,
     )
 
 
-def short_convergence_sheet(ladders: Mapping[str, Ladder], naive: Mapping[str, Result]) -> Sheet:
+def short_convergence_sheet(results: Mapping[str, Result], naive: Mapping[str, Result]) -> Sheet:
     """How far the numbers of each case still move; and the peaks that are no numbers."""
     rows = []
-    for case, ladder in ladders.items():
-        columns = [[get(result) for result in ladder.results] for _, get in measures_of(ladder).values()]
+    for case, result in results.items():
+        columns = [[get(run) for run in halvings(result)] for _, get in measures_of(result).values()]
         last = max(abs(values[-1] - values[-2]) / abs(values[-1]) for values in columns)
         good = sum(verdict(values) == CONVERGES for values in columns)
         rows.append((case, f"{100.0 * last:.1g} %", f"{good} of {len(columns)}", ""))
@@ -117,17 +114,9 @@ def short_convergence_sheet(ladders: Mapping[str, Ladder], naive: Mapping[str, R
 
 
 def verdict(values: Sequence[float]) -> str:
-    """Whether values under step halving tend to a limit."""
-    *before, last = (abs(b - a) for a, b in pairwise(values[-3:]))
-    if last <= 0.01 * abs(values[-1]) or (before and last < 0.7 * before[0]):
-        return CONVERGES
-    return DIVERGES if before else OPEN
-
-
-def _steps(ladders: Mapping[str, Ladder]) -> list[str]:
-    """Headings of the steps."""
-    number = len(next(iter(ladders.values())).results)
-    return ["step h", *(f"step h/{2**n}" for n in range(1, number))]
+    """Whether three values under step halving tend to a limit."""
+    before, last = (abs(b - a) for a, b in pairwise(values))
+    return CONVERGES if last <= 0.01 * abs(values[-1]) or last < 0.7 * before else DIVERGES
 
 
 def _cell(number: Number) -> str:

@@ -12,28 +12,25 @@ from studies.drive_mode_measures import peak_acceleration
 from studies.drive_mode_tables import (
     CONVERGES,
     DIVERGES,
-    OPEN,
     convergence_sheet,
     mode_sheet,
     saving_sheet,
     short_convergence_sheet,
 )
-from studies.ladder import Ladder
 from studies.reporting.chapter import Chapter
-from studies.reporting.wording import by_case
-from studies.study import Number
+from studies.reporting.wording import by_case, how_sure
+from studies.study import Number, halvings
 from support_exudyn import Result
 
-TIMES = {1: "once", 2: "twice"}  # halved
 VELOCITY = "ripple angular velocity"  # as the table has it
 Rows = Sequence[Sequence[str]]  # of the table of step halving
 
 
 def chapter(
-    ladders: Mapping[str, Ladder], naive: Mapping[str, Result], numbers: Sequence[Number], quick: bool
+    results: Mapping[str, Result], naive: Mapping[str, Result], numbers: Sequence[Number], quick: bool
 ) -> Chapter:
     """The study as a chapter of the report."""
-    first = next(iter(ladders.values()))
+    step = next(iter(halvings(next(iter(results.values()))))).scenario.step
     return Chapter(
         study=STUDY,
         title="Influence of the drive mode (section 5 of the paper)",
@@ -52,25 +49,22 @@ def chapter(
             "On hydraulic cylinders nothing prescribes a displacement: pressures of both chambers are "
             "coordinates of the engine's actuator, and the valve opens at once in mode 1, along ramps in mode "
             "2. " + paper_machine.CYLINDERS_SAID,
-            f"Every case is run at a step of {1e3 * first.results[0].scenario.step:g} ms, and with all steps "
-            f"halved {TIMES[len(first.results) - 1]}, those of impacts included. Values are of the finest run, "
-            "± is the last change."
-            + (" This is the quick form: its steps are coarser than those of the full one." if quick else ""),
+            f"Steps of the first run are {1e3 * step:g} ms. {how_sure(quick)}",
         ),
-        findings=(*_findings(ladders, naive, numbers), *cylinders.findings(numbers)),
+        findings=(*_findings(results, naive, numbers), *cylinders.findings(numbers)),
         pictures=(*pictures(), *cylinders.pictures()),
         sheets=(
             *(mode_sheet(numbers, columns) for columns in COLUMNS),
             saving_sheet(numbers),
             cylinders.sheet(numbers),
-            short_convergence_sheet(ladders, naive),
+            short_convergence_sheet(results, naive),
         ),
         quick=quick,
     )
 
 
 def _findings(
-    ladders: Mapping[str, Ladder], naive: Mapping[str, Result], numbers: Sequence[Number]
+    results: Mapping[str, Result], naive: Mapping[str, Result], numbers: Sequence[Number]
 ) -> tuple[str, ...]:
     found = by_case(numbers)
 
@@ -86,7 +80,7 @@ def _findings(
         for column in ("front_column", "rear_column")
     )
     loose, ideal = (value_of("largest_pin_force_in_rise", "mode 1", pin, "oil") for pin in (PINS[1], PINS[0]))
-    sheet = convergence_sheet(ladders)
+    sheet = convergence_sheet(results)
     peaks_naive = ", ".join(f"{peak_acceleration(result):.0f}" for result in naive.values())
     return (
         f"On rigid columns the sudden start of mode 1 strikes the front columns with {front:.0f} N s and the "
@@ -108,8 +102,6 @@ def _converging_said(rows: Rows) -> str:
     said = f"{sum(row[-1] == CONVERGES for row in rows)} of {len(rows)} numbers converge under step halving."
     if diverging := sorted({f"{row[1]} in {row[0]}" for row in rows if row[-1] == DIVERGES}):
         said += f" Not so: {'; '.join(diverging)}."
-    if left := sum(row[-1] == OPEN for row in rows):
-        said += f" {left} changed by more than 1 %, and halved once only they cannot be judged."
     return said
 
 

@@ -62,7 +62,7 @@ GROUPS = ("added", "taken", "combined", "space")
 
 
 def run(quick: bool, workers: int | Workers) -> dict[str, Measured]:
-    """All scenes, each at its steps and at half of them, measured."""
+    """All scenes, each at its steps, at half and at a quarter of them, measured."""
     chosen = scenes(quick)
     longest_first = sorted(chosen.values(), key=lambda scene: ORDER.index(scene.group))
     runs = run_timed({scene.name: scene.scenario for scene in longest_first}, workers)

@@ -24,13 +24,15 @@ from studies.reporting.wording import by_case, how_sure, said
 from studies.study import (
     Number,
     Options,
-    Pair,
+    measured,
     options,
     rounded,
     run_main,
-    run_pairs,
+    run_with_errors,
     save_figures,
+    save_run,
     show_table,
+    touches,
     write_summary,
 )
 from support_exudyn import ClearancePin, Result, Scenario, SolverSettings, Steady, ravn_slider_crank
@@ -76,15 +78,15 @@ IDEAL_REFERENCE = {
 
 
 def scenarios(quick: bool) -> dict[str, Scenario]:
-    """One revolution of the ideal machine and of both loose ones."""
+    """One revolution of the ideal machine and of both loose ones, at the longest of their steps."""
     base = Scenario(
         machine=ravn_slider_crank(),
         drive=Steady(rate=SPEED),
         duration=REVOLUTION,
-        step=8e-6 if quick else 1e-6,
+        step=8e-6 if quick else 2e-6,
         record_period=REVOLUTION / (1500 if quick else 3600),
         gravity=(0.0, 0.0),
-        solver=SolverSettings(impact_steps=64 if quick else 256, backend="symbolic"),
+        solver=SolverSettings(impact_steps=32 if quick else 128, backend="symbolic"),
     )
     stiffness = internal_contact_stiffness(BEARING, STEEL, STEEL)
     normal = LankaraniNikravesh(stiffness=stiffness, restitution=0.9, damping_speed=TouchSpeed(floor=1e-3))
@@ -102,7 +104,7 @@ def scenarios(quick: bool) -> dict[str, Scenario]:
 # --- measures ---
 
 
-def measure(pairs: Mapping[str, Pair]) -> list[Number]:
+def measure(results: Mapping[str, Result]) -> list[Number]:
     """All numbers of the study."""
     ideal: dict[str, tuple[str, Callable[[Result], float]]] = {
         "largest_slider_speed": ("m/s", lambda r: float(np.abs(r["slider.velocity_x"]).max())),
@@ -110,20 +112,19 @@ def measure(pairs: Mapping[str, Pair]) -> list[Number]:
         "largest_pin_force": ("N", lambda r: float(r[f"pin.{PIN}.force"].max())),
     }
     numbers = [
-        pairs[IDEAL].number(name, IDEAL, unit, get, IDEAL_REFERENCE[name])
+        measured(name, IDEAL, unit, results[IDEAL], get, IDEAL_REFERENCE[name])
         for name, (unit, get) in ideal.items()
     ]
     for case in (SMOOTH, DRY):
-        pair = pairs[case]
+        result = results[case]
         numbers.append(
-            pair.number("largest_pin_force_any_step", case, "N", lambda r: float(r.largest_force[PIN]))
+            measured("largest_pin_force_any_step", case, "N", result, lambda r: float(r.largest_force[PIN]))
         )
-        found = min(ONSETS, *(len(result.onsets[PIN]) for result in (pair.coarse, pair.fine)))
-        for n in range(found):
+        for n in range(min(ONSETS, touches(result, PIN))):
             known = REFERENCE[n] if case == SMOOTH and n < len(REFERENCE) else (None, None)
             numbers += [
-                pair.number(f"onset_{n + 1}_time", case, "us", _onset(n, "time", 1e6), known[0]),
-                pair.number(f"onset_{n + 1}_speed", case, "m/s", _onset(n, "speed", 1.0), known[1]),
+                measured(f"onset_{n + 1}_time", case, "us", result, _onset(n, "time", 1e6), known[0]),
+                measured(f"onset_{n + 1}_speed", case, "m/s", result, _onset(n, "speed", 1.0), known[1]),
             ]
     return numbers
 
@@ -182,7 +183,7 @@ def table(numbers: Sequence[Number]) -> Sheet:
             for n in numbers
         ),
         caption=(
-            "± is the change when all steps are halved. Every touch multiplies the errors of the earlier ones; "
+            "± is the estimated error, of three runs. Every touch multiplies the errors of the earlier ones; "
             "after about a revolution the motion is chaotic and only statistics can be compared."
         ),
         left=3,
@@ -227,7 +228,7 @@ def _method(quick: bool) -> tuple[str, ...]:
         "The run begins with the velocities of the ideal machine and the journal in the middle of its bore, "
         "and lasts one revolution. Touches are located in time, and compared with an independent solution of "
         "the frictionless machine in two free coordinates; the ideal machine is compared with its closed form.",
-        f"The step is {1e6 * case.step:g} µs, and an impact takes {case.solver.impact_steps} steps. "
+        f"Steps of the first run are {1e6 * case.step:g} µs, {case.solver.impact_steps} to an impact. "
         f"{how_sure(quick)}",
     )
 
@@ -276,12 +277,12 @@ def _off(number: Number) -> float:
 def study(chosen: Options) -> None:
     """Run, measure, draw and write everything into the output folder."""
     started = time.perf_counter()
-    pairs = run_pairs(scenarios(chosen.quick), chosen.workers)
-    for name, pair in pairs.items():
-        pair.fine.save(chosen.out / "runs" / f"{name.replace(' ', '_').replace('.', 'p')}.h5")
-    numbers = measure(pairs)
+    results = run_with_errors(scenarios(chosen.quick), chosen.workers)
+    for name, result in results.items():
+        save_run(result, chosen.out, name.replace(" ", "_").replace(".", "p"))
+    numbers = measure(results)
     with style.look():
-        drawings = {"slider_crank": figure({name: pair.fine for name, pair in pairs.items()})}
+        drawings = {"slider_crank": figure(results)}
     save_figures(chosen, drawings)
     show_table(chosen.out / "table.txt", table(numbers), width=120)
     chapter(numbers, chosen.quick).save(chosen.out)

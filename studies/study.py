@@ -1,4 +1,4 @@
-"""What all studies share: their options, runs at two step sizes, numbers and summary."""
+"""What all studies share: their options, runs with errors, numbers and summary."""
 
 from __future__ import annotations
 
@@ -90,8 +90,8 @@ def add_options(parser: argparse.ArgumentParser, out: Path, taken: Sequence[str]
 class Number:
     """A number that a study reports.
 
-    name, case: what, and of which run. value, unit. numerical_error: how much it changes when the step
-    is halved; 0 for a closed form. paper: the printed value, None if there is none.
+    name, case: what, and of which run. value, unit. numerical_error: as accuracies estimate it, of three runs,
+    see `support_exudyn.estimate`; 0 for a closed form. paper: the printed value, None if there is none.
     """
 
     name: str
@@ -102,30 +102,83 @@ class Number:
     paper: float | None = None
 
 
-@dataclass(frozen=True)
-class Pair:
-    """A case at its step and at half of it."""
-
-    coarse: Result
-    fine: Result
-
-    def number(
-        self, name: str, case: str, unit: str, measure: Callable[[Result], float], paper: float | None = None
-    ) -> Number:
-        """A measured number: the finer run's value, and its distance from the coarser run's."""
-        value = measure(self.fine)
-        return Number(name, case, value, unit, abs(value - measure(self.coarse)), paper)
+Measure = Callable[[Result], float]
 
 
-def run_pairs(cases: Mapping[str, Scenario], workers: int | Workers) -> dict[str, Pair]:
-    """Run every case at its step and at half of it, in parallel, under a progress bar.
+def measured(
+    name: str, case: str, unit: str, result: Result, measure: Measure, paper: float | None = None
+) -> Number:
+    """A number of a run with errors, see `run_with_errors`."""
+    found = result.estimate(measure, unit)
+    return Number(name, case, found.value, unit, found.error, paper)
+
+
+def counted(name: str, case: str, result: Result, count: Callable[[Result], int]) -> Number:
+    """A count of a run; its error is the farthest that its coarser ones are away, for counts do not converge."""
+    found = [count(run) for run in halvings(result)]
+    return Number(name, case, float(found[-1]), "1", float(max(abs(found[-1] - one) for one in found)))
+
+
+def compared(
+    name: str,
+    case: str,
+    unit: str,
+    run: Result,
+    other: Result,
+    measure: Callable[[Result, Result], float],
+    paper: float | None = None,
+) -> Number:
+    """A number of a run beside another one; the errors of both add up."""
+    here = run.estimate(lambda finer: measure(finer, other), unit)
+    there = other.estimate(lambda finer: measure(run, finer), unit)
+    error = here.error if run is other else here.error + there.error
+    return Number(name, case, here.value, unit, error, paper)
+
+
+def run_with_errors(cases: Mapping[str, Scenario], workers: int | Workers) -> dict[str, Result]:
+    """Run every case at its steps, at half and at a quarter of them, in parallel, under a progress bar.
+
+    Each result is that of the shortest steps, and the others are its `coarser` ones: every number of it has the
+    error that accuracies estimate, `Result.estimate`. Where numbers do not settle that is large, and no reason
+    to end a study.
 
     Raises SimulationError if a run fails.
     """
+    steps: dict[str, list[Scenario]] = {}
+    for name, case in cases.items():
+        half = case.refined()
+        steps[name] = [case, half, half.refined()]
     # the longest first, so that no process is left alone with a long run at the end
-    runs = {f"{name}, half step": case.refined() for name, case in cases.items()}
-    good = run_cases(runs | dict(cases), workers)
-    return {name: Pair(good[name], good[f"{name}, half step"]) for name in cases}
+    runs = {_at(name, n): chosen[n] for n in (2, 1, 0) for name, chosen in steps.items()}
+    good = run_cases(runs, workers)
+    return {name: with_coarser([good[_at(name, n)] for n in range(3)]) for name in cases}
+
+
+def _at(name: str, n: int) -> str:
+    return f"{name}, steps / {2**n}" if n else name
+
+
+def with_coarser(runs: Sequence[Result]) -> Result:
+    """The last of runs of a scene, the coarsest first, with those before as its coarser ones."""
+    found, *finer = runs
+    for run in finer:
+        found = replace(run, coarser=found)
+    return found
+
+
+def halvings(result: Result) -> tuple[Result, ...]:
+    """A run and its coarser ones, the coarsest first."""
+    return (*(halvings(result.coarser) if result.coarser else ()), result)
+
+
+def touches(result: Result, pin: str) -> int:
+    """How many touches of a pin a run and all its coarser ones have: that of others has no error."""
+    return min(len(run.onsets.get(pin, ())) for run in halvings(result))
+
+
+def save_run(result: Result, out: Path, name: str) -> None:
+    """Write a run into the folder of runs, without the coarser ones, which would treble it."""
+    replace(result, coarser=None).save(out / "runs" / f"{name}.h5")
 
 
 def run_cases(runs: Mapping[str, Scenario], workers: int | Workers) -> dict[str, Result]:

@@ -16,8 +16,9 @@ from studies.study import (
     Options,
     options,
     run_main,
-    run_pairs,
+    run_with_errors,
     save_figures,
+    save_run,
     show_table,
     write_summary,
 )
@@ -43,11 +44,11 @@ STUDY = cases.STUDY
 def study(chosen: Options) -> None:
     """Run, measure, draw and write everything into the output folder."""
     started = time.perf_counter()
-    pairs = run_pairs(scenarios(chosen.quick), chosen.workers)
-    for name, pair in pairs.items():
-        pair.fine.save(chosen.out / "runs" / f"{_file_name(name)}.h5")
+    results = run_with_errors(scenarios(chosen.quick), chosen.workers)
+    for name, result in results.items():
+        save_run(result, chosen.out, _file_name(name))
     under_loads = loads(slack_pin(0.0))
-    numbers = measure(pairs)
+    numbers = measure(results)
     found = by_case(numbers)
     with style.look():
         drawings = figures(found, under_loads)

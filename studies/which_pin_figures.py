@@ -48,7 +48,7 @@ def pictures() -> tuple[Picture, ...]:
             f"ideal pins (b), by slack pin, friction {MU}."),
         Picture("shaking", "Ripple of the pin forces, of the rear link's and of the canopy's angular "
             "acceleration, by "
-            "slack pin; bars: change when all steps are halved; line: ideal pins."),
+            "slack pin; bars: estimated errors; line: ideal pins."),
         Picture("other_loads", "What each slack pin moves the tip by over the extension of the columns under "
             "other loads than the "
             "weight, from virtual work without friction."),

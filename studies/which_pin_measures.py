@@ -7,10 +7,7 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from studies import rise
-from studies.study import (
-    Number,
-    Pair,
-)
+from studies.study import Number, compared
 from studies.which_pin_cases import FORCES, IDEAL, SHAKEN
 from studies.which_pin_posture import posture_numbers
 from support_exudyn import Result
@@ -87,19 +84,14 @@ MEASURES: dict[str, tuple[str, Get]] = {
 }
 
 
-def measure(pairs: Mapping[str, Pair]) -> list[Number]:
+def measure(results: Mapping[str, Result]) -> list[Number]:
     """All numbers of the runs, and those of the closed form beside them."""
-    ideal = pairs[IDEAL].fine
     numbers = [
-        pair.number(name, case, unit, _against(get, ideal))
-        for case, pair in pairs.items()
+        compared(name, case, unit, result, results[IDEAL], get)
+        for case, result in results.items()
         for name, (unit, get) in MEASURES.items()
     ]
-    for case, pair in pairs.items():
+    for case, result in results.items():
         if case != IDEAL:
-            numbers += posture_numbers(case, pair.fine.scenario)
+            numbers += posture_numbers(case, result.scenario)
     return numbers
-
-
-def _against(get: Get, ideal: Result) -> Callable[[Result], float]:
-    return lambda result: get(result, ideal)

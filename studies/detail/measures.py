@@ -12,7 +12,7 @@ import numpy.typing as npt
 from studies import rise
 from studies.detail.runs import Timed, timed
 from studies.detail.scenes import FULLEST, REAR, Scene
-from studies.study import Number, Pair
+from studies.study import Number, halvings, touches
 from support_exudyn import Estimate, Result
 from support_exudyn.evidence.table import Table, Tried, fields_of
 from support_exudyn.inventory import Inventory, inventory
@@ -88,30 +88,30 @@ class Measured:
 # --- numbers ---
 
 
-def estimate(pair: Pair, unit: str, get: Get) -> Estimate:
-    """A number of the finer run; its error is the distance from the coarser one, no less than rounding."""
-    fine = get(pair.fine)
-    rounding = SMALLEST[unit] if unit == "m" else max(SMALLEST[unit], ROUNDING * abs(fine))
-    return Estimate(fine, max(abs(fine - get(pair.coarse)), rounding), unit)
+def estimate(run: Result, unit: str, get: Get) -> Estimate:
+    """A number of a run with its error, which is no less than rounding."""
+    found = run.estimate(get, unit)
+    rounding = SMALLEST[unit] if unit == "m" else max(SMALLEST[unit], ROUNDING * abs(found.value))
+    return found._replace(error=max(found.error, rounding))
 
 
 def measure(scenes: Mapping[str, Scene], runs: Mapping[str, Timed], short: float) -> dict[str, Measured]:
     """All numbers of all scenes; short: runs that are shorter are timed again, alone [s]."""
-    pairs = {name: run.pair for name, run in runs.items()}
+    finest = {name: timed.run for name, timed in runs.items()}
     found = {}
     for name, scene in scenes.items():
-        numbers = _of_stroke(scene, pairs[name]) | _touches(pairs[name])
+        numbers = _of_stroke(scene, finest[name]) | _touches(finest[name])
         if scene.group == "unequal":
-            numbers |= _of_unequal(scene, pairs[name])
+            numbers |= _of_unequal(scene, finest[name])
         elif scene.reference:
-            numbers[FROM_REFERENCE] = tip_distance(scene, pairs[name], pairs[scene.reference])
+            numbers[FROM_REFERENCE] = tip_distance(scene, finest[name], finest[scene.reference])
         if scene.family == STROKE:
-            numbers[FROM_FULLEST] = tip_distance(scene, pairs[name], pairs[FULLEST])
-        found[name] = Measured(scene, numbers, _cost(runs[name], short), pairs[name].fine)
+            numbers[FROM_FULLEST] = tip_distance(scene, finest[name], finest[FULLEST])
+        found[name] = Measured(scene, numbers, _cost(runs[name], short), finest[name])
     return found
 
 
-def _of_stroke(scene: Scene, pair: Pair) -> Numbers:
+def _of_stroke(scene: Scene, result: Result) -> Numbers:
     force = f"pin.{REAR}.force"
 
     def during(run: Result, channel: str) -> Series:
@@ -133,20 +133,22 @@ def _of_stroke(scene: Scene, pair: Pair) -> Numbers:
         ),
         "largest_canopy_acceleration": ("deg/s^2", largest("canopy.angular_acceleration", DEGREES)),
     }
-    return {name: estimate(pair, unit, get) for name, (unit, get) in measures.items()}
+    return {name: estimate(result, unit, get) for name, (unit, get) in measures.items()}
 
 
-def _touches(pair: Pair) -> Numbers:
+def _touches(result: Result) -> Numbers:
     """Speeds of the first touches of the rear pin, if it is loose; a settled one has none."""
-    count = min(TOUCHES, *(len(run.onsets.get(REAR, ())) for run in (pair.coarse, pair.fine)))
 
     def speed(n: int) -> Get:
         return lambda run: run.onsets[REAR][n].speed
 
-    return {f"onset_speed_{n + 1}": estimate(pair, "m/s", speed(n)) for n in range(count)}
+    return {
+        f"onset_speed_{n + 1}": estimate(result, "m/s", speed(n))
+        for n in range(min(TOUCHES, touches(result, REAR)))
+    }
 
 
-def _of_unequal(scene: Scene, pair: Pair) -> Numbers:
+def _of_unequal(scene: Scene, result: Result) -> Numbers:
     def largest(*channels: str, scale: float = 1.0) -> Get:
         return lambda run: max(scale * float(np.abs(run[channel]).max()) for channel in channels)
 
@@ -167,18 +169,23 @@ def _of_unequal(scene: Scene, pair: Pair) -> Numbers:
     }
     if REAR in scene.scenario.clearance_pins:
         measures |= {f"largest_{side}_depth": ("m", _deepest(side)) for side in ("left", "right")}
-    return {name: estimate(pair, unit, get) for name, (unit, get) in measures.items()}
+    return {name: estimate(result, unit, get) for name, (unit, get) in measures.items()}
 
 
 def _deepest(side: str) -> Get:
     return lambda run: float(run[f"pin.{REAR}.{side}_depth"].max())
 
 
-def tip_distance(scene: Scene, pair: Pair, other: Pair) -> Estimate:
+def tip_distance(scene: Scene, run: Result, other: Result) -> Estimate:
     """Largest distance of the tip's paths of two scenes during the stroke [m]."""
-    apart = _apart(scene, pair.fine, other.fine)
-    error = _apart(scene, pair.fine, pair.coarse) + _apart(scene, other.fine, other.coarse)
-    return Estimate(apart, max(error, SMALLEST["m"]) if pair is not other else 0.0, "m")
+    if run is other:
+        return Estimate(0.0, 0.0, "m")
+
+    def wandering(one: Result) -> float:
+        return one.estimate(lambda coarser: _apart(scene, one, coarser)).error
+
+    error = wandering(run) + wandering(other)
+    return Estimate(_apart(scene, run, other), max(error, SMALLEST["m"]), "m")
 
 
 def _apart(scene: Scene, one: Result, other: Result) -> float:
@@ -191,10 +198,10 @@ def _apart(scene: Scene, one: Result, other: Result) -> float:
 
 
 def _cost(run: Timed, short: float) -> Cost:
-    coarse, fine = run.pair.coarse, run.pair.fine
-    seconds = run.coarse_seconds
-    # a step of the finer run costs as much
-    scatter = abs(seconds - run.fine_seconds * coarse.counts.steps / fine.counts.steps)
+    coarse, half, _ = halvings(run.run)
+    seconds = run.seconds
+    # a step of the next finer run costs as much
+    scatter = abs(seconds - run.half_seconds * coarse.counts.steps / half.counts.steps)
     if seconds < short:
         times = [timed(coarse.scenario) for _ in range(4)]
         seconds, scatter = min(times), sorted(times)[2] - min(times)

@@ -9,26 +9,27 @@ from dataclasses import dataclass, replace
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
-from studies.study import Pair
+from studies.study import with_coarser
 from support_exudyn import Failure, Result, Scenario, SimulationError, simulate
 from support_exudyn.workers import Workers, report, worker_pool
 
 
 @dataclass(frozen=True)
 class Timed:
-    """A case at its steps and at half of them, and the processor time of both runs [s]."""
+    """A run with errors of a case, and the processor times at its steps and at half of them [s]."""
 
-    pair: Pair
-    coarse_seconds: float
-    fine_seconds: float
+    run: Result
+    seconds: float
+    half_seconds: float
 
 
 def run_timed(cases: Mapping[str, Scenario], workers: int | Workers) -> dict[str, Timed]:
-    """Run every case at its steps and at half of them, in parallel, in this order, under a progress bar.
+    """Run every case at its steps, at half and at a quarter of them, in parallel, under a progress bar.
 
     Raises SimulationError if a run fails.
     """
-    jobs = [*((name, case.refined()) for name, case in cases.items()), *cases.items()]
+    half = {name: case.refined() for name, case in cases.items()}
+    jobs = [*((name, case.refined()) for name, case in half.items()), *half.items(), *cases.items()]
     columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.percentage:3.0f} %"))
     with Progress(*columns, TimeRemainingColumn(), console=Console(stderr=True)) as bars:
         task = bars.add_task(f"{len(jobs)} runs", total=float(len(jobs)))
@@ -36,8 +37,8 @@ def run_timed(cases: Mapping[str, Scenario], workers: int | Workers) -> dict[str
             done = pool.run(jobs, _run, lambda shares: bars.update(task, completed=sum(shares)))
     found = {}
     for n, name in enumerate(cases):
-        fine, coarse = (_good(name, *done[k]) for k in (n, n + len(cases)))
-        found[name] = Timed(Pair(coarse[0], fine[0]), coarse[1], fine[1])
+        fine, middle, coarse = (_good(name, *done[k * len(cases) + n]) for k in range(3))
+        found[name] = Timed(with_coarser([coarse[0], middle[0], fine[0]]), coarse[1], middle[1])
     return found
 
 

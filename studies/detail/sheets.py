@@ -120,7 +120,7 @@ def value_sheet(measured: Mapping[str, Measured]) -> Sheet:
         "All scenes of the stroke",
         ("scene", *(heading for heading, _ in names.values())),
         tuple(rows),
-        "± is the change when all steps, in space also sections, are halved. Touches of the rear pin, none if "
+        "± is the estimated error, of steps and in space also of sections. Touches of the rear pin, none if "
         "it is ideal or settled.",
     )
 

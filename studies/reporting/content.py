@@ -20,8 +20,8 @@ SUMMARY = (
     "rear-link pin of a hydraulic support does to its rise. Here its results are repeated with the free "
     "multibody program Exudyn. The paper prints no dimensions, masses, restitution or friction; those used "
     "here are assumed, and listed below. Directions, orderings and shapes can therefore be compared with the "
-    "paper; values cannot. Every computed number comes with its numerical error: how much it changes when all "
-    "steps are halved, or tolerances tightened."
+    "paper; values cannot. Every computed number comes with its numerical error, estimated from three runs "
+    "with ever shorter steps."
 )
 QUICK = "This is a quick report: some or all studies were run with coarse steps, and their errors are larger."
 VERDICT = "verdict"  # the heading of the column that is coloured
