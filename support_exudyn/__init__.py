@@ -8,6 +8,7 @@
 One entry, `simulate`; everything else is a value that is handed in. SI units and radians.
 """
 
+from support_exudyn import at_start as at_start
 from support_exudyn.channels import Channel
 from support_exudyn.columns import ColumnModel, OilColumn, RigidColumn, TwoBodyColumn, bore_area
 from support_exudyn.cylinder import HydraulicCylinder

@@ -15,11 +15,12 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def _asked(argv: Sequence[str] | None) -> None:
     from support_exudyn.commands import command, parser  # and libraries: long enough to be interrupted
-    from support_exudyn.own_modules import import_modules
+    from support_exudyn.own_modules import at_work, import_modules
 
     given = parser().parse_args(argv)
     import_modules(given.imports)
-    command(given.command).run(given)
+    with at_work(given.imports):
+        command(given.command).run(given)
 
 
 if __name__ == "__main__":

@@ -13,7 +13,8 @@ from functools import partial
 from pathlib import Path
 from typing import Any, NoReturn
 
-from support_exudyn.errors import SimulationError
+from support_exudyn.at_start import EXIT_CODE, INTERRUPTED, be_interruptible, be_readable
+from support_exudyn.errors import SimulationError, told
 from support_exudyn.progress import Progress
 from support_exudyn.workers import NoProcessError, ProcessEndedError
 from user_forces.values import InputError, short
@@ -133,12 +134,17 @@ def _sentence(error: Exception) -> str:
 
 def answered(work: Callable[[], None]) -> int:
     """Do it; what the user can mend is said in a sentence. Returns the exit code."""
+    be_readable()
+    be_interruptible()
     try:
         work()
     except (SimulationError, InputError, OSError, ProcessEndedError, NoProcessError) as error:
         print(f"error: {_sentence(error)}", file=sys.stderr)
         return 1
+    except MemoryError as error:
+        print(f"error: {told(error)}; allowed: fewer records or channels, a smaller file", file=sys.stderr)
+        return 1
     except KeyboardInterrupt:
-        print("interrupted; nothing half-written is left", file=sys.stderr)
-        return 130
+        print(INTERRUPTED, file=sys.stderr)
+        return EXIT_CODE
     return 0

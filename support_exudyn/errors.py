@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import traceback
 from dataclasses import dataclass, field
+from pathlib import Path
 
 
 @dataclass(frozen=True)
@@ -35,3 +37,16 @@ class SimulationError(RuntimeError):
 
     def __reduce__(self) -> tuple[type[SimulationError], tuple[Failure]]:
         return SimulationError, (self.failure,)  # so that it comes back whole from a worker process
+
+
+def told(error: BaseException) -> str:
+    """An error that nobody expected, in a line: its kind, its words, and where, if that is no file of ours."""
+    frames = traceback.extract_tb(error.__traceback__)[-1:]
+    ours = [frame for frame in frames if Path(frame.filename).is_relative_to(Path(__file__).parent)]
+    place = "" if ours else "".join(f" ({Path(one.filename).name}, line {one.lineno})" for one in frames)
+    try:
+        said = " ".join(str(error).split())
+    except Exception:  # of somebody's own class
+        said = ""
+    kind = "there is not enough memory" if isinstance(error, MemoryError) else type(error).__name__
+    return f"{kind}{f': {said}' if said else ''}{place}"

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from importlib import import_module
 
+from support_exudyn.errors import SimulationError, told
+from support_exudyn.workers import NoProcessError, ProcessEndedError
 from user_forces.values import InputError, short
 
 
@@ -27,3 +30,19 @@ def import_modules(names: Iterable[str]) -> None:
             ) from None
         except Exception as error:  # whatever a user's module does wrong
             raise InputError(f"--import {name}: {type(error).__name__}: {error}") from error
+
+
+@contextmanager
+def at_work(names: Sequence[str]) -> Iterator[None]:
+    """While a command works with imported modules, what they do wrong is an InputError that tells it.
+
+    Without such modules an error that nobody expected is one of this program, and stays as it is.
+    """
+    try:
+        yield
+    except (InputError, SimulationError, OSError, ProcessEndedError, NoProcessError, MemoryError):
+        raise
+    except Exception as error:
+        if not names:
+            raise
+        raise InputError(f"--import {', '.join(names)}: {told(error)}") from error

@@ -7,13 +7,16 @@ import time
 from support_exudyn.audit import audit
 from support_exudyn.channels import asked, channels
 from support_exudyn.collector import paused_collector
-from support_exudyn.errors import Failure, SimulationError
+from support_exudyn.errors import Failure, SimulationError, told
 from support_exudyn.formulations import formulation
 from support_exudyn.progress import Progress
 from support_exudyn.provenance import provenance
 from support_exudyn.result import Result
+from support_exudyn.room import check_room
 from support_exudyn.scenario import Scenario
 from user_forces.lawful import UNLAWFUL, LawError, look_at_rest
+
+OWN = "A law, load or machine of one's own does that; allowed: to raise an exception."
 
 
 def run_once(scenario: Scenario, progress: Progress) -> Result:
@@ -24,12 +27,16 @@ def run_once(scenario: Scenario, progress: Progress) -> Result:
     """
     chosen = formulation(scenario.formulation)
     chosen.check(scenario)
-    if scenario.solver.audit:
-        _look_at_laws(scenario)
+    check_room(scenario)
     began = time.perf_counter()
-    with paused_collector():
-        outcome = chosen.run(scenario, progress)
-        found = channels(scenario, outcome.trajectory)
+    try:
+        if scenario.solver.audit:
+            _look_at_laws(scenario)
+        with paused_collector():
+            outcome = chosen.run(scenario, progress)
+            found = channels(scenario, outcome.trajectory)
+    except SystemExit as error:  # it would end the program without a word, and perhaps as if all was done
+        raise SimulationError(Failure(f"the program was asked to end: {told(error)}", OWN, 0.0)) from None
     if scenario.solver.audit and (failure := audit(scenario, outcome, found)) is not None:
         raise SimulationError(failure)
     return Result(

@@ -260,6 +260,15 @@ def step(part: Any) -> str:
     return text if len(text) <= 80 and text.isprintable() else short(part)
 
 
+def cleaned(text: str) -> str:
+    r"""A text of somebody else's, fit to be printed and written.
+
+    What steers a terminal, turns the direction of writing or is no letter at all stands in it by its number,
+    such as \x1b.
+    """
+    return "".join(one if one.isprintable() or one in " \t\n" else f"{one!a}"[1:-1] for one in text)
+
+
 def short(item: Any) -> str:
     """An input as text that fits into a line."""
     try:

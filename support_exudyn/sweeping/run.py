@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import pickle
 import time
 from collections.abc import Callable, Generator, Iterator
 from contextlib import closing
@@ -16,7 +17,7 @@ from support_exudyn.sweeping.plan import Plan
 from support_exudyn.sweeping.row import Row
 from support_exudyn.sweeping.store import Store
 from support_exudyn.sweeping.table import FILE, Table
-from support_exudyn.sweeping.work import Task
+from support_exudyn.sweeping.work import Task, reason_of
 from user_forces.values import InputError
 
 SELDOM = 10.0  # the table is written every so many seconds while runs come in,
@@ -138,14 +139,15 @@ class _Keeper:
             try:
                 scenario = self._plan.scenario(point)
                 record.check(scenario)
-            except InputError as error:
-                refused.append(error)
-                self._set([number], Row("", "failed", " ".join(str(error).split())))
+                name = key(scenario, self._plan.errors)
+                pickle.dumps(scenario)  # as it is sent to other processes
+            except Exception as error:  # of classes of one's own any
+                refused.append(InputError(reason_of(error)) if not isinstance(error, InputError) else error)
+                self._set([number], Row("", "failed", reason_of(error)))
                 continue
             if not checked:
                 check_numbers(scenario, record)
                 checked = True
-            name = key(scenario, self._plan.errors)
             places = self._places.setdefault(name, [])
             places.append(number)
             if len(places) > 1 and name not in self._rows:

@@ -16,10 +16,11 @@ from support_exudyn.files import whole_file
 from support_exudyn.sweeping.key import program
 from support_exudyn.sweeping.plan import Plan
 from support_exudyn.sweeping.row import Row
-from user_forces.values import InputError
+from user_forces.values import InputError, cleaned
 
 FORMAT = "support_exudyn sweep 1"
 FILE = "table.parquet"
+WHOLE = 2**63  # whole numbers of a column are smaller
 OWN = b"support_exudyn"  # of the schema's metadata
 UNIT_WORDS = {"^": "", "/": "_per_", " ": "_"}
 MEANINGS = {
@@ -131,13 +132,25 @@ def read_table(path: str | Path) -> pa.Table:
 
 
 def _inputs(values: Sequence[Any]) -> pa.Array:
-    """What was varied: numbers, texts, or anything else as JSON."""
+    """What was varied: numbers, texts, or anything else as JSON; numbers that no column holds as texts, too."""
     if all(isinstance(one, (int, float, Decimal)) and not isinstance(one, bool) for one in values):
-        whole = all(isinstance(one, int) for one in values)
-        return pa.array(values, pa.int64()) if whole else pa.array([float(one) for one in values])
+        if all(isinstance(one, int) and abs(one) < WHOLE for one in values):
+            return pa.array(values, pa.int64())
+        if all(_fits(one) for one in values):
+            return pa.array([float(one) for one in values])
     if all(isinstance(one, bool) for one in values):
         return pa.array(values)
-    return pa.array([one if isinstance(one, str) else json.dumps(one, default=_plain) for one in values])
+    return pa.array(
+        [cleaned(one if isinstance(one, str) else json.dumps(one, default=_plain)) for one in values]
+    )
+
+
+def _fits(one: int | float | Decimal) -> bool:
+    """Whether a number is one of 64 bits: a whole one to its last digit, others rounded."""
+    try:
+        return float(one) == one or not isinstance(one, int)
+    except OverflowError:
+        return False
 
 
 def _plain(item: Any) -> Any:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from dataclasses import dataclass
 
-from support_exudyn.errors import SimulationError
+from support_exudyn.errors import SimulationError, told
 from support_exudyn.result import Result
 from support_exudyn.scenario import Scenario
 from support_exudyn.simulate import simulate
@@ -13,7 +13,7 @@ from support_exudyn.sweeping.measures import numbers
 from support_exudyn.sweeping.plan import Record
 from support_exudyn.sweeping.row import Row
 from support_exudyn.sweeping.store import Store
-from user_forces.values import InputError
+from user_forces.values import InputError, cleaned
 
 
 @dataclass(frozen=True)
@@ -28,15 +28,25 @@ class Task:
 
 
 def computed(task: Task) -> tuple[Row, Result | None]:
-    """Run it. The Result is None if it fails, which the row tells."""
+    """Run it. The Result is None if it fails, whatever the reason is, which the row tells.
+
+    A law of one's own may do anything; KeyboardInterrupt alone ends all runs.
+    """
     began = time.perf_counter()
     try:
         result = simulate(task.scenario, errors=task.errors)
         return row_of(task, result), result
-    except (SimulationError, InputError) as error:
-        reason = " ".join(str(error).split())
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:  # also SystemExit
         took = time.perf_counter() - began
-        return Row(task.key, "failed", reason, took, noted=task.record.digest), None
+        return Row(task.key, "failed", reason_of(error), took, noted=task.record.digest), None
+
+
+def reason_of(error: BaseException) -> str:
+    """Why there is no run, in a line."""
+    expected = isinstance(error, (SimulationError, InputError))
+    return cleaned(" ".join(str(error).split()) if expected else told(error))
 
 
 def row_of(task: Task, result: Result) -> Row:

@@ -1,0 +1,114 @@
+"""What commands do before anything else: interruptions while libraries are imported, consoles of few letters."""
+
+from __future__ import annotations
+
+import io
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from studies.catalogue import STUDIES
+from support_exudyn.at_start import DEGRADED, _is_command, be_readable
+from tests.hostile import posix_only
+from tests.processes import ROOT, environment
+
+INTERRUPTING = """
+import os, signal, sys
+sys.path.remove({folder!r})
+del sys.modules["{name}"]
+os.kill(os.getpid(), signal.SIGINT)
+import {name}
+"""
+STARTS = [
+    ["-m", "support_exudyn", "--version"],
+    ["-m", "studies", "--help"],
+    *(["-m", f"studies.{name}", "--help"] for name in ("report", "benchmark", *STUDIES)),
+    ["support-exudyn", "--version"],
+]
+
+
+def started(words: list[str], folder: Path, more: dict[str, str]) -> subprocess.CompletedProcess[str]:
+    """A command; the installed one as pip writes it."""
+    if words[0] == "support-exudyn":
+        script = folder / "support-exudyn"
+        script.write_text("import sys\nfrom support_exudyn.__main__ import main\nsys.exit(main())\n", "utf-8")
+        words = [str(script), *words[1:]]
+    known = environment() | more
+    known["PYTHONPATH"] = os.pathsep.join([more.get("PYTHONPATH", ""), known["PYTHONPATH"], str(ROOT)])
+    return subprocess.run(
+        [sys.executable, *words], cwd=ROOT, env=known, capture_output=True, text=True, timeout=120, check=False
+    )
+
+
+@posix_only
+@pytest.mark.parametrize("name", ["numpy", "h5py"])
+@pytest.mark.parametrize("words", [STARTS[0], STARTS[1], STARTS[4], STARTS[-1]], ids=lambda words: words[1])
+def test_an_interruption_while_libraries_are_imported_is_a_line(
+    tmp_path: Path, words: list[str], name: str
+) -> None:
+    (tmp_path / f"{name}.py").write_text(INTERRUPTING.format(folder=str(tmp_path), name=name), "utf-8")
+    done = started(words, tmp_path, {"PYTHONPATH": str(tmp_path)})
+    assert (done.returncode, done.stderr) == (130, "interrupted; nothing half-written is left\n")
+    assert done.stdout == ""
+
+
+@pytest.mark.parametrize("code", ["import support_exudyn", "import studies.study"])
+def test_other_programs_keep_their_interruptions(code: str) -> None:
+    check = "import signal; assert signal.getsignal(signal.SIGINT) is signal.default_int_handler"
+    subprocess.run([sys.executable, "-c", f"{code}\n{check}"], cwd=ROOT, env=environment(), check=True)
+
+
+@pytest.mark.parametrize(
+    ("words", "ours"),
+    [
+        ("python -m support_exudyn run", True),
+        ("python -X dev -W error -m studies.which_pin", True)("python -msupport_exudyn", True),
+        ("python -u -m studies", True),
+        ("python -m pytest -m studies", False),
+        ("python -m studies_of_mine", False),
+        ("python /usr/bin/support-exudyn run", True),
+        ("python script.py -m studies", False),
+        ("python -c pass", False),
+        ("python", False),
+    ],
+)
+def test_a_command_is_told_by_how_it_was_started(words: str, ours: bool) -> None:
+    assert _is_command(words.split()) is ours
+
+
+@pytest.mark.parametrize(
+    ("encoding", "shown"),
+    [
+        ("ascii", "5 +- 1 m/s^2, 3 A, 4 * 2 -> 1, \\u4e2d"),
+        ("cp932", "5 ± 1 m/s^2, 3 A, 4 * 2 → 1, 中"),
+        ("gbk", "5 ± 1 m/s^2, 3 A, 4 · 2 → 1, 中"),
+        ("utf-8", "5 ± 1 m/s², 3 Å, 4 · 2 → 1, 中"),
+    ],
+)
+def test_letters_that_a_console_has_not_are_written_in_others(
+    encoding: str, shown: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    console = io.TextIOWrapper(io.BytesIO(), encoding=encoding)
+    monkeypatch.setattr(sys, "stdout", console)
+    be_readable()
+    assert console.errors == DEGRADED
+    print("5 ± 1 m/s², 3 Å, 4 · 2 → 1, 中", end="", flush=True)
+    assert console.buffer.getvalue().decode(encoding) == shown  # type: ignore[attr-defined]
+
+
+def test_what_was_asked_of_a_console_is_kept(monkeypatch: pytest.MonkeyPatch) -> None:
+    console = io.TextIOWrapper(io.BytesIO(), encoding="ascii", errors="ignore")
+    monkeypatch.setattr(sys, "stdout", console)
+    be_readable()
+    assert console.errors == "ignore"
+
+
+@pytest.mark.parametrize("encoding", ["ascii", "gbk", "cp932"])
+@pytest.mark.parametrize("words", [*STARTS[:2], STARTS[6]], ids=lambda words: words[1])
+def test_commands_speak_on_every_console(tmp_path: Path, words: list[str], encoding: str) -> None:
+    done = started(words, tmp_path, {"PYTHONIOENCODING": encoding})
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout
