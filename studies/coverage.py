@@ -32,7 +32,7 @@ from studies.study import MOST_WORKERS, Number, bar, output_folder, show_table, 
 from support_exudyn.command_line import Parser, answered, count, folder
 from support_exudyn.files import whole_file
 from support_exudyn.sweeping.key import key
-from support_exudyn.workers import ProcessEndedError, report, worker_pool
+from support_exudyn.workers import ProcessEndedError, Workers, report, worker_pool
 
 STUDY = "coverage"
 MOST_SCENES, LARGEST_SEED = 100_000, 2**32
@@ -50,7 +50,7 @@ class Chosen:
     scenes: int
     only: int | None
     out: Path
-    workers: int
+    workers: int | Workers
 
 
 # --- a scene, in a worker ---

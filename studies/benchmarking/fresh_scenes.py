@@ -64,7 +64,13 @@ from user_forces.normal.power_law import PowerLaw
 LAWS: tuple[type[PowerLaw], ...] = (
     *(LankaraniNikravesh, Exact, HuntCrossley, Gonthier, Flores, LeeWang, HuGuo),
 )
-RUBBING: tuple[type[FrictionLaw], ...] = (Ambrosio, Ambrosio, CubicCoulomb, BrownMcPhee, Threlfall, BengisuAkay)
+STATIC = 1.3  # times the sliding coefficient, of laws that know both
+RUBBING: tuple[Callable[[float], FrictionLaw], ...] = (
+    lambda mu: CubicCoulomb(sliding_coefficient=mu),
+    lambda mu: Threlfall(sliding_coefficient=mu),
+    lambda mu: BrownMcPhee(sliding_coefficient=mu, static_coefficient=STATIC * mu),
+    lambda mu: BengisuAkay(sliding_coefficient=mu, static_coefficient=STATIC * mu),
+)
 SHORTEST = 0.04  # [s] of a run of the support
 RECORDS = 200  # of a run
 MOST_STEPS = 200_000  # of a run; none of these scenes is worth more
@@ -137,10 +143,9 @@ def _damping_speed(random: np.random.Generator) -> DampingSpeed:
 def _friction(random: np.random.Generator) -> FrictionLaw:
     if random.uniform() < 0.4:
         return Frictionless()
-    law = RUBBING[random.integers(len(RUBBING))]
     coefficient = float(random.uniform(0.02, 0.4))
-    if law is not Ambrosio:
-        return law(sliding_coefficient=coefficient)
+    if random.uniform() < 0.6:
+        return RUBBING[random.integers(len(RUBBING))](coefficient)
     static = _between(random, 1e-4, 1e-3)
     return Ambrosio(
         sliding_coefficient=coefficient,

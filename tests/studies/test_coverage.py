@@ -1,0 +1,227 @@
+"""Coverage: what is drawn, how a number is judged, what is told of all, and that a planted fault is found."""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from studies import coverage
+from studies.benchmarking import covered
+from studies.benchmarking.covered import Judged, Reference, Row, judge
+from studies.benchmarking.fresh_scenes import KINDS, RECORDS, Fresh, fresh
+from studies.coverage import ALL, Chosen, offender_sheet, run_scenes, share
+from support_exudyn import Estimate, Failure, Result, Scenario, SimulationError
+from support_exudyn.workers import Workers
+from tests.studies.test_hypercube import Here
+
+FORCE = "pin.rear_base.force.mean"
+CRANK = fresh(19, list(KINDS).index("slider-crank"))  # an eighth of a turn, without friction
+
+
+# --- what is drawn ---
+
+
+def test_a_seed_and_a_number_tell_the_scene() -> None:
+    for number in range(2 * len(KINDS)):
+        assert fresh(5, number) == fresh(5, number)
+    scenes = [fresh(seed, number).scenario for seed in (5, 6) for number in range(3 * len(KINDS))]
+    assert all(one != other for n, one in enumerate(scenes) for other in scenes[:n])
+
+
+def test_kinds_follow_each_other_and_are_what_they_say() -> None:
+    found = [fresh(7, number) for number in range(4 * len(KINDS))]
+    assert [one.kind for one in found] == 4 * list(KINDS)
+    kinds = {kind: [one.scenario for one in found if one.kind == kind] for kind in KINDS}
+    assert all(set(one.clearance_pins) == {"rear_base"} for one in kinds["rear pin"])
+    assert len({name for one in kinds["any pin"] for name in one.clearance_pins}) > 1
+    assert all(len(one.clearance_pins) > 1 for one in kinds["several pins"])
+    assert all(set(one.oil_columns) == {"front_column", "rear_column"} for one in kinds["oil columns"])
+    assert all(set(one.cylinders) == {"front_column", "rear_column"} for one in kinds["cylinders"])
+    assert all(set(one.loads) == {"rock"} for one in kinds["falling block"])
+    assert all(set(one.own_bodies) == {"tail_beam"} for one in kinds["tail beam"])
+    assert all(one.linkage.cranks for one in kinds["slider-crank"])
+    assert all(one.dimensions == 3 for one in kinds["space"])
+    # none asks for an accuracy by itself, and each is as long as its records
+    for one in found:
+        assert one.scenario.goal is None
+        assert one.scenario.duration == pytest.approx(RECORDS * one.scenario.record_period)
+
+
+def test_all_that_matters_varies() -> None:
+    scenes = [fresh(9, number).scenario for number in range(8 * len(KINDS))]
+    pins = [pin for one in scenes for pin in one.clearance_pins.values()]
+    assert len({type(pin.contact.normal) for pin in pins}) > 5
+    assert len({type(pin.contact.normal.damping_speed) for pin in pins}) == 2  # type: ignore[attr-defined]
+    assert len({type(pin.contact.friction) for pin in pins}) == 6
+    assert {pin.bore for pin in pins} == {"first", "second"}
+    assert {pin.offset == (0.0, 0.0) for pin in pins} == {True, False}
+    assert {one.start for one in scenes} == {"concentric", "settled"}
+    assert len({type(one.drive) for one in scenes}) == 5
+    assert {one.formulation for one in scenes} == {"auto", "redundant"}
+
+
+# --- how a number is judged ---
+
+
+def known(formulation: str, value: float, error: float) -> Reference:
+    """A reference of one number, whose own error is as told."""
+    other = value + error / covered.OF_DISTANCE
+    return Reference(formulation, {FORCE: value}, {FORCE: other})
+
+
+def judged(claimed: float, *references: Reference) -> Judged:
+    """A value of 100 of the reduced formulation."""
+    return judge(FORCE, 100.0, claimed, "reduced", references)
+
+
+def test_another_formulation_judges_where_it_is_sharp_enough() -> None:
+    own, other = known("reduced", 100.5, 1e-6), known("redundant", 100.4, 0.1)
+    found = judged(1.0, own, other)
+    assert (found.by, found.apart) == ("redundant", False)
+    assert found.away == pytest.approx(0.4)
+    assert found.ratio == pytest.approx(0.4)
+    # with a smaller error claimed it no longer can
+    assert judged(0.39, own, other).by == "reduced"
+
+
+def test_what_no_reference_can_tell_is_set_apart() -> None:
+    found = judged(0.01, known("reduced", 100.0, 0.005), known("redundant", 100.01, 0.1))
+    assert found.apart
+    assert judge(FORCE, 100.0, 1.0, "reduced", ()).apart
+    assert judged(1.0, known("reduced", math.nan, 0.0)).apart
+
+
+def test_a_blunt_reference_that_is_surely_further_away_counts() -> None:
+    own, other = known("reduced", 100.0, 1e-9), known("redundant", 105.0, 0.5)
+    found = judged(0.01, own, other)
+    assert (found.by, found.apart) == ("redundant", False)
+    assert found.ratio == pytest.approx(500.0)
+
+
+def test_a_reference_that_agrees_by_chance_is_as_wrong_as_its_family() -> None:
+    names = [f"pin.p{n}.force.mean" for n in range(5)]
+    fine = dict.fromkeys(names, 100.0)
+    coarse = dict(zip(names, (100.0, 101.0, 101.0, 102.0, 103.0), strict=True))
+    assert Reference("tree", fine, coarse).error(names[0]) == pytest.approx(covered.OF_DISTANCE)
+    assert Reference("tree", fine, coarse).error(names[4]) == pytest.approx(3.0 * covered.OF_DISTANCE)
+
+
+# --- what is told of all ---
+
+
+def row(*numbers: tuple[float, float], **changes: object) -> Row:
+    """A run whose numbers have these claimed and true errors."""
+    found = tuple(Judged(FORCE, 1.0, claimed, true, 0.0, "tree") for claimed, true in numbers)
+    return replace(Row("rear pin", 0, "draft", "reduced", "", True, found), **changes)
+
+
+def test_shares_are_those_of_the_judged_numbers() -> None:
+    apart = replace(row((1.0, 9.0)).judged[0], by="")
+    rows = [row((2.0, 1.0), (4.0, 1.0), (1.0, 3.0)), row(judged=(apart,)), row(refused="why", met=False)]
+    found = share(rows)
+    assert (found.runs, found.refused, found.met, found.numbers, found.apart) == (3, 1, 2, 3, 1)
+    assert found.covered == pytest.approx(2.0 / 3.0)
+    assert found.worst == 3.0
+    assert found.overstated == 2.0
+
+
+def test_offenders_are_told_with_their_scene_the_worst_first() -> None:
+    rows = [row((1.0, 2.0), (1.0, 0.5), number=4), row((1.0, 7.0), number=8)]
+    assert [line[0] for line in offender_sheet(rows).rows] == ["8", "4"]
+
+
+# --- the command ---
+
+
+@pytest.fixture
+def chosen(tmp_path: Path) -> Chosen:
+    return Chosen(3, 2, None, tmp_path, Workers(Here(), [0.0] * 10))
+
+
+@pytest.fixture
+def made(monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """Numbers of the scenes that are run, each of which is told to have one number."""
+    done: list[int] = []
+
+    def rows(scene: Fresh) -> Iterator[Row]:
+        done.append(scene.number)
+        yield row((1.0, 3.0), (math.inf, 1.0), kind=scene.kind, number=scene.number)
+
+    monkeypatch.setattr(covered, "rows", rows)
+    return done
+
+
+def test_what_is_kept_is_not_run_again(chosen: Chosen, made: list[int]) -> None:
+    first = run_scenes(chosen, range(2))
+    assert run_scenes(chosen, range(3))[:2] == first
+    assert made == [0, 1, 2]
+    next((chosen.out / "scenes").glob("3-1-*")).write_text('[{"kind"')  # damaged
+    assert run_scenes(chosen, range(2)) == first
+    run_scenes(replace(chosen, seed=4), range(1))
+    assert made == [0, 1, 2, 1, 0]
+
+
+def test_a_scene_that_fails_unexplained_is_a_row(chosen: Chosen, monkeypatch: pytest.MonkeyPatch) -> None:
+    def rows(scene: Fresh) -> Iterator[Row]:
+        raise ZeroDivisionError("by zero")
+
+    monkeypatch.setattr(covered, "rows", rows)
+    assert [one.refused for one in run_scenes(chosen, range(2))] == 2 * ["ZeroDivisionError: by zero"]
+
+
+def test_everything_is_written(chosen: Chosen, made: list[int], capsys: pytest.CaptureFixture[str]) -> None:
+    coverage.study(chosen)
+    told = capsys.readouterr().out
+    assert "Errors claimed and true" in told
+    assert "rear pin" in told
+    with (chosen.out / "numbers.csv").open() as file:
+        assert len(list(csv.DictReader(file))) == 4
+    summary = json.loads((chosen.out / "summary.json").read_text())
+    assert (summary["seed"], summary["scenes"]) == (3, 2)
+    told_of_all = {one["name"]: one["value"] for one in summary["numbers"] if one["case"] == f"{ALL}, {ALL}"}
+    assert (told_of_all["numbers"], told_of_all["covered"]) == (4, 0.5)
+
+
+@pytest.mark.parametrize("words", [["--seed", "-1"], ["--seed", "x"], ["--seed", "1", "--scenes", "0"], []])
+def test_wrong_words_are_refused(words: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as ended:
+        coverage.main(words)
+    assert ended.value.code == 2
+    assert "error:" in capsys.readouterr().err
+
+
+# --- a scene, whole ---
+
+
+def test_a_scene_is_covered_and_a_planted_fault_is_not(monkeypatch: pytest.MonkeyPatch) -> None:
+    scene = CRANK
+    right = share(list(covered.rows(scene)))
+    assert (right.refused, right.numbers > 20) == (0, True)
+    assert right.covered > 0.9
+    numbers = Result.numbers
+
+    def wrong(run: Result) -> dict[str, Estimate]:
+        return {name: number._replace(error=1e-4 * number.error) for name, number in numbers(run).items()}
+
+    monkeypatch.setattr(Result, "numbers", wrong)
+    assert share(list(covered.rows(scene))).covered < 0.5
+
+
+def test_a_run_that_fails_is_refused_with_its_reason(monkeypatch: pytest.MonkeyPatch) -> None:
+    failure = Failure("the solver gave up", "Take a smaller step.", 0.01)
+
+    def run(scenario: Scenario, throw: bool = True) -> Failure:
+        if throw:
+            raise SimulationError(failure)
+        return failure
+
+    monkeypatch.setattr(covered, "simulate", run)
+    found = list(covered.rows(CRANK))
+    assert {one.refused for one in found} == {"the solver gave up"}
+    assert share(found).refused == len(found)
