@@ -134,18 +134,23 @@ class HydraulicSupport(FourBarShield[Posture]):
         front, rear = (length + extension for length in self.column_lengths(start))
         near = near or start
 
-        def misfit(turns: np.ndarray) -> list[float]:
-            posture = self.posture(float(turns[0]), float(turns[1]))
+        def turned(by: np.ndarray) -> Posture | None:
+            return self.posture(near.rear_link + float(by[0]), near.canopy + float(by[1]))
+
+        def misfit(by: np.ndarray) -> list[float]:
+            posture = turned(by)
             if posture is None:
                 return [math.inf, math.inf]
             got = self.column_lengths(posture)
             return [got[0] - front, got[1] - rear]
 
         with np.errstate(invalid="ignore"):
-            found = root(misfit, [near.rear_link, near.canopy], tol=1e-14)
+            # MINPACK measures its first steps by where it starts: turns of a rounding would hold it there, from
+            # exactly zero it goes as far as it likes
+            found = root(misfit, [0.0, 0.0], tol=1e-14)
         if not np.all(np.abs(misfit(found.x)) < PRECISE):
             return None
-        return self.posture(float(found.x[0]), float(found.x[1]))
+        return turned(found.x)
 
     def look(self, scenario: Scenario) -> Look:
         """A shield support: base, links, shield and tail beam, canopy, columns and pins."""

@@ -473,3 +473,17 @@ def test_a_body_of_which_nothing_would_be_left_is_refused() -> None:
     rods = (Part(mass=200.0, centre=PIVOTS["rear_head"], inertia=1.0, name="rear_column_rods"),)
     with pytest.raises(InputError, match=r"parts\.canopy: nothing with inertia is left without rear_column"):
         support(parts={**PARTS, "canopy": rods}).detailed(("rear_column",), ())
+
+
+@pytest.mark.parametrize("places", [-3, -1, 0, 1, 4])
+@pytest.mark.parametrize("extension", [-3e-3, 1e-5, 5e-4, 0.2])
+def test_columns_extend_from_a_start_that_is_the_reference_posture_but_for_rounding(
+    places: int, extension: float
+) -> None:
+    height = PIVOTS["hinge"][1]
+    machine = support(start_hinge_height=height + places * math.ulp(height))
+    start, posture = machine.start(), machine.extended(extension)
+    assert abs(start.rear_link) < 1e-14
+    assert posture is not None
+    grown = np.subtract(machine.column_lengths(posture), machine.column_lengths(start))
+    np.testing.assert_allclose(grown, extension, rtol=0.0, atol=1e-11)

@@ -1,0 +1,254 @@
+"""Scenes seen in a mirror, turned or from elsewhere, and what is recorded of them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from support_exudyn import (
+    AppliedForce,
+    ClearancePin,
+    Crank,
+    CubicStep,
+    Drive,
+    Linkage,
+    Load,
+    Machine,
+    Result,
+    Scenario,
+    SliderCrank,
+    Steady,
+)
+from support_exudyn.linkages.four_bar_shield import FourBarShield
+from support_exudyn.machine import Part, turned_moments
+from user_forces import value
+
+Point = tuple[float, float]
+TURNED = (  # of which the sign says which way round; of guides magnitudes are recorded
+    *(".angle", ".angular_velocity", ".angular_acceleration"),
+    *(".slip", ".friction_force", ".friction_moment", "crank.moment"),
+)
+FROM_THE_START = (".angle", "energy.potential")  # of which only the change means anything
+
+
+@dataclass(frozen=True)
+class Move:
+    """p -> R F (p - about) + about + shift, R a turn; F (x, y) -> (x, -y) if it is flipped, else nothing.
+
+    along: cosine and sine of the turn.
+    """
+
+    along: Point = (1.0, 0.0)
+    flipped: bool = False
+    shift: Point = (0.0, 0.0)
+    about: Point = (0.0, 0.0)
+
+    @property
+    def sign(self) -> float:
+        """What becomes of angles."""
+        return -1.0 if self.flipped else 1.0
+
+    @property
+    def angle(self) -> float:
+        """Of the turn [rad]."""
+        return math.atan2(self.along[1], self.along[0])
+
+    def vector(self, of: Any) -> Any:
+        """A difference of points; components may be arrays."""
+        (c, s), (x, y) = self.along, of
+        y = self.sign * y
+        return c * x - s * y, s * x + c * y
+
+    def point(self, of: Any) -> Any:
+        """A point; components may be arrays."""
+        x, y = self.vector((of[0] - self.about[0], of[1] - self.about[1]))
+        return x + self.about[0] + self.shift[0], y + self.about[1] + self.shift[1]
+
+    def moments(self, of: Any) -> Any:
+        """Second moments of mass."""
+        return of and turned_moments((of[0], of[1], self.sign * of[2]), self.angle)
+
+
+    @property
+    def back(self) -> Move:
+        """The move that undoes a turn, a shift or a mirror; of no more than one of these."""
+        c, s = self.along
+        return Move((c, s) if self.flipped else (c, -s), self.flipped, (-self.shift[0], -self.shift[1]), self.about)
+
+
+def turn(degrees: float, about: Point = (0.0, 0.0)) -> Move:
+    """A turn about a point."""
+    angle = math.radians(degrees)
+    return Move(along=(math.cos(angle), math.sin(angle)), about=about)
+
+
+MIRROR = Move(along=(-1.0, 0.0), flipped=True)  # x -> -x
+UPSIDE_DOWN = Move(flipped=True)  # y -> -y
+
+
+def moved_linkage(linkage: Linkage, move: Move) -> Linkage:
+    """All that a linkage holds, moved."""
+    bodies = {
+        name: replace(
+            body,
+            centre=move.point(body.centre),
+            angle=move.sign * body.angle + move.angle,
+            velocity=move.vector(body.velocity),
+            spin=move.sign * body.spin,
+            moments=move.moments(body.moments),
+        )
+        for name, body in linkage.bodies.items()
+    }
+    pins = {
+        name: replace(pin, first_point=move.point(pin.first_point), second_point=move.point(pin.second_point))
+        for name, pin in linkage.pins.items()
+    }
+    columns = {
+        name: replace(one, foot_point=move.point(one.foot_point), head_point=move.point(one.head_point))
+        for name, one in linkage.columns.items()
+    }
+    points = {name: replace(one, point=move.point(one.point)) for name, one in linkage.points.items()}
+    slides = {
+        name: replace(one, point=move.point(one.point), direction=move.sign * one.direction + move.angle)
+        for name, one in linkage.slides.items()
+    }
+    cranks: Mapping[str, Crank] = linkage.cranks
+    return Linkage(bodies=bodies, pins=pins, columns=columns, points=points, cranks=cranks, slides=slides)
+
+
+@value
+class Moved(Machine):
+    """A machine that is somewhere else; it moves as it did."""
+
+    inner: Machine
+    along: tuple[float, float]
+    flipped: bool
+    shift: tuple[float, float]
+    about: tuple[float, float]
+
+    def linkage(self) -> Linkage:
+        return moved_linkage(self.inner.linkage(), self._move)
+
+    def detailed(self, columns: Collection[str], parts: Collection[str]) -> Linkage:
+        return moved_linkage(self.inner.detailed(columns, parts), self._move)
+
+    @property
+    def _move(self) -> Move:
+        return Move(self.along, self.flipped, self.shift, self.about)
+
+    @property
+    def jacks(self) -> Mapping[str, str]:
+        return self.inner.jacks
+
+    @property
+    def leaders(self) -> Mapping[str, str]:
+        return self.inner.leaders
+
+    def follower(self, name: str, lead: Drive, duration: float) -> Drive:
+        return self.inner.follower(name, lead, duration)
+
+
+def moved_machine(machine: Machine, move: Move, formulation: str) -> Machine:
+    """A machine moved, of its own class where the formulation asks for that."""
+    if formulation != "reduced":
+        return Moved(
+            inner=machine, along=move.along, flipped=move.flipped, shift=move.shift, about=move.about
+        )
+    if isinstance(machine, SliderCrank):
+        assert move == UPSIDE_DOWN  # its guide is along x
+        return replace(machine, start_angle=-machine.start_angle)
+    assert isinstance(machine, FourBarShield)
+    return _moved_shield(machine, move)
+
+
+def _moved_shield(machine: FourBarShield[Any], move: Move) -> FourBarShield[Any]:
+    """A support with its start posture, moved, as its reference posture; its canopy starts level in that."""
+    start = machine.start()
+    turns = {body: getattr(start, body) for body in machine.parts}
+    anchors = {
+        "rear_link": (machine.rear_base, machine.rear_base),
+        "front_link": (machine.front_base, machine.front_base),
+        "shield": (machine.rear_shield, start.rear_shield),
+        "canopy": (machine.hinge, start.hinge),
+    }
+
+    def at_start(body: str, point: Point) -> Point:
+        (x, y), (to_x, to_y) = anchors[body]
+        c, s = math.cos(turns[body]), math.sin(turns[body])
+        dx, dy = point[0] - x, point[1] - y
+        return to_x + c * dx - s * dy, to_y + s * dx + c * dy
+
+    def part(body: str, one: Part) -> Part:
+        moments = one.moments and turned_moments(one.moments, turns[body])
+        return replace(one, centre=move.point(at_start(body, one.centre)), moments=move.moments(moments))
+
+    on_canopy = ["tip", *(pivot for strut in machine.STRUTS.values() for on, pivot in strut if on == "canopy")]
+    places = {name: getattr(start, name) for name in ("rear_shield", "front_shield", "hinge")}
+    places |= {name: at_start("canopy", getattr(machine, name)) for name in on_canopy}
+    places |= {
+        pivot: getattr(machine, pivot) if on == "ground" else at_start(on, getattr(machine, pivot))
+        for strut in machine.STRUTS.values()
+        for on, pivot in strut
+        if pivot not in places
+    }
+    places |= {name: getattr(machine, name) for name in ("rear_base", "front_base")}
+    return replace(
+        machine,
+        **{name: move.point(place) for name, place in places.items()},
+        parts={body: tuple(part(body, one) for one in parts) for body, parts in machine.parts.items()},
+        start_hinge_height=move.point(start.hinge)[1],
+        tail_hinge=None,  # a body of its own has only the redundant formulation, and there it is `Moved`
+        tail_jack_foot=None,
+        tail_jack_head=None,
+    )
+
+
+def moved(scenario: Scenario, move: Move) -> Scenario:
+    """The whole scene moved, gravity and all."""
+    loads: dict[str, Load] = {}
+    for name, load in scenario.loads.items():
+        loads[name] = replace(load, point=move.point(load.point))
+        if isinstance(load, AppliedForce):
+            loads[name] = replace(loads[name], full_force=move.vector(load.full_force))
+    pins = {
+        name: replace(pin, eccentricity=move.vector(pin.eccentricity)) if isinstance(pin, ClearancePin) else pin
+        for name, pin in scenario.pins.items()
+    }
+    turned = move.flipped and bool(scenario.linkage.cranks)
+    return replace(
+        scenario,
+        machine=moved_machine(scenario.machine, move, scenario.formulation),
+        gravity=move.vector(scenario.gravity),
+        pins=pins,
+        loads=loads,
+        drive=_turned_back(scenario.drive) if turned else scenario.drive,
+    )
+
+
+def _turned_back(drive: Drive) -> Drive:
+    """The other way round."""
+    if isinstance(drive, Steady):
+        return Steady(rate=-drive.rate)
+    assert isinstance(drive, CubicStep)
+    return replace(drive, stroke=-drive.stroke)
+
+
+def seen(result: Result, move: Move) -> dict[str, np.ndarray]:
+    """What would be recorded of a run if it were moved, by channel; potential energy and angles from the start."""
+    found = {name: np.array(result[name]) for name in result.channels}
+    for name in list(found):
+        stem = name[:-1]
+        if name.endswith("_x"):
+            found[name], found[f"{stem}y"] = move.vector((result[name], result[f"{stem}y"]))
+        elif name.endswith(".x"):
+            found[name], found[f"{stem}y"] = move.point((result[name], result[f"{stem}y"]))
+        elif name.endswith(TURNED):
+            found[name] = move.sign * found[name]
+    for name in found:
+        if name.endswith(FROM_THE_START):
+            found[name] = found[name] - found[name][0]
+    return found

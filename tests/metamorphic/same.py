@@ -1,0 +1,120 @@
+"""Whether two runs are the same within the errors that they have.
+
+A relation holds for motions, so that two runs of the same settings may differ by the errors of both. What these
+are the coarse run of the same scene tells: its steps are twice as long, or its tolerance is 64 times as large.
+Its distance from the run contains its own error, which is at least four times that of the run. Besides, they
+may differ by rounding.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from hypothesis import assume, settings
+
+from support_exudyn import Result, Scenario, SimulationError, simulate
+from support_exudyn.solver_settings import ERROR_CONTROLLED
+from tests.metamorphic.moving import FROM_THE_START
+from tests.strategies import OFTEN
+
+FEW = 20  # scenes of each relation in a run of the tests; in a longer profile as many as that says
+TELLING = 0.05  # distance of the coarse run, as a share of a channel's largest value, above which nothing is told
+MARGIN = 3.0  # both runs have an error, and that of a coarse run is now and then small by chance
+# What rounding, and what ends an iteration or locates a touch, makes of the largest value in the same unit.
+# Reduced and tree: laws have kinks, of which now and then a step passes one unseen whatever the tolerance, and
+# touches multiply that; measured 2e-5, else 1e-8. Redundant: Newton's method leaves 1e-8 of the residual, which
+# reactions of rigid bodies and accelerations show the more the shorter the steps; measured 4e-4 at worst, of a
+# slider that does not turn.
+ROUNDING = {"reduced": 1e-4, "tree": 1e-4, "redundant": 1e-3}
+SMALLEST = {"m": 1.0, "rad": 1.0, "m/s": 0.1, "rad/s": 0.1, "rad/s^2": 10.0}  # largest value; at rest it is less
+
+ARM = 0.01  # [m], of the forces whose moments cancel; so large is a bore
+
+Seen = Mapping[str, np.ndarray]
+
+
+def scenes(few: int = FEW) -> Callable[[Any], Any]:
+    """Hypothesis's settings of a relation: a few scenes, or as many as a longer profile asks for."""
+    asked = settings.default.max_examples
+    return settings(max_examples=few if asked <= OFTEN else asked, deadline=None)
+
+
+def told(scenario: Scenario) -> Result:
+    """A run; scenes that are refused tell nothing."""
+    try:
+        return simulate(scenario)
+    except SimulationError:
+        assume(False)
+        raise
+
+
+def plain(result: Result) -> Seen:
+    """All that was recorded; of angles and potential energy the change."""
+    return {
+        name: result[name] - (result[name][0] if name.endswith(FROM_THE_START) else 0.0)
+        for name in result.channels
+    }
+
+
+@dataclass(frozen=True)
+class Run:
+    """A run, and by how much each of its channels may be off.
+
+    scenario: as it was run. result: of it. allowed: by channel.
+    """
+
+    result: Result
+    allowed: Mapping[str, float]
+
+    def check(self, other: Seen, factors: Mapping[str, float] | None = None) -> None:
+        """Another run of the same motion shows the same.
+
+        factors: by which channels of the other have to be multiplied, all 1 by default.
+        """
+        mine = plain(self.result)
+        assert set(other) == set(mine)
+        for name, values in other.items():
+            off = np.abs(values * (factors[name] if factors else 1.0) - mine[name]).max()
+            assert off <= self.allowed[name], f"{name}: off by {off:.3g}, allowed {self.allowed[name]:.3g}"
+
+    def check_touches(self, other: Result, time: float = 1.0) -> None:
+        """Another run touches as often, and at the same times, of which one of its is so many [s]."""
+        for pin, onsets in self.result.onsets.items():
+            theirs = [onset.time * time for onset in other.onsets[pin]]
+            assert len(theirs) == len(onsets), f"{pin}: {len(onsets)} touches, in the other run {len(theirs)}"
+
+
+def run(scenario: Scenario) -> Run:
+    """A run with what it may be off by. Scenes whose numbers are not certain are left out."""
+    fine, coarse = told(scenario), told(coarser(scenario))
+    for pin, onsets in fine.onsets.items():
+        assume(len(onsets) == len(coarse.onsets[pin]))  # else a graze decides
+    mine, theirs = plain(fine), plain(coarse)
+    size = sizes(fine)
+    errors = {name: float(np.abs(mine[name] - theirs[name]).max()) for name in mine}
+    rounding = ROUNDING[scenario.formulation]
+    for name, error in errors.items():
+        if name != "energy.balance":  # nothing but errors
+            assume(error <= TELLING * size[fine.unit(name)])
+    allowed = {name: MARGIN * error + rounding * size[fine.unit(name)] for name, error in errors.items()}
+    return Run(fine, allowed)
+
+
+def coarser(scenario: Scenario) -> Scenario:
+    """The same with a larger error."""
+    if scenario.formulation in ERROR_CONTROLLED:
+        return replace(scenario, solver=replace(scenario.solver, tolerance=64.0 * scenario.solver.tolerance))
+    return scenario.refined(0.5)
+
+
+def sizes(result: Result) -> dict[str, float]:
+    """Largest value in each unit."""
+    found: dict[str, float] = {}
+    for name, values in plain(result).items():
+        unit = result.unit(name)
+        found[unit] = max(found.get(unit, SMALLEST.get(unit, 0.0)), float(np.abs(values).max()))
+    found["N m"] = max(found.get("N m", 0.0), ARM * found.get("N", 0.0))
+    return found

@@ -1,0 +1,46 @@
+"""A scene seen in a mirror moves as one sees it there."""
+
+from __future__ import annotations
+
+from hypothesis import given
+
+from support_exudyn import Scenario
+from tests.metamorphic import drawn
+from tests.metamorphic.moving import MIRROR, UPSIDE_DOWN, Move, moved, seen
+from tests.metamorphic.same import run, scenes, told
+
+
+def mirrored(scene: Scenario, mirror: Move = MIRROR) -> None:
+    one, other = run(scene), told(moved(scene, mirror))
+    one.check(seen(other, mirror.back))
+    one.check_touches(other)
+
+
+@given(scene=drawn.in_free_coordinates())
+@scenes()
+def test_a_support_in_free_coordinates(scene: Scenario) -> None:
+    mirrored(scene)
+
+
+@given(scene=drawn.in_a_tree())
+@scenes(8)
+def test_a_support_as_a_tree(scene: Scenario) -> None:
+    mirrored(scene)
+
+
+@given(scene=drawn.in_bodies())
+@scenes(6)
+def test_a_support_of_bodies(scene: Scenario) -> None:
+    mirrored(scene)
+
+
+@given(scene=drawn.cranks(reduced=True))
+@scenes(6)
+def test_a_slider_crank_in_free_coordinates(scene: Scenario) -> None:
+    mirrored(scene, UPSIDE_DOWN)
+
+
+@given(scene=drawn.cranks(reduced=False))
+@scenes(2)
+def test_a_slider_crank_of_bodies(scene: Scenario) -> None:
+    mirrored(scene)

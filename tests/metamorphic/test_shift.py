@@ -1,0 +1,44 @@
+"""A scene elsewhere, some metres or 300 m away, moves as it did."""
+
+from __future__ import annotations
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from support_exudyn import Scenario
+from tests.metamorphic import drawn
+from tests.metamorphic.moving import Move, moved, seen
+from tests.metamorphic.same import run, scenes, told
+
+WAYS = st.sampled_from(((3.0, 2.0), (-7.0, 5.0), (0.0, 1.0), (300.0, 300.0), (-300.0, 0.5), (0.0, 300.0)))  # [m]
+
+
+def shifted(scene: Scenario, way: tuple[float, float]) -> None:
+    move = Move(shift=way)
+    one, other = run(scene), told(moved(scene, move))
+    one.check(seen(other, move.back))
+    one.check_touches(other)
+
+
+@given(scene=drawn.in_free_coordinates(), way=WAYS)
+@scenes()
+def test_a_support_in_free_coordinates(scene: Scenario, way: tuple[float, float]) -> None:
+    shifted(scene, way)
+
+
+@given(scene=drawn.in_a_tree(), way=WAYS)
+@scenes(8)
+def test_a_support_as_a_tree(scene: Scenario, way: tuple[float, float]) -> None:
+    shifted(scene, way)
+
+
+@given(scene=drawn.in_bodies(), way=WAYS)
+@scenes(6)
+def test_a_support_of_bodies(scene: Scenario, way: tuple[float, float]) -> None:
+    shifted(scene, way)
+
+
+@given(scene=drawn.cranks(reduced=False), way=WAYS)
+@scenes(2)
+def test_a_slider_crank_of_bodies(scene: Scenario, way: tuple[float, float]) -> None:
+    shifted(scene, way)
