@@ -185,14 +185,17 @@ class DepthPath(NamedTuple):
         bend = self._bend
         slope = self.rate1 - self.rate0 - bend
         square = slope * slope - 4.0 * bend * self.rate0
-        if not square > 0.0:
+        surely = sign * self.rate0 < 0.0 <= sign * self.rate1
+        if not (square > 0.0 or surely):
             return None
-        there = sign * math.sqrt(square)  # the slope at the root
+        there = sign * math.sqrt(max(0.0, square))  # the slope at the root
         # without cancellation
         if slope * there > 0.0:
             x = -2.0 * self.rate0 / (slope + there)
         else:
             x = (there - slope) / (2.0 * bend) if bend else math.inf
+        if surely:  # whatever rounding says
+            return min(max(x, 0.0), 1.0)
         return x if 0.0 < x <= 1.0 else None
 
     def may_turn(self, doubt: float = DOUBT) -> bool:
@@ -310,8 +313,7 @@ def _judge_contact(
         if SHARE < parting < 1.0 - SHARE:  # else the last step would push too long or too hard
             return _cut(parting, SHARE, path, start, end_time)
         return Verdict(Action.ACCEPT, end._replace(in_contact=False, approach_speed=0.0))
-    anew = start.rate < 0.0 <= end.rate or path.turns_up() is not None
-    return _gone_on(end, anew, forgets)
+    return _gone_on(end, path.turns_up() is not None, forgets)
 
 
 def _gone_on(end: PinMemory, anew: bool, forgets: bool) -> Verdict:

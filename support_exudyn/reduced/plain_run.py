@@ -121,7 +121,7 @@ class PlainRun:
         self.first_step = FIRST_STEP
         self.code = FINISHED
         self.is_a_number = True  # the last rate of the state
-        self.on_cut = False  # the last step has ended where the law begins or ceases to ask for tension
+        self.met = events.NOTHING  # at the end of the last step
         # the law itself is asked, and here this says: something happens where a contact is pressed on again
         self.p[layout.BY_DEPTH] = float(self.force.contact.normal.forgets or self.force.asks_for_mass)
         self.evaluate = plain(
@@ -174,9 +174,12 @@ class PlainRun:
         first = min(self.first_step, stop - t)
         solver = Method(self._rate, t, y, stop, rtol=RELATIVE_TOLERANCE, atol=self.allowed, first_step=first)
         start, counted = self._contact(t, y), 0
-        if self.on_cut:
-            start[layout.PUSH] = 0.0  # on neither side, whatever rounding says
-            self.on_cut = False
+        # whatever rounding says
+        if self.met == events.CUT:
+            start[layout.PUSH] = 0.0  # on neither side
+        elif self.met == events.RETURN:
+            start[layout.RATE] = max(0.0, start[layout.RATE])
+        self.met = events.NOTHING
         while solver.status == "running":
             if not self._step(solver):
                 return solver.t, y
@@ -238,7 +241,7 @@ class PlainRun:
         found = self._contact(path.end, y)
         self._accept(path, start, found)
         self.report[CUTS] += what != events.RETURN
-        self.on_cut = what == events.CUT
+        self.met = what
         speed = self.memory[layout.TOUCH_SPEED]
         if not _happen(what, path.end, found[layout.RATE], self.memory, self.made.onsets, self.report):
             self.code = TOO_MANY_TOUCHES
