@@ -362,7 +362,7 @@ class Run:
         """Where the step that starts at t is to end: on the grid, or at an impact seen coming [s]."""
         largest = self.newton.length
         for pin in self.pins:
-            largest = min(largest, pin.impact.step)
+            largest = min(largest, pin.longest_step)
         for striker in self.strikers:
             largest = min(largest, striker.longest_step(t, self.impact_steps))
         if self.locates and self.plan.follows_break(t):
