@@ -78,6 +78,7 @@ class LoosePin:
         self.motion: PinMotion | None = None
         self.step_size: Callable[[], float] = lambda: math.nan  # of the step being tried [s]
         self.locates = True  # touches and partings, see SolverSettings
+        self.share = 1.0  # of the contact that mobilities are told for
         # at the last accepted step
         self.kept = PinMemory(False, 0.0, 0.0, 0.0)
         self._alone = NOT_KNOWN.alone  # the journal's mobility by itself, when the memory's was found
@@ -97,6 +98,7 @@ class LoosePin:
         self._step = 0.0
         self._eccentricity = (0.0, 0.0)  # at its end [m]
         self._mass = 1.0  # that moves as the depth does at its end, while in contact [kg]
+        self._swing_step = math.inf  # see `longest_step`
         self._least_mass = 1.0  # the same if no other loose pin holds anything, which steps follow [kg]
         self._tried_turn = (0.0, 0.0)
         self._tried_spin = 0.0
@@ -114,6 +116,11 @@ class LoosePin:
     def calls(self) -> int:
         """Evaluations of the force in Python."""
         return self.engine_force.calls
+
+    @property
+    def longest_step(self) -> float:
+        """For the impact going on, or for what friction holds at the end of the last step [s]."""
+        return min(self.impact.step, self._swing_step)
 
     # --- called by the solver ---
 
@@ -180,6 +187,7 @@ class LoosePin:
             after = self.impact.follow if self.onset is None else self.impact.touch
             unknown = self._on_line and (self.onset is not None or not self.impact.calm(reached.depth))
             after(reached.depth, reached.rate, self._find_least_mass() if unknown else self._least_mass)
+            self._swing_step = self.impact.swing_step(self._swing_time())
         if self.onset is not None:
             self.onsets.append(self.onset)
             self.onset = None
@@ -206,6 +214,17 @@ class LoosePin:
             normal = contact.normal(depth, memory.rate, touch)
             friction = contact.friction(slip, max(0.0, normal), memory.deflection)
             look(contact, depth, memory.rate, slip, normal, friction)
+
+    def _swing_time(self) -> float:
+        """Of what friction holds, with the least mass that moves along the surface [s].
+
+        It is that of the journal's centre. Its turning adds little: pins are thin beside what they join.
+        """
+        friction, force = self.contact.friction, self.force.normal_force
+        if not friction.has_state or force == 0.0:
+            return math.inf
+        x, y = self._eccentricity
+        return friction.swing_time(self._alone_here.mass(-y, x), force / self.share)
 
     def begin_impact(self) -> None:
         """At the start, or when the drive's speed has jumped: the depth of a closed pin swings from now on."""

@@ -403,7 +403,7 @@ class Run:
         """How long a step from t [s] on may be [s]; infinite: as the plan says."""
         largest = self.newton.length
         for pin in self.pins:
-            largest = min(largest, pin.impact.step)
+            largest = min(largest, pin.longest_step)
         for striker in self.strikers:
             largest = min(largest, striker.longest_step(t, self.impact_steps))
         if self.locates and self.plan.follows_break(t):

@@ -32,10 +32,10 @@ SLOWEST_FALL = 1e-3  # [m/s^2]; a scene in which nothing pulls a journal moves a
 class Timescales:
     """Shortest times of a scene [s]; infinite where there is no such motion.
 
-    flight: of a journal across its clearance. resting: of the vibration of a loaded contact, or of what a load
-    presses on, one over its angular frequency. drive: of the drive, its stroke, a valve's
-    ramp, or one over a crank's speed, or one over the angular frequency of what rises and falls. rubbing: in
-    which friction, where it is steepest, stops what slides under the load.
+    flight: of a journal across its clearance. resting: of the vibration of a loaded contact, of what friction
+    holds in it, or of what a load presses on, one over its angular frequency. drive: of the drive, its stroke,
+    a valve's ramp, or one over a crank's speed, or one over the angular frequency of what rises and falls.
+    rubbing: in which friction, where it is steepest, stops what slides under the load.
     """
 
     flight: float
@@ -51,7 +51,8 @@ def timescales(scenario: Scenario) -> Timescales:
 
     a is gravity's acceleration and that of the fastest body of a machine that runs already; m the mass that
     moves with the journal in the start posture along the load, which is that of the weight on ideal pins, or
-    the smallest mass times a if there is no weight.
+    the smallest mass times a if there is no weight. It is the mass with all other loose pins open; held by
+    those that are pressed it is larger, and the vibration slower.
     """
     linkage = scenario.linkage
     closed = kinetics_of(linkage)
@@ -72,8 +73,9 @@ def timescales(scenario: Scenario) -> Timescales:
                 load = mass * pull
             slope = _slope(pin.contact.normal, load) if load > 0.0 else 0.0
             rests.append(math.sqrt(mass / slope) if slope > 0.0 else math.inf)
-            steepest = _steepest(pin.contact.friction, load)
             lightest = 1.0 / max(float(np.linalg.eigvalsh(mobility).max()), SMALLEST_MOBILITY)
+            rests.append(pin.contact.friction.swing_time(lightest, load))
+            steepest = _steepest(pin.contact.friction, load)
             rubs.append(lightest / steepest if steepest > 0.0 else math.inf)
     return Timescales(min(flights), min(rests), _drive_time(scenario, linkage), min(rubs))
 

@@ -108,7 +108,9 @@ class SpatialScene(InEngine):
         """
         kinetics, normals = self.kinetics(state), self._normals(state)
         bearings = self.linkage.bearings
-        along = {other: kinetics.bearing_rate(*self.ends_of(other)) for other in dict.fromkeys((name, *normals))}
+        along = {
+            other: kinetics.bearing_rate(*self.ends_of(other)) for other in dict.fromkeys((name, *normals))
+        }
         parts = [part for part in along if bearings[part].pin == bearings[name].pin]
         share = sum(bearings[part].share for part in parts)
         together = sum(bearings[part].share * along[part] for part in parts) / share

@@ -311,6 +311,7 @@ class SectionPin(LoosePin):
             impact_steps=impact_steps,
         )
         self.impact = ImpactSteps(contact.normal, impact_steps)  # steps of the whole
+        self.share = section.share
         self.ends = bore, journal
         self.mover: SectionMover | None = None  # set when the scene is whole
         self.find_mobilities = whole.mobilities

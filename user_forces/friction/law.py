@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
 
 from user_forces.scalar import sign
@@ -17,7 +18,8 @@ class FrictionLaw(Value, ABC):
     2. A law without a state never does positive work: force times slip <= 0; it ignores `deflection`.
     3. A law with a state says so by `has_state`. The state is one number, the deflection, zero at the touch.
        The law owns no memory: `next_deflection` is handed its value at the start of a step and returns that
-       at the end, and the solver makes the step with it.
+       at the end, and the solver makes the step with it. `swing_time` says how short steps
+       have to be.
     4. It is written with the functions of `user_forces.scalar`, so that it can be compiled too.
     """
 
@@ -34,6 +36,15 @@ class FrictionLaw(Value, ABC):
         """Deflection after a step [s] over which the slip [m/s] was this one on average."""
         del slip, step
         return deflection
+
+    def swing_time(self, mass: float, normal_force: float) -> float:
+        """One over the angular frequency [s] at which a mass [kg] that sticks swings under a normal force [N].
+
+        Steps have to follow it. Infinite for laws without a state: what they do to a motion is to slow it down,
+        and an implicit step that is too long for that does so all the same.
+        """
+        del mass, normal_force
+        return math.inf
 
 
 def against(slip: float, force: float) -> float:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from pydantic import model_validator
 
 from user_forces.friction.law import FrictionLaw, check_coefficients
@@ -19,8 +21,9 @@ class LuGre(FrictionLaw):
     The form that is proportional to the normal force. It sticks: below mu_s F_n a loaded pin rests on its
     bristles, deflected by z = F_t / (s0 F_n). In steady slip it is g F_n and the viscous part. Bristles are
     straight, z = 0, at a touch. z moves with the system: it is advanced with the mean slip of each step,
-    exactly for constant slip, inside the solver's iteration; of second order. The force can return the
-    energy that is in the bristles, s0 z^2 F_n / 2; to be passive altogether, s1 abs(slip) < 4 g.
+    exactly for constant slip, inside the solver's iteration; of second order. Steps follow the swings of what
+    sticks, see `swing_time`: longer ones lose the stick-slip that shakes a rising support. The force can return
+    the energy that is in the bristles, s0 z^2 F_n / 2; to be passive altogether, s1 abs(slip) < 4 g.
 
     Arguments:
         static_coefficient: mu_s [-], >= mu_d.
@@ -65,6 +68,11 @@ class LuGre(FrictionLaw):
         size = self.steady_deflection(slip)
         steady = sign(slip) * size
         return steady + (deflection - steady) * exp(-magnitude(slip) * step / size)
+
+    def swing_time(self, mass: float, normal_force: float) -> float:
+        """sqrt(m / (s0 F_n)) [s], with which bristles hold a mass [kg]; infinite without a normal force [N]."""
+        stiffness = self.bristle_stiffness * normal_force
+        return math.sqrt(mass / stiffness) if stiffness > 0.0 else math.inf
 
     def __call__(self, slip: float, normal_force: float, deflection: float = 0.0) -> float:
         """Tangential force [N] for a slip [m/s], a normal force [N] >= 0 and a deflection z [m]."""
