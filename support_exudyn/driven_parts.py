@@ -54,10 +54,19 @@ class DrivenParts:
         # at the start the speed is the one just after it
         state = drive.extension(t), drive.speed(t) if t > 0.0 else drive.initial_speed
         if not math.isfinite(state[0] + state[1]):
-            raise LawError(f"{type(drive).__name__} has an extension of {state[0]:g} and a speed of {state[1]:g}")
+            self.look(t)
         if state != self.state:
             self.state = state
             self._set(*state)
+
+    def look(self, t: float) -> None:
+        """Raise LawError if the drive has no finite extension and speed at t [s]."""
+        extension, speed = self.drive.extension(t), self.drive.speed(t)
+        if not math.isfinite(extension + speed):
+            raise LawError(
+                f"{type(self.drive).__name__} has an extension of {extension:g} and a speed of {speed:g} at "
+                f"{t:.9g} s"
+            )
 
     def follow_speed(self) -> None:
         """Let cranks follow the speed from now on."""

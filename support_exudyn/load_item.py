@@ -36,6 +36,12 @@ class LoadItem:
         """Powers [W] at the end of a step, t [s]."""
         return self.load.powers(self._at(t))
 
+    def probe(self, t: float, name: str) -> None:
+        """Raise LawError if the load has no finite force at a time t [s] where the point is now."""
+        along, up = self.load.force(self._at(t))
+        if not math.isfinite(along + up):
+            raise LawError(f"{name}: {type(self.load).__name__} has a force of {along:g}, {up:g} N")
+
     def look(self, t: float, name: str) -> None:
         """Raise LawError if the load gives at t [s] what it should lose, but for rounding, or no number."""
         at = self._at(t)

@@ -19,13 +19,12 @@ from support_exudyn.python_force import PythonForce
 from support_exudyn.symbolic_force import SymbolicForce
 from user_forces.contact import ContactForce, JournalContact
 from user_forces.flat import flat_force
-from user_forces.lawful import LawError, look
+from user_forces.lawful import PROBED, look
 from user_forces.normal.law import Touch
 from user_forces.values import Vector2
 
 SPIN_ERROR = 1e-13  # of slip [m/s] by a bore's spin that had to be guessed, above which a step is repeated
 SPIN_REPEATS = 4
-PROBED = (1.0, 1.001, 1.1)  # times the last depth and slip, where a run could not go on
 SHALLOW = 1e-9  # depth [m] at which a law is probed that has only just been touched
 
 
@@ -200,20 +199,19 @@ class LoosePin:
     def look(self, elastic: float, name: str) -> None:
         """Raise LawError if the force at the end of the last step, elastic to this part [N], cannot be one."""
         depth, rate, slip, normal, friction, *_ = self.force
-        try:
-            look(self.contact, depth, rate, slip, normal, friction, elastic)
-        except LawError as error:
-            raise error.at(name) from None
+        look(self.contact, depth, rate, slip, normal, friction, elastic, name)
 
-    def probe(self) -> None:
+    def probe(self, name: str) -> None:
         """Raise LawError if a law is no number where the last step began, or a little deeper and faster."""
         memory, contact = self.memory, self.contact
         touch = Touch(memory.approach_speed, self._mass)
         for more in PROBED:
             depth, slip = more * max(memory.depth, SHALLOW), more * memory.slip
+            if depth > contact.normal.largest_depth:  # of which the law has its own words
+                return
             normal = contact.normal(depth, memory.rate, touch)
             friction = contact.friction(slip, max(0.0, normal), memory.deflection)
-            look(contact, depth, memory.rate, slip, normal, friction)
+            look(contact, depth, memory.rate, slip, normal, friction, pin=name)
 
     def _swing_time(self) -> float:
         """Of what friction holds, with the least mass that moves along the surface [s].

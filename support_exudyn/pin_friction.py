@@ -19,7 +19,7 @@ from exudyn.itemInterface import MarkerNodeCoordinate, NodePointGround, ObjectCo
 
 from support_exudyn.trajectory import Series
 from user_forces.friction.law import FrictionLaw
-from user_forces.lawful import LawError
+from user_forces.lawful import PROBED, LawError
 
 
 class PinFriction:
@@ -61,6 +61,17 @@ class PinFriction:
         """What is dissipated now [W]."""
         spin = self._spin(self._data.GetODE2Coordinates_t())
         return -self.moment(self._force(), spin) * spin
+
+    def probe(self, name: str) -> None:
+        """Raise LawError if the moment is no number as it is now, or turning a little faster."""
+        spin, force = self._spin(self._data.GetODE2Coordinates_t()), self._force()
+        for more in PROBED:
+            moment = self.moment(force, more * spin)
+            if math.isfinite(force) and not math.isfinite(moment):
+                raise LawError(
+                    f"{name}: {type(self.law).__name__} gives a moment of {moment:g} N m at {more * spin:.6g} rad/s "
+                    f"and {force:.6g} N"
+                )
 
     def look(self, name: str) -> None:
         """Raise LawError, for what is dissipated now cannot be."""

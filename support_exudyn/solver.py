@@ -39,7 +39,6 @@ from support_exudyn.velocity_jump import slide
 from user_forces import Frictionless
 from user_forces.lawful import UNLAWFUL, LawError
 from user_forces.normal.law import LoadError
-from user_forces.values import InputError
 
 REPEAT_ERROR = 1e6  # above any tolerance of the engine's discontinuous iteration: the step is repeated
 SMALLEST_IMPACT_STEP = 1e-11  # [s], well above the rounding of times
@@ -140,6 +139,8 @@ class Run:
                     finished = self.solver.SolveSystem(mbs, self.settings)
                 else:
                     finished = self._go_in_stretches()
+        except LawError as error:  # between two stretches
+            raise SimulationError(self._failure(str(error), UNLAWFUL)) from error
         except exudyn.ExudynError as error:
             cause = error.__cause__  # set if a function of ours raised
             if isinstance(cause, LawError):
@@ -301,22 +302,27 @@ class Run:
     def _at_stop(self, t: float) -> None:
         """The run is at t: it may be a record, or a break of the drive."""
         self.time = t
-        if self.plan.is_record(t):
-            self.recorder.record(t)
+        if (asked := self.plan.record_at(t)) is not None:
+            self.recorder.record(asked)
             self._check_finite()
             self.progress(t / self.plan.duration)
         if breaks := self.plan.breaks_at(t):
             self._jump(t, breaks)
 
     def _probe(self) -> None:
-        """The run could not go on: raise SimulationError if a law is why."""
-        for name, pin in self.scene.loose_pins.items():
-            try:
-                pin.probe()
-            except LawError as error:
-                raise SimulationError(self._failure(str(error.at(name)), UNLAWFUL)) from error
-            except InputError:  # it has its own words for where it ends
-                continue
+        """The run could not go on: raise SimulationError if a law, load or drive is why."""
+        ahead = self.time + self.plan.step
+        try:
+            for parts in self.scene.driven:
+                parts.look(ahead)
+            for name, load in self.scene.loads.items():
+                load.probe(ahead, name)
+            for name, friction in self.scene.frictions.items():
+                friction.probe(name)
+            for name, pin in self.scene.loose_pins.items():
+                pin.probe(name)
+        except LawError as error:
+            raise SimulationError(self._failure(str(error), UNLAWFUL)) from error
 
     def _is_to_be_cut(self, taken: float, following: float) -> bool:
         """Whether far shorter steps follow on one of this length [s], or the next will be cut.

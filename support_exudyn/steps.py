@@ -61,18 +61,18 @@ class StepPlan:
         # one that differs from the end by rounding only is the end
         self.breaks = sorted(t for t in set(breaks) if 0.0 <= t < duration - self._tolerance)
         self._around = (math.inf, math.inf)  # the stops last asked for [s]
-        # ends of steps from them
-        self._after_breaks = [self.next_time(self._beyond_rests(b)) - self._tolerance for b in self.breaks]
+        self._after_breaks = [self._settled(b) - self._tolerance for b in self.breaks]
 
     def next_time(self, t: float, largest: float = math.inf) -> float:
         """The next grid time after t [s]; on a finer grid if steps may not be larger than so [s]."""
         return self._grid_time(t, min(self.step, largest))
 
-    def _beyond_rests(self, t: float) -> float:
-        """The last of the stops after t [s] up to which no step is made."""
-        while (stop := self.rest(t)) is not None:
-            t = stop
-        return t
+    def _settled(self, t: float) -> float:
+        """End [s] of the first grid step after a break at t [s]; of a later one, if a stop lies close behind."""
+        end = self.next_time(t)
+        while end < min(t + 0.5 * self.step, self.duration - self._tolerance):
+            end = self.next_time(end)
+        return end
 
     def far_time(self, t: float, size: float) -> float:
         """The last record that a step of this size [s] from t [s] reaches, not beyond a break.
@@ -141,7 +141,10 @@ class StepPlan:
         return self._end_after_break(t) < math.inf
 
     def _end_after_break(self, t: float) -> float:
-        """Where the first grid step after a break ends that t [s] lies in [s]; infinite if it lies in none."""
+        """Where the first grid step after a break ends that t [s] lies in [s]; infinite if it lies in none.
+
+        See `_settled`.
+        """
         passed = self._breaks_until(t)
         return self._after_breaks[passed - 1] if passed and t < self._after_breaks[passed - 1] else math.inf
 
@@ -151,10 +154,14 @@ class StepPlan:
 
     def is_record(self, t: float) -> bool:
         """Whether time t [s] is one of the records."""
+        return self.record_at(t) is not None
+
+    def record_at(self, t: float) -> float | None:
+        """The record that time t [s] is but for rounding, if it is one: a multiple of the period, or the end."""
         if abs(t - self.duration) <= self._tolerance:
-            return True
-        n = round(t / self.record_period)
-        return abs(t - n * self.record_period) <= self._tolerance
+            return self.duration
+        record = round(t / self.record_period) * self.record_period
+        return record if abs(t - record) <= self._tolerance else None
 
     def breaks_at(self, t: float) -> list[float]:
         """The breaks that time t [s] is: several may differ by rounding."""

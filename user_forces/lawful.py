@@ -16,6 +16,7 @@ ROUNDING = 1e-9  # share of a force that a law may be off by from its own elasti
 
 
 AT_REST = (1e-9, 1e-7, 1e-5, 1e-4)  # depths [m] at which laws are looked at before a run
+PROBED = (1.0, 1.001, 1.1)  # times the last depth and slip, where a run could not go on
 UNLAWFUL = "Mend the law, drive or load: what it gives is no force that could be. Its numbers are told above."
 
 
@@ -50,6 +51,7 @@ def look(
     normal: float,
     friction: float,
     elastic: float = 0.0,
+    pin: str = "",
 ) -> None:
     """Raise LawError if this cannot be the force of a contact that is pressed.
 
@@ -57,19 +59,30 @@ def look(
         contact: whose laws are looked at.
         depth, rate, slip, normal, friction: see `ContactForce`.
         elastic: part of the normal force that is given back [N]; without it only the others are looked at.
+        pin: where it is.
     """
+    said = _unlawful(contact, depth, rate, slip, normal, friction, elastic)
+    if said:
+        raise LawError(f"{pin}: {said}" if pin else said)
+
+
+def _unlawful(
+    contact: JournalContact, depth: float, rate: float, slip: float, normal: float, friction: float, elastic: float
+) -> str | None:
+    """What of a force cannot be, in words."""
     pressing, rubbing = (type(getattr(law, "law", law)).__name__ for law in (contact.normal, contact.friction))
     at = f"at a depth of {depth:.6g} m and a rate of {rate:.6g} m/s"
     if not math.isfinite(normal) or not math.isfinite(elastic):
-        raise LawError(f"{pressing} gives a force of {normal if elastic == elastic else elastic:g} N {at}")
+        return f"{pressing} gives a force of {normal if elastic == elastic else elastic:g} N {at}"
     if not math.isfinite(friction):
-        raise LawError(f"{rubbing} gives a force of {friction:g} N at a slip of {slip:.6g} m/s and {normal:.6g} N")
+        return f"{rubbing} gives a force of {friction:g} N at a slip of {slip:.6g} m/s and {normal:.6g} N"
     if elastic < 0.0:
-        raise LawError(f"{pressing} pulls with {-elastic:.6g} N {at}, where at rest a contact pushes")
+        return f"{pressing} pulls with {-elastic:.6g} N {at}, where at rest a contact pushes"
     if elastic and (normal - elastic) * rate < -ROUNDING * (normal + elastic) * abs(rate):
-        raise LawError(
+        return (
             f"{pressing} drives the motion instead of damping it: {normal:.6g} N {at}, of which {elastic:.6g} N "
             "are elastic"
         )
     if friction * slip > 0.0 and not contact.friction.has_state:
-        raise LawError(f"{rubbing} pushes along the slip: {friction:.6g} N at {slip:.6g} m/s, {normal:.6g} N pressed")
+        return f"{rubbing} pushes along the slip: {friction:.6g} N at {slip:.6g} m/s, {normal:.6g} N pressed"
+    return None

@@ -8,7 +8,9 @@ from typing import NamedTuple
 import numpy as np
 
 from support_exudyn.drives import Drive
+from support_exudyn.errors import Failure, SimulationError
 from support_exudyn.tree.branches import Matrix
+from user_forces.lawful import UNLAWFUL
 
 LOOKED_AT = (0.13, 0.45, 0.55, 0.87)  # fractions of a piece at which the cubic is compared with the drive
 SHORTEST = 1e-6  # [s]
@@ -56,6 +58,9 @@ def _between(drives: Sequence[Drive], begin: float, end: float, allowed: float) 
 def _cubic(drive: Drive, begin: float, length: float) -> Matrix:
     """The cubic through a drive from a time on [s], shape (5,)."""
     values = np.array([drive.extension(begin + x * length) for x in (0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0)])
+    if not np.isfinite(values).all():
+        said = f"{type(drive).__name__} has an extension of {values[~np.isfinite(values)][0]:g}"
+        raise SimulationError(Failure(said, UNLAWFUL, begin))
     return np.array([begin, *(THROUGH @ values / length ** np.arange(4))])
 
 
