@@ -205,9 +205,9 @@ def chapter(rulings: Sequence[Ruling], rows: Sequence[hypercube.Row], quick: boo
             "computed: the ideal pin and four clearances in mode 2, the ideal pin and 1.5 mm in mode 1 (rigid "
             "columns). They are computed with the two free coordinates of the support alone, an independent "
             "formulation that agrees with the engine's runs of the chapters before.",
-            f"Every run is made three times, the first at a tolerance of {TOLERANCE:g}, each with half the steps "
-            "of the one before; how fast their distances fall tells the numerical error. A comparison of two numbers whose errors overlap is open, and open ones are "
-            "not counted.",
+            f"Every run is made three times, the first at a tolerance of {TOLERANCE:g}, each with half the "
+            "steps of the one before; how fast their distances fall tells the numerical error. A comparison of "
+            "two numbers whose errors overlap is open, and open ones are not counted.",
         ),
         findings=_findings(rulings, rows, run),
         pictures=pictures(),

@@ -286,8 +286,8 @@ def table(numbers: Sequence[Number]) -> Sheet:
         header=("quantity", "unit", *CASES, "paper"),
         rows=tuple(_row(name, row) for name, row in by_name.items()),
         caption=(
-            "± is the estimated error, of three runs. Means and spreads: records from 3 to 5 s, every 1 ms. The "
-            "paper gives no machine data: its numbers stand beside ours for orientation, not as a check."
+            "± is the estimated error, of three runs. Means and spreads: records from 3 to 5 s, every 1 ms. "
+            "The paper gives no machine data: its numbers stand beside ours for orientation, not as a check."
         ),
         left=2,
     )

@@ -49,7 +49,8 @@ def chapter(
             "On hydraulic cylinders nothing prescribes a displacement: pressures of both chambers are "
             "coordinates of the engine's actuator, and the valve opens at once in mode 1, along ramps in mode "
             "2. " + paper_machine.CYLINDERS_SAID,
-            f"Steps of the first run are {1e3 * step:g} ms. {how_sure(quick)}",
+            f"Steps of the first run are {1e3 * step:g} ms, and so is the time between records. "
+            f"{how_sure(quick)}",
         ),
         findings=(*_findings(results, naive, numbers), *cylinders.findings(numbers)),
         pictures=(*pictures(), *cylinders.pictures()),

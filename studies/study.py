@@ -114,7 +114,7 @@ def measured(
 
 
 def counted(name: str, case: str, result: Result, count: Callable[[Result], int]) -> Number:
-    """A count of a run; its error is the farthest that its coarser ones are away, for counts do not converge."""
+    """A count of a run; its error is how far its coarser ones are away, for counts do not converge."""
     found = [count(run) for run in halvings(result)]
     return Number(name, case, float(found[-1]), "1", float(max(abs(found[-1] - one) for one in found)))
 

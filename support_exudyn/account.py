@@ -7,8 +7,7 @@ import math
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from support_exudyn.estimate import Estimate
-from support_exudyn.figures.journal import pins
+from support_exudyn.estimate import FORCE, Estimate, measures
 from support_exudyn.figures.units import readable, said
 from support_exudyn.figures.windows import inside
 from support_exudyn.pins import ClearancePin, Pin
@@ -71,23 +70,22 @@ def how(result: Result) -> list[Row]:
 
 
 def numbers(result: Result, after: float, until: float) -> dict[str, Estimate]:
-    """Numbers of the pins and of the energy between two times [s], in SI; an error that is not known is NaN.
+    """Numbers of the forces and of the energy between two times [s], in SI; an error that is not known is NaN.
 
     Errors are known if an accuracy was asked for. Largest forces at any step and energies are of the whole run.
 
     Raises InputError if no record lies between.
     """
-    chosen = inside(result, after, until, fewest=1)
+    inside(result, after, until, fewest=1)
     found: dict[str, Estimate] = {}
     if result.coarser is not None:
         found |= result.numbers(after, until)
     else:
-        for pin in pins(result):
-            force = result[f"pin.{pin}.force"][chosen]
-            for word, value in (("mean", force.mean()), ("spread", force.std()), ("largest", force.max())):
-                found[f"pin.{pin}.force.{word}"] = Estimate(float(value), math.nan, "N")
-        for pin, largest in result.largest_force.items():
-            found[f"pin.{pin}{AT_ANY_STEP}"] = Estimate(largest, math.nan, "N")
+        found |= {
+            name: Estimate(kind.measure(result), math.nan, kind.unit)
+            for name, kind in measures(result, after, until).items()
+            if f"{FORCE}." in name or name.endswith(AT_ANY_STEP)
+        }
     return found | {name: Estimate(value, math.nan, "J") for name, value in _energies(result).items()}
 
 
@@ -120,31 +118,31 @@ def touches(result: Result) -> list[Row]:
 
 
 def of_channels(result: Result, names: Iterable[str], after: float, until: float) -> list[Row]:
-    """Channels between two times [s]: name, unit, least, mean and largest value, meaning.
+    """Channels between two times [s]: name, unit, least, mean and greatest value with their signs, meaning.
 
     Raises InputError if no record lies between.
     """
     rows: list[Row] = []
     for name in names:
         found = extent(result, name, after, until)
-        values = [found[word] for word in ("least", "mean", "largest")]
-        largest = max(map(abs, values))
-        unit = readable(found["unit"], largest)
+        values = [found[word] for word in ("min", "mean", "max")]
+        size = max(map(abs, values))
+        unit = readable(found["unit"], size)
         told = (
-            f"{unit.scale * (value if abs(value) > ROUNDING * largest else 0.0):.{DIGITS}g}" for value in values
+            f"{unit.scale * (value if abs(value) > ROUNDING * size else 0.0):.{DIGITS}g}" for value in values
         )
         rows.append((name, unit.name, *told, found["meaning"]))
     return rows
 
 
 def extent(result: Result, name: str, after: float, until: float) -> dict[str, Any]:
-    """Unit, meaning, and least, mean and largest value in SI of a channel between two times [s].
+    """Unit, meaning, and min, mean and max in SI of a channel between two times [s].
 
     Raises InputError if no record lies between.
     """
     channel = result.channels[name]
     values = channel.values[inside(result, after, until, fewest=1)]
-    extreme = {"least": values.min(), "mean": values.mean(), "largest": values.max()}
+    extreme = {"min": values.min(), "mean": values.mean(), "max": values.max()}
     return {"unit": channel.unit, "meaning": channel.meaning} | {k: float(v) for k, v in extreme.items()}
 
 

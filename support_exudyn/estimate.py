@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from support_exudyn.extremes import largest, missed
 from support_exudyn.solver_settings import ERROR_CONTROLLED
 from user_forces.values import InputError, short
 
@@ -42,6 +43,15 @@ SMALLEST_SPREAD = 1e-3  # of the mean
 SMALLEST_EXTENT = (
     1e-8  # of a path, of its distance from the origin: below, a machine is at rest but for rounding
 )
+# of forces; the largest is of the magnitude, the extremes have their sign
+STATISTICS: Mapping[str, Callable[[Series], float]] = {
+    "mean": np.mean,
+    "spread": np.std,
+    "largest": largest,
+    "min": np.min,
+    "max": np.max,
+}
+SIGNED = ("min", "max")
 FORCE, ANGULAR_ACCELERATION = ".force", ".angular_acceleration"  # how names of channels end
 ONSETS = 3  # of every loose pin that are reported; each multiplies the errors of those before
 
@@ -68,12 +78,26 @@ def measured(scenario: Scenario) -> tuple[str, ...]:
 Measure = Callable[["Result"], float]
 
 
+def _nothing(run: Result) -> float:
+    del run
+    return 0.0
+
+
 class Kind(NamedTuple):
-    """How a number is measured: its unit, from a result, and the size of the largest number of its kind."""
+    """How a number is measured: its unit, from a result, and the size of the largest number of its kind.
+
+    missed: by how much it may be off because it is taken from records; of extremes, see `extremes.missed`.
+    """
 
     unit: str
     measure: Measure
     size: float = 0.0
+    missed: Measure = _nothing
+
+    def estimate(self, result: Result) -> Estimate:
+        """The number with its error. Raises ValueError if there is no coarser run."""
+        found = error(self.measure, result, result.fall, self.size) + self.missed(result)
+        return Estimate(self.measure(result), found, self.unit)
 
 
 def measures(result: Result, after: float, until: float) -> Mapping[str, Kind]:
@@ -93,8 +117,14 @@ def measures(result: Result, after: float, until: float) -> Mapping[str, Kind]:
     fastest = max((float(np.abs(result[name]).max()) for name in turning), default=0.0)
     for name, channel in result.channels.items():
         if name.endswith(FORCE):
-            for word, statistic in (("mean", np.mean), ("spread", np.std), ("largest", np.max)):
-                found[f"{name}.{word}"] = Kind(channel.unit, _over(name, statistic, after, until))
+            for word, statistic in STATISTICS.items():
+                if word in SIGNED and name.startswith("pin."):
+                    continue  # a magnitude, which has no sign
+                found[f"{name}.{word}"] = Kind(
+                    channel.unit,
+                    _over(name, statistic, after, until),
+                    missed=_missed(word, name, after, until),
+                )
         elif name in turning:
             found[f"{name}.spread"] = Kind(channel.unit, _over(name, np.std, after, until), fastest)
     for point in result.scenario.linkage.points:
@@ -128,6 +158,14 @@ def _inside(run: Result, after: float, until: float) -> npt.NDArray[np.bool_]:
 def _over(name: str, statistic: Callable[[np.ndarray], float], after: float, until: float) -> Measure:
     def measure(run: Result) -> float:
         return float(statistic(run[name][_inside(run, after, until)]))
+
+    return measure
+
+
+def _missed(word: str, name: str, after: float, until: float) -> Measure:
+    def measure(run: Result) -> float:
+        inside = _inside(run, after, until)
+        return missed(word, run[name][inside], run.time[inside], run.scenario.breaks)
 
     return measure
 

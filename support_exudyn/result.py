@@ -116,17 +116,17 @@ class Result:
     def numbers(self, after: float = 0.0, until: float = math.inf) -> dict[str, Estimate]:
         """The usual numbers with their estimated errors, by names such as `pin.rear_base.force.mean`.
 
-        Of the records between two times [s]: mean, spread (standard deviation) and largest value of all forces,
+        Of the records between two times [s]: mean, spread (standard deviation) and largest magnitude of all
+        forces, with
+        `min` and `max` of those that have a sign;
         spread of angular accelerations, mean place of traced points; and of loose pins the largest force at any
         step (`pin.NAME.largest_force`, not only of the records) and the first three touches.
 
-        Errors are those of the steps: that a mean over few records is not the mean over time is not among them.
+        Errors are those of the steps, and of extremes also what may lie between the records; that a mean over
+        few records is not the mean over time is not among them.
         """
         self._check()
-        return {
-            name: Estimate(kind.measure(self), error(kind.measure, self, self.fall, kind.size), kind.unit)
-            for name, kind in measures(self, after, until).items()
-        }
+        return {name: kind.estimate(self) for name, kind in measures(self, after, until).items()}
 
     @cached_property
     def fall(self) -> float:

@@ -88,7 +88,7 @@ def _tables(console: Console, result: Result, given: argparse.Namespace) -> None
 def _show_channels(console: Console, rows: list[account.Row], title: str) -> None:
     if not rows:  # nothing was recorded but the time
         return
-    header: tuple[str, ...] = ("channel", "unit", ">least", ">mean", ">largest", "meaning")
+    header: tuple[str, ...] = ("channel", "unit", ">min", ">mean", ">max", "meaning")
     taken = sum(max(len(row[n]) for row in rows) + 3 for n in range(len(header) - 1))
     if console.width - taken < NARROWEST:  # the numbers first
         header, rows = header[:-1], [row[:-1] for row in rows]

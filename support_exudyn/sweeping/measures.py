@@ -8,7 +8,8 @@ from fnmatch import fnmatchcase
 
 import numpy as np
 
-from support_exudyn.estimate import Kind, error, measures
+from support_exudyn.estimate import Kind, measures
+from support_exudyn.extremes import largest, missed
 from support_exudyn.result import Result
 from support_exudyn.scenario import Scenario
 from support_exudyn.sweeping.plan import Record
@@ -23,7 +24,7 @@ STATISTICS: Mapping[str, Callable[[np.ndarray], float]] = {
     "first": lambda values: float(values[0]),
     "last": lambda values: float(values[-1]),
     "spread": np.std,  # as `Result.numbers` calls them
-    "largest": np.max,
+    "largest": largest,
 }
 WILD = "*?["
 
@@ -91,17 +92,22 @@ def _matching(pattern: str, usual: Mapping[str, Kind], result: Result, record: R
 def _kind(result: Result, channel: str, statistic: str, record: Record) -> Kind:
     compute = STATISTICS[statistic]
 
-    def measure(run: Result) -> float:
+    def inside(run: Result) -> np.ndarray:
         # as of `Result.numbers`: times of records are sums of periods
-        inside = (run.time >= record.after - 1e-9) & (run.time <= record.until + 1e-9)
-        return float(compute(run[channel][inside]))
+        return (run.time >= record.after - 1e-9) & (run.time <= record.until + 1e-9)
 
-    return Kind(result.unit(channel), measure)
+    def measure(run: Result) -> float:
+        return float(compute(run[channel][inside(run)]))
+
+    def between(run: Result) -> float:
+        chosen = inside(run)
+        return missed(statistic, run[channel][chosen], run.time[chosen], run.scenario.breaks)
+
+    return Kind(result.unit(channel), measure, missed=between)
 
 
 def _number(kind: Kind, result: Result) -> Number:
-    value = kind.measure(result)
     if result.coarser is None:
-        return Number(value, None, kind.unit)
-    known = float(error(kind.measure, result, result.fall, kind.size))
-    return Number(value, known if math.isfinite(known) else None, kind.unit)
+        return Number(kind.measure(result), None, kind.unit)
+    value, known, unit = kind.estimate(result)
+    return Number(value, known if math.isfinite(known) else None, unit)

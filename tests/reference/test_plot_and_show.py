@@ -268,7 +268,7 @@ def test_show_for_scripts_has_what_the_tables_have(runs: Path, capsys: pytest.Ca
     assert Value.from_data(told["scenario"]) == result.scenario
     numbers = {name: tuple(number.values()) for name, number in told["numbers"].items()}
     assert {name: numbers[name] for name in result.numbers()} == dict(result.numbers())
-    assert told["channels"]["tip.x"]["largest"] == result["tip.x"].max()
+    assert told["channels"]["tip.x"]["max"] == result["tip.x"].max()
     assert set(told["channels"]) == set(result.channels) - {"time"}
     assert [one["time_s"] for one in told["touches"]["rear_base"]] == [
         o.time for o in result.onsets["rear_base"]

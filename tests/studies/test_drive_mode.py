@@ -109,7 +109,6 @@ def test_a_limit_is_told_from_none() -> None:
     assert verdict([1.0, 1.1, 1.125]) == CONVERGES
     assert verdict([1.0, 1.001, 1.003]) == CONVERGES  # below 1 %
     assert verdict([1.0, 2.0, 4.0]) == "does not converge"
-    assert verdict([1.0, 2.0]) == "open: halved once only"
 
 
 def test_the_chapter_says_what_cannot_converge(out: Path) -> None:

@@ -1,21 +1,31 @@
-"""What studies share: numbers with errors in words, options, and runs at halved steps."""
+"""What studies share: numbers with errors in words, options, and runs with errors."""
 
 from __future__ import annotations
 
 import argparse
 import math
-from collections.abc import Callable
-from dataclasses import dataclass
-from itertools import pairwise
+from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
+import numpy as np
 import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from studies.ladder import Ladder
-from studies.study import Number, Pair, brief, options, output_folder, rounded
+from studies.study import (
+    Number,
+    brief,
+    compared,
+    counted,
+    halvings,
+    measured,
+    options,
+    output_folder,
+    rounded,
+    run_with_errors,
+    save_run,
+)
+from support_exudyn import Result, Scenario, Steady, ravn_slider_crank
 from support_exudyn.command_line import count
 from support_exudyn.workshop import PREFIX
 from tests.hostile import left_behind, posix_only, with_own_files
@@ -126,40 +136,32 @@ def test_no_machines_are_refused_with_the_reason(capsys: pytest.CaptureFixture[s
     assert "--machines: 0: allowed: from 1 on" in capsys.readouterr().err
 
 
-# --- halved steps ---
+# --- runs with errors ---
 
 
-@dataclass(frozen=True)
-class Run:
-    """Stands for a result: one number."""
-
-    value: float
-
-
-def value_of(run: Any) -> float:
-    return float(run.value)
+@pytest.fixture(scope="module")
+def runs() -> dict[str, Result]:
+    stand = Scenario(machine=ravn_slider_crank(), drive=Steady(rate=100.0), duration=0.01, step=1e-3)
+    cases = {"slow": stand, "fast": replace(stand, drive=Steady(rate=300.0))}
+    return run_with_errors({name: replace(case, record_period=1e-3) for name, case in cases.items()}, 1)
 
 
-@given(row=st.lists(st.integers(-1000, 1000).map(float), min_size=2, max_size=5))
-def test_a_ladders_number_is_the_finest_with_its_distance_from_the_one_before(row: list[float]) -> None:
-    ladder = Ladder(tuple(Run(x) for x in row))  # type: ignore[arg-type]
-    number = ladder.number("force", "ideal", "N", value_of)
-    assert number == Number("force", "ideal", row[-1], "N", abs(row[-1] - row[-2]))
-    assert ladder.finest == Run(row[-1])
+def moment(run: Result) -> float:
+    return float(np.abs(run["crank.moment"]).max())
 
 
-def test_the_error_of_a_ladder_of_second_order_falls_by_four() -> None:
-    exact: Callable[[int], float] = lambda n: 10.0 + 3.0 / 4**n  # noqa: E731
-    errors = [
-        Ladder(tuple(Run(exact(n)) for n in range(last + 1))).number("x", "", "1", value_of).numerical_error  # type: ignore[arg-type]
-        for last in (1, 2, 3)
-    ]
-    assert [a / b for a, b in pairwise(errors)] == pytest.approx([4.0, 4.0])
+def test_every_case_is_run_at_its_steps_at_half_and_at_a_quarter_of_them(runs: dict[str, Result]) -> None:
+    for run in runs.values():
+        assert [one.scenario.step for one in halvings(run)] == [1e-3, 5e-4, 2.5e-4]
 
 
-def test_a_pairs_number_is_the_finer_ones() -> None:
-    pair = Pair(coarse=Run(3.0), fine=Run(2.5))  # type: ignore[arg-type]
-    assert pair.number("force", "ideal", "N", value_of, 2.0) == Number("force", "ideal", 2.5, "N", 0.5, 2.0)
+def test_a_number_has_the_error_that_accuracies_estimate(runs: dict[str, Result]) -> None:
+    run = runs["fast"]
+    found, told = measured("moment", "fast", "N m", run, moment, 2.0), run.estimate(moment)
+    assert found == Number("moment", "fast", told.value, "N m", told.error, 2.0)
+    *_, before, last = map(moment, halvings(run))
+    assert found.numerical_error > abs(last - before) / 3.0  # which is the error of second order itself
+    assert found.value == last
 
 
 @posix_only
@@ -171,3 +173,26 @@ def test_of_hidden_files_in_its_folder_a_study_removes_those_that_are_known_for_
         left_behind(tmp_path / "which_pin" / "runs")
     assert not list(tmp_path.rglob(f"{PREFIX}abc"))
     assert all(path.read_text(encoding="utf-8") == "of the user" for path in own)
+
+
+def test_errors_of_both_runs_add_up_in_a_comparison(runs: dict[str, Result]) -> None:
+    fast, slow = runs["fast"], runs["slow"]
+    found = compared("more", "fast", "N m", fast, slow, lambda run, other: moment(run) - moment(other))
+    assert found.value == moment(fast) - moment(slow)
+    apart = fast.estimate(moment).error + slow.estimate(moment).error
+    assert found.numerical_error == pytest.approx(apart, rel=1e-2)  # but for shares of rounding
+    own = compared("more", "fast", "N m", fast, fast, lambda run, other: moment(run) - moment(other))
+    assert own.value == 0.0
+
+
+def test_a_count_is_off_by_as_much_as_its_coarser_runs_are(runs: dict[str, Result]) -> None:
+    steps = [run.counts.steps for run in halvings(runs["slow"])]
+    assert counted("steps", "slow", runs["slow"], lambda run: run.counts.steps) == Number(
+        "steps", "slow", steps[-1], "1", steps[-1] - steps[0]
+    )
+
+
+def test_a_kept_run_has_no_coarser_ones(runs: dict[str, Result], tmp_path: Path) -> None:
+    (tmp_path / "runs").mkdir()
+    save_run(runs["slow"], tmp_path, "slow")
+    assert Result.load(tmp_path / "runs" / "slow.h5").coarser is None
