@@ -14,7 +14,8 @@ from support_exudyn.plane import minus
 from user_forces.values import InputError, Vector2
 
 ROUNDS = 20
-CLOSED = 1e-13  # [m], some roundings of the coordinates
+CLOSED = 1e-13  # [m]
+ROUNDINGS = 8.0  # of the coordinates
 LARGEST = 10.0  # [m], [rad]: nothing moves so far
 
 
@@ -33,10 +34,11 @@ def eccentric(linkage: Linkage, offsets: Mapping[str, Vector2]) -> Linkage:
     if not moved:
         return linkage
     closed = kinetics_of(linkage)
+    enough = max(CLOSED, ROUNDINGS * math.ulp(linkage.farthest))
     position = np.zeros(3 * len(linkage.bodies))
     for _ in range(ROUNDS):
         missing = _missing(closed, position, moved)
-        if np.abs(missing).max() < CLOSED:
+        if np.abs(missing).max() < enough:
             return _laid_out(closed, position)
         position = position + closed.respond(position, np.zeros_like(position), missing)[0]
         if not np.abs(position).max() < LARGEST:

@@ -41,7 +41,7 @@ ROUNDING = 1e-10  # share of a number, or of the largest of its kind, that no es
 ROUNDINGS = 20.0  # of the largest coordinate, that forces of the support show below steps of 2e-5 s
 SMALLEST_SPREAD = 1e-3  # of the mean
 SMALLEST_EXTENT = (
-    1e-8  # of a path, of its distance from the origin: below, a machine is at rest but for rounding
+    1e-8  # of a path, of its distance from the machine's pins: below, a machine is at rest but for rounding
 )
 # of forces; the largest is of the magnitude, the extremes have their sign
 STATISTICS: Mapping[str, Callable[[Series], float]] = {
@@ -293,7 +293,8 @@ def _worst(result: Result, off_by: Callable[[Measure], float], rounding: float =
         def wandering(run: Result, path: Series = path, point: str = point) -> float:
             return float(np.hypot(*(_path(run, point) - path)).max())
 
-        least = SMALLEST_EXTENT * float(np.hypot(*path).max())
+        ends = [np.reshape(place.first_point, (2, 1)) for place in scenario.linkage.pins.values()]
+        least = SMALLEST_EXTENT * max((float(np.hypot(*(path - end)).max()) for end in ends), default=0.0)
         off.append(_share(off_by(wandering), max([extent, least, *clearances])))
     return max(off)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from functools import cached_property
 
@@ -112,25 +113,28 @@ class Follower(Drive):
         return _series(self._slopes, self._place(extension)) * 2.0 / self.reach
 
 
-def following(lead: Drive, duration: float, length: Callable[[np.ndarray], np.ndarray]) -> Follower:
+def following(
+    lead: Drive, duration: float, length: Callable[[np.ndarray], np.ndarray], size: float = 1.0
+) -> Follower:
     """The drive that extends by `length(extension)` [m] where `lead` extends by `extension` [m].
 
     duration: of the run [s]: what the lead does within it is covered. length: of extensions in any order, an
-    analytic function; as exact as it is computed the follower is.
+    analytic function; as exact as it is computed the follower is. size: of the coordinates from which it
+    computes [m].
 
     Raises InputError if no polynomial follows it: next to a dead centre.
     """
     low, high = lead.span(duration)
     if low == high:
         return Follower(lead=lead, lowest=low, reach=0.0, coefficients=(0.0,))
-    coefficients = np.zeros(1)
+    coefficients, rounding = np.zeros(1), max(ROUNDING, math.ulp(size))
     for degree in DEGREES:
         places = np.cos(np.pi * (np.arange(degree + 1) + 0.5) / (degree + 1))
         values = length(low + 0.5 * (high - low) * (places + 1.0))
         # those of the polynomial through Chebyshev's points
         coefficients = 2.0 / (degree + 1) * np.cos(np.outer(np.arange(degree + 1), np.arccos(places))) @ values
         coefficients[0] /= 2.0
-        if np.abs(coefficients[-TAIL:]).max() <= max(LEFT * np.abs(coefficients[1:]).max(), ROUNDING):
+        if np.abs(coefficients[-TAIL:]).max() <= max(LEFT * np.abs(coefficients[1:]).max(), rounding):
             return Follower(lead=lead, lowest=low, reach=high - low, coefficients=tuple(coefficients.tolist()))
     raise InputError(
         f"drive: from {low:.4g} to {high:.4g} m the part that follows it would have to move without bounds; "

@@ -248,6 +248,12 @@ class Linkage(Value):
     slides: Mapping[str, Slide] = field(default_factory=dict)
 
     @property
+    def farthest(self) -> float:
+        """The largest coordinate of a centre or pin [m]: by its rounding all places are rounded."""
+        pins = (point for pin in self.pins.values() for point in (pin.first_point, pin.second_point))
+        return max(abs(x) for place in (*(body.centre for body in self.bodies.values()), *pins) for x in place)
+
+    @property
     def driven(self) -> tuple[str, ...]:
         """Names of all parts that follow a drive: columns, then cranks."""
         return *(name for name, column in self.columns.items() if column.driven), *self.cranks

@@ -109,8 +109,14 @@ def fill(linkage: Linkage, models: Mapping[str, OilColumn], gravity: Vector2) ->
 def force_rounding(columns: Iterable[FilledColumn]) -> float:
     """By how much rounding of lengths lets the forces of these columns scatter [N]."""
     return sum(
-        LENGTHS * sys.float_info.epsilon * one.model.stiffness(0.0) * one.column.start_length for one in columns
+        LENGTHS * sys.float_info.epsilon * one.model.stiffness(0.0) * _size(one.column) for one in columns
     )
+
+
+def _size(column: Column) -> float:
+    """Of what a column's length is computed from [m]."""
+    ends = (*column.foot_point, *column.head_point)
+    return max(column.start_length, *map(abs, ends))
 
 
 def oil_series(filled: FilledColumn, motion: BodyMotion, drive: Drive, time: Series) -> OilSeries:

@@ -168,7 +168,8 @@ class TwoLegShield(FourBarShield[LegPosture]):
                 return found
         low, high = lead.span(duration)
         self.check_extension(low, high)
-        drive: Drive = Held() if low == high == 0.0 else following(lead, duration, self.level_ram)
+        size = math.hypot(*self.hinge)
+        drive: Drive = Held() if low == high == 0.0 else following(lead, duration, self.level_ram, size)
         if len(self._known) == MOST_REMEMBERED:
             self._known.clear()
         self._known.append(((lead, duration), drive))

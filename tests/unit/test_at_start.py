@@ -1,4 +1,4 @@
-"""What commands do before anything else: interruptions while libraries are imported, consoles of few letters."""
+"""What commands do before anything else: interruptions while libraries are imported, small consoles."""
 
 from __future__ import annotations
 
