@@ -8,7 +8,7 @@ from fnmatch import fnmatchcase
 
 import numpy as np
 
-from support_exudyn.estimate import Kind, error, measures
+from support_exudyn.estimate import Kind, errors, measures
 from support_exudyn.result import Result
 from support_exudyn.scenario import Scenario
 from support_exudyn.sweeping.plan import Record
@@ -39,7 +39,12 @@ def numbers(result: Result, record: Record) -> dict[str, Number]:
         found.update(usual)
     for pattern in record.numbers:
         found |= _matching(pattern, usual, result, record)
-    return {name: _number(kind, result) for name, kind in found.items()}
+    known: dict[str, float] = {}
+    if result.coarser is not None:
+        known = errors(found, result, result.fall, usual)
+    return {
+        name: Number(kind.measure(result), _finite(known.get(name)), kind.unit) for name, kind in found.items()
+    }
 
 
 def check_numbers(scenario: Scenario, record: Record) -> None:
@@ -99,9 +104,5 @@ def _kind(result: Result, channel: str, statistic: str, record: Record) -> Kind:
     return Kind(result.unit(channel), measure)
 
 
-def _number(kind: Kind, result: Result) -> Number:
-    value = kind.measure(result)
-    if result.coarser is None:
-        return Number(value, None, kind.unit)
-    known = float(error(kind.measure, result, result.fall, kind.size))
-    return Number(value, known if math.isfinite(known) else None, kind.unit)
+def _finite(error: float | None) -> float | None:
+    return error if error is not None and math.isfinite(error) else None
