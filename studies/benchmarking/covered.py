@@ -138,7 +138,7 @@ def accuracies(scene: Fresh) -> tuple[Accuracy, ...]:
 
 
 def references(scene: Fresh, runs: Sequence[Result]) -> Iterator[Reference]:
-    """All that are worth it: of formulations with error control, the sharpest, and of the engine's as another."""
+    """All that are worth it: of formulations with error control, and of the engine's as another."""
     plain = replace(scene.scenario, accuracy=None)
     sharp = False
     for name, tolerances in TIGHT.items():
