@@ -5,10 +5,15 @@ How fast its distances d2 = |b - a| and d1 = |c - b| fall is more or less the sa
 
     r = d1 / d2, the median of all numbers
 
-If they go on to fall so, the distance of c from what it tends to is d1 r / (1 - r). The estimate is a multiple
-of that, with d1 at least r d2, because two runs can agree by chance. With the constants below it
-covers the true error of 96 to 97 % of the numbers of a thousand runs of drops, rises and slider-cranks, and is
-five (redundant) to nine times (reduced) as large in the median.
+If they go on to fall so, the distance of c from what it tends to is d1 r / (1 - r). The estimate is SAFETY
+times that. Two runs can agree by chance, so d1 is not believed below
+
+- a share of d2: r, or where steps are chosen by a tolerance CHOSEN. Distances fall by eight there, but
+  irregularly: a run of a smaller tolerance can be further off than the one before it;
+- half (TYPICAL) of the middle distance of the number's family, as a share of their size: means, spreads and
+  largest values of forces, spreads of angular accelerations, places; time and speed of a touch.
+
+SCORES
 """
 
 from __future__ import annotations
@@ -31,8 +36,9 @@ if TYPE_CHECKING:
     from support_exudyn.scenario import Scenario
 
 Series = npt.NDArray[np.float64]
-# Errors of a method that chooses its steps fall faster than FASTEST, but less regularly.
-SAFETY = {"auto": 4.0, "redundant": 4.0, "tree": 1.75, "reduced": 1.75}  # by formulation
+SAFETY = 4.0
+CHOSEN = 0.15  # share of the distance before that the last is at least, where steps are chosen by a tolerance
+TYPICAL = 0.5  # of the middle distance of a number's family, that its own is at least
 SAFETY_OF_WORST = 6.0  # covers all of two thousand runs at the extremes (`studies/extremes.py`)
 IRREGULAR = 4.0  # times that, where Newton's method failed: steps then are not those that were asked for
 FASTEST, SLOWEST = 0.25, 0.8  # r: three runs tell nothing beyond
@@ -84,20 +90,18 @@ def _nothing(run: Result) -> float:
 
 
 class Kind(NamedTuple):
-    """How a number is measured: its unit, from a result, and the size of the largest number of its kind.
+    """How a number is measured.
 
-    missed: by how much it may be off because it is taken from records; of extremes, see `extremes.missed`.
+    unit: its unit. measure: gives it, from a result. size: of the largest number of its kind. family: of
+    numbers that are wrong by like shares; empty: none. missed: by how much it may be off because it is taken
+    from records; of extremes, see `extremes.missed`.
     """
 
     unit: str
     measure: Measure
     size: float = 0.0
+    family: str = ""
     missed: Measure = _nothing
-
-    def estimate(self, result: Result) -> Estimate:
-        """The number with its error. Raises ValueError if there is no coarser run."""
-        found = error(self.measure, result, result.fall, self.size) + self.missed(result)
-        return Estimate(self.measure(result), found, self.unit)
 
 
 def measures(result: Result, after: float, until: float) -> Mapping[str, Kind]:
@@ -120,24 +124,24 @@ def measures(result: Result, after: float, until: float) -> Mapping[str, Kind]:
             for word, statistic in STATISTICS.items():
                 if word in SIGNED and name.startswith("pin."):
                     continue  # a magnitude, which has no sign
-                found[f"{name}.{word}"] = Kind(
-                    channel.unit,
-                    _over(name, statistic, after, until),
-                    missed=_missed(word, name, after, until),
-                )
+                measure, between = _over(name, statistic, after, until), _missed(word, name, after, until)
+                found[f"{name}.{word}"] = Kind(channel.unit, measure, family=f"force.{word}", missed=between)
         elif name in turning:
-            found[f"{name}.spread"] = Kind(channel.unit, _over(name, np.std, after, until), fastest)
+            measure = _over(name, np.std, after, until)
+            found[f"{name}.spread"] = Kind(channel.unit, measure, fastest, ANGULAR_ACCELERATION)
     for point in result.scenario.linkage.points:
         if not {f"{point}.x", f"{point}.y"} <= result.channels.keys():
             continue  # it was not asked for, and no error either, for whose sake it would have been recorded
         farthest = float(np.abs(_path(result, point)).max())
         for axis in ("x", "y"):
-            found[f"{point}.{axis}.mean"] = Kind("m", _over(f"{point}.{axis}", np.mean, after, until), farthest)
+            measure = _over(f"{point}.{axis}", np.mean, after, until)
+            found[f"{point}.{axis}.mean"] = Kind("m", measure, farthest, "place")
     for pin, onsets in result.onsets.items():
-        found[f"pin.{pin}.largest_force"] = Kind("N", _largest(pin))
+        found[f"pin.{pin}.largest_force"] = Kind("N", _largest(pin), family="force.largest")
         for n in range(min(ONSETS, len(onsets))):
-            found[f"pin.{pin}.onset_{n + 1}.time"] = Kind("s", _onset(pin, n, "time"))
-            found[f"pin.{pin}.onset_{n + 1}.speed"] = Kind("m/s", _onset(pin, n, "speed"))
+            touch = f"pin.{pin}.onset_{n + 1}"
+            found[f"{touch}.time"] = Kind("s", _onset(pin, n, "time"), family=touch)
+            found[f"{touch}.speed"] = Kind("m/s", _onset(pin, n, "speed"), family=touch)
     return found
 
 
@@ -197,25 +201,70 @@ def fall(result: Result) -> float:
     return min(max(r, FASTEST), SLOWEST)
 
 
-def error(measure: Measure, result: Result, r: float, size: float = 0.0) -> float:
-    """Estimated error of a number; infinite if it is not a number in every run.
+def errors(
+    kinds: Mapping[str, Kind], result: Result, r: float, among: Mapping[str, Kind] | None = None
+) -> dict[str, float]:
+    """Estimated errors of numbers, by their names; infinite if one is not a number in every run.
+
+    Arguments:
+        kinds: the numbers.
+        r: see `fall`.
+        among: all numbers that families consist of; None: the numbers themselves.
+
+    Raises ValueError if there is no coarser run.
+    """
+    shares: dict[str, list[float]] = {}
+    for kind in (kinds if among is None else among).values():
+        distance, size = _distance(kind.measure, result, r), _size(kind, result)
+        if kind.family and size > 0.0 and math.isfinite(distance):
+            shares.setdefault(kind.family, []).append(distance / size)
+    typical = {family: TYPICAL * float(np.median(found)) for family, found in shares.items()}
+    return {
+        name: error(kind.measure, result, r, kind.size, typical.get(kind.family, 0.0) * _size(kind, result))
+        + kind.missed(result)
+        for name, kind in kinds.items()
+    }
+
+
+def error(measure: Measure, result: Result, r: float, size: float = 0.0, least: float = 0.0) -> float:
+    """Estimated error of a number by itself; infinite if it is not a number in every run.
 
     Arguments:
         r: see `fall`.
         size: of the largest number of its kind.
+        least: distance of the runs below which they are taken to agree by chance.
 
     Raises ValueError if there is no coarser run.
     """
+    distance = float(np.maximum(_distance(measure, result, r), least))
+    found = multiple(r) * distance + ROUNDING * max(abs(measure(result)), size)
+    return found if math.isfinite(found) else math.inf
+
+
+def multiple(r: float) -> float:
+    """Of the last distance of two runs, that an error is taken to be; r: see `fall`."""
+    return SAFETY * r / (1.0 - r)
+
+
+def believed(result: Result, r: float) -> float:
+    """The share of the distance before that the last distance is believed to have fallen to; r: see `fall`."""
+    return min(r, CHOSEN) if result.scenario.formulation in ERROR_CONTROLLED else r
+
+
+def _distance(measure: Measure, result: Result, r: float) -> float:
+    """Of a number from that of the coarser run, as far as it is believed; nan if it is none in one of them."""
     if result.coarser is None:
         raise ValueError("no coarser run to compare with")
-    value, other = measure(result), measure(result.coarser)
-    distance = abs(value - other)
-    if result.coarser.coarser is not None:
-        distance = float(np.maximum(distance, r * abs(other - measure(result.coarser.coarser))))  # keeps nan
-    found = SAFETY[result.scenario.formulation] * float(distance) * r / (1.0 - r) + ROUNDING * max(
-        abs(value), size
-    )
-    return found if math.isfinite(found) else math.inf
+    other = measure(result.coarser)
+    distance = abs(measure(result) - other)
+    if result.coarser.coarser is None:
+        return distance
+    before = abs(other - measure(result.coarser.coarser))
+    return float(np.maximum(distance, believed(result, r) * before))  # keeps nan
+
+
+def _size(kind: Kind, result: Result) -> float:
+    return max(abs(kind.measure(result)), kind.size)
 
 
 def worst_error(result: Result, r: float) -> float:

@@ -17,7 +17,7 @@ import numpy as np
 
 from support_exudyn.channels import Channel
 from support_exudyn.counts import Counts
-from support_exudyn.estimate import Estimate, error, fall, measures, worst_error
+from support_exudyn.estimate import Estimate, error, errors, fall, measures, worst_error
 from support_exudyn.files import whole_file
 from support_exudyn.hdf5_writing import write_series
 from support_exudyn.impulse import Impulse
@@ -126,7 +126,9 @@ class Result:
         few records is not the mean over time is not among them.
         """
         self._check()
-        return {name: kind.estimate(self) for name, kind in measures(self, after, until).items()}
+        kinds = measures(self, after, until)
+        known = errors(kinds, self, self.fall)
+        return {name: Estimate(kind.measure(self), known[name], kind.unit) for name, kind in kinds.items()}
 
     @cached_property
     def fall(self) -> float:

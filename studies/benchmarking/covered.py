@@ -138,7 +138,7 @@ def accuracies(scene: Fresh) -> tuple[Accuracy, ...]:
 
 
 def references(scene: Fresh, runs: Sequence[Result]) -> Iterator[Reference]:
-    """All that can be had, the sharpest first: of formulations with error control, and of the engine's."""
+    """All that are worth it: of formulations with error control, and of the engine's as another."""
     plain = replace(scene.scenario, accuracy=None)
     sharp = False
     for name, tolerances in TIGHT.items():
@@ -150,6 +150,8 @@ def references(scene: Fresh, runs: Sequence[Result]) -> Iterator[Reference]:
             if (found := _pair(name, pair)) is not None:
                 sharp = True
                 yield found
+    if sharp and all(run.scenario.formulation == "redundant" for run in runs):
+        return
     witness = settings_for(replace(plain, formulation="redundant"), ACCURACIES["standard"])
     first, factors = (witness, WITNESS) if sharp else (_finest(runs), FINER)
     if first is not None:

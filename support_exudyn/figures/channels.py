@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import StrMethodFormatter
 
-from support_exudyn.estimate import ROUNDING, SAFETY
+from support_exudyn.estimate import ROUNDING, believed, multiple
 from support_exudyn.figures import style, units
 from support_exudyn.figures.caption import caption
 from support_exudyn.figures.journal import Series, loose_pins
@@ -86,9 +86,9 @@ def error_over_time(result: Result, name: str) -> Series | None:
     distance = np.abs(result[name] - coarser[name])
     r = result.fall
     if coarser.coarser is not None and name in coarser.coarser.channels:
-        distance = np.maximum(distance, r * np.abs(coarser[name] - coarser.coarser[name]))
+        distance = np.maximum(distance, believed(result, r) * np.abs(coarser[name] - coarser.coarser[name]))
     rounding = ROUNDING * float(np.abs(result[name]).max())
-    found: Series = SAFETY[result.scenario.formulation] * distance * r / (1.0 - r) + rounding
+    found: Series = multiple(r) * distance + rounding
     return found
 
 

@@ -8,7 +8,7 @@ from fnmatch import fnmatchcase
 
 import numpy as np
 
-from support_exudyn.estimate import Kind, measures
+from support_exudyn.estimate import Kind, errors, measures
 from support_exudyn.extremes import largest, missed
 from support_exudyn.result import Result
 from support_exudyn.scenario import Scenario
@@ -40,7 +40,12 @@ def numbers(result: Result, record: Record) -> dict[str, Number]:
         found.update(usual)
     for pattern in record.numbers:
         found |= _matching(pattern, usual, result, record)
-    return {name: _number(kind, result) for name, kind in found.items()}
+    known: dict[str, float] = {}
+    if result.coarser is not None:
+        known = errors(found, result, result.fall, usual)
+    return {
+        name: Number(kind.measure(result), _finite(known.get(name)), kind.unit) for name, kind in found.items()
+    }
 
 
 def check_numbers(scenario: Scenario, record: Record) -> None:
@@ -106,8 +111,5 @@ def _kind(result: Result, channel: str, statistic: str, record: Record) -> Kind:
     return Kind(result.unit(channel), measure, missed=between)
 
 
-def _number(kind: Kind, result: Result) -> Number:
-    if result.coarser is None:
-        return Number(kind.measure(result), None, kind.unit)
-    value, known, unit = kind.estimate(result)
-    return Number(value, known if math.isfinite(known) else None, unit)
+def _finite(error: float | None) -> float | None:
+    return error if error is not None and math.isfinite(error) else None
