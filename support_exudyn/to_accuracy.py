@@ -27,31 +27,38 @@ def run_to_accuracy(scenario: Scenario, progress: Progress) -> Result:
 
     At least three runs, each with half the steps' length of the one before; how errors follow from their
     distances is told in `estimate`. Refined until the worst of the numbers that the accuracy is of is as asked,
-    or until refining does not help.
+    or until refining does not help. A run whose steps did not follow its tolerance is the same as the one
+    before, which tells nothing: it takes that one's place.
 
     Raises InputError if the formulation does not cover the scenario, SimulationError if a run fails.
     """
     goal = scenario.goal
     assert goal is not None
     chosen = with_measured(settings_for(scenario, goal))
-    last = best = run_once(chosen, _part(progress, 0))
-    wall_time, off, least, in_vain = last.wall_time, np.inf, np.inf, 0
+    first = last = best = run_once(chosen, _part(progress, 0))
+    wall_time, off, least, in_vain, different = last.wall_time, np.inf, np.inf, 0, 1
     for n in range(1, MOST_RUNS):
         if (finer_settings := _finer(chosen)) is None:
             break
         chosen = finer_settings
         finer = run_once(chosen, _part(progress, n))
         wall_time += finer.wall_time
+        if is_the_same(last, finer):
+            last = replace(finer, coarser=last.coarser, goal=goal)
+            continue
+        different += 1
         last = replace(finer, coarser=_without_oldest(last), goal=goal)
-        if n < FEWEST_RUNS - 1:
+        if different < FEWEST_RUNS:
             continue
         before, off = off, last.worst_error
-        if off < least or n == FEWEST_RUNS - 1:  # with steps too short, rounding makes it worse again
+        if off < least or different == FEWEST_RUNS:  # with steps too short, rounding makes it worse again
             least, best = off, last
         in_vain = in_vain + 1 if off > FALLS * before else 0
         if off <= goal or in_vain == PATIENCE:
             break
     progress(1.0)
+    if last.coarser is None:  # the same with every tolerance
+        last = replace(last, coarser=first, goal=goal)
     return replace(best if best.coarser else last, wall_time=wall_time)
 
 
@@ -61,6 +68,17 @@ def with_measured(scenario: Scenario) -> Scenario:
         return scenario
     missing = [name for name in measured(scenario) if name not in scenario.channels]
     return replace(scenario, channels=(*scenario.channels, *missing))
+
+
+def is_the_same(run: Result, finer: Result) -> bool:
+    """Whether two runs are the same to the bit: their steps follow something else than their tolerance.
+
+    Nothing is to be told from them then, but where all is known in closed form and nothing is free to move.
+    """
+    scenario = finer.scenario
+    if not (scenario.clearance_pins or scenario.giving) or run.counts != finer.counts:
+        return False
+    return all(np.array_equal(run[name], finer[name]) for name in finer.channels)
 
 
 def _without_oldest(result: Result) -> Result:

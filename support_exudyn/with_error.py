@@ -15,11 +15,13 @@ from support_exudyn.result import Result
 from support_exudyn.run_once import run_once
 from support_exudyn.scenario import Scenario
 from support_exudyn.solver_settings import ERROR_CONTROLLED, REFINED_TOLERANCE, SMALLEST_TOLERANCE
-from support_exudyn.to_accuracy import with_measured
+from support_exudyn.to_accuracy import is_the_same, with_measured
 from user_forces.values import InputError
 
 SHARES = (1.0 / 7.0, 2.0 / 7.0, 4.0 / 7.0)  # of the work, run by run
 LARGEST_ERROR = 0.5  # of the worst number: beyond it a run tells nothing
+SAME = "its runs are the same to the bit, whatever their tolerance: no error is to be told from them"
+FOLLOWED = "Take a smaller `solver.tolerance`, or ask for an accuracy, which finds one that matters."
 UNCERTAIN = (
     "Take a smaller `step` and more `solver.impact_steps` (with steps below 2e-5 s rounding shows: then a "
     "larger one), or ask for an accuracy. Where each of many touches multiplies the errors of those before, no "
@@ -39,6 +41,8 @@ def run_with_error(scenario: Scenario, progress: Progress) -> Result:
         done += share
     progress(1.0)
     first, second, third = runs
+    if is_the_same(first, second) or is_the_same(second, third):
+        raise SimulationError(Failure(SAME, FOLLOWED, scenario.duration))
     second = replace(second, coarser=first)
     result = replace(third, coarser=second, wall_time=sum(run.wall_time for run in runs))
     told = second.worst_error + rounding_share(third)
