@@ -29,7 +29,8 @@ def run_to_accuracy(scenario: Scenario, progress: Progress) -> Result:
     At least three runs, each with half the steps' length of the one before; how errors follow from their
     distances is told in `estimate`. Refined until the worst of the numbers that the accuracy is of is as asked,
     or until refining does not help. A run whose steps were too long to finish it does not count; once there is
-    a result with its errors, one that fails ends the refining.
+    a result with its errors, one that fails ends the refining. A run whose steps did not follow its tolerance is
+    the same as the one before, which tells nothing: it takes that one's place.
 
     Raises InputError if the formulation does not cover the scenario, SimulationError if no three runs in a row
     can be finished.
@@ -39,6 +40,7 @@ def run_to_accuracy(scenario: Scenario, progress: Progress) -> Result:
     chosen: Scenario | None = with_measured(settings_for(scenario, goal))
     last: Result | None = None
     best: Result | None = None
+    same: Result | None = None
     trouble: SimulationError | None = None
     wall_time, off, least, in_vain, in_a_row = 0.0, np.inf, np.inf, 0, 0
     for n in range(MOST_RUNS):
@@ -52,15 +54,19 @@ def run_to_accuracy(scenario: Scenario, progress: Progress) -> Result:
                 raise trouble or error from None
             last, in_a_row, trouble = None, 0, trouble or error
         else:
-            wall_time, in_a_row = wall_time + run.wall_time, in_a_row + 1
-            last = replace(run, coarser=_without_oldest(last), goal=goal)
-            if in_a_row >= FEWEST_RUNS:
-                before, off = off, last.worst_error
-                if off < least or best is None:  # with steps too short, rounding makes it worse again
-                    least, best = off, last
-                in_vain = in_vain + 1 if off > FALLS * before else 0
-                if off <= goal or in_vain == PATIENCE:
-                    break
+            wall_time += run.wall_time
+            if last is not None and is_the_same(last, run):
+                same, last = last, replace(run, coarser=last.coarser, goal=goal)
+            else:
+                in_a_row += 1
+                last = replace(run, coarser=_without_oldest(last), goal=goal)
+                if in_a_row >= FEWEST_RUNS:
+                    before, off = off, last.worst_error
+                    if off < least or best is None:  # with steps too short, rounding makes it worse again
+                        least, best = off, last
+                    in_vain = in_vain + 1 if off > FALLS * before else 0
+                    if off <= goal or in_vain == PATIENCE:
+                        break
         if (chosen := _finer(chosen)) is None:
             break
     progress(1.0)
@@ -68,7 +74,8 @@ def run_to_accuracy(scenario: Scenario, progress: Progress) -> Result:
     if found is None or (trouble is not None and best is None):
         assert trouble is not None  # else something would have been found
         raise trouble
-    return replace(found, wall_time=wall_time)
+    # the same with every tolerance: two that are the same stand for its runs
+    return replace(found, coarser=found.coarser or same, wall_time=wall_time)
 
 
 def with_measured(scenario: Scenario) -> Scenario:
@@ -77,6 +84,17 @@ def with_measured(scenario: Scenario) -> Scenario:
         return scenario
     missing = [name for name in measured(scenario) if name not in scenario.channels]
     return replace(scenario, channels=(*scenario.channels, *missing))
+
+
+def is_the_same(run: Result, finer: Result) -> bool:
+    """Whether two runs are the same to the bit: their steps follow something else than their tolerance.
+
+    Nothing is to be told from them then, but where all is known in closed form and nothing is free to move.
+    """
+    scenario = finer.scenario
+    if not (scenario.clearance_pins or scenario.giving) or run.counts != finer.counts:
+        return False
+    return all(np.array_equal(run[name], finer[name]) for name in finer.channels)
 
 
 def _without_oldest(result: Result | None) -> Result | None:

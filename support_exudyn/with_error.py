@@ -16,12 +16,14 @@ from support_exudyn.result import Result
 from support_exudyn.run_once import run_once
 from support_exudyn.scenario import Scenario
 from support_exudyn.solver_settings import ERROR_CONTROLLED, REFINED_TOLERANCE, SMALLEST_TOLERANCE
-from support_exudyn.to_accuracy import with_measured
+from support_exudyn.to_accuracy import is_the_same, with_measured
 from user_forces.values import InputError
 
 SHARES = (1.0 / 7.0, 2.0 / 7.0, 4.0 / 7.0)  # of the work, run by run, if these will do
 MOST_RUNS = 6
 LARGEST_ERROR = 0.5  # of the worst number: beyond it a run tells nothing
+SAME = "its runs are the same to the bit, whatever their tolerance: no error is to be told from them"
+FOLLOWED = "Take a smaller `solver.tolerance`, or ask for an accuracy, which finds one that matters."
 UNCERTAIN = (
     "Take a smaller `step` and more `solver.impact_steps` (with steps below 2e-5 s rounding shows: then a "
     "larger one), or ask for an accuracy. Where each of many touches multiplies the errors of those before, no "
@@ -52,6 +54,8 @@ def run_with_error(scenario: Scenario, progress: Progress) -> Result:
             result, doubt = None, doubt or error.failure
         else:
             wall_time += run.wall_time
+            if result is not None and is_the_same(result, run):
+                doubt, result = doubt or Failure(SAME, FOLLOWED, scenario.duration), result.coarser
             result = replace(run, coarser=_without_oldest(result))
             if result.coarser is not None and result.coarser.coarser is not None:
                 doubt = _doubt(result)

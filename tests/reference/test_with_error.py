@@ -140,6 +140,26 @@ def test_methods_with_error_control_have_theirs(formulation: str) -> None:
     assert 0.0 < disagreement(result, tight) < result.worst_error < 1e-2
 
 
+AT_REST = replace(
+    SCENES["loose support on oil"], drive=Held(), start="settled", duration=0.05, formulation="tree"
+)
+
+
+def test_runs_at_rest_whose_steps_do_not_follow_their_tolerance_are_not_certain() -> None:
+    # settled to 1e-2 N; what is left of that is the same in eight steps at all three tolerances
+    loose = replace(AT_REST, solver=SolverSettings(tolerance=1e-5))
+    failure = simulate(loose, errors=True, throw=False)
+    assert isinstance(failure, Failure)
+    assert "the same to the bit" in failure.reason
+    # with an accuracy tolerances are found that matter, and the errors are true
+    result = simulate(AT_REST, accuracy="draft")
+    tight = simulate(replace(AT_REST, solver=SolverSettings(tolerance=1e-11)))
+    known = {name: kind.measure(tight) for name, kind in measures(tight, 0.0, math.inf).items()}
+    true = {name: abs(number.value - known[name]) for name, number in result.numbers().items()}
+    assert max(true.values()) > 0.0
+    assert np.mean([true[name] <= number.error for name, number in result.numbers().items()]) >= 0.95
+
+
 def test_ideal_pins_have_theirs() -> None:
     scene = support(duration=0.25, drive=CubicStep(stroke=0.05, start=0.02, end=0.2))
     result = simulate(scene, errors=True)

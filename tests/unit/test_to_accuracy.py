@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import count
 from typing import Any
 
+import numpy as np
 import pytest
 
 from support_exudyn import Held, Scenario, to_accuracy
+from support_exudyn.counts import Counts
 from support_exudyn.progress import silent
 from tests.reference.cases import loose_support
 
@@ -26,10 +28,18 @@ class Told:
     wall_time: float = 1.0
     goal: float | None = None
     coarser: Any = None
+    counts: Counts = field(default_factory=Counts)
+    channels: tuple[str, ...] = ("number",)
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        return np.array([getattr(self, name)])
 
 
-def run(monkeypatch: pytest.MonkeyPatch, errors: Sequence[float]) -> tuple[Told, int]:
-    """The result that is chosen, and how many runs were made, if the third, fourth ... have these errors."""
+def run(monkeypatch: pytest.MonkeyPatch, errors: Sequence[float], same: Sequence[int] = ()) -> tuple[Told, int]:
+    """The result that is chosen, and how many runs were made, if the third, fourth ... have these errors.
+
+    same: numbers of the runs that are the same as the one before.
+    """
     numbers = count()
     known = [float("inf"), float("inf"), *errors, *[errors[-1]] * 10]
     made = []
@@ -37,6 +47,8 @@ def run(monkeypatch: pytest.MonkeyPatch, errors: Sequence[float]) -> tuple[Told,
     def once(scenario: Scenario, progress: object) -> Told:
         number = next(numbers)
         made.append(number)
+        while number in same:
+            number -= 1
         return Told(number, known[number], scenario)
 
     monkeypatch.setattr(to_accuracy, "run_once", once)
@@ -71,3 +83,24 @@ def test_there_is_a_most_number_of_runs(monkeypatch: pytest.MonkeyPatch) -> None
     found, made = run(monkeypatch, [0.1 * 0.69**n for n in range(20)])
     assert made == to_accuracy.MOST_RUNS
     assert found.number == made - 1
+
+
+@pytest.mark.parametrize(
+    ("same", "chosen", "runs"),
+    [
+        ((), (2, 1, 0), 3),
+        ((1, 2), (4, 3, 0), 5),  # steps follow the tolerance from the fourth run on
+        ((2,), (3, 1, 0), 4),
+        (range(1, 20), (0, 0), to_accuracy.MOST_RUNS),  # they never do
+    ],
+)
+def test_runs_that_are_the_same_to_the_bit_tell_nothing(
+    monkeypatch: pytest.MonkeyPatch, same: Sequence[int], chosen: tuple[int, ...], runs: int
+) -> None:
+    found, made = run(monkeypatch, [0.5 * GOAL], same)
+    assert made == runs
+    ladder = []
+    while found is not None:
+        ladder.append(found.number)
+        found = found.coarser
+    assert tuple(ladder) == chosen
