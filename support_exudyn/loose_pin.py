@@ -11,6 +11,7 @@ import exudyn
 
 from support_exudyn.attachment import Attachment, Relative, attachment, in_plane
 from support_exudyn.connector import Frame, PinConnector, displacement_scale
+from support_exudyn.friction_line import FrictionLine
 from support_exudyn.impact_steps import ImpactSteps
 from support_exudyn.onset import Action, Mobility, Onset, PinMemory, Verdict, goes_on, judge, judge_at_ends
 from support_exudyn.pin_motion import Motion, Moving, PinMotion
@@ -18,6 +19,7 @@ from support_exudyn.python_force import PythonForce
 from support_exudyn.symbolic_force import SymbolicForce
 from user_forces.contact import ContactForce, JournalContact
 from user_forces.flat import flat_force
+from user_forces.friction.frictionless import Frictionless
 from user_forces.values import Vector2
 
 SPIN_ERROR = 1e-13  # of slip [m/s] by a bore's spin that had to be guessed, above which a step is repeated
@@ -64,10 +66,13 @@ class LoosePin:
             SymbolicForce(mbs, contact, at) if symbolic else PythonForce(contact, at, self._bore_spin)
         )
         self.connector.set_force(self.engine_force.function)
+        self._plain_force = self.engine_force
         self._force = flat_force(contact)
         # whether the force depends on more than the touch from step to step
         self._changes = contact.friction.has_state or at is Attachment.MIDDLE or self.turns
         self._touch: tuple[object, ...] = ()
+        self._line: FrictionLine | None = None  # that stands for the law of friction, where that is too steep
+        self._straight: PythonForce | None = None  # the engine's force with it
         # set when the scene is whole
         self.mobility: Callable[[], Mobility] = lambda: Mobility(math.nan, math.nan, math.nan)  # as it is now
         self.motion: PinMotion | None = None
@@ -105,7 +110,7 @@ class LoosePin:
     @property
     def calls(self) -> int:
         """Evaluations of the force in Python."""
-        return self.engine_force.calls
+        return self._plain_force.calls + (self._straight.calls if self._straight else 0)
 
     # --- called by the solver ---
 
@@ -140,6 +145,8 @@ class LoosePin:
         self.onset = None
         self.wants_cut = False
         self._step = step
+        if self._line is not None:
+            self._line.begin()
         if self.at is Attachment.MIDDLE:
             self._guess(step)
         elif self.turns:
@@ -159,6 +166,9 @@ class LoosePin:
         """After a step that ends at t [s] has been accepted: keep what happened in it."""
         was_in_contact = self.kept.in_contact
         self.kept = reached = self.reached
+        if self._line is not None and not reached.in_contact:
+            self._line = None
+            self._let_act(self._plain_force)
         if was_in_contact and not reached.in_contact and self.onsets:
             self.onsets[-1] = self.onsets[-1].parted(t, -reached.rate)
         if self.at is Attachment.MIDDLE:
@@ -208,11 +218,45 @@ class LoosePin:
         self.force = force = self._contact_force(relative)
         if self._spin_was_wrong():
             return math.inf
+        if self._line is not None and self.memory.in_contact and not self._line_meets(self._line):
+            return 0.5 * self._step if self._line.exhausted else math.inf
         depth, rate, slip = force[:3]
         if goes_on(start, depth, rate):
             self.reached = start.at(depth, rate, slip, force.deflection)
             return None
         return self._decided(start, self._verdict(start, t))
+
+    def straighten(self) -> bool:
+        """Let a straight line stand for the law of friction until the surfaces part; whether that is new.
+
+        For steps in which Newton's method has failed. Not for laws with a state, nor for forces that the engine
+        evaluates.
+        """
+        law = self.contact.friction
+        rough = isinstance(self._plain_force, PythonForce) and not isinstance(law, Frictionless)
+        if self._line is not None or not rough or law.has_state or not self.kept.in_contact:
+            return False
+        if self._straight is None:
+            self._straight = PythonForce(self.contact, self.at, self._bore_spin, straight=True)
+        self._line = FrictionLine(law)
+        self._line.lay(self.kept.slip, self.force.normal_force)
+        self._let_act(self._straight)
+        return True
+
+    def _let_act(self, force: SymbolicForce | PythonForce) -> None:
+        self.engine_force = force
+        self.connector.set_force(force.function)
+        self._touch = ()  # it has been told nothing yet
+
+    def _line_meets(self, line: FrictionLine) -> bool:
+        """Whether the line gave the friction of the law in the step that has been tried; else it is another."""
+        force = self.force
+        softness = force.normal_force * self._step / self._mass
+        if line.meets(force.slip, force.normal_force, softness):
+            return True
+        self._touch = ()
+        self._recall(self.memory)
+        return False
 
     def _decided(self, start: PinMemory, verdict: Verdict) -> float | None:
         """The answer to the engine that follows from a verdict."""
@@ -258,6 +302,8 @@ class LoosePin:
         if touch != self._touch or self._changes:
             self._touch = touch
             self._here = self._turned(memory.mobility)
+            if self._line is not None and self._straight is not None:
+                self._straight.lay(self._line.offset, self._line.slope)
             self.engine_force.load(memory, self._here, self._step, self._guessed_spin, self._guessed_turn)
 
     def _turned(self, mobility: Mobility) -> Mobility:

@@ -203,7 +203,8 @@ class Run:
                 self.cut_steps += 1
             else:
                 self.failed_newton += 1
-                self.newton.failed()
+                if not any([pin.straighten() for pin in self.pins]):  # all of them
+                    self.newton.failed()
                 if self.newton.wants_new_jacobians:
                     self.solver.newton.useModifiedNewton = False
         self.trying = True
