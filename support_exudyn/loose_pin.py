@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -242,6 +243,15 @@ class LoosePin:
         self._line.lay(self.kept.slip, self.force.normal_force)
         self._let_act(self._straight)
         return True
+
+    def rounding(self, step: float, size: float) -> float:
+        """By how much rounding of positions of this size [m] lets friction scatter in a step [s], [N].
+
+        Where a steep line stands for friction: Newton's method cannot become closer than that.
+        """
+        if self._line is None:
+            return 0.0
+        return abs(self._line.slope) * self.force.normal_force * size * sys.float_info.epsilon / step
 
     def _let_act(self, force: SymbolicForce | PythonForce) -> None:
         self.engine_force = force
