@@ -8,6 +8,7 @@ from typing import Any
 
 import exudyn
 
+from support_exudyn.friction_line import TRIES
 from support_exudyn.solver_settings import SolverSettings
 
 SMALLEST_STEP = 1e-13  # [s]
@@ -36,7 +37,7 @@ def engine_settings(
     integration.adaptiveStepRecoverySteps = 2**30  # the engine never lengthens a step by itself
     integration.minimumStepSize = SMALLEST_STEP
     integration.verboseMode = 0
-    integration.discontinuous.maxIterations = 8
+    integration.discontinuous.maxIterations = 2 * TRIES  # a line of friction after another, in every pin
     integration.discontinuous.ignoreMaxIterations = False
     integration.generalizedAlpha.spectralRadius = chosen.spectral_radius
     # both together are the engine's TrapezoidalIndex2

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -11,6 +12,7 @@ import exudyn
 
 from support_exudyn.attachment import Attachment, Relative, attachment, in_plane
 from support_exudyn.connector import Frame, PinConnector, displacement_scale
+from support_exudyn.friction_line import FrictionLine
 from support_exudyn.impact_steps import ImpactSteps
 from support_exudyn.onset import Action, Mobility, Onset, PinMemory, Verdict, goes_on, judge, judge_at_ends
 from support_exudyn.pin_motion import Motion, Moving, PinMotion
@@ -19,6 +21,7 @@ from support_exudyn.python_force import PythonForce
 from support_exudyn.symbolic_force import SymbolicForce
 from user_forces.contact import ContactForce, JournalContact
 from user_forces.flat import flat_force
+from user_forces.friction.frictionless import Frictionless
 from user_forces.lawful import PROBED, look
 from user_forces.normal.law import Touch
 from user_forces.values import Vector2
@@ -68,10 +71,13 @@ class LoosePin:
             SymbolicForce(mbs, contact, at) if symbolic else PythonForce(contact, at, self._bore_spin)
         )
         self.connector.set_force(self.engine_force.function)
+        self._plain_force = self.engine_force
         self._force = flat_force(contact)
         # whether the force depends on more than the touch from step to step
         self._changes = contact.friction.has_state or at is Attachment.MIDDLE or self.turns
         self._touch: tuple[object, ...] = ()
+        self._line: FrictionLine | None = None  # that stands for the law of friction, where that is too steep
+        self._straight: PythonForce | None = None  # the engine's force with it
         # set when the scene is whole
         self.find_mobilities: Callable[[], Mobilities] = lambda: NOT_KNOWN  # as they are now
         self.motion: PinMotion | None = None
@@ -114,7 +120,7 @@ class LoosePin:
     @property
     def calls(self) -> int:
         """Evaluations of the force in Python."""
-        return self.engine_force.calls
+        return self._plain_force.calls + (self._straight.calls if self._straight else 0)
 
     @property
     def longest_step(self) -> float:
@@ -155,6 +161,8 @@ class LoosePin:
         self.onset = None
         self.wants_cut = False
         self._step = step
+        if self._line is not None:
+            self._line.begin()
         if self.at is Attachment.MIDDLE:
             self._guess(step)
         elif self.turns:
@@ -174,6 +182,9 @@ class LoosePin:
         """After a step that ends at t [s] has been accepted: keep what happened in it."""
         was_in_contact = self.kept.in_contact
         self.kept = reached = self.reached
+        if self._line is not None and not reached.in_contact:
+            self._line = None
+            self._let_act(self._plain_force)
         if was_in_contact and not reached.in_contact and self.onsets:
             self.onsets[-1] = self.onsets[-1].parted(t, -reached.rate)
         if self.at is Attachment.MIDDLE:
@@ -252,11 +263,54 @@ class LoosePin:
         self.force = force = self._contact_force(relative)
         if self._spin_was_wrong():
             return math.inf
+        if self._line is not None and self.memory.in_contact and not self._line_meets(self._line):
+            return 0.5 * self._step if self._line.exhausted else math.inf
         depth, rate, slip = force[:3]
         if goes_on(start, depth, rate, self._step):
             self.reached = start.at(depth, rate, slip, force.deflection)
             return None
         return self._decided(start, self._verdict(start, t))
+
+    def straighten(self) -> bool:
+        """Let a straight line stand for the law of friction until the surfaces part; whether that is new.
+
+        For steps in which Newton's method has failed. Not for laws with a state, nor for forces that the engine
+        evaluates.
+        """
+        law = self.contact.friction
+        rough = isinstance(self._plain_force, PythonForce) and not isinstance(law, Frictionless)
+        if self._line is not None or not rough or law.has_state or not self.kept.in_contact:
+            return False
+        if self._straight is None:
+            self._straight = PythonForce(self.contact, self.at, self._bore_spin, straight=True)
+        self._line = FrictionLine(law)
+        self._line.lay(self.kept.slip, self.force.normal_force)
+        self._let_act(self._straight)
+        return True
+
+    def rounding(self, step: float, size: float) -> float:
+        """By how much rounding of positions of this size [m] lets friction scatter in a step [s], [N].
+
+        Where a steep line stands for friction: Newton's method cannot become closer than that.
+        """
+        if self._line is None:
+            return 0.0
+        return abs(self._line.slope) * self.force.normal_force * size * sys.float_info.epsilon / step
+
+    def _let_act(self, force: SymbolicForce | PythonForce) -> None:
+        self.engine_force = force
+        self.connector.set_force(force.function)
+        self._touch = ()  # it has been told nothing yet
+
+    def _line_meets(self, line: FrictionLine) -> bool:
+        """Whether the line gave the friction of the law in the step that has been tried; else it is another."""
+        force = self.force
+        softness = force.normal_force * self._step / self._mass
+        if line.meets(force.slip, force.normal_force, softness):
+            return True
+        self._touch = ()
+        self._recall(self.memory)
+        return False
 
     def _decided(self, start: PinMemory, verdict: Verdict) -> float | None:
         """The answer to the engine that follows from a verdict."""
@@ -307,6 +361,8 @@ class LoosePin:
         if touch != self._touch or self._changes:
             self._touch = touch
             self._here, self._alone_here = self._turned(memory.mobility), self._turned(self._alone)
+            if self._line is not None and self._straight is not None:
+                self._straight.lay(self._line.offset, self._line.slope)
             self.engine_force.load(memory, self._here, self._step, self._guessed_spin, self._guessed_turn)
 
     def _turned(self, mobility: Mobility) -> Mobility:

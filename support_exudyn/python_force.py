@@ -8,17 +8,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any
+from functools import partial
+from types import SimpleNamespace
+from typing import Any, cast
 
 from support_exudyn.attachment import Attachment, Relative, rough_force
 from support_exudyn.connector import displacement_scale
 from support_exudyn.onset import Mobility, PinMemory
 from user_forces.contact import JournalContact, SlipHistory
-from user_forces.flat import Formulas, compiled, depth_check, lines, needed, text, traceable
+from user_forces.flat import Formulas, Line, compiled, depth_check, lines, needed, text, traceable
 from user_forces.normal.law import Touch
 from user_forces.scalar import hypot, maximum
 
 MOTION = ["x", "y", "vx", "vy", "turning", "bore_spin"]
+LINE = ["offset", "slope"]
 MEMORY = ["speed", "mobility_xx", "mobility_xy", "mobility_yy", "deflection", "slip", "step"]
 
 
@@ -29,18 +32,21 @@ class PythonForce:
         contact: bearing and laws.
         at: what the force acts on.
         bore_spin: gives that of the bore [rad/s], if both bodies move and there is friction.
+        straight: whether friction follows a line, see `friction_line`, that is laid by `lay`.
     """
 
-    def __init__(self, contact: JournalContact, at: Attachment, bore_spin: Callable[[], float]) -> None:
+    def __init__(
+        self, contact: JournalContact, at: Attachment, bore_spin: Callable[[], float], straight: bool = False
+    ) -> None:
         self._has_state = contact.friction.has_state
-        formulas = traceable(contact)
+        formulas = _straightened(contact) if straight else traceable(contact)
         if at is Attachment.LINE:
             source = _line(formulas)
         elif at is Attachment.CENTRAL:
             source = _central(formulas)
         else:
             source = _space(formulas) if at is Attachment.SPACE else _rough(formulas, at)
-        known = dict.fromkeys(MEMORY, 0.0)
+        known = dict.fromkeys([*MEMORY, *LINE], 0.0)
         self._names = compiled(
             source, contact, find_spin=bore_spin, in_contact=False, last=(), calls=0, **known
         )
@@ -73,6 +79,24 @@ class PythonForce:
         names["mobility_xx"], names["mobility_xy"], names["mobility_yy"] = mobility
         if self._has_state:
             names["deflection"], names["slip"], names["step"] = memory.deflection, memory.slip, step
+
+    def lay(self, offset: float, slope: float) -> None:
+        """Set the line that friction follows."""
+        self._names["offset"], self._names["slope"] = offset, slope
+
+
+def _straightened(contact: JournalContact) -> JournalContact:
+    """A contact that takes `Line`s, with a straight line in the slip in place of the law of friction."""
+    friction: Any = partial(_straight)
+    friction.has_state = False
+    found: Any = SimpleNamespace(bearing=contact.bearing, normal=traceable(contact).normal, friction=friction)
+    found.force = partial(JournalContact.force, found)
+    return cast(JournalContact, found)
+
+
+def _straight(slip: Line, normal_force: Line, deflection: float = 0.0) -> Line:
+    offset, slope = (Line(name, slip.formulas) for name in LINE)
+    return normal_force * (offset + slope * slip)
 
 
 def _line(contact: JournalContact) -> list[str]:

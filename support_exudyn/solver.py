@@ -51,6 +51,7 @@ BREAK_REFINEMENT = 32
 FEW_STEPS = 5
 # Before steps that are so many times shorter than the last, velocities are aligned, see `velocity_jump`.
 MUCH_SHORTER = 8.0
+ROUNDINGS = 10.0  # of a coordinate, by which steep friction scatters: what Newton's method is asked for then
 ADVICE = (
     "Try a smaller step; if that does not help, look whether the posture is near a dead centre "
     "or a contact is far stiffer than the masses beside it allow."
@@ -89,13 +90,16 @@ class Run:
         self.impulses: list[Impulse] = []
         self.cylinders = tuple(scene.cylinders.values())
         self.valves = any(cylinder.moves for cylinder in self.cylinders)
+        self.unknowns = int(self.data.ODE2Size() + self.data.ODE1Size() + self.data.AEsize())
         self.settings = engine_settings(
             scenario.solver,
             scenario.duration,
-            int(self.data.ODE2Size() + self.data.ODE1Size() + self.data.AEsize()),
+            self.unknowns,
             force_rounding([item.filled for parts in scene.driven for item in parts.oil]),
             bool(self.cylinders),
         )
+        self.size = max(math.hypot(*body.centre) for body in scenario.linkage.bodies.values())  # [m]
+        self.scatters = False  # whether steep friction does, see `LoosePin.rounding`
         self.locates = scenario.solver.locate
         self.impact_steps = scenario.solver.impact_steps
         # what a load does need not show in accelerations, and long steps would pass over where it begins
@@ -217,7 +221,8 @@ class Run:
                 self.cut_steps += 1
             else:
                 self.failed_newton += 1
-                self.newton.failed()
+                if not any([pin.straighten() for pin in self.pins]):  # all of them
+                    self.newton.failed()
                 if self.newton.wants_new_jacobians:
                     self.solver.newton.useModifiedNewton = False
         self.trying = True
@@ -226,6 +231,11 @@ class Run:
             step = float(self.solver.it.currentStepSize)
             for pin in self.pins:
                 pin.begin_try(step)
+            rounding = sum(pin.rounding(step, self.size) for pin in self.pins)
+            if rounding > 0.0 or self.scatters:
+                self.scatters = rounding > 0.0
+                least = self.settings.timeIntegration.newton.absoluteTolerance
+                self.solver.newton.absoluteTolerance = max(least, ROUNDINGS * rounding / self.unknowns)
         return True
 
     def _follow(self, mbs: Any, t: float) -> bool:

@@ -58,10 +58,11 @@ def run_with_error(scenario: Scenario, progress: Progress) -> Result:
                 doubt, result = doubt or Failure(SAME, FOLLOWED, scenario.duration), result.coarser
             result = replace(run, coarser=_without_oldest(result))
             if result.coarser is not None and result.coarser.coarser is not None:
-                doubt = _doubt(result)
-                if doubt is None:
+                found = _doubt(result)
+                if found is None:
                     progress(1.0)
                     return replace(result, wall_time=wall_time)
+                doubt = doubt or found
         done += share
         if (chosen := _finer(chosen)) is None:
             break

@@ -148,7 +148,7 @@ def limited(scene: Scenario) -> Scenario:
     """A scene to an accuracy, with as many steps as its formulation may take in a minute or so."""
     assert scene.goal is not None
     steps = MOST_STEPS if settings_for(scene, scene.goal).formulation == "redundant" else MOST_EXPLICIT
-    return replace(scene, solver=SolverSettings(most_steps=steps))
+    return replace(scene, solver=replace(scene.solver, most_steps=steps))
 
 
 def gentle(point: Point) -> Drive:
@@ -295,7 +295,7 @@ def cranked(point: Point, rpm: float, accuracy: Accuracy | None) -> Scenario:
         solver=settings(point),
         formulation="auto",
     )
-    return scene if accuracy is None else replace(scene, accuracy=accuracy)
+    return scene if accuracy is None else limited(replace(scene, accuracy=accuracy))
 
 
 def _small(point: Point) -> ClearancePin:

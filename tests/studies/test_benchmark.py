@@ -6,11 +6,14 @@ from collections.abc import Callable, Iterator
 
 import pytest
 
-from studies.benchmark import Line, cheapest_way, in_turns, sheet
+from studies import benchmark
+from studies.benchmark import Line, cheapest_way, in_turns, long_lines, restless, sheet, whole
 from studies.benchmarking import process
 from studies.benchmarking.scenes import SCENES
-from studies.benchmarking.variants import with_tolerance
+from studies.benchmarking.variants import Way, with_tolerance
 from studies.benchmarking.yardstick import YardstickError, compiled, run_yardstick
+from support_exudyn import Failure, Scenario, SimulationError, simulate
+from support_exudyn.audit import energy_open
 
 
 @pytest.mark.parametrize(("ours", "other", "ratio"), [(1.0, 8.0, "1/8"), (3.0, 2.0, "1.5"), (2.0, 2.0, "1/1")])
@@ -45,6 +48,49 @@ def test_the_cheapest_way_meets_the_goal() -> None:
     way = cheapest_way("drop", tried)
     assert way is tried[1]
     assert cheapest_way("drop", tried[:1]) is None
+
+
+def refuse(*unused: object) -> None:
+    raise SimulationError(Failure("energy does not add up", "Take a smaller step.", 0.1))
+
+
+def test_a_way_that_cannot_be_finished_is_not_the_cheapest() -> None:
+    fine = with_tolerance(SCENES["drop"], "reduced", "compiled", 1e-8)
+    broken = Way("reduced", "too coarse", refuse, refuse)  # type: ignore[arg-type]
+    assert cheapest_way("drop", [broken, fine]) is fine
+
+
+def test_a_run_that_is_refused_is_a_row_and_not_the_end(monkeypatch: pytest.MonkeyPatch) -> None:
+    def run(scenario: Scenario) -> None:
+        if scenario.formulation == "redundant":
+            refuse()
+
+    monkeypatch.setattr(benchmark, "simulate", run)
+    lines = list(long_lines())
+    assert [line.what for line in lines] == ["four times the time: redundant", "four times the time: reduced"]
+    assert lines[0].ratio == "refused"
+    assert not lines[0].is_missed
+    assert not lines[1].refused
+    assert "refused: energy does not add up" in sheet(lines).markdown()
+
+
+def test_what_ends_a_part_of_the_table_is_its_last_row() -> None:
+    def part() -> Iterator[Line]:
+        """A part."""
+        yield Line("what", "how", 1.0, "against", 2.0, "")
+        refuse()
+
+    first, last = whole(part)
+    assert not first.refused
+    assert last.what == "A part."
+    assert last.refused == "refused: energy does not add up"
+
+
+def test_the_pin_that_bounces_all_the_time_keeps_its_energy() -> None:
+    result = simulate(restless("redundant", 1.5))
+    open_by, allowed = energy_open(result.scenario, result.channels)
+    # measured: 0.4 J of 17 J; 17 J are open after 1.5 s with steps of 2 ms
+    assert open_by.max() < 0.1 * allowed
 
 
 def test_the_yardstick_integrates_the_same_machine() -> None:
