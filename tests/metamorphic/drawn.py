@@ -124,7 +124,10 @@ def frictions(draw: st.DrawFn, compiled: bool) -> FrictionLaw:
         CubicCoulomb(sliding_coefficient=mu, dynamic_speed=speed),
         BrownMcPhee(static_coefficient=1.2 * mu, sliding_coefficient=mu, transition_speed=speed),
         Stribeck(
-            static_coefficient=1.2 * mu, sliding_coefficient=mu, stribeck_speed=speed, tolerance_speed=0.5 * speed
+            static_coefficient=1.2 * mu,
+            sliding_coefficient=mu,
+            stribeck_speed=speed,
+            tolerance_speed=0.5 * speed,
         ),
     )
     return draw(st.sampled_from(others))
@@ -189,7 +192,11 @@ def columns(draw: st.DrawFn, kind: Machine, name: str) -> Mapping[str, ColumnMod
 @st.composite
 def tails(draw: st.DrawFn, kind: Machine) -> Mapping[str, PartModel]:
     """Mostly fixed; now and then a body of its own on a cushion of oil, if the machine has such a beam."""
-    return {"tail_beam": OwnBody(jack=JACK)} if getattr(kind, "tail_hinge", None) and not draw(st.integers(0, 3)) else {}
+    return (
+        {"tail_beam": OwnBody(jack=JACK)}
+        if getattr(kind, "tail_hinge", None) and not draw(st.integers(0, 3))
+        else {}
+    )
 
 
 @st.composite
@@ -281,7 +288,9 @@ def in_bodies(draw: st.DrawFn, level: bool = True) -> Scenario:
 
 def cylinders_in(made_of: Mapping[str, ColumnModel]) -> list[str]:
     """Columns that no drive moves."""
-    return [name for name, column in made_of.items() if not isinstance(column, OilColumn) and column.oil is None]
+    return [
+        name for name, column in made_of.items() if not isinstance(column, OilColumn) and column.oil is None
+    ]
 
 
 @st.composite

@@ -39,7 +39,7 @@ def filled(draw: st.DrawFn) -> HydraulicCylinder:
 
 
 def with_hoses(cylinder: HydraulicCylinder, share: float) -> HydraulicCylinder:
-    """As stiff a cylinder whose hoses hold so many times what its chambers do."""
+    """About as stiff a cylinder whose hoses hold so many times what its chambers do."""
     return replace(
         cylinder,
         hose_volume=share * cylinder.bore_area * cylinder.oil_length,
@@ -71,11 +71,11 @@ def at_rest(draw: st.DrawFn) -> tuple[Scenario, Mapping[str, HydraulicCylinder]]
 
 
 def compared(scene: Scenario, cylinders: Mapping[str, HydraulicCylinder], hoses: float, curved: float) -> None:
-    with_oil: dict[str, ColumnModel] = {name: as_oil(one) for name, one in cylinders.items()}
+    filled_up = {name: with_hoses(cylinder, hoses) for name, cylinder in cylinders.items()}
+    with_oil: dict[str, ColumnModel] = {name: as_oil(one) for name, one in filled_up.items()}
     # all are told: what is said of the drive of a leg is the ram's, too
     driven = {name: scene.drive for name in drawn.columns_of(scene.machine) if name not in cylinders}
     oil = replace(scene, columns=with_oil, drives=driven | dict.fromkeys(cylinders, Held()))
-    filled_up = {name: with_hoses(cylinder, hoses) for name, cylinder in cylinders.items()}
     one, two = run(oil), run(replace(scene, columns=filled_up, drives=driven))
     # methods differ, for pressures are coordinates: each has its error
     both = {name: allowed + two.allowed[name] for name, allowed in one.allowed.items()}

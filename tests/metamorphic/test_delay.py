@@ -94,4 +94,3 @@ def test_a_support_of_bodies(scene: Scenario, milliseconds: int) -> None:
 @scenes(6)
 def test_a_support_with_ideal_pins_in_free_coordinates(scene: Scenario, milliseconds: int) -> None:
     delayed(scene, milliseconds)
-

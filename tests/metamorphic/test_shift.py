@@ -10,7 +10,9 @@ from tests.metamorphic import drawn
 from tests.metamorphic.moving import Move, moved, seen
 from tests.metamorphic.same import run, scenes, told
 
-WAYS = st.sampled_from(((3.0, 2.0), (-7.0, 5.0), (0.0, 1.0), (300.0, 300.0), (-300.0, 0.5), (0.0, 300.0)))  # [m]
+WAYS = st.sampled_from(
+    ((3.0, 2.0), (-7.0, 5.0), (0.0, 1.0), (300.0, 300.0), (-300.0, 0.5), (0.0, 300.0))
+)  # [m]
 NEAR = st.sampled_from(((3.0, 2.0), (-7.0, 5.0), (0.0, 1.0)))
 # By metre. Of the largest value in a unit: 3e-14 m at 300 m are 1e-2 m/s^2 in steps of an impact of 1 us, and
 # measured 8e-3 of the accelerations there; formulations with error control compute motions from the start

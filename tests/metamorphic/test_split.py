@@ -62,7 +62,9 @@ def under_a_roof(draw: st.DrawFn) -> Scenario:
     """A support under a face that comes down."""
     scene = draw(drawn.in_bodies())
     at = scene.linkage.points["tip"]
-    descent = CubicStep(stroke=draw(drawn.between(2e-3, 5e-3)), start=5e-4, end=draw(drawn.half_milliseconds(8, 20)))
+    descent = CubicStep(
+        stroke=draw(drawn.between(2e-3, 5e-3)), start=5e-4, end=draw(drawn.half_milliseconds(8, 20))
+    )
     roof = Roof(
         body=at.body,
         point=at.point,
@@ -80,7 +82,8 @@ def test_a_roof_in_parts(scene: Scenario, share: float) -> None:
     roof = scene.loads["roof"]
     assert isinstance(roof, Roof)
     loads: dict[str, Load] = {
-        f"part_{n}": replace(roof, stiffness=part * roof.stiffness) for n, part in enumerate((share, 1.0 - share))
+        f"part_{n}": replace(roof, stiffness=part * roof.stiffness)
+        for n, part in enumerate((share, 1.0 - share))
     }
     same_but_for_loads(run(scene), replace(scene, loads=loads))
 

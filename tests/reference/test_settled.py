@@ -100,9 +100,7 @@ def test_what_presses_later_has_no_part_in_the_start(kind: str) -> None:
     on_canopy = {"body": "canopy", "point": reference_support().linkage().points["tip"].point}
     loads: dict[str, Load] = {
         "force": AppliedForce(full_force=(0.0, -5e5), start=0.03, end=0.9, **on_canopy),
-        "roof": Roof(
-            descent=CubicStep(stroke=0.05, start=0.03, end=0.9), stiffness=1e7, gap=5e-3, **on_canopy
-        ),
+        "roof": Roof(descent=CubicStep(stroke=0.05, start=0.03, end=0.9), stiffness=1e7, gap=5e-3, **on_canopy),
     }
     still = simulate(settled(columns=oil_columns(), duration=0.03))
     pressed = simulate(settled(columns=oil_columns(), duration=0.03, loads={kind: loads[kind]}))
