@@ -237,7 +237,7 @@ def _turned_back(drive: Drive) -> Drive:
 
 
 def seen(result: Result, move: Move) -> dict[str, np.ndarray]:
-    """What would be recorded of a run if it were moved, by channel; potential energy and angles from the start."""
+    """What would be recorded of a run if it were moved; potential energy and angles from the start."""
     found = {name: np.array(result[name]) for name in result.channels}
     for name in list(found):
         stem = name[:-1]

@@ -61,7 +61,7 @@ def as_oil(cylinder: HydraulicCylinder) -> OilColumn:
 
 @st.composite
 def at_rest(draw: st.DrawFn) -> tuple[Scenario, Mapping[str, HydraulicCylinder]]:
-    """A support whose columns are not driven, without cylinders, and cylinders for one or both of its columns."""
+    """A support without cylinders, and closed ones for one or both of its columns, which are not driven."""
     scene = draw(drawn.in_bodies())
     drive = Held() if isinstance(scene.drive, Reciprocating) else scene.drive
     names = drawn.columns_of(scene.machine)

@@ -18,8 +18,8 @@ from tests.metamorphic.same import Run, Seen, plain, run, scenes, sizes, told
 # reactions from accelerations; means do not show it
 OVERSHOOT = 2e-2
 MEAN = 1e-4
-# Both take the same steps, so that of the errors they have they have nearly all in common; where a pair is loose
-# its two touches are located apart, measured 6e-5 of mean forces and 1.4e-4 of the motion, else 1e-7
+# Both take the same steps, so that of the errors they have they have nearly all in common; where a pair is
+# loose its two touches are located apart, measured 6e-5 of mean forces and 1.4e-4 of the motion, else 1e-7
 SHARE = 0.02
 NEAR = 1e-3  # of the motion
 

@@ -92,7 +92,7 @@ def test_a_roof_in_parts(scene: Scenario, share: float) -> None:
 
 
 def halves(part: Part, share: float, direction: float, reach: float) -> tuple[Part, Part]:
-    """Two parts with the mass, the centre and the moments of one, apart by a share of its radius of gyration."""
+    """Two parts with mass, centre and moments of one, `reach` times its radius of gyration apart."""
     apart = reach * math.sqrt(part.inertia / part.mass)
     way = np.array([math.cos(direction), math.sin(direction)]) * apart
     left = np.array(part.second_moments) - part.mass * share * (1.0 - share) * np.array(
