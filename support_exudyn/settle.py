@@ -15,6 +15,9 @@ from support_exudyn.errors import Failure, SimulationError
 from support_exudyn.load_item import LoadItem
 from support_exudyn.scene_items import BodyItem
 
+# The engine solves at the end of its only step of loads, 1 s by default: drives and loads, which are told the
+# time, would be settled as they are then.
+AT_THE_START = 1e-30  # [s]
 # A journal in the middle of its bore has no stiffness. A centring spring in every loose pin is there at
 # first, stiff enough to hold the weight of the machine within the clearance, and is then taken away.
 # What Newton's method still changes tells whether it is done. What is left of the forces does not: contacts are
@@ -74,6 +77,7 @@ def _solve(scene: EngineScene) -> None:
     settings: Any = exudyn.SimulationSettings()
     settings.solution.file.write = False
     settings.staticSolver.verboseMode = 0
+    settings.staticSolver.loadStepDuration = AT_THE_START
     newton = settings.staticSolver.newton
     newton.residualMode, newton.relativeTolerance = BY_CHANGES, 1e-10
     newton.absoluteTolerance = max(CLOSE, ROUNDINGS * math.ulp(scene.scenario.linkage.farthest))

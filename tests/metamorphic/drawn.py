@@ -94,7 +94,10 @@ def half_milliseconds(low: int, high: int) -> st.SearchStrategy[float]:
 def normals(
     draw: st.DrawFn, bearing: JournalBearing, stiffness: float, compiled: bool, jumps: bool
 ) -> NormalLaw:
-    """A law of any form, about so stiff [N/m^1.5]; `compiled`: of those that are; `jumps`: its force may jump."""
+    """A law of any form, about so stiff [N/m^1.5].
+
+    compiled: of those that are. jumps: its force may jump at a touch.
+    """
     stiff = stiffness * 2.0 ** draw(st.integers(-2, 1))
     speeds: tuple[DampingSpeed, ...] = (DepthSpeed(), TouchSpeed(floor=1e-3))
     hysteresis = {"restitution": draw(between(0.3, 0.95)), "damping_speed": draw(st.sampled_from(speeds))}
@@ -124,7 +127,10 @@ def frictions(draw: st.DrawFn, compiled: bool) -> FrictionLaw:
         CubicCoulomb(sliding_coefficient=mu, dynamic_speed=speed),
         BrownMcPhee(static_coefficient=1.2 * mu, sliding_coefficient=mu, transition_speed=speed),
         Stribeck(
-            static_coefficient=1.2 * mu, sliding_coefficient=mu, stribeck_speed=speed, tolerance_speed=0.5 * speed
+            static_coefficient=1.2 * mu,
+            sliding_coefficient=mu,
+            stribeck_speed=speed,
+            tolerance_speed=0.5 * speed,
         ),
     )
     return draw(st.sampled_from(others))
@@ -132,8 +138,11 @@ def frictions(draw: st.DrawFn, compiled: bool) -> FrictionLaw:
 
 @st.composite
 def loose(draw: st.DrawFn, radius: float, stiffness: float, compiled: bool, apart: bool) -> ClearancePin:
-    """A pin with clearance. `apart`, of formulations with error control: its journal may start anywhere in it,
-    and its force may jump at a touch, which leaves steps of fixed length with large errors."""
+    """A pin with clearance.
+
+    apart: of formulations with error control. Its journal may start anywhere in it, and its force may jump at
+    a touch, which leaves steps of fixed length with large errors.
+    """
     clearance = radius * draw(between(0.004, 0.02))
     bearing = JournalBearing(bore_radius=radius, clearance=clearance)
     contact = JournalContact(
@@ -189,7 +198,11 @@ def columns(draw: st.DrawFn, kind: Machine, name: str) -> Mapping[str, ColumnMod
 @st.composite
 def tails(draw: st.DrawFn, kind: Machine) -> Mapping[str, PartModel]:
     """Mostly fixed; now and then a body of its own on a cushion of oil, if the machine has such a beam."""
-    return {"tail_beam": OwnBody(jack=JACK)} if getattr(kind, "tail_hinge", None) and not draw(st.integers(0, 3)) else {}
+    return (
+        {"tail_beam": OwnBody(jack=JACK)}
+        if getattr(kind, "tail_hinge", None) and not draw(st.integers(0, 3))
+        else {}
+    )
 
 
 @st.composite
@@ -198,7 +211,10 @@ def loads(draw: st.DrawFn, kind: Machine, level: bool) -> Mapping[str, Load]:
     linkage = kind.linkage()
     tip, centre = linkage.points["tip"].point, linkage.bodies["canopy"].centre
     share = draw(between(0.0, 1.0))
-    at: Any = {"body": "canopy", "point": tuple(share * a + (1 - share) * b for a, b in zip(tip, centre))}
+    at: Any = {
+        "body": "canopy",
+        "point": tuple(share * a + (1 - share) * b for a, b in zip(tip, centre, strict=True)),
+    }
     start = draw(half_milliseconds(0, 10))
     force = AppliedForce(
         full_force=(draw(between(-1e5, 1e5)), draw(between(-5e5, 1e5))), start=start, end=start + 0.02, **at
@@ -281,7 +297,9 @@ def in_bodies(draw: st.DrawFn, level: bool = True) -> Scenario:
 
 def cylinders_in(made_of: Mapping[str, ColumnModel]) -> list[str]:
     """Columns that no drive moves."""
-    return [name for name, column in made_of.items() if not isinstance(column, OilColumn) and column.oil is None]
+    return [
+        name for name, column in made_of.items() if not isinstance(column, OilColumn) and column.oil is None
+    ]
 
 
 @st.composite

@@ -72,12 +72,13 @@ class Move:
         """Second moments of mass."""
         return of and turned_moments((of[0], of[1], self.sign * of[2]), self.angle)
 
-
     @property
     def back(self) -> Move:
         """The move that undoes a turn, a shift or a mirror; of no more than one of these."""
         c, s = self.along
-        return Move((c, s) if self.flipped else (c, -s), self.flipped, (-self.shift[0], -self.shift[1]), self.about)
+        return Move(
+            (c, s) if self.flipped else (c, -s), self.flipped, (-self.shift[0], -self.shift[1]), self.about
+        )
 
 
 def turn(degrees: float, about: Point = (0.0, 0.0)) -> Move:
@@ -155,9 +156,7 @@ class Moved(Machine):
 def moved_machine(machine: Machine, move: Move, formulation: str) -> Machine:
     """A machine moved, of its own class where the formulation asks for that."""
     if formulation != "reduced":
-        return Moved(
-            inner=machine, along=move.along, flipped=move.flipped, shift=move.shift, about=move.about
-        )
+        return Moved(inner=machine, along=move.along, flipped=move.flipped, shift=move.shift, about=move.about)
     if isinstance(machine, SliderCrank):
         assert move == UPSIDE_DOWN  # its guide is along x
         return replace(machine, start_angle=-machine.start_angle)
@@ -238,7 +237,7 @@ def _turned_back(drive: Drive) -> Drive:
 
 
 def seen(result: Result, move: Move) -> dict[str, np.ndarray]:
-    """What would be recorded of a run if it were moved, by channel; potential energy and angles from the start."""
+    """What would be recorded of a run if it were moved; potential energy and angles from the start."""
     found = {name: np.array(result[name]) for name in result.channels}
     for name in list(found):
         stem = name[:-1]

@@ -7,7 +7,20 @@ import math
 import numpy as np
 import pytest
 
-from support_exudyn import ClearancePin, Held, Scenario, SimulationError, SolverSettings, simulate
+from studies.paper_machine import oil_columns
+from support_exudyn import (
+    AppliedForce,
+    ClearancePin,
+    CubicStep,
+    Held,
+    Load,
+    Roof,
+    Scenario,
+    SimulationError,
+    SolverSettings,
+    reference_support,
+    simulate,
+)
 from tests.reference.cases import FORCE, PIN, Pair, loose_support, paper_contact, support
 from tests.reference.test_momentum import ONE, TWO
 
@@ -80,3 +93,25 @@ def test_the_force_points_along_the_eccentricity() -> None:
     along = math.atan2(result[f"pin.{PIN}.eccentricity_y"][0], result[f"pin.{PIN}.eccentricity_x"][0])
     force = math.atan2(-result[FORCE + "_y"][0], -result[FORCE + "_x"][0])
     assert along == pytest.approx(force, abs=1e-9)  # rounding; the bore pushes the journal back
+
+
+@pytest.mark.parametrize("kind", ["force", "roof"])
+def test_what_presses_later_has_no_part_in_the_start(kind: str) -> None:
+    on_canopy = {"body": "canopy", "point": reference_support().linkage().points["tip"].point}
+    loads: dict[str, Load] = {
+        "force": AppliedForce(full_force=(0.0, -5e5), start=0.03, end=0.9, **on_canopy),
+        "roof": Roof(descent=CubicStep(stroke=0.05, start=0.03, end=0.9), stiffness=1e7, gap=5e-3, **on_canopy),
+    }
+    still = simulate(settled(columns=oil_columns(), duration=0.03))
+    pressed = simulate(settled(columns=oil_columns(), duration=0.03, loads={kind: loads[kind]}))
+    for name in ("tip.y", "front_column.force", FORCE):  # Newton's tolerance, as above
+        np.testing.assert_allclose(pressed[name], still[name], rtol=1e-6, err_msg=name)
+
+
+def test_what_presses_from_the_start_on_is_settled_under() -> None:
+    at = reference_support().linkage().points["tip"]
+    push = AppliedForce(body=at.body, point=at.point, full_force=(0.0, -1e4))
+    result = simulate(settled(columns=oil_columns(), duration=0.02, loads={"push": push}))
+    assert np.abs(result["canopy.angular_velocity"]).max() < 1e-8
+    light = simulate(settled(columns=oil_columns(), duration=0.02))
+    assert result["front_column.force"][0] > light["front_column.force"][0] + 1e4  # it is a lever

@@ -1,0 +1,96 @@
+"""A scene that rests in static equilibrium for a while before anything happens then moves as it did."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from support_exudyn import (
+    AppliedForce,
+    CubicStep,
+    FallingBlock,
+    Held,
+    HydraulicCylinder,
+    Load,
+    Reciprocating,
+    Roof,
+    Scenario,
+    SuddenOpening,
+    UniformSpeed,
+)
+from support_exudyn.drives import Drive
+from tests.metamorphic import drawn
+from tests.metamorphic.moving import FROM_THE_START
+from tests.metamorphic.same import Seen, plain, run, scenes, told
+
+DWELLS = st.integers(1, 12)  # [ms]
+
+
+def settled(scene: Scenario) -> Scenario:
+    """The scene from rest, with what can be put off."""
+    loads = {name: load for name, load in scene.loads.items() if not isinstance(load, FallingBlock)}
+    drive = Held() if isinstance(scene.drive, Reciprocating) else scene.drive
+    start = "concentric" if scene.formulation == "reduced" else "settled"
+    return replace(scene, start=start, loads=loads, drive=drive)
+
+
+def later(scene: Scenario, dwell: float) -> Scenario:
+    """Everything that happens put off by a time [s]."""
+
+    def load(one: Load) -> Load:
+        if isinstance(one, AppliedForce):
+            return replace(one, start=one.start + dwell, end=one.end + dwell)
+        assert isinstance(one, Roof)
+        return replace(one, descent=drive(one.descent))
+
+    def drive(one: Drive) -> Drive:
+        if isinstance(one, (CubicStep, UniformSpeed)):
+            return replace(one, start=one.start + dwell, end=one.end + dwell)
+        assert isinstance(one, Held)
+        return one
+
+    columns = dict(scene.columns)
+    for name, column in columns.items():
+        if isinstance(column, HydraulicCylinder) and isinstance(inlet := column.inlet, SuddenOpening):
+            opens = replace(inlet, start=inlet.start + dwell, end=inlet.end + dwell)
+            columns[name] = replace(column, inlet=opens)
+    return replace(
+        scene,
+        columns=columns,
+        loads={name: load(one) for name, one in scene.loads.items()},
+        drive=drive(scene.drive),
+        duration=scene.duration + dwell,
+    )
+
+
+def delayed(scene: Scenario, milliseconds: int) -> None:
+    dwell = milliseconds * drawn.MS
+    one, other = run(scene), told(later(scene, dwell))
+    one.check(after(plain(other), milliseconds, dwell))
+
+
+def after(seen: Seen, records: int, dwell: float) -> Seen:
+    """From a record on, which is the first from then on."""
+    found = {name: values[records:] for name, values in seen.items()}
+    found["time"] = found["time"] - dwell
+    return {name: v - v[0] if name.endswith(FROM_THE_START) else v for name, v in found.items()}
+
+
+@given(scene=drawn.in_a_tree().map(settled), milliseconds=DWELLS)
+@scenes(8)
+def test_a_support_as_a_tree(scene: Scenario, milliseconds: int) -> None:
+    delayed(scene, milliseconds)
+
+
+@given(scene=drawn.in_bodies().map(settled), milliseconds=DWELLS)
+@scenes(8)
+def test_a_support_of_bodies(scene: Scenario, milliseconds: int) -> None:
+    delayed(scene, milliseconds)
+
+
+@given(scene=drawn.in_free_coordinates().map(lambda one: settled(replace(one, pins={}))), milliseconds=DWELLS)
+@scenes(6)
+def test_a_support_with_ideal_pins_in_free_coordinates(scene: Scenario, milliseconds: int) -> None:
+    delayed(scene, milliseconds)
