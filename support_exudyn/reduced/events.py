@@ -153,7 +153,15 @@ def rise(d0: float, r0: float, d1: float, r1: float, h: float) -> Found:
 
 @compiled
 def look(
-    p: Vector, segment: Vector, memory: Vector, t: float, h: float, x: float, path: Matrix, y: Vector, out: Vector
+    p: Vector,
+    segment: Vector,
+    memory: Vector,
+    t: float,
+    h: float,
+    x: float,
+    path: Matrix,
+    y: Vector,
+    out: Vector,
 ) -> None:
     """Write the contact at a fraction x of a step into `out`; y is overwritten."""
     within(path, x, y)

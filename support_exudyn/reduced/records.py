@@ -42,7 +42,15 @@ def record(segment: Vector, memory: Vector, t: float, y: Vector, rows: Matrix, n
 
 @compiled
 def force_at(
-    p: Vector, segment: Vector, memory: Vector, t: float, h: float, x: float, path: Matrix, y: Vector, there: Vector
+    p: Vector,
+    segment: Vector,
+    memory: Vector,
+    t: float,
+    h: float,
+    x: float,
+    path: Matrix,
+    y: Vector,
+    there: Vector,
 ) -> float:
     """Magnitude of the contact force [N] at a fraction x of a step; y and there are overwritten."""
     within(path, x, y)

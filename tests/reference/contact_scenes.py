@@ -74,7 +74,11 @@ def drawn(seed: int, number: int) -> Scenario:
     end = round(start + rng.uniform(0.05, 0.3), 3)
     stroke = round(rng.uniform(-0.06, 0.12), 3)
     kind = rng.choice(3, p=(0.15, 0.7, 0.15))
-    drive = (Held(), CubicStep(start=start, end=end, stroke=stroke), UniformSpeed(start=start, end=end, stroke=stroke))
+    drive = (
+        Held(),
+        CubicStep(start=start, end=end, stroke=stroke),
+        UniformSpeed(start=start, end=end, stroke=stroke),
+    )
     eccentricity = (0.0, 0.0)
     if rng.random() < 0.3:
         angle, away = rng.uniform(0.0, 2.0 * np.pi), clearance * rng.uniform(0.2, 1.0)
@@ -124,7 +128,9 @@ def off(result: Result, right: Result) -> Iterator[Off]:
 
 def finely(scenario: Scenario, tolerance: float = FINEST) -> Result:
     """A run that is taken for right."""
-    return simulate(replace(scenario, accuracy=None, solver=SolverSettings(tolerance=tolerance, most_steps=1_000_000)))
+    return simulate(
+        replace(scenario, accuracy=None, solver=SolverSettings(tolerance=tolerance, most_steps=1_000_000))
+    )
 
 
 def main(seed: int, count: int, accuracies: list[str]) -> None:
@@ -149,8 +155,20 @@ def main(seed: int, count: int, accuracies: list[str]) -> None:
             covered[accuracy][1] += len(found)
             worst = max(found, key=lambda item: item.errors)
             if worst.errors > OFF:
-                doubt = max(abs(item.right - item.value) for item in off(replace(sure, coarser=sure), right) if item.name == worst.name)
-                print(number, accuracy, worst, "right within", doubt, sum(item.errors > OFF for item in found), flush=True)
+                doubt = max(
+                    abs(item.right - item.value)
+                    for item in off(replace(sure, coarser=sure), right)
+                    if item.name == worst.name
+                )
+                print(
+                    number,
+                    accuracy,
+                    worst,
+                    "right within",
+                    doubt,
+                    sum(item.errors > OFF for item in found),
+                    flush=True,
+                )
     for accuracy, (inside, of, missed) in covered.items():
         print(f"{accuracy}: {inside} of {of} covered ({100.0 * inside / max(1, of):.2f} %), {missed} not met")
 

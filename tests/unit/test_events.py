@@ -6,6 +6,7 @@ Every finder is driven as its integrator drives it: steps that are too long are 
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -77,7 +78,9 @@ def reduced(parts: int, cut_samples: int) -> Finder:
             found[layout.PUSH] = 1.0
             return found
 
-        def look(p: object, segment: object, memory: object, begin: float, step: float, x: float, *rest: list) -> None:
+        def look(
+            p: object, segment: object, memory: object, begin: float, step: float, x: float, *rest: list
+        ) -> None:
             rest[-1][:] = contact(begin + x * step)
 
         p = [0.0] * layout.PARAMETERS
@@ -137,10 +140,15 @@ def course_of(turns: list[float], sign: float, lowest: float, closed: bool) -> C
     return Course((depth - level) * DEPTH, closed)
 
 
-# far enough from each other for rounding of the roots; a dip may be a thousandth of a step
-times = st.lists(st.floats(0.02, 0.98), min_size=2, max_size=4).filter(
-    lambda found: bool((np.diff(sorted(found)) > 1e-4 * LENGTH).all())
-)
+def can_be_told(turns: list[float]) -> bool:
+    """Whether a swing, from turn to turn and back, takes three steps; a dip may be a thousandth of a step."""
+    turns = sorted(turns)
+    return all(b - a > 1e-4 for a, b in pairwise(turns)) and all(
+        b - a > 3.0 * FIRST for a, b in zip(turns, turns[2:], strict=False)
+    )
+
+
+times = st.lists(st.floats(0.02, 0.98), min_size=2, max_size=4).filter(can_be_told)
 # of the range: how far the depth's extremes stay from zero, or pass it
 margins = st.floats(0.01, 0.5) | st.floats(-0.5, -0.01)
 
@@ -180,3 +188,116 @@ def test_the_first_touch_of_a_flight_is_found(
     assume(course.depth(0.0) < -1e-3 * DEPTH)
     assume(all(abs(course.depth(t)) > 1e-3 * DEPTH for t in turns))
     check(FINDERS[finder], course)
+
+
+# --- tension that is cut ---
+
+
+def cut(push: Callable[[float], float], depth: Polynomial, h: float = 0.125, start: float = 0.0) -> Seen:
+    """What the compiled finder sees in a step of a contact that asks for tension where `push` is below zero."""
+
+    def contact(time: float) -> list[float]:
+        found = [0.0] * layout.CONTACT
+        found[layout.DEPTH], found[layout.RATE] = float(depth(time)), float(depth.deriv()(time))
+        found[layout.PUSH] = push(time)
+        return found
+
+    def look(
+        p: object, segment: object, memory: object, begin: float, step: float, x: float, *rest: list
+    ) -> None:
+        rest[-1][:] = contact(begin + x * step)
+
+    p, memory = [0.0] * layout.PARAMETERS, [0.0] * layout.MEMORY
+    p[layout.BY_DEPTH] = memory[layout.TOUCHING] = 1.0
+    scratch = [0.0] * layout.STATES, [0.0] * layout.CONTACT
+    ends = contact(start), contact(start + h)
+    what, low, high = plain(events.event, look=look)(p, [], memory, start, h, *ends, None, *scratch)
+    return NAMES[what], start + low * h, start + high * h
+
+
+DEEP = Polynomial([5e-4, -1e-3])  # on its way out, still closed after a tenth of a second
+PARTS_EARLY = Polynomial([5e-5, -1e-3])  # parts at 0.05 s
+
+
+def test_a_cut_is_found_between_the_ends_of_its_step() -> None:
+    assert cut(lambda t: 0.1 - t, DEEP) == ("cut", 0.0, 0.125)
+    assert cut(lambda t: t - 0.1, DEEP) == ("cut", 0.0, 0.125)
+    assert cut(lambda t: 0.2 - t, DEEP) == (NOTHING, 0.125, 0.125)
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+@pytest.mark.parametrize("middle", [0.3, 0.5, 0.7])
+def test_two_cuts_within_a_step_are_seen(middle: float, sign: float) -> None:
+    found = cut(lambda t: sign * 0.4 * ((8.0 * t - middle) ** 2 - 0.04), DEEP)
+    assert found[0] == UNCLEAR
+
+
+def test_what_stays_on_one_side_of_a_cut_is_left_alone() -> None:
+    assert cut(lambda t: 0.4 * ((8.0 * t - 0.5) ** 2 + 0.04), DEEP)[0] == NOTHING
+    # far from a cut nothing is looked at
+    assert cut(lambda t: 0.6 if t in (0.0, 0.125) else -1.0, DEEP)[0] == NOTHING
+
+
+def test_where_a_cut_is_met_a_step_begins_on_neither_side() -> None:
+    assert cut(lambda t: -1e-12 + t, DEEP)[0] == NOTHING
+    assert cut(lambda t: 1e-12 - t, DEEP)[0] == NOTHING
+
+
+def test_a_cut_and_a_parting_in_one_step_are_told_apart_by_shorter_ones() -> None:
+    assert cut(lambda t: 0.07 - t, PARTS_EARLY)[0] == UNCLEAR
+    assert cut(lambda t: 0.04 - t, PARTS_EARLY, h=0.045) == ("cut", 0.0, 0.045)
+    what, low, high = cut(lambda t: 0.07 - t, PARTS_EARLY, h=0.06)
+    assert what == PARTING
+    assert low <= 0.05 <= high
+    # in so short a step the parting counts
+    tiny = Polynomial([5e-14, -1e-3])
+    assert cut(lambda t: 2e-11 - t, tiny, h=1e-10)[0] == PARTING
+
+
+def test_a_cut_comes_before_the_contact_is_pressed_on_again() -> None:
+    # where the rate passes zero the law asks for no tension
+    turning = Polynomial([5e-4, -1e-3, 8e-3])
+    assert cut(lambda t: t - 0.03, turning)[0] == "cut"
+    assert cut(lambda t: 1.0, turning)[0] == RETURN
+
+
+# --- at the ends of steps ---
+
+
+@pytest.mark.parametrize("finder", FINDERS)
+def test_a_turn_at_the_end_of_a_step_is_found_once(finder: str) -> None:
+    # depth 1e-4 + (t - 0.125)^2 / 1000 [m]: the rate is exactly zero where the first step of 1/8 s ends
+    course = Course(1e-3 * Polynomial([0.1 + 0.125**2, -0.25, 1.0]), closed=True)
+    assert course.rate(0.125) == 0.0
+    what, low, high = FINDERS[finder](course, 0.0, 0.125)
+    assert (what, low, high) == (RETURN, pytest.approx(0.125, abs=1e-9), pytest.approx(0.125, abs=1e-9))
+    assert FINDERS[finder](course, 0.125, 0.125)[0] == NOTHING
+
+
+@pytest.mark.parametrize("finder", FINDERS)
+def test_what_has_just_been_met_is_not_met_again(finder: str) -> None:
+    find = FINDERS[finder]
+    rounding = 1e-15
+    # just touched, a little before zero depth by rounding, on the way in
+    assert find(Course(Polynomial([-rounding, 1e-3, -1e-3]), closed=True), 0.0, 0.1)[0] == NOTHING
+    # just parted, a little after it, on the way out
+    assert find(Course(Polynomial([rounding, -1e-3, 1e-4]), closed=False), 0.0, 0.1)[0] == NOTHING
+
+
+@pytest.mark.parametrize("finder", FINDERS)
+@pytest.mark.parametrize("beyond", [1e-4, -1e-4])
+def test_grazes_are_told_from_touches(finder: str, beyond: float) -> None:
+    # a flight whose top passes the wall by a ten-thousandth of its height, or stays below by as much
+    for width in (0.25, 0.4):
+        t = Polynomial([-0.47, 1.0])
+        flight = Course(DEPTH * (beyond - (t / width) ** 2 - 0.05 * (t / width) ** 4), closed=False)
+        what, _ = flight.first()
+        assert driven(FINDERS[finder], flight)[0][0] == (what if beyond > 0.0 else NOTHING)
+
+
+@pytest.mark.parametrize("finder", FINDERS)
+@pytest.mark.parametrize("left", [1e-3, -1e-3])
+def test_contacts_that_nearly_part_are_told_from_those_that_do(finder: str, left: float) -> None:
+    t = Polynomial([-0.47, 1.0])
+    course = Course(DEPTH * (left + (t / 0.3) ** 2 + 0.3 * (t / 0.3) ** 3), closed=True)
+    assert driven(FINDERS[finder], course)[0][0] == (RETURN if left > 0.0 else PARTING)
