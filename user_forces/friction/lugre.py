@@ -70,9 +70,16 @@ class LuGre(FrictionLaw):
         return steady + (deflection - steady) * exp(-magnitude(slip) * step / size)
 
     def swing_time(self, mass: float, normal_force: float) -> float:
-        """sqrt(m / (s0 F_n)) [s], with which bristles hold a mass [kg]; infinite without a normal force [N]."""
-        stiffness = self.bristle_stiffness * normal_force
-        return math.sqrt(mass / stiffness) if stiffness > 0.0 else math.inf
+        """The shorter of sqrt(m / (s0 F_n)) and 4 m / (s1 F_n) [s]; infinite without a normal force [N].
+
+        Bristles hold a mass [kg] as a spring. Damped by more than twice the critical damping, they stop it in
+        less time than a swing takes.
+        """
+        if normal_force <= 0.0:
+            return math.inf
+        swing = math.sqrt(mass / (self.bristle_stiffness * normal_force))
+        damping = self.bristle_damping * normal_force
+        return min(swing, 4.0 * mass / damping) if damping > 0.0 else swing
 
     def __call__(self, slip: float, normal_force: float, deflection: float = 0.0) -> float:
         """Tangential force [N] for a slip [m/s], a normal force [N] >= 0 and a deflection z [m]."""
