@@ -51,7 +51,7 @@ def too_deep(pin: str, depth: float, bearing: JournalBearing) -> str:
 
 
 def audit(scenario: Scenario, outcome: Outcome, channels: Mapping[str, Channel]) -> Failure | None:
-    """The first reason not to believe a run; None if there is none. channels: all of them, whatever is asked for."""
+    """The first reason not to believe a run; None if there is none. channels: all, whatever is asked for."""
     return next(_reasons(scenario, outcome, channels), None)
 
 
@@ -113,6 +113,7 @@ def _losses(scenario: Scenario, outcome: Outcome, channels: Mapping[str, Channel
 def _who_loses(scenario: Scenario, kind: str) -> str:
     """What of a scenario may lose energy in this way, with its laws."""
     pins = scenario.clearance_pins.items()
+    laws: list[tuple[str, object]]
     if kind == "friction_loss":
         laws = [(f"pins.{name}", pin.contact.friction) for name, pin in pins]
         laws += [(f"pins.{name}", pin.friction) for name, pin in scenario.friction_pins.items() if pin.friction]

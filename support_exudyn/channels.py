@@ -25,9 +25,7 @@ def channels(scenario: Scenario, run: Trajectory | Observed) -> dict[str, Channe
     """The channels that a scenario asks for, by name; all if its run is audited, which looks at all of them."""
     seen = Seen(scenario.linkage, scenario.gravity, run) if isinstance(run, Trajectory) else run
     recipes = scenario.recipes if scenario.solver.audit else _asked(scenario)
-    return {
-        name: Channel(recipe.values(seen), recipe.unit, recipe.meaning) for name, recipe in recipes.items()
-    }
+    return {name: Channel(recipe.values(seen), recipe.unit, recipe.meaning) for name, recipe in recipes.items()}
 
 
 def asked(scenario: Scenario, found: Mapping[str, Channel]) -> dict[str, Channel]:

@@ -69,16 +69,16 @@ class PinFriction:
             moment = self.moment(force, more * spin)
             if math.isfinite(force) and not math.isfinite(moment):
                 raise LawError(
-                    f"{name}: {type(self.law).__name__} gives a moment of {moment:g} N m at {more * spin:.6g} rad/s "
-                    f"and {force:.6g} N"
+                    f"{name}: {type(self.law).__name__} gives a moment of {moment:g} N m at "
+                    f"{more * spin:.6g} rad/s and {force:.6g} N"
                 )
 
     def look(self, name: str) -> None:
         """Raise LawError, for what is dissipated now cannot be."""
         spin, force = self._spin(self._data.GetODE2Coordinates_t()), self._force()
         raise LawError(
-            f"{name}: {type(self.law).__name__} gives a moment of {self.moment(force, spin):.6g} N m along the turning at "
-            f"{spin:.6g} rad/s and {force:.6g} N"
+            f"{name}: {type(self.law).__name__} gives a moment of {self.moment(force, spin):.6g} N m along the "
+            f"turning at {spin:.6g} rad/s and {force:.6g} N"
         )
 
     def add_moment(self, forces: Series, force: float, rates: Series) -> None:

@@ -53,8 +53,8 @@ def run_once(scenario: Scenario, progress: Progress) -> Result:
 
 def _look_at_laws(scenario: Scenario) -> None:
     """Raise SimulationError if the law of a pin cannot be one even at rest."""
-    for name, pin in scenario.clearance_pins.items():
-        try:
-            look_at_rest(pin.contact)
-        except LawError as error:
-            raise SimulationError(Failure(str(error.at(name)), UNLAWFUL, 0.0)) from error
+    try:
+        for name, pin in scenario.clearance_pins.items():
+            look_at_rest(pin.contact, name)
+    except LawError as error:
+        raise SimulationError(Failure(str(error), UNLAWFUL, 0.0)) from error

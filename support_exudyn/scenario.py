@@ -69,9 +69,9 @@ class Scenario(Value):
             between two records; they are cut at impacts.
         record_period: time between records [s], > 0.
         channels: what is recorded: names of channels, or patterns of them as in a shell, case-sensitive,
-            such as "tip.*"; all by default. `time` always is. What nothing asks for is neither kept nor
-            computed. A run to an accuracy also records what its errors are estimated by: all forces, angular
-            accelerations and traced points.
+            such as "tip.*"; all by default. `time` always is. The audit looks at all of them; without it
+            (`SolverSettings.audit`) what nothing asks for is neither kept nor computed. A run to an accuracy
+            also records what its errors are estimated by: all forces, angular accelerations and traced points.
         solver: settings of the time integration.
     """
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 
+from support_exudyn.engine_scene import EngineScene
 from support_exudyn.trajectory import Series
 
 # Largest change of accelerations over a step, as a share of what the bodies have, or of gravity if that is
@@ -64,3 +65,14 @@ class SmoothSteps:
     def norm(self, acceleration: Series) -> float:
         """Root of the sum of mass times acceleration squared: one measure for metres and radians."""
         return math.sqrt(float(self._mass @ (acceleration * acceleration)))
+
+
+def smooth_steps(scene: EngineScene) -> SmoothSteps:
+    """How the steps of a scene grow."""
+    scenario = scene.scenario
+    step = min(scenario.step, scenario.record_period)
+    longest = scenario.solver.growth * scenario.step
+    mass = sum(item.body.mass for item in scene.bodies.values())
+    return SmoothSteps(
+        step, longest, scene.coordinate_masses(), math.sqrt(mass) * math.hypot(*scenario.gravity)
+    )

@@ -17,12 +17,10 @@ from typing import Any
 
 import exudyn
 
-from support_exudyn import engine_words
 from support_exudyn.audit import DEEPEST, SOFT, too_deep
 from support_exudyn.counts import Counts
 from support_exudyn.engine_scene import EngineScene
 from support_exudyn.engine_settings import SMALLEST_STEP, engine_settings, quiet_engine
-from support_exudyn.engine_words import explained, first_line
 from support_exudyn.errors import Failure, SimulationError
 from support_exudyn.estimate import rounding_of_positions
 from support_exudyn.impulse import Impulse
@@ -31,14 +29,14 @@ from support_exudyn.oil import force_rounding
 from support_exudyn.onset import SHARE
 from support_exudyn.progress import Progress
 from support_exudyn.recorder import Recorder
-from support_exudyn.smooth_steps import SmoothSteps
+from support_exudyn.refusals import ADVICE, FEWER_STEPS, STEEP, unlawful, why
+from support_exudyn.smooth_steps import SmoothSteps, smooth_steps
 from support_exudyn.steps import StepPlan
 from support_exudyn.stretches import Stretch, solve_in_stretches
 from support_exudyn.symbolic_drive import turns_by_itself
 from support_exudyn.velocity_jump import slide
 from user_forces import Frictionless
 from user_forces.lawful import UNLAWFUL, LawError
-from user_forces.normal.law import LoadError
 
 REPEAT_ERROR = 1e6  # above any tolerance of the engine's discontinuous iteration: the step is repeated
 SMALLEST_IMPACT_STEP = 1e-11  # [s], well above the rounding of times
@@ -52,19 +50,6 @@ FEW_STEPS = 5
 # Before steps that are so many times shorter than the last, velocities are aligned, see `velocity_jump`.
 MUCH_SHORTER = 8.0
 ROUNDINGS = 10.0  # of a coordinate, by which steep friction scatters: what Newton's method is asked for then
-ADVICE = (
-    "Try a smaller step; if that does not help, look whether the posture is near a dead centre "
-    "or a contact is far stiffer than the masses beside it allow."
-)
-STEEP = (
-    "Is friction far steeper than steps can follow (mass times the ramp from static to dynamic speed over the "
-    "friction force, against the step)? Widen the ramp, take a smaller step, or formulation = 'reduced' with "
-    "more `solver.most_steps`."
-)
-FEWER_STEPS = (
-    "Allow longer steps, fewer of them in an impact (`solver.impact_steps`), a shorter duration, or more steps "
-    "in all (`solver.most_steps`)."
-)
 
 
 class Run:
@@ -105,7 +90,7 @@ class Run:
         # what a load does need not show in accelerations, and long steps would pass over where it begins
         # and pressures are not interpolated at records that a step passes over
         grows = scenario.solver.growth > 1.0 and not scene.loads and not scene.cylinders
-        self.smooth = _smooth_steps(scene) if grows else None
+        self.smooth = smooth_steps(scene) if grows else None
         self.time = 0.0  # end of the last accepted step
         self.steps = self.cut_steps = self.failed_newton = 0
         self.most_steps = scenario.solver.most_steps
@@ -146,21 +131,11 @@ class Run:
         except LawError as error:  # between two stretches
             raise SimulationError(self._failure(str(error), UNLAWFUL)) from error
         except exudyn.ExudynError as error:
-            cause = error.__cause__  # set if a function of ours raised
-            if isinstance(cause, LawError):
-                raise SimulationError(self._failure(str(cause), UNLAWFUL)) from error
-            if isinstance(cause, LoadError):
-                raise SimulationError(self._failure("a contact is overloaded", str(cause))) from error
-            if cause is not None and not isinstance(cause, ArithmeticError):
-                raise cause from None
-            if cause is None:
-                self._probe()
-                raise SimulationError(self._failure(explained(error), engine_words.ADVICE)) from error
-            raise SimulationError(self._failure(first_line(cause))) from error
+            raise SimulationError(self._failure(*why(error, self.scene, self._ahead))) from error
         if not finished or self.time < self.plan.duration * (1.0 - 1e-9):
-            self._probe()
             advice = f"{ADVICE} {STEEP}" if self.newton.of_step and self._has_friction() else ADVICE
-            raise SimulationError(self._failure("the solver gave up", advice))
+            told = unlawful(self.scene, self._ahead) or ("the solver gave up", advice)
+            raise SimulationError(self._failure(*told))
         return Counts(
             steps=self.steps,
             cut_steps=self.cut_steps,
@@ -255,7 +230,7 @@ class Run:
         again, shortest = False, math.inf
         name = ""
         try:
-            for name, pin in self.scene.loose_pins.items():
+            for name, pin in self.scene.loose_pins.items():  # noqa: B007 - is told if one fails
                 step = pin.after_newton(t)
                 if step is not None:
                     again, shortest = True, min(shortest, step)
@@ -299,7 +274,7 @@ class Run:
         return True
 
     def _arrived(self, t: float) -> float:
-        """A step has ended at t [s], and stops may follow that are not worth a step; from when it goes on [s]."""
+        """A step has ended at t [s]; stops may follow that are not worth one. From when the run goes on [s]."""
         self._at_stop(t)
         while (stop := self.plan.rest(t, self._longest_step(t))) is not None:
             slide(self.scene, stop - t)
@@ -319,20 +294,10 @@ class Run:
         if breaks := self.plan.breaks_at(t):
             self._jump(t, breaks)
 
-    def _probe(self) -> None:
-        """The run could not go on: raise SimulationError if a law, load or drive is why."""
-        ahead = self.time + self.plan.step
-        try:
-            for parts in self.scene.driven:
-                parts.look(ahead)
-            for name, load in self.scene.loads.items():
-                load.probe(ahead, name)
-            for name, friction in self.scene.frictions.items():
-                friction.probe(name)
-            for name, pin in self.scene.loose_pins.items():
-                pin.probe(name)
-        except LawError as error:
-            raise SimulationError(self._failure(str(error), UNLAWFUL)) from error
+    @property
+    def _ahead(self) -> float:
+        """A time that was to be reached [s]."""
+        return self.time + self.plan.step
 
     def _is_to_be_cut(self, taken: float, following: float) -> bool:
         """Whether far shorter steps follow on one of this length [s], or the next will be cut.
@@ -452,13 +417,3 @@ class Run:
             state[f"pin.{name}.rate"] = pin.memory.rate
             state[f"pin.{name}.approach_speed"] = pin.memory.approach_speed
         return Failure(reason, advice, self.time, state, finer=advice is not FEWER_STEPS)
-
-
-def _smooth_steps(scene: EngineScene) -> SmoothSteps:
-    scenario = scene.scenario
-    step = min(scenario.step, scenario.record_period)
-    longest = scenario.solver.growth * scenario.step
-    mass = sum(item.body.mass for item in scene.bodies.values())
-    return SmoothSteps(
-        step, longest, scene.coordinate_masses(), math.sqrt(mass) * math.hypot(*scenario.gravity)
-    )

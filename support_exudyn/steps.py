@@ -12,10 +12,10 @@ import numpy.typing as npt
 Series = npt.NDArray[np.float64]
 
 CLOSE = 1e-9  # times closer than this share of a step are the same
-# The shortest time that is worth a step of its own. Constraints hold positions, which are rounded; accelerations
-# are their differences over the step's square, so that in a step h rounding r leaves r/h^2 of them. Who does not
-# solve there but moves on by the rates that the last step has ended with, misses by how much accelerations
-# change: a h/T of those that count, a, with T the shortest time scale. Both are alike for
+# The shortest time that is worth a step of its own. Constraints hold positions, which are rounded;
+# accelerations are their differences over the step's square, so that in a step h rounding r leaves r/h^2 of
+# them. Who does not solve there but moves on by the rates that the last step has ended with, misses by how much
+# accelerations change: a h/T of those that count, a, with T the shortest time scale. Both are alike for
 #     h^3 = r T / a
 # and below that a step makes worse what it is made for. The steps that are allowed follow the scene's shortest
 # time scale, contacts and all, and stand for T; a is of the order of the weight's. No more than a share of
@@ -68,7 +68,7 @@ class StepPlan:
         return self._grid_time(t, min(self.step, largest))
 
     def _settled(self, t: float) -> float:
-        """End [s] of the first grid step after a break at t [s]; of a later one, if a stop lies close behind."""
+        """End [s] of the first grid step after a break at t [s]; of a later one if a stop lies close behind."""
         end = self.next_time(t)
         while end < min(t + 0.5 * self.step, self.duration - self._tolerance):
             end = self.next_time(end)
@@ -157,7 +157,7 @@ class StepPlan:
         return self.record_at(t) is not None
 
     def record_at(self, t: float) -> float | None:
-        """The record that time t [s] is but for rounding, if it is one: a multiple of the period, or the end."""
+        """The record that t [s] is but for rounding, if it is one: a multiple of the period, or the end [s]."""
         if abs(t - self.duration) <= self._tolerance:
             return self.duration
         record = round(t / self.record_period) * self.record_period

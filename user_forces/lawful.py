@@ -2,7 +2,8 @@
 
 A force is a finite number. At rest a contact pushes. What a law takes besides its elastic part resists the
 motion, and so does friction: damping and friction lose energy and never give any. A friction law with a state
-is a spring, too, and may give back what it has stored; what it loses is looked at over longer times, in the audit.
+is a spring, too, and may give back what it has stored: what it loses is looked at over longer times, in the
+audit.
 """
 
 from __future__ import annotations
@@ -28,8 +29,8 @@ class LawError(ArithmeticError):
         return LawError(f"{name}: {self}")
 
 
-def look_at_rest(contact: JournalContact) -> None:
-    """Raise LawError if the elastic part of a contact's normal law pulls, or has stored less than nothing."""
+def look_at_rest(contact: JournalContact, pin: str) -> None:
+    """Raise LawError if the elastic part of a pin's normal law pulls, or has stored less than nothing."""
     law = contact.normal
     for depth in AT_REST:
         try:
@@ -38,8 +39,8 @@ def look_at_rest(contact: JournalContact) -> None:
             return
         if not (force >= 0.0 <= energy):
             raise LawError(
-                f"{type(law).__name__} has an elastic force of {force:.6g} N and an elastic energy of {energy:.6g} J "
-                f"at a depth of {depth:g} m; allowed: >= 0"
+                f"{pin}: {type(law).__name__} has an elastic force of {force:.6g} N and an elastic energy of "
+                f"{energy:.6g} J at a depth of {depth:g} m; allowed: >= 0"
             )
 
 
@@ -67,7 +68,13 @@ def look(
 
 
 def _unlawful(
-    contact: JournalContact, depth: float, rate: float, slip: float, normal: float, friction: float, elastic: float
+    contact: JournalContact,
+    depth: float,
+    rate: float,
+    slip: float,
+    normal: float,
+    friction: float,
+    elastic: float,
 ) -> str | None:
     """What of a force cannot be, in words."""
     pressing, rubbing = (type(getattr(law, "law", law)).__name__ for law in (contact.normal, contact.friction))
@@ -80,8 +87,8 @@ def _unlawful(
         return f"{pressing} pulls with {-elastic:.6g} N {at}, where at rest a contact pushes"
     if elastic and (normal - elastic) * rate < -ROUNDING * (normal + elastic) * abs(rate):
         return (
-            f"{pressing} drives the motion instead of damping it: {normal:.6g} N {at}, of which {elastic:.6g} N "
-            "are elastic"
+            f"{pressing} drives the motion instead of damping it: {normal:.6g} N {at}, of which "
+            f"{elastic:.6g} N are elastic"
         )
     if friction * slip > 0.0 and not contact.friction.has_state:
         return f"{rubbing} pushes along the slip: {friction:.6g} N at {slip:.6g} m/s, {normal:.6g} N pressed"

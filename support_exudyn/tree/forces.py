@@ -66,7 +66,7 @@ class Forces:
         name = ""
         evaluate(*self._arrays, t, *position, *velocity)
         try:
-            for name, pin in self.touching:
+            for name, pin in self.touching:  # noqa: B007 - is told if one fails
                 pin.add_force()
         except (LoadError, ArithmeticError) as error:  # perhaps only because the step is too long
             if self.trouble is None:  # what follows from it are no numbers

@@ -106,16 +106,24 @@ class Observation:
             total[2] -= rubbed
             odd = pressed & ~((lost >= 0.0) & (rubbed <= 0.0) & (elastic >= 0.0))
             for n in np.flatnonzero(odd).tolist():
-                seen = (contact.depth, rate, contact.slip, contact.normal_force, contact.friction_force, elastic)
-                self._look(name, n, [float(values[n]) for values in seen])
+                seen = (
+                    contact.depth,
+                    rate,
+                    contact.slip,
+                    contact.normal_force,
+                    contact.friction_force,
+                    elastic,
+                )
+                self._look(name, n, *(float(values[n]) for values in seen))
         return total
 
-    def _look(self, name: str, n: int, seen: list[float]) -> None:
+    def _look(self, name: str, n: int, *seen: float) -> None:
         """Raise SimulationError if what a pin's laws gave at an instant cannot be a force, see `look`."""
+        depth, rate, slip, normal, friction, elastic = seen
         try:
-            look(self.loose[name].contact, *seen)
+            look(self.loose[name].contact, depth, rate, slip, normal, friction, elastic, name)
         except LawError as error:
-            failure = Failure(str(error.at(name)), UNLAWFUL, float(self.at.time[n]))
+            failure = Failure(str(error), UNLAWFUL, float(self.at.time[n]))
             raise SimulationError(failure) from error
 
     def _place(self, name: str) -> PinPlace:

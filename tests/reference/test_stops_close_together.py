@@ -74,8 +74,8 @@ SCENES: dict[str, Callable[[float], Scenario]] = {
         0.5, 0.25, drive=cubic(t), formulation="reduced", solver=SolverSettings(backend="python"), **SHORT
     ),
 }
-# of the forces: accelerations jump at smooth breaks by 10 m/s^2 and change within 10 ms, so that forces change by
-# 1e-3 of the weight if a break moves by 1e-6 s; below it is Newton's method, and rounding in steps of 15 us
+# of the forces: accelerations jump at smooth breaks by 10 m/s^2 and change within 10 ms, so that forces change
+# by 1e-3 of the weight if a break moves by 1e-6 s; below it is Newton's method, and rounding in steps of 15 us
 AGREE, AND_PER_SECOND = 3e-5, 2e3
 
 

@@ -1,4 +1,4 @@
-"""Laws, loads and drives that give what no force can be end in a refusal that names them, in every formulation."""
+"""Laws, loads and drives that give what no force can be are refused by name, in all formulations."""
 
 from __future__ import annotations
 

@@ -49,8 +49,16 @@ def loose(friction: bool = True) -> ClearancePin:
 
 
 def scenario(**changes: Any) -> Scenario:
+    """Without an audit where not everything is recorded: it would have energies followed all the same."""
     fields: dict[str, Any] = {"machine": SUPPORT, "duration": 0.1}
+    if "channels" in changes:
+        fields["solver"] = SolverSettings(audit=False)
     return Scenario(**fields | changes)
+
+
+def test_an_audit_has_energies_followed_whatever_is_recorded() -> None:
+    driven = Scenario(machine=SUPPORT, duration=0.1, drive=RISE, channels=NO_ENERGY)
+    assert inventory(driven).callbacks == inventory(replace(driven, channels=("*",))).callbacks == 2
 
 
 def places(linkage: Linkage, weighed: bool, loose_pins: Mapping[str, Any], loads: Mapping[str, Load]) -> int:

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from support_exudyn import ClearancePin, OilColumn, Scenario, bore_area, ravn_slider_crank
+from support_exudyn import ClearancePin, OilColumn, Scenario, SolverSettings, bore_area, ravn_slider_crank
 from support_exudyn.channels import channels, needs
 from support_exudyn.recipes import EVERYTHING, Part, Recipe, chosen
 from support_exudyn.trajectory import Trajectory
@@ -25,11 +25,17 @@ NAMES = list(PLAIN.recipes)
 
 
 def scenario(*asked: str, **changes: Any) -> Scenario:
-    return Scenario(**{"machine": SUPPORT, "duration": 1.0, "channels": asked} | changes)
+    """Without an audit, which looks at everything."""
+    fields = {"machine": SUPPORT, "duration": 1.0, "channels": asked, "solver": SolverSettings(audit=False)}
+    return Scenario(**fields | changes)
 
 
 def names(one: Scenario) -> list[str]:
     return chosen(one.recipes, one.channels)
+
+
+def test_an_audit_needs_everything() -> None:
+    assert needs(scenario("tip.*", solver=SolverSettings())) == EVERYTHING
 
 
 def test_all_are_asked_for_unless_said_otherwise() -> None:
