@@ -176,8 +176,9 @@ def touches(result: Result, pin: str) -> int:
 
 
 def save_run(result: Result, out: Path, name: str) -> None:
-    """Write a run into the folder of runs, without the coarser ones, which would treble it."""
-    replace(result, coarser=None).save(out / "runs" / f"{name}.h5")
+    """Write a run into the folder of runs; one at chosen steps without its coarser ones, which treble it."""
+    kept = result if result.goal is not None else replace(result, coarser=None)
+    kept.save(out / "runs" / f"{name}.h5")
 
 
 def run_cases(runs: Mapping[str, Scenario], workers: int | Workers) -> dict[str, Result]:
