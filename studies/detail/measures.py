@@ -162,11 +162,12 @@ def _of_unequal(scene: Scene, result: Result) -> Numbers:
         "largest_front_column_force": ("N", largest(f"{column}_left.force", f"{column}_right.force")),
         "left_front_column_force_at_the_end": ("N", last(f"{column}_left.force")),
         "right_front_column_force_at_the_end": ("N", last(f"{column}_right.force")),
-        "largest_moment": (
+    }
+    if result.channels[f"{moment}_x"].is_determined:  # not of ideal pins, which share it at will
+        measures["largest_moment"] = (
             "N m",
             lambda run: float(np.hypot(run[f"{moment}_x"], run[f"{moment}_y"]).max()),
-        ),
-    }
+        )
     if REAR in scene.scenario.clearance_pins:
         measures |= {f"largest_{side}_depth": ("m", _deepest(side)) for side in ("left", "right")}
     return {name: estimate(result, unit, get) for name, (unit, get) in measures.items()}
