@@ -107,14 +107,9 @@ def _rise_numbers(case: str, result: Result) -> list[Number]:
             lambda r: float(r[rise.FORCE][rise.in_rise(r)].std()),
             paper_machine.FORCE_SPREAD[CLEARANCE_MM],
         ),
-        ("largest_pin_force", "N", lambda r: float(r[rise.FORCE].max()), None),
-        ("largest_pin_force_in_rise", "N", lambda r: float(r[rise.FORCE][rise.in_rise(r)].max()), None),
-        (
-            "largest_angular_speed_in_rise",
-            "deg/s",
-            lambda r: float(np.abs(velocity_deg(r)[rise.in_rise(r)]).max()),
-            None,
-        ),
+        ("largest_pin_force", "N", rise.Peak(rise.FORCE, begin=0.0), None),
+        ("largest_pin_force_in_rise", "N", rise.Peak(rise.FORCE), None),
+        ("largest_angular_speed_in_rise", "deg/s", rise.Peak(rise.SPEED, rise.DEGREES), None),
         (
             "mean_angular_acceleration",
             "deg/s^2",
