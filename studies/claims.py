@@ -21,7 +21,7 @@ from studies.judging import hypercube
 from studies.judging.claim_list import CLAIMS
 from studies.judging.evidence import Evidence, Measured
 from studies.judging.plausible import FACTORS, REFERENCE, Sample, samples
-from studies.judging.plausible_runs import CASES, TOLERANCE, evidence, largest_force, measures, oil_scenarios
+from studies.judging.plausible_runs import CASES, LARGEST_FORCE, TOLERANCE, evidence, measures, oil_scenarios
 from studies.judging.verdicts import Ruling, percent, rule
 from studies.reporting.chapter import Chapter, Sheet
 from studies.study import (
@@ -267,7 +267,7 @@ def reference_evidence(chosen: Options) -> Evidence:
     known = {
         case: {"largest_force": Measured(n.value, n.numerical_error)}
         for case, result in results.items()
-        for n in [measured("largest_force", case, "N", result, largest_force)]
+        for n in [measured("largest_force", case, "N", result, LARGEST_FORCE)]
     }
     return Evidence(dict(evidence(measures(REFERENCE)).measures) | known)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
@@ -53,7 +54,7 @@ def _after(result: Result, time: float = rise.START) -> np.ndarray:
 
 
 def _of_column(column: str) -> dict[str, tuple[str, Get]]:
-    short = column.partition("_")[0]
+    short, pressure = column.partition("_")[0], f"{column}.pressure"
 
     def speed(r: Result) -> float:
         begin, end = np.searchsorted(r.time, np.array(MIDDLE) - 1e-9)
@@ -71,20 +72,23 @@ def _of_column(column: str) -> dict[str, tuple[str, Get]]:
         ),
         f"settled_extension_{short}": ("mm", settled),
         f"overshoot_{short}": ("mm", lambda r: float(1e3 * extension(r, column).max()) - settled(r)),
-        f"largest_pressure_{short}": ("MPa", lambda r: float(1e-6 * r[f"{column}.pressure"][_after(r)].max())),
-        f"least_pressure_{short}": ("MPa", lambda r: float(1e-6 * r[f"{column}.pressure"][_after(r)].min())),
+        f"largest_pressure_{short}": (
+            "MPa",
+            rise.Peak(f"{column}.pressure", 1e-6, end=math.inf, extreme="max"),
+        ),
+        f"least_pressure_{short}": ("MPa", rise.Peak(f"{column}.pressure", 1e-6, end=math.inf, extreme="min")),
         f"pressure_after_{short}": (
             "MPa",
             lambda r: float(1e-6 * r[f"{column}.pressure"][_after(r, LATE)].mean()),
         ),
-        f"largest_flow_{short}": ("l/min", lambda r: float(6e4 * r[f"{column}.flow"].max())),
+        f"largest_flow_{short}": ("l/min", rise.Peak(f"{column}.flow", 6e4, begin=0.0, end=math.inf)),
     }
 
 
 MEASURES: dict[str, tuple[str, Get]] = {
     **_of_column("front_column"),
     **_of_column("rear_column"),
-    "largest_pin_force_after_closing": ("N", lambda r: float(r[rise.FORCE][_after(r, rise.END)].max())),
+    "largest_pin_force_after_closing": ("N", rise.Peak(rise.FORCE, begin=rise.END, end=math.inf)),
     "loss_in_valves": ("kJ", lambda r: float(1e-3 * r["energy.damping_loss"][-1])),
     "work_of_pumps": ("kJ", lambda r: float(1e-3 * r["energy.work"][-1])),
 }

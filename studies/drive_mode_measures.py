@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from typing import Literal
 
 import numpy as np
 
@@ -12,10 +13,7 @@ from studies.study import Number, measured
 from support_exudyn import Result
 
 Get = Callable[[Result], float]
-
-
-def _largest(channel: str, scale: float = 1.0) -> Get:
-    return lambda r: scale * float(np.abs(r[channel][rise.in_rise(r)]).max())
+EXTREMES: tuple[Literal["largest", "max", "min"], ...] = ("largest", "max", "min")
 
 
 def _ripple(channel: str, scale: float = 1.0) -> Get:
@@ -27,10 +25,14 @@ MEASURES: dict[str, tuple[str, Get]] = {
     "mean_pin_force": ("N", lambda r: float(r[rise.FORCE][rise.in_rise(r)].mean())),
     "std_pin_force": ("N", lambda r: float(r[rise.FORCE][rise.in_rise(r)].std())),
     "ripple_pin_force": ("N", _ripple(rise.FORCE)),
-    "largest_pin_force_in_rise": ("N", _largest(rise.FORCE)),
-    "largest_front_column_force": ("N", _largest("front_column.force")),
-    "largest_rear_column_force": ("N", _largest("rear_column.force")),
-    "largest_angular_acceleration": ("deg/s^2", _largest(rise.ACCELERATION, rise.DEGREES)),
+    "largest_pin_force_in_rise": ("N", rise.Peak(rise.FORCE)),
+    # the largest is of the magnitude; a push is positive, a pull negative
+    **{
+        f"{extreme}_{column}_force": ("N", rise.Peak(f"{column}.force", extreme=extreme))
+        for column in ("front_column", "rear_column")
+        for extreme in EXTREMES
+    },
+    "largest_angular_acceleration": ("deg/s^2", rise.Peak(rise.ACCELERATION, rise.DEGREES)),
     "std_angular_acceleration": (
         "deg/s^2",
         lambda r: rise.DEGREES * float(r[rise.ACCELERATION][rise.in_rise(r)].std()),

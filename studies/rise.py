@@ -7,13 +7,16 @@ A run is anything that hands out channels by name (`support_exudyn.Result` and o
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Protocol
+from dataclasses import dataclass
+from typing import Literal, Protocol
 
 import numpy as np
 import numpy.typing as npt
 from scipy.ndimage import uniform_filter1d
 
 from studies import paper_machine
+from support_exudyn import Result
+from support_exudyn.extremes import largest, missed
 
 Series = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
@@ -44,6 +47,37 @@ class Run(Protocol):
 
 
 Measure = Callable[[Run], float]
+
+
+TAKEN: dict[str, Callable[[Series], float]] = {
+    "largest": largest,
+    "max": lambda values: float(values.max()),
+    "min": lambda values: float(values.min()),
+}
+
+
+@dataclass(frozen=True)
+class Peak:
+    """An extreme of a channel at the records between two times; what lies between these is part of its error.
+
+    extreme: "largest", of the magnitude, or "max" or "min", with its sign. scale: to the unit of the number.
+    """
+
+    channel: str
+    scale: float = 1.0
+    begin: float = START
+    end: float = END
+    extreme: Literal["largest", "max", "min"] = "largest"
+
+    def __call__(self, run: Run) -> float:
+        """The extreme, in the unit of the number."""
+        return self.scale * TAKEN[self.extreme](run[self.channel][between(run, self.begin, self.end)])
+
+    def missed(self, run: Result) -> float:
+        """By how much it may be exceeded between records."""
+        inside = between(run, self.begin, self.end)
+        values, time = run[self.channel][inside], run.time[inside]
+        return self.scale * missed(self.extreme, values, time, run.scenario.breaks)
 
 
 def between(run: Run, begin: float, end: float) -> Mask:

@@ -21,6 +21,7 @@ from matplotlib.figure import Figure
 
 from studies.reporting.chapter import Chapter, Picture, Sheet
 from studies.reporting.wording import by_case, how_sure, said
+from studies.rise import Peak
 from studies.study import (
     Number,
     Options,
@@ -107,9 +108,9 @@ def scenarios(quick: bool) -> dict[str, Scenario]:
 def measure(results: Mapping[str, Result]) -> list[Number]:
     """All numbers of the study."""
     ideal: dict[str, tuple[str, Callable[[Result], float]]] = {
-        "largest_slider_speed": ("m/s", lambda r: float(np.abs(r["slider.velocity_x"]).max())),
-        "largest_crank_moment": ("N m", lambda r: float(r["crank.moment"].max())),
-        "largest_pin_force": ("N", lambda r: float(r[f"pin.{PIN}.force"].max())),
+        "largest_slider_speed": ("m/s", Peak("slider.velocity_x", begin=0.0)),
+        "largest_crank_moment": ("N m", Peak("crank.moment", begin=0.0)),
+        "largest_pin_force": ("N", Peak(f"pin.{PIN}.force", begin=0.0)),
     }
     numbers = [
         measured(name, IDEAL, unit, results[IDEAL], get, IDEAL_REFERENCE[name])

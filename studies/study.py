@@ -20,6 +20,7 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
 from studies.reporting.chapter import Sheet
+from studies.rise import Peak
 from support_exudyn import Failure, Result, Scenario, SimulationError
 from support_exudyn.command_line import Parser, answered, count, folder
 from support_exudyn.figures import style
@@ -110,7 +111,8 @@ def measured(
 ) -> Number:
     """A number of a run with errors, see `run_with_errors`."""
     found = result.estimate(measure, unit)
-    return Number(name, case, found.value, unit, found.error, paper)
+    between_records = measure.missed(result) if isinstance(measure, Peak) else 0.0
+    return Number(name, case, found.value, unit, found.error + between_records, paper)
 
 
 def counted(name: str, case: str, result: Result, count: Callable[[Result], int]) -> Number:
@@ -177,8 +179,9 @@ def touches(result: Result, pin: str) -> int:
 
 
 def save_run(result: Result, out: Path, name: str) -> None:
-    """Write a run into the folder of runs, without the coarser ones, which would treble it."""
-    replace(result, coarser=None).save(out / "runs" / f"{name}.h5")
+    """Write a run into the folder of runs; one at chosen steps without its coarser ones, which treble it."""
+    kept = result if result.goal is not None else replace(result, coarser=None)
+    kept.save(out / "runs" / f"{name}.h5")
 
 
 def run_cases(runs: Mapping[str, Scenario], workers: int | Workers) -> dict[str, Result]:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from studies import rise
-from studies.study import Number, compared
+from studies.study import Number, compared, measured
 from studies.which_pin_cases import FORCES, IDEAL, SHAKEN
 from studies.which_pin_posture import posture_numbers
 from support_exudyn import Result
@@ -80,8 +80,8 @@ MEASURES: dict[str, tuple[str, Get]] = {
     **{f"mean_force_{name}": ("N", _mean(channel)) for channel, name in FORCES.items()},
     **{f"change_of_mean_force_{name}": ("%", _change(channel)) for channel, name in FORCES.items()},
     **{f"ripple_force_{name}": ("N", _ripple(channel)) for channel, name in FORCES.items()},
-    **{f"largest_force_{name}": ("N", _largest(channel)) for channel, name in FORCES.items()},
 }
+PEAKS = {f"largest_force_{name}": rise.Peak(channel) for channel, name in FORCES.items()}
 
 
 def measure(results: Mapping[str, Result]) -> list[Number]:
@@ -90,6 +90,11 @@ def measure(results: Mapping[str, Result]) -> list[Number]:
         compared(name, case, unit, result, results[IDEAL], get)
         for case, result in results.items()
         for name, (unit, get) in MEASURES.items()
+    ]
+    numbers += [
+        measured(name, case, "N", result, peak)
+        for case, result in results.items()
+        for name, peak in PEAKS.items()
     ]
     for case, result in results.items():
         if case != IDEAL:

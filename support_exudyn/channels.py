@@ -9,6 +9,7 @@ from operator import or_
 
 from support_exudyn.recipes import ALL_CHANNELS, EVERYTHING, Part, Recipe, Seen, chosen
 from support_exudyn.scenario import Scenario
+from support_exudyn.spatial.determined import UNDETERMINED
 from support_exudyn.trajectory import Observed, Series, Trajectory
 
 
@@ -19,6 +20,11 @@ class Channel:
     values: Series
     unit: str
     meaning: str
+
+    @property
+    def is_determined(self) -> bool:
+        """Whether it is the only one that fits the motion; not so of shares of what is held twice in space."""
+        return not self.meaning.endswith(UNDETERMINED)
 
 
 def channels(scenario: Scenario, run: Trajectory | Observed) -> dict[str, Channel]:

@@ -120,7 +120,7 @@ def measures(result: Result, after: float, until: float) -> Mapping[str, Kind]:
     turning = [name for name in result.channels if name.endswith(ANGULAR_ACCELERATION)]
     fastest = max((float(np.abs(result[name]).max()) for name in turning), default=0.0)
     for name, channel in result.channels.items():
-        if name.endswith(FORCE):
+        if name.endswith(FORCE) and channel.is_determined:
             for word, statistic in STATISTICS.items():
                 if word in SIGNED and name.startswith("pin."):
                     continue  # a magnitude, which has no sign

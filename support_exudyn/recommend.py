@@ -176,7 +176,12 @@ def comparisons(asked: Question, scene: Tried, fullest: Tried) -> tuple[Comparis
 
 
 def answers_alike(asked: Question, scene: Tried, fullest: Tried) -> bool:
-    """Whether a scene answers a question as the fullest does, which itself always does."""
+    """Whether a scene answers a question as the fullest does, which itself always does.
+
+    A scene without a number that the fullest has cannot: rigid bodies do not determine it there.
+    """
+    if scene != fullest and any(answer.number not in scene.numbers for answer in asked.answers):
+        return False
     return scene == fullest or all(compared.passes for compared in comparisons(asked, scene, fullest))
 
 

@@ -91,8 +91,9 @@ class Measured:
 def estimate(run: Result, unit: str, get: Get) -> Estimate:
     """A number of a run with its error, which is no less than rounding."""
     found = run.estimate(get, unit)
+    between_records = get.missed(run) if isinstance(get, rise.Peak) else 0.0
     rounding = SMALLEST[unit] if unit == "m" else max(SMALLEST[unit], ROUNDING * abs(found.value))
-    return found._replace(error=max(found.error, rounding))
+    return found._replace(error=max(found.error + between_records, rounding))
 
 
 def measure(scenes: Mapping[str, Scene], runs: Mapping[str, Timed], short: float) -> dict[str, Measured]:
@@ -118,7 +119,7 @@ def _of_stroke(scene: Scene, result: Result) -> Numbers:
         return np.asarray(run[channel][rise.between(run, scene.begin, scene.end)])
 
     def largest(channel: str, scale: float) -> Get:
-        return lambda run: scale * float(np.abs(during(run, channel)).max())
+        return rise.Peak(channel, scale, scene.begin, scene.end)
 
     measures: dict[str, tuple[str, Get]] = {
         "mean_pin_force": ("N", lambda run: float(during(run, force).mean())),
@@ -162,11 +163,12 @@ def _of_unequal(scene: Scene, result: Result) -> Numbers:
         "largest_front_column_force": ("N", largest(f"{column}_left.force", f"{column}_right.force")),
         "left_front_column_force_at_the_end": ("N", last(f"{column}_left.force")),
         "right_front_column_force_at_the_end": ("N", last(f"{column}_right.force")),
-        "largest_moment": (
+    }
+    if result.channels[f"{moment}_x"].is_determined:  # not of ideal pins, which share it at will
+        measures["largest_moment"] = (
             "N m",
             lambda run: float(np.hypot(run[f"{moment}_x"], run[f"{moment}_y"]).max()),
-        ),
-    }
+        )
     if REAR in scene.scenario.clearance_pins:
         measures |= {f"largest_{side}_depth": ("m", _deepest(side)) for side in ("left", "right")}
     return {name: estimate(result, unit, get) for name, (unit, get) in measures.items()}

@@ -187,7 +187,7 @@ def unequal_sheet(measured: Mapping[str, Measured]) -> Sheet:
         ("quantity", *scenes),
         tuple(rows),
         "In space, columns on oil. The moment is about the axes across the pin, through its middle. Ideal pins "
-        "have no depth.",
+        "have no depth, and rigid bodies do not determine how rear pin and front links share their moments.",
     )
 
 

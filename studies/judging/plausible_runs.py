@@ -107,9 +107,7 @@ def oil_scenarios(quick: bool) -> dict[str, Scenario]:
     }
 
 
-def largest_force(run: Result) -> float:
-    """Largest pin force after the start of mode 1 on columns of oil [N]."""
-    return float(run[rise.FORCE][run.time >= OIL_START].max())
+LARGEST_FORCE = rise.Peak(rise.FORCE, begin=OIL_START)  # of the pin after the start of mode 1 on oil [N]
 
 
 def _measures(runs: Mapping[str, Result], window: str) -> dict[str, Values]:

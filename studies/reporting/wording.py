@@ -9,10 +9,10 @@ from studies.study import Number, rounded
 
 QUICK = "This is the quick form: its steps are coarser than those of the full one, and its errors larger."
 THRICE = (
-    "Every case is run three times, each with half the steps of the run before, impact steps included. Values "
-    "are those of the shortest; the number behind ± is the error that accuracies estimate from how fast the "
-    "distances of the three runs fall. Statistics are those of the records, and how often these are taken is "
-    "not among the errors."
+    "Every case is run at least three times, each with half the steps of the run before, impact steps "
+    "included. Values are those of the shortest; the number behind ± is the error that accuracies estimate "
+    "from how fast the distances of the last three runs fall. Statistics are those of the records, and how "
+    "often these are taken is not among the errors."
 )
 DIGITS = 5  # of a number in a sentence
 

@@ -6,7 +6,7 @@ Newton's and Euler's equations say what the constraints together do to every bod
 
 Where constraints repeat each other many lambda do that, and rigid bodies cannot tell them apart. Taken are
 those with the least sum of squares (moments count as forces at 1 m), which load alike what is alike: two
-parallel links half each.
+parallel links half each. Which loads that leaves open is told by `determined`.
 """
 
 from __future__ import annotations

@@ -7,11 +7,13 @@ each, and under the planar name the force of both, and the mean of lengths and a
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from support_exudyn.recipes import CONTACT, MOTION, OIL, Part, Recipe, Recipes
+from support_exudyn.spatial.determined import UNDETERMINED, Loads
 from support_exudyn.spatial.layout import SpatialBody, SpatialLinkage
 from support_exudyn.trajectory import Series
 
@@ -24,25 +26,42 @@ TOWARDS = ("forward", "up", "to the right")
 
 
 def recipes(linkage: SpatialLinkage, loose: Collection[str], oil: Collection[str]) -> Recipes:
-    """All channels of a linkage in which these planar pins are loose and these planar columns on oil."""
+    """All channels of a linkage in which these planar pins are loose and these planar columns on oil.
+
+    The meaning of loads that rigid bodies do not determine says so.
+    """
+    loads = Loads(linkage, loose, oil)
     found: Recipes = {"time": Recipe("s", "time", Part.NOTHING, lambda seen: seen.time)}
     for n, (name, body) in enumerate(linkage.bodies.items()):
         found |= _of_body(name, body, n)
     for name in linkage.points:
         found |= _of_point(name)
     for name, column in linkage.columns.items():
-        found |= _of_column(name, column.column in oil)
+        found |= _said(_of_column(name, column.column in oil), ".force", loads.columns([name]))
     for whole in dict.fromkeys(column.column for column in linkage.columns.values()):
         parts = linkage.parts_of_column(whole)
         if parts != (whole,):
-            found |= _of_pair(whole, parts, found)
+            found |= _said(_of_pair(whole, parts, found), ".force", loads.columns(parts))
     for name, bearing in linkage.bearings.items():
-        found |= _of_guide(name) if bearing.is_guide else _of_bearing(name, bearing.pin in loose)
+        channels = _of_guide(name) if bearing.is_guide else _of_bearing(name, bearing.pin in loose)
+        channels = _said(channels, ".force", loads.forces([name]))
+        found |= _said(channels, ".moment", loads.moment(name))
     for pin in dict.fromkeys(b.pin for b in linkage.bearings.values() if not b.is_guide):
         parts = tuple(linkage.parts_of_pin(pin))
         if parts != (pin,):
-            found |= _forces(f"pin.{pin}", REACTION, _sum_of_bearings(parts))
+            together = _forces(f"pin.{pin}", REACTION, _sum_of_bearings(parts))
+            found |= _said(together, ".force", loads.forces(parts))
     return found | _of_energy()
+
+
+def _said(channels: Recipes, what: str, determined: bool) -> Recipes:
+    """Channels, those whose names go on with `what` marked if rigid bodies do not determine them."""
+    if determined:
+        return channels
+    return {
+        name: replace(one, meaning=one.meaning + UNDETERMINED) if what in name else one
+        for name, one in channels.items()
+    }
 
 
 def _of_body(name: str, body: SpatialBody, n: int) -> Recipes:

@@ -1,12 +1,35 @@
-"""The same scene by another formulation, to an accuracy, to compare what studies print with."""
+"""The same scene in another way, to compare what studies print with."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
+from typing import Any
 
-from support_exudyn import Result, Scenario, SolverSettings, simulate
+from studies.study import Number, run_with_errors
+from support_exudyn import Result, Scenario, SolverSettings
 
 
-def another_way(scenario: Scenario) -> Result:
-    """By the free coordinates alone, with the same data of the machine and the laws, to an accuracy."""
-    return simulate(replace(scenario, formulation="reduced", solver=SolverSettings()), accuracy=1e-6)
+def by_another_integrator(scenario: Scenario) -> Result:
+    """By scipy's DOP853 in place of the compiled method."""
+    solver = SolverSettings(tolerance=1e-8, backend="python")
+    chosen = replace(scenario, accuracy=None, formulation="reduced", solver=solver)
+    return run_with_errors({"": chosen}, 1)[""]
+
+
+def by_the_engine(scenario: Scenario) -> Result:
+    """By rigid bodies, constraints and generalised alpha; nothing but data and laws is shared."""
+    solver = SolverSettings(impact_steps=128, backend="symbolic")
+    chosen = replace(scenario, accuracy=None, formulation="redundant", solver=solver, step=1e-3)
+    return run_with_errors({"": chosen}, 1)[""]
+
+
+def off(printed: dict[tuple[str, str], dict[str, Any]], others: Sequence[Number]) -> dict[str, float]:
+    """How far printed numbers are from others, as a share of both errors together, by name and case."""
+    found = {}
+    for its in others:
+        ours = printed[its.name, its.case]
+        both = ours["numerical_error"] + its.numerical_error
+        if its.unit != "1" and not its.name.endswith("_error") and both > 0.0:
+            found[f"{its.name}, {its.case}"] = abs(ours["value"] - its.value) / both
+    return found

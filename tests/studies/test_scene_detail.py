@@ -148,9 +148,9 @@ def test_columns_driven_apart_turn_the_canopy_by_the_clearance_only(numbers: Num
         assert loose["value"] > 1e3 * (ideal["value"] + equal["value"])
         rough = numbers[what, UNEQUAL_LOOSE]["value"]
         assert loose["value"] == pytest.approx(rough, rel=0.05)  # with friction or without
-    # what gives is loaded less
-    moments = [numbers["largest_moment", name]["value"] for name in (UNEQUAL_FULLEST, UNEQUAL_IDEAL)]
-    assert moments[0] < moments[1]
+    # how ideal pins share the moment rigid bodies do not determine
+    assert ("largest_moment", UNEQUAL_FULLEST) in numbers
+    assert ("largest_moment", UNEQUAL_IDEAL) not in numbers
 
 
 def test_the_committed_table_is_of_these_scenes() -> None:

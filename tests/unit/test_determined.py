@@ -1,0 +1,77 @@
+"""Which loads rigid bodies determine, against what can be counted by hand."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from studies.paper_machine import loose_pin, oil_columns
+from support_exudyn import CubicStep, Scenario, reference_support, simulate
+from support_exudyn.spatial.constraints import matrix
+from support_exudyn.spatial.determined import Loads
+
+RIGID = Scenario(
+    machine=reference_support(),
+    drive=CubicStep(stroke=0.001, start=0.0, end=0.02),
+    duration=0.02,
+    step=2e-3,
+    record_period=4e-3,
+    dimensions=3,
+)
+ON_OIL = replace(RIGID, columns=oil_columns())
+LOOSE = replace(ON_OIL, pins={"rear_base": loose_pin(1.5, 0.0)})
+
+
+def shares(scenario: Scenario) -> set[str]:
+    """Forces and moments, by name, of which many shares balance."""
+    return {
+        name.removeprefix("pin.")
+        for name, recipe in scenario.recipes.items()
+        if "do not determine" in recipe.meaning and (name.endswith(".force") or ".moment" in name)
+    }
+
+
+FRONT_LINKS = {f"{pin}_{side}.force" for pin in ("front_base", "front_shield") for side in ("left", "right")}
+REAR_LINK = {f"{pin}.moment_{axis}" for pin in ("rear_base", "rear_shield") for axis in "xy"}
+
+
+def test_ideal_pins_share_tilting_at_will() -> None:
+    # the two front links hold by their distance what the rear link holds by its pins
+    assert shares(ON_OIL) == FRONT_LINKS | REAR_LINK
+
+
+def test_four_rigid_columns_under_a_rigid_canopy_do_too() -> None:
+    pairs = [(column, side) for column in ("front_column", "rear_column") for side in ("left", "right")]
+    hinge = {f"shield_canopy.moment_{axis}" for axis in "xy"}
+    assert shares(RIGID) == FRONT_LINKS | REAR_LINK | hinge | {
+        f"{column}_{side}.force" for column, side in pairs
+    }
+
+
+def test_a_loose_pin_leaves_nothing_open() -> None:
+    assert shares(LOOSE) == set()
+
+
+def test_what_two_hold_together_is_determined() -> None:
+    for name in ("front_column.force", "rear_column.force", "pin.front_base.force", "pin.front_shield.force"):
+        assert "do not determine" not in RIGID.recipes[name].meaning
+
+
+@pytest.mark.parametrize("scenario", [RIGID, ON_OIL], ids=["rigid", "oil"])
+def test_other_shares_balance_as_well_and_change_only_what_is_said(scenario: Scenario) -> None:
+    loads = Loads(scenario.space, (), scenario.oil_columns)
+    held = matrix(loads.start, loads.rows)[0]
+    assert loads.unbalanced.shape[1] > 0
+    # nothing is done to any body, by loads of the size of one
+    assert np.abs(loads.unbalanced.T @ held).max() < 1e-9
+    assert np.linalg.matrix_rank(held, tol=1e-6) == len(loads.rows) - loads.unbalanced.shape[1]
+
+
+def test_numbers_leave_shares_out() -> None:
+    result = simulate(ON_OIL, errors=True)
+    assert not result.channels["pin.front_base_left.force"].is_determined
+    found = result.numbers()
+    assert "pin.front_base.force.mean" in found
+    assert "pin.front_base_left.force.mean" not in found
