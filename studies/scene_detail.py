@@ -45,7 +45,7 @@ from studies.study import (
     write_summary,
 )
 from support_exudyn import recommend
-from support_exudyn.command_line import Parser, folder
+from support_exudyn.command_line import Parser, folder, warn
 from support_exudyn.evidence.table import Table
 from support_exudyn.figures import style
 from support_exudyn.recommend import QUESTIONS, STROKE, UNEQUAL
@@ -226,7 +226,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         try:
             Table.load(given.out / TABLE).save(given.commit_evidence)
         except OSError as error:
-            print(f"error: --commit-evidence {given.commit_evidence}: {error}", file=sys.stderr)
+            warn(f"error: --commit-evidence {given.commit_evidence}: {error}")
             return 1
     return code
 

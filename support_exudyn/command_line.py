@@ -107,6 +107,11 @@ def say(text: str) -> None:
         hush()
 
 
+def warn(text: str) -> None:
+    """Print a line on standard error, likewise."""
+    print(cleaned(text), file=sys.stderr, flush=True)
+
+
 def hush() -> None:
     """Let what is printed from now on go nowhere: at its end Python would try once more, and complain."""
     nowhere = os.open(os.devnull, os.O_WRONLY)
@@ -144,10 +149,10 @@ def answered(work: Callable[[], None]) -> int:
     try:
         work()
     except (SimulationError, InputError, OSError, ProcessEndedError, NoProcessError) as error:
-        print(f"error: {cleaned(_sentence(error))}", file=sys.stderr)
+        warn(f"error: {_sentence(error)}")
         return 1
     except MemoryError as error:
-        print(f"error: {told(error)}; allowed: fewer records or channels, a smaller file", file=sys.stderr)
+        warn(f"error: {told(error)}; allowed: fewer records or channels, a smaller file")
         return 1
     except KeyboardInterrupt:
         print(INTERRUPTED, file=sys.stderr)

@@ -11,7 +11,7 @@ from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING, Any
 
-from support_exudyn.command_line import count, folder, say
+from support_exudyn.command_line import count, folder, say, warn
 from user_forces.values import cleaned
 
 if TYPE_CHECKING:
@@ -83,7 +83,7 @@ def run(given: argparse.Namespace) -> None:
             progress=progress,
         )
     for name in outcome.missing:
-        print(f"{name}: no run has this number", file=sys.stderr)
+        warn(f"{name}: no run has this number")
     _tell(outcome, given, f"{outcome.runs} runs: {_counts(outcome)}")
     if outcome.unmet:
         print(
