@@ -132,7 +132,9 @@ def _lines(path: Path) -> list[tuple[int, list[str]]]:
 def _is_header(titles: Sequence[str]) -> bool:
     """Whether a line is meant for one that names columns."""
     endings = tuple(f"_{ending}" for unit in (TIME, LENGTH, ANGLE) for ending in unit.endings)
-    return any(title.startswith("time") for title in titles) or all(title.endswith(endings) for title in titles)
+    return any(title.partition("_")[0] == "time" for title in titles) or all(
+        title.endswith(endings) for title in titles
+    )
 
 
 def _column(title: str, place: int, where: str) -> _Column:

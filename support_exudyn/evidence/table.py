@@ -87,6 +87,18 @@ class Table:
         return _table(contents(path, LARGEST_FILE), str(path))
 
 
+def check_replaceable(path: Path) -> None:
+    """Raise InputError if something else than such a table is at a path: it would be lost."""
+    if not path.exists():
+        return
+    try:
+        known = str(json.loads(contents(path, LARGEST_FILE))["format"])
+    except (OSError, ValueError, LookupError, TypeError, RecursionError):
+        known = ""
+    if not known.startswith(FORMAT.rpartition(" ")[0]):
+        raise InputError(f"{path}: is no table of tried scenes, and would be lost; allowed: another name")
+
+
 def fields_of(scenario: Scenario) -> dict[str, Any]:
     """What an element of the model is, of a scenario."""
     return {name: getattr(scenario, name) for name in FIELDS}

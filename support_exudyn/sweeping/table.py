@@ -77,7 +77,8 @@ class Table:
         columns: list[pa.Array] = []
 
         def add(name: str, column: pa.Array, unit: str = "", meaning: str = "") -> None:
-            fields.append(pa.field(name, column.type, metadata={"unit": unit, "meaning": meaning}))
+            about = {"unit": cleaned(unit), "meaning": cleaned(meaning)}
+            fields.append(pa.field(cleaned(name), column.type, metadata=about))
             columns.append(column)
 
         for name in self._plan.names:
