@@ -14,7 +14,7 @@ from studies.reporting.chapter import FILE
 from studies.reporting.content import Section, content
 from studies.reporting.html import page
 from studies.reporting.markdown_page import text
-from support_exudyn.command_line import Parser, folder
+from support_exudyn.command_line import Parser, folder, warn
 from support_exudyn.files import whole_file
 from user_forces.values import InputError
 
@@ -54,7 +54,7 @@ def rebuild(out: Path, order: Sequence[str], quick: bool = False) -> int:
     try:
         path = write_report(out, sections(out, order), quick)
     except (InputError, OSError) as error:
-        print(f"error: {error}", file=sys.stderr)
+        warn(f"error: {error}")
         return 1
     print(path)
     return 0

@@ -45,11 +45,12 @@ from studies.study import (
     write_summary,
 )
 from support_exudyn import recommend
-from support_exudyn.command_line import Parser, folder
-from support_exudyn.evidence.table import Table
+from support_exudyn.command_line import Parser, folder, warn
+from support_exudyn.evidence.table import Table, check_replaceable
 from support_exudyn.figures import style
 from support_exudyn.recommend import QUESTIONS, STROKE, UNEQUAL
 from support_exudyn.workers import Workers
+from user_forces.values import InputError
 
 STUDY = "scene_detail"
 SHORT_RUN, SHORT_RUN_IF_QUICK = 0.3, 0.01  # shorter runs are timed alone [s]
@@ -222,12 +223,17 @@ def main(argv: Sequence[str] | None = None) -> int:
     given = parser.parse_args(argv)
     if given.commit_evidence is not None and given.quick:
         parser.error("--commit-evidence: advice is taken from the full form; allowed: without --quick")
+    try:
+        if given.commit_evidence is not None:
+            check_replaceable(given.commit_evidence)  # now, and not when all is computed
+    except InputError as error:
+        parser.error(f"--commit-evidence {error}")
     code = run_main(study, Options(given.out, given.quick, given.workers))
     if code == 0 and given.commit_evidence is not None:
         try:
             Table.load(given.out / TABLE).save(given.commit_evidence)
-        except OSError as error:
-            print(f"error: --commit-evidence {given.commit_evidence}: {error}", file=sys.stderr)
+        except (OSError, InputError) as error:
+            warn(f"error: --commit-evidence {given.commit_evidence}: {error}")
             return 1
     return code
 

@@ -17,7 +17,7 @@ from support_exudyn.at_start import EXIT_CODE, INTERRUPTED, be_interruptible, be
 from support_exudyn.errors import SimulationError, told
 from support_exudyn.progress import Progress
 from support_exudyn.workers import NoProcessError, ProcessEndedError
-from user_forces.values import InputError, short
+from user_forces.values import InputError, cleaned, short
 
 LONGEST_REFUSAL = 400  # characters
 
@@ -27,7 +27,7 @@ class Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         """End the program with exit code 2, a usage and a line."""
-        line = " ".join(message.split())
+        line = cleaned(" ".join(message.split()))
         super().error(line if len(line) <= LONGEST_REFUSAL else line[: LONGEST_REFUSAL - 3] + "...")
 
 
@@ -81,7 +81,9 @@ def add_json(parser: argparse.ArgumentParser) -> None:
 
 def answer(data: Mapping[str, Any]) -> None:
     """Print a JSON object; numbers that are none (not known, without end) as null."""
-    say(json.dumps(_finite(data), indent=1, ensure_ascii=False, allow_nan=False))
+    plain = _finite(data)
+    text = json.dumps(plain, indent=1, ensure_ascii=False, allow_nan=False)
+    say(text if cleaned(text) == text else json.dumps(plain, indent=1, allow_nan=False))
 
 
 def _finite(item: Any) -> Any:
@@ -95,11 +97,19 @@ def _finite(item: Any) -> Any:
 
 
 def say(text: str) -> None:
-    """Print a line; if nobody reads on (`| head`, a closed terminal), the work goes on without a word."""
+    """Print a line; if nobody reads on (`| head`, a closed terminal), the work goes on without a word.
+
+    Names, units and titles may be of somebody else's file: what they would do to a terminal is not done.
+    """
     try:
-        print(text, flush=True)
+        print(cleaned(text), flush=True)
     except BrokenPipeError:
         hush()
+
+
+def warn(text: str) -> None:
+    """Print a line on standard error, likewise."""
+    print(cleaned(text), file=sys.stderr, flush=True)
 
 
 def hush() -> None:
@@ -139,10 +149,10 @@ def answered(work: Callable[[], None]) -> int:
     try:
         work()
     except (SimulationError, InputError, OSError, ProcessEndedError, NoProcessError) as error:
-        print(f"error: {_sentence(error)}", file=sys.stderr)
+        warn(f"error: {_sentence(error)}")
         return 1
     except MemoryError as error:
-        print(f"error: {told(error)}; allowed: fewer records or channels, a smaller file", file=sys.stderr)
+        warn(f"error: {told(error)}; allowed: fewer records or channels, a smaller file")
         return 1
     except KeyboardInterrupt:
         print(INTERRUPTED, file=sys.stderr)

@@ -11,6 +11,7 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 from support_exudyn.workshop import fcntl, workshop
+from user_forces.values import InputError
 
 LOCK = ".support_exudyn.lock"
 HOLDER = re.compile(rb"(\d+\n)?")  # what is in a lock: the process that has it
@@ -78,19 +79,26 @@ def check_may_be_replaced(path: Path) -> None:
 def contents(path: str | Path, most: int) -> bytes:
     """All bytes of a file.
 
-    Raises OSError that names it if it cannot be read, is no regular file (a pipe, a device), or has more than
-    `most` bytes: all that is read of others' files is read here, so that nothing of them is without an end.
+    Raises OSError if it cannot be read; InputError if it is no regular file (a pipe, a device), or has more
+    than `most` bytes: all that is read of others' files is read here, so that nothing of them has no end.
     """
-    handle = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
-    with os.fdopen(handle, "rb", closefd=True) as file:
-        status = os.fstat(handle)
-        if not stat.S_ISREG(status.st_mode):
-            raise OSError(errno.EINVAL, "is no regular file; allowed: files", str(path))
-        data = file.read(most + 1) if status.st_size <= most else b""
-        if status.st_size > most or len(data) > most:
-            size = max(status.st_size, len(data))
-            raise OSError(errno.EFBIG, f"has {size} bytes or more; allowed: up to {most}", str(path))
+    check_is_file(path, most)
+    with Path(path).open("rb") as file:
+        data = file.read(most + 1)  # it may grow, and some have no size
+    if len(data) > most:
+        raise InputError(f"{path}: has more than {most} bytes; allowed: as many")
     return data
+
+
+def check_is_file(path: str | Path, most: int) -> None:
+    """Raise as `contents` does: before something is opened, for opening a pipe may take for ever."""
+    status = Path(path).stat()
+    if stat.S_ISDIR(status.st_mode):
+        raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
+    if not stat.S_ISREG(status.st_mode):
+        raise InputError(f"{path}: is no regular file; allowed: files")
+    if status.st_size > most:
+        raise InputError(f"{path}: has more than {most} bytes, {status.st_size}; allowed: as many")
 
 
 def named(error: OSError, path: str | Path) -> OSError:

@@ -43,4 +43,4 @@ def read_machine(name: str, folder: Path | None = None) -> MachineData:
 
     if not name.lower().endswith(".toml"):
         return shipped(name)
-    return load_machine((folder or Path()) / name)
+    return load_machine((folder or Path()) / name, named=folder is not None)

@@ -12,6 +12,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from support_exudyn.command_line import hush
+from user_forces.values import cleaned
 
 NARROWEST = 25  # characters that words are worth showing in
 PIPED = 150  # characters of a line where there is no terminal
@@ -57,9 +58,9 @@ def show_table(console: Console, title: str, header: Sequence[str], rows: Sequen
             overflow="fold",
         )
     for row in rows:
-        table.add_row(*(escape(cell) for cell in row))
+        table.add_row(*(escape(cleaned(cell)) for cell in row))
     with console.capture() as shown:
-        console.print(title, style="bold", markup=False)
+        console.print(cleaned(title), style="bold", markup=False)
     broad = Console(width=max(console.width, _unbroken(header, rows)), highlight=False)
     with broad.capture() as told:
         broad.print(table)

@@ -10,7 +10,6 @@ from dataclasses import asdict, dataclass
 from difflib import get_close_matches
 from functools import cached_property
 from pathlib import Path
-from typing import Any
 
 import h5py
 import numpy as np
@@ -18,15 +17,18 @@ import numpy as np
 from support_exudyn.channels import Channel
 from support_exudyn.counts import Counts
 from support_exudyn.estimate import Estimate, error, errors, fall, measures, worst_error
-from support_exudyn.files import whole_file
+from support_exudyn.files import contents, whole_file
+from support_exudyn.hdf5_reading import Inside
 from support_exudyn.hdf5_writing import write_series
 from support_exudyn.impulse import Impulse
+from support_exudyn.memory import available
 from support_exudyn.onset import Onset
 from support_exudyn.scenario import Scenario
 from support_exudyn.sealed import BLOCK, check_seal, seal
-from user_forces.values import InputError, Value, short
+from user_forces.values import InputError, Value, cleaned, short
 
 FORMAT = "support_exudyn result 4"
+DAMAGES = (OSError, LookupError, AttributeError, TypeError, ValueError, RuntimeError, MemoryError)
 
 
 @dataclass(frozen=True)
@@ -205,15 +207,17 @@ class Result:
             raise IsADirectoryError(
                 errno.EISDIR, "is a directory; allowed: files that Result.save has written", str(path)
             )
-        data = Path(path).read_bytes()
+        data = contents(path, available())
         try:
             check_seal(data, FORMAT)
             with h5py.File(h5py.h5f.open_file_image(data), "r") as file:
-                return _read(file)
+                return _read(Inside(file, len(data)))
         except InputError as error:  # of a value that is not known or does not fit
             raise InputError(f"{path}: {error}") from None
-        except (OSError, LookupError, AttributeError, TypeError, ValueError, RuntimeError) as error:
-            raise InputError(f"{path}: not a result file of this program, or damaged ({error})") from None
+        except DAMAGES as error:
+            raise InputError(
+                f"{path}: not a result file of this program, or damaged ({cleaned(str(error))})"
+            ) from None
 
 
 def _write(group: h5py.Group, result: Result) -> None:
@@ -236,29 +240,26 @@ def _write(group: h5py.Group, result: Result) -> None:
         _write(group.create_group("coarser"), result.coarser)
 
 
-def _read(group: h5py.Group) -> Result:
-    def attribute(name: str) -> Any:
-        return json.loads(group.attrs[name])
-
-    onsets = group.get("onsets", {})
+def _read(group: Inside) -> Result:
+    onsets = group.inside("onsets").series() if "onsets" in group else {}
     channels = {
-        name: Channel(data[:], data.attrs["unit"], data.attrs["meaning"])
-        for name, data in group["channels"].items()
+        name: Channel(data.values, data.text("unit"), data.text("meaning"))
+        for name, data in group.inside("channels").series().items()
     }
     _check_channels(channels)
-    coarser = _read(group["coarser"]) if "coarser" in group else None
+    coarser = _read(group.inside("coarser")) if "coarser" in group else None
     if coarser is not None:
         _check_coarser(channels, coarser.channels)
     return Result(
-        scenario=Value.from_data(attribute("scenario")),
+        scenario=Value.from_data(group.data("scenario")),
         channels=channels,
-        onsets={name: _onsets(name, data[:]) for name, data in onsets.items()},
-        largest_force={name: float(data.attrs["largest_force_N"]) for name, data in onsets.items()},
-        impulses=tuple(Impulse(**item) for item in attribute("impulses")),
-        counts=Counts(**attribute("counts")),
-        wall_time=float(group.attrs["wall_time_s"]),
-        provenance=attribute("provenance"),
-        goal=attribute("goal"),
+        onsets={name: _onsets(name, data.values) for name, data in onsets.items()},
+        largest_force={name: float(data.attributes["largest_force_N"]) for name, data in onsets.items()},
+        impulses=tuple(Impulse(**item) for item in group.data("impulses")),
+        counts=Counts(**group.data("counts")),
+        wall_time=float(group.attributes["wall_time_s"]),
+        provenance=group.data("provenance"),
+        goal=group.data("goal"),
         coarser=coarser,
     )
 

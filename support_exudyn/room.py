@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-import os
-from pathlib import Path
-
+from support_exudyn.memory import available
 from support_exudyn.recipes import chosen
 from support_exudyn.scenario import Scenario
 from user_forces.values import InputError
 
-UNKNOWN = 2**36  # bytes, where the system does not tell how much there is
 NUMBER = 2 * 8  # bytes of a number at a record, and of the states that it follows from; 2.9 * 8 were measured
 GIGA = 1e9
-ASKED = Path("/proc/meminfo")
-OF_GROUP = (Path("/sys/fs/cgroup/memory.max"), Path("/sys/fs/cgroup/memory.current"))
 
 
 def check_room(scenario: Scenario) -> None:
@@ -36,29 +31,3 @@ def check_room(scenario: Scenario) -> None:
 def _up(number: float) -> float:
     """In two digits, not below it."""
     return float(f"{1.05 * number:.2g}")
-
-
-def available() -> int:
-    """Memory that is free for this process [bytes], as far as the system tells."""
-    return min(_of_machine(), _of_group())
-
-
-def _of_machine() -> int:
-    try:
-        lines = ASKED.read_text(encoding="ascii", errors="replace").splitlines()
-        return next(int(line.split()[1]) * 1024 for line in lines if line.startswith("MemAvailable:"))
-    except (OSError, ValueError, LookupError, StopIteration):
-        pass
-    try:
-        return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
-    except (AttributeError, ValueError, OSError):  # Windows
-        return UNKNOWN
-
-
-def _of_group() -> int:
-    """What a container leaves."""
-    try:
-        most, taken = (int(path.read_text(encoding="ascii")) for path in OF_GROUP)
-    except (OSError, ValueError):  # there is none, or it has no limit
-        return UNKNOWN
-    return max(0, most - taken)

@@ -21,17 +21,19 @@ from exudyn.basicUtilities import LoadSolutionFile
 
 from support_exudyn.coordinates import check_recorded, coordinates
 from support_exudyn.engine_settings import quiet_engine
-from support_exudyn.files import whole_file
+from support_exudyn.files import check_is_file, whole_file
+from support_exudyn.memory import available
 from support_exudyn.model import Model, model
 from support_exudyn.progress import Progress
 from support_exudyn.result import Result
 from support_exudyn.scenario import Scenario
-from user_forces.values import InputError
+from user_forces.values import InputError, cleaned
 
 Solution = dict[str, Any]  # as LoadSolutionFile gives it and SolutionViewer takes it
 DIGITS = 17  # as many as tell numbers of 64 bits apart
 BINARY_ENDING = ".sol"  # as the engine names such files
 BINARY_START = b"EXUBIN"
+TIMES = 8  # as much memory as its length reading a file may take
 HEADER = 5  # lines of the text format, the last of which says what the columns are
 COLUMNS = re.compile(r"#number of written coordinates \[[\w, ]+\] = (\[\d+(?:,\d+){6}\])")
 
@@ -156,13 +158,15 @@ def read_solution(path: str | Path) -> Solution:
 
     Raises InputError if it is not a whole one; OSError if it cannot be opened at all.
     """
+    check_is_file(path, available() // TIMES)
     _check_header(path)
     try:
         found: Solution = LoadSolutionFile(str(path), verbose=False)
         if not np.isfinite(found["data"]).all():
             raise ValueError("not all of its numbers are finite")
-    except (ValueError, LookupError, TypeError) as error:
-        raise InputError(f"{path}: not a solution file of Exudyn, or damaged ({error})") from None
+    except (ValueError, LookupError, TypeError, ArithmeticError, MemoryError, EOFError) as error:
+        said = cleaned(str(error))
+        raise InputError(f"{path}: not a solution file of Exudyn, or damaged ({said})") from None
     return found
 
 

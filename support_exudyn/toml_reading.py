@@ -8,6 +8,7 @@ from decimal import Decimal, InvalidOperation
 from pathlib import Path
 from typing import Any
 
+from support_exudyn.files import contents
 from user_forces.values import DEEPEST, InputError, short
 
 if sys.version_info >= (3, 11):
@@ -22,43 +23,48 @@ TWICE = re.compile(r"Cannot declare \((.*?),?\) twice")
 COMMA = re.compile(r"=\s*[-+]?\d+,\d+\s*(#.*)?$")  # a decimal comma
 
 
-def load_toml(path: str | Path) -> dict[str, Any]:
+def load_toml(path: str | Path, named: bool = False) -> dict[str, Any]:
     """The table of a TOML file; its numbers with a point or an exponent are of type Decimal.
+
+    named: another file names it. It may then be any file of this machine, whose lines are not repeated.
 
     Raises InputError, with file and line, if the file is no TOML; OSError if it cannot be read.
     """
-    return parsed(text_of(Path(path)), str(path))
+    return parsed(text_of(Path(path)), str(path), named)
 
 
 def text_of(path: Path) -> str:
     """The text of a file that people write. Raises InputError if it is none, OSError if it cannot be read."""
     if "\0" in str(path):
         raise InputError(f"{path!s:.80}: allowed: a name that a file can have")
-    if path.stat().st_size > LARGEST_FILE:
-        raise InputError(f"{path}: has more than {LARGEST_FILE} bytes; allowed: a text that people write")
     try:
-        return path.read_bytes().decode("utf-8-sig")
+        return contents(path, LARGEST_FILE).decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise InputError(f"{path}: byte {error.start} is not UTF-8; allowed: text in UTF-8") from None
 
 
-def parsed(text: str, where: str) -> dict[str, Any]:
+def parsed(text: str, where: str, named: bool = False) -> dict[str, Any]:
     """The table of a text in TOML, as `load_toml` gives it; `where` is what errors call it."""
     try:
         table = tomllib.loads(text, parse_float=_decimal)
     except RecursionError:
         raise InputError(f"{where}: {TOO_DEEP}") from None
     except ValueError as error:  # of TOML, or of a whole number with thousands of digits
-        raise InputError(f"{where}: {_reason(str(error), text)}") from None
+        raise InputError(f"{where}: {_reason(str(error), text, named)}") from None
     _check_depth(table, where)
     return table
 
 
-def _reason(said: str, text: str) -> str:
-    """What is wrong with a text, from what the library says: with the line, and twofold keys by their name."""
+def _reason(said: str, text: str, named: bool) -> str:
+    """What is wrong with a text, from what the library says: with the line, and twofold keys by their name.
+
+    named: the line by its number only.
+    """
     lines = text.replace("\r\n", "\n").splitlines()
     place = PLACE.search(said)
     number = int(place[1]) if place else len(lines)
+    if named:
+        return f"line {number}: is no TOML; allowed: TOML"
     line = short(lines[number - 1].strip()) if 0 < number <= len(lines) else "''"
     what = PLACE.sub("", said).removesuffix(" (at end of document)")
     if what == "Cannot overwrite a value":

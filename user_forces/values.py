@@ -17,7 +17,7 @@ import inspect
 import math
 import numbers
 from abc import ABC
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from decimal import Decimal
 from difflib import get_close_matches
 from typing import Annotated, Any, ClassVar, TypeVar
@@ -200,7 +200,9 @@ def value(cls: type[T]) -> type[T]:
         try:
             checked_init(self, *args, **kwargs)
         except ValidationError as error:
-            raise InputError("\n".join(_sentence(made, e) for e in error.errors(include_url=False))) from None
+            raise InputError(
+                "\n".join(_sentence(made, e) for e in _first(error.errors(include_url=False)))
+            ) from None
         for name, item in vars(self).items():
             if isinstance(item, Mapping) and "type" in item:
                 raise InputError(
@@ -217,6 +219,15 @@ ITSELF = "__dataclass_self__"  # how pydantic calls the value that is made
 OUT_OF_BOUNDS = ("greater_than", "greater_than_equal", "less_than", "less_than_equal")  # pydantic's names
 
 
+LENGTHS = ("too_short", "too_long")
+
+
+def _first(errors: Sequence[Any]) -> list[Any]:
+    """Errors but those that only follow from others: items that are wrong are not counted."""
+    within = {error["loc"][:-1] for error in errors}
+    return [error for error in errors if error["type"] not in LENGTHS or error["loc"] not in within]
+
+
 def _sentence(cls: Any, error: Mapping[str, Any]) -> str:
     """One line for one pydantic error: where, the value, what is wrong, what is allowed."""
     path = ".".join(step(part) for part in error["loc"])
@@ -228,6 +239,10 @@ def _sentence(cls: Any, error: Mapping[str, Any]) -> str:
         return f"{where}: missing; it has no default"
     if error["type"] == "value_error" and not path:  # a check of ours over several fields
         return f"{where}: {error['ctx']['error']}"
+    if error["type"] in LENGTHS:
+        least, most = (error["ctx"].get(f"{end}_length") for end in ("min", "max"))
+        bound = f"at least {least}" if least is not None else f"at most {most}"
+        return f"{where} = {short(error['input'])}: allowed: {bound} items"
     allowed = _allowed(cls, error["loc"])
     if allowed and error["type"] in OUT_OF_BOUNDS:
         return f"{where} = {short(error['input'])}: allowed: {allowed}"

@@ -22,7 +22,7 @@ import user_forces
 from studies.judging.plausible import Sample
 from studies.judging.plausible_runs import measures
 from support_exudyn import SimulationError
-from support_exudyn.files import whole_file
+from support_exudyn.files import contents, whole_file
 from support_exudyn.provenance import installed
 from support_exudyn.warm import warm_up
 from support_exudyn.workers import ProcessEndedError, Workers, worker_pool
@@ -30,6 +30,7 @@ from support_exudyn.workshop import remove_leftovers
 from user_forces.values import InputError
 
 FOLDER = "machines"
+LARGEST_FILE = 100_000_000  # bytes
 LIBRARIES = ("numpy", "scipy", "numba")  # whose versions may change a number
 
 Data = dict[str, dict[str, list[float]]]  # measures: case, name, [value, numerical error]
@@ -118,7 +119,7 @@ def _run_one(number: int, place: Path, sample: Sample) -> None:
 def _read(place: Path) -> Row | None:
     """A row; None if it is not there or not whole."""
     try:
-        data = json.loads(place.read_text(encoding="utf-8"))
+        data = json.loads(contents(place, LARGEST_FILE).decode("utf-8"))
         return Row(data["sample"], data["measures"], data["failure"])
     except (FileNotFoundError, json.JSONDecodeError, KeyError, TypeError, UnicodeDecodeError):
         return None

@@ -12,10 +12,11 @@ from rich.table import Table
 from rich.text import Text
 
 from studies.reporting.markdown import WIDEST, escaped, paragraph, pipe_table, record_list
-from support_exudyn.files import whole_file
+from support_exudyn.files import contents, whole_file
 from user_forces.values import InputError
 
 FILE = "chapter.json"
+LARGEST_FILE = 200_000_000  # bytes, of what is read for a report
 
 
 @dataclass(frozen=True)
@@ -115,7 +116,7 @@ class Chapter:
         """Read it back. Raises InputError that names the file and what is wrong with it."""
         path = folder / FILE
         try:
-            return _reader().validate_json(path.read_bytes())
+            return _reader().validate_json(contents(path, LARGEST_FILE))
         except FileNotFoundError:
             raise InputError(f"{path}: no such file; the study that writes it has not run here") from None
         except ValidationError as error:

@@ -10,7 +10,8 @@ from pathlib import Path
 from pydantic import BaseModel, ValidationError
 
 from studies.reporting import assumptions
-from studies.reporting.chapter import Chapter, Picture, Sheet
+from studies.reporting.chapter import LARGEST_FILE, Chapter, Picture, Sheet
+from support_exudyn.files import contents
 from support_exudyn.provenance import provenance
 from user_forces.values import InputError
 
@@ -55,7 +56,7 @@ class Section:
         chapter = Chapter.load(folder)
         path = folder / "summary.json"
         try:
-            summary = Summary.model_validate_json(path.read_bytes())
+            summary = Summary.model_validate_json(contents(path, LARGEST_FILE))
         except FileNotFoundError:
             raise InputError(f"{path}: no such file; the study that writes it has not ended here") from None
         except ValidationError as error:

@@ -8,9 +8,10 @@ from pathlib import Path
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
-from studies.reporting.chapter import Sheet
+from studies.reporting.chapter import LARGEST_FILE, Sheet
 from studies.reporting.content import Report, Section, verdict_class, verdict_column
 from studies.reporting.markdown import unbroken
+from support_exudyn.files import contents
 
 SHORT = 28  # characters of a cell that is kept in one line, unless the table is wide
 
@@ -61,4 +62,4 @@ def _alignment(sheet: Sheet, column: int) -> str:
 def picture_data(section: Section, stem: str) -> str:
     """A picture as a data URI, byte for byte."""
     path: Path = section.folder / f"{stem}.png"
-    return "data:image/png;base64," + base64.b64encode(path.read_bytes()).decode("ascii")
+    return "data:image/png;base64," + base64.b64encode(contents(path, LARGEST_FILE)).decode("ascii")

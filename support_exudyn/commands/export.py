@@ -9,7 +9,17 @@ from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
-from support_exudyn.command_line import add_json, add_times, answer, count, folder, number, say, shown_progress
+from support_exudyn.command_line import (
+    add_json,
+    add_times,
+    answer,
+    count,
+    folder,
+    number,
+    say,
+    shown_progress,
+    warn,
+)
 from support_exudyn.progress import Progress
 from support_exudyn.result import Result
 from user_forces.values import InputError
@@ -101,7 +111,7 @@ def run(given: argparse.Namespace) -> None:
     if len(refused) == len(USUAL):
         raise refused[USUAL[0]]
     for kind, reason in refused.items():
-        print(f"{kind}: left out: {reason}", file=sys.stderr)
+        warn(f"{kind}: left out: {reason}")
     if given.json:
         answer({"written": written, "left_out": {kind: str(reason) for kind, reason in refused.items()}})
 

@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from typing import TYPE_CHECKING
 
-from support_exudyn.command_line import add_json, add_times, answer, folder, number, say
+from support_exudyn.command_line import add_json, add_times, answer, folder, number, say, warn
 from support_exudyn.figures.journal import chosen_pin, loose_pins
 from support_exudyn.figures.names import matching
 from support_exudyn.result import Result
@@ -72,7 +72,7 @@ def run(given: argparse.Namespace) -> None:
             except InputError as error:
                 if name not in optional:
                     raise
-                print(f"{name}: left out: {error}", file=sys.stderr)
+                warn(f"{name}: left out: {error}")
                 continue
             drawings.append(drawing)
             paths = style.save(drawing, out, name)

@@ -11,7 +11,8 @@ from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING, Any
 
-from support_exudyn.command_line import count, folder, say
+from support_exudyn.command_line import count, folder, say, warn
+from user_forces.values import cleaned
 
 if TYPE_CHECKING:
     from support_exudyn.sweeping.run import Outcome, Told
@@ -82,7 +83,7 @@ def run(given: argparse.Namespace) -> None:
             progress=progress,
         )
     for name in outcome.missing:
-        print(f"{name}: no run has this number", file=sys.stderr)
+        warn(f"{name}: no run has this number")
     _tell(outcome, given, f"{outcome.runs} runs: {_counts(outcome)}")
     if outcome.unmet:
         print(
@@ -154,7 +155,7 @@ def _show(path: Path) -> None:
     names = [name for name in wanted if not name.endswith("_error")][:SHOWN]
     shown = Table(box=box.SIMPLE_HEAD, pad_edge=False)
     for name in names:
-        shown.add_column(escape(name), justify="right", overflow="fold")
+        shown.add_column(escape(cleaned(name)), justify="right", overflow="fold")
     for row in found.slice(0, SHOWN).to_pylist():
         shown.add_row(*(escape(_said(row[name])) for name in names))
     Console(highlight=False).print(shown)
@@ -164,4 +165,4 @@ def _show(path: Path) -> None:
 
 
 def _said(item: Any) -> str:
-    return "" if item is None else f"{item:.6g}" if isinstance(item, float) else str(item)
+    return "" if item is None else f"{item:.6g}" if isinstance(item, float) else cleaned(str(item))

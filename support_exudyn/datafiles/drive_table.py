@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import csv
+import io
 from collections.abc import Callable, Sequence
 from decimal import Decimal, InvalidOperation
 from pathlib import Path
 from typing import Literal, NamedTuple
 
 from support_exudyn.datafiles.place import nearest
+from support_exudyn.files import contents
 from support_exudyn.table_drive import MOST_POINTS, TableDrive
 from user_forces.quantity import Metres, Radians, Seconds, Unit
 from user_forces.values import LARGEST, InputError, short
@@ -19,6 +21,7 @@ ANGLE: Unit = Radians[float].__metadata__[0]  # type: ignore[attr-defined]
 SEPARATORS = {";": "semicolons", "\t": "tabs"}  # of other tables
 LONGEST_NUMBER = 100  # characters
 LARGEST_FILE = 200_000_000  # bytes
+MOST_ITEMS = 20 * MOST_POINTS
 
 
 Turns = Callable[[str], bool | None]
@@ -49,6 +52,11 @@ def read_drives(
     if not lines:
         raise InputError(f"{path}: is empty; allowed: a first line such as time_s,extension_mm, and numbers")
     number, header = lines[0]
+    if not _is_header(header):  # whatever file it is: nothing in it is repeated
+        raise InputError(
+            f"{path}: line {number}: names no time; allowed: a first line such as time_s,extension_mm"
+            f"{_hint(lines)}"
+        )
     columns = [_column(title, n, f"{path}: line {number}") for n, title in enumerate(header)]
     names = [one.name for one in columns]
     for one in columns:
@@ -103,17 +111,30 @@ def one_drive(
 
 def _lines(path: Path) -> list[tuple[int, list[str]]]:
     """The lines of a file that are not empty, each with its number and its items."""
-    if path.stat().st_size > LARGEST_FILE:
-        raise InputError(f"{path}: has more than {LARGEST_FILE} bytes; allowed: a table of points")
+    found, items = [], 0
     try:
-        with path.open(encoding="utf-8-sig", newline="") as file:
-            reader = csv.reader(file)
-            found = [(reader.line_num, [item.strip() for item in line]) for line in reader if any(line)]
+        reader = csv.reader(io.StringIO(contents(path, LARGEST_FILE).decode("utf-8-sig"), newline=""))
+        for line in reader:
+            items += len(line)
+            if items > MOST_ITEMS:
+                raise InputError(
+                    f"{path}: line {reader.line_num}: the file has too many items; allowed: {MOST_ITEMS}"
+                )
+            if any(line):
+                found.append((reader.line_num, [item.strip() for item in line]))
     except UnicodeDecodeError as error:
         raise InputError(f"{path}: byte {error.start} is not UTF-8; allowed: text in UTF-8") from None
     except csv.Error as error:
         raise InputError(f"{path}: {error}; allowed: numbers separated by commas") from None
     return found
+
+
+def _is_header(titles: Sequence[str]) -> bool:
+    """Whether a line is meant for one that names columns."""
+    endings = tuple(f"_{ending}" for unit in (TIME, LENGTH, ANGLE) for ending in unit.endings)
+    return any(title.partition("_")[0] == "time" for title in titles) or all(
+        title.endswith(endings) for title in titles
+    )
 
 
 def _column(title: str, place: int, where: str) -> _Column:

@@ -12,10 +12,11 @@ from pathlib import Path
 from typing import Any
 
 from support_exudyn.estimate import Estimate
-from support_exudyn.files import whole_file
+from support_exudyn.files import contents, whole_file
 from support_exudyn.scenario import Scenario
 from user_forces.values import InputError, Value, short
 
+LARGEST_FILE = 100_000_000  # bytes
 FORMAT = "support_exudyn scene detail 1"
 FIELDS = ("pins", "columns", "parts", "start", "dimensions")  # of a scenario: what an element of the model is
 
@@ -83,7 +84,19 @@ class Table:
     @staticmethod
     def load(path: Path) -> Table:
         """Read it. Raises InputError if it is not such a table, OSError if it cannot be read."""
-        return _table(path.read_bytes(), str(path))
+        return _table(contents(path, LARGEST_FILE), str(path))
+
+
+def check_replaceable(path: Path) -> None:
+    """Raise InputError if something else than such a table is at a path: it would be lost."""
+    if not path.exists():
+        return
+    try:
+        known = str(json.loads(contents(path, LARGEST_FILE))["format"])
+    except (OSError, ValueError, LookupError, TypeError, RecursionError):
+        known = ""
+    if not known.startswith(FORMAT.rpartition(" ")[0]):
+        raise InputError(f"{path}: is no table of tried scenes, and would be lost; allowed: another name")
 
 
 def fields_of(scenario: Scenario) -> dict[str, Any]:

@@ -11,6 +11,7 @@ import meshio
 
 from support_exudyn.exporting.mesh_series import MeshSeries
 from support_exudyn.files import contents
+from user_forces.values import InputError
 
 LARGEST_INDEX = 200_000_000  # bytes
 
@@ -36,7 +37,7 @@ def earlier(folder: Path, series: str) -> set[str]:
     index = f"{series}.pvd"
     try:
         text = contents(folder / index, LARGEST_INDEX).decode("utf-8", "replace")
-    except OSError:
+    except (OSError, InputError):
         return set()
     steps = re.findall(rf'file="({series}_\d{{5,}}\.vtu)"', text)
     return {index, *steps} if steps else set()

@@ -11,6 +11,7 @@ from meshio.xdmf import TimeSeriesWriter
 
 from support_exudyn.exporting.mesh_series import MeshSeries
 from support_exudyn.files import contents
+from user_forces.values import InputError
 
 LARGEST_INDEX = 1_000_000_000  # bytes
 COMPRESSION: dict[str, Any] = {"compression": "gzip", "compression_opts": 4, "shuffle": True}
@@ -20,7 +21,7 @@ def refers(path: Path, store: str) -> bool:
     """Whether a file is one of `MovingMeshWriter`, whose data are in the HDF5 file of this name."""
     try:
         return f">{store}:/".encode() in contents(path, LARGEST_INDEX)
-    except OSError:
+    except (OSError, InputError):
         return False
 
 

@@ -28,8 +28,8 @@ def form(kind: str) -> type[MachineForm]:
     return cast("type[MachineForm]", import_module(f"{__package__}.{kind}").Form)
 
 
-def load_machine(path: str | Path) -> MachineData:
-    """Read a machine data file of any kind into SI.
+def load_machine(path: str | Path, named: bool = False) -> MachineData:
+    """Read a machine data file of any kind into SI; named: by another file, see `load_toml`.
 
     Raises InputError, naming file, key, value and what is allowed, for anything that does not fit; OSError if
     there is no file.
@@ -39,7 +39,7 @@ def load_machine(path: str | Path) -> MachineData:
     try:
         found = _of_text(text)
     except InputError as error:
-        parsed(text, str(path))  # what is no TOML is told with its line
+        parsed(text, str(path), named)  # what is no TOML is told with its line
         raise InputError("\n".join(f"{path}: {line}" for line in str(error).splitlines())) from None
     except ArithmeticError as error:  # of a number such as 1e999999999
         raise InputError(f"{path}: {type(error).__name__}: allowed: numbers of a sensible size") from None

@@ -10,7 +10,7 @@ from typing import Any
 from support_exudyn.sweeping.from_tables import maker
 from support_exudyn.sweeping.plan import Plan, Record
 from support_exudyn.sweeping.points import Point, Range, Varied, grid, latin_hypercube, side_by_side
-from support_exudyn.toml_reading import load_toml
+from support_exudyn.toml_reading import load_toml, text_of
 from user_forces.values import InputError, short
 
 METHODS = ("grid", "list", "latin_hypercube")
@@ -37,7 +37,7 @@ def read_sweep(path: str | Path) -> Plan:
             scenario=maker(table, told, folder, tuple(varied)),
             record=_record(_table(data, "record")),
             errors=table.get("errors") is True,
-            text=path.read_text(encoding="utf-8"),
+            text=text_of(path),
         )
     except InputError as error:
         raise InputError(str(error) if str(error).startswith(str(path)) else f"{path}: {error}") from None
@@ -53,7 +53,7 @@ def _scenario(data: Table, path: Path) -> tuple[Table, str, Path]:
             f"scenario = {short(given)}: allowed: the path of a scenario file, or a table [scenario]"
         )
     file = path.parent / given
-    return load_toml(file), str(file), file.parent
+    return load_toml(file, named=True), str(file), file.parent
 
 
 def _points(data: Table, varied: Varied) -> list[Point]:

@@ -40,7 +40,8 @@ def maker(table: Table, where: str, folder: Path, names: tuple[str, ...]) -> Cal
             f"{where}: machine = {short(given)}: allowed where fields of it vary: a machine, by its file"
         )
     file = machine_file(given, folder)
-    return WithMachine(plain, load_toml(file), file, {name: name.partition(".")[2] for name in of_machine})
+    data = load_toml(file, named=True)
+    return WithMachine(plain, data, file, {name: name.partition(".")[2] for name in of_machine})
 
 
 def machine_file(name: str, folder: Path) -> Path:

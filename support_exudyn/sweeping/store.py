@@ -16,7 +16,8 @@ from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from support_exudyn.files import whole_file, writing_alone
+from support_exudyn.files import contents, whole_file, writing_alone
+from support_exudyn.memory import available
 from support_exudyn.result import FORMAT
 from support_exudyn.sealed import check_seal
 from support_exudyn.sweeping.key import LENGTH
@@ -24,6 +25,7 @@ from support_exudyn.sweeping.row import Row
 from support_exudyn.workshop import remove_leftovers
 
 KEY = re.compile(rf"[0-9a-f]{{{LENGTH}}}")
+LARGEST_ROW = 100_000_000  # bytes
 TABLES = ("table.parquet", "table.csv")
 RUN = FORMAT.rpartition(" ")[0].encode() + b" "  # as files of runs of any version begin
 
@@ -77,7 +79,7 @@ class Store:
     def row(self, key: str) -> Row | None:
         """What is known of a run; None if that is nothing, or damaged."""
         try:
-            found = Row.from_text((self.rows / f"{key}.json").read_text(encoding="utf-8"))
+            found = Row.from_text(contents(self.rows / f"{key}.json", LARGEST_ROW).decode("utf-8"))
         except (FileNotFoundError, ValueError, TypeError, LookupError):
             return None
         return found if found.key == key else None
@@ -103,7 +105,7 @@ class Store:
             status = path.stat()
             if (status.st_size, status.st_mtime_ns) == (row.size, row.modified):
                 return True
-            check_seal(path.read_bytes(), FORMAT)
+            check_seal(contents(path, available()), FORMAT)
         except (OSError, ValueError):
             return False
         return True

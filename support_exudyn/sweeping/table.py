@@ -12,11 +12,13 @@ import numpy as np
 import pyarrow as pa
 from pyarrow import csv, parquet
 
-from support_exudyn.files import whole_file
+from support_exudyn.files import check_is_file, whole_file
+from support_exudyn.memory import available
 from support_exudyn.sweeping.key import program
 from support_exudyn.sweeping.plan import Plan
+from support_exudyn.sweeping.points import MOST
 from support_exudyn.sweeping.row import Row
-from user_forces.values import InputError, cleaned
+from user_forces.values import InputError, cleaned, short
 
 FORMAT = "support_exudyn sweep 1"
 FILE = "table.parquet"
@@ -75,7 +77,8 @@ class Table:
         columns: list[pa.Array] = []
 
         def add(name: str, column: pa.Array, unit: str = "", meaning: str = "") -> None:
-            fields.append(pa.field(name, column.type, metadata={"unit": unit, "meaning": meaning}))
+            about = {"unit": cleaned(unit), "meaning": cleaned(meaning)}
+            fields.append(pa.field(cleaned(name), column.type, metadata=about))
             columns.append(column)
 
         for name in self._plan.names:
@@ -121,14 +124,42 @@ def read_table(path: str | Path) -> pa.Table:
     path = path / FILE if path.is_dir() else path
     if not path.exists():
         raise FileNotFoundError(f"{path}: no such file; allowed: the folder of a sweep, or its {FILE}")
+    check_is_file(path, available())
     try:
+        _check_table(parquet.ParquetFile(path).metadata)
         found = parquet.read_table(path)
-    except (pa.ArrowException, OSError) as error:
-        raise InputError(f"{path}: not a table of a sweep, or damaged ({error})") from None
-    about = json.loads((found.schema.metadata or {}).get(OWN, b"{}"))
-    if about.get("format") != FORMAT:
-        raise InputError(f"{path}: format is {about.get('format')!r}, expected {FORMAT!r}")
+        found.validate(full=True)
+        about = json.loads((found.schema.metadata or {}).get(OWN, b"{}"))
+        known = about.get("format")
+        _check_columns(found)
+    except (pa.ArrowException, OSError, ValueError, AttributeError, RecursionError, MemoryError) as error:
+        said = cleaned(" ".join(str(error).split()))
+        raise InputError(f"{path}: not a table of a sweep, or damaged ({said})") from None
+    if known != FORMAT:
+        raise InputError(f"{path}: format is {short(known)}, expected {FORMAT!r}")
     return found
+
+
+def _check_table(about: Any) -> None:
+    """Raise ValueError of a table that no sweep makes: few bytes may stand for many numbers."""
+    rows, columns = about.num_rows, about.num_columns
+    size = sum(about.row_group(n).total_byte_size for n in range(about.num_row_groups))
+    if rows > MOST or max(size, 8 * rows * columns) > available():
+        raise ValueError(f"{rows} rows of {columns} columns are more than there is room for")
+
+
+def _check_columns(found: pa.Table) -> None:
+    """Raise ValueError unless a table has what all tables of sweeps have, once, and texts that are some."""
+    names = found.column_names
+    if len(set(names)) < len(names) or not MEANINGS.keys() <= set(names):
+        raise ValueError(f"columns are missing or there twice; allowed: {', '.join(MEANINGS)} and others, once")
+    for field in found.schema:
+        for text in (field.name, *(one.decode() for pair in (field.metadata or {}).items() for one in pair)):
+            if cleaned(text) != text:
+                raise ValueError(f"column {short(text)} is no name; allowed: letters that can be printed")
+    for name in names[names.index("wall_time_s") :]:
+        if not pa.types.is_floating(found.schema.field(name).type):
+            raise ValueError(f"column {short(name)} is of {found.schema.field(name).type}; allowed: numbers")
 
 
 def _inputs(values: Sequence[Any]) -> pa.Array:

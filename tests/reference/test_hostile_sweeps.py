@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from support_exudyn import ClearancePin, Held, Scenario, SimulationError, room, simulate
+from support_exudyn import ClearancePin, Held, Scenario, SimulationError, memory, room, simulate
 from support_exudyn.__main__ import main
 from support_exudyn.sweeping import Plan, Record, read_table, sweep
 from tests.reference.cases import loose_support, paper_contact
@@ -158,7 +158,7 @@ def test_what_a_run_takes_follows_from_records_and_channels(monkeypatch: pytest.
 
 
 def test_the_memory_that_is_free_is_known() -> None:
-    assert 10**6 < room.available() <= room.UNKNOWN
+    assert 10**6 < memory.available() <= memory.UNKNOWN
 
 
 # --- single runs ---

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 import pytest
@@ -161,3 +162,30 @@ def test_where_it_is_not_covered_that_is_said() -> None:
     scenario = Scenario(machine=ravn_slider_crank(), drive=drive, duration=1.0, formulation="reduced")
     with pytest.raises(InputError, match=r"drive = TableDrive: not covered by formulation = 'reduced'"):
         simulate(scenario)
+
+
+@pytest.mark.parametrize(
+    ("fields", "said"),
+    [
+        (
+            {"times": (0.0, 1.0), "extensions": (0.0, float("inf"))},
+            "TableDrive.extensions.1 = inf: Input should be a finite number from -1e+30 to 1e+30",
+        ),
+        (
+            {"times": (-1.0, 1.0), "extensions": (0.0, 1.0)},
+            "TableDrive.times.0 = -1.0: Input should be greater than or equal to 0",
+        ),
+        (
+            {"times": (0.0,), "extensions": (0.0, 1.0)},
+            "TableDrive.times = (0.0,): allowed: at least 2 items",
+        ),
+        (
+            {"times": range(1_000_001), "extensions": (0.0, 1.0)},
+            "TableDrive.times = range(0, 1000001): allowed: at most 1000000 items",
+        ),
+    ],
+)
+def test_what_is_wrong_with_a_table_is_said_once(fields: dict[str, Any], said: str) -> None:
+    with pytest.raises(InputError) as caught:
+        TableDrive(**fields)
+    assert str(caught.value) == said
