@@ -13,7 +13,11 @@ times that. Two runs can agree by chance, so d1 is not believed below
 - half (TYPICAL) of the middle distance of the number's family, as a share of their size: means, spreads and
   largest values of forces, spreads of angular accelerations, places; time and speed of a touch.
 
-SCORES
+Measured on scenes of `python -m studies.coverage`: of 110 by which the constants were chosen, 4960 numbers
+against references far closer than the errors claimed, 99.3 % are covered, the worst true error is 2.4 times
+the estimated one, and estimates are 5 (redundant) to 25 times (tree, reduced) as large in the median. Without
+the last two rules and with a smaller margin for tree and reduced it was 97.8 % and 22. The command tells it
+of any other seed.
 """
 
 from __future__ import annotations
