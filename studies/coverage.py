@@ -36,7 +36,7 @@ from support_exudyn.workers import ProcessEndedError, Workers, report, worker_po
 
 STUDY = "coverage"
 MOST_SCENES, LARGEST_SEED = 100_000, 2**32
-PATIENCE = 120.0  # [s] that a scene may take with all of its references
+PATIENCE = 300.0  # [s] that a scene may take with all of its references
 WORST = 15  # offenders that are listed
 ALL = "all"
 GOAL_COVERED, GOAL_RATIO, GOAL_OVERSTATED = 0.98, 5.0, 10.0

@@ -8,12 +8,16 @@ How fast its distances d2 = |b - a| and d1 = |c - b| fall is more or less the sa
 If they go on to fall so, the distance of c from what it tends to is d1 r / (1 - r). The estimate is SAFETY
 times that. Two runs can agree by chance, so d1 is not believed below
 
-- a share of d2: r, or where steps are chosen by a tolerance CHOSEN. Distances fall by eight there, but
-  irregularly: a run of a smaller tolerance can be further off than the one before it;
+- a share of d2: r, or where steps are chosen by a tolerance FASTEST. Distances fall by eight there, but
+  irregularly: the errors of two runs can be alike, and so can be those of all of their numbers;
 - half (TYPICAL) of the middle distance of the number's family, as a share of their size: means, spreads and
   largest values of forces, spreads of angular accelerations, places; time and speed of a touch.
 
-SCORES
+Measured on scenes of `python -m studies.coverage`: of 110 by which the constants were chosen, 4960 numbers
+against references far closer than the errors claimed, 99.3 % are covered, the worst true error is 2.4 times
+the estimated one, and estimates are 5 (redundant) to 25 times (tree, reduced) as large in the median. Without
+the last two rules and with a smaller margin for tree and reduced it was 97.8 % and 22. The command tells it
+of any other seed.
 """
 
 from __future__ import annotations
@@ -37,7 +41,6 @@ if TYPE_CHECKING:
 
 Series = npt.NDArray[np.float64]
 SAFETY = 4.0
-CHOSEN = 0.15  # share of the distance before that the last is at least, where steps are chosen by a tolerance
 TYPICAL = 0.5  # of the middle distance of a number's family, that its own is at least
 SAFETY_OF_WORST = 6.0  # covers all of two thousand runs at the extremes (`studies/extremes.py`)
 IRREGULAR = 4.0  # times that, where Newton's method failed: steps then are not those that were asked for
@@ -247,8 +250,8 @@ def multiple(r: float) -> float:
 
 
 def believed(result: Result, r: float) -> float:
-    """The share of the distance before that the last distance is believed to have fallen to; r: see `fall`."""
-    return min(r, CHOSEN) if result.scenario.formulation in ERROR_CONTROLLED else r
+    """The share of the distance before that the last one is believed to have fallen to; r: see `fall`."""
+    return FASTEST if result.scenario.formulation in ERROR_CONTROLLED else r
 
 
 def _distance(measure: Measure, result: Result, r: float) -> float:

@@ -14,7 +14,6 @@ from hypothesis import strategies as st
 
 from support_exudyn import Estimate, Held, Onset, Result
 from support_exudyn.estimate import (
-    CHOSEN,
     FASTEST,
     FIRST_ORDER,
     ONSETS,
@@ -169,7 +168,7 @@ def test_a_number_of_ones_own_is_estimated_by_the_fall_of_all(r: float) -> None:
 
 
 def test_two_runs_that_agree_by_chance_are_not_taken_as_exact() -> None:
-    r = 0.25
+    r = 0.4
     last = falling(1e-2, r)
     middle, first = last.coarser, last.coarser.coarser  # type: ignore[union-attr]
     assert middle is not None
@@ -180,7 +179,7 @@ def test_two_runs_that_agree_by_chance_are_not_taken_as_exact() -> None:
     assert run.fall == pytest.approx(r, rel=1e-9)
     before = 1e-2 * (1.0 - r**2) * exact()[FORCE].mean()
     # 1e-10 of it is added; steps are chosen by a tolerance here
-    expected = SAFETY * CHOSEN * before * r / (1.0 - r)
+    expected = SAFETY * FASTEST * before * r / (1.0 - r)
     assert run.numbers()[f"{FORCE}.mean"].error == pytest.approx(expected, rel=1e-5)
 
 
