@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from support_exudyn import ClearancePin, CubicStep, Scenario, reference_support, simulate
+from support_exudyn import ClearancePin, CubicStep, OilColumn, Result, Scenario, SolverSettings, reference_support, simulate
 from tests.reduced import simulate_reduced
 from tests.reference.cases import PIN
 from tests.reference.contact_scenes import OFF, drawn, finely, off
@@ -83,3 +83,24 @@ def test_a_turn_that_is_met_in_plain_python_is_not_met_again() -> None:
     # rounding leaves the rate a little below zero where it has turned: the run stood still there
     result = simulate_reduced(drawn(1, 0), 1e-8, "python", most_steps=1000)
     assert len(result.onsets[PIN]) == 5
+
+
+# --- the tree ---
+
+
+def on_oil(number: int, tolerance: float) -> Result:
+    """A drawn scene with oil in its columns, in the tree."""
+    oil = OilColumn(bore_area=0.05, oil_length=0.8, bulk_modulus=1.5e9)
+    columns = {"front_column": oil, "rear_column": oil}
+    solver = SolverSettings(tolerance=tolerance)
+    return simulate(replace(drawn(1, number), formulation="tree", columns=columns, solver=solver))
+
+
+# 22: a dip within a step of the tree: 5e-2 off. 34: a turn at the very start of a step was met at its end: 5e-4
+# off. 39: a largest force that is a corner: 1e-4 off
+@pytest.mark.parametrize(("number", "tolerance"), [(22, 1e-7), (22, 1e-5), (34, 1e-6), (39, 1e-6)])
+def test_the_tree_sees_what_happens_within_its_steps(number: int, tolerance: float) -> None:
+    found, right = on_oil(number, tolerance), on_oil(number, 1e-9)
+    assert found.largest_force[PIN] == pytest.approx(right.largest_force[PIN], rel=3e-5)
+    assert found[f"pin.{PIN}.force"].std() == pytest.approx(right[f"pin.{PIN}.force"].std(), rel=3e-5)
+    assert found[REAR].max() == pytest.approx(right[REAR].max(), rel=3e-5)
