@@ -49,14 +49,14 @@ def largest(values: Matrix, look: Look) -> float:
         values: at the points of every step, shape (steps, 5).
         look: the quantity at fractions (m,) of the steps with these numbers (m,).
     """
-    if values.size == 0:
+    if not (values > 0.0).any():
         return 0.0
     highest = values.max(axis=1)
     steps = np.flatnonzero(highest >= NEAR_TOP * highest.max())
     steps = steps[np.argsort(highest[steps])][-MOST_TOPS:]
     point = values[steps].argmax(axis=1)
     low, high = POINTS[np.maximum(point - 1, 0)], POINTS[np.minimum(point + 1, len(POINTS) - 1)]
-    each, top = np.arange(len(steps)), max(0.0, float(highest.max()))
+    each, top = np.arange(len(steps)), float(highest.max())
     for _ in range(NARROWINGS):
         x = low + (high - low) * np.linspace(0.0, 1.0, SAMPLES)[:, None]
         found = look(np.tile(steps, SAMPLES), x.ravel()).reshape(x.shape)
