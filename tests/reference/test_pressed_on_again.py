@@ -6,7 +6,16 @@ from dataclasses import replace
 
 import pytest
 
-from support_exudyn import ClearancePin, CubicStep, OilColumn, Result, Scenario, SolverSettings, reference_support, simulate
+from support_exudyn import (
+    ClearancePin,
+    CubicStep,
+    OilColumn,
+    Result,
+    Scenario,
+    SolverSettings,
+    reference_support,
+    simulate,
+)
 from tests.reduced import simulate_reduced
 from tests.reference.cases import PIN
 from tests.reference.contact_scenes import OFF, drawn, finely, off
@@ -16,7 +25,7 @@ REAR = "rear_column.force"
 
 
 def dipping(**changes: object) -> Scenario:
-    """A rise in which the rate of the second contact's depth dips to -0.04 mm/s for 60 us, and goes on inwards."""
+    """A rise in which the second contact, on its way in, is let out for an instant and pressed on again."""
     bearing = JournalBearing(bore_radius=0.0655, clearance=0.9e-3)
     stiffness = external_contact_stiffness(bearing, STEEL, STEEL_35CRMO)
     contact = JournalContact(bearing=bearing, normal=Exact(stiffness=stiffness, restitution=0.63))
