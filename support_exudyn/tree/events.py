@@ -18,6 +18,7 @@ from user_forces.values import Vector2
 PARTS = 4  # of a step in free flight, each looked at
 SAMPLES = 8  # of a step in contact
 SHORT = 1e-9  # [s]: in so short a step what cannot be told apart is taken as it ends
+ROUNDING = 1e-12  # of a rate, as a share of its size
 MET = 1e-7  # depth as a share of the clearance at which a touch or a parting is met
 
 
@@ -145,11 +146,11 @@ def _apart(start: Place, end: Place, step: float, clearance: float, met: float) 
     rising = start.rate > 0.0
     for n in range(1, PARTS + 1):
         high = n / PARTS
-        falling = flight.rate(high) < 0.0
-        top = float(brentq(flight.rate, low, high)) if rising and falling else high
+        outwards = flight.rate(high)
+        falling = outwards < ROUNDING * clearance * way
+        top = float(brentq(flight.rate, low, high)) if rising and outwards < 0.0 else high
         highest = flight.depth(top)
-        unsure = top < 1.0 and (top < high or highest > 0.0)
-        if unsure and step > SHORT and met < abs(highest) < flight.doubt:
+        if rising and falling and top < 1.0 and step > SHORT and met < abs(highest) < flight.doubt:
             return Event(Kind.UNCLEAR, 0.0)
         if highest > met:
             if apart:
@@ -157,5 +158,5 @@ def _apart(start: Place, end: Place, step: float, clearance: float, met: float) 
             # the surfaces have just parted and must be seen apart first
             return Event(Kind.TOUCH, 1.0) if step <= SHORT else Event(Kind.UNCLEAR, 0.0)
         apart = apart or flight.depth(high) < -met
-        low, rising = high, not falling
+        low, rising = high, outwards >= 0.0
     return Event(Kind.TOUCH, 1.0) if apart and end.depth >= -met and end.rate > 0.0 else None
