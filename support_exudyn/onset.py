@@ -24,8 +24,8 @@ from user_forces.scalar import maximum
 # K (v0 share h)^n, a relative 1e-5 of an impact of a hundred steps even for n = 1; the speed is exact anyway.
 SHARE = 0.001
 BEYOND = 0.1  # of that share is a cut step aimed behind the touch or parting, so as not to end before it
-# How far the true course of a depth may be off the cubic, as a share of the change of the rate: its rate, in the
-# middle and times four, and the depth, per length of the step. Of a swing of which the step is a third it keeps
+# How far the true course of a depth may be off the cubic, as a share of the change of the rate: its rate, in
+# the middle and times four, and the depth, per length of the step. A swing of which the step is a third keeps
 # within both.
 DOUBT, DOUBT_OF_DEPTH = 0.5, 1.0 / 64.0
 

@@ -1,7 +1,7 @@
 """What happens to the contact within a step that has been tried, and where.
 
-A step is looked at in parts. Over a part the depth is the cubic that fits depth and rate at both ends; where that
-leaves in doubt whether something happens, the step is too long, and is made again shorter.
+A step is looked at in parts. Over a part the depth is the cubic that fits depth and rate at both ends; where
+that leaves in doubt whether something happens, the step is too long, and is made again shorter.
 """
 
 from __future__ import annotations
@@ -20,7 +20,6 @@ from support_exudyn.reduced.layout import (
     OFFSET_Y,
     PUSH,
     RATE,
-    TOUCH_SPEED,
     TOUCHING,
 )
 from support_exudyn.reduced.runge_kutta import within
@@ -227,7 +226,8 @@ def touching(
         if what == TOO_LONG:
             return TOO_LONG, 0.0, 0.0
         if crosses and (push < 0.0) != (push_then < 0.0):
-            # where it is pressed on again the law asks for no tension, so that comes later; a parting may be first
+            # where it is pressed on again the law asks for no tension, so that comes later; a parting may be
+            # first
             if what == PARTING and h > SHORT:
                 return TOO_LONG, 0.0, 0.0
             if what != PARTING:

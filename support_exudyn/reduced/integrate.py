@@ -47,7 +47,7 @@ ORDER = 0.2 - 0.75 * STEADY
 SMALLEST_STEP = 1e-13  # [s]
 LANDED = 1e-14  # depth [m] at which a touch or parting is met; rounding of the posture is some 1e-16
 LANDINGS = 12
-TURNS = 3
+TURNS = 3  # looks for where a contact is pressed on again; the force is continuous there
 SMALLEST_SINE = 0.01  # of the angles that vanish at a dead centre: nearer to it the run is given up
 SHARE_OF_WAY = 0.5  # of the way to a dead centre is the longest step, so that none is stepped over
 CLOSE = 1e-12  # [s]: a record that lies so little behind the end of a step belongs to it
@@ -160,9 +160,9 @@ def land_on_turn(
     weights: Vector,
     report: Vector,
 ) -> float:
-    """Make a step of h [s] again so that it ends where the rate, `before` at its start, passes zero; its length.
+    """Make a step of h [s] again so that it ends where the rate, `before` at its start, passes zero.
 
-    The first look is at a guessed fraction. By false position (Illinois).
+    The first look is at a guessed fraction; then by false position. Gives the step's length [s].
     """
     low, high, at_low, at_high = 0.0, h, before, contact[RATE]
     length = guess * h

@@ -121,7 +121,7 @@ class PlainRun:
         self.first_step = FIRST_STEP
         self.code = FINISHED
         self.is_a_number = True  # the last rate of the state
-        self.met = events.NOTHING  # at the end of the last step
+        self.met = events.NOTHING  # at the end of the last step that was accepted
         # the law itself is asked, and here this says: something happens where a contact is pressed on again
         self.p[layout.BY_DEPTH] = float(self.force.contact.normal.forgets or self.force.asks_for_mass)
         self.evaluate = plain(
@@ -179,7 +179,6 @@ class PlainRun:
             start[layout.PUSH] = 0.0  # on neither side
         elif self.met == events.RETURN:
             start[layout.RATE] = max(0.0, start[layout.RATE])
-        self.met = events.NOTHING
         while solver.status == "running":
             if not self._step(solver):
                 return solver.t, y
@@ -281,6 +280,7 @@ class PlainRun:
         """Keep what there is to keep of a step."""
         report = self.report
         report[ACCEPTED] += 1
+        self.met = events.NOTHING
         report[CLAMPED] += end[layout.PUSH] < 0.0
         if self.memory[layout.TOUCHING] and max(_size(start), _size(end)) > WORTH_A_LOOK * report[LARGEST]:
             self._look_for_a_peak(path, start, end)

@@ -11,15 +11,15 @@ from typing import NamedTuple
 
 from scipy.optimize import brentq
 
-from support_exudyn.onset import DepthPath
+from support_exudyn.onset import DOUBT_OF_DEPTH, DepthPath
 from support_exudyn.tree.loose import Place
 from user_forces.values import Vector2
 
 PARTS = 4  # of a step in free flight, each looked at
 SAMPLES = 8  # of a step in contact
 SHORT = 1e-9  # [s]: in so short a step what cannot be told apart is taken as it ends
+ROUNDING = 1e-12  # of a rate, as a share of its size
 MET = 1e-7  # depth as a share of the clearance at which a touch or a parting is met
-DOUBT_IN_FLIGHT = 1.0 / 32.0  # how far a journal may be off its cubic, as a share of the cubic's last term
 
 
 class Kind(Enum):
@@ -118,11 +118,8 @@ class _Flight(NamedTuple):
     def doubt(self) -> float:
         """How far the true depth may be off [m]."""
         h, s, e = self.step, self.start, self.end
-        last = math.hypot(
-            h * (s.vx + e.vx) - 2.0 * (e.x - s.x),
-            h * (s.vy + e.vy) - 2.0 * (e.y - s.y),
-        )
-        return DOUBT_IN_FLIGHT * last
+        last = math.hypot(h * (s.vx + e.vx) - 2.0 * (e.x - s.x), h * (s.vy + e.vy) - 2.0 * (e.y - s.y))
+        return DOUBT_OF_DEPTH * (h * math.hypot(e.vx - s.vx, e.vy - s.vy) + last)
 
     def _at(self, x: float) -> Vector2:
         y, h, s, e = 1.0 - x, self.step, self.start, self.end
@@ -149,10 +146,11 @@ def _apart(start: Place, end: Place, step: float, clearance: float, met: float) 
     rising = start.rate > 0.0
     for n in range(1, PARTS + 1):
         high = n / PARTS
-        falling = flight.rate(high) < 0.0
-        top = float(brentq(flight.rate, low, high)) if rising and falling else high
+        outwards = flight.rate(high)
+        falling = outwards < ROUNDING * clearance * way
+        top = float(brentq(flight.rate, low, high)) if rising and outwards < 0.0 else high
         highest = flight.depth(top)
-        if top < high and step > SHORT and met < abs(highest) < flight.doubt:
+        if rising and falling and top < 1.0 and step > SHORT and met < abs(highest) < flight.doubt:
             return Event(Kind.UNCLEAR, 0.0)
         if highest > met:
             if apart:
@@ -160,5 +158,5 @@ def _apart(start: Place, end: Place, step: float, clearance: float, met: float) 
             # the surfaces have just parted and must be seen apart first
             return Event(Kind.TOUCH, 1.0) if step <= SHORT else Event(Kind.UNCLEAR, 0.0)
         apart = apart or flight.depth(high) < -met
-        low, rising = high, not falling
+        low, rising = high, outwards >= 0.0
     return Event(Kind.TOUCH, 1.0) if apart and end.depth >= -met and end.rate > 0.0 else None

@@ -33,6 +33,7 @@ SLIVER = 0.01  # share of a step by which it may be stretched to end at a stop
 REPEAT_ERROR = 1e6  # above any tolerance of the engine's discontinuous iteration: the step is repeated
 ACCEPTED, REFUSED = [0.0, -1.0], [REPEAT_ERROR, -1.0]  # an error, and that no step is recommended
 LANDINGS = 12  # attempts
+SHORTEST_LANDING = 4.0 * SMALLEST_STEP
 TURNED = 1e-2  # share of the rate at the start of a step that may be left where the depth turns
 STEPS_OF_PROGRESS = 200
 FEWER_STEPS = "Allow a larger tolerance, a shorter duration, or more steps (`solver.most_steps`)."
@@ -145,8 +146,9 @@ class Integration:
                 self._happened[name] = found.kind
             elif found is not None and found.fraction < first:
                 first, where = found.fraction, (name, found.kind)
-        if where is not None and self._can_land(first):
-            return self._land(first, *where)
+        if where is not None and self._can_land():
+            # what happens at the very start is met a little later, not at the end of the step
+            return self._land(max(first, SHORTEST_LANDING / self._tried), *where)
         if where is not None:  # as near to it as can be
             self._happened[where[0]] = where[1]
         elif self._turning is not None and self._turns(self.pins[self._turning]):
@@ -190,8 +192,8 @@ class Integration:
         """Whether the step that was to end where the depth turns does so; it may have been cut again."""
         return pin.end.depth > 0.0 and pin.end.rate > TURNED * pin.start.rate
 
-    def _can_land(self, fraction: float) -> bool:
-        return self._landings < LANDINGS and fraction * self._tried > 4.0 * SMALLEST_STEP
+    def _can_land(self) -> bool:
+        return self._landings < LANDINGS and self._tried > 2.0 * SHORTEST_LANDING
 
     def _land(self, fraction: float, name: str, kind: Kind) -> list[float]:
         """Repeat the step so that it ends where something happens to a pin."""

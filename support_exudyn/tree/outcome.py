@@ -18,7 +18,7 @@ from support_exudyn.tree.dynamics import Posture
 from support_exudyn.tree.integration import Integration
 from support_exudyn.tree.observation import Instants, Observation
 from support_exudyn.tree.path import Ends, motion_within
-from support_exudyn.tree.quadrature import POINTS, largest, running
+from support_exudyn.tree.quadrature import POINTS, Look, largest, running
 
 CLOSE = 1e-12  # [s]: a record so little behind the end of a step belongs to it
 
@@ -58,8 +58,8 @@ class Aftermath:
             trajectory=self._trajectory(inside, needed),
             onsets={name: tuple(pin.onsets) for name, pin in run.pins.items()},
             largest_force={
-                name: largest(np.hypot(c.normal_force, c.friction_force).reshape(-1, len(POINTS)))
-                for name, c in inside.contacts.items()
+                name: largest(_sizes(inside, name).reshape(-1, len(POINTS)), self._force_of(name))
+                for name in inside.contacts
             },
             impulses=(),  # all columns give, so nothing is struck
             counts=Counts(
@@ -108,6 +108,10 @@ class Aftermath:
         known = {name: PinForce(pin.force, pin.point) for name, pin in seen.pin_forces.items()}
         return open_joint_forces(motion, self.scenario.gravity, columns, known)
 
+    def _force_of(self, pin: str) -> Look:
+        """Magnitude of the force [N] of a loose pin at fractions of steps."""
+        return lambda number, fraction: _sizes(self._within(number, fraction), pin)
+
     def _end_of_steps(self, fraction: float, position: Matrix, velocity: Matrix) -> Ends:
         each = np.arange(len(self.step))
         seen = self._look(each, np.full(len(each), fraction), position, velocity)
@@ -125,3 +129,9 @@ class Aftermath:
             memories={name: memory[number] for name, memory in self._memories.items()},
         )
         return Observation(instants, self.scenario.clearance_pins, self.filled, self.scenario.gravity)
+
+
+def _sizes(seen: Observation, pin: str) -> Matrix:
+    """Magnitudes of the force of a loose pin [N]."""
+    contact = seen.contacts[pin]
+    return np.asarray(np.hypot(contact.normal_force, contact.friction_force))

@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
 from support_exudyn.tree.branches import Matrix, Numbers
 
 POINTS = 0.5 + 0.5 * np.array([-1.0, -math.sqrt(3.0 / 7.0), 0.0, math.sqrt(3.0 / 7.0), 1.0])
+# of the steps that are looked at for the top: highest point as a share of the highest of all, and how many
+NEAR_TOP, MOST_TOPS = 0.98, 20
+SAMPLES, NARROWINGS = 17, 5  # each to an eighth of what is left
+Look = Callable[[Numbers, Matrix], Matrix]
 # row k: coefficients of the polynomial, by power of the fraction, that is 1 at point k and 0 at the others
 _SHAPES = np.linalg.inv(np.vander(POINTS, increasing=True)).T
 
@@ -35,17 +40,27 @@ def running(values: Matrix, step: Matrix, number: Numbers, fraction: Matrix) -> 
     return np.asarray(before + part)
 
 
-def largest(values: Matrix) -> float:
-    """The top of a quantity given at the points of every step, shape (steps, 5), at least 0.
+def largest(values: Matrix, look: Look) -> float:
+    """The top of a quantity, at least 0, which may be a corner.
 
-    That of the parabola through the highest point of a step and its neighbours in it.
+    Of the steps whose highest point is near the highest of all, what is around it is looked at ever closer.
+
+    Arguments:
+        values: at the points of every step, shape (steps, 5).
+        look: the quantity at fractions (m,) of the steps with these numbers (m,).
     """
-    if values.size == 0:
+    if not (values > 0.0).any():
         return 0.0
-    step, point = np.unravel_index(int(np.argmax(values)), values.shape)
-    middle = min(max(int(point), 1), len(POINTS) - 2)
-    x, y = POINTS[middle - 1 : middle + 2], values[step, middle - 1 : middle + 2]
-    bend, slope, at_zero = np.polyfit(x, y, 2)
-    top = -0.5 * slope / bend if bend < 0.0 else math.inf
-    reached = at_zero - 0.25 * slope**2 / bend if x[0] <= top <= x[2] else 0.0
-    return max(0.0, float(values.max()), float(reached))
+    highest = values.max(axis=1)
+    steps = np.flatnonzero(highest >= NEAR_TOP * highest.max())
+    steps = steps[np.argsort(highest[steps])][-MOST_TOPS:]
+    point = values[steps].argmax(axis=1)
+    low, high = POINTS[np.maximum(point - 1, 0)], POINTS[np.minimum(point + 1, len(POINTS) - 1)]
+    each, top = np.arange(len(steps)), float(highest.max())
+    for _ in range(NARROWINGS):
+        x = low + (high - low) * np.linspace(0.0, 1.0, SAMPLES)[:, None]
+        found = look(np.tile(steps, SAMPLES), x.ravel()).reshape(x.shape)
+        best = found.argmax(axis=0)
+        low, high = x[np.maximum(best - 1, 0), each], x[np.minimum(best + 1, SAMPLES - 1), each]
+        top = max(top, float(found.max()))
+    return top

@@ -1,6 +1,7 @@
-"""Events of contacts on courses whose turning points and zeros are known, in all formulations that look for them.
+"""Events of contacts on courses whose turning points and zeros are known, in all formulations that seek them.
 
-Every finder is driven as its integrator drives it: steps that are too long are made again shorter, and grow again.
+Every finder is driven as its integrator drives it: steps that are too long are made again shorter, and grow
+again.
 """
 
 from __future__ import annotations
@@ -129,7 +130,7 @@ def driven(find: Finder, course: Course) -> tuple[Seen, float]:
 
 
 def course_of(turns: list[float], sign: float, lowest: float, closed: bool) -> Course:
-    """A depth whose rate passes zero at these times, and whose extreme in the midst is at a share of its range."""
+    """A depth whose rate passes zero at these times; its extreme in the midst is at a share of its range."""
     rate = Polynomial.fromroots(turns) * sign
     depth = rate.integ()
     t = np.linspace(0.0, LENGTH, 401)
@@ -228,7 +229,7 @@ def test_a_cut_is_found_between_the_ends_of_its_step() -> None:
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 @pytest.mark.parametrize("middle", [0.3, 0.5, 0.7])
 def test_two_cuts_within_a_step_are_seen(middle: float, sign: float) -> None:
-    found = cut(lambda t: sign * 0.4 * ((8.0 * t - middle) ** 2 - 0.04), DEEP)
+    found = cut(lambda t: sign * 0.4 * ((8.0 * t - middle) ** 2 - 0.035), DEEP)
     assert found[0] == UNCLEAR
 
 
@@ -272,6 +273,44 @@ def test_a_turn_at_the_end_of_a_step_is_found_once(finder: str) -> None:
     what, low, high = FINDERS[finder](course, 0.0, 0.125)
     assert (what, low, high) == (RETURN, pytest.approx(0.125, abs=1e-9), pytest.approx(0.125, abs=1e-9))
     assert FINDERS[finder](course, 0.125, 0.125)[0] == NOTHING
+
+
+@pytest.mark.parametrize("finder", FINDERS)
+@pytest.mark.parametrize("middle", [0.04, 0.06, 0.09])
+def test_what_is_over_within_a_step_is_seen(finder: str, middle: float) -> None:
+    # a parabola that passes zero 0.03 s on either side of its middle, in a step of an eighth of a second
+    out = 1e-3 * Polynomial([middle**2 - 9e-4, -2.0 * middle, 1.0])
+    what, low, high = FINDERS[finder](Course(out, closed=True), 0.0, 0.125)
+    assert (what, low - 1e-9 <= middle - 0.03 <= high + 1e-9) == (PARTING, True)
+    what, low, high = FINDERS[finder](Course(-out, closed=False), 0.0, 0.125)
+    assert (what, low - 1e-9 <= middle - 0.03 <= high + 1e-9) == (TOUCH, True)
+
+
+@pytest.mark.parametrize("finder", ["compiled", "tree"])
+@pytest.mark.parametrize("bend", [0.03, -0.03])
+def test_what_a_cubic_cannot_tell_is_looked_at_more_closely(finder: str, bend: float) -> None:
+    # s^2 + bend s^4 has the same values and slopes at -1 and 1 as a parabola that is lower by `bend` at 0
+    s = Polynomial([-1.0, 16.0])
+    close = 1e-4 * (s**2 + bend * s**4 + 0.5 * bend)
+    assert FINDERS[finder](Course(close, closed=True), 0.0, 0.125)[0] == UNCLEAR
+
+
+@pytest.mark.parametrize("finder", FINDERS)
+@pytest.mark.parametrize("bend", [0.03, -0.03])
+def test_a_top_that_a_cubic_cannot_tell_is_looked_at_more_closely(finder: str, bend: float) -> None:
+    s = Polynomial([-1.0, 16.0]) * (1.0 if finder == "tree" else 4.0) + (0.0 if finder == "tree" else 3.0)
+    near = -1e-5 * (s**2 + bend * s**4 + 0.5 * bend)
+    # the others look at quarters of a step, of which this is the first
+    assert FINDERS[finder](Course(near, closed=False), 0.0, 0.125)[0] == UNCLEAR
+
+
+@pytest.mark.parametrize("finder", FINDERS)
+def test_a_bump_between_two_falling_ends_is_a_touch(finder: str) -> None:
+    rate = -Polynomial.fromroots([0.004, 0.02])
+    depth = rate.integ()
+    bump = depth - (0.3 * depth(0.0) + 0.7 * depth(0.02))
+    assert bump(0.0) < 0.0 < bump(0.02)
+    assert driven(FINDERS[finder], Course(100.0 * bump, closed=False))[0][0] == TOUCH
 
 
 @pytest.mark.parametrize("finder", FINDERS)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 import pytest
@@ -289,11 +290,30 @@ def test_integrals_are_exact_to_their_degree() -> None:
     np.testing.assert_allclose(found, until**4 / 4.0, rtol=1e-12)
 
 
-def test_the_top_between_the_points_is_found() -> None:
-    force = np.array([0.0 * POINTS, 7.0 - 3.0 * (POINTS - 0.41) ** 2])
-    assert largest(force) == pytest.approx(7.0, rel=1e-14)
-    assert largest(np.array([POINTS])) == 1.0  # rising: at the end
-    assert largest(np.empty((0, 5))) == 0.0
+def top(curve: Callable[[np.ndarray], np.ndarray], steps: int = 1) -> float:
+    """The top that is found of a quantity, a function of step plus fraction."""
+    values = curve(np.arange(steps)[:, None] + POINTS)
+    return largest(values, lambda number, fraction: curve(number + fraction))
+
+
+@pytest.mark.parametrize("where", [0.05, 0.3, 0.41, 0.6, 0.9, 0.97, 1.0, 1.7])
+def test_the_top_between_the_points_is_found(where: float) -> None:
+    # a parabola, and a corner: the narrowest looked at is a ten-thousandth of a step
+    assert top(lambda t: 7.0 - 3.0 * (t - where) ** 2, 2) == pytest.approx(7.0, rel=1e-8)
+    assert top(lambda t: 7.0 - 3.0 * abs(t - where), 2) == pytest.approx(7.0, rel=1e-5)
+
+
+def test_the_top_is_sought_in_more_than_the_step_with_the_highest_point() -> None:
+    # a corner that its step's points miss by more than those of the next step miss theirs
+    assert top(lambda t: np.maximum(7.0 - 0.5 * abs(t - 0.25), 6.95 - 0.5 * abs(t - 1.5)), 2) == pytest.approx(
+        7.0, rel=1e-5
+    )
+
+
+def test_there_may_be_no_top() -> None:
+    assert top(lambda t: t) == 1.0  # rising: at the end
+    assert top(lambda t: -1.0 - t) == 0.0
+    assert largest(np.empty((0, 5)), lambda number, fraction: fraction) == 0.0
 
 
 # --- steps and records ---
@@ -345,11 +365,6 @@ def test_the_error_of_a_step_moves_no_journal_by_more_than_the_tolerance() -> No
     speed = math.sqrt(9.81 * 1.5e-3)  # of a fall through half the clearance
     expected = SCENE.solver.tolerance * speed / max(apart) / math.sqrt(2.0 * len(TREE.links))
     assert largest_error(TREE, SCENE) == pytest.approx(expected, rel=1e-9)
-
-
-@pytest.mark.parametrize("top", [0.05, 0.3, 0.6, 0.9, 0.97])
-def test_the_top_of_a_parabola_is_found_wherever_it_is(top: float) -> None:
-    assert largest(np.array([7.0 - 3.0 * (POINTS - top) ** 2])) == pytest.approx(7.0, rel=1e-12)
 
 
 def test_a_drive_that_its_cubic_meets_in_the_middle_is_cut_all_the_same() -> None:
