@@ -68,8 +68,8 @@ def test_shifts_add_up_and_shaking_does_so_only_without_friction(numbers: Number
     assert numbers["mean_tip_shift_forward", whole]["value"] == pytest.approx(shift, rel=0.01)  # 0.5 and 0.8 %
     shaking = np.hypot.reduce(list(alone(numbers, "ripple_pin_forces", friction).values()))
     ratio = numbers["ripple_pin_forces", whole]["value"] / shaking
-    # 2.4, and without friction 1.14, nearly as independent vibrations would. Half as much again, and twice, if the
-    # mass by which a pin is damped were taken with the other ones open
+    # 2.4, and without friction 1.14, nearly as independent vibrations would. Half as much again, and twice, if
+    # the mass by which a pin is damped were taken with the other ones open
     assert (1.6 < ratio < 3.0) if friction else (1.05 < ratio < 1.25)
 
 
