@@ -41,7 +41,9 @@ def chapter(found: Found, under_loads: Mapping[str, UnderLoad], quick: bool) -> 
             "pins as one does that waits to be raised.",
             "The damping is that of `DepthSpeed`, which forgets how a contact once began, and not the "
             "textbook's, "
-            "which would make the shaking depend on whether the pin was set down gently or dropped.",
+            "which would make the shaking depend on whether the pin was set down gently or dropped. It goes by "
+            "the mass that moves with a journal while the other ones are pressed, each held along its normal: "
+            "up to fifty times that with the others open.",
             "Beside the runs stands a closed form: under its load a journal lies against its bore at "
             "clearance and "
             "depth; virtual work says how far that moves the tip. It is also what tells how the ranking "

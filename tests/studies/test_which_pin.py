@@ -62,12 +62,15 @@ def test_virtual_work_tells_where_the_worn_support_stands(numbers: Numbers, axis
 
 
 @pytest.mark.parametrize("friction", which_pin_cases.FRICTIONS)
-def test_shifts_add_up_and_shaking_does_not(numbers: Numbers, friction: float) -> None:
+def test_shifts_add_up_and_shaking_does_so_only_without_friction(numbers: Numbers, friction: float) -> None:
     whole = which_pin_cases.case_name(PINS, friction)
     shift = sum(alone(numbers, "mean_tip_shift_forward", friction).values())
     assert numbers["mean_tip_shift_forward", whole]["value"] == pytest.approx(shift, rel=0.01)  # 0.5 and 0.8 %
     shaking = np.hypot.reduce(list(alone(numbers, "ripple_pin_forces", friction).values()))
-    assert numbers["ripple_pin_forces", whole]["value"] > 1.5 * shaking  # 2.0 and 3.2
+    ratio = numbers["ripple_pin_forces", whole]["value"] / shaking
+    # 2.4, and without friction 1.14, nearly as independent vibrations would. Half as much again, and twice, if
+    # the mass by which a pin is damped were taken with the other ones open
+    assert (1.6 < ratio < 3.0) if friction else (1.05 < ratio < 1.25)
 
 
 def test_friction_makes_the_shaking_and_hardly_moves_the_tip(numbers: Numbers) -> None:

@@ -362,3 +362,40 @@ def test_bristles_that_are_damped_little_enough_are_passive(slip: float, z: floa
 
 def test_lugre_has_a_state() -> None:
     assert LUGRE.has_state
+
+
+@given(mass=st.floats(1e-3, 1e5), force=st.floats(1e-3, 1e7), stiffness=st.floats(1e2, 1e8))
+def test_what_sticks_swings_on_the_bristles_spring(mass: float, force: float, stiffness: float) -> None:
+    law = LuGre(
+        static_coefficient=0.3, sliding_coefficient=0.2, bristle_stiffness=stiffness, bristle_damping=0.0
+    )
+    # the spring by the law's own force, which without slip is linear in the deflection
+    spring = -law(0.0, force, 1e-6) / 1e-6
+    assert law.swing_time(mass, force) == pytest.approx(math.sqrt(mass / spring), rel=1e-9)
+
+
+def test_bristles_damped_far_more_than_critically_stop_what_sticks_sooner() -> None:
+    mass, force, stiffness = 400.0, 5e4, 1e5
+    critical = 2.0 * math.sqrt(mass * stiffness / force)  # s1 of critical damping
+    times = {}
+    for share in (1.0, 1.9, 2.1, 20.0):
+        law = LuGre(
+            static_coefficient=0.3,
+            sliding_coefficient=0.2,
+            bristle_stiffness=stiffness,
+            bristle_damping=share * critical,
+        )
+        times[share] = law.swing_time(mass, force)
+    swing = math.sqrt(mass / (stiffness * force))
+    assert times[1.0] == times[1.9] == pytest.approx(swing, rel=1e-12)
+    assert times[2.1] == pytest.approx(swing * 2.0 / 2.1, rel=1e-12)
+    assert times[20.0] == pytest.approx(swing / 10.0, rel=1e-12)
+
+
+def test_nothing_swings_where_nothing_is_pressed() -> None:
+    assert LUGRE.swing_time(3.0, 0.0) == math.inf
+
+
+@stateless
+def test_laws_without_a_state_hold_nothing_that_swings(law: FrictionLaw) -> None:
+    assert law.swing_time(1.0, 1e5) == math.inf

@@ -104,3 +104,14 @@ def test_a_force_that_jumps_at_the_touch_is_met_with_growing_steps() -> None:
     for short, long in itertools.pairwise(lengths[: HALVINGS + 1]):
         assert long == pytest.approx(2.0 * short, rel=1e-12)
     assert lengths[-1] == lengths[-2]
+
+
+def test_a_swing_of_what_friction_holds_takes_a_part_of_an_impacts_steps() -> None:
+    steps = ImpactSteps(LAW, 512)
+    for time in (1e-5, 2.7e-4, 3.3e-2):
+        found = steps.swing_step(time)
+        # half a period is pi times one over the angular frequency: 16 of 512 steps, or up to twice as many
+        assert math.pi * time / 32.0 < found <= math.pi * time / 16.0
+        assert math.log2(found) == round(math.log2(found))
+    assert ImpactSteps(LAW, 1024).swing_step(2.7e-4) == 0.5 * steps.swing_step(2.7e-4)
+    assert steps.swing_step(math.inf) == math.inf

@@ -32,7 +32,7 @@ from tests.reference.cases import (
     support,
 )
 from tests.reference.cases import SLIDER_PIN as SLIDER
-from user_forces import Ambrosio, Hertz, JournalContact, KelvinVoigt, LoadError, NormalLaw, Touch, value
+from user_forces import Ambrosio, Hertz, JournalContact, KelvinVoigt, LoadError, LuGre, NormalLaw, Touch, value
 
 CLEARANCE = 1.5e-3
 RADIUS, ROD = 0.05, 0.12  # of the slider-crank [m]
@@ -265,3 +265,17 @@ def test_a_tighter_bore_rests_no_differently() -> None:
     other = replace(scene, pins={SLIDER: replace(pin, contact=replace(pin.contact, bearing=tight))})
     assert timescales(other).resting == timescales(scene).resting
     assert timescales(other).flight == pytest.approx(timescales(scene).flight / math.sqrt(5.0), rel=1e-12)
+
+
+# --- friction that holds ---
+
+
+def test_what_friction_holds_swings_on_its_bristles() -> None:
+    scene = stand(spring(1e6), (0.0, -9.81))
+    friction = LuGre(
+        static_coefficient=0.3, sliding_coefficient=0.2, bristle_stiffness=1e6, bristle_damping=0.0
+    )
+    contact = replace(scene.clearance_pins["pin"].contact, friction=friction)
+    found = timescales(replace(scene, pins={"pin": ClearancePin(contact=contact)})).resting
+    # the load is m g, and so the mass falls out of sqrt(m / (s0 m g)); the contact itself swings in 1.4 ms
+    assert found == pytest.approx(1.0 / math.sqrt(1e6 * 9.81), rel=1e-6)

@@ -38,11 +38,12 @@ class DampingSpeed(Value, ABC):
 class DepthSpeed(DampingSpeed):
     """w = max(v0, sqrt(2 E / m)): a loaded contact is damped like an impact that goes as deep as it is now.
 
-    E is the energy stored at the present depth, m the mass that moves with it. A free impact stores at most
-    m v0^2 / 2, so there w = v0 and nothing changes. Below the floor sqrt(2 E / m) the approach speed has no
-    influence. When a contact, on its way out, is pressed on again, v0 is forgotten; the rate is zero then and
-    with it the damping, so the force is continuous in time. Whether the pin parted for a moment or not
-    makes no difference either: a soft new touch has v0 near zero too.
+    E is the energy stored at the present depth, m the mass that moves with it: in a linkage that with all other
+    pins closed that are pressed, each along its normal, when the contact began or was last pressed on again. A
+    free impact stores at most m v0^2 / 2, so there w = v0 and nothing changes. Below the floor sqrt(2 E / m)
+    the approach speed has no influence. When a contact, on its way out, is pressed on again, v0 is forgotten;
+    the rate is zero then and with it the damping, so the force is continuous in time. Whether the pin parted
+    for a moment or not makes no difference either: a soft new touch has v0 near zero too.
 
     With v0 = 0 and F_el = K depth^n the damping is alpha sqrt(m K) depth^((n-1)/2) rate with
     alpha = chi sqrt((n + 1)/2), the form that Tsuji, Tanaka and Ishida, Powder Technology 71 (1992) 239-250,

@@ -17,7 +17,7 @@ class Touch(NamedTuple):
     speed: of approach, the rate of depth at the instant of zero depth [m/s] >= 0; 0 for a contact that is
     closed at the start, and for one that was pressed on without parting (see `NormalLaw.forgets`).
     mass: that moves as the depth does [kg] > 0: of two free bodies hit centrally m1 m2 / (m1 + m2), in a
-    linkage what its joints make of it.
+    linkage what its joints make of it, and other loose pins as far as they are pressed.
     """
 
     speed: float
