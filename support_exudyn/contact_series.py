@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -66,7 +66,7 @@ def series(pin: ClearancePin, moving: RelativeMotion, memories: Series | Sequenc
     def where_pressed(values: float) -> Series:
         return np.where(pressed, values_of(values, count), 0.0)
 
-    stored = _stored(pin, np.maximum(depth, SHALLOWEST))
+    stored = of_depth(pin.contact.normal.elastic_energy, np.maximum(depth, SHALLOWEST))
     return ContactSeries(
         force_x=where_pressed(force.force_x),
         force_y=where_pressed(force.force_y),
@@ -105,13 +105,12 @@ def _force(pin: ClearancePin, moving: RelativeMotion, memory: dict[str, Series])
         return _one_by_one(pin, moving, memory)
 
 
-def _stored(pin: ClearancePin, depth: Series) -> Series:
-    """Elastic energy at every depth [J]."""
-    energy = pin.contact.normal.elastic_energy
+def of_depth(function: Callable[[float], float], depth: Series) -> Series:
+    """What a law says of every depth: its elastic force [N] or energy [J]."""
     try:
-        return values_of(energy(as_number(depth)), depth.size)
-    except TypeError:
-        return np.array([energy(d) for d in depth.tolist()])
+        return values_of(function(as_number(depth)), depth.size)
+    except TypeError:  # it branches
+        return np.array([function(d) for d in depth.tolist()])
 
 
 def _one_by_one(pin: ClearancePin, moving: RelativeMotion, memory: dict[str, Series]) -> ContactForce:

@@ -7,6 +7,7 @@ import time
 from support_exudyn.audit import audit
 from support_exudyn.channels import asked, channels
 from support_exudyn.collector import paused_collector
+from support_exudyn.engine_words import first_line
 from support_exudyn.errors import Failure, SimulationError, told
 from support_exudyn.formulations import formulation
 from support_exudyn.progress import Progress
@@ -14,7 +15,7 @@ from support_exudyn.provenance import provenance
 from support_exudyn.result import Result
 from support_exudyn.room import check_room
 from support_exudyn.scenario import Scenario
-from user_forces.lawful import UNLAWFUL, LawError, look_at_rest
+from user_forces.lawful import UNLAWFUL
 
 OWN = "A law, load or machine of one's own does that; allowed: to raise an exception."
 
@@ -30,11 +31,11 @@ def run_once(scenario: Scenario, progress: Progress) -> Result:
     check_room(scenario)
     began = time.perf_counter()
     try:
-        if scenario.solver.audit:
-            _look_at_laws(scenario)
         with paused_collector():
             outcome = chosen.run(scenario, progress)
             found = channels(scenario, outcome.trajectory)
+    except ArithmeticError as error:  # of a law or a drive, where nothing is computed step by step
+        raise SimulationError(Failure(first_line(error), UNLAWFUL, 0.0)) from error
     except SystemExit as error:  # it would end the program without a word, and perhaps as if all was done
         raise SimulationError(Failure(f"the program was asked to end: {told(error)}", OWN, 0.0)) from None
     if scenario.solver.audit and (failure := audit(scenario, outcome, found)) is not None:
@@ -49,12 +50,3 @@ def run_once(scenario: Scenario, progress: Progress) -> Result:
         wall_time=time.perf_counter() - began,
         provenance=provenance(),
     )
-
-
-def _look_at_laws(scenario: Scenario) -> None:
-    """Raise SimulationError if the law of a pin cannot be one even at rest."""
-    try:
-        for name, pin in scenario.clearance_pins.items():
-            look_at_rest(pin.contact, name)
-    except LawError as error:
-        raise SimulationError(Failure(str(error), UNLAWFUL, 0.0)) from error

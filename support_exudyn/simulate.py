@@ -14,6 +14,7 @@ from support_exudyn.run_once import run_once
 from support_exudyn.scenario import Accuracy, Scenario
 from support_exudyn.to_accuracy import run_to_accuracy
 from support_exudyn.with_error import run_with_error
+from user_forces.lawful import UNLAWFUL, LawError, look_at_rest
 from user_forces.values import InputError, short
 
 
@@ -78,8 +79,19 @@ def simulate(
 
         run = keeping_solution(run, solution)
     try:
+        if scenario.solver.audit:
+            _look_at_laws(scenario)
         return run(scenario, progress)
     except SimulationError as error:
         if throw:
             raise
         return error.failure
+
+
+def _look_at_laws(scenario: Scenario) -> None:
+    """Raise SimulationError if the law of a pin cannot be one even at rest."""
+    try:
+        for name, pin in scenario.clearance_pins.items():
+            look_at_rest(pin.contact, name)
+    except LawError as error:
+        raise SimulationError(Failure(str(error), UNLAWFUL, 0.0)) from error

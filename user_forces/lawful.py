@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 
 from user_forces.contact import JournalContact
+from user_forces.normal.law import Touch
 from user_forces.values import InputError
 
 ROUNDING = 1e-9  # share of a force that a law may be off by from its own elastic part
@@ -18,6 +19,7 @@ ROUNDING = 1e-9  # share of a force that a law may be off by from its own elasti
 
 AT_REST = (1e-9, 1e-7, 1e-5, 1e-4)  # depths [m] at which laws are looked at before a run
 PROBED = (1.0, 1.001, 1.1)  # times the last depth and slip, where a run could not go on
+LIGHT = Touch(0.1, 1.0)
 UNLAWFUL = "Mend the law, drive or load: what it gives is no force that could be. Its numbers are told above."
 
 
@@ -35,8 +37,13 @@ def look_at_rest(contact: JournalContact, pin: str) -> None:
     for depth in AT_REST:
         try:
             force, energy = law.elastic_force(depth), law.elastic_energy(depth)
+            pressed = law(depth, 0.0, LIGHT)
         except InputError:  # deeper than the law is valid
             return
+        except ArithmeticError as error:
+            raise LawError(f"{pin}: {type(law).__name__} fails at a depth of {depth:g} m: {error}") from error
+        if depth == AT_REST[0]:
+            look(contact, depth, 0.0, 0.0, pressed, 0.0, pin=pin)
         if not (force >= 0.0 <= energy):
             raise LawError(
                 f"{pin}: {type(law).__name__} has an elastic force of {force:.6g} N and an elastic energy of "

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from support_exudyn.body_motion import BodyMotion
-from support_exudyn.contact_series import acting, contact_series, ends
+from support_exudyn.contact_series import acting, contact_series, ends, of_depth
 from support_exudyn.errors import Failure, SimulationError
 from support_exudyn.machine import PinPlace
 from support_exudyn.oil import FilledColumn, OilSeries
@@ -18,7 +18,6 @@ from support_exudyn.trajectory import ContactSeries
 from support_exudyn.tree.branches import Matrix
 from support_exudyn.tree.drive_pieces import extension, speed
 from support_exudyn.tree.dynamics import PointForce, Posture, accelerations
-from user_forces.arrays import as_number, values_of
 from user_forces.contact import SHALLOWEST
 from user_forces.lawful import UNLAWFUL, LawError, look
 from user_forces.values import Vector2
@@ -98,8 +97,8 @@ class Observation:
             away = np.maximum(np.linalg.norm(offset, axis=1), SHALLOWEST)
             rate = np.einsum("mx,mx->m", offset, relative) / away
             pressed = (self.at.memories[name][:, 0] > 0.5) & (contact.depth > 0.0)
-            depth = as_number(np.maximum(contact.depth, SHALLOWEST))
-            elastic = values_of(self.loose[name].contact.normal.elastic_force(depth), len(rate))
+            law = self.loose[name].contact.normal
+            elastic = of_depth(law.elastic_force, np.maximum(contact.depth, SHALLOWEST))
             lost = np.where(pressed, (contact.normal_force - elastic) * rate, 0.0)
             rubbed = contact.friction_force * contact.slip
             total[1] += lost

@@ -149,6 +149,57 @@ def test_a_law_is_refused(normal: NormalLaw, friction: FrictionLaw | None, said:
     assert failure.time == 0.0 if isinstance(normal, Pulling) else 0.009 < failure.time < 0.011
 
 
+@value
+class AlwaysEndless(Spring):
+    def __call__(self, depth: float, rate: float, touch: Touch) -> float:
+        return self.stiffness * depth + math.inf
+
+
+@value
+class NoElasticForce(Spring):
+    def elastic_force(self, depth: float) -> float:
+        return self.stiffness * depth if depth < 3e-5 else math.nan
+
+
+@value
+class NoEnergy(Spring):
+    def elastic_energy(self, depth: float) -> float:
+        return math.nan
+
+
+@value
+class Failing(Spring):
+    def __call__(self, depth: float, rate: float, touch: Touch) -> float:
+        return self.stiffness * depth * (rate / rate)
+
+
+@pytest.mark.parametrize(
+    "law", [AlwaysEndless(), NoElasticForce(), NoEnergy(), Failing()], ids=lambda law: type(law).__name__
+)
+@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize("start", ["concentric", "settled"])
+def test_a_law_that_is_none_at_rest_is_refused_before_the_run(law: NormalLaw, way: str, start: str) -> None:
+    if (way, start) != ("reduced", "settled"):  # which always starts concentric
+        failure = refused(loose(law, start=start, **WAYS[way]), PIN, type(law).__name__)
+        assert failure.time == 0.0
+
+
+@value
+class Branching(Spring):
+    """Written for numbers only."""
+
+    def elastic_force(self, depth: float) -> float:
+        return self.stiffness * depth if depth > 0.0 else 0.0
+
+    def elastic_energy(self, depth: float) -> float:
+        return 0.5 * self.stiffness * depth * depth if depth > 0.0 else 0.0
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_an_elastic_part_that_branches_is_one(way: str) -> None:
+    assert not isinstance(simulate(loose(Branching(), **WAYS[way]), throw=False), Failure)
+
+
 @pytest.mark.parametrize("way", WAYS)
 def test_the_law_that_they_are_made_from_passes(way: str) -> None:
     assert not isinstance(simulate(loose(Spring(), **WAYS[way]), throw=False), Failure)

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from support_exudyn.steps import StepPlan
+from support_exudyn.steps import SHARE_OF_STEP, StepPlan, shortest_step
 
 Times = list[float]
 
@@ -346,3 +346,69 @@ def test_thousands_of_breaks_are_landed_on() -> None:
     assert all(plan.follows_break(b) and plan.follows_break(b + 0.004) for b in plan.breaks)
     assert not plan.breaks_at(0.105)
     assert not plan.follows_break(50.5)
+
+
+# --- rests that are not worth a step ---
+
+ROUNDING = 1e-15  # [m], of a machine of some metres
+
+
+@given(rounding=st.floats(1e-20, 1e-10), largest=st.floats(1e-9, 0.1))
+def test_the_shortest_step_is_where_rounding_and_change_are_alike(rounding: float, largest: float) -> None:
+    h = shortest_step(rounding, largest)
+    assert 0.0 < h <= SHARE_OF_STEP * largest
+    if h < SHARE_OF_STEP * largest:
+        # of the acceleration: what rounding leaves in a step, and by what it changes within it; 10 m/s^2
+        assert rounding / h**2 == pytest.approx(10.0 * h / largest, rel=1e-9)
+
+
+def test_the_shortest_step_of_the_support() -> None:
+    # by hand: the cube root of 1e-15 times 5e-4 over 10; of an impact's steps
+    assert shortest_step(ROUNDING, 5e-4) == pytest.approx(3.684e-7, rel=1e-3)
+    assert shortest_step(ROUNDING, 1e-6) == pytest.approx(4.642e-8, rel=1e-3)
+    assert shortest_step(ROUNDING, 1e-8) == 1e-9
+
+
+@pytest.mark.parametrize("beside", [1e-10, 1e-9, 1e-7])
+def test_a_stop_close_behind_another_is_a_rest(beside: float) -> None:
+    plan = StepPlan(1.0, 0.1, 0.01, [0.3 + beside], ROUNDING)
+    assert plan.rest(0.1) is None
+    assert plan.rest(3 * 0.1) == 0.3 + beside
+    assert plan.rest(0.3 + beside) is None
+    # behind a record, before one, and before the end
+    assert StepPlan(1.0, 0.1, 0.01, [0.3 - beside], ROUNDING).rest(0.3 - beside) == 3 * 0.1
+    assert StepPlan(0.5 + beside, 0.1, 0.01, [], ROUNDING).rest(0.5) == 0.5 + beside
+    # where steps are that short themselves there is none
+    assert plan.rest(3 * 0.1, beside) is None
+    # without rounding every stop is worth a step
+    assert StepPlan(1.0, 0.1, 0.01, [0.3 + beside]).rest(3 * 0.1) is None
+
+
+def test_an_event_just_before_a_time_of_the_grid_takes_no_tiny_step() -> None:
+    plan = StepPlan(1.0, 0.1, 0.01, [], ROUNDING)
+    t = 0.13 - 1e-9
+    times = [t]
+    while times[-1] < 0.2:
+        times.append(plan.next_time(times[-1]))
+    sizes = np.diff(times)
+    assert sizes.min() > 0.4 * 0.01
+    assert sizes.max() < 0.01 * (1.0 + 1e-9)
+    assert times[-1] == 0.2
+
+
+def test_steps_after_a_break_are_refined_beyond_a_record_just_behind_it() -> None:
+    plan = StepPlan(1.0, 0.1, 0.01, [0.3 - 1e-6], ROUNDING)
+    following = [t for t in (0.299, 0.3 - 1e-6, 0.3, 0.305, 0.3099, 0.31, 0.35) if plan.follows_break(t)]
+    assert following == [0.3 - 1e-6, 0.3, 0.305, 0.3099]
+
+
+def test_several_breaks_at_one_time_are_all_told() -> None:
+    near = [0.3, math.nextafter(0.3, 1.0), 0.5]
+    assert StepPlan(1.0, 0.1, 0.01, near).breaks_at(3 * 0.1) == near[:2]
+
+
+def test_a_record_is_told_as_it_was_asked_for() -> None:
+    plan = StepPlan(1.0, 0.1, 0.01, [0.3])
+    assert plan.record_at(0.3) == 3 * 0.1 != 0.3
+    assert plan.record_at(0.301) is None
+    assert plan.record_at(math.nextafter(1.0, 0.0)) == 1.0
