@@ -4,20 +4,18 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import h5py
-import numpy as np
 import pytest
 
 from studies import clearance_influence as study
 from studies.reporting.chapter import Chapter
-from support_exudyn import Result, Scenario
+from support_exudyn import Result
 from support_exudyn.figures import style
 from tests import figure_checks
-from tests.studies.another_way import by_another_integrator, by_the_engine, off
+from tests.studies.another_way import by_the_engine, off
 
 
 @pytest.fixture(scope="module")
@@ -136,15 +134,15 @@ def test_impacts_at_the_start_exceed_the_load_several_times(
         assert numbers["largest_pin_force", case]["value"] > 7.0 * 58778.944
 
 
-@pytest.mark.parametrize("other", [by_another_integrator, by_the_engine])
-def test_printed_errors_cover_the_distance_from_another_way(
-    out: Path, numbers: dict[tuple[str, str], dict[str, Any]], other: Callable[[Scenario], Result]
+def test_printed_errors_cover_the_distance_from_another_formulation(
+    out: Path, numbers: dict[tuple[str, str], dict[str, Any]]
 ) -> None:
     stems = {case: out / "runs" / f"{study._file_name(case)}.h5" for case in study.CASES}
-    others = {case: other(Result.load(path).scenario) for case, path in stems.items()}
+    others = {case: by_the_engine(Result.load(path).scenario) for case, path in stems.items()}
     shares = off(numbers, study.measure(others))
     assert max(shares.values()) < 5.0, max(shares, key=lambda name: shares[name])
-    assert np.mean([share <= 1.0 for share in shares.values()]) >= 0.98
+    # two of a hundred
+    assert sum(share > 1.0 for share in shares.values()) <= math.ceil(0.02 * len(shares))
     for case in study.CASES:
         for name in ("mean_pin_force", "std_pin_force", "std_angular_acceleration"):
             assert shares[f"{name}, {case}"] <= 1.0
