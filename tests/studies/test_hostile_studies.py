@@ -25,7 +25,7 @@ from studies.study import Number, Options, run_main, save_figures, write_summary
 from support_exudyn.figures import style
 from support_exudyn.files import writing_alone
 from support_exudyn.workers import ProcessEndedError, Workers
-from tests.hostile import DISKS, little_room, posix_only
+from tests.hostile import DISKS, left_behind, little_room, posix_only
 from tests.processes import ROOT, environment, linux_only, session_of, wait_until
 from tests.studies import hostile_main
 
@@ -164,7 +164,7 @@ def test_all_studies_stop_at_the_first_that_fails(tmp_path: Path, monkeypatch: p
 
     def interrupted(chosen: Options) -> None:
         ran.append(chosen.out.name)
-        (chosen.out / f".row-{2**22 + 1}-abc.json").write_text("half", encoding="utf-8")
+        left_behind(chosen.out)
         raise KeyboardInterrupt
 
     monkeypatch.setattr(
