@@ -34,6 +34,7 @@ SHARP = 0.25  # of the error claimed that a reference's own error may be
 SURELY = 4.0  # times its own error that a reference has to be beyond the error claimed to count however blunt
 OF_DISTANCE = 0.5  # of the distance of a less fine run that a reference's own error is taken to be
 ROUNDING = 1e-12  # of a number, that references are not believed beyond
+NEWTON = 5e-8  # the same of what follows from Newton's method, whose tolerance is 1e-8; not of places
 
 
 def _family(name: str) -> str:
@@ -60,7 +61,9 @@ class Reference(NamedTuple):
         family = [one for one in self.numbers if _family(one) == _family(name) and self.numbers[one]]
         shares = [self._away(one) / abs(self.numbers[one]) for one in family]
         usual = float(np.median(shares)) if shares else 0.0
-        return OF_DISTANCE * max(self._away(name), (usual + ROUNDING) * abs(self.numbers[name]))
+        iterates = self.formulation == "redundant" and not name.endswith((".x.mean", ".y.mean"))
+        left = NEWTON if iterates else ROUNDING
+        return max(OF_DISTANCE * self._away(name), (OF_DISTANCE * usual + left) * abs(self.numbers[name]))
 
     def _away(self, name: str) -> float:
         return abs(self.numbers[name] - self.coarser.get(name, math.nan))

@@ -19,6 +19,7 @@ from support_exudyn import (
     Scenario,
     SimulationError,
     SolverSettings,
+    UniformSpeed,
     simulate,
     with_error,
 )
@@ -158,6 +159,18 @@ def test_runs_at_rest_whose_steps_do_not_follow_their_tolerance_are_not_certain(
     true = {name: abs(number.value - known[name]) for name, number in result.numbers().items()}
     assert max(true.values()) > 0.0
     assert np.mean([true[name] <= number.error for name, number in result.numbers().items()]) >= 0.95
+
+
+def test_what_newtons_method_leaves_is_among_the_errors() -> None:
+    # 1.6e-8 of the first touch's speed is wrong in all runs, which differ by 1e-12 of it
+    drive = UniformSpeed(stroke=0.003, start=0.003, end=0.02)
+    scene = loose_support(0.3, drive=drive, duration=0.01, formulation="redundant")
+    exact = simulate(replace(scene, formulation="reduced", solver=SolverSettings(tolerance=1e-11)))
+    for run in (simulate(scene, accuracy=1e-4), simulate(replace(scene, step=1e-4), errors=True)):
+        touch = run.numbers()[f"pin.{PIN}.onset_1.speed"]
+        true = abs(touch.value - exact.onsets[PIN][0].speed)
+        assert true > 1e-9 * touch.value
+        assert true <= touch.error < 1e-6 * touch.value
 
 
 def test_ideal_pins_have_theirs() -> None:
