@@ -16,7 +16,8 @@ from collections.abc import Callable
 
 from user_forces.friction.law import FrictionLaw
 
-MEETS = 1e-6  # share of the friction by which line and law may differ
+MEETS = 1e-6  # share of the largest friction so far, by which line and law may differ
+LITTLE = 1e-3  # friction over normal force that is counted as the largest at least
 TRIES = 30  # lines in a step
 # the tangent is taken over shorter and shorter parts of the law, until it changes no more
 WIDEST, NARROWER, PARTS, SAME = 0.1, 0.1, 12, 1e-3
@@ -35,7 +36,7 @@ class FrictionLine:
         self.offset = self.slope = 0.0
         self._tries = 0
         self._solved: tuple[float, float] | None = None  # ratio and slip of the last solution of this step
-        self._largest = 0.0  # ratio so far
+        self._largest = LITTLE  # ratio so far
 
     @property
     def exhausted(self) -> bool:
