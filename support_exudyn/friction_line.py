@@ -5,13 +5,14 @@ iterates jump from one side of the ramp to the other for ever. With a straight l
 
     friction force = normal force (offset + slope slip),
 
-the step can be solved whatever its length. Then it is seen whether the line meets the law at the slip that came
-out. If not, the next line is the law's tangent where the slip is expected: the slip hangs nearly linearly on the
-friction, by a softness that two solutions tell. So the step ends with the force of the law itself.
+the step can be solved whatever its length. Then it is seen whether the line meets the law at the slip that
+came out. If not, the next line is the law's tangent where the slip is expected: the slip hangs nearly linearly
+on the friction, by a softness that two solutions tell. So the step ends with the force of the law itself.
 """
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable
 
 from user_forces.friction.law import FrictionLaw
@@ -74,6 +75,13 @@ class FrictionLine:
         free = slip - softness * applied  # without friction
         self.lay(_meeting(ratio, free, softness), normal_force)
         return False
+
+    def rounding(self, normal_force: float, size: float, step: float) -> float:
+        """By how much rounding of positions of a size [m] lets friction scatter in a step [s], [N].
+
+        Newton's method cannot become closer than that.
+        """
+        return abs(self.slope) * normal_force * size * sys.float_info.epsilon / step
 
     def _ratio(self, normal_force: float) -> Callable[[float], float]:
         force = max(normal_force, 1.0)

@@ -1,4 +1,4 @@
-"""Joint forces and accelerations of redundant runs from their motion: against matrices, closed forms, short steps."""
+"""Joint forces and accelerations of redundant runs from their motion."""
 
 from __future__ import annotations
 
@@ -47,7 +47,8 @@ def test_rows_are_those_of_one_instant() -> None:
     here, h = matrix(motion, held), 1e-6
     np.testing.assert_allclose(here, [kinetics.rows(one) for one in position], atol=1e-13)
     later, earlier = (
-        np.array([kinetics.rows(q + s * h * v) for q, v in zip(position, velocity, strict=True)]) for s in (1, -1)
+        np.array([kinetics.rows(q + s * h * v) for q, v in zip(position, velocity, strict=True)])
+        for s in (1, -1)
     )
     changed = np.einsum("nrk,nk->nr", later - earlier, velocity) / (2.0 * h)
     np.testing.assert_allclose(turning(motion, held), changed, atol=1e-7)

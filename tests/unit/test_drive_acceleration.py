@@ -34,7 +34,9 @@ def test_at_a_break_it_is_the_value_before() -> None:
     assert rate(CubicStep(start=0.0, end=1.0), 0.0) == [0.0]
 
 
-@pytest.mark.parametrize("drive", [UniformSpeed(), TableDrive(times=(0.0, 1.0), extensions=(0.0, 0.1), between="linear")])
+@pytest.mark.parametrize(
+    "drive", [UniformSpeed(), TableDrive(times=(0.0, 1.0), extensions=(0.0, 0.1), between="linear")]
+)
 def test_a_jump_of_the_speed_is_no_acceleration(drive: Drive) -> None:
     times = sorted({*drive.breaks, *(t + h for t in drive.breaks for h in (1e-8, 1e-5, 0.1)), 0.0})
     assert rate(drive, *times) == pytest.approx([0.0] * len(times), abs=1e-7)

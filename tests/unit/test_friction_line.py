@@ -26,7 +26,7 @@ LAWS = [
 
 
 def solved(line: FrictionLine, free: float, softness: float, guess: float, force: float) -> float:
-    """The slip of a step: without friction it would be `free`; what the line is told of the softness is a guess."""
+    """The slip of a step, `free` without friction; the line is told a guess of the softness."""
     line.begin()
     while True:
         # slip = free + softness (offset + slope slip)
