@@ -135,7 +135,13 @@ def rise_lines() -> Iterator[Line]:
         way = cheapest_way(scene, tried)
         if way is None:
             yield Line(
-                f"rise to the goal: {name}", "", math.nan, "", math.nan, asked, "refused: no setting meets the goal"
+                f"rise to the goal: {name}",
+                "",
+                math.nan,
+                "",
+                math.nan,
+                asked,
+                "refused: no setting meets the goal",
             )
             continue
         ours, others, finest = in_turns(way.bare, stock.bare, stock_ways[-1].bare, turns=2)

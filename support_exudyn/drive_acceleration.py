@@ -19,7 +19,7 @@ def accelerations(drive: Drive, time: Series, duration: float) -> Series:
 
         (3 v(t) - 4 v(t - d) + v(t - 2 d)) / (2 d)
 
-    At a break it is the value before it, at the start that after it. duration: of the run [s].
+    At a break it is the value before it. duration: of the run [s].
     """
     if drive.span(duration) == (0.0, 0.0):
         return np.zeros_like(time)
@@ -39,7 +39,8 @@ def _at(drive: Drive, breaks: list[float], t: float) -> float:
 
 
 def _at_the_start(drive: Drive, breaks: list[float]) -> float:
-    """The same with times after the start."""
-    d = min([BACK, *(b / 3.0 for b in breaks if b > 0.0)])
-    first = drive.initial_speed + drive.speed_jump(0.0)
-    return (4.0 * drive.speed(d) - 3.0 * first - drive.speed(2.0 * d)) / (2.0 * d)
+    """The same with times after the start; before one that is a break nothing has been accelerated."""
+    if 0.0 in breaks:
+        return 0.0
+    d = min([BACK, *(b / 3.0 for b in breaks)])
+    return (4.0 * drive.speed(d) - 3.0 * drive.initial_speed - drive.speed(2.0 * d)) / (2.0 * d)

@@ -5,18 +5,20 @@ iterates jump from one side of the ramp to the other for ever. With a straight l
 
     friction force = normal force (offset + slope slip),
 
-the step can be solved whatever its length. Then it is seen whether the line meets the law at the slip that came
-out. If not, the next line is the law's tangent where the slip is expected: the slip hangs nearly linearly on the
-friction, by a softness that two solutions tell. So the step ends with the force of the law itself.
+the step can be solved whatever its length. Then it is seen whether the line meets the law at the slip that
+came out. If not, the next line is the law's tangent where the slip is expected: the slip hangs nearly linearly
+on the friction, by a softness that two solutions tell. So the step ends with the force of the law itself.
 """
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable
 
 from user_forces.friction.law import FrictionLaw
 
-MEETS = 1e-6  # share of the friction by which line and law may differ
+MEETS = 1e-6  # share of the largest friction so far, by which line and law may differ
+LITTLE = 1e-3  # friction over normal force that is counted as the largest at least
 TRIES = 30  # lines in a step
 # the tangent is taken over shorter and shorter parts of the law, until it changes no more
 WIDEST, NARROWER, PARTS, SAME = 0.1, 0.1, 12, 1e-3
@@ -35,7 +37,7 @@ class FrictionLine:
         self.offset = self.slope = 0.0
         self._tries = 0
         self._solved: tuple[float, float] | None = None  # ratio and slip of the last solution of this step
-        self._largest = 0.0  # ratio so far
+        self._largest = LITTLE  # ratio so far
 
     @property
     def exhausted(self) -> bool:
@@ -73,6 +75,13 @@ class FrictionLine:
         free = slip - softness * applied  # without friction
         self.lay(_meeting(ratio, free, softness), normal_force)
         return False
+
+    def rounding(self, normal_force: float, size: float, step: float) -> float:
+        """By how much rounding of positions of a size [m] lets friction scatter in a step [s], [N].
+
+        Newton's method cannot become closer than that.
+        """
+        return abs(self.slope) * normal_force * size * sys.float_info.epsilon / step
 
     def _ratio(self, normal_force: float) -> Callable[[float], float]:
         force = max(normal_force, 1.0)

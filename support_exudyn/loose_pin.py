@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -289,13 +288,8 @@ class LoosePin:
         return True
 
     def rounding(self, step: float, size: float) -> float:
-        """By how much rounding of positions of this size [m] lets friction scatter in a step [s], [N].
-
-        Where a steep line stands for friction: Newton's method cannot become closer than that.
-        """
-        if self._line is None:
-            return 0.0
-        return abs(self._line.slope) * self.force.normal_force * size * sys.float_info.epsilon / step
+        """By how much friction scatters in a step, see `FrictionLine.rounding`; 0 without such a line."""
+        return 0.0 if self._line is None else self._line.rounding(self.force.normal_force, size, step)
 
     def _let_act(self, force: SymbolicForce | PythonForce) -> None:
         self.engine_force = force

@@ -98,8 +98,9 @@ class _Rows:
 def direction(motion: BodyMotion, column: Column) -> Series:
     """From foot to head of a column (n, 2)."""
     foot, head = motion.place(column.foot, column.foot_point), motion.place(column.head, column.head_point)
-    span: Series = head - foot
-    return span / np.linalg.norm(span, axis=1)[:, None]
+    span = head - foot
+    along: Series = span / np.linalg.norm(span, axis=1)[:, None]
+    return along
 
 
 def matrix(motion: BodyMotion, held: Held) -> Series:

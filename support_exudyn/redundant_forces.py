@@ -23,7 +23,7 @@ FRICTION_ROUNDS, SETTLED = 30, 1e-13
 
 
 def with_causes(needed: Part) -> Part:
-    """What has to be known for some parts of a trajectory: what accelerations and reactions follow from, too."""
+    """What has to be known for parts of a trajectory: also what accelerations and reactions follow from."""
     return needed | MOTION | APPLIED if needed & FOLLOWING else needed
 
 
@@ -41,7 +41,7 @@ class Applied:
 
 @dataclass(frozen=True)
 class Following:
-    """What follows: accelerations (n, 3 b), forces of joints, of rigid columns (n,), moments of friction (n,)."""
+    """Accelerations (n, 3 b), forces of joints, of rigid columns (n,) and moments of friction (n,)."""
 
     acceleration: Series
     joints: JointForces
@@ -77,8 +77,7 @@ def following(scene: Scene, motion: BodyMotion, time: Series, applied: Applied) 
         # rows of pins are second minus first, so that what holds them acts on the second reversed
         pins={name: -reactions[:, 2 * n : 2 * n + 2] for n, name in enumerate(scene.ideal_pins)},
         slides={
-            name: np.abs(reactions[:, held.guided][:, 2 * n : 2 * n + 2])
-            for n, name in enumerate(scene.slides)
+            name: np.abs(reactions[:, held.guided][:, 2 * n : 2 * n + 2]) for n, name in enumerate(scene.slides)
         },
     )
     pushed = dict(zip((*scene.rigid_columns, *scene.cranks), -reactions[:, held.driven].T, strict=True))

@@ -196,7 +196,8 @@ class Run:
                 self.cut_steps += 1
             else:
                 self.failed_newton += 1
-                if not any([pin.straighten() for pin in self.pins]):  # all of them
+                straightened = [pin.straighten() for pin in self.pins]
+                if not any(straightened):
                     self.newton.failed()
                 if self.newton.wants_new_jacobians:
                     self.solver.newton.useModifiedNewton = False

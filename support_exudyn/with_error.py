@@ -92,7 +92,9 @@ def _without_oldest(result: Result | None) -> Result | None:
     """A run with its two coarser ones: what the estimate of its error takes."""
     if result is None or result.coarser is None or result.coarser.coarser is None:
         return result
-    return replace(result, coarser=replace(result.coarser, coarser=replace(result.coarser.coarser, coarser=None)))
+    return replace(
+        result, coarser=replace(result.coarser, coarser=replace(result.coarser.coarser, coarser=None))
+    )
 
 
 def _coarsest(scenario: Scenario) -> Scenario:

@@ -1,9 +1,10 @@
-"""Friction that is steeper than steps can follow: it costs a bounded number of failures, or is refused."""
+"""Friction that is steeper than steps can follow: a line stands for it, or the run is refused."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from support_exudyn import ClearancePin, Failure, Held, Result, Scenario, simulate
@@ -11,7 +12,8 @@ from tests.reference.cases import PIN, paper_contact, support
 from user_forces import Ambrosio
 
 STEEP = 4e-6  # [m/s], ramp of friction; 40 kN on 1 t cross it in 0.1 us
-UNSOLVABLE = 1e-8
+STEEPER = 1e-8
+UNSOLVABLE = 1e-12  # crossed by rounding
 
 
 def held(ramp: float) -> Scenario:
@@ -47,6 +49,21 @@ def test_the_reduced_formulation_finds_the_same(steep: Result) -> None:
     first, theirs = steep.onsets[PIN][0], wide.onsets[PIN][0]
     assert first[:2] == pytest.approx(theirs[:2], rel=1e-6)  # the fall before any contact
     assert first.parting_speed == pytest.approx(theirs.parting_speed, rel=1e-2)
+
+
+def test_a_ramp_that_no_step_can_follow_rubs_as_a_wider_one(steep: Result) -> None:
+    steeper = simulate(held(STEEPER))
+    assert steeper.counts.failed_newton < 40  # measured: 1
+    assert steeper.counts.steps < 5000
+    assert steeper.energy_error < 5e-3 * steeper.dissipated
+    assert steeper.dissipated == pytest.approx(steep.dissipated, rel=1e-3)
+    # the pin creeps on the ramp: its friction is that of the law, and no more than holds it
+    slip, force = (steeper[f"pin.{PIN}.{name}"] for name in ("slip", "friction_force"))
+    creeping = (np.abs(slip) > 1e-4) & (np.abs(slip) < 1e-4 + STEEPER) & (steeper[f"pin.{PIN}.depth"] > 0.0)
+    assert creeping.sum() > 5
+    normal = steeper[f"pin.{PIN}.normal_force"][creeping]
+    wanted = 1.2 * (np.abs(slip[creeping]) - 1e-4) / STEEPER * normal
+    np.testing.assert_allclose(np.abs(force[creeping]), wanted, rtol=1e-6)
 
 
 def test_friction_that_no_step_can_follow_is_refused_with_the_reason() -> None:
