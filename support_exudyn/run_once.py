@@ -8,7 +8,7 @@ from support_exudyn.audit import audit
 from support_exudyn.channels import asked, channels
 from support_exudyn.collector import paused_collector
 from support_exudyn.engine_words import first_line
-from support_exudyn.errors import Failure, SimulationError, told
+from support_exudyn.errors import Failure, SimulationError
 from support_exudyn.formulations import formulation
 from support_exudyn.progress import Progress
 from support_exudyn.provenance import provenance
@@ -16,8 +16,6 @@ from support_exudyn.result import Result
 from support_exudyn.room import check_room
 from support_exudyn.scenario import Scenario
 from user_forces.lawful import UNLAWFUL
-
-OWN = "A law, load or machine of one's own does that; allowed: to raise an exception."
 
 
 def run_once(scenario: Scenario, progress: Progress) -> Result:
@@ -36,8 +34,6 @@ def run_once(scenario: Scenario, progress: Progress) -> Result:
             found = channels(scenario, outcome.trajectory)
     except ArithmeticError as error:  # of a law or a drive, where nothing is computed step by step
         raise SimulationError(Failure(first_line(error), UNLAWFUL, 0.0)) from error
-    except SystemExit as error:  # it would end the program without a word, and perhaps as if all was done
-        raise SimulationError(Failure(f"the program was asked to end: {told(error)}", OWN, 0.0)) from None
     if scenario.solver.audit and (failure := audit(scenario, outcome, found)) is not None:
         raise SimulationError(failure)
     return Result(

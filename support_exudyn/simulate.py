@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Literal, overload
 
-from support_exudyn.errors import Failure, SimulationError
+from support_exudyn.errors import Failure, SimulationError, told
 from support_exudyn.progress import Progress, silent
 from support_exudyn.result import Result
 from support_exudyn.run_once import run_once
@@ -16,6 +16,8 @@ from support_exudyn.to_accuracy import run_to_accuracy
 from support_exudyn.with_error import run_with_error
 from user_forces.lawful import UNLAWFUL, LawError, look_at_rest
 from user_forces.values import InputError, short
+
+OWN = "A law, load or machine of one's own does that; allowed: to raise an exception."
 
 
 @overload
@@ -79,13 +81,20 @@ def simulate(
 
         run = keeping_solution(run, solution)
     try:
-        if scenario.solver.audit:
-            _look_at_laws(scenario)
-        return run(scenario, progress)
+        return _run(run, scenario, progress)
     except SimulationError as error:
         if throw:
             raise
         return error.failure
+
+
+def _run(run: Callable[[Scenario, Progress], Result], scenario: Scenario, progress: Progress) -> Result:
+    try:
+        if scenario.solver.audit:
+            _look_at_laws(scenario)
+        return run(scenario, progress)
+    except SystemExit as error:  # it would end the program without a word, and perhaps as if all was done
+        raise SimulationError(Failure(f"the program was asked to end: {told(error)}", OWN, 0.0)) from None
 
 
 def _look_at_laws(scenario: Scenario) -> None:
