@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from typing import Any
 
 import exudyn
@@ -21,13 +20,11 @@ from support_exudyn.symbolic_force import SymbolicForce
 from user_forces.contact import ContactForce, JournalContact
 from user_forces.flat import flat_force
 from user_forces.friction.frictionless import Frictionless
-from user_forces.lawful import PROBED, look
 from user_forces.normal.law import Touch
 from user_forces.values import Vector2
 
 SPIN_ERROR = 1e-13  # of slip [m/s] by a bore's spin that had to be guessed, above which a step is repeated
 SPIN_REPEATS = 4
-SHALLOW = 1e-9  # depth [m] at which a law is probed that has only just been touched
 
 
 class LoosePin:
@@ -206,22 +203,10 @@ class LoosePin:
         if force.normal_force + abs(force.friction_force) > self.largest_force:
             self.largest_force = max(self.largest_force, math.hypot(force.normal_force, force.friction_force))
 
-    def look(self, elastic: float, name: str) -> None:
-        """Raise LawError if the force at the end of the last step, elastic to this part [N], cannot be one."""
-        depth, rate, slip, normal, friction, *_ = self.force
-        look(self.contact, depth, rate, slip, normal, friction, elastic, name)
-
-    def probe(self, name: str) -> None:
-        """Raise LawError if a law is no number where the last step began, or a little deeper and faster."""
-        memory, contact = self.memory, self.contact
-        touch = Touch(memory.approach_speed, self._mass)
-        for more in PROBED:
-            depth, slip = more * max(memory.depth, SHALLOW), more * memory.slip
-            if depth > contact.normal.largest_depth:  # of which the law has its own words
-                return
-            normal = contact.normal(depth, memory.rate, touch)
-            friction = contact.friction(slip, max(0.0, normal), memory.deflection)
-            look(contact, depth, memory.rate, slip, normal, friction, pin=name)
+    @property
+    def touch(self) -> Touch:
+        """What laws are told of the contact in the step that has been tried."""
+        return Touch(self.memory.approach_speed, self._mass)
 
     def _swing_time(self) -> float:
         """Of what friction holds, with the least mass that moves along the surface [s].
@@ -443,24 +428,3 @@ class LoosePin:
         self._guessed_spin = self._tried_spin
         self._recall(self.memory)
         return True
-
-    # --- static equilibrium ---
-
-    @contextmanager
-    def settling(self, stiffness: Callable[[], float]) -> Iterator[None]:
-        """Replace the contact by its elastic part and a spring that pulls a free journal to the middle.
-
-        Arguments:
-            stiffness: of the spring [N/m], asked at every evaluation.
-        """
-
-        def held(eccentricity: float) -> float:
-            depth = self.contact.bearing.depth(eccentricity)
-            pressed = self.contact.normal.elastic_force(depth) / eccentricity if depth > 0.0 else 0.0
-            return stiffness() + pressed
-
-        self.connector.set_spring(held)
-        try:
-            yield
-        finally:
-            self.connector.set_force(self.engine_force.function)

@@ -13,6 +13,7 @@ from support_exudyn.between_records import StepEnd, between
 from support_exudyn.driven_parts import OilColumnItem
 from support_exudyn.energy import RunningIntegrals
 from support_exudyn.engine_scene import EngineScene
+from support_exudyn.lawful_pin import look_at
 from support_exudyn.onset import PinMemory
 from support_exudyn.recipes import EVERYTHING, Part
 from support_exudyn.trajectory import Series
@@ -209,7 +210,7 @@ class Recorder:
                 lost = (force.normal_force - elastic) * force.rate
                 rubbed = force.friction_force * force.slip
                 if self._looks and not (lost >= 0.0 >= rubbed and elastic >= 0.0):
-                    pin.look(elastic, name)
+                    look_at(pin, elastic, name)
                 damping += lost
                 friction -= rubbed
         return columns, damping, friction

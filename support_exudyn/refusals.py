@@ -5,6 +5,7 @@ from __future__ import annotations
 from support_exudyn import engine_words
 from support_exudyn.engine_scene import EngineScene
 from support_exudyn.engine_words import explained, first_line
+from support_exudyn.lawful_pin import probe
 from user_forces.lawful import UNLAWFUL, LawError
 from user_forces.normal.law import LoadError
 
@@ -61,7 +62,7 @@ def unlawful(scene: EngineScene, ahead: float) -> tuple[str, str] | None:
         for name, friction in scene.frictions.items():
             friction.probe(name)
         for name, pin in scene.loose_pins.items():
-            pin.probe(name)
+            probe(pin, name)
     except LawError as error:
         return str(error), UNLAWFUL
     return None
