@@ -18,6 +18,7 @@ from user_forces.values import Vector2
 PARTS = 4  # of a step in free flight, each looked at
 SAMPLES = 8  # of a step in contact
 SHORT = 1e-9  # [s]: in so short a step what cannot be told apart is taken as it ends
+EVEN = 0.125  # share of the change of speed in flight that may not be even
 ROUNDING = 1e-12  # of a rate, as a share of its size
 MET = 1e-7  # depth as a share of the clearance at which a touch or a parting is met
 
@@ -119,7 +120,7 @@ class _Flight(NamedTuple):
         """How far the true depth may be off [m]."""
         h, s, e = self.step, self.start, self.end
         last = math.hypot(h * (s.vx + e.vx) - 2.0 * (e.x - s.x), h * (s.vy + e.vy) - 2.0 * (e.y - s.y))
-        return DOUBT_OF_DEPTH * (h * math.hypot(e.vx - s.vx, e.vy - s.vy) + last)
+        return DOUBT_OF_DEPTH * (EVEN * h * math.hypot(e.vx - s.vx, e.vy - s.vy) + last)
 
     def _at(self, x: float) -> Vector2:
         y, h, s, e = 1.0 - x, self.step, self.start, self.end
