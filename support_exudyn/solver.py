@@ -249,7 +249,8 @@ class Run:
     def _after_step(self, mbs: Any, t: float) -> bool:
         """After every accepted step, and once at the start."""
         taken = t - self.time
-        kink = bool(self.plan.breaks_at(t))
+        breaks = self.plan.breaks_at(t)
+        kink = bool(breaks)
         if self.trying:
             self.trying = False
             self.steps += 1
@@ -263,9 +264,10 @@ class Run:
             friction.accept()
         if self.smooth is not None:
             self._look_for_smoothness(t, self.smooth)
-        t = self._arrived(t)
+        if (later := self._arrived(t)) != t:
+            t, breaks = later, self.plan.breaks_at(later)
         goal = self._next_time(t)
-        if not self.plan.breaks_at(t) and self._is_to_be_cut(taken, goal - t):
+        if not breaks and self._is_to_be_cut(taken, goal - t):
             self.recorder.energies.totals[0] += self.scene.align(t)
             self.scene.refresh_memory()
             self._tell_rates()
@@ -277,7 +279,7 @@ class Run:
     def _arrived(self, t: float) -> float:
         """A step has ended at t [s]; stops may follow that are not worth one. From when the run goes on [s]."""
         self._at_stop(t)
-        while (stop := self.plan.rest(t, self._longest_step(t))) is not None:
+        while self.plan.rest(t) and (stop := self.plan.rest(t, self._longest_step(t))):
             slide(self.scene, stop - t)
             self.data.SetTime(stop)
             self.solver.it.currentTime = t = stop

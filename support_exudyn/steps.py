@@ -111,8 +111,10 @@ class StepPlan:
         """
         if t >= self.duration - self._tolerance:
             return None
-        after = self._stops_around(t)[1]
-        return after if after - t < shortest_step(self.rounding, min(self.step, largest)) else None
+        after, allowed = self._stops_around(t)[1], min(self.step, largest)
+        if after - t >= SHARE_OF_STEP * allowed:  # nearly always, and every step asks
+            return None
+        return after if after - t < shortest_step(self.rounding, allowed) else None
 
     def stretch(self, t: float, largest: float = math.inf) -> tuple[float, int]:
         """End [s] of the equal steps that begin at t [s], and their number: up to a record or a break.
