@@ -27,12 +27,15 @@ from support_exudyn import (
 from support_exudyn.engine_scene import INITIAL
 from support_exudyn.kinetics import kinetics_of
 from support_exudyn.machine import GROUND, PinPlace, pinned
-from support_exudyn.pressed import GIVES, mobilities, normal
+from support_exudyn.onset import Mobility
+from support_exudyn.pressed import GIVES, Mobilities, mobilities, normal
 from support_exudyn.scene_builder import build
 from support_exudyn.settle import settle
 from support_exudyn.spatial.scene_builder import build as build_in_space
 from support_exudyn.tree.branches import branches
 from support_exudyn.tree.dynamics import Posture, pin_mobility
+from support_exudyn.tree.forces import Forces
+from support_exudyn.tree.start import first_memory
 from tests.reference.cases import paper_contact, support
 from user_forces import DepthSpeed, Exact, Hertz, JournalBearing, JournalContact, NormalLaw, value
 
@@ -197,6 +200,18 @@ def test_a_scene_holds_the_pins_that_are_pressed_at_its_start() -> None:
     assert hit.mass(0.0, 1.0) == pytest.approx(10.0, rel=2e-4)
     assert apart.loose_pins["hit"].kept.mobility == apart.mobilities("hit", INITIAL).alone
     assert apart.loose_pins["hit"].kept.mobility.mass(0.0, 1.0) == pytest.approx(1.0 / 10.1, rel=1e-9)
+
+
+def test_a_tree_begins_with_what_is_held() -> None:
+    law = Exact(stiffness=1e9, restitution=0.7)
+    pins = {"hit": loose(law), "stop": loose(law)}
+    scene = Scenario(machine=Levers(resting=1.01 * CLEARANCE), pins=pins, duration=1e-3)
+    forces = Forces(branches(scene.linkage, pins), scene, {})
+    forces(None, 0.0, 0, [0.0, 0.0], [0.0, 0.0])
+    found = Mobilities(Mobility(1.0, 2.0, 3.0), Mobility(4.0, 5.0, 6.0))
+    memory = first_memory(forces.pins["stop"], found)
+    assert memory.in_contact
+    assert memory.mobility == found.held
 
 
 def default_law(clearance_mm: float = 1.5, friction: float = 0.0) -> ClearancePin:

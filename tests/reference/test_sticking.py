@@ -12,6 +12,7 @@ import pytest
 from support_exudyn import (
     ClearancePin,
     CubicStep,
+    Held,
     Result,
     Scenario,
     SimulationError,
@@ -84,6 +85,16 @@ def test_steps_follow_the_swing_and_halve_with_those_of_impacts() -> None:
     longest = math.pi * math.sqrt(lightest / (LUGRE.bristle_stiffness * load)) / 4.0  # of 128 steps an impact
     # steps are rounded down to a power of two
     assert 0.3 * longest < 0.1 / (counts[2] - counts[1]) < 1.5 * longest
+
+
+@pytest.mark.parametrize("name", [PIN, "front_base"])
+def test_sections_in_space_are_stepped_like_the_pin_of_the_plane(name: str) -> None:
+    held = scene(duration=0.01, drive=Held())
+    held = replace(held, pins={name: held.pins[PIN]})
+    plane, space = (simulate(replace(held, dimensions=number)).counts.steps for number in (2, 3))
+    assert plane > 4 * 0.01 / 5e-4
+    # the pin's weight on the sections of a bearing, or of two; one or two steps at the start
+    assert space == pytest.approx(plane, rel=0.05)
 
 
 def test_laws_without_a_state_leave_the_step_as_it_is() -> None:
