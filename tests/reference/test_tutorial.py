@@ -120,10 +120,16 @@ def test_the_sweep_is_a_straight_line(folder: Path) -> None:
     tips = [float(row["tip.x.mean_m"]) for row in table]
     assert sizes == [0.5, 1.0, 1.5, 2.0]
     assert {row["status"] for row in table} == {'"done"'}
-    line = np.polyfit(sizes, tips, 1)
+    line = np.polyfit(sizes[:3], tips[:3], 1)
     # geometry is linear in so small a shift: what is left is of its second order and of the depth's change
-    np.testing.assert_allclose(tips, np.polyval(line, sizes), atol=2e-6)
+    np.testing.assert_allclose(tips[:3], np.polyval(line, sizes[:3]), atol=2e-6)
     assert -2.4e-3 < line[0] < -1.8e-3
+    # at 2 mm friction sets the pin vibrating, as the page says: its force swings, and the mean place moves
+    # by less than a hundredth of the shift
+    peaks = [float(row["pin.rear_base.force.max_N"]) for row in table]
+    assert max(peaks[:3]) < 26e3
+    assert peaks[3] > 1.5 * peaks[2]
+    assert tips[3] == pytest.approx(np.polyval(line, sizes[3]), abs=4e-5)
 
 
 def test_pictures_and_figures_are_there(folder: Path) -> None:

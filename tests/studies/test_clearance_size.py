@@ -46,6 +46,7 @@ def test_table_2_is_met_to_every_printed_digit(numbers: Numbers) -> None:
         assert number["value"] == pytest.approx(number["paper"], abs=5.1e-4)
 
 
+@pytest.mark.slow  # scipy's method takes seconds a run
 def test_printed_errors_cover_the_distance_from_another_integrator(out: Path, numbers: Numbers) -> None:
     # of the case whose mean stood here as 52542.79 with an error of 0.01; it is 52543.015
     stems = {"ideal": "ideal", DRY[0]: "0p5mm_mu0p25"}
