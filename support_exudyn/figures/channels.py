@@ -88,7 +88,7 @@ def error_over_time(result: Result, name: str) -> Series | None:
     if coarser.coarser is not None and name in coarser.coarser.channels:
         distance = np.maximum(distance, believed(result, r) * np.abs(coarser[name] - coarser.coarser[name]))
     rounding = ROUNDING * float(np.abs(result[name]).max())
-    found: Series = multiple(r) * distance + rounding
+    found: Series = multiple(result, r) * distance + rounding
     return found
 
 

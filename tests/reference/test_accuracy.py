@@ -350,6 +350,7 @@ def figures(chosen: list[Case]) -> Mapping[str, float]:
     return {
         "numbers": true.size,
         "covered": float(np.mean(true <= said)),
+        "worst": float((true[some] / said[some]).max()),
         "overstated": float(np.median(said[some] / true[some])),
     }
 
@@ -363,8 +364,10 @@ def test_estimates_cover_the_true_errors_without_much_overstatement(checked: lis
     print("all", everything)
     assert everything["numbers"] > 10_000
     # what is promised
-    assert everything["covered"] >= 0.95
-    assert everything["overstated"] <= 10.0
+    assert everything["covered"] >= 0.98
+    assert everything["worst"] < 10.0
+    # redundant runs are told more closely; of all kinds together it is 10, see `studies.coverage`
+    assert everything["overstated"] <= 15.0
 
 
 def test_no_kind_of_scene_and_no_goal_is_much_worse_than_all(checked: list[Case]) -> None:

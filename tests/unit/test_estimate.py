@@ -14,20 +14,22 @@ from hypothesis import strategies as st
 
 from support_exudyn import Estimate, Held, Onset, Result
 from support_exudyn.estimate import (
+    ALIKE,
+    CHOSEN,
     FASTEST,
     FIRST_ORDER,
     ONSETS,
     ROUNDING,
-    SAFETY,
     SAFETY_OF_WORST,
     SLOWEST,
-    TYPICAL,
     measures,
 )
+from support_exudyn.estimate import SAFETY as SAFETY_OF
 from tests.reduced import simulate_reduced
 from tests.reference.cases import FORCE, PIN, loose_support
 from user_forces import InputError
 
+SAFETY = SAFETY_OF["reduced"]  # which is what runs here
 ROUND_OFF = 1e-15  # of a number; distances of two lose as much in the absolute
 rates = st.floats(FASTEST, SLOWEST)
 shares = st.floats(-6.0, -1.0).map(lambda x: 10.0**x)
@@ -103,7 +105,7 @@ def test_an_estimate_is_so_many_times_the_true_error(share: float, sign: float, 
         found = number.error - between_records(run, name)
         rounding = 1e-12 * number.error
         # small ones are not believed to be far better than their kind
-        most = max(true, TYPICAL * wrong * middle(name) * (1.0 + 2.0 * wrong))
+        most = max(true, ALIKE * wrong * middle(name) * (1.0 + 2.0 * wrong))
         assert SAFETY * true * (1.0 - lost) - rounding <= found, name
         assert found <= SAFETY * most * (1.0 + lost) + 1.01 * floor + rounding, name
 
@@ -179,7 +181,7 @@ def test_two_runs_that_agree_by_chance_are_not_taken_as_exact() -> None:
     assert run.fall == pytest.approx(r, rel=1e-9)
     before = 1e-2 * (1.0 - r**2) * exact()[FORCE].mean()
     # 1e-10 of it is added; steps are chosen by a tolerance here
-    expected = SAFETY * FASTEST * before * r / (1.0 - r)
+    expected = SAFETY * CHOSEN * before * r / (1.0 - r)
     assert run.numbers()[f"{FORCE}.mean"].error == pytest.approx(expected, rel=1e-5)
 
 
@@ -189,7 +191,7 @@ def test_a_number_on_which_all_runs_agree_by_chance_is_as_wrong_as_its_family_is
     runs = [with_force(scaled(1.0 + share * r**n), 1.0 / (1.0 + share * r**n)) for n in range(3)]
     run, name = three(*runs), f"{FORCE}.mean"
     assert run.numbers()[name].value == pytest.approx(exact()[FORCE].mean(), rel=1e-12)
-    distance = TYPICAL * share * r * (1.0 - r) * exact()[FORCE].mean()
+    distance = ALIKE * share * r * (1.0 - r) * exact()[FORCE].mean()
     # shares are of a run's own forces, off by up to 1e-3; rounding is added
     assert run.numbers()[name].error == pytest.approx(SAFETY * distance * r / (1.0 - r), rel=2e-3)
     # a number of one's own has no family
@@ -197,6 +199,25 @@ def test_a_number_on_which_all_runs_agree_by_chance_is_as_wrong_as_its_family_is
     # and those of the others are what they were
     other = "front_column.force.mean"
     assert run.numbers()[other].error == pytest.approx(last.numbers()[other].error, rel=1e-9)
+
+
+def test_a_number_of_a_force_is_as_wrong_as_the_worst_of_that_force_is_mostly() -> None:
+    r, share = 0.25, 1e-2
+    last = falling(0.0, r)
+    touched = [1.0 + share * r**n for n in range(3)]
+    runs = [
+        replace(run, largest_force={PIN: touched[n] * exact().largest_force[PIN]})
+        for n, run in enumerate(
+            (last.coarser.coarser, last.coarser, last)  # type: ignore[union-attr]
+        )
+    ]
+    run = three(*runs)
+    distance = ALIKE * share * r * (1.0 - r) * exact()[FORCE].mean()
+    assert run.numbers()[f"{FORCE}.mean"].error == pytest.approx(SAFETY * distance * r / (1.0 - r), rel=2e-3)
+    # other forces know nothing of it
+    assert (
+        run.numbers()["front_column.force.mean"].error < 1e-8 * run.numbers()["front_column.force.mean"].value
+    )
 
 
 def test_runs_that_are_all_the_same_are_right_to_rounding() -> None:
