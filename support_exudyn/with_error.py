@@ -23,9 +23,9 @@ SHARES = (1.0 / 7.0, 2.0 / 7.0, 4.0 / 7.0)  # of the work, run by run, if these 
 MOST_RUNS = 6
 LARGEST_ERROR = 0.5  # of the worst number: beyond it a run tells nothing
 UNCERTAIN = (
-    "Take a smaller `step` and more `solver.impact_steps` (with steps below 2e-5 s rounding shows: then a "
-    "larger one), or ask for an accuracy. Where each of many touches multiplies the errors of those before, no "
-    "step makes such numbers certain: take a shorter duration."
+    "Take a smaller `step` and more `solver.impact_steps` (in space rounding shows with steps below 2e-5 s: "
+    "there a larger one), or ask for an accuracy. Where each of many touches multiplies the errors of those "
+    "before, no step makes such numbers certain: take a shorter duration."
 )
 
 
