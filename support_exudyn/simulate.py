@@ -59,7 +59,9 @@ def simulate(
             The result then carries the estimated error of every number.
         errors: with steps that the scenario chooses itself, run it at half and at a quarter of them, too: the
             result is that of the shortest, and carries the estimated error of every number. If these do not
-            settle it ends in a SimulationError. With an accuracy errors are estimated anyway.
+            settle, or steps are too long for a run to be finished, they are halved up to three times more
+            (`Result.scenario` has the steps that were taken); if that does not help it ends in a
+            SimulationError. With an accuracy errors are estimated anyway.
         progress: called now and then with the share that is done, 0 to 1.
         solution: path of Exudyn's own solution file, if it is to be kept, see `Result.save_solution`. What
             stands against it is said before the run: InputError if `channels` lacks where the bodies are,

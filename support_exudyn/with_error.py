@@ -25,9 +25,9 @@ LARGEST_ERROR = 0.5  # of the worst number: beyond it a run tells nothing
 SAME = "its runs are the same to the bit, whatever their tolerance: no error is to be told from them"
 FOLLOWED = "Take a smaller `solver.tolerance`, or ask for an accuracy, which finds one that matters."
 UNCERTAIN = (
-    "Take a smaller `step` and more `solver.impact_steps` (with steps below 2e-5 s rounding shows: then a "
-    "larger one), or ask for an accuracy. Where each of many touches multiplies the errors of those before, no "
-    "step makes such numbers certain: take a shorter duration."
+    "Take a smaller `step` and more `solver.impact_steps` (in space rounding shows with steps below 2e-5 s: "
+    "there a larger one), or ask for an accuracy. Where each of many touches multiplies the errors of those "
+    "before, no step makes such numbers certain: take a shorter duration."
 )
 
 

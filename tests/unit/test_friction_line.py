@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from support_exudyn.friction_line import TRIES, FrictionLine
@@ -37,6 +37,7 @@ def solved(line: FrictionLine, free: float, softness: float, guess: float, force
 
 
 @pytest.mark.parametrize("law", LAWS, ids=str)
+@settings(max_examples=40)
 @given(
     free=st.floats(-2.0, 2.0),
     softness=st.floats(1e-6, 10.0),
@@ -52,7 +53,8 @@ def test_the_step_ends_with_the_friction_of_the_law(
     slip = solved(line, free, softness, guess, force)
     ratio = law(slip, force) / force
     assert slip == pytest.approx(free + softness * ratio, abs=2e-6 * softness + 1e-15)
-    assert slip * free >= -1e-15  # friction does not turn it round
+    # friction does not turn it round, but for what line and law may differ by
+    assert slip * math.copysign(1.0, free) >= -2e-6 * softness - 1e-15
 
 
 def test_few_lines_are_enough_and_the_next_step_begins_with_the_last() -> None:
