@@ -306,11 +306,11 @@ def test_a_top_that_a_cubic_cannot_tell_is_looked_at_more_closely(finder: str, b
 
 @pytest.mark.parametrize("finder", FINDERS)
 def test_a_bump_between_two_falling_ends_is_a_touch(finder: str) -> None:
-    rate = -Polynomial.fromroots([0.004, 0.02])
+    rate = -Polynomial.fromroots([0.002, 0.009])
     depth = rate.integ()
-    bump = depth - (0.3 * depth(0.0) + 0.7 * depth(0.02))
-    assert bump(0.0) < 0.0 < bump(0.02)
-    assert driven(FINDERS[finder], Course(100.0 * bump, closed=False))[0][0] == TOUCH
+    bump = depth - (0.3 * depth(0.0) + 0.7 * depth(0.009))
+    assert bump(0.0) < 0.0 < bump(0.009)
+    assert driven(FINDERS[finder], Course(1e3 * bump, closed=False))[0][0] == TOUCH
 
 
 @pytest.mark.parametrize("finder", FINDERS)

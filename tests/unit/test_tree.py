@@ -305,7 +305,7 @@ def test_the_top_between_the_points_is_found(where: float) -> None:
 
 def test_the_top_is_sought_in_more_than_the_step_with_the_highest_point() -> None:
     # a corner that its step's points miss by more than those of the next step miss theirs
-    assert top(lambda t: np.maximum(7.0 - 0.5 * abs(t - 0.25), 6.95 - 0.5 * abs(t - 1.5)), 2) == pytest.approx(
+    assert top(lambda t: np.maximum(7.0 - 1.0 * abs(t - 0.25), 6.95 - 0.5 * abs(t - 1.5)), 2) == pytest.approx(
         7.0, rel=1e-5
     )
 
