@@ -66,6 +66,7 @@ def test_a_ramp_that_no_step_can_follow_rubs_as_a_wider_one(steep: Result) -> No
     np.testing.assert_allclose(np.abs(force[creeping]), wanted, rtol=1e-6)
 
 
+@pytest.mark.slow  # it tries for long
 def test_friction_that_no_step_can_follow_is_refused_with_the_reason() -> None:
     failure = simulate(held(UNSOLVABLE), throw=False)
     assert isinstance(failure, Failure)
