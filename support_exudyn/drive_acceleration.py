@@ -11,13 +11,14 @@ from support_exudyn.trajectory import Series
 
 # [s] over which speeds are compared: no drive changes so fast, and rounding of speeds is far less
 BACK = 1e-5
+PARTS = 4.0  # of the time since the last break, of which three are looked at
 CLOSE = 1e-9  # [s] and share of its time by which a break is the same time
 
 
 def accelerations(drive: Drive, time: Series, duration: float) -> Series:
     """Rate of a drive's speed at times from 0 on [s], (n,) [m/s^2], [rad/s^2].
 
-        (3 v(t) - 4 v(t - d) + v(t - 2 d)) / (2 d)
+        (11 v(t) - 18 v(t - d) + 9 v(t - 2 d) - 2 v(t - 3 d)) / (6 d)
 
     At a break it is the value before it. duration: of the run [s].
     """
@@ -34,13 +35,18 @@ def _at(drive: Drive, breaks: list[float], t: float) -> float:
     place = bisect_left(breaks, t - close)
     if place < len(breaks) and breaks[place] <= t + close:
         t = breaks[place]  # beyond it the speed may be another
-    d = min(BACK, (t - (breaks[place - 1] if place else 0.0)) / 3.0)
-    return (3.0 * drive.speed(t) - 4.0 * drive.speed(t - d) + drive.speed(t - 2.0 * d)) / (2.0 * d)
+    d = min(BACK, (t - (breaks[place - 1] if place else 0.0)) / PARTS)
+    return _difference(drive.speed(t), *(drive.speed(t - n * d) for n in (1, 2, 3))) / d
 
 
 def _at_the_start(drive: Drive, breaks: list[float]) -> float:
     """The same with times after the start; before one that is a break nothing has been accelerated."""
     if 0.0 in breaks:
         return 0.0
-    d = min([BACK, *(b / 3.0 for b in breaks)])
-    return (4.0 * drive.speed(d) - 3.0 * drive.initial_speed - drive.speed(2.0 * d)) / (2.0 * d)
+    d = min([BACK, *(b / PARTS for b in breaks)])
+    return -_difference(drive.initial_speed, *(drive.speed(n * d) for n in (1, 2, 3))) / d
+
+
+def _difference(last: float, first: float, second: float, third: float) -> float:
+    """Of the cubic through four speeds, the change in a step up to the last; they are counted back from it."""
+    return (11.0 * last - 18.0 * first + 9.0 * second - 2.0 * third) / 6.0

@@ -22,6 +22,9 @@ from support_exudyn.trajectory import Series
 from user_forces.values import Vector2
 
 SHIFT = 1e-5  # [m], [rad] by which bodies go on, at most, where it is looked how rows turn with them
+# Beside bodies of next to no mass what heavy ones add to the square of the rows is lost to rounding: the second
+# round makes up for it.
+ROUNDS = 2
 
 
 @dataclass(frozen=True)
@@ -162,18 +165,25 @@ class Equations:
         bodies = motion.linkage.bodies.values()
         mass = np.array([part for body in bodies for part in (body.mass, body.mass, body.inertia)])
         self._rows = matrix(motion, held)
-        self._mobile = np.swapaxes(self._rows, 1, 2) / mass[:, None]  # M^-1 C^T
         self._wanted = -turning(motion, held)
         self._wanted[:, held.driven] += driven
         self._mass = mass
-        self._square = self._rows @ self._mobile
+        self._square = self._rows @ (np.swapaxes(self._rows, 1, 2) / mass[:, None])  # C M^-1 C^T
 
     def solve(self, forces: Series) -> tuple[Series, Series]:
         """Accelerations (n, 3 b) and L (n, rows) under forces on all coordinates (n, 3 b)."""
-        free = forces / self._mass
-        missing = np.einsum("nrk,nk->nr", self._rows, free) - self._wanted
+        held = np.zeros(self._wanted.shape)
+        acceleration = forces / self._mass
+        for _ in range(ROUNDS):
+            missing = np.einsum("nrk,nk->nr", self._rows, acceleration) - self._wanted
+            held += self._respond(missing)
+            left = forces - np.einsum("nrk,nr->nk", self._rows, held)
+            acceleration = left / self._mass
+        return acceleration, held
+
+    def _respond(self, missing: Series) -> Series:
         try:
-            held: Series = np.linalg.solve(self._square, missing[..., None])[..., 0]
+            found: Series = np.linalg.solve(self._square, missing[..., None])[..., 0]
         except np.linalg.LinAlgError:  # rows that repeat each other, as at a dead centre
-            held = np.einsum("nrs,ns->nr", np.linalg.pinv(self._square, hermitian=True), missing)
-        return free - np.einsum("nkr,nr->nk", self._mobile, held), held
+            found = np.einsum("nrs,ns->nr", np.linalg.pinv(self._square, hermitian=True), missing)
+        return found

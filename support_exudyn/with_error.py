@@ -58,7 +58,7 @@ def run_with_error(scenario: Scenario, progress: Progress) -> Result:
                 doubt, result = doubt or Failure(SAME, FOLLOWED, scenario.duration), result.coarser
             result = replace(run, coarser=_without_oldest(result))
             if result.coarser is not None and result.coarser.coarser is not None:
-                found = _doubt(result)
+                found = _doubt(result, scenario.duration)
                 if found is None:
                     progress(1.0)
                     return replace(result, wall_time=wall_time)
@@ -70,8 +70,8 @@ def run_with_error(scenario: Scenario, progress: Progress) -> Result:
     raise SimulationError(doubt)
 
 
-def _doubt(result: Result) -> Failure | None:
-    """Why the numbers of a run are not to be believed; None if they are."""
+def _doubt(result: Result, duration: float) -> Failure | None:
+    """Why the numbers of a run of this duration [s] are not to be believed; None if they are."""
     before = result.coarser
     assert before is not None
     told = before.worst_error + rounding_share(result)
@@ -81,10 +81,10 @@ def _doubt(result: Result) -> Failure | None:
             f"its numbers do not settle: halving the steps tells an error of {told:.2g}, halving them again "
             f"moves the numbers by {moved:.2g}"
         )
-        return Failure(reason, UNCERTAIN, result.scenario.duration)
+        return Failure(reason, UNCERTAIN, duration)
     if not result.worst_error <= LARGEST_ERROR:
         reason = f"its numbers are uncertain by {result.worst_error:.0%}; allowed: {LARGEST_ERROR:.0%}"
-        return Failure(reason, UNCERTAIN, result.scenario.duration)
+        return Failure(reason, UNCERTAIN, duration)
     return None
 
 

@@ -45,6 +45,6 @@ def test_a_jump_of_the_speed_is_no_acceleration(drive: Drive) -> None:
 def test_what_swings_is_accelerated_from_the_start_on() -> None:
     drive, w = Reciprocating(stroke=0.2, period=0.5), 4.0 * math.pi
     times = (0.01, 0.1, 0.3, 7.77)
-    assert rate(drive, *times) == pytest.approx([0.1 * w * w * math.cos(w * t) for t in times], rel=1e-6)
+    assert rate(drive, *times) == pytest.approx([0.1 * w * w * math.cos(w * t) for t in times], rel=1e-9)
     assert rate(Steady(rate=100.0), 0.0, 1.0) == pytest.approx([0.0, 0.0], abs=1e-7)
     assert rate(Held(), 0.0, 1.0) == [0.0, 0.0]
