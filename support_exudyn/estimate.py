@@ -152,9 +152,7 @@ def measures(result: Result, after: float, until: float) -> Mapping[str, Kind]:
             measure = _over(f"{point}.{axis}", np.mean, after, until)
             found[f"{point}.{axis}.mean"] = Kind("m", measure, farthest, "place")
     for pin, onsets in result.onsets.items():
-        found[f"pin.{pin}.largest_force"] = Kind(
-            "N", _largest(pin), 0.0, "force.largest", f"pin.{pin}{FORCE}", left
-        )
+        found[f"pin.{pin}.largest_force"] = Kind("N", _largest(pin), family="force.largest", left=left)
         for n in range(min(ONSETS, len(onsets))):
             touch = f"pin.{pin}.onset_{n + 1}"
             found[f"{touch}.time"] = Kind("s", _onset(pin, n, "time"), of=touch, left=left)
