@@ -88,7 +88,6 @@ def _settling(pin: LoosePin, stiffness: Callable[[], float]) -> Iterator[None]:
         pin.connector.set_force(pin.engine_force.function)
 
 
-
 def _hanging(scene: EngineScene) -> dict[str, tuple[LoadItem, Any]]:
     """By body that a load brings along, the load and the body's weight."""
     brought = {item.load.against(name): item for name, item in scene.loads.items()}

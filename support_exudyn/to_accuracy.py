@@ -29,8 +29,8 @@ def run_to_accuracy(scenario: Scenario, progress: Progress) -> Result:
     At least three runs, each with half the steps' length of the one before; how errors follow from their
     distances is told in `estimate`. Refined until the worst of the numbers that the accuracy is of is as asked,
     or until refining does not help. A run whose steps were too long to finish it does not count; once there is
-    a result with its errors, one that fails ends the refining. A run whose steps did not follow its tolerance is
-    the same as the one before, which tells nothing: it takes that one's place.
+    a result with its errors, one that fails ends the refining. A run whose steps did not follow its tolerance
+    is the same as the one before, which tells nothing: it takes that one's place.
 
     Raises InputError if the formulation does not cover the scenario, SimulationError if no three runs in a row
     can be finished.
