@@ -9,8 +9,9 @@ import numpy as np
 from support_exudyn.drives import Drive
 from support_exudyn.trajectory import Series
 
-# [s] over which speeds are compared: no drive changes so fast, and rounding of speeds is far less
-BACK = 1e-5
+# [s] over which speeds are compared: no drive changes so fast, and rounding of speeds is far less. A power of
+# two, so that times of a fine grid have no rounding late in a run that they do not have early.
+BACK = 2.0**-17
 PARTS = 4.0  # of the time since the last break, of which three are looked at
 CLOSE = 1e-9  # [s] and share of its time by which a break is the same time
 

@@ -22,6 +22,7 @@ from support_exudyn.trajectory import Series
 from user_forces.values import Vector2
 
 SHIFT = 1e-5  # [m], [rad] by which bodies go on, at most, where it is looked how rows turn with them
+STILL = 1e-6  # [m/s], [rad/s] below which they go on by less: what is left then is far below rounding
 # Beside bodies of next to no mass what heavy ones add to the square of the rows is lost to rounding: the second
 # round makes up for it.
 ROUNDS = 2
@@ -119,7 +120,7 @@ def matrix(motion: BodyMotion, held: Held) -> Series:
 def turning(motion: BodyMotion, held: Held) -> Series:
     """C' v at every instant, (n, rows): by how much the rows change as the bodies move on."""
     fastest = np.abs(motion.velocity).max(axis=1, initial=0.0)
-    time = SHIFT / np.where(fastest > 0.0, fastest, 1.0)
+    time = SHIFT / np.maximum(fastest, STILL)
 
     def rows(h: Series) -> Series:
         there = motion.position + h[:, None] * motion.velocity

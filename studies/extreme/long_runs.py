@@ -32,7 +32,6 @@ from support_exudyn.audit import audit, energy_open, joints_apart, turned_over
 from support_exudyn.channels import Channel, channels
 from support_exudyn.collector import paused_collector
 from support_exudyn.formulations import formulation
-from support_exudyn.machine import Linkage
 from support_exudyn.progress import Progress, silent
 from support_exudyn.trajectory import Outcome
 
@@ -228,12 +227,8 @@ def slope(times: Series, values: Series) -> float:
 
 def record_bytes(scenario: Scenario) -> int:
     """What a record of a scenario in the plane takes while it runs [bytes]."""
-    linkage: Linkage = scenario.linkage
-    loose = len(scenario.clearance_pins)
-    constraints = 2 * (len(linkage.pins) - loose + len(linkage.slides)) + len(linkage.cranks)
-    constraints += len(linkage.columns) - len(scenario.oil_columns)
-    # time and three integrals; position, velocity and acceleration; the memory of a loose pin is nine numbers
-    return NUMBER * (4 + 9 * len(linkage.bodies) + constraints + 9 * loose)
+    # time and three integrals; position and velocity; the memory of a loose pin is nine numbers
+    return NUMBER * (4 + 6 * len(scenario.linkage.bodies) + 9 * len(scenario.clearance_pins))
 
 
 def resident() -> float:

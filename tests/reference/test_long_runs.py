@@ -15,6 +15,7 @@ from support_exudyn import (
     Drive,
     Reciprocating,
     Scenario,
+    SolverSettings,
     Steady,
     reference_support,
     simulate,
@@ -85,11 +86,9 @@ def test_memory_grows_by_the_numbers_that_are_recorded_and_no_more(name: str) ->
 
 def test_a_record_takes_its_numbers() -> None:
     scene = long_runs.scene(long_runs.SMOOTH, 4.0)
-    # four bodies with nine numbers each, time and three integrals; three ideal pins with two multipliers, two
-    # columns with one; one loose pin
-    bodies = len(scene.linkage.bodies)
-    ideal = len(scene.linkage.pins) - 1
-    numbers = 9 * bodies + 4 + 2 * ideal + 2 + len(PinMemory._fields)
+    # four bodies with six numbers each, time and three integrals; one loose pin. Accelerations and joint forces
+    # follow from these after the run
+    numbers = 6 * len(scene.linkage.bodies) + 4 + len(PinMemory._fields)
     assert long_runs.record_bytes(scene) == 8 * numbers
 
 
@@ -98,9 +97,16 @@ def test_a_record_takes_its_numbers() -> None:
 
 def test_after_a_thousand_revolutions_a_crank_is_where_the_closed_form_says() -> None:
     rate = 2.0 * math.pi * 100.0
-    # places alone: so coarse that energies would not add up
-    asked = ("slider.x", "crank.angle")
-    turning = slider_crank(10.0, drive=Steady(rate=rate), step=5e-4, record_period=0.0125, channels=asked)
+    # twenty steps to a revolution: at the default spectral radius of 0.5 the engine's moments lag so far behind
+    # that 2.7 J of work a revolution do not add up; at 0.9 it is 0.02 J
+    turning = slider_crank(
+        10.0,
+        drive=Steady(rate=rate),
+        step=5e-4,
+        record_period=0.0125,
+        channels=("slider.x", "crank.angle"),
+        solver=SolverSettings(spectral_radius=0.9),
+    )
     result = simulate(turning)
     machine = result.scenario.machine
     last = result.time > 9.0
