@@ -37,6 +37,7 @@ COARSE = (
     "Steps are too long for what happens in them: take a smaller `step` or more `solver.impact_steps`, look "
     "whether friction is steep (its ramp from static to dynamic speed), or ask for an accuracy."
 )
+UNSAID = " If that does not help: a drive of one's own whose speed jumps has to say so in its `breaks`."
 ENDS = "Close its inlet earlier, open it less, or take a longer cylinder."
 APART = 1e-4  # [m] that what is joined may be apart
 DRIFTED = "Take constraint_index 3, a smaller `step` or a smaller `solver.newton_tolerance`."
@@ -74,7 +75,7 @@ def _reasons(scenario: Scenario, outcome: Outcome, channels: Mapping[str, Channe
             f"energy does not add up: it is open by {open_by.max():.3g} J; allowed: {OPEN:.0%} of what was "
             f"turned over, {allowed:.3g} J"
         )
-        yield Failure(reason, COARSE, float(time[first]), finer=True)
+        yield Failure(reason, COARSE + UNSAID, float(time[first]), finer=True)
     yield from _losses(scenario, outcome, channels)
     yield from _pistons_at_ends(scenario, outcome)
     if (gap := joints_apart(scenario, outcome)) is not None and (gap > APART).any():

@@ -14,6 +14,7 @@ from support_exudyn import (
     Held,
     Reciprocating,
     Scenario,
+    SimulationError,
     Steady,
     UniformSpeed,
     ravn_slider_crank,
@@ -129,6 +130,27 @@ def test_the_crank_is_where_the_drive_says(drive: Drive) -> None:
     wanted = start + np.array([drive.extension(t) for t in result.time.tolist()])
     # Newton's method ends at 1e-8 of the first residual; rounding of a few radians is 1e-15
     np.testing.assert_allclose(result["crank.angle"], wanted, rtol=0.0, atol=1e-11)
+
+
+@value
+class Silent(Branching):
+    """Its speed jumps, and it does not say so."""
+
+    def speed_jump(self, t: float) -> float:
+        """None is told."""
+        return 0.0
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """None is told."""
+        return ()
+
+
+@pytest.mark.parametrize("step", [2e-5, 2e-6])
+def test_a_jump_that_a_drive_does_not_tell_is_refused_at_any_step(step: float) -> None:
+    # the work is off by 21 J however short steps are; at the longer one forces just after it by a third
+    with pytest.raises(SimulationError, match=r"energy does not add up.*has to say so in its `breaks`"):
+        simulate(replace(TURN, drive=Silent(), step=step))
 
 
 def test_python_and_the_engine_agree(monkeypatch: pytest.MonkeyPatch) -> None:
