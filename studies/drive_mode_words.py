@@ -99,7 +99,7 @@ def _findings(
 
 
 def _converging_said(rows: Rows) -> str:
-    """How many numbers converge, which do not, and how many cannot be judged."""
+    """How many numbers converge, and which do not."""
     said = f"{sum(row[-1] == CONVERGES for row in rows)} of {len(rows)} numbers converge under step halving."
     if diverging := sorted({f"{row[1]} in {row[0]}" for row in rows if row[-1] == DIVERGES}):
         said += f" Not so: {'; '.join(diverging)}."
