@@ -114,7 +114,8 @@ def short_convergence_sheet(results: Mapping[str, Result], naive: Mapping[float,
 
 def naive_said(peaks: Mapping[float, float]) -> str:
     """Peaks of the stock recipe [deg/s^2] by its steps [s], in words."""
-    values, steps = ", ".join(f"{peak:.0f}" for peak in peaks.values()), ", ".join(f"{1e3 * h:g}" for h in peaks)
+    values = ", ".join(f"{peak:.0f}" for peak in peaks.values())
+    steps = ", ".join(f"{1e3 * step:g}" for step in peaks)
     return f"{values} deg/s² at {steps} ms"
 
 
