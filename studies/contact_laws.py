@@ -136,7 +136,7 @@ def _off(values: Mapping[tuple[str, str], float], case: str) -> float:
     return abs(values["delivered_restitution", case] - values["closed_form_restitution", case])
 
 
-def rise_table(numbers: Sequence[Number], quick: bool) -> Sheet:
+def rise_table(numbers: Sequence[Number]) -> Sheet:
     """The rise under each law, a row a law."""
     found = by_case(numbers)
     rows = []
@@ -149,7 +149,7 @@ def rise_table(numbers: Sequence[Number], quick: bool) -> Sheet:
         rows=tuple(rows),
         caption=(
             "± is the estimated error, of three runs. Mean and std: 3 to 5 s, every "
-            f"{1e3 * RISE_STEP[quick]:g} ms; the rest: 0 to 5 s. Laws without damping, or with little under "
+            f"{1e3 * RISE_STEP:g} ms; the rest: 0 to 5 s. Laws without damping, or with little under "
             "load, never come to rest: their numbers are those of a chaotic vibration, and the ± says so."
         ),
     )
@@ -170,7 +170,7 @@ def chapter(restitutions: Sequence[Number], risen: Sequence[Number], quick: bool
         method=_method(quick),
         findings=(*_impact_findings(restitutions), *_rise_findings(risen)),
         pictures=pictures(),
-        sheets=(restitution_table(restitutions), rise_table(risen, quick)),
+        sheets=(restitution_table(restitutions), rise_table(risen)),
         quick=quick,
     )
 
@@ -193,8 +193,8 @@ def _method(quick: bool) -> tuple[str, ...]:
         f"bore radius of {1e3 * bearing.bore_radius:g} mm.",
         "A contact that does not part is damped by the depth it reaches (DepthSpeed); two more rises use the "
         "textbook's speed of the last touch, with two floors below which that speed is not let fall.",
-        f"In the first run an undamped free impact takes {IMPACT_STEPS[quick]} steps, one in the rise "
-        f"{RISE_IMPACT_STEPS[quick]}. Between impacts its step is {1e3 * RISE_STEP[quick]:g} ms, and so is the "
+        f"In the first run an undamped free impact takes {IMPACT_STEPS} steps, one in the rise "
+        f"{RISE_IMPACT_STEPS[quick]}. Between impacts its step is {1e3 * RISE_STEP:g} ms, and so is the "
         "time between two records. "
         f"{how_sure(quick)}",
     )
@@ -274,7 +274,7 @@ def study(chosen: Options) -> None:
     """Run, measure, draw and write everything into the output folder."""
     started = time.perf_counter()
     laws = impact_laws(chosen.quick)
-    impacts = {case: free_impact(law, SPEED, IMPACT_STEPS[chosen.quick]) for case, (law, _) in laws.items()}
+    impacts = {case: free_impact(law, SPEED, IMPACT_STEPS) for case, (law, _) in laws.items()}
     lifted = rises(chosen.quick)
     with worker_pool(chosen.workers) as pool:
         done = run_with_errors(lifted | impacts, pool)
@@ -294,7 +294,7 @@ def study(chosen: Options) -> None:
             "permanent_contact": permanent_figure(risen),
         }
     save_figures(chosen, drawings)
-    tables = [restitution_table(restitutions), rise_table(numbers, chosen.quick)]
+    tables = [restitution_table(restitutions), rise_table(numbers)]
     for name, table in zip(("restitution_table", "rise_table"), tables, strict=True):
         show_table(chosen.out / f"{name}.txt", table, width=200)
     chapter(restitutions, numbers, chosen.quick).save(chosen.out)

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 
 from studies import drive_mode_cases as cases
 from studies import drive_mode_cylinders as cylinders
-from studies.drive_mode_cases import COLUMNS, naive_scenarios, scenarios
+from studies.drive_mode_cases import COLUMNS, naive_peaks, scenarios
 from studies.drive_mode_figures import figures
 from studies.drive_mode_measures import measure
 from studies.drive_mode_tables import convergence_sheet, mode_sheet, saving_sheet
@@ -21,7 +21,6 @@ from studies.drive_mode_words import chapter
 from studies.study import (
     Options,
     options,
-    run_cases,
     run_main,
     run_with_errors,
     save_figures,
@@ -40,7 +39,7 @@ def study(chosen: Options) -> None:
     results = run_with_errors(scenarios(chosen.quick), chosen.workers)
     for name, result in results.items():
         save_run(result, chosen.out, _file_name(name))
-    naive = run_cases(naive_scenarios(), 1)  # short: starting processes takes longer
+    naive = naive_peaks()
     numbers = measure(results)
     with style.look():
         drawings = figures(results) | cylinders.figures(results)

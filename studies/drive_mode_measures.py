@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Literal
 
-import numpy as np
-
 from studies import drive_mode_cylinders as cylinders
 from studies import rise
 from studies.study import Number, measured
@@ -50,11 +48,6 @@ IMPULSES: dict[str, Get] = {
     for place, end in enumerate(("start", "end"))
     for column in ("front_column", "rear_column")
 }
-
-
-def peak_acceleration(result: Result) -> float:
-    """Largest angular acceleration of the rear link at any record [deg/s^2]."""
-    return rise.DEGREES * float(np.abs(result[rise.ACCELERATION]).max())
 
 
 def measure(results: Mapping[str, Result]) -> list[Number]:

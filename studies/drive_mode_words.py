@@ -8,12 +8,12 @@ from studies import drive_mode_cylinders as cylinders
 from studies import paper_machine
 from studies.drive_mode_cases import CLEARANCE_MM, COLUMNS, FRICTION, MODES, PINS, STUDY, case_name
 from studies.drive_mode_figures import pictures
-from studies.drive_mode_measures import peak_acceleration
 from studies.drive_mode_tables import (
     CONVERGES,
     DIVERGES,
     convergence_sheet,
     mode_sheet,
+    naive_said,
     saving_sheet,
     short_convergence_sheet,
 )
@@ -27,7 +27,7 @@ Rows = Sequence[Sequence[str]]  # of the table of step halving
 
 
 def chapter(
-    results: Mapping[str, Result], naive: Mapping[str, Result], numbers: Sequence[Number], quick: bool
+    results: Mapping[str, Result], naive: Mapping[float, float], numbers: Sequence[Number], quick: bool
 ) -> Chapter:
     """The study as a chapter of the report."""
     step = next(iter(halvings(next(iter(results.values()))))).scenario.step
@@ -65,7 +65,7 @@ def chapter(
 
 
 def _findings(
-    results: Mapping[str, Result], naive: Mapping[str, Result], numbers: Sequence[Number]
+    results: Mapping[str, Result], naive: Mapping[float, float], numbers: Sequence[Number]
 ) -> tuple[str, ...]:
     found = by_case(numbers)
 
@@ -82,7 +82,6 @@ def _findings(
     )
     loose, ideal = (value_of("largest_pin_force_in_rise", "mode 1", pin, "oil") for pin in (PINS[1], PINS[0]))
     sheet = convergence_sheet(results)
-    peaks_naive = ", ".join(f"{peak_acceleration(result):.0f}" for result in naive.values())
     return (
         f"On rigid columns the sudden start of mode 1 strikes the front columns with {front:.0f} N s and the "
         f"rear columns with {rear:.0f} N s (1.5 mm; a negative one pulls).",
@@ -93,13 +92,13 @@ def _findings(
         _converging_said(sheet.rows),
         "The curves of the paper's Fig. 13 c and d for mode 1 cannot converge at 3 s and 5 s if its columns "
         "are rigid, as its drive by prescribed displacement suggests: without consistent velocities the peak "
-        f"angular acceleration here is {peaks_naive} deg/s² at 1, 0.5 and 0.25 ms. "
+        f"angular acceleration of a stock recipe is {naive_said(naive)}. "
         f"{_velocity_said(sheet.rows)}",
     )
 
 
 def _converging_said(rows: Rows) -> str:
-    """How many numbers converge, which do not, and how many cannot be judged."""
+    """How many numbers converge, and which do not."""
     said = f"{sum(row[-1] == CONVERGES for row in rows)} of {len(rows)} numbers converge under step halving."
     if diverging := sorted({f"{row[1]} in {row[0]}" for row in rows if row[-1] == DIVERGES}):
         said += f" Not so: {'; '.join(diverging)}."

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import exudyn
@@ -32,31 +32,17 @@ from user_forces.values import InputError, Vector2
 
 
 @dataclass
-class BareScene:
-    """The model without its contact; to be assembled once that has been added.
-
-    bore, journal: markers of both centres. link: the body, not the ground or the slider, that the pin ends.
-    """
+class Frame:
+    """Bodies, weights, ideal pins, columns, cranks and guides; to be assembled."""
 
     scenario: Scenario
     linkage: Linkage
-    contact: JournalContact
     container: Any  # owns the system: must live as long as it
     mbs: Any
     nodes: dict[str, Any]
     columns: list[tuple[Any, float]]  # the engine's object and its length at the start [m]
     cranks: list[Any]
-    bore: Any
-    journal: Any
-    link: str
-    driven: float = 0.0  # extension that the engine has [m] or [rad]
-
-    @property
-    def bore_on_ground(self) -> bool:
-        """Whether the bore's body is the ground."""
-        ((name, pin),) = self.scenario.clearance_pins.items()
-        place = self.linkage.pins[name]
-        return (place.first if pin.bore == "first" else place.second) == GROUND
+    driven: float = field(default=0.0, kw_only=True)  # extension that the engine has [m] or [rad]
 
     def drive_to(self, t: float) -> None:
         """Set columns or cranks to where they are at time t [s]."""
@@ -72,6 +58,26 @@ class BareScene:
     def first(self, body: str) -> int:
         """Where a body's coordinates begin in the vector of all."""
         return int(self.mbs.systemData.GetNodeLTGODE2(self.nodes[body])[0])
+
+
+@dataclass
+class BareScene(Frame):
+    """The model without its contact; to be assembled once that has been added.
+
+    bore, journal: markers of both centres. link: the body, not the ground or the slider, that the pin ends.
+    """
+
+    contact: JournalContact
+    bore: Any
+    journal: Any
+    link: str
+
+    @property
+    def bore_on_ground(self) -> bool:
+        """Whether the bore's body is the ground."""
+        ((name, pin),) = self.scenario.clearance_pins.items()
+        place = self.linkage.pins[name]
+        return (place.first if pin.bore == "first" else place.second) == GROUND
 
 
 def loose_contact(scenario: Scenario) -> tuple[str, JournalContact, str]:
@@ -117,6 +123,13 @@ def bare_scene(scenario: Scenario, aside: float = 0.0) -> BareScene:
     """
     name, contact, bore_on = loose_contact(scenario)
     return _Builder(scenario).build(name, contact, bore_on, aside)
+
+
+def ideal_frame(scenario: Scenario) -> Frame:
+    """The same of a scenario without loose pins."""
+    if scenario.clearance_pins or scenario.columns or scenario.loads or scenario.friction_pins:
+        raise InputError("a competitor with ideal pins takes rigid columns, no loads and no friction")
+    return _Builder(scenario).frame(None)
 
 
 class _Builder:
@@ -181,7 +194,7 @@ class _Builder:
             )
         )
 
-    def build(self, loose: str, contact: JournalContact, bore_on: str, aside: float) -> BareScene:
+    def frame(self, loose: str | None) -> Frame:
         for name, place in self.linkage.pins.items():
             if name != loose:
                 ends = [
@@ -193,22 +206,18 @@ class _Builder:
         cranks = [self.add_crank(crank.body) for crank in self.linkage.cranks.values()]
         for slide in self.linkage.slides.values():
             self.add_slide(slide)
+        return Frame(self.scenario, self.linkage, self.container, self.mbs, self.nodes, columns, cranks)
+
+    def build(self, loose: str, contact: JournalContact, bore_on: str, aside: float) -> BareScene:
+        frame = self.frame(loose)
         place = self.linkage.pins[loose]
         sides = [(place.first, place.first_point), (place.second, place.second_point)]
         (bore_body, bore_point), (journal_body, journal_point) = sides if bore_on == "first" else sides[::-1]
-        bore = self.marker(bore_body, (bore_point[0] + aside, bore_point[1]))
-        journal = self.marker(journal_body, journal_point)
         return BareScene(
-            scenario=self.scenario,
-            linkage=self.linkage,
+            **vars(frame),
             contact=contact,
-            container=self.container,
-            mbs=self.mbs,
-            nodes=self.nodes,
-            columns=columns,
-            cranks=cranks,
-            bore=bore,
-            journal=journal,
+            bore=self.marker(bore_body, (bore_point[0] + aside, bore_point[1])),
+            journal=self.marker(journal_body, journal_point),
             link=place.second,
         )
 

@@ -16,7 +16,7 @@ import exudyn
 import numpy as np
 from exudyn.itemInterface import NodeGenericData, ObjectConnectorRigidBodySpringDamper
 
-from support_exudyn.peers.bare_scene import BareScene, bare_scene, traced
+from support_exudyn.peers.bare_scene import BareScene, Frame, bare_scene, traced
 from support_exudyn.peers.peer_run import PeerRun, touches, undisturbed
 from support_exudyn.scenario import Scenario
 from user_forces.contact import JournalContact
@@ -234,7 +234,7 @@ def fixed_steps(duration: float, step: float, modified_newton: bool = True) -> A
     return settings
 
 
-def solve(scene: BareScene, settings: Any) -> tuple[Any, float]:
+def solve(scene: Frame, settings: Any) -> tuple[Any, float]:
     """Solve; the solver, and how long it took [s]. Raises RuntimeError if it did not finish."""
     solver: Any = exudyn.MainSolverImplicitSecondOrder()
     began = time.perf_counter()
