@@ -18,11 +18,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from studies.benchmarking.estimates import tight_numbers
+from studies.benchmarking.estimates import numbers_of_records, tight_numbers
 from studies.benchmarking.fresh_scenes import Fresh
 from support_exudyn import Failure, Result, Scenario, SimulationError, simulate
 from support_exudyn.choose import FormulationName, settings_for
-from support_exudyn.estimate import measures
 from support_exudyn.formulations import covers
 from support_exudyn.scenario import ACCURACIES, Accuracy
 from support_exudyn.solver_settings import ERROR_CONTROLLED, MOST_IMPACT_STEPS
@@ -182,14 +181,9 @@ def _pair(name: str, pair: Sequence[Scenario]) -> Reference | None:
 
 
 def judged(run: Result, known: Sequence[Reference]) -> Iterator[Judged]:
-    """All numbers of a run beside what is known of them.
-
-    References have the same records: what extremes miss between them is no part of the error that is judged.
-    """
-    kinds = measures(run, 0.0, math.inf)
-    for name, number in run.numbers().items():
-        claimed = number.error - kinds[name].missed(run)
-        yield judge(name, number.value, claimed, run.scenario.formulation, known)
+    """All numbers of a run beside what is known of them."""
+    for name, number in numbers_of_records(run).items():
+        yield judge(name, number.value, number.error, run.scenario.formulation, known)
 
 
 def judge(name: str, value: float, claimed: float, formulation: str, known: Sequence[Reference]) -> Judged:

@@ -83,13 +83,11 @@ def error_over_time(result: Result, name: str) -> Series | None:
     coarser = result.coarser
     if coarser is None or name not in coarser.channels or coarser[name].shape != result[name].shape:
         return None
-    distance = np.abs(result[name] - coarser[name])
-    r = result.fall
+    last, before, r = np.abs(result[name] - coarser[name]), np.zeros_like(result[name]), result.fall
     if coarser.coarser is not None and name in coarser.coarser.channels:
-        distance = np.maximum(distance, believed(result, r) * np.abs(coarser[name] - coarser.coarser[name]))
+        before = np.abs(coarser[name] - coarser.coarser[name])
     rounding = ROUNDING * float(np.abs(result[name]).max())
-    found: Series = multiple(result, r) * distance + rounding
-    return found
+    return multiple(result, r, last, before) * believed(result, r, last, before) + rounding
 
 
 def over_time(result: Result, channels: Sequence[str], start: float = 0.0, until: float = math.inf) -> Figure:

@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
+from studies.benchmarking.estimates import numbers_of_records
 from support_exudyn import (
     ClearancePin,
     CubicStep,
@@ -336,7 +337,7 @@ def checked() -> list[Case]:
             for goal in GOALS:
                 run = simulate(scene, accuracy=goal)
                 assert run.scenario.formulation == "reduced"
-                numbers = {n: number for n, number in run.numbers().items() if n in known}
+                numbers = {n: number for n, number in numbers_of_records(run).items() if n in known}
                 true = np.array([abs(number.value - known[n]) for n, number in numbers.items()])
                 said = np.array([number.error for number in numbers.values()])
                 found.append(Case(kind, goal, run.met, off(run, tight), true, said))
@@ -365,9 +366,10 @@ def test_estimates_cover_the_true_errors_without_much_overstatement(checked: lis
     assert everything["numbers"] > 10_000
     # what is promised
     assert everything["covered"] >= 0.98
-    assert everything["worst"] < 5.0  # measured: 3.9
-    # redundant runs are told more closely; of all kinds together it is 10, see `studies.coverage`
-    assert everything["overstated"] <= 15.0
+    assert everything["worst"] < 5.0  # measured: 3.1
+    # as far as runs are not as close as rounding, which is added to every estimate; measured: 9.8
+    assert figures([case for case in checked if case.goal > GOALS[-1]])["overstated"] <= 10.0
+    assert everything["overstated"] <= 12.0  # measured: 11.5
 
 
 def test_no_kind_of_scene_and_no_goal_is_much_worse_than_all(checked: list[Case]) -> None:
@@ -375,8 +377,8 @@ def test_no_kind_of_scene_and_no_goal_is_much_worse_than_all(checked: list[Case]
     chosen += [[case for case in checked if case.goal == goal] for goal in GOALS]
     for some in chosen:
         # some thousand numbers of a few dozen scenes hang together
-        assert figures(some)["covered"] >= 0.97  # measured: 0.98 and more
-        assert figures(some)["overstated"] <= 30.0  # measured: 24, of a goal of 1e-6
+        assert figures(some)["covered"] >= 0.97  # measured: 0.973 and more
+        assert figures(some)["overstated"] <= 20.0  # measured: 19.5, of a goal of 1e-6, where rounding counts
 
 
 def test_a_goal_that_is_said_to_be_met_is_met(checked: list[Case]) -> None:

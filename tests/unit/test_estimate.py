@@ -19,9 +19,11 @@ from support_exudyn.estimate import (
     FASTEST,
     FIRST_ORDER,
     ONSETS,
+    OWN,
     ROUNDING,
     SAFETY_OF_WORST,
     SLOWEST,
+    SLOWEST_OWN,
     measures,
 )
 from support_exudyn.estimate import SAFETY as SAFETY_OF
@@ -201,16 +203,42 @@ def test_a_number_on_which_all_runs_agree_by_chance_is_as_wrong_as_its_family_is
     assert run.numbers()[other].error == pytest.approx(last.numbers()[other].error, rel=1e-9)
 
 
-def test_a_mean_is_as_wrong_as_the_spread_of_its_force_is_mostly() -> None:
+def test_a_mean_is_as_wrong_as_the_spread_of_its_force() -> None:
     r, share, mean = 0.25, 1e-2, float(exact()[FORCE].mean())
     around = exact()[FORCE] - mean
     run = three(*(with_channel(exact(), FORCE, mean + (1.0 + share * r**n) * around) for n in range(3)))
-    distance = ALIKE * share * r * (1.0 - r) * mean
+    distance = ALIKE * share * r * (1.0 - r) * float(np.std(around))
     told = run.numbers()[f"{FORCE}.mean"]
     assert told.error == pytest.approx(SAFETY * distance * r / (1.0 - r), rel=2e-3)
     # of other forces nothing is known by it
     other = run.numbers()["front_column.force.mean"]
     assert other.error < 1e-8 * other.value
+
+
+def test_the_spread_of_a_force_that_hardly_varies_says_little_of_its_mean() -> None:
+    mean = float(exact()[FORCE].mean())
+    noise = 1e-8 * mean * (-1.0) ** np.arange(exact()[FORCE].size)
+    # the spread falls by a quarter from run to run, and is nearly all wrong; the mean is right to 1e-8
+    run = three(*(with_channel(exact(), FORCE, mean + 0.25**n * noise) for n in range(3)))
+    told = run.numbers()
+    assert told[f"{FORCE}.spread"].error > told[f"{FORCE}.spread"].value
+    assert told[f"{FORCE}.mean"].error < 1e-8 * mean
+
+
+@pytest.mark.parametrize("own", [0.05, 0.4, 0.9])
+def test_a_number_that_falls_slower_than_others_has_a_larger_error(own: float) -> None:
+    r, share = 0.25, 1e-3
+    forces = (1.0 + share, 1.0 + share * own, 1.0 + share * own**2)
+    runs = [with_force(scaled(1.0 + share * r**n), k / (1.0 + share * r**n)) for n, k in enumerate(forces)]
+    run = three(*runs)
+    assert run.fall == pytest.approx(r, rel=1e-9)  # of most
+    # rates are believed in part and to a limit; faster ones than most are not
+    taken = max(r, min(OWN * own, SLOWEST_OWN))
+    distance = share * (1.0 - own) * max(own, CHOSEN) * float(exact()[FORCE].max())
+    least = ALIKE * share * r * (1.0 - r) * float(exact()[FORCE].max())
+    name = f"{FORCE}.largest"
+    told = run.numbers()[name].error - between_records(run, name)
+    assert told == pytest.approx(SAFETY * max(distance, least) * taken / (1.0 - taken), rel=5e-3)
 
 
 def test_runs_that_are_all_the_same_are_right_to_rounding() -> None:
