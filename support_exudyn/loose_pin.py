@@ -250,7 +250,10 @@ class LoosePin:
         self.force = force = self._contact_force(relative)
         if self._spin_was_wrong():
             return math.inf
-        if start.in_contact and (again := self._friction.after_newton(force, self._step, self._mass)) is not None:
+        if (
+            start.in_contact
+            and (again := self._friction.after_newton(force, self._step, self._mass)) is not None
+        ):
             self._touch = ()  # another line is laid
             self._recall(start)
             return again
