@@ -14,7 +14,11 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable
+from functools import partial
+from types import SimpleNamespace
+from typing import Any, cast
 
+from user_forces.contact import JournalContact
 from user_forces.friction.law import FrictionLaw
 
 MEETS = 1e-6  # share of the largest friction so far, by which line and law may differ
@@ -86,6 +90,19 @@ class FrictionLine:
     def _ratio(self, normal_force: float) -> Callable[[float], float]:
         force = max(normal_force, 1.0)
         return lambda slip: float(self._law(slip, force)) / force
+
+
+def straightened(contact: JournalContact, offset: Any, slope: Any) -> JournalContact:
+    """The contact with a line in place of its law of friction; offset and slope may be expressions."""
+
+    def line(slip: Any, normal_force: Any, deflection: float = 0.0) -> Any:
+        return normal_force * (slip * slope + offset)
+
+    friction: Any = line
+    friction.has_state = False
+    found: Any = SimpleNamespace(bearing=contact.bearing, normal=contact.normal, friction=friction)
+    found.force = partial(JournalContact.force, found)
+    return cast(JournalContact, found)
 
 
 def _meeting(ratio: Callable[[float], float], free: float, softness: float) -> float:

@@ -10,16 +10,15 @@ import exudyn
 
 from support_exudyn.attachment import Attachment, Relative, attachment, in_plane
 from support_exudyn.connector import Frame, PinConnector, displacement_scale
-from support_exudyn.friction_line import FrictionLine
 from support_exudyn.impact_steps import ImpactSteps
 from support_exudyn.onset import Action, Mobility, Onset, PinMemory, Verdict, goes_on, judge, judge_at_ends
 from support_exudyn.pin_motion import Motion, Moving, PinMotion
 from support_exudyn.pressed import NOT_KNOWN, Mobilities
 from support_exudyn.python_force import PythonForce
+from support_exudyn.steep_friction import EngineForce, SteepFriction
 from support_exudyn.symbolic_force import SymbolicForce
 from user_forces.contact import ContactForce, JournalContact
 from user_forces.flat import flat_force
-from user_forces.friction.frictionless import Frictionless
 from user_forces.normal.law import Touch
 from user_forces.values import Vector2
 
@@ -63,17 +62,18 @@ class LoosePin:
         self.turns = at is Attachment.CENTRAL and bore_node is not None  # the bore, in the connector's axes
         self.impact = ImpactSteps(contact.normal, impact_steps)
         self.connector = PinConnector(mbs, bore, journal, turn, at, contact.bearing.clearance)
-        self.engine_force: SymbolicForce | PythonForce = (
-            SymbolicForce(mbs, contact, at) if symbolic else PythonForce(contact, at, self._bore_spin)
-        )
+
+        def engine_force(straight: bool) -> EngineForce:
+            if symbolic:
+                return SymbolicForce(mbs, contact, at, straight)
+            return PythonForce(contact, at, self._bore_spin, straight)
+
+        self._friction = SteepFriction(contact.friction, engine_force)
         self.connector.set_force(self.engine_force.function)
-        self._plain_force = self.engine_force
         self._force = flat_force(contact)
         # whether the force depends on more than the touch from step to step
         self._changes = contact.friction.has_state or at is Attachment.MIDDLE or self.turns
         self._touch: tuple[object, ...] = ()
-        self._line: FrictionLine | None = None  # that stands for the law of friction, where that is too steep
-        self._straight: PythonForce | None = None  # the engine's force with it
         # set when the scene is whole
         self.find_mobilities: Callable[[], Mobilities] = lambda: NOT_KNOWN  # as they are now
         self.motion: PinMotion | None = None
@@ -114,9 +114,14 @@ class LoosePin:
         self.largest_force = 0.0
 
     @property
+    def engine_force(self) -> EngineForce:
+        """What the engine asks for the force."""
+        return self._friction.acting
+
+    @property
     def calls(self) -> int:
         """Evaluations of the force in Python."""
-        return self._plain_force.calls + (self._straight.calls if self._straight else 0)
+        return self._friction.calls
 
     @property
     def longest_step(self) -> float:
@@ -157,8 +162,7 @@ class LoosePin:
         self.onset = None
         self.wants_cut = False
         self._step = step
-        if self._line is not None:
-            self._line.begin()
+        self._friction.begin()
         if self.at is Attachment.MIDDLE:
             self._guess(step)
         elif self.turns:
@@ -178,9 +182,8 @@ class LoosePin:
         """After a step that ends at t [s] has been accepted: keep what happened in it."""
         was_in_contact = self.kept.in_contact
         self.kept = reached = self.reached
-        if self._line is not None and not reached.in_contact:
-            self._line = None
-            self._let_act(self._plain_force)
+        if not reached.in_contact and self._friction.part():
+            self._let_act()
         if was_in_contact and not reached.in_contact and self.onsets:
             self.onsets[-1] = self.onsets[-1].parted(t, -reached.rate)
         if self.at is Attachment.MIDDLE:
@@ -247,8 +250,13 @@ class LoosePin:
         self.force = force = self._contact_force(relative)
         if self._spin_was_wrong():
             return math.inf
-        if self._line is not None and self.memory.in_contact and not self._line_meets(self._line):
-            return 0.5 * self._step if self._line.exhausted else math.inf
+        if (
+            start.in_contact
+            and (again := self._friction.after_newton(force, self._step, self._mass)) is not None
+        ):
+            self._touch = ()  # another line is laid
+            self._recall(start)
+            return again
         depth, rate, slip = force[:3]
         if goes_on(start, depth, rate, self._step):
             self.reached = start.at(depth, rate, slip, force.deflection)
@@ -256,40 +264,20 @@ class LoosePin:
         return self._decided(start, self._verdict(start, t))
 
     def straighten(self) -> bool:
-        """Let a straight line stand for the law of friction until the surfaces part; whether that is new.
-
-        For steps in which Newton's method has failed. Not for laws with a state, nor for forces that the engine
-        evaluates.
-        """
-        law = self.contact.friction
-        rough = isinstance(self._plain_force, PythonForce) and not isinstance(law, Frictionless)
-        if self._line is not None or not rough or law.has_state or not self.kept.in_contact:
+        """Newton's method has failed: let a straight line stand for friction; whether that is new."""
+        if not self.kept.in_contact or not self._friction.straighten(self.kept.slip, self.force.normal_force):
             return False
-        if self._straight is None:
-            self._straight = PythonForce(self.contact, self.at, self._bore_spin, straight=True)
-        self._line = FrictionLine(law)
-        self._line.lay(self.kept.slip, self.force.normal_force)
-        self._let_act(self._straight)
+        self._let_act()
         return True
 
     def rounding(self, step: float, size: float) -> float:
-        """By how much friction scatters in a step, see `FrictionLine.rounding`; 0 without such a line."""
-        return 0.0 if self._line is None else self._line.rounding(self.force.normal_force, size, step)
+        """By how much friction scatters in a step [N], see `FrictionLine.rounding`."""
+        return self._friction.rounding(self.force.normal_force, size, step)
 
-    def _let_act(self, force: SymbolicForce | PythonForce) -> None:
-        self.engine_force = force
-        self.connector.set_force(force.function)
-        self._touch = ()  # it has been told nothing yet
-
-    def _line_meets(self, line: FrictionLine) -> bool:
-        """Whether the line gave the friction of the law in the step that has been tried; else it is another."""
-        force = self.force
-        softness = force.normal_force * self._step / self._mass
-        if line.meets(force.slip, force.normal_force, softness):
-            return True
+    def _let_act(self) -> None:
+        """Another force acts from now on, which has been told nothing yet."""
+        self.connector.set_force(self.engine_force.function)
         self._touch = ()
-        self._recall(self.memory)
-        return False
 
     def _decided(self, start: PinMemory, verdict: Verdict) -> float | None:
         """The answer to the engine that follows from a verdict."""
@@ -340,8 +328,7 @@ class LoosePin:
         if touch != self._touch or self._changes:
             self._touch = touch
             self._here, self._alone_here = self._turned(memory.mobility), self._turned(self._alone)
-            if self._line is not None and self._straight is not None:
-                self._straight.lay(self._line.offset, self._line.slope)
+            self._friction.lay()
             self.engine_force.load(memory, self._here, self._step, self._guessed_spin, self._guessed_turn)
 
     def _turned(self, mobility: Mobility) -> Mobility:

@@ -8,12 +8,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from functools import partial
-from types import SimpleNamespace
-from typing import Any, cast
+from typing import Any
 
 from support_exudyn.attachment import Attachment, Relative, rough_force
 from support_exudyn.connector import displacement_scale
+from support_exudyn.friction_line import straightened
 from support_exudyn.onset import Mobility, PinMemory
 from user_forces.contact import JournalContact, SlipHistory
 from user_forces.flat import Formulas, Line, compiled, depth_check, lines, needed, text, traceable
@@ -39,7 +38,9 @@ class PythonForce:
         self, contact: JournalContact, at: Attachment, bore_spin: Callable[[], float], straight: bool = False
     ) -> None:
         self._has_state = contact.friction.has_state
-        formulas = _straightened(contact) if straight else traceable(contact)
+        formulas = traceable(contact)
+        if straight:
+            formulas = straightened(formulas, *(Line(name, {}) for name in LINE))
         if at is Attachment.LINE:
             source = _line(formulas)
         elif at is Attachment.CENTRAL:
@@ -83,20 +84,6 @@ class PythonForce:
     def lay(self, offset: float, slope: float) -> None:
         """Set the line that friction follows."""
         self._names["offset"], self._names["slope"] = offset, slope
-
-
-def _straightened(contact: JournalContact) -> JournalContact:
-    """A contact that takes `Line`s, with a straight line in the slip in place of the law of friction."""
-    friction: Any = partial(_straight)
-    friction.has_state = False
-    found: Any = SimpleNamespace(bearing=contact.bearing, normal=traceable(contact).normal, friction=friction)
-    found.force = partial(JournalContact.force, found)
-    return cast(JournalContact, found)
-
-
-def _straight(slip: Line, normal_force: Line, deflection: float = 0.0) -> Line:
-    offset, slope = (Line(name, slip.formulas) for name in LINE)
-    return normal_force * (offset + slope * slip)
 
 
 def _line(contact: JournalContact) -> list[str]:

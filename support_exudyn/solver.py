@@ -24,7 +24,7 @@ from support_exudyn.engine_settings import SMALLEST_STEP, engine_settings, quiet
 from support_exudyn.errors import Failure, SimulationError
 from support_exudyn.estimate import rounding_of_positions
 from support_exudyn.impulse import Impulse
-from support_exudyn.newton_failures import NewtonFailures
+from support_exudyn.newton_method import NewtonMethod
 from support_exudyn.oil import force_rounding
 from support_exudyn.onset import SHARE
 from support_exudyn.progress import Progress
@@ -49,7 +49,6 @@ BREAK_REFINEMENT = 32
 FEW_STEPS = 5
 # Before steps that are so many times shorter than the last, velocities are aligned, see `velocity_jump`.
 MUCH_SHORTER = 8.0
-ROUNDINGS = 10.0  # of a coordinate, by which steep friction scatters: what Newton's method is asked for then
 
 
 class Run:
@@ -75,16 +74,14 @@ class Run:
         self.impulses: list[Impulse] = []
         self.cylinders = tuple(scene.cylinders.values())
         self.valves = any(cylinder.moves for cylinder in self.cylinders)
-        self.unknowns = int(self.data.ODE2Size() + self.data.ODE1Size() + self.data.AEsize())
+        unknowns = int(self.data.ODE2Size() + self.data.ODE1Size() + self.data.AEsize())
         self.settings = engine_settings(
             scenario.solver,
             scenario.duration,
-            self.unknowns,
+            unknowns,
             force_rounding([item.filled for parts in scene.driven for item in parts.oil]),
             bool(self.cylinders),
         )
-        self.size = max(math.hypot(*body.centre) for body in scenario.linkage.bodies.values())  # [m]
-        self.scatters = False  # whether steep friction does, see `LoosePin.rounding`
         self.locates = scenario.solver.locate
         self.impact_steps = scenario.solver.impact_steps
         # what a load does need not show in accelerations, and long steps would pass over where it begins
@@ -96,7 +93,8 @@ class Run:
         self.most_steps = scenario.solver.most_steps
         self.trying = False  # a step has been tried and not accepted yet
         self.repeated = False  # that step is tried again, shorter
-        self.newton = NewtonFailures(scenario.step)
+        newton = self.settings.timeIntegration.newton
+        self.newton = NewtonMethod(self.solver, newton, scenario, self.pins, unknowns)
         # whether anything of the model has to follow a drive, and whether Python has to see every step
         self.follows = self.valves or any(parts.moves(scenario.duration) for parts in scene.driven)
         self.watches = bool(self.pins or self.frictions or self.strikers) or self.smooth is not None
@@ -133,7 +131,7 @@ class Run:
         except exudyn.ExudynError as error:
             raise SimulationError(self._failure(*why(error, self.scene, self._ahead))) from error
         if not finished or self.time < self.plan.duration * (1.0 - 1e-9):
-            advice = f"{ADVICE} {STEEP}" if self.newton.of_step and self._has_friction() else ADVICE
+            advice = f"{ADVICE} {STEEP}" if self.newton.failures.of_step and self._has_friction() else ADVICE
             told = unlawful(self.scene, self._ahead) or ("the solver gave up", advice)
             raise SimulationError(self._failure(*told))
         return Counts(
@@ -196,22 +194,14 @@ class Run:
                 self.cut_steps += 1
             else:
                 self.failed_newton += 1
-                straightened = [pin.straighten() for pin in self.pins]
-                if not any(straightened):
-                    self.newton.failed()
-                if self.newton.wants_new_jacobians:
-                    self.solver.newton.useModifiedNewton = False
+                self.newton.failed()
         self.trying = True
         self.scene.drive_to(t)
         if self.pins:
             step = float(self.solver.it.currentStepSize)
             for pin in self.pins:
                 pin.begin_try(step)
-            rounding = sum(pin.rounding(step, self.size) for pin in self.pins)
-            if rounding > 0.0 or self.scatters:
-                self.scatters = rounding > 0.0
-                least = self.settings.timeIntegration.newton.absoluteTolerance
-                self.solver.newton.absoluteTolerance = max(least, ROUNDINGS * rounding / self.unknowns)
+            self.newton.begin(step)
         return True
 
     def _follow(self, mbs: Any, t: float) -> bool:
@@ -255,7 +245,7 @@ class Run:
             self.trying = False
             self.steps += 1
             self._look_for_limits()
-            self._solved(taken)
+            self.newton.solved(taken)
             for pin in self.pins:
                 kink = kink or pin.onset is not None
                 pin.accept(t)
@@ -331,7 +321,7 @@ class Run:
     def _look_for_limits(self) -> None:
         """Raise SimulationError if a journal is too deep, or there were too many steps, or too many failed."""
         self._count()
-        if self.newton.too_many:
+        if self.newton.failures.too_many:
             reason = f"Newton's method has failed {self.failed_newton} times, and needs next to no step"
             raise SimulationError(self._failure(reason, STEEP))
         if not self.scene.scenario.solver.audit:
@@ -340,12 +330,6 @@ class Run:
             bearing = pin.contact.bearing
             if pin.reached.depth > DEEPEST * bearing.bore_radius:
                 raise SimulationError(self._failure(too_deep(name, pin.reached.depth, bearing), SOFT))
-
-    def _solved(self, taken: float) -> None:
-        """A step of this length [s] has been solved: what follows for the next?"""
-        if self.newton.wants_new_jacobians:
-            self.solver.newton.useModifiedNewton = self.settings.timeIntegration.newton.useModifiedNewton
-        self.newton.solved(taken, any(pin.impact.begins_with_a_jump for pin in self.pins))
 
     def _look_for_smoothness(self, t: float, smooth: SmoothSteps) -> None:
         """A step has ended at t: may the next be longer? And the records that it has passed over."""
@@ -385,7 +369,7 @@ class Run:
 
     def _longest_step(self, t: float) -> float:
         """How long a step from t [s] on may be [s]; infinite: as the plan says."""
-        largest = self.newton.length
+        largest = self.newton.failures.length
         for pin in self.pins:
             largest = min(largest, pin.longest_step)
         for striker in self.strikers:

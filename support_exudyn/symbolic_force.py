@@ -17,6 +17,7 @@ from exudyn.advancedUtilities import CreateSymbolicUserFunction
 
 from support_exudyn.attachment import Attachment, Relative, rough_force
 from support_exudyn.connector import displacement_scale, user_function
+from support_exudyn.friction_line import straightened
 from support_exudyn.onset import Mobility, PinMemory
 from user_forces.contact import SMALLEST, JournalContact, SlipHistory
 from user_forces.normal.law import Touch
@@ -114,11 +115,12 @@ class SymbolicForce:
         mbs: the engine's system.
         contact: bearing and laws.
         at: what the force acts on.
+        straight: whether friction follows a line, see `friction_line`, that is laid by `lay`.
     """
 
     calls = 0  # in Python
 
-    def __init__(self, mbs: Any, contact: JournalContact, at: Attachment) -> None:
+    def __init__(self, mbs: Any, contact: JournalContact, at: Attachment, straight: bool = False) -> None:
         number = next(_numbers)
 
         def variable(name: str, value: float = 0.0) -> Any:
@@ -129,7 +131,8 @@ class SymbolicForce:
         self._history = [variable("deflection"), variable("slip"), variable("step")]
         self._bore_spin = variable("bore_spin")
         self._scale = variable("scale", 1.0)
-        self._contact = contact
+        self._line = [variable("offset"), variable("slope")]
+        self._contact = straightened(contact, *map(_unknown, self._line)) if straight else contact
         self._at = at
         self._loaded: tuple[object, ...] = ()
         item, self.name = user_function(at)
@@ -157,6 +160,10 @@ class SymbolicForce:
             self._scale.SetValue(displacement_scale(turn))
             self._bore_spin.SetValue(bore_spin)
 
+    def lay(self, offset: float, slope: float) -> None:
+        """Set the line that friction follows."""
+        _set(self._line, (offset, slope))
+
     def expression(self) -> Callable[..., Any]:
         """A function of the engine's signature, to be called once with the engine's symbols.
 
@@ -166,7 +173,7 @@ class SymbolicForce:
         if self._at is Attachment.LINE:
 
             def line(mbs, t, itemNumber, deltaL, deltaL_t, stiffness, damping, force):  # type: ignore[no-untyped-def] # noqa: N803
-                return self._line(deltaL, deltaL_t)
+                return self._between(deltaL, deltaL_t)
 
             return line
         if self._at is Attachment.CENTRAL:
@@ -206,7 +213,7 @@ class SymbolicForce:
 
         return rough
 
-    def _line(self, depth: Any, rate: Any) -> Any:
+    def _between(self, depth: Any, rate: Any) -> Any:
         """The force from depth and rate alone."""
         asked = self._contact.normal(_unknown(depth), _unknown(rate), Touch(self._speed, math.nan))
         return _real(where(cast(Any, Symbol(depth) > _unknown(self._surface)), maximum(asked, 0.0), 0.0))

@@ -206,10 +206,10 @@ def test_an_interruption_waits_for_an_import_to_end(monkeypatch: pytest.MonkeyPa
 
 @value
 class Killing(LankaraniNikravesh):
-    """Has its process killed once the journal is deep enough."""
+    """Has its process killed once the journal is deep in an impact; laws are looked at before at rest."""
 
     def __call__(self, depth: float, rate: float, touch: Touch) -> float:
-        if depth > 1e-5:
+        if depth > 1e-5 and rate > 0.0:
             os.kill(os.getpid(), signal.SIGKILL)
         return super().__call__(depth, rate, touch)
 

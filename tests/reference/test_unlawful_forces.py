@@ -58,7 +58,7 @@ class Spring(NormalLaw):
 
 
 @value
-class Nothing(Spring):
+class NoNumber(Spring):
     def __call__(self, depth: float, rate: float, touch: Touch) -> float:
         return where(depth > 2e-5, math.nan, self.stiffness * depth)
 
@@ -134,7 +134,7 @@ def refused(scenario: Scenario, *said: str) -> Failure:
 @pytest.mark.parametrize(
     ("normal", "friction", "said"),
     [
-        (Nothing(), None, "Nothing gives a force of nan N"),
+        (NoNumber(), None, "NoNumber gives a force of nan N"),
         (Endless(), None, "Endless gives a force of inf N"),
         (WrongSign(), None, "WrongSign drives the motion"),
         (Pulling(), None, "Pulling has an elastic force of -1 N"),

@@ -65,7 +65,8 @@ def test_other_programs_keep_their_interruptions(code: str) -> None:
     ("words", "ours"),
     [
         ("python -m support_exudyn run", True),
-        ("python -X dev -W error -m studies.which_pin", True)("python -msupport_exudyn", True),
+        ("python -X dev -W error -m studies.which_pin", True),
+        ("python -msupport_exudyn", True),
         ("python -u -m studies", True),
         ("python -m pytest -m studies", False),
         ("python -m studies_of_mine", False),
