@@ -28,6 +28,9 @@ BEYOND = 0.1  # of that share is a cut step aimed behind the touch or parting, s
 # the middle and times four, and the depth, per length of the step. A swing of which the step is a third keeps
 # within both.
 DOUBT, DOUBT_OF_DEPTH = 0.5, 1.0 / 64.0
+# [m] over which no turn of a depth can be told: places of machines are rounded to some 1e-13 m 300 m from the
+# origin, and a pin that rests moves less
+STILL = 1e-12
 
 
 class Mobility(NamedTuple):
@@ -199,10 +202,12 @@ class DepthPath(NamedTuple):
         return x if 0.0 < x <= 1.0 else None
 
     def may_turn(self, doubt: float = DOUBT) -> bool:
-        """Whether the rate, of one sign at both ends, may pass zero in between.
+        """Whether the rate, of one sign at both ends, may pass zero in between, if the pin moves at all.
 
         doubt: how far it may be off this cubic's, see `DOUBT`.
         """
+        if self.step * max(abs(self.rate0), abs(self.rate1)) < STILL:
+            return False
         sign = -1.0 if self.rate0 + self.rate1 < 0.0 else 1.0
         rate0, rate1, bend = sign * self.rate0, sign * self.rate1, sign * self._bend
         off = doubt * self._swing

@@ -11,7 +11,7 @@ rounding shows at short steps. Nothing here is divided by a step.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -153,38 +153,47 @@ def twist(forces: Series, motion: BodyMotion, body: str, moment: Series) -> None
         forces[:, motion.first(body) + 2] += moment
 
 
-class Equations:
-    """The equations of motion at all records, to be solved for any forces.
+def equations(motion: BodyMotion, held: Held, driven: Series) -> Equations:
+    """Those of all bodies of a plane.
 
     Arguments:
         motion: positions and velocities of all bodies.
         held: what is held.
         driven: second derivatives of what drives move, (n, columns and cranks) [m/s^2], [rad/s^2].
     """
+    bodies = motion.linkage.bodies.values()
+    mass = np.array([part for body in bodies for part in (body.mass, body.mass, body.inertia)])
+    wanted = -turning(motion, held)
+    wanted[:, held.driven] += driven
+    return Equations(matrix(motion, held), wanted, lambda forces: forces / mass)
 
-    def __init__(self, motion: BodyMotion, held: Held, driven: Series) -> None:
-        bodies = motion.linkage.bodies.values()
-        mass = np.array([part for body in bodies for part in (body.mass, body.mass, body.inertia)])
-        self._rows = matrix(motion, held)
-        self._wanted = -turning(motion, held)
-        self._wanted[:, held.driven] += driven
-        self._mass = mass
-        self._square = self._rows @ (np.swapaxes(self._rows, 1, 2) / mass[:, None])  # C M^-1 C^T
+
+class Equations:
+    """The equations of motion at all records, to be solved for any forces.
+
+    Arguments:
+        rows: C, (n, rows, coordinates).
+        wanted: C a, (n, rows).
+        lightness: gives M^-1 f for forces f on all coordinates, (n, ..., coordinates).
+    """
+
+    def __init__(self, rows: Series, wanted: Series, lightness: Callable[[Series], Series]) -> None:
+        self._rows, self._wanted, self._lightness = rows, wanted, lightness
+        self._square = rows @ np.swapaxes(lightness(rows), 1, 2)  # C M^-1 C^T
 
     def solve(self, forces: Series) -> tuple[Series, Series]:
-        """Accelerations (n, 3 b) and L (n, rows) under forces on all coordinates (n, 3 b)."""
+        """Accelerations (n, coordinates) and L (n, rows) under forces on all coordinates."""
         held = np.zeros(self._wanted.shape)
-        acceleration = forces / self._mass
+        acceleration = self._lightness(forces)
         for _ in range(ROUNDS):
             missing = np.einsum("nrk,nk->nr", self._rows, acceleration) - self._wanted
             held += self._respond(missing)
             left = forces - np.einsum("nrk,nr->nk", self._rows, held)
-            acceleration = left / self._mass
+            acceleration = self._lightness(left)
         return acceleration, held
 
     def _respond(self, missing: Series) -> Series:
         try:
-            found: Series = np.linalg.solve(self._square, missing[..., None])[..., 0]
+            return np.asarray(np.linalg.solve(self._square, missing[..., None])[..., 0])
         except np.linalg.LinAlgError:  # rows that repeat each other, as at a dead centre
-            found = np.einsum("nrs,ns->nr", np.linalg.pinv(self._square, hermitian=True), missing)
-        return found
+            return np.asarray(np.einsum("nrs,ns->nr", np.linalg.pinv(self._square, hermitian=True), missing))

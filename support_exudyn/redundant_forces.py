@@ -11,7 +11,7 @@ from support_exudyn.body_motion import BodyMotion
 from support_exudyn.contact_series import acting
 from support_exudyn.drive_acceleration import accelerations
 from support_exudyn.joint_forces import JointForces
-from support_exudyn.reactions import Equations, Held, direction, push, twist, weight_of
+from support_exudyn.reactions import Held, direction, equations, push, twist, weight_of
 from support_exudyn.recipes import MOTION, Part
 from support_exudyn.scene import Scene
 from support_exudyn.trajectory import ContactSeries, LoadSeries, Series
@@ -60,9 +60,9 @@ def following(scene: Scene, motion: BodyMotion, time: Series, applied: Applied) 
     )
     drives = [scenario.drive_of(name) for name in (*scene.rigid_columns, *scene.cranks)]
     driven = [accelerations(drive, time, scenario.duration) for drive in drives]
-    equations = Equations(motion, held, np.array(driven).reshape(-1, len(time)).T)
+    all_bodies = equations(motion, held, np.array(driven).reshape(-1, len(time)).T)
     forces = _applied_forces(scene, motion, applied)
-    acceleration, reactions = equations.solve(forces)
+    acceleration, reactions = all_bodies.solve(forces)
     moments: dict[str, Series] = {}
     for _ in range(FRICTION_ROUNDS if scene.frictions else 0):
         moments = _friction_moments(scene, motion, reactions)
@@ -70,7 +70,7 @@ def following(scene: Scene, motion: BodyMotion, time: Series, applied: Applied) 
         for name, moment in moments.items():
             twist(rubbed, motion, linkage.pins[name].second, moment)
             twist(rubbed, motion, linkage.pins[name].first, -moment)
-        acceleration, reactions = equations.solve(rubbed)
+        acceleration, reactions = all_bodies.solve(rubbed)
         if np.abs(reactions - last).max() <= SETTLED * np.abs(reactions).max():
             break
     joints = JointForces(

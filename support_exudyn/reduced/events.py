@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 
 from support_exudyn.compiled import compiled
-from support_exudyn.onset import DOUBT, DOUBT_OF_DEPTH
+from support_exudyn.onset import DOUBT, DOUBT_OF_DEPTH, STILL
 from support_exudyn.reduced.drive import Matrix, Vector
 from support_exudyn.reduced.equations import observe
 from support_exudyn.reduced.layout import (
@@ -67,8 +67,11 @@ def bend(r0: float, r1: float, mean: float) -> float:
 
 
 @compiled
-def may_turn(r0: float, r1: float, mean: float) -> bool:
+def may_turn(d0: float, r0: float, d1: float, r1: float, h: float) -> bool:
     """Whether a rate [m/s] of one sign at both ends may pass zero in between, see `DepthPath.may_turn`."""
+    if h * max(abs(r0), abs(r1)) < STILL:
+        return False
+    mean = (d1 - d0) / h
     if r0 + r1 < 0.0:
         r0, r1, mean = -r0, -r1, -mean
     curved = bend(r0, r1, mean)
@@ -109,7 +112,7 @@ def in_contact(renews: bool, d0: float, r0: float, d1: float, r1: float, h: floa
     turns = r0 < 0.0 <= r1
     if h > SHORT and not turns and not r0 > 0.0 > r1:
         lowest = min(d0, d1) - h * max(abs(r0), abs(r1))
-        if (renews or lowest <= 0.0 < d1) and may_turn(r0, r1, (d1 - d0) / h):
+        if (renews or lowest <= 0.0 < d1) and may_turn(d0, r0, d1, r1, h):
             return TOO_LONG, 0.0, 0.0
     if d1 <= 0.0:
         return parting(d0, r0, d1, r1, h)
@@ -132,7 +135,7 @@ def rise(d0: float, r0: float, d1: float, r1: float, h: float) -> Found:
     if d1 <= 0.0:
         if not r0 > 0.0 > r1:
             unseen = h > SHORT and max(d0, d1) + h * max(abs(r0), abs(r1)) > 0.0 and not r0 < 0.0 < r1
-            unclear = unseen and may_turn(r0, r1, (d1 - d0) / h)
+            unclear = unseen and may_turn(d0, r0, d1, r1, h)
             return (TOO_LONG, 0.0, 0.0) if unclear else (NOTHING, 1.0, 1.0)
         top = turning_point(d0, r0, d1, r1, h)
         highest = cubic(d0, r0, d1, r1, h, top)

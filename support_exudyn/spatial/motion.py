@@ -3,7 +3,7 @@
 The engine's seven coordinates of a body are the displacement of its centre and the change of its Euler
 parameters from 1, 0, 0, 0. Arrays have the instants first, then the bodies in the order of the linkage.
 
-    A = rotation since the start,   omega = 2 G p',   alpha = 2 G p''
+    A = rotation since the start,   omega = 2 G p'
 
 with G the 3 x 4 matrix of the Euler parameters p, in the ground's axes.
 """
@@ -68,8 +68,8 @@ class PointMotion(NamedTuple):
 class SpatialMotion:
     """All bodies of a linkage.
 
-    displacement, velocity, acceleration: of the centres (n, b, 3). turn: rotation since the start
-    (n, b, 3, 3). spin, spin_rate: (n, b, 3), ground's axes.
+    displacement, velocity: of the centres (n, b, 3). turn: rotation since the start (n, b, 3, 3). spin:
+    (n, b, 3), ground's axes.
     """
 
     linkage: SpatialLinkage
@@ -77,8 +77,6 @@ class SpatialMotion:
     turn: Series
     velocity: Series
     spin: Series
-    acceleration: Series
-    spin_rate: Series
 
     @property
     def count(self) -> int:
@@ -112,13 +110,10 @@ class SpatialMotion:
         )
 
 
-def motion_of(
-    linkage: SpatialLinkage, position: Series, velocity: Series, acceleration: Series | None = None
-) -> SpatialMotion:
+def motion_of(linkage: SpatialLinkage, position: Series, velocity: Series) -> SpatialMotion:
     """From the engine's coordinates, shape (n, 7 bodies) or (7 bodies,), in the order of the linkage."""
     shape = (-1, len(linkage.bodies), COORDINATES)
     q, v = np.reshape(position, shape), np.reshape(velocity, shape)
-    a = np.zeros_like(v) if acceleration is None else np.reshape(acceleration, shape)
     p = q[..., 3:] + UNTURNED
     matrix = turning_matrix(p)
     return SpatialMotion(
@@ -127,6 +122,4 @@ def motion_of(
         rotation(p),
         v[..., :3],
         2.0 * np.einsum("nbij,nbj->nbi", matrix, v[..., 3:]),
-        a[..., :3],
-        2.0 * np.einsum("nbij,nbj->nbi", matrix, a[..., 3:]),
     )

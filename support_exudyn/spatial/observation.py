@@ -8,10 +8,12 @@ from functools import cached_property
 import numpy as np
 
 from support_exudyn.contact_series import RelativeMotion, journal_arm, series
+from support_exudyn.drive_acceleration import accelerations as drive_accelerations
 from support_exudyn.machine import GROUND
 from support_exudyn.oil import OilSeries
 from support_exudyn.pins import ClearancePin
 from support_exudyn.recorder import History
+from support_exudyn.spatial.accelerations import accelerations
 from support_exudyn.spatial.constraints import Row, direction_of
 from support_exudyn.spatial.kinetics import inertias, weight
 from support_exudyn.spatial.motion import SpatialMotion, cross, motion_of
@@ -56,14 +58,11 @@ class Observation:
 
     @cached_property
     def motion(self) -> SpatialMotion:
-        """Of all bodies; accelerations and velocities are zero if they have not been kept."""
+        """Of all bodies; velocities are zero if they have not been kept."""
         order, history = self.scene.order, self.history
         position = history.position[:, order]
-
-        def kept(values: Series) -> Series:
-            return values[:, order] if values.shape[1] else np.zeros_like(position)
-
-        return motion_of(self.scene.linkage, position, kept(history.velocity), kept(history.acceleration))
+        velocity = history.velocity[:, order] if history.velocity.shape[1] else np.zeros_like(position)
+        return motion_of(self.scene.linkage, position, velocity)
 
     @cached_property
     def sections(self) -> dict[str, list[SectionSeries]]:
@@ -122,31 +121,50 @@ class Observation:
         return head.position - foot.position, head.velocity - foot.velocity
 
     @cached_property
+    def accelerations(self) -> Series:
+        """Of the centres and rates of the spins of all bodies, (n, b, 6) [m/s^2], [rad/s^2]."""
+        scenario = self.scene.scenario
+        driven = np.zeros((self.motion.count, len(self.scene.rows)))
+        for place, row in enumerate(self.scene.rows):
+            if row.kind == "column":
+                drive = scenario.drive_of(row.name)
+                driven[:, place] = drive_accelerations(drive, self.time, scenario.duration)
+        turning = inertia_forces(self.motion, np.zeros_like(self._applied))
+        return accelerations(self.motion, self.scene.rows, driven, self._applied - turning)
+
+    @cached_property
     def held(self) -> dict[Row, Series]:
         """Force of everything that is held, (n,) each; see `reactions`."""
-        left = inertia_forces(self.motion) - weight(self.scene.linkage, self.scene.gravity).reshape(1, -1, 6)
+        left = inertia_forces(self.motion, self.accelerations) - self._applied
+        rows = self.scene.all_rows
+        return dict(zip(rows, reactions(self.motion, rows, left).T, strict=True))
+
+    @cached_property
+    def _applied(self) -> Series:
+        """Weights and forces of oil and loose bearings on all bodies, (n, b, 6)."""
+        weights = weight(self.scene.linkage, self.scene.gravity).reshape(1, -1, 6)
+        forces = np.tile(weights, (self.motion.count, 1, 1))
         for name, oil in self.oil.items():
             column = self.scene.linkage.columns[name]
             along, _ = self.span(name)
             push = oil.force[:, None] * along / np.linalg.norm(along, axis=1)[:, None]
-            self._take(left, column.head, push, self.motion.point(column.head, column.head_point).position)
-            self._take(left, column.foot, -push, self.motion.point(column.foot, column.foot_point).position)
+            self._push(forces, column.head, push, self.motion.point(column.head, column.head_point).position)
+            self._push(forces, column.foot, -push, self.motion.point(column.foot, column.foot_point).position)
         for name, group in self.sections.items():
             bore, journal = self.scene.ends_of(name)
             for section in group:
-                self._take(left, journal.body, section.force, section.point)
-                self._take(left, bore.body, -section.force, section.point)
-        rows = self.scene.all_rows
-        return dict(zip(rows, reactions(self.motion, rows, left).T, strict=True))
+                self._push(forces, journal.body, section.force, section.point)
+                self._push(forces, bore.body, -section.force, section.point)
+        return forces
 
-    def _take(self, left: Series, body: str, force: Series, point: Series) -> None:
-        """Account for a force on a body (n, 3) at points (n, 3)."""
+    def _push(self, forces: Series, body: str, force: Series, point: Series) -> None:
+        """Add a force on a body (n, 3) at points (n, 3) to the forces on all bodies."""
         if body == GROUND:
             return
         n = self.motion.index(body)
         centre = np.array(self.scene.linkage.bodies[body].centre) + self.motion.displacement[:, n]
-        left[:, n, :3] -= force
-        left[:, n, 3:] -= cross(point - centre, force)
+        forces[:, n, :3] += force
+        forces[:, n, 3:] += cross(point - centre, force)
 
     def column_force(self, name: str) -> Series:
         """Force that pushes a column's ends apart (n,) [N]."""

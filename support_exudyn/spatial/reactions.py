@@ -26,13 +26,13 @@ LIFT = 1e-9
 ROUNDS = 2
 
 
-def inertia_forces(motion: SpatialMotion) -> Series:
-    """M a + omega x J omega of all bodies, (n, b, 6) [N], [N m]."""
+def inertia_forces(motion: SpatialMotion, acceleration: Series) -> Series:
+    """M a + omega x J omega of all bodies with accelerations a (n, b, 6); the same shape, [N], [N m]."""
     mass = np.array([body.mass for body in motion.linkage.bodies.values()])
     inertia = inertias(motion)
     momentum = np.einsum("nbij,nbj->nbi", inertia, motion.spin)
-    moment = np.einsum("nbij,nbj->nbi", inertia, motion.spin_rate) + cross(motion.spin, momentum)
-    return np.concatenate([mass[:, None] * motion.acceleration, moment], axis=-1)
+    moment = np.einsum("nbij,nbj->nbi", inertia, acceleration[..., 3:]) + cross(motion.spin, momentum)
+    return np.concatenate([mass[:, None] * acceleration[..., :3], moment], axis=-1)
 
 
 def reactions(motion: SpatialMotion, rows: Sequence[Row], left: Series) -> Series:

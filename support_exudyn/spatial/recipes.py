@@ -20,7 +20,7 @@ from support_exudyn.trajectory import Series
 if TYPE_CHECKING:
     from support_exudyn.spatial.observation import Observation, SectionSeries
 
-REACTION = CONTACT | OIL | Part.ACCELERATION
+REACTION = CONTACT | OIL  # they and accelerations follow from the motion and what is applied
 AXES = ("x", "y", "z")
 TOWARDS = ("forward", "up", "to the right")
 
@@ -92,7 +92,7 @@ def _of_body(name: str, body: SpatialBody, n: int) -> Recipes:
             "rad/s", "angular velocity about y", MOTION, _entry("spin", n, 1)
         ),
         f"{name}.angular_acceleration": _recipe(
-            "rad/s^2", "angular acceleration about z", MOTION | Part.ACCELERATION, _entry("spin_rate", n, 2)
+            "rad/s^2", "angular acceleration about z", REACTION, lambda seen: seen.accelerations[:, n, 5]
         ),
     }
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from hypothesis import assume, settings
+from hypothesis import Phase, assume, settings
 
 from support_exudyn import Result, Scenario, SimulationError, simulate
 from support_exudyn.solver_settings import ERROR_CONTROLLED
@@ -36,13 +36,16 @@ SMALLEST = {"m": 1e-4, "rad": 1e-4, "m/s": 0.1, "rad/s": 0.1, "rad/s^2": 10.0}
 MOTION = ("m", "rad")  # units of which the change is the size, for places are known much better than by a share
 ARM = 0.01  # [m], of the forces whose moments cancel; so large is a bore
 
+# A scene that fails is told as it was drawn: to look for a simpler one is to simulate for hours
+PHASES = (Phase.explicit, Phase.reuse, Phase.generate)
+
 Seen = Mapping[str, np.ndarray]
 
 
 def scenes(few: int = FEW) -> Callable[[Any], Any]:
     """Hypothesis's settings of a relation: a few scenes, or as many as a longer profile asks for."""
     asked = settings.default.max_examples
-    return settings(max_examples=few if asked <= OFTEN else asked, deadline=None)
+    return settings(max_examples=few if asked <= OFTEN else asked, deadline=None, phases=PHASES)
 
 
 def told(scenario: Scenario) -> Result:

@@ -22,8 +22,8 @@ from support_exudyn.reduced.plain_run import PARTS_CLOSED
 from support_exudyn.tree.events import Kind, event
 from support_exudyn.tree.loose import Place
 
-C = 1e-3  # clearance [m]
-DEPTH = 1e-4  # [m], of the order of all depths
+C = 10.0  # clearance [m], large: dips of a thousandth of a step are then far above what is called still
+DEPTH = 1.0  # [m], of the order of all depths
 LENGTH = 1.0  # of a course [s]
 FIRST, SHORTEN, GROWTH = LENGTH / 16.0, 0.25, 4.0  # step at first [s] and at most, and its changes
 NOTHING, TOUCH, PARTING, RETURN, UNCLEAR = "nothing", "touch", "parting", "return", "unclear"
@@ -267,8 +267,8 @@ def test_a_cut_comes_before_the_contact_is_pressed_on_again() -> None:
 
 @pytest.mark.parametrize("finder", FINDERS)
 def test_a_turn_at_the_end_of_a_step_is_found_once(finder: str) -> None:
-    # depth 1e-4 + (t - 0.125)^2 / 1000 [m]: the rate is exactly zero where the first step of 1/8 s ends
-    course = Course(1e-3 * Polynomial([0.1 + 0.125**2, -0.25, 1.0]), closed=True)
+    # depth 1 + 10 (t - 0.125)^2 [m]: the rate is exactly zero where the first step of 1/8 s ends
+    course = Course(10.0 * DEPTH * Polynomial([0.1 + 0.125**2, -0.25, 1.0]), closed=True)
     assert course.rate(0.125) == 0.0
     what, low, high = FINDERS[finder](course, 0.0, 0.125)
     assert (what, low, high) == (RETURN, pytest.approx(0.125, abs=1e-9), pytest.approx(0.125, abs=1e-9))
@@ -279,7 +279,7 @@ def test_a_turn_at_the_end_of_a_step_is_found_once(finder: str) -> None:
 @pytest.mark.parametrize("middle", [0.04, 0.06, 0.09])
 def test_what_is_over_within_a_step_is_seen(finder: str, middle: float) -> None:
     # a parabola that passes zero 0.03 s on either side of its middle, in a step of an eighth of a second
-    out = 1e-3 * Polynomial([middle**2 - 9e-4, -2.0 * middle, 1.0])
+    out = 10.0 * DEPTH * Polynomial([middle**2 - 9e-4, -2.0 * middle, 1.0])
     what, low, high = FINDERS[finder](Course(out, closed=True), 0.0, 0.125)
     assert (what, low - 1e-9 <= middle - 0.03 <= high + 1e-9) == (PARTING, True)
     what, low, high = FINDERS[finder](Course(-out, closed=False), 0.0, 0.125)
@@ -291,7 +291,7 @@ def test_what_is_over_within_a_step_is_seen(finder: str, middle: float) -> None:
 def test_what_a_cubic_cannot_tell_is_looked_at_more_closely(finder: str, bend: float) -> None:
     # s^2 + bend s^4 has the same values and slopes at -1 and 1 as a parabola that is lower by `bend` at 0
     s = Polynomial([-1.0, 16.0])
-    close = 1e-4 * (s**2 + bend * s**4 + 0.5 * bend)
+    close = DEPTH * (s**2 + bend * s**4 + 0.5 * bend)
     assert FINDERS[finder](Course(close, closed=True), 0.0, 0.125)[0] == UNCLEAR
 
 
@@ -299,9 +299,27 @@ def test_what_a_cubic_cannot_tell_is_looked_at_more_closely(finder: str, bend: f
 @pytest.mark.parametrize("bend", [0.02, -0.02])
 def test_a_top_that_a_cubic_cannot_tell_is_looked_at_more_closely(finder: str, bend: float) -> None:
     s = Polynomial([-1.0, 16.0]) * (1.0 if finder == "tree" else 4.0) + (0.0 if finder == "tree" else 3.0)
-    near = -1e-5 * (s**2 + bend * s**4 + 0.5 * bend)
+    near = -0.1 * DEPTH * (s**2 + bend * s**4 + 0.5 * bend)
     # the others look at quarters of a step, of which this is the first
     assert FINDERS[finder](Course(near, closed=False), 0.0, 0.125)[0] == UNCLEAR
+
+
+@pytest.mark.parametrize("finder", FINDERS)
+@pytest.mark.parametrize("rate", [-3e-18, 3e-18, -1e-10])
+@pytest.mark.parametrize("rounded", [0.0, 2e-16, -2e-16])
+def test_nothing_happens_to_a_pin_that_rests(finder: str, rate: float, rounded: float) -> None:
+    # its depth is known to rounding, which is more than it moves in any step, but rates are known much better
+    class Resting(NamedTuple):
+        closed: bool = True
+
+        def depth(self, t: float) -> float:
+            return 1e-4 + rounded * (t > 0.0)
+
+        def rate(self, t: float) -> float:
+            return rate * (1.0 + 1e-4 * t)
+
+    for step in (1e-8, 1e-5, 2e-3):
+        assert FINDERS[finder](Resting(), 0.0, step)[0] == NOTHING
 
 
 @pytest.mark.parametrize("finder", FINDERS)
@@ -310,7 +328,7 @@ def test_a_bump_between_two_falling_ends_is_a_touch(finder: str) -> None:
     depth = rate.integ()
     bump = depth - (0.3 * depth(0.0) + 0.7 * depth(0.009))
     assert bump(0.0) < 0.0 < bump(0.009)
-    assert driven(FINDERS[finder], Course(1e3 * bump, closed=False))[0][0] == TOUCH
+    assert driven(FINDERS[finder], Course(1e7 * DEPTH * bump, closed=False))[0][0] == TOUCH
 
 
 @pytest.mark.parametrize("finder", FINDERS)
