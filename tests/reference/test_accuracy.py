@@ -301,7 +301,7 @@ RISE = CubicStep(stroke=0.06, start=0.05, end=0.25)
 
 
 def cases() -> dict[str, list[Scenario]]:
-    """Scenes that the constants of the estimates were not made for: half of all combinations."""
+    """Half of all combinations; constants were chosen by these too, so fresh ones judge them."""
     bores = ("first", "second")
     supports = list(product((0.5, 1.0, 2.0), (0.5, 0.9), (0.0, 0.25), bores, SPEEDS))
     return {
