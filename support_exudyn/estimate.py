@@ -6,8 +6,7 @@ How fast its distances d2 = |b - a| and d1 = |c - b| fall is more or less the sa
     r = d1 / d2, the median of all numbers
 
 If they go on to fall so, the distance of c from what it tends to is d1 r / (1 - r). The estimate is SAFETY
-times that; where steps are chosen by a tolerance, with an r of its own for a number that falls slower than
-others, which takes less of SAFETY for all. Two runs can agree by chance, so d1 is not believed below
+times that, with an r of its own for a number that falls slower than others. Two runs can agree by chance, so d1 is not believed below
 
 - a share of d2: r, or where steps are chosen by a tolerance CHOSEN. Distances fall by eight there, but
   irregularly: the errors of two runs can be alike, and so can be those of all of their numbers;
@@ -45,7 +44,10 @@ if TYPE_CHECKING:
 
 Series = npt.NDArray[np.float64]
 SAFETY = {"auto": 3.0, "redundant": 3.0, "tree": 3.5, "reduced": 2.5}  # by formulation
-OWN, SLOWEST_OWN = 0.7, 0.35  # share of a number's own d1 / d2 that its r is at least, and the most of that
+# share of a number's own d1 / d2 that its r is at least, and the most of that: where steps are chosen by a
+# tolerance, and where they are halved, which some numbers answer by half only (means with friction)
+OWN, SLOWEST_OWN = 0.7, 0.35
+OWN_OF_STEPS, SLOWEST_OF_STEPS = 1.0, 0.6
 CHOSEN = 0.15  # share of the distance before that the last is at least, where steps are chosen by a tolerance
 ALIKE = 0.5  # of the distances of numbers that go wrong alike, that each is at least
 NEWTON = (
@@ -276,10 +278,10 @@ def multiple(result: Result, r: float, last: Values, before: Values) -> Values:
 
     last, before: distances of the number, from run to run, or of many; of two runs alone before is 0.
     """
-    falls: Values = np.full_like(last, r)
-    if result.scenario.formulation in ERROR_CONTROLLED:
-        own = OWN * np.divide(last, before, out=np.zeros_like(last), where=before > 0.0)
-        falls = np.maximum(falls, np.minimum(own, SLOWEST_OWN))
+    chosen = result.scenario.formulation in ERROR_CONTROLLED
+    share, slowest = (OWN, SLOWEST_OWN) if chosen else (OWN_OF_STEPS, SLOWEST_OF_STEPS)
+    own = share * np.divide(last, before, out=np.zeros_like(last), where=before > 0.0)
+    falls: Values = np.maximum(np.full_like(last, r), np.minimum(own, slowest))
     return SAFETY[result.scenario.formulation] * falls / (1.0 - falls)
 
 
