@@ -10,15 +10,14 @@ from support_exudyn.trajectory import Series
 class StepEnd(NamedTuple):
     """State of a run at an end of a step.
 
-    time: [s]. position, velocity, acceleration (coordinates,). multiplier (constraints,). memory (loose pins,
-    fields of PinMemory). totals (3,): integrals over time [J]. powers (3,): their rates [W].
+    time: [s]. position, velocity, acceleration (coordinates,). memory (loose pins, fields of PinMemory).
+    totals (3,): integrals over time [J]. powers (3,): their rates [W].
     """
 
     time: float
     position: Series
     velocity: Series
     acceleration: Series
-    multiplier: Series
     memory: Series
     totals: Series
     powers: Series
@@ -37,7 +36,6 @@ def between(start: StepEnd, end: StepEnd, t: float) -> StepEnd:
         _quintic(x, h, start, end),
         _cubic(x, h, (start.velocity, start.acceleration), (end.velocity, end.acceleration)),
         _line(x, start.acceleration, end.acceleration),
-        _line(x, start.multiplier, end.multiplier),
         _line(x, start.memory, end.memory),
         _cubic(x, h, (start.totals, start.powers), (end.totals, end.powers)),
         _line(x, start.powers, end.powers),

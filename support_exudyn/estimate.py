@@ -6,7 +6,8 @@ How fast its distances d2 = |b - a| and d1 = |c - b| fall is more or less the sa
     r = d1 / d2, the median of all numbers
 
 If they go on to fall so, the distance of c from what it tends to is d1 r / (1 - r). The estimate is SAFETY
-times that, with an r of its own for a number that falls slower than others. Two runs can agree by chance, so d1 is not believed below
+times that, with an r of its own for a number that falls slower than others. Two runs can agree by chance,
+so d1 is not believed below
 
 - a share of d2: r, or where steps are chosen by a tolerance CHOSEN. Distances fall by eight there, but
   irregularly: the errors of two runs can be alike, and so can be those of all of their numbers;

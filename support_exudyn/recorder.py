@@ -19,24 +19,21 @@ from support_exudyn.recipes import EVERYTHING, Part
 from support_exudyn.trajectory import Series
 
 # of a StepEnd after its time
-STATE = (Part.POSITION, Part.VELOCITY, Part.ACCELERATION, Part.JOINTS, Part.CONTACTS)
+STATE = (Part.POSITION, Part.VELOCITY, Part.CONTACTS)
 
 
 @dataclass(frozen=True)
 class History:
     """Raw states at the records, one row each; see `channels` for what they mean.
 
-    time (n,); position, velocity, acceleration (n, coordinates); multiplier (n, constraints);
-    memory (n, loose pins, fields of PinMemory); pressure (n, 2 cylinders) as the engine has it;
-    work, damping_loss, friction_loss (n,) [J]. What was not to be
-    kept has rows without columns; integrals that were not are zero.
+    time (n,); position, velocity (n, coordinates); memory (n, loose pins, fields of PinMemory);
+    pressure (n, 2 cylinders) as the engine has it; work, damping_loss, friction_loss (n,) [J]. What was not to
+    be kept has rows without columns; integrals that were not are zero.
     """
 
     time: np.ndarray
     position: np.ndarray
     velocity: np.ndarray
-    acceleration: np.ndarray
-    multiplier: np.ndarray
     memory: np.ndarray
     pressure: np.ndarray
     work: np.ndarray
@@ -108,7 +105,7 @@ class Recorder:
         state = between(self._start, self._state(end), t)
         # in contact or not, with which touch: as over all of the step
         state.memory[:, :2] = self._start.memory[:, :2]
-        self._keep(t, state[1:6], state.totals.tolist())
+        self._keep(t, (state.position, state.velocity, state.memory), state.totals.tolist())
 
     def _state(self, t: float) -> StepEnd:
         data = self._data
@@ -117,7 +114,6 @@ class Recorder:
             data.GetODE2Coordinates(),
             data.GetODE2Coordinates_t(),
             data.GetODE2Coordinates_tt(),
-            data.GetAECoordinates(),
             _memories([pin.kept for _, pin in self._pins]),
             np.array(self.energies.totals),
             np.array(self._powers_now),
@@ -126,14 +122,12 @@ class Recorder:
     def record(self, t: float) -> None:
         """Keep the state at time t [s]."""
         data = self._data
-        position, velocity, acceleration, multiplier, memory = self._kept
+        position, velocity, memory = self._kept
         self._keep(
             t,
             (
                 data.GetODE2Coordinates() if position else None,
                 data.GetODE2Coordinates_t() if velocity else None,
-                data.GetODE2Coordinates_tt() if acceleration else None,
-                data.GetAECoordinates() if multiplier else None,
                 _memories([pin.kept for _, pin in self._pins]) if memory else None,
             ),
             self.energies.totals,
@@ -160,7 +154,7 @@ class Recorder:
     def history(self) -> History:
         """What has been recorded so far."""
         time = np.array(self._time)
-        position, velocity, acceleration, multiplier, memory = (
+        position, velocity, memory = (
             np.array(rows).reshape(time.size, len(rows) // max(1, time.size)) for rows in self._states
         )
         pins = memory.shape[1] // len(PinMemory._fields)
@@ -168,8 +162,6 @@ class Recorder:
             time,
             position,
             velocity,
-            acceleration,
-            multiplier,
             memory.reshape(time.size, pins, len(PinMemory._fields)),
             np.array(self._pressures).reshape(time.size, -1 if self._pressures else 0),
             *np.array(self._totals).reshape(time.size, 3).T,

@@ -77,7 +77,7 @@ def _run(scene: AnyScene, progress: Progress, outcome: Callable[[AnyScene, Progr
 
 def _outcome(scene: Scene, progress: Progress) -> Outcome:
     needed = with_causes(needs(scene.scenario))
-    recorder = Recorder(scene, needed & ~FOLLOWING)
+    recorder = Recorder(scene, needed)
     solving = Run(scene, recorder, progress)
     counts = solving.go()
     return Outcome(

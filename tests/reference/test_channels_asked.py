@@ -30,8 +30,10 @@ from support_exudyn import (
 )
 from support_exudyn.channels import needs
 from support_exudyn.engine_settings import engine_settings
+from support_exudyn.onset import PinMemory
 from support_exudyn.recorder import History, Recorder
 from support_exudyn.redundant import build
+from support_exudyn.redundant_forces import with_causes
 from support_exudyn.solver import Run
 from tests.reference.cases import FORCE, PIN, loose_support, support
 from user_forces import JournalBearing, JournalContact, LankaraniNikravesh, LuGre
@@ -94,7 +96,7 @@ def unaudited(scenario: Scenario) -> Scenario:
 
 def history(scenario: Scenario) -> History:
     scene = build(scenario)
-    recorder = Recorder(scene, needs(scenario))
+    recorder = Recorder(scene, with_causes(needs(scenario)))
     Run(scene, recorder, lambda share: None).go()
     scene.release()
     return recorder.history()
@@ -105,16 +107,14 @@ def test_nothing_is_kept_that_nobody_asked_for(scene: str) -> None:
     one = unaudited(SCENES[scene])  # an audit looks at everything
     places = history(replace(one, channels=("tip.*",)))
     assert places.position.shape == (places.time.size, 12)
-    for part in (places.velocity, places.acceleration, places.multiplier):
-        assert part.shape == (places.time.size, 0)
+    assert places.velocity.shape == (places.time.size, 0)
     assert places.memory.shape[1] == 0
-    # a frictionless or ideal pin's partner is no contact: multipliers alone
-    forces = history(replace(one, channels=("pin.front_base.force",)))
-    assert forces.multiplier.shape[1] > 0
-    assert forces.position.shape[1] == forces.velocity.shape[1] == forces.memory.shape[1] == 0
-    turning = history(replace(one, channels=("*.angular_acceleration",)))
-    assert turning.acceleration.shape[1] == 12
-    assert turning.position.shape[1] == turning.velocity.shape[1] == turning.multiplier.shape[1] == 0
+    # what follows from the motion and the forces in contacts
+    loose = len(one.clearance_pins) * len(PinMemory._fields)
+    for asked in ("pin.front_base.force", "*.angular_acceleration"):
+        found = history(replace(one, channels=(asked,)))
+        assert found.position.shape[1] == found.velocity.shape[1] == 12
+        assert found.memory.shape[1] * found.memory.shape[2] == loose
 
 
 @pytest.mark.parametrize(

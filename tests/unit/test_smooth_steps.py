@@ -83,7 +83,6 @@ def state(t: float, position: Polynomial, integral: Polynomial) -> StepEnd:
         np.array([velocity(t)]),
         np.array([acceleration(t)]),
         line,
-        line,
         np.array([integral(t)]),
         np.array([power(t)]),
     )
@@ -97,7 +96,7 @@ def test_quintics_cubics_and_lines_are_met(t: float) -> None:
     assert found.time == t
     assert found.position == pytest.approx(state(t, quintic, cubic).position, abs=1e-14)
     assert found.totals == pytest.approx(state(t, quintic, cubic).totals, abs=1e-14)
-    assert found.multiplier == pytest.approx([3.0 - 2.0 * t], abs=1e-14)
+    assert found.memory == pytest.approx([3.0 - 2.0 * t], abs=1e-14)
     found = between(state(0.5, cubic, cubic), state(1.5, cubic, cubic), t)
     exact = state(t, cubic, cubic)
     assert found.velocity == pytest.approx(exact.velocity, abs=1e-14)
