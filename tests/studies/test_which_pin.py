@@ -187,3 +187,15 @@ def test_every_file_is_there_and_the_chapter_can_be_read(out: Path) -> None:
     ):
         assert "all five" in (out / f"table_{table}.txt").read_text(encoding="utf-8")
     assert len(list((out / "runs").glob("*.h5"))) == 13
+
+
+def test_the_peak_over_ideal_has_the_error_of_the_peaks_that_it_is_made_of(numbers: Numbers) -> None:
+    for case in {case for name, case in numbers if name == "largest_peak_over_ideal"}:
+        shares = []  # of each force: its peak over the ideal one, and what the errors of both make of it
+        for force in which_pin_cases.FORCES.values():
+            peak, ideal = (numbers[f"largest_force_{force}", one] for one in (case, which_pin_cases.IDEAL))
+            shares.append((peak["value"] / ideal["value"], peak["numerical_error"] / ideal["value"]))
+        ratio = numbers["largest_peak_over_ideal", case]
+        largest, error = max(shares)
+        assert ratio["value"] == pytest.approx(largest)
+        assert ratio["numerical_error"] >= 0.99 * error
