@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from itertools import count
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 import pytest
 
-from support_exudyn import Held, Scenario, to_accuracy
+from support_exudyn import Failure, Held, Scenario, SimulationError, to_accuracy
 from support_exudyn.counts import Counts
 from support_exudyn.progress import silent
 from tests.reference.cases import loose_support
@@ -35,10 +36,15 @@ class Told:
         return np.array([getattr(self, name)])
 
 
-def run(monkeypatch: pytest.MonkeyPatch, errors: Sequence[float], same: Sequence[int] = ()) -> tuple[Told, int]:
+def run(
+    monkeypatch: pytest.MonkeyPatch,
+    errors: Sequence[float],
+    same: Sequence[int] = (),
+    failing: Mapping[int, Failure] = MappingProxyType({}),
+) -> tuple[Told, int]:
     """The result that is chosen, and how many runs were made, if the third, fourth ... have these errors.
 
-    same: numbers of the runs that are the same as the one before.
+    same: numbers of the runs that are the same as the one before. failing: of those that end like this.
     """
     numbers = count()
     known = [float("inf"), float("inf"), *errors, *[errors[-1]] * 10]
@@ -47,6 +53,8 @@ def run(monkeypatch: pytest.MonkeyPatch, errors: Sequence[float], same: Sequence
     def once(scenario: Scenario, progress: object) -> Told:
         number = next(numbers)
         made.append(number)
+        if number in failing:
+            raise SimulationError(failing[number])
         while number in same:
             number -= 1
         return Told(number, known[number], scenario)
@@ -54,7 +62,7 @@ def run(monkeypatch: pytest.MonkeyPatch, errors: Sequence[float], same: Sequence
     monkeypatch.setattr(to_accuracy, "run_once", once)
     scenario = loose_support(drive=Held(), duration=0.05, accuracy=GOAL, formulation="reduced")
     found: Any = to_accuracy.run_to_accuracy(scenario, silent)
-    assert found.wall_time == len(made)
+    assert found.wall_time == len([number for number in made if number not in failing])
     return found, len(made)
 
 
@@ -104,3 +112,44 @@ def test_runs_that_are_the_same_to_the_bit_tell_nothing(
         ladder.append(found.number)
         found = found.coarser
     assert tuple(ladder) == chosen
+
+
+COARSE = Failure("energy does not add up", "Take a smaller step.", 0.01, finer=True)
+COARSER = replace(COARSE, time=0.02)
+ENDED = Failure("a law gave no number", "Mend the law.", 0.01)
+
+
+@pytest.mark.parametrize(
+    ("failing", "chosen", "runs"),
+    [
+        ({0: COARSE}, (3, 2, 1), 4),  # its steps were too long: it does not count
+        ({0: COARSE, 1: COARSE}, (4, 3, 2), 5),
+        ({1: COARSE}, (4, 3, 2), 5),  # three in a row are wanted
+        ({3: COARSE}, (2, 1, 0), 4),  # there is a result before it: it stands
+        ({3: ENDED}, (2, 1, 0), 4),
+    ],
+)
+def test_a_run_whose_steps_were_too_long_does_not_count(
+    monkeypatch: pytest.MonkeyPatch, failing: dict[int, Failure], chosen: tuple[int, ...], runs: int
+) -> None:
+    errors = [8e-3, 0.5 * GOAL] if 3 in failing else [0.5 * GOAL]
+    found, made = run(monkeypatch, errors, failing=failing)
+    assert made == runs
+    assert (found.number, found.coarser.number, found.coarser.coarser.number) == chosen
+
+
+@pytest.mark.parametrize(
+    ("failing", "told"),
+    [
+        ({0: ENDED}, ENDED),  # shorter steps do not help it
+        ({0: COARSE, 1: ENDED}, COARSE),  # the first trouble is told
+        ({0: COARSE, 3: COARSER, 6: COARSER}, COARSE),  # never three in a row
+        (dict.fromkeys(range(20), COARSE), COARSE),
+    ],
+)
+def test_where_no_three_runs_end_the_first_failure_is_told(
+    monkeypatch: pytest.MonkeyPatch, failing: dict[int, Failure], told: Failure
+) -> None:
+    with pytest.raises(SimulationError) as caught:
+        run(monkeypatch, [0.5 * GOAL], failing=failing)
+    assert caught.value.failure == told
