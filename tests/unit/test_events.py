@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 from numpy.polynomial import Polynomial
 
 from support_exudyn.compiled import plain
-from support_exudyn.reduced import events, layout
+from support_exudyn.reduced import events, integrate, layout
 from support_exudyn.reduced.plain_run import PARTS_CLOSED
 from support_exudyn.tree.events import Kind, event
 from support_exudyn.tree.loose import Place
@@ -358,3 +358,37 @@ def test_contacts_that_nearly_part_are_told_from_those_that_do(finder: str, left
     t = Polynomial([-0.47, 1.0])
     course = Course(DEPTH * (left + (t / 0.3) ** 2 + 0.3 * (t / 0.3) ** 3), closed=True)
     assert driven(FINDERS[finder], course)[0][0] == (RETURN if left > 0.0 else PARTING)
+
+
+# --- a step made again to end where it is pressed on again ---
+
+
+@given(turn=st.floats(0.05, 0.95), guess=st.floats(0.02, 0.98), flat=st.floats(1.0, 8.0), late=st.booleans())
+@example(turn=0.16, guess=0.9, flat=8.0, late=False)  # the rate hardly changes from the guess on
+@example(turn=0.84, guess=0.1, flat=8.0, late=True)
+def test_a_turn_is_sought_between_the_nearest_looks_on_either_side(
+    turn: float, guess: float, flat: float, late: bool
+) -> None:
+    h, looked = 0.125, []
+
+    def rate(x: float) -> float:
+        """Rises; steeply first or last."""
+        if late:
+            return x**flat - turn**flat
+        return (1.0 - turn) ** flat - (1.0 - x) ** flat
+
+    def advance(p: object, segment: object, memory: object, t: float, length: float, *rest: list) -> None:
+        looked.append(length / h)
+        rest[3][layout.RATE] = rate(length / h)
+
+    contact, report = [0.0] * layout.CONTACT, [0.0] * integrate.REPORT
+    contact[layout.RATE] = rate(1.0)
+    land = plain(integrate.land_on_turn, advance=advance)
+    length = land([], [], [], 0.0, h, rate(0.0), guess, [], [], [], contact, [], report)
+    assert length / h == looked[-1]  # where it ends is what was made last
+    assert looked[0] == pytest.approx(guess)
+    for n, x in enumerate(looked[1:], 1):
+        low = max([0.0, *(other for other in looked[:n] if rate(other) < 0.0)])
+        high = min([1.0, *(other for other in looked[:n] if rate(other) >= 0.0)])
+        # rounding
+        assert low - 1e-9 <= x <= high + 1e-9

@@ -18,6 +18,7 @@ from support_exudyn.onset import (
     Onset,
     PinMemory,
     Verdict,
+    goes_on,
     judge,
     judge_at_ends,
 )
@@ -411,6 +412,35 @@ def test_a_dip_within_a_step_is_a_contact_pressed_on_again(
     verdict, _ = judged(depth, speed=0.3, forgets=True)
     assert (verdict.action, verdict.anew, verdict.onset) == (Action.ACCEPT, True, None)
     assert verdict.memory[:2] == (True, 0.0)
+
+
+# --- nothing has surely happened ---
+
+
+@given(
+    first=st.floats(-0.5, 0.5),
+    last=st.floats(-0.5, 0.5),
+    mean=st.floats(-0.5, 0.5),
+    depth=st.floats(-1e-4, 1e-4) | deep,
+    in_contact=st.booleans(),
+)
+def test_what_surely_goes_on_is_judged_to(
+    first: float, last: float, mean: float, depth: float, in_contact: bool
+) -> None:
+    # whatever the rate does in the midst of the step
+    start, end = memory_of(in_contact, 0.3, depth, first), (depth + H * mean, last)
+    if goes_on(start, *end, H):
+        assert judge(start, *end, H, H, any_speed(H), True) == accepted(start.moved(*end))
+
+
+@pytest.mark.parametrize("back", [1.0, -1.0])
+def test_a_dip_within_a_step_does_not_surely_go_on(back: float) -> None:
+    # the rate, of one sign at both ends, passes zero at 0.4 and 0.6 of the step
+    rate = back * 0.1 * Polynomial.fromroots([0.4 * H, 0.6 * H]) / H**2
+    dips, evenly = rate.integ() + 2e-4, Polynomial([2e-4, back * 0.1])
+    for depth, surely in ((dips, False), (evenly, True)):
+        start = memory_of(True, 0.3, 2e-4, float(depth.deriv()(0.0)))
+        assert goes_on(start, float(depth(H)), float(depth.deriv()(H)), H) is surely
 
 
 # --- memory ---
