@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from support_exudyn import (
+    ClearancePin,
     Failure,
     Held,
     OilColumn,
@@ -36,6 +37,7 @@ from support_exudyn.channels import Channel, channels
 from support_exudyn.redundant import run
 from support_exudyn.trajectory import Outcome, Trajectory
 from tests.reference.cases import PIN, loose_support
+from user_forces import LuGre
 
 SCENARIO = loose_support(1.5, 0.25, drive=Held(), duration=0.05)
 DEPTH = f"pin.{PIN}.depth"
@@ -134,6 +136,28 @@ def test_a_loss_that_becomes_less_is_refused(outcome: Outcome, found: Found, nam
             assert f"pins.{PIN} = {law}" in failure.reason
         else:
             assert failure is None
+
+
+def test_what_bristles_have_stored_may_be_given_back(outcome: Outcome, found: Found) -> None:
+    contact = SCENARIO.clearance_pins[PIN].contact
+    bristles = replace(contact, friction=LuGre(static_coefficient=0.3, sliding_coefficient=0.2))
+    sticking = replace(SCENARIO, pins={PIN: ClearancePin(contact=bristles)})
+    assert isinstance(outcome.trajectory, Trajectory)
+    bent = replace(outcome.trajectory.contacts[PIN], deflection=np.linspace(0.0, -1e-3, 51))
+    run_with = replace(outcome, trajectory=replace(outcome.trajectory, contacts={PIN: bent}))
+    # as much as their largest deflection under the largest force; damping has stored nothing
+    stored = 1e-3 * outcome.largest_force[PIN]
+    allowed = GIVEN_BACK * turned_over(found) + rounding_of_energy(SCENARIO)
+    assert stored > 2.0 * allowed
+    for name, share, wrong in (
+        ("friction_loss", 0.95, False),
+        ("friction_loss", 1.05, True),
+        ("damping_loss", 0.95, True),
+    ):
+        less = np.full(51, 1e4)
+        less[30:] -= share * (stored + allowed)
+        failure = audit(sticking, run_with, {**found, f"energy.{name}": replace(found["time"], values=less)})
+        assert (failure is not None) == wrong
 
 
 def test_a_machine_at_rest_may_be_off_by_rounding() -> None:
