@@ -295,6 +295,17 @@ def test_what_a_cubic_cannot_tell_is_looked_at_more_closely(finder: str, bend: f
     assert FINDERS[finder](Course(close, closed=True), 0.0, 0.125)[0] == UNCLEAR
 
 
+@pytest.mark.parametrize("finder", ["compiled", "tree"])
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_a_dip_that_a_cubic_does_not_show_is_looked_at_more_closely(finder: str, sign: float) -> None:
+    # the rate has the values and the mean of s^2 + 0.02, which stays above zero, but is at -0.02 in the middle
+    s = Polynomial([-1.0, 16.0])
+    dipping, even = s**2 + 0.02 - 0.2 * s**4 + 0.24 * s**2 - 0.04, s**2 + 1.0
+    for rate, seen in ((dipping, UNCLEAR), (even, NOTHING)):
+        course = Course(10.0 * DEPTH + sign * DEPTH * rate.integ(), closed=True)
+        assert FINDERS[finder](course, 0.0, 0.125)[0] == seen
+
+
 @pytest.mark.parametrize("finder", FINDERS)
 @pytest.mark.parametrize("bend", [0.02, -0.02])
 def test_a_top_that_a_cubic_cannot_tell_is_looked_at_more_closely(finder: str, bend: float) -> None:
