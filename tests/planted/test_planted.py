@@ -27,7 +27,7 @@ else:
 
 PACKAGES = ("support_exudyn", "user_forces", "studies", "tests")
 PATIENCE = 120.0  # [s] for one test
-RUN = ["-m", "pytest", "-n", "0", "-q", "-x", "-p", "no:cacheprovider", "-m", ""]  # one test, slow or not
+RUN = ["-m", "pytest", "-n", "0", "-q", "-x", "-p", "no:cacheprovider", "-m", ""]  # slow tests, too
 FAILED = 1  # pytest's code for tests that ran and failed; others are of collections, interruptions and options
 
 
@@ -70,29 +70,40 @@ def copy(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+def tried(folder: Path, compiled: Path, *tests: str) -> subprocess.CompletedProcess[str]:
+    """The tests of a copy, run. compiled: where it keeps what is compiled of it."""
+    # examples are the same every time
+    own = {
+        "PYTHONPATH": str(folder),
+        "PYTHONDONTWRITEBYTECODE": "1",
+        "NUMBA_CACHE_DIR": str(compiled),
+        "CI": "true",
+    }
+    return subprocess.run(
+        [sys.executable, *RUN, *tests],
+        cwd=folder,
+        env=dict(os.environ) | own,
+        capture_output=True,
+        text=True,
+        timeout=PATIENCE * len(tests),
+        check=False,
+    )
+
+
+@pytest.mark.slow
+def test_without_a_fault_all_pass(copy: Path, tmp_path: Path) -> None:
+    found = tried(copy, tmp_path, *sorted({fault.caught_by for fault in FAULTS}))
+    assert found.returncode == 0, found.stdout[-2000:] + found.stderr[-2000:]
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("fault", FAULTS, ids=lambda fault: f"{fault.area}-{FAULTS.index(fault)}")
 def test_a_planted_fault_is_caught(fault: Fault, copy: Path, tmp_path: Path) -> None:
-    # nothing compiled is kept from one fault to the next, and examples are the same every time
-    own = {
-        "PYTHONPATH": str(copy),
-        "PYTHONDONTWRITEBYTECODE": "1",
-        "NUMBA_CACHE_DIR": str(tmp_path),
-        "CI": "true",
-    }
     file = copy / fault.file
     text = file.read_text("utf-8")
     file.write_text(text.replace(fault.old, fault.new), "utf-8")
     try:
-        found = subprocess.run(
-            [sys.executable, *RUN, fault.caught_by],
-            cwd=copy,
-            env=dict(os.environ) | own,
-            capture_output=True,
-            text=True,
-            timeout=PATIENCE,
-            check=False,
-        )
+        found = tried(copy, tmp_path, fault.caught_by)  # nothing compiled is kept from one fault to the next
     finally:
         file.write_text(text, "utf-8")
     assert found.returncode == FAILED, found.stdout[-2000:] + found.stderr[-2000:]
