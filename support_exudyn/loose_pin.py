@@ -10,8 +10,19 @@ import exudyn
 
 from support_exudyn.attachment import Attachment, Relative, attachment, in_plane
 from support_exudyn.connector import Frame, PinConnector, displacement_scale
+from support_exudyn.force_in_step import NEAR_PEAK, Course, peak
 from support_exudyn.impact_steps import ImpactSteps
-from support_exudyn.onset import Action, Mobility, Onset, PinMemory, Verdict, goes_on, judge, judge_at_ends
+from support_exudyn.onset import (
+    Action,
+    DepthPath,
+    Mobility,
+    Onset,
+    PinMemory,
+    Verdict,
+    goes_on,
+    judge,
+    judge_at_ends,
+)
 from support_exudyn.pin_motion import Motion, Moving, PinMotion
 from support_exudyn.pressed import NOT_KNOWN, Mobilities
 from support_exudyn.python_force import PythonForce
@@ -97,7 +108,7 @@ class LoosePin:
         self.wants_cut = False
         self.landing = math.inf  # where steps are to end, seen in one that was then cut [s]
         self._step = 0.0
-        self._eccentricity = (0.0, 0.0)  # at its end [m]
+        self._motion = Relative(0.0, 0.0, 0.0, 0.0)  # at its end
         self._mass = 1.0  # that moves as the depth does at its end, while in contact [kg]
         self._swing_step = math.inf  # see `longest_step`
         self._least_mass = 1.0  # the same if no other loose pin holds anything, which steps follow [kg]
@@ -108,6 +119,10 @@ class LoosePin:
         self._guessed_spin = 0.0  # of the bore at its end [rad/s]
         self._guessed_turn = 0.0  # between the marker frames at its end [rad]
         self._spin_repeats = 0
+        # at the end of the last accepted step
+        self._angle: float | None = None  # of the journal's place in the bore [rad]
+        self._size = 0.0  # of the force [N]
+        self.course: Course | None = None  # of a step just accepted over which the contact went on
         # over the run
         self.onsets: list[Onset] = []
         self.clamped_steps = 0
@@ -181,6 +196,7 @@ class LoosePin:
     def accept(self, t: float) -> None:
         """After a step that ends at t [s] has been accepted: keep what happened in it."""
         was_in_contact = self.kept.in_contact
+        self.course = self._course() if self.memory.in_contact and self.onset is None else None
         self.kept = reached = self.reached
         if not reached.in_contact and self._friction.part():
             self._let_act()
@@ -203,8 +219,37 @@ class LoosePin:
         force = self.force
         if force.clamped:
             self.clamped_steps += 1
-        if force.normal_force + abs(force.friction_force) > self.largest_force:
-            self.largest_force = max(self.largest_force, math.hypot(force.normal_force, force.friction_force))
+        before, self._size = self._size, math.hypot(force.normal_force, force.friction_force)
+        self._angle = self._place_angle()
+        self.largest_force = max(self.largest_force, self._size)
+        if self.course is not None and max(before, self._size) > NEAR_PEAK * self.largest_force:
+            self.largest_force = peak(self._size_within, self.largest_force)
+
+    def _course(self) -> Course:
+        """Of the step that has been tried, from the last accepted one to its end."""
+        start, end, angle = self.kept, self.force, self._place_angle()
+        path = DepthPath(start.depth, start.rate, end.depth, end.rate, self._step)
+        before = angle if self._angle is None else self._angle
+        return Course(path, start.slip, before, self._motion, end.slip, angle, self.contact.bearing.clearance)
+
+    def _place_angle(self) -> float:
+        """Direction of the journal's place at the end of the step, in the axes of mobilities [rad]."""
+        x, y = self._motion[:2]
+        return math.atan2(y, x) - (self._bore_angle if self.turns else 0.0)
+
+    def force_within(self, x: float) -> ContactForce:
+        """The force at a fraction of the step just accepted; at its end, if the contact did not go on in it."""
+        if self.course is None:
+            return self.force
+        motion, memory, mass = self.course.at(x), self.memory, self._mass
+        if not self._on_line:
+            mass = self._turned(memory.mobility).mass(motion.x, motion.y)
+        touch = memory.in_contact, memory.approach_speed, mass, memory.deflection, memory.slip
+        return self._force(*motion[:4], *motion.spins(self.at), *touch, x * self._step)
+
+    def _size_within(self, x: float) -> float:
+        force = self.force_within(x)
+        return math.hypot(force[3], force[4])
 
     @property
     def touch(self) -> Touch:
@@ -219,7 +264,7 @@ class LoosePin:
         friction, force = self.contact.friction, self.force.normal_force
         if not friction.has_state or force == 0.0:
             return math.inf
-        x, y = self._eccentricity
+        x, y = self._motion[:2]
         return friction.swing_time(self._alone_here.mass(-y, x), force / self.share)
 
     def begin_impact(self) -> None:
@@ -387,7 +432,7 @@ class LoosePin:
 
     def _contact_force(self, motion: Relative) -> ContactForce:
         x, y, vx, vy, _, _ = motion
-        self._eccentricity = x, y
+        self._motion = motion
         in_contact, approach_speed, _, _, slip, deflection, *_ = self.memory
         if in_contact and not self._on_line:
             self._mass, self._least_mass = self._here.mass(x, y), self._alone_here.mass(x, y)
@@ -409,7 +454,7 @@ class LoosePin:
             return False
         if self._spin_repeats >= SPIN_REPEATS:
             return False
-        if abs(self._tried_spin - self._guessed_spin) * math.hypot(*self._eccentricity) < SPIN_ERROR:
+        if abs(self._tried_spin - self._guessed_spin) * math.hypot(*self._motion[:2]) < SPIN_ERROR:
             return False
         self._spin_repeats += 1
         self._guessed_spin = self._tried_spin

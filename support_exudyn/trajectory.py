@@ -119,7 +119,7 @@ class Outcome:
     """A finished run of a formulation.
 
     trajectory: at the records. onsets: for each loose pin the beginnings of contact. largest_force: for each
-    loose pin the largest force [N] at any step. impulses: where the speed of rigid columns or cranks jumped.
+    loose pin the largest force [N] at any time. impulses: where the speed of rigid columns or cranks jumped.
     counts: what the solver did.
     """
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from support_exudyn.compiled import compiled
+from support_exudyn.force_in_step import GOLDEN, NARROWINGS, NEAR_PEAK, NEAR_TOP, PEAK_SAMPLES
 from support_exudyn.reduced.drive import Matrix, Vector, driven
 from support_exudyn.reduced.equations import observe
 from support_exudyn.reduced.layout import (
@@ -20,12 +21,6 @@ from support_exudyn.reduced.layout import (
     TIME,
 )
 from support_exudyn.reduced.runge_kutta import within
-
-PEAK_SAMPLES = 8
-NEAR_PEAK = 0.8  # share of the largest force so far from which a step is looked at more closely
-NEAR_TOP = 0.98  # and of which its largest sample is, if the top between two is looked for
-GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)  # by golden section: share that is left of an interval
-NARROWINGS = 24  # to 1e-5 of it
 
 
 @compiled

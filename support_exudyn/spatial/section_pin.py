@@ -11,6 +11,7 @@ import exudyn
 import numpy as np
 
 from support_exudyn.attachment import Attachment, in_plane
+from support_exudyn.force_in_step import NEAR_PEAK, peak
 from support_exudyn.impact_steps import ImpactSteps
 from support_exudyn.loose_pin import LoosePin
 from support_exudyn.onset import Onset, PinMemory
@@ -197,7 +198,9 @@ class Journal:
         self._place: Vector2 | None = None
         self.sections: list[SectionPin] = []
         self.onsets: list[Onset] = []  # of the journal, which was all apart
-        self.largest_force = 0.0  # [N], at the end of any step
+        self.largest_force = 0.0  # [N], at any time
+        self._bound = 0.0  # of the force at the end of the last step [N]
+        self._places: list[Vector2] = []  # of the sections in the bore at its end, bore's axes [m]
         # of each section: whether it was in contact before the step, and its touch in it
         self._before: list[tuple[bool, Onset | None]] = []
 
@@ -237,8 +240,12 @@ class Journal:
         self._look_for_parting(t)
         self._before.clear()
         forces = [pin.force for pin in self.sections]
-        if sum(f.normal_force + abs(f.friction_force) for f in forces) > self.largest_force:
-            self.largest_force = max(self.largest_force, self._resultant())
+        before, self._bound = self._bound, sum(f.normal_force + abs(f.friction_force) for f in forces)
+        if max(before, self._bound) > NEAR_PEAK * self.largest_force:
+            self._places = [pin.moving.now()[1][:2] for pin in self.sections]
+            self.largest_force = max(self.largest_force, self._resultant(1.0))
+            if any(pin.course is not None for pin in self.sections):
+                self.largest_force = peak(self._resultant, self.largest_force)
 
     def _look_for_parting(self, t: float) -> None:
         """If in the step to t [s] the last sections have parted: note when, and the highest speed of these."""
@@ -248,13 +255,13 @@ class Journal:
         if parted:
             self.onsets[-1] = self.onsets[-1].parted(t, max(parted))
 
-    def _resultant(self) -> float:
-        """Magnitude of the force of all sections together [N]."""
+    def _resultant(self, fraction: float) -> float:
+        """Magnitude of the force of all sections together [N] at a fraction of the step just accepted."""
         total_x = total_y = 0.0
-        for pin in self.sections:
-            _, (x, y, *_) = pin.moving.now()
+        for pin, (x, y) in zip(self.sections, self._places, strict=True):
             away = math.hypot(x, y) or 1.0
-            normal, friction = pin.force.normal_force, pin.force.friction_force
+            force = pin.force_within(fraction)
+            normal, friction = force.normal_force, force.friction_force
             total_x += (-normal * x - friction * y) / away
             total_y += (-normal * y + friction * x) / away
         return math.hypot(total_x, total_y)
