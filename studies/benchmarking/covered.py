@@ -4,6 +4,10 @@ A number is judged by the reference whose own error is told apart from the error
 formulation where that is sharp enough, else one of the same at much finer settings. If no reference is sharp
 enough, the number is set apart; but where another formulation is surely further away than the error claimed,
 that counts, however blunt it is.
+
+Two runs of a reference can agree by chance. So there are three, and the last distance is not believed below
+what the order of the method makes of the one before; where it is far below, or above the one before, the
+number does not converge, and counts against a run only where the distances themselves are small enough.
 """
 
 from __future__ import annotations
@@ -27,9 +31,14 @@ from support_exudyn.scenario import ACCURACIES, Accuracy
 from support_exudyn.solver_settings import ERROR_CONTROLLED, MOST_IMPACT_STEPS
 
 # tolerances of a reference, and of its own error
-TIGHT: Mapping[FormulationName, tuple[float, float]] = {"reduced": (1e-12, 1e-10), "tree": (1e-11, 1e-9)}
-FINER = (3.0, 1.5)  # times shorter steps than those of a run; and of its reference's own error
-WITNESS = (8.0, 4.0)  # the same against the first run of "standard", where another formulation judges
+TIGHT: Mapping[FormulationName, tuple[float, float, float]] = {
+    "reduced": (1e-12, 1e-10, 1e-8),
+    "tree": (1e-11, 1e-9, 1e-7),
+}
+FINER = (3.0, 1.5, 1.0)  # times shorter steps than those of a run; the last is that run
+WITNESS = (8.0, 4.0, 2.0)  # the same against the first run of "standard", where another formulation judges
+ORDER = 2  # of the method whose steps are made shorter
+CHANCE = 0.25  # of what the order makes of the distance before, below which two runs agree by chance
 SHARP = 0.25  # of the error claimed that a reference's own error may be
 SURELY = 4.0  # times its own error that a reference has to be beyond the error claimed to count however blunt
 OF_DISTANCE = 0.5  # of the distance of a less fine run that a reference's own error is taken to be
@@ -46,27 +55,51 @@ def _family(name: str) -> str:
 
 
 class Reference(NamedTuple):
-    """Numbers of a scene by one formulation, at very fine settings and at less fine ones."""
+    """Numbers of a scene by one formulation, at very fine settings and at two that are less and less fine.
+
+    falls: what the order makes of the distance of the coarser two, for that of the finer two.
+    """
 
     formulation: str
     numbers: Mapping[str, float]
     coarser: Mapping[str, float]
+    coarsest: Mapping[str, float]
+    falls: float
 
     def error(self, name: str) -> float:
         """Of a number: half of how far the less fine run is away, which for second order is a third of that.
 
         Two runs can agree in a number by chance: it is at least as far as the middle one of its family, such as
-        all forces, as a share of each.
+        all forces, as a share of each, and as the distance before makes it; that itself, if it is far below.
         """
         family = [one for one in self.numbers if _family(one) == _family(name) and self.numbers[one]]
         shares = [self._away(one) / abs(self.numbers[one]) for one in family]
         usual = float(np.median(shares)) if shares else 0.0
+        last, before = self._away(name), self._away_before(name)
+        far = max(last, before if self._by_chance(name) else self.falls * before)
+        return max(OF_DISTANCE * far, OF_DISTANCE * usual * abs(self.numbers[name]) + self._floor(name))
+
+    def converges(self, name: str) -> bool:
+        """Whether the distances of a number fall as they should, or are nothing but rounding."""
+        last, floor = self._away(name), self._floor(name)
+        return last <= floor or (last <= self._away_before(name) and not self._by_chance(name))
+
+    def _by_chance(self, name: str) -> bool:
+        """Whether the finer two agree far better than the coarser two let expect, which steps tell alone."""
+        if self.formulation in ERROR_CONTROLLED:
+            return False  # by tolerances errors fall irregularly
+        return self._away(name) + self._floor(name) < CHANCE * self.falls * self._away_before(name)
+
+    def _floor(self, name: str) -> float:
+        """What no step makes smaller."""
         iterates = self.formulation == "redundant" and not name.endswith((".x.mean", ".y.mean"))
-        left = NEWTON if iterates else ROUNDING
-        return max(OF_DISTANCE * self._away(name), (OF_DISTANCE * usual + left) * abs(self.numbers[name]))
+        return (NEWTON if iterates else ROUNDING) * abs(self.numbers[name])
 
     def _away(self, name: str) -> float:
         return abs(self.numbers[name] - self.coarser.get(name, math.nan))
+
+    def _away_before(self, name: str) -> float:
+        return abs(self.coarser.get(name, math.nan) - self.coarsest.get(name, math.nan))
 
 
 @dataclass(frozen=True)
@@ -146,38 +179,55 @@ def references(scene: Fresh, runs: Sequence[Result]) -> Iterator[Reference]:
     sharp = False
     for name, tolerances in TIGHT.items():
         if covers(name, plain):
-            pair = [
+            made = [
                 replace(plain, formulation=name, solver=replace(plain.solver, tolerance=tolerance))
                 for tolerance in tolerances
             ]
-            if (found := _pair(name, pair)) is not None:
+            if (found := _reference(name, _numbers(made), _falls(tolerances))) is not None:
                 sharp = True
                 yield found
     if sharp and all(run.scenario.formulation == "redundant" for run in runs):
         return
-    witness = settings_for(replace(plain, formulation="redundant"), ACCURACIES["standard"])
-    first, factors = (witness, WITNESS) if sharp else (_finest(runs), FINER)
-    if first is not None:
-        pair = [first.refined(factor) for factor in factors]
-        if (found := _pair("redundant", pair)) is not None:
-            yield found
+    if sharp:
+        witness = settings_for(replace(plain, formulation="redundant"), ACCURACIES["standard"])
+        factors, known = WITNESS, _numbers([witness.refined(factor) for factor in WITNESS])
+    elif (finest := _finest(runs)) is not None:
+        finer = _numbers([finest.scenario.refined(factor) for factor in FINER[:2]])
+        factors, known = FINER, [*finer, tight_numbers(0.0, finest)]
+    else:
+        return
+    if (found := _reference("redundant", known, _falls([factor**-ORDER for factor in factors]))) is not None:
+        yield found
 
 
-def _finest(runs: Sequence[Result]) -> Scenario | None:
-    """The finest settings of runs that can be made finer still; None if there are none."""
+def _finest(runs: Sequence[Result]) -> Result | None:
+    """The finest of runs whose steps can be made shorter still; None if there are none."""
     for run in reversed(runs):
         if FINER[0] * run.scenario.solver.impact_steps <= MOST_IMPACT_STEPS:
-            return run.scenario
+            return run
     return None
 
 
-def _pair(name: str, pair: Sequence[Scenario]) -> Reference | None:
-    """None if one of the runs fails."""
+def _falls(errors: Sequence[float]) -> float:
+    """The distance of the finer two of three runs with these errors, as a share of that of the coarser two."""
+    fine, coarse, coarsest = errors
+    return (coarse - fine) / (coarsest - coarse)
+
+
+def _numbers(scenarios: Sequence[Scenario]) -> list[Mapping[str, float]]:
+    """Of runs, one after another; of none, if one of them fails."""
     try:
-        fine, coarse = (tight_numbers(0.0, simulate(run)) for run in pair)
+        return [tight_numbers(0.0, simulate(scenario)) for scenario in scenarios]
     except SimulationError:
+        return []
+
+
+def _reference(name: str, found: Sequence[Mapping[str, float]], falls: float) -> Reference | None:
+    """None if one of its three runs has failed."""
+    if not found:
         return None
-    return Reference(name, fine, coarse)
+    fine, coarse, coarsest = found
+    return Reference(name, fine, coarse, coarsest, falls)
 
 
 def judged(run: Result, known: Sequence[Reference]) -> Iterator[Judged]:
@@ -190,19 +240,19 @@ def judge(name: str, value: float, claimed: float, formulation: str, known: Sequ
     """A number beside references, of which those of another formulation go first; see the module."""
     found = sorted(
         (
-            Judged(name, value, claimed, _distance(value, one, name), one.error(name), one.formulation)
+            (Judged(name, value, claimed, _distance(value, one, name), one.error(name), one.formulation), one)
             for one in known
             if name in one.numbers
         ),
-        key=lambda one: one.by == formulation,
+        key=lambda pair: pair[0].by == formulation,
     )
-    for one in found:
-        if one.away - SURELY * one.own > claimed:
+    for one, reference in found:
+        if one.away - SURELY * one.own > claimed and reference.converges(name):
             return one
-    for one in found:
+    for one, _ in found:
         if one.own <= SHARP * claimed:
             return one
-    return replace(found[0], by="") if found else Judged(name, value, claimed, math.nan, math.nan, "")
+    return replace(found[0][0], by="") if found else Judged(name, value, claimed, math.nan, math.nan, "")
 
 
 def _distance(value: float, reference: Reference, name: str) -> float:

@@ -72,8 +72,8 @@ def test_all_that_matters_varies() -> None:
 
 def known(formulation: str, value: float, error: float) -> Reference:
     """A reference of one number, whose own error is as told."""
-    other = value + error / covered.OF_DISTANCE
-    return Reference(formulation, {FORCE: value}, {FORCE: other})
+    away = error / covered.OF_DISTANCE
+    return Reference(formulation, {FORCE: value}, {FORCE: value + away}, {FORCE: value + 5.0 * away}, 0.25)
 
 
 def judged(claimed: float, *references: Reference) -> Judged:
@@ -109,8 +109,36 @@ def test_a_reference_that_agrees_by_chance_is_as_wrong_as_its_family() -> None:
     names = [f"pin.p{n}.force.mean" for n in range(5)]
     fine = dict.fromkeys(names, 100.0)
     coarse = dict(zip(names, (100.0, 101.0, 101.0, 102.0, 103.0), strict=True))
-    assert Reference("tree", fine, coarse).error(names[0]) == pytest.approx(covered.OF_DISTANCE)
-    assert Reference("tree", fine, coarse).error(names[4]) == pytest.approx(3.0 * covered.OF_DISTANCE)
+    reference = Reference("tree", fine, coarse, coarse, 0.25)
+    assert reference.error(names[0]) == pytest.approx(covered.OF_DISTANCE)
+    assert reference.error(names[4]) == pytest.approx(3.0 * covered.OF_DISTANCE)
+
+
+def three(fine: float, coarse: float, coarsest: float) -> Reference:
+    """Of the engine, by steps of a length, twice and four times that."""
+    return Reference("redundant", {FORCE: fine}, {FORCE: coarse}, {FORCE: coarsest}, 0.25)
+
+
+def test_the_last_distance_is_not_believed_below_what_the_one_before_makes_it() -> None:
+    assert three(105.0, 106.0, 110.0).error(FORCE) == pytest.approx(covered.OF_DISTANCE, rel=1e-4)
+    assert three(105.0, 105.5, 109.5).error(FORCE) == pytest.approx(covered.OF_DISTANCE, rel=1e-4)
+    # two agree by chance: they are as wrong as the third is away
+    assert three(105.0, 105.1, 109.1).error(FORCE) == pytest.approx(4.0 * covered.OF_DISTANCE, rel=1e-4)
+
+
+@pytest.mark.parametrize(("coarse", "coarsest"), [(105.001, 105.3), (105.3, 105.301), (105.3, 104.9)])
+def test_a_number_of_a_reference_that_does_not_converge_tells_of_no_other_unless_sharp(
+    coarse: float, coarsest: float
+) -> None:
+    irregular = three(105.0, coarse, coarsest)
+    assert irregular.converges(FORCE) == (abs(coarsest - coarse) > 0.35)
+    found = judged(0.1, known("reduced", 100.0, 1e-9), irregular)
+    assert found.by == ("redundant" if irregular.converges(FORCE) else "reduced")
+
+
+def test_what_three_runs_agree_in_but_for_rounding_converges() -> None:
+    assert three(105.0, 105.0, 105.0).converges(FORCE)
+    assert judged(0.1, three(105.0, 105.0, 105.0)).by == "redundant"
 
 
 # --- what is told of all ---
