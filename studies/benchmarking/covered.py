@@ -6,8 +6,8 @@ enough, the number is set apart; but where another formulation is surely further
 that counts, however blunt it is.
 
 Two runs of a reference can agree by chance. So there are three, and the last distance is not believed below
-what the order of the method makes of the one before; where it is far below, or above the one before, the
-number does not converge, and counts against a run only where the distances themselves are small enough.
+what the order of the method makes of the one before. Where it is far below, above the one before, or the other
+way, the number does not converge, and counts against a run only where the distances themselves are small.
 """
 
 from __future__ import annotations
@@ -81,8 +81,12 @@ class Reference(NamedTuple):
 
     def converges(self, name: str) -> bool:
         """Whether the distances of a number fall as they should, or are nothing but rounding."""
-        last, floor = self._away(name), self._floor(name)
-        return last <= floor or (last <= self._away_before(name) and not self._by_chance(name))
+        last = self._away(name)
+        if last <= self._floor(name):
+            return True
+        fine, coarse, coarsest = (found[name] for found in (self.numbers, self.coarser, self.coarsest))
+        one_way = self.formulation in ERROR_CONTROLLED or (fine - coarse) * (coarse - coarsest) > 0.0
+        return one_way and last <= self._away_before(name) and not self._by_chance(name)
 
     def _by_chance(self, name: str) -> bool:
         """Whether the finer two agree far better than the coarser two let expect, which steps tell alone."""
@@ -91,9 +95,11 @@ class Reference(NamedTuple):
         return self._away(name) + self._floor(name) < CHANCE * self.falls * self._away_before(name)
 
     def _floor(self, name: str) -> float:
-        """What no step makes smaller."""
+        """What no step makes smaller: of the largest value that it is computed from."""
         iterates = self.formulation == "redundant" and not name.endswith((".x.mean", ".y.mean"))
-        return (NEWTON if iterates else ROUNDING) * abs(self.numbers[name])
+        series = name.rpartition(".")[0] + "."
+        values = [abs(self.numbers[one]) for one in self.numbers if "force" in name and one.startswith(series)]
+        return (NEWTON if iterates else ROUNDING) * max([abs(self.numbers[name]), *values])
 
     def _away(self, name: str) -> float:
         return abs(self.numbers[name] - self.coarser.get(name, math.nan))
