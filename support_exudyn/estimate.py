@@ -111,7 +111,8 @@ class Kind(NamedTuple):
     unit: its unit. measure: gives it, from a result. size: of the largest number of its kind. family: of
     numbers that are wrong by like shares; empty: none. of: the force or touch that it is of; empty: of none.
     left: share of it that steps do not make smaller. missed: by how much it may be off because it is taken
-    from records; of extremes, see `extremes.missed`.
+    from records; of extremes, see `extremes.missed`. values: the largest value that it is computed from, which
+    rounding and Newton's method are shares of: a spread or a least value can be next to nothing beside it.
     """
 
     unit: str
@@ -121,6 +122,7 @@ class Kind(NamedTuple):
     of: str = ""
     left: float = 0.0
     missed: Measure = _nothing
+    values: float = 0.0
 
 
 def measures(result: Result, after: float, until: float) -> Mapping[str, Kind]:
@@ -142,12 +144,14 @@ def measures(result: Result, after: float, until: float) -> Mapping[str, Kind]:
     fastest = max((float(np.abs(result[name]).max()) for name in turning), default=0.0)
     for name, channel in result.channels.items():
         if name.endswith(FORCE) and channel.is_determined:
+            most = largest(result[name][_inside(result, after, until)])
             for word, statistic in STATISTICS.items():
                 if word in SIGNED and name.startswith("pin."):
                     continue  # a magnitude, which has no sign
                 measure, between = _over(name, statistic, after, until), _missed(word, name, after, until)
                 of = name if word in AVERAGED else ""  # of a single record, which others average out
-                found[f"{name}.{word}"] = Kind(channel.unit, measure, 0.0, f"force.{word}", of, left, between)
+                family = f"force.{word}"
+                found[f"{name}.{word}"] = Kind(channel.unit, measure, 0.0, family, of, left, between, most)
         elif name in turning:
             measure = _over(name, np.std, after, until)
             found[f"{name}.spread"] = Kind(channel.unit, measure, fastest, ANGULAR_ACCELERATION, left=left)
@@ -253,8 +257,9 @@ def errors(
         usual = float(np.median(families[kind.family])) if kind.family in families and kind.family else 0.0
         worst = max(origins[kind.of]) if kind.of in origins and kind.of else 0.0
         least = ALIKE * max(usual * size, worst * scales[kind.of, kind.unit])
-        own = error(kind.measure, result, r, kind.size, least)
-        found[name] = own + kind.left * size + kind.missed(result)
+        values = max(size, kind.values)
+        own = error(kind.measure, result, r, values, least)
+        found[name] = own + kind.left * values + kind.missed(result)
     return found
 
 
@@ -263,7 +268,7 @@ def error(measure: Measure, result: Result, r: float, size: float = 0.0, least: 
 
     Arguments:
         r: see `fall`.
-        size: of the largest number of its kind.
+        size: of the largest number of its kind, or the largest value that it is computed from.
         least: distance of the runs below which they are taken to agree by chance.
 
     Raises ValueError if there is no coarser run.

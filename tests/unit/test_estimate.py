@@ -133,12 +133,13 @@ def kind_of(name: str) -> str:
 
 
 def known_size(name: str) -> float:
-    """The largest number of the kind, of those that have one: turning bodies, and places of points."""
+    """The largest number of the kind, or value of the channel: turning bodies, places of points, forces."""
     if name.endswith(".angular_acceleration.spread"):
         return max(np.abs(exact()[n]).max() for n in exact().channels if n.endswith(".angular_acceleration"))
     if name.startswith("tip."):
         return float(np.abs([exact()["tip.x"], exact()["tip.y"]]).max())
-    return 0.0
+    channel, _, _ = name.rpartition(".")
+    return float(np.abs(exact()[channel]).max()) if channel.endswith(".force") else 0.0
 
 
 @pytest.mark.parametrize(("r", "taken"), [(1e-3, FASTEST), (0.99, SLOWEST), (3.0, SLOWEST)])
@@ -397,6 +398,23 @@ def test_a_force_that_hardly_varies_has_no_spread_to_be_wrong() -> None:
     noise = np.random.default_rng(1).normal(size=(3, exact().time.size))
     runs = [with_channel(exact(), FORCE, 5e4 + 1e-6 * row) for row in noise]
     assert three(*runs).worst_error < 1e-5
+
+
+def test_a_spread_and_a_least_value_near_zero_are_as_uncertain_as_the_values_they_are_of() -> None:
+    def off(size: float) -> Result:
+        values = np.full(exact().time.size, 1e5)
+        values[::2] += size
+        return with_channel(exact(), FORCE, values)
+
+    found = three(off(3e-8), off(2e-8), off(1e-8)).numbers()
+    spread, mean = found[f"{FORCE}.spread"], found[f"{FORCE}.mean"]
+    assert spread.value < 1e-7
+    assert spread.error >= ROUNDING * mean.value
+    column = "front_column.force"
+    least = np.linspace(1e-4, 1e5, exact().time.size)
+    run = with_channel(exact(), column, least)
+    found = three(run, run, run).numbers()
+    assert found[f"{column}.min"].error - between_records(run, f"{column}.min") >= ROUNDING * 1e5
 
 
 def test_a_path_that_goes_nowhere_is_measured_by_the_clearance() -> None:
