@@ -246,9 +246,12 @@ class Run:
             self.steps += 1
             self._look_for_limits()
             self.newton.solved(taken)
-            for pin in self.pins:
+            for name, pin in self.scene.loose_pins.items():
                 kink = kink or pin.onset is not None
-                pin.accept(t)
+                try:
+                    pin.accept(t)
+                except LawError as error:  # inside the step
+                    raise error.at(name) from None
         self.recorder.after_step(t, kink)
         for friction in self.frictions:
             friction.accept()

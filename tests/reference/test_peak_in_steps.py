@@ -8,13 +8,16 @@ from functools import cache
 
 import pytest
 
-from support_exudyn import ClearancePin, Held, Scenario
+from support_exudyn import ClearancePin, Held, Scenario, SimulationError
 from support_exudyn.attachment import Relative
 from support_exudyn.force_in_step import Course, peak
+from support_exudyn.loose_pin import LoosePin
 from support_exudyn.onset import DepthPath
 from tests.reduced import simulate_reduced, simulate_redundant
 from tests.reference.cases import PIN, paper_contact, support
 from user_forces import DepthSpeed, Flores
+from user_forces.contact import ContactForce
+from user_forces.lawful import LawError
 
 # what limits its damping changes while it is pressed in ever faster: a corner at the top of the force
 LAW = Flores(restitution=0.485, stiffness=5.7e8, exponent=1.167, damping_speed=DepthSpeed())
@@ -42,6 +45,15 @@ def test_a_corner_between_the_ends_of_steps_is_the_largest_force(impact_steps: i
 def test_of_a_journal_in_space_it_is_that_of_all_its_sections() -> None:
     found = simulate_redundant(replace(with_a_corner(), dimensions=3)).largest_force[PIN]
     assert found == pytest.approx(right(), rel=1e-4)
+
+
+def test_a_law_that_gives_no_force_inside_a_step_is_told_with_its_pin(monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(pin: LoosePin, x: float) -> ContactForce:
+        raise LawError(f"no force at {x:g} of a step")
+
+    monkeypatch.setattr(LoosePin, "force_within", fail)
+    with pytest.raises(SimulationError, match=f"{PIN}: no force at 0 of a step"):
+        simulate_redundant(with_a_corner())
 
 
 @pytest.mark.parametrize("top", [0.01, 0.3, 0.5, 0.93, 0.99])
