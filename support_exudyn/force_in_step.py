@@ -18,6 +18,7 @@ NEAR_PEAK = 0.8  # share of the largest force so far from which a step is looked
 NEAR_TOP = 0.98  # and of which its largest sample is, if the top between two is looked for
 GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)  # by golden section: share that is left of an interval
 NARROWINGS = 24  # to 1e-5 of it
+NEXT_TO_END, ABOVE = 1e-3, 1e-10  # share of a step; and of a force, that is more than rounding
 
 
 class Course(NamedTuple):
@@ -45,6 +46,13 @@ class Course(NamedTuple):
         angle = math.atan2(end.y, end.x) - (1.0 - x) * math.remainder(self.angle_end - self.angle, math.tau)
         away, rate, c, s = self.clearance + path.depth(x), path.rate(x), math.cos(angle), math.sin(angle)
         return Relative(away * c, away * s, rate * c - across * s, rate * s + across * c, end[4], end[5])
+
+
+def has_a_top(size: Callable[[float], float], first: float, last: float) -> bool:
+    """Whether a force is larger inside a step than at its ends: where it falls towards the larger one [N]."""
+    if last >= first:
+        return size(1.0 - NEXT_TO_END) > (1.0 + ABOVE) * last
+    return size(NEXT_TO_END) > (1.0 + ABOVE) * first
 
 
 def peak(size: Callable[[float], float], largest: float) -> float:

@@ -10,7 +10,7 @@ import exudyn
 
 from support_exudyn.attachment import Attachment, Relative, attachment, in_plane
 from support_exudyn.connector import Frame, PinConnector, displacement_scale
-from support_exudyn.force_in_step import NEAR_PEAK, Course, peak
+from support_exudyn.force_in_step import NEAR_PEAK, Course, has_a_top, peak
 from support_exudyn.impact_steps import ImpactSteps
 from support_exudyn.onset import (
     Action,
@@ -222,7 +222,8 @@ class LoosePin:
         before, self._size = self._size, math.hypot(force.normal_force, force.friction_force)
         self._angle = self._place_angle()
         self.largest_force = max(self.largest_force, self._size)
-        if self.course is not None and max(before, self._size) > NEAR_PEAK * self.largest_force:
+        near = self.course is not None and max(before, self._size) > NEAR_PEAK * self.largest_force
+        if near and has_a_top(self._size_within, before, self._size):
             self.largest_force = peak(self._size_within, self.largest_force)
 
     def _course(self) -> Course:

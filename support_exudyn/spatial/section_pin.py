@@ -11,7 +11,7 @@ import exudyn
 import numpy as np
 
 from support_exudyn.attachment import Attachment, in_plane
-from support_exudyn.force_in_step import NEAR_PEAK, peak
+from support_exudyn.force_in_step import NEAR_PEAK, has_a_top, peak
 from support_exudyn.impact_steps import ImpactSteps
 from support_exudyn.loose_pin import LoosePin
 from support_exudyn.onset import Onset, PinMemory
@@ -241,10 +241,12 @@ class Journal:
         self._before.clear()
         forces = [pin.force for pin in self.sections]
         before, self._bound = self._bound, sum(f.normal_force + abs(f.friction_force) for f in forces)
-        if max(before, self._bound) > NEAR_PEAK * self.largest_force:
+        near = max(before, self._bound) > NEAR_PEAK * self.largest_force
+        has = near and has_a_top(self._bound_within, before, self._bound)
+        if has or self._bound > self.largest_force:
             self._places = [pin.moving.now()[1][:2] for pin in self.sections]
             self.largest_force = max(self.largest_force, self._resultant(1.0))
-            if any(pin.course is not None for pin in self.sections):
+            if has:
                 self.largest_force = peak(self._resultant, self.largest_force)
 
     def _look_for_parting(self, t: float) -> None:
@@ -254,6 +256,11 @@ class Journal:
         parted = [-pin.kept.rate for pin, (was, _) in zip(self.sections, self._before, strict=True) if was]
         if parted:
             self.onsets[-1] = self.onsets[-1].parted(t, max(parted))
+
+    def _bound_within(self, fraction: float) -> float:
+        """What the force is at most [N] at a fraction of the step just accepted."""
+        forces = [pin.force_within(fraction) for pin in self.sections]
+        return sum(force.normal_force + abs(force.friction_force) for force in forces)
 
     def _resultant(self, fraction: float) -> float:
         """Magnitude of the force of all sections together [N] at a fraction of the step just accepted."""

@@ -10,7 +10,7 @@ import pytest
 
 from support_exudyn import ClearancePin, Held, Scenario, SimulationError
 from support_exudyn.attachment import Relative
-from support_exudyn.force_in_step import Course, peak
+from support_exudyn.force_in_step import Course, has_a_top, peak
 from support_exudyn.loose_pin import LoosePin
 from support_exudyn.onset import DepthPath
 from tests.reduced import simulate_reduced, simulate_redundant
@@ -52,7 +52,7 @@ def test_a_law_that_gives_no_force_inside_a_step_is_told_with_its_pin(monkeypatc
         raise LawError(f"no force at {x:g} of a step")
 
     monkeypatch.setattr(LoosePin, "force_within", fail)
-    with pytest.raises(SimulationError, match=f"{PIN}: no force at 0 of a step"):
+    with pytest.raises(SimulationError, match=f"{PIN}: no force at "):
         simulate_redundant(with_a_corner())
 
 
@@ -60,6 +60,12 @@ def test_a_law_that_gives_no_force_inside_a_step_is_told_with_its_pin(monkeypatc
 def test_a_corner_is_found_wherever_it_lies_in_a_step(top: float) -> None:
     assert peak(lambda x: 1.0 - abs(x - top), 0.0) == pytest.approx(1.0, abs=1e-4)
     assert peak(lambda x: 1.0 - abs(x - top), 10.0) == 10.0
+    assert has_a_top(lambda x: 1.0 - abs(x - top), 1.0 - top, top)
+
+
+@pytest.mark.parametrize("slope", [-1.0, 0.0, 1.0])
+def test_a_force_that_rises_or_falls_throughout_has_no_top_inside(slope: float) -> None:
+    assert not has_a_top(lambda x: 5.0 + slope * x, 5.0, 5.0 + slope)
 
 
 def test_a_course_within_a_step_is_that_of_both_its_ends() -> None:
