@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import Literal
 
 from support_exudyn.formulations import covers, formulation
+from support_exudyn.ringing import ringing_step
 from support_exudyn.scenario import LARGEST_STEP, Scenario
 from support_exudyn.solver_settings import ERROR_CONTROLLED, MOST_IMPACT_STEPS, SMALLEST_TOLERANCE
 from support_exudyn.timescales import timescales
@@ -48,7 +49,8 @@ def settings_for(scenario: Scenario, goal: float) -> Scenario:
         impact_steps=min(max(impact_steps, FEWEST_IMPACT_STEPS), MOST_AT_FIRST),
         tolerance=min(max(TOLERANCE_FOR_GOAL * goal, SMALLEST_TOLERANCE), LARGEST_TOLERANCE),
     )
-    step = min(step, scenario.record_period, LARGEST_STEP)
+    # else a vibration that all runs damp out by their steps would be missing in all of them alike
+    step = min(step, ringing_step(plain), scenario.record_period, LARGEST_STEP)
     return replace(plain, formulation=name, step=step, solver=solver)
 
 

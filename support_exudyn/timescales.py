@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 
@@ -14,6 +15,7 @@ from support_exudyn.loads.load import Load
 from support_exudyn.machine import Linkage
 from support_exudyn.scenario import Scenario
 from support_exudyn.table_drive import TableDrive
+from user_forces.contact import JournalContact
 from user_forces.friction.law import FrictionLaw
 from user_forces.normal.law import LoadError, NormalLaw
 
@@ -44,6 +46,29 @@ class Timescales:
     rubbing: float = math.inf
 
 
+class LoadedContact(NamedTuple):
+    """A loose pin's contact under a static load in the start posture.
+
+    contact: its laws. load: what it carries [N]. along: its direction, any if it is but rounding (2,).
+    mobility: of the journal, ground's axes (2, 2) [1/kg]. mass: that moves with it along the load [kg].
+    lightest: that moves with it in any direction [kg]. stiffness: of the contact there [N/m]; 0 if it carries
+    nothing or cannot hold it.
+    """
+
+    contact: JournalContact
+    load: float
+    along: Matrix
+    mobility: Matrix
+    mass: float
+    lightest: float
+    stiffness: float
+
+    @property
+    def time(self) -> float:
+        """One over the angular frequency of its vibration [s]; infinite if there is none."""
+        return math.sqrt(self.mass / self.stiffness) if self.stiffness > 0.0 else math.inf
+
+
 def timescales(scenario: Scenario) -> Timescales:
     """The shortest times of a scene.
 
@@ -55,29 +80,43 @@ def timescales(scenario: Scenario) -> Timescales:
     those that are pressed it is larger, and the vibration slower.
     """
     linkage = scenario.linkage
+    pull = _pull(scenario, kinetics_of(linkage))
+    clearances = [pin.contact.bearing.clearance for pin in scenario.clearance_pins.values()]
+    flight = math.sqrt(2.0 * min(clearances, default=math.inf) / max(pull, SLOWEST_FALL))
+    rests, rubs = [math.inf, *_under_loads(scenario)], [math.inf]
+    for loaded in loaded_contacts(scenario):
+        friction = loaded.contact.friction
+        rests += [loaded.time, friction.swing_time(loaded.lightest, loaded.load)]
+        steepest = _steepest(friction, loaded.load)
+        rubs.append(loaded.lightest / steepest if steepest > 0.0 else math.inf)
+    return Timescales(flight, min(rests), _drive_time(scenario, linkage), min(rubs))
+
+
+def loaded_contacts(scenario: Scenario) -> list[LoadedContact]:
+    """Every loose pin under the weight, and under weight and largest loads, see `timescales`."""
+    linkage, found = scenario.linkage, []
     closed = kinetics_of(linkage)
-    pull = math.hypot(*scenario.gravity) + _running(scenario, closed)
+    pull = _pull(scenario, closed)
     loads = _static_loads(scenario, closed)
     weight = math.hypot(*scenario.gravity) * sum(body.mass for body in linkage.bodies.values())
-    flights, rests, rubs = [math.inf], [math.inf, *_under_loads(scenario)], [math.inf]
     for name, pin in scenario.clearance_pins.items():
-        flights.append(math.sqrt(2.0 * pin.contact.bearing.clearance / max(pull, SLOWEST_FALL)))
         mobility = _mobility(scenario, name)
+        lightest = 1.0 / max(float(np.linalg.eigvalsh(mobility).max()), SMALLEST_MOBILITY)
         for static in loads[name]:
-            load = float(np.linalg.norm(static))
+            load, mass, along = float(np.linalg.norm(static)), lightest, np.array([1.0, 0.0])
             if load > ROUNDING * weight:
                 along = static / load
                 mass = 1.0 / max(float(along @ mobility @ along), SMALLEST_MOBILITY)
             else:
-                mass = 1.0 / max(float(np.linalg.eigvalsh(mobility).max()), SMALLEST_MOBILITY)
                 load = mass * pull
-            slope = _slope(pin.contact.normal, load) if load > 0.0 else 0.0
-            rests.append(math.sqrt(mass / slope) if slope > 0.0 else math.inf)
-            lightest = 1.0 / max(float(np.linalg.eigvalsh(mobility).max()), SMALLEST_MOBILITY)
-            rests.append(pin.contact.friction.swing_time(lightest, load))
-            steepest = _steepest(pin.contact.friction, load)
-            rubs.append(lightest / steepest if steepest > 0.0 else math.inf)
-    return Timescales(min(flights), min(rests), _drive_time(scenario, linkage), min(rubs))
+            stiffness = _slope(pin.contact.normal, load) if load > 0.0 else 0.0
+            found.append(LoadedContact(pin.contact, load, along, mobility, mass, lightest, stiffness))
+    return found
+
+
+def _pull(scenario: Scenario, closed: Kinetics) -> float:
+    """What pulls a journal across its clearance [m/s^2]."""
+    return math.hypot(*scenario.gravity) + _running(scenario, closed)
 
 
 def _steepest(law: FrictionLaw, load: float) -> float:

@@ -24,6 +24,7 @@ from support_exudyn import Result, Scenario, SimulationError, SolverSettings, si
 from support_exudyn.audit import DEEPEST, OPEN, energy_open
 from support_exudyn.estimate import disagreement, rounding_share
 from support_exudyn.formulations import covers
+from support_exudyn.ringing import ringing_step
 from support_exudyn.scenario import LARGEST_STEP
 from support_exudyn.timescales import timescales
 from user_forces import Frictionless, InputError
@@ -43,6 +44,9 @@ CHECKING = 3.0  # times the estimated error of a run that only checks: an estima
 # of a check by the redundant formulation: steps of an impact, fewest and most steps of the grid
 IMPACT_STEPS, FEWEST, LONGEST = 64, 200, 20_000
 FOLLOWED = 2.0  # times of a vibration of a loaded contact (one over its angular frequency) that a step may be
+# spectral radii of a check: the larger, the less its steps damp, and the more rounding stays. The first that
+# keeps what rings with no more steps than that
+RADII = (0.5, 0.9)
 
 
 @dataclass(frozen=True)
@@ -244,13 +248,7 @@ def independent(scenario: Scenario) -> Result | None:
         return None
     patient = _patient(scenario)
     if scenario.formulation in ("reduced", "tree"):
-        steps = SolverSettings(impact_steps=IMPACT_STEPS, most_steps=MOST_STEPS)
-        # a step that does not follow the vibration of the loaded contact damps it out, as would its halves
-        followed = FOLLOWED * timescales(scenario).resting
-        step = min(scenario.record_period, scenario.duration / FEWEST, LARGEST_STEP, followed)
-        if scenario.duration / step > LONGEST:
-            return None
-        others = [replace(patient, formulation="redundant", step=step, solver=steps)]
+        others = _by_steps(patient)
     else:
         solver = SolverSettings(tolerance=TOLERANCE, most_steps=MOST_STEPS)
         others = [replace(patient, formulation=name, solver=solver) for name in ("reduced", "tree")]
@@ -262,6 +260,23 @@ def independent(scenario: Scenario) -> Result | None:
                 return None
             return result if result.worst_error < TELLING else None
     return None
+
+
+def _by_steps(scenario: Scenario) -> list[Scenario]:
+    """The scene by the redundant formulation, none if it would take too many steps.
+
+    A step that does not follow the vibration of the loaded contact damps it out, as would its halves: they
+    agree on what is wrong.
+    """
+    longest = FOLLOWED * timescales(scenario).resting
+    longest = min(scenario.record_period, scenario.duration / FEWEST, LARGEST_STEP, longest)
+    for radius in RADII:
+        steps = SolverSettings(impact_steps=IMPACT_STEPS, most_steps=MOST_STEPS, spectral_radius=radius)
+        other = replace(scenario, formulation="redundant", solver=steps)
+        other = replace(other, step=min(longest, ringing_step(other)))
+        if other.duration / other.step <= LONGEST:
+            return [other]
+    return []
 
 
 def _patient(scenario: Scenario) -> Scenario:

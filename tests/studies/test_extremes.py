@@ -25,6 +25,7 @@ from studies.reporting.chapter import Chapter
 from support_exudyn import Failure, Result, Scenario, SimulationError, simulate, workers
 from support_exudyn.audit import DEEPEST, turned_over
 from support_exudyn.estimate import measured
+from support_exudyn.ringing import ringing_step
 from support_exudyn.workers import CONTEXT, Workers, worker_pool
 from tests.hostile import posix_only
 from tests.studies.test_hypercube import Here
@@ -319,6 +320,29 @@ def test_a_scene_that_no_other_formulation_covers_is_not_compared() -> None:
     other = independent(fall())
     assert other is not None
     assert other.scenario.formulation == "reduced"
+
+
+@pytest.mark.parametrize("seconds", [0.2, 2.7, 20.0, 120.0])
+@pytest.mark.parametrize("clearance", [1e-6, 1e-3])
+def test_a_check_by_steps_does_not_damp_out_what_the_loaded_contact_still_does(
+    monkeypatch: pytest.MonkeyPatch, seconds: float, clearance: float
+) -> None:
+    made: list[Scenario] = []
+
+    def simulate_none(scenario: Scenario, errors: bool) -> Result:
+        made.append(scenario)
+        raise SimulationError(Failure("not run", "", 0.0))
+
+    monkeypatch.setattr("studies.extreme.judge.simulate", simulate_none)
+    scene = scenes.fallen(Point(clearance_m=clearance, restitution=0.9))
+    scene = replace(scene, duration=seconds, record_period=seconds / 50.0, formulation="reduced")
+    assert independent(scene) is None
+    for other in made:
+        # three runs, the last of which has a quarter of the steps: they agreed on what all of them had lost
+        assert other.formulation == "redundant"
+        assert other.step <= ringing_step(other)
+    # what would take too many steps is not checked; all else is
+    assert len(made) == (0 if clearance == 1e-6 and seconds == 120.0 else 1)
 
 
 # --- hangs and crashes ---
