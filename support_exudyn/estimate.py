@@ -184,8 +184,8 @@ def left_of_spread(left: float, spread: float, mean: float) -> float:
     """What Newton's method leaves of a spread, where it leaves a share of forces of this mean magnitude.
 
     It can be as much as that share of the mean, if what is left varies as the force does; mostly it varies with
-    less. Of fifty scenes it was at most half of what is taken here, but in nine whose steps change with
-    Newton's tolerance: there runs differ by more.
+    less. Of fifty scenes it was at most what is taken here but in seven, in which means moved by more than
+    their share, too.
     """
     return left * math.sqrt(mean * spread)
 
