@@ -43,6 +43,7 @@ from tests.reference.cases import FORCE, PIN, loose_support
 from user_forces import Exact, InputError, JournalBearing, JournalContact
 
 SAFETY = SAFETY_OF["reduced"]  # which is what runs here
+CLEARANCE = 1.5e-3  # [m], of the loose pin
 ROUND_OFF = 1e-15  # of a number; distances of two lose as much in the absolute
 rates = st.floats(FASTEST, SLOWEST)
 shares = st.floats(-6.0, -1.0).map(lambda x: 10.0**x)
@@ -51,8 +52,14 @@ signs = st.sampled_from([-1.0, 1.0])
 
 @cache
 def exact() -> Result:
-    """A short fall with three touches; it stands for the exact one."""
-    return simulate_reduced(loose_support(drive=Held(), duration=0.08), 1e-6)
+    """A short fall with three touches; it stands for the exact one, which it says by its tolerance."""
+    return with_tolerance(simulate_reduced(loose_support(drive=Held(), duration=0.08), 1e-6), 1e-13)
+
+
+def with_tolerance(run: Result, tolerance: float) -> Result:
+    """The same that says that its steps were chosen by another tolerance."""
+    scenario = replace(run.scenario, solver=replace(run.scenario.solver, tolerance=tolerance))
+    return replace(run, scenario=scenario)
 
 
 def scaled(factor: float) -> Result:
@@ -251,6 +258,17 @@ def test_a_number_that_falls_slower_than_others_has_a_larger_error(own: float) -
     name = f"{FORCE}.largest"
     told = run.numbers()[name].error - between_records(run, name)
     assert told == pytest.approx(SAFETY * max(distance, least) * taken / (1.0 - taken), rel=5e-3)
+
+
+def test_a_touch_is_not_known_better_than_a_step_may_be() -> None:
+    run = with_tolerance(exact(), 1e-5)
+    for n, touch in enumerate(run.onsets[PIN][:ONSETS]):
+        found, name = three(run, run, run).numbers(), f"pin.{PIN}.onset_{n + 1}"
+        assert found[f"{name}.time"].error == pytest.approx(1e-5 * CLEARANCE / touch.speed)
+        assert found[f"{name}.speed"].error == pytest.approx(1e-5 * touch.speed)
+    # steps that are given follow nothing else
+    given = replace(run, scenario=replace(run.scenario, formulation="redundant"))
+    assert three(given, given, given).numbers()[f"pin.{PIN}.onset_1.speed"].error < 1e-6 * touch.speed
 
 
 def test_runs_that_are_all_the_same_are_right_to_rounding() -> None:
