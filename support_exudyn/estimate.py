@@ -169,7 +169,9 @@ def measures(result: Result, after: float, until: float) -> Mapping[str, Kind]:
             measure = _over(f"{point}.{axis}", np.mean, after, until)
             found[f"{point}.{axis}.mean"] = Kind("m", measure, farthest, "place")
     for pin, onsets in result.onsets.items():
-        found[f"pin.{pin}.largest_force"] = Kind("N", _largest(pin), family="force.largest", left=left)
+        # not of an edge in space: a section's share of the force is the less the more sections there are
+        if pin.rpartition(".")[0] not in result.onsets:
+            found[f"pin.{pin}.largest_force"] = Kind("N", _largest(pin), family="force.largest", left=left)
         for n, onset in enumerate(onsets[:ONSETS]):
             touch = f"pin.{pin}.onset_{n + 1}"
             late, slow = _of_a_step(result.scenario, pin, onset) if steps_chosen else (0.0, 0.0)

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import numpy as np
 
 from support_exudyn.choose import settings_for
 from support_exudyn.errors import SimulationError
-from support_exudyn.estimate import measured
-from support_exudyn.progress import Progress
+from support_exudyn.estimate import ROUNDING, measured, measures
+from support_exudyn.progress import Progress, silent
 from support_exudyn.recipes import ALL_CHANNELS
 from support_exudyn.result import Result
 from support_exudyn.run_once import run_once
 from support_exudyn.scenario import Scenario
+from support_exudyn.solver_settings import MOST_SECTIONS
 from user_forces.values import InputError
 
 FACTOR = 2.0  # by which steps are shorter from run to run
@@ -32,6 +34,9 @@ def run_to_accuracy(scenario: Scenario, progress: Progress) -> Result:
     a result with its errors, one that fails ends the refining. A run whose steps did not follow its tolerance
     is the same as the one before, which tells nothing: it takes that one's place.
 
+    In space sections of loose pins become more from run to run, too, which costs as much as the steps do; after
+    three runs only if they tell anything.
+
     Raises InputError if the formulation does not cover the scenario, SimulationError if no three runs in a row
     can be finished.
     """
@@ -41,6 +46,8 @@ def run_to_accuracy(scenario: Scenario, progress: Progress) -> Result:
     last: Result | None = None
     best: Result | None = None
     same: Result | None = None
+    first: Result | None = None
+    sections: int | None = None  # that are enough; None: that is not known
     trouble: SimulationError | None = None
     wall_time, off, least, in_vain, in_a_row = 0.0, np.inf, np.inf, 0, 0
     for n in range(MOST_RUNS):
@@ -55,6 +62,7 @@ def run_to_accuracy(scenario: Scenario, progress: Progress) -> Result:
             last, in_a_row, trouble = None, 0, trouble or error
         else:
             wall_time += run.wall_time
+            first = first or run
             if last is not None and is_the_same(last, run):
                 same, last = last, replace(run, coarser=last.coarser, goal=goal)
             else:
@@ -67,8 +75,13 @@ def run_to_accuracy(scenario: Scenario, progress: Progress) -> Result:
                     in_vain = in_vain + 1 if off > FALLS * before else 0
                     if off <= goal or in_vain == PATIENCE:
                         break
+        if sections is None and best is not None and first is not None and scenario.dimensions == 3:
+            sections, taken = _sections_enough(first, chosen.solver.sections)
+            wall_time += taken
         if (chosen := _finer(chosen)) is None:
             break
+        if sections is not None:
+            chosen = _with_sections(chosen, min(sections, chosen.solver.sections))
     progress(1.0)
     found = best or last
     if found is None or (trouble is not None and best is None):
@@ -95,6 +108,29 @@ def is_the_same(run: Result, finer: Result) -> bool:
     if not (scenario.clearance_pins or scenario.giving) or run.counts != finer.counts:
         return False
     return all(np.array_equal(run[name], finer[name]) for name in finer.channels)
+
+
+def _sections_enough(first: Result, most: int) -> tuple[int, float]:
+    """How many sections of loose pins are enough, and how long it took to know that [s].
+
+    Those of the first run, if so many make none of its numbers another one; else any number is worth it.
+    """
+    few = first.scenario.solver.sections
+    if not first.scenario.clearance_pins or most <= few:
+        return MOST_SECTIONS, 0.0
+    try:
+        run = run_once(_with_sections(first.scenario, most), silent)
+    except SimulationError:
+        return MOST_SECTIONS, 0.0
+    for kind in measures(first, 0.0, math.inf).values():
+        value = kind.measure(first)
+        if not abs(kind.measure(run) - value) <= max(kind.left, ROUNDING) * max(abs(value), kind.size):
+            return MOST_SECTIONS, run.wall_time
+    return few, run.wall_time
+
+
+def _with_sections(scenario: Scenario, sections: int) -> Scenario:
+    return replace(scenario, solver=replace(scenario.solver, sections=sections))
 
 
 def _without_oldest(result: Result | None) -> Result | None:

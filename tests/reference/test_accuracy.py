@@ -26,6 +26,7 @@ from support_exudyn import (
     to_accuracy,
 )
 from support_exudyn.estimate import measures
+from support_exudyn.progress import Progress
 from support_exudyn.sweep import run_all
 from support_exudyn.to_accuracy import FACTOR, FEWEST_RUNS, MOST_RUNS, PATIENCE
 from tests.reference.cases import (
@@ -208,6 +209,34 @@ def test_a_goal_that_is_met_costs_no_more_than_three_runs(monkeypatch: pytest.Mo
     made = runs_of(monkeypatch)
     assert simulate(DROP, accuracy="draft").met
     assert len(made) == FEWEST_RUNS
+
+
+@pytest.mark.parametrize("tilted", [False, True])
+def test_sections_become_more_only_as_long_as_they_tell_anything(
+    tilted: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    once = to_accuracy.run_once
+
+    def tilting(scenario: Scenario, progress: Progress) -> Result:
+        """A run whose forces depend on the number of sections, as those of a tilted pin do."""
+        run = once(scenario, progress)
+        channel = run.channels[FORCE]
+        channel = replace(channel, values=(1.0 + 1e-3 / scenario.solver.sections) * channel.values)
+        return replace(run, channels={**run.channels, FORCE: channel})
+
+    monkeypatch.setattr(to_accuracy, "run_once", tilting if tilted else once)
+    made = runs_of(monkeypatch)
+    monkeypatch.setattr(Result, "worst_error", property(lambda run: 0.5 ** len(made)))
+    # beyond the first touch
+    result = simulate(replace(DROP, duration=0.03, record_period=3e-3, dimensions=3), accuracy=0.02)
+    assert f"pin.{PIN}.left.onset_1.speed" in result.numbers()
+    # a section's share of the force depends on how many there are
+    assert f"pin.{PIN}.left.largest_force" not in result.numbers()
+    sections = [run.solver.sections for run in made]
+    # the fourth is the first again, with as many sections as the third
+    assert sections[:4] == [5, 9, 17, 17]
+    assert made[3].step == made[0].step
+    assert sections[4:] == ([33, 64] if tilted else [5, 5])
 
 
 # --- failures ---
