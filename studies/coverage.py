@@ -26,7 +26,6 @@ import numpy as np
 from studies.benchmarking import covered
 from studies.benchmarking.covered import Judged, Row
 from studies.benchmarking.fresh_scenes import KINDS, fresh
-from studies.extreme.runs import HangError, patience
 from studies.reporting.chapter import Sheet
 from studies.study import MOST_WORKERS, Number, bar, output_folder, show_table, write_summary
 from support_exudyn.command_line import Parser, answered, count, folder
@@ -36,7 +35,6 @@ from support_exudyn.workers import ProcessEndedError, Workers, report, worker_po
 
 STUDY = "coverage"
 MOST_SCENES, LARGEST_SEED = 100_000, 2**32
-PATIENCE = 300.0  # [s] that a scene may take with all of its references
 WORST = 15  # offenders that are listed
 ALL = "all"
 GOAL_COVERED, GOAL_RATIO, GOAL_OVERSTATED = 0.98, 5.0, 10.0
@@ -57,14 +55,11 @@ class Chosen:
 
 
 def judged_scene(place: int, seed: int, number: int) -> list[Row]:
-    """All runs of a scene, judged; one that takes too long, or fails unexplained, is a row with its reason."""
+    """All runs of a scene, judged; one that fails unexplained is a row with its reason."""
     report(place, 0.0)
     scene = fresh(seed, number)
     try:
-        with patience(PATIENCE):
-            return list(covered.rows(scene))
-    except HangError as error:
-        return [Row(scene.kind, number, ALL, refused=str(error))]
+        return list(covered.rows(scene))
     except Exception as error:
         return [Row(scene.kind, number, ALL, refused=f"{type(error).__name__}: {error}")]
 

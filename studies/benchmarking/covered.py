@@ -15,6 +15,7 @@ from __future__ import annotations
 import hashlib
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
@@ -24,6 +25,7 @@ import numpy as np
 
 from studies.benchmarking.estimates import numbers_of_records, tight_numbers
 from studies.benchmarking.fresh_scenes import Fresh
+from studies.extreme.runs import HangError, patience
 from support_exudyn import Failure, Result, Scenario, SimulationError, simulate
 from support_exudyn.choose import FormulationName, settings_for
 from support_exudyn.formulations import covers
@@ -31,14 +33,10 @@ from support_exudyn.scenario import ACCURACIES, Accuracy
 from support_exudyn.solver_settings import ERROR_CONTROLLED, MOST_IMPACT_STEPS
 
 # tolerances of a reference, and of its own error
-TIGHT: Mapping[FormulationName, tuple[float, float, float]] = {
-    "reduced": (1e-12, 1e-10, 1e-8),
-    "tree": (1e-11, 1e-9, 1e-7),
-}
-FINER = (3.0, 1.5, 1.0)  # times shorter steps than those of a run; the last is that run
-WITNESS = (8.0, 4.0, 2.0)  # the same against the first run of "standard", where another formulation judges
-ORDER = 2  # of the method whose steps are made shorter
-CHANCE = 0.25  # of what the order makes of the distance before, below which two runs agree by chance
+TIGHT: Mapping[FormulationName, tuple[float, float]] = {"reduced": (1e-12, 1e-10), "tree": (1e-11, 1e-9)}
+FINER = (3.0, 1.5)  # times shorter steps than those of a run; and of its reference's own error
+WITNESS = (8.0, 4.0)  # the same against the first run of "standard", where another formulation judges
+PATIENCE = 300.0  # [s] that a scene's runs may take, and as much its references
 SHARP = 0.25  # of the error claimed that a reference's own error may be
 SURELY = 4.0  # times its own error that a reference has to be beyond the error claimed to count however blunt
 OF_DISTANCE = 0.5  # of the distance of a less fine run that a reference's own error is taken to be
@@ -155,10 +153,24 @@ def digest() -> str:
 
 
 def rows(scene: Fresh) -> Iterator[Row]:
-    """A scene run to all of its accuracies, and judged."""
-    runs = {accuracy: simulate(at(scene, accuracy), throw=False) for accuracy in accuracies(scene)}
+    """A scene run to all of its accuracies, and judged.
+
+    Runs that take too long are refused. References that do are none: a run that a user waits for in vain is one
+    thing, a far finer one that would judge it another.
+    """
+    runs: dict[Accuracy, Result | Failure] = {}
+    try:
+        with patience(PATIENCE):
+            for accuracy in accuracies(scene):
+                runs[accuracy] = simulate(at(scene, accuracy), throw=False)
+    except HangError as error:
+        late = Failure(str(error), "", 0.0)
+        runs |= {accuracy: late for accuracy in accuracies(scene) if accuracy not in runs}
     good = [run for run in runs.values() if isinstance(run, Result)]
-    known = list(references(scene, good)) if good else []
+    known: list[Reference] = []
+    with suppress(HangError), patience(PATIENCE):
+        for reference in references(scene, good) if good else ():
+            known.append(reference)  # noqa: PERF402  # as far as it comes
     for accuracy, run in runs.items():
         row = Row(scene.kind, scene.number, str(accuracy))
         if isinstance(run, Failure):

@@ -5,7 +5,8 @@ from __future__ import annotations
 import csv
 import json
 import math
-from collections.abc import Iterator
+import time
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
 
@@ -16,7 +17,7 @@ from studies.benchmarking import covered
 from studies.benchmarking.covered import Judged, Reference, Row, judge
 from studies.benchmarking.fresh_scenes import KINDS, RECORDS, Fresh, fresh
 from studies.coverage import ALL, Chosen, offender_sheet, run_scenes, share
-from support_exudyn import Estimate, Failure, Result, Scenario, SimulationError
+from support_exudyn import Estimate, Failure, Result, Scenario, SimulationError, simulate
 from support_exudyn.estimate import measures
 from support_exudyn.workers import Workers
 from tests.studies.test_hypercube import Here
@@ -267,3 +268,34 @@ def test_a_run_that_fails_is_refused_with_its_reason(monkeypatch: pytest.MonkeyP
     found = list(covered.rows(CRANK))
     assert {one.refused for one in found} == {"the solver gave up"}
     assert share(found).refused == len(found)
+
+
+def slow_where(monkeypatch: pytest.MonkeyPatch, slow: Callable[[Scenario], bool]) -> list[Row]:
+    """Rows of a scene some of whose runs take longer than one has patience for."""
+    result = simulate(CRANK.scenario, accuracy="draft")
+
+    def run(scenario: Scenario, throw: bool = True) -> Result:
+        if slow(scenario):
+            time.sleep(5.0)
+        return result
+
+    monkeypatch.setattr(covered, "simulate", run)
+    monkeypatch.setattr(covered, "PATIENCE", 0.2)
+    return list(covered.rows(CRANK))
+
+
+def test_a_run_without_an_end_is_refused_and_those_before_it_are_judged(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    found = slow_where(monkeypatch, lambda scenario: scenario.accuracy == "standard")
+    assert found[0].accuracy == "draft"
+    assert not found[0].refused
+    assert len(found[0].judged) > 20
+    assert {one.refused for one in found[1:]} == {"no end after 0.2 s"}
+
+
+def test_a_reference_without_an_end_is_none_and_refuses_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    found = slow_where(monkeypatch, lambda scenario: scenario.accuracy is None)
+    assert not any(one.refused for one in found)
+    assert all(number.apart for one in found for number in one.judged)
+    assert share(found).apart > 20
