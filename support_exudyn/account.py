@@ -7,9 +7,10 @@ import math
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from support_exudyn.estimate import FORCE, Estimate, measures
+from support_exudyn.estimate import Estimate
 from support_exudyn.figures.units import readable, said
 from support_exudyn.figures.windows import inside
+from support_exudyn.measures import FORCE, measures
 from support_exudyn.pins import ClearancePin, Pin
 from support_exudyn.result import Result
 from user_forces.values import Value

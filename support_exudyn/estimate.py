@@ -16,7 +16,8 @@ so d1 is not believed below
 - ALIKE times, as a share of sizes, the middle one of its family: means, spreads and largest values of all
   forces, spreads of angular accelerations, places.
 
-What Newton's method leaves is added: two runs do not show it. Where steps are chosen by a tolerance, they can
+What Newton's method leaves is added: two runs do not show it. It is a share of the force; of a spread that is
+small beside the mean it is more than a share of that. Where steps are chosen by a tolerance, they can
 be the same up to a touch whatever the tolerance is, as after the first step or between a drive's breaks: no
 touch is known better than a single step may be, by the tolerance of the clearance and of the touch's speed.
 
@@ -29,24 +30,30 @@ as large in the median, 7.5 in a mixture of all kinds. The command tells it of a
 from __future__ import annotations
 
 import math
-import numbers
 import sys
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
-from support_exudyn.extremes import largest, missed
+from support_exudyn.measures import (
+    ROUNDING,
+    Kind,
+    Measure,
+    left_by_newton,
+    left_of_spread,
+    measures,
+    over,
+    path_of,
+)
 from support_exudyn.solver_settings import ERROR_CONTROLLED
-from user_forces.values import InputError, short
 
 if TYPE_CHECKING:
-    from support_exudyn.onset import Onset
     from support_exudyn.result import Result
     from support_exudyn.scenario import Scenario
 
-Series = npt.NDArray[np.float64]
+Values = npt.NDArray[np.float64]  # of any shape
 SAFETY = {"auto": 3.0, "redundant": 3.0, "tree": 3.5, "reduced": 2.5}  # by formulation
 # share of a number's own d1 / d2 that its r is at least, and the most of that: where steps are chosen by a
 # tolerance, and where they are halved, which some numbers answer by half only (means with friction)
@@ -54,30 +61,15 @@ OWN, SLOWEST_OWN = 0.7, 0.35
 OWN_OF_STEPS, SLOWEST_OF_STEPS = 1.0, 0.6
 CHOSEN = 0.15  # share of the distance before that the last is at least, where steps are chosen by a tolerance
 ALIKE = 0.5  # of the distances of numbers that go wrong alike, that each is at least
-NEWTON = (
-    5.0  # tolerances of Newton's method that are left of a number, whatever the steps; 1.6 of a touch's speed
-)
 SAFETY_OF_WORST = 6.0  # covers all of two thousand runs at the extremes (`studies/extremes.py`)
 IRREGULAR = 4.0  # times that, where Newton's method failed: steps then are not those that were asked for
 FASTEST, SLOWEST = 0.25, 0.8  # r: three runs tell nothing beyond
 FIRST_ORDER = 0.5  # r where there are two runs only
-ROUNDING = 1e-10  # share of a number, or of the largest of its kind, that no estimate is below
 ROUNDINGS = 20.0  # of the largest coordinate, that forces of the support show below steps of 2e-5 s
 SMALLEST_SPREAD = 1e-3  # of the mean
 SMALLEST_EXTENT = (
     1e-8  # of a path, of its distance from the machine's pins: below, a machine is at rest but for rounding
 )
-# of forces; the largest is of the magnitude, the extremes have their sign
-STATISTICS: Mapping[str, Callable[[Series], float]] = {
-    "mean": np.mean,
-    "spread": np.std,
-    "largest": largest,
-    "min": np.min,
-    "max": np.max,
-}
-SIGNED, AVERAGED = ("min", "max"), ("mean", "spread")
-FORCE, ANGULAR_ACCELERATION = ".force", ".angular_acceleration"  # how names of channels end
-ONSETS = 3  # of every loose pin that are reported; each multiplies the errors of those before
 
 
 class Estimate(NamedTuple):
@@ -89,144 +81,6 @@ class Estimate(NamedTuple):
 
     def __str__(self) -> str:
         return f"{self.value:.9g} ± {self.error:.1g} {self.unit}"
-
-
-def measured(scenario: Scenario) -> tuple[str, ...]:
-    """Names of the channels that the numbers of `measures`, and so all estimates, are taken from."""
-    points = {f"{point}.{axis}" for point in scenario.linkage.points for axis in ("x", "y")}
-    return tuple(
-        name for name in scenario.recipes if name.endswith((FORCE, ANGULAR_ACCELERATION)) or name in points
-    )
-
-
-Measure = Callable[["Result"], float]
-Values = npt.NDArray[np.float64]  # of any shape
-
-
-def _nothing(run: Result) -> float:
-    del run
-    return 0.0
-
-
-class Kind(NamedTuple):
-    """How a number is measured.
-
-    unit: its unit. measure: gives it, from a result. size: of the largest number of its kind. family: of
-    numbers that are wrong by like shares; empty: none. of: the force or touch that it is of; empty: of none.
-    left: share of it that steps do not make smaller. missed: by how much it may be off because it is taken
-    from records; of extremes, see `extremes.missed`. step: by how much a single step may be wrong, below which
-    runs that agree tell nothing.
-    """
-
-    unit: str
-    measure: Measure
-    size: float = 0.0
-    family: str = ""
-    of: str = ""
-    left: float = 0.0
-    missed: Measure = _nothing
-    step: float = 0.0
-
-
-def measures(result: Result, after: float, until: float) -> Mapping[str, Kind]:
-    """The numbers that every result reports: name, unit and how it is measured, see `Result.numbers`.
-
-    Raises InputError if no record lies between the times.
-    """
-    after, until = _time(after, "after"), _time(until, "until")
-    if not _inside(result, after, until).any():
-        first, last = result.time[[0, -1]]
-        raise InputError(
-            f"after = {after} s, until = {until} s: no record lies between; allowed: times around at least "
-            f"one, from {first:g} to {last:g} s"
-        )
-    found: dict[str, Kind] = {}
-    left = left_by_newton(result.scenario)
-    turning = [name for name in result.channels if name.endswith(ANGULAR_ACCELERATION)]
-    fastest = max((float(np.abs(result[name]).max()) for name in turning), default=0.0)
-    for name, channel in result.channels.items():
-        if name.endswith(FORCE) and channel.is_determined:
-            most = largest(result[name][_inside(result, after, until)])
-            for word, statistic in STATISTICS.items():
-                if word in SIGNED and name.startswith("pin."):
-                    continue  # a magnitude, which has no sign
-                measure, between = _over(name, statistic, after, until), _missed(word, name, after, until)
-                of = name if word in AVERAGED else ""  # of a single record, which others average out
-                share = left
-                if word == "spread":
-                    spread = measure(result)
-                    mean = float(np.abs(result[name][_inside(result, after, until)]).mean())
-                    share = left_of_spread(left, spread, mean) / spread if spread > 0.0 else left
-                found[f"{name}.{word}"] = Kind(channel.unit, measure, 0.0, f"force.{word}", of, share, between)
-        elif name in turning:
-            measure = _over(name, np.std, after, until)
-            found[f"{name}.spread"] = Kind(channel.unit, measure, fastest, ANGULAR_ACCELERATION, left=left)
-    for point in result.scenario.linkage.points:
-        if not {f"{point}.x", f"{point}.y"} <= result.channels.keys():
-            continue  # it was not asked for, and no error either, for whose sake it would have been recorded
-        farthest = float(np.abs(_path(result, point)).max())
-        for axis in ("x", "y"):
-            measure = _over(f"{point}.{axis}", np.mean, after, until)
-            found[f"{point}.{axis}.mean"] = Kind("m", measure, farthest, "place")
-    for pin, onsets in result.onsets.items():
-        # not of an edge in space: a section's share of the force is the less the more sections there are
-        if pin.rpartition(".")[0] not in result.onsets:
-            found[f"pin.{pin}.largest_force"] = Kind("N", _largest(pin), family="force.largest", left=left)
-        for n, onset in enumerate(onsets[:ONSETS]):
-            touch = f"pin.{pin}.onset_{n + 1}"
-            late, slow = _of_a_step(result.scenario, pin, onset) if steps_chosen else (0.0, 0.0)
-            found[f"{touch}.time"] = Kind("s", _onset(pin, n, "time"), of=touch, left=left, step=late)
-            found[f"{touch}.speed"] = Kind("m/s", _onset(pin, n, "speed"), of=touch, left=left, step=slow)
-    return found
-
-
-def _of_a_step(scenario: Scenario, pin: str, onset: Onset) -> tuple[float, float]:
-    """By how much a step may be wrong about a touch's time [s] and speed [m/s]; 0 of one at the start."""
-    if not (onset.time > 0.0 and onset.speed > 0.0):
-        return 0.0, 0.0
-    tolerance, clearance = scenario.solver.tolerance, scenario.clearance_pins[pin].contact.bearing.clearance
-    return tolerance * clearance / onset.speed, tolerance * onset.speed
-
-
-def _time(item: Any, name: str) -> float:
-    try:
-        if isinstance(item, numbers.Real):
-            return float(item)
-    except OverflowError:  # a whole number of hundreds of digits
-        pass
-    raise InputError(f"{name} = {short(item)}: allowed: a time in s")
-
-
-def _inside(run: Result, after: float, until: float) -> npt.NDArray[np.bool_]:
-    """Which records lie between two times [s]."""
-    return (run.time >= after - 1e-9) & (run.time <= until + 1e-9)
-
-
-def _over(name: str, statistic: Callable[[np.ndarray], float], after: float, until: float) -> Measure:
-    def measure(run: Result) -> float:
-        return float(statistic(run[name][_inside(run, after, until)]))
-
-    return measure
-
-
-def _missed(word: str, name: str, after: float, until: float) -> Measure:
-    def measure(run: Result) -> float:
-        inside = _inside(run, after, until)
-        return missed(word, run[name][inside], run.time[inside], run.scenario.breaks)
-
-    return measure
-
-
-def _largest(pin: str) -> Measure:
-    return lambda run: run.largest_force[pin]
-
-
-def _onset(pin: str, n: int, field: str) -> Measure:
-    def measure(run: Result) -> float:
-        onsets = run.onsets[pin]
-        return float(getattr(onsets[n], field)) if n < len(onsets) else float("nan")
-
-    return measure
 
 
 def fall(result: Result) -> float:
@@ -274,8 +128,11 @@ def errors(
         usual = float(np.median(families[kind.family])) if kind.family in families and kind.family else 0.0
         worst = max(origins[kind.of]) if kind.of in origins and kind.of else 0.0
         least = ALIKE * max(usual * size, worst * scales[kind.of, kind.unit])
-        own = max(error(kind.measure, result, r, kind.size, least), kind.step)
-        found[name] = own + kind.left * size + kind.missed(result)
+        values = max(size, kind.values)
+        own = error(kind.measure, result, r, values, least)
+        if own <= 2.0 * ROUNDING * values:
+            own = max(own, kind.step)
+        found[name] = own + kind.left * values + kind.missed(result)
     return found
 
 
@@ -396,7 +253,7 @@ def _worst(
         name = f"pin.{pin}.force"
         scale = float(np.abs(result[name]).mean())
         for statistic in (np.mean, np.std, np.max):
-            measure = _over(name, statistic, 0.0, math.inf)
+            measure = over(name, statistic, 0.0, math.inf)
             value, scatter = measure(result), 0.0 if pin in scenario.clearance_pins else rounding
             if statistic is np.std:
                 scatter = math.hypot(value, scatter) - value + left_of_spread(left, value, scale)
@@ -406,20 +263,16 @@ def _worst(
             off.append(_share(off_by(measure) + scatter, max(value, SMALLEST_SPREAD * scale)))
     clearances = [pin.contact.bearing.clearance for pin in scenario.clearance_pins.values()]
     for point in scenario.linkage.points:
-        path = _path(result, point)
+        path = path_of(result, point)
         extent = float(np.hypot(*np.ptp(path, axis=1)))
 
-        def wandering(run: Result, path: Series = path, point: str = point) -> float:
-            return float(np.hypot(*(_path(run, point) - path)).max())
+        def wandering(run: Result, path: Values = path, point: str = point) -> float:
+            return float(np.hypot(*(path_of(run, point) - path)).max())
 
         ends = [np.reshape(place.first_point, (2, 1)) for place in scenario.linkage.pins.values()]
         least = SMALLEST_EXTENT * max((float(np.hypot(*(path - end)).max()) for end in ends), default=0.0)
         off.append(_share(off_by(wandering), max([extent, least, *clearances])))
     return max(off)
-
-
-def _path(result: Result, point: str) -> Series:
-    return np.array([result[f"{point}.x"], result[f"{point}.y"]])
 
 
 def _share(error: float, of: float) -> float:

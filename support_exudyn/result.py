@@ -16,11 +16,12 @@ import numpy as np
 
 from support_exudyn.channels import Channel
 from support_exudyn.counts import Counts
-from support_exudyn.estimate import Estimate, error, errors, fall, measures, worst_error
+from support_exudyn.estimate import Estimate, error, errors, fall, worst_error
 from support_exudyn.files import contents, whole_file
 from support_exudyn.hdf5_reading import Inside
 from support_exudyn.hdf5_writing import write_series
 from support_exudyn.impulse import Impulse
+from support_exudyn.measures import measures
 from support_exudyn.memory import available
 from support_exudyn.onset import Onset
 from support_exudyn.scenario import Scenario

@@ -97,17 +97,21 @@ def numerical_damping(phase: float, spectral_radius: float) -> float:
 
 
 def vibrations(contact: LoadedContact) -> list[Vibration]:
-    """The vibrations of a contact under its load, with the least that its law may damp them."""
-    if contact.stiffness == 0.0:
-        return []
+    """The vibrations of a contact under its load, with the least that its law may damp them.
+
+    None of a law that gives what is no number: the run refuses it with its name.
+    """
     law = contact.contact.normal
-    depth = law.resting_depth(contact.load)
+    depth = law.resting_depth(contact.load) if contact.stiffness else 0.0
+    if not (0.0 < contact.stiffness < math.inf and 0.0 < depth < math.inf):
+        return []
     rate = SMALL * depth / contact.time
     touch = Touch(0.0 if law.forgets else FASTEST, contact.mass)
     try:
         damping = (law(depth, rate, touch) - law(depth, -rate, touch)) / (2.0 * rate)
     except (LoadError, ArithmeticError):
         damping = 0.0
+    damping = damping if math.isfinite(damping) else 0.0
     along = np.outer(contact.along, contact.along)
     across = contact.load / (contact.contact.bearing.clearance + depth)
     stiffness = contact.stiffness * along + across * (np.eye(2) - along)

@@ -9,7 +9,7 @@ import numpy as np
 
 from support_exudyn.choose import settings_for
 from support_exudyn.errors import SimulationError
-from support_exudyn.estimate import ROUNDING, measured, measures
+from support_exudyn.measures import ROUNDING, measured, measures
 from support_exudyn.progress import Progress, silent
 from support_exudyn.recipes import ALL_CHANNELS
 from support_exudyn.result import Result

@@ -33,9 +33,14 @@ from support_exudyn.scenario import ACCURACIES, Accuracy
 from support_exudyn.solver_settings import ERROR_CONTROLLED, MOST_IMPACT_STEPS
 
 # tolerances of a reference, and of its own error
-TIGHT: Mapping[FormulationName, tuple[float, float]] = {"reduced": (1e-12, 1e-10), "tree": (1e-11, 1e-9)}
-FINER = (3.0, 1.5)  # times shorter steps than those of a run; and of its reference's own error
-WITNESS = (8.0, 4.0)  # the same against the first run of "standard", where another formulation judges
+TIGHT: Mapping[FormulationName, tuple[float, float, float]] = {
+    "reduced": (1e-12, 1e-10, 1e-8),
+    "tree": (1e-11, 1e-9, 1e-7),
+}
+FINER = (3.0, 1.5, 1.0)  # times shorter steps than those of a run; the last is that run
+WITNESS = (8.0, 4.0, 2.0)  # the same against the first run of "standard", where another formulation judges
+ORDER = 2  # of the method whose steps are made shorter
+CHANCE = 0.25  # of what the order makes of the distance before, below which two runs agree by chance
 PATIENCE = 300.0  # [s] that a scene's runs may take, and as much its references
 SHARP = 0.25  # of the error claimed that a reference's own error may be
 SURELY = 4.0  # times its own error that a reference has to be beyond the error claimed to count however blunt

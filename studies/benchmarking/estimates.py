@@ -12,7 +12,7 @@ from studies.benchmarking.references import tight_runs
 from studies.benchmarking.scenes import SCENES, Scene
 from support_exudyn import Estimate, Result, Scenario, SolverSettings, simulate
 from support_exudyn.compiled import is_compiling
-from support_exudyn.estimate import measures
+from support_exudyn.measures import measures
 from support_exudyn.scenario import Accuracy
 
 PRESETS: tuple[Accuracy, ...] = ("draft", "standard", "reference")

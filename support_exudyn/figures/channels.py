@@ -12,13 +12,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import StrMethodFormatter
 
-from support_exudyn.estimate import ROUNDING, believed, multiple
+from support_exudyn.estimate import believed, multiple
 from support_exudyn.figures import style, units
 from support_exudyn.figures.caption import caption
 from support_exudyn.figures.journal import Series, loose_pins
 from support_exudyn.figures.names import matching
 from support_exudyn.figures.units import Unit, readable
 from support_exudyn.figures.windows import inside, said, spacing
+from support_exudyn.measures import ROUNDING
 from support_exudyn.result import Result
 from user_forces.values import InputError
 

@@ -8,8 +8,9 @@ from fnmatch import fnmatchcase
 
 import numpy as np
 
-from support_exudyn.estimate import Kind, errors, measures
+from support_exudyn.estimate import errors
 from support_exudyn.extremes import largest, missed
+from support_exudyn.measures import Kind, measures
 from support_exudyn.result import Result
 from support_exudyn.scenario import Scenario
 from support_exudyn.sweeping.plan import Record

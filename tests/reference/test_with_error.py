@@ -24,7 +24,8 @@ from support_exudyn import (
     simulate,
     with_error,
 )
-from support_exudyn.estimate import disagreement, measures
+from support_exudyn.estimate import disagreement
+from support_exudyn.measures import measures
 from support_exudyn.progress import Progress
 from support_exudyn.run_once import run_once
 from support_exudyn.solver_settings import MOST_IMPACT_STEPS, SMALLEST_TOLERANCE

@@ -18,7 +18,7 @@ from studies.benchmarking.covered import Judged, Reference, Row, judge
 from studies.benchmarking.fresh_scenes import KINDS, RECORDS, Fresh, fresh
 from studies.coverage import ALL, Chosen, offender_sheet, run_scenes, share
 from support_exudyn import Estimate, Failure, Result, Scenario, SimulationError, simulate
-from support_exudyn.estimate import measures
+from support_exudyn.measures import measures
 from support_exudyn.workers import Workers
 from tests.studies.test_hypercube import Here
 

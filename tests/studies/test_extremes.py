@@ -24,7 +24,7 @@ from studies.extreme.ranges import LARGEST_SPEED, SPANS, Point
 from studies.reporting.chapter import Chapter
 from support_exudyn import Failure, Result, Scenario, SimulationError, simulate, workers
 from support_exudyn.audit import DEEPEST, turned_over
-from support_exudyn.estimate import measured
+from support_exudyn.measures import measured
 from support_exudyn.ringing import ringing_step
 from support_exudyn.workers import CONTEXT, Workers, worker_pool
 from tests.hostile import posix_only

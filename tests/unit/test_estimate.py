@@ -28,16 +28,14 @@ from support_exudyn.estimate import (
     CHOSEN,
     FASTEST,
     FIRST_ORDER,
-    ONSETS,
     OWN,
-    ROUNDING,
     SAFETY_OF_WORST,
     SLOWEST,
     SLOWEST_OWN,
     disagreement,
-    measures,
 )
 from support_exudyn.estimate import SAFETY as SAFETY_OF
+from support_exudyn.measures import ONSETS, ROUNDING, measures
 from tests.reduced import simulate_reduced
 from tests.reference.cases import FORCE, PIN, loose_support
 from user_forces import Exact, InputError, JournalBearing, JournalContact
@@ -156,8 +154,14 @@ def known_size(name: str) -> float:
         return max(np.abs(exact()[n]).max() for n in exact().channels if n.endswith(".angular_acceleration"))
     if name.startswith("tip."):
         return float(np.abs([exact()["tip.x"], exact()["tip.y"]]).max())
-    channel, _, _ = name.rpartition(".")
-    return float(np.abs(exact()[channel]).max()) if channel.endswith(".force") else 0.0
+    channel, _, word = name.rpartition(".")
+    if not channel.endswith(".force"):
+        return 0.0
+    largest = float(np.abs(exact()[channel]).max())
+    if word == "spread":  # to which rounding adds as scatter
+        spread = float(exact()[channel].std())
+        return spread + (math.hypot(spread, ROUNDING * largest) - spread) / ROUNDING
+    return largest
 
 
 @pytest.mark.parametrize(("r", "taken"), [(1e-3, FASTEST), (0.99, SLOWEST), (3.0, SLOWEST)])
