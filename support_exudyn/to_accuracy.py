@@ -124,7 +124,8 @@ def _sections_enough(first: Result, most: int) -> tuple[int, float]:
         return MOST_SECTIONS, 0.0
     for kind in measures(first, 0.0, math.inf).values():
         value = kind.measure(first)
-        if not abs(kind.measure(run) - value) <= max(kind.left, ROUNDING) * max(abs(value), kind.size):
+        nothing = max(kind.left, ROUNDING) * max(abs(value), kind.size, kind.values)
+        if not abs(kind.measure(run) - value) <= nothing:
             return MOST_SECTIONS, run.wall_time
     return few, run.wall_time
 
