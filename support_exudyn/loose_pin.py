@@ -236,7 +236,7 @@ class LoosePin:
     def _place_angle(self) -> float:
         """Direction of the journal's place at the end of the step, in the axes of mobilities [rad]."""
         x, y = self._motion[:2]
-        return math.atan2(y, x) - (self._bore_angle if self.turns else 0.0)
+        return math.atan2(y, x) - self._bores_axes
 
     def force_within(self, x: float) -> ContactForce:
         """The force at a fraction of the step just accepted; at its end, if the contact did not go on in it."""
@@ -379,7 +379,19 @@ class LoosePin:
 
     def _turned(self, mobility: Mobility) -> Mobility:
         """A mobility in the bore's axes, in those of the connector's displacement."""
-        return mobility.turned(self._bore_angle) if self.turns else mobility
+        angle = self._bores_axes
+        return mobility.turned(angle) if angle else mobility
+
+    @property
+    def _bores_axes(self) -> float:
+        """Angle of the bore's axes in those of the connector's displacement, at the end of the step [rad].
+
+        Where it acts between both bodies its axes are in the middle between both marker frames. These are lined
+        up within 1e-4 rad, which counts where the mass that moves hangs on the direction.
+        """
+        if self.at is Attachment.MIDDLE:
+            return -0.5 * self._guessed_turn
+        return self._bore_angle if self.turns else 0.0
 
     # --- the motion at the end of the step that is being tried ---
 
