@@ -21,6 +21,7 @@ from support_exudyn import (
     Linkage,
     Machine,
     OilColumn,
+    Reciprocating,
     Result,
     Scenario,
     SolverSettings,
@@ -34,8 +35,12 @@ from support_exudyn.tree.integration import Integration
 from tests.reference.cases import FORCE, PIN, loose_slider_crank, loose_support, paper_contact, support
 from user_forces import (
     Anagnostopoulos,
+    BrownMcPhee,
     DepthSpeed,
+    Flores,
     InputError,
+    JournalBearing,
+    JournalContact,
     LankaraniNikravesh,
     LoadError,
     LuGre,
@@ -121,6 +126,29 @@ def test_the_redundant_formulation_tends_to_the_tree() -> None:
 def rise(tolerance: float, friction: float) -> Result:
     """A short rise that begins in the middle of the impacts."""
     return simulate(tree(tolerance, friction, drive=CubicStep(start=0.03, end=0.4, stroke=0.05), duration=0.2))
+
+
+def test_the_mass_that_moves_is_that_of_the_bores_axes_where_both_bodies_turn() -> None:
+    # along the normal the journal has next to no way: the mass that moves is tens of tons, and 18 times that
+    # of other directions per radian. The engine's connector has axes in the middle between both bodies
+    contact = JournalContact(
+        bearing=JournalBearing(bore_radius=0.0655, clearance=0.243e-3),
+        normal=Flores(restitution=0.426, stiffness=2.2e10, exponent=1.5),
+        friction=BrownMcPhee(static_coefficient=0.178, sliding_coefficient=0.137, transition_speed=0.01),
+    )
+    oil = OilColumn(bore_area=0.12847, oil_length=0.698, bulk_modulus=9.81e8, damping_time=1.26e-3)
+    scene = support(
+        pins={"front_shield": ClearancePin(contact=contact, bore="second", eccentricity=(3.1e-5, -4.65e-5))},
+        columns=dict.fromkeys(BOTH, oil),
+        drive=Reciprocating(stroke=3.013e-3, period=0.1462),
+        duration=0.0245,
+        formulation="tree",
+        solver=SolverSettings(tolerance=1e-8),
+    )
+    right = simulate(scene).largest_force["front_shield"]
+    engine = replace(scene, formulation="redundant", step=1e-4, solver=SolverSettings(impact_steps=400))
+    # in the axes in the middle: 1.7e-4 off, at any step
+    assert simulate(engine).largest_force["front_shield"] == pytest.approx(right, rel=5e-6)
 
 
 @pytest.mark.parametrize("friction", [0.0, 0.25])
