@@ -42,7 +42,7 @@ GOAL_COVERED, GOAL_RATIO, GOAL_OVERSTATED = 0.98, 5.0, 10.0
 
 @dataclass(frozen=True)
 class Chosen:
-    """What is asked for on the command line."""
+    """The command line asks for these."""
 
     seed: int
     scenes: int
@@ -55,7 +55,7 @@ class Chosen:
 
 
 def judged_scene(place: int, seed: int, number: int) -> list[Row]:
-    """All runs of a scene, judged; one that fails unexplained is a row with its reason."""
+    """Make and judge all runs of a scene; one that fails unexplained is a row with its reason."""
     report(place, 0.0)
     scene = fresh(seed, number)
     try:
@@ -65,13 +65,13 @@ def judged_scene(place: int, seed: int, number: int) -> list[Row]:
 
 
 def kept(out: Path, seed: int, number: int) -> Path:
-    """The file of a scene: another one for another program, or if scenes are judged in another way."""
+    """Return the file of a scene: another one for another program, or if scenes are judged in another way."""
     scene = fresh(seed, number)
     return out / "scenes" / f"{seed}-{number}-{key(scene.scenario)[:16]}{covered.digest()[:8]}.json"
 
 
 def load(path: Path) -> list[Row] | None:
-    """What is kept of a scene; None if that is nothing, or damaged."""
+    """Read what is kept of a scene; return None if that is nothing, or damaged."""
     try:
         data = json.loads(path.read_text(encoding="utf-8"))
         return [Row(**row | {"judged": tuple(Judged(**one) for one in row["judged"])}) for row in data]
@@ -86,7 +86,7 @@ def save(path: Path, rows: Sequence[Row]) -> None:
 
 
 def run_scenes(chosen: Chosen, numbers: Sequence[int]) -> list[Row]:
-    """Rows of all scenes, in their order: those that are kept, and the others under a progress bar."""
+    """Return the rows of all scenes in their order; those that are not kept are made under a progress bar."""
     (chosen.out / "scenes").mkdir(exist_ok=True)
     paths = {number: kept(chosen.out, chosen.seed, number) for number in numbers}
     found = {number: old for number, path in paths.items() if (old := load(path)) is not None}
@@ -125,7 +125,7 @@ class Share:
 
 
 def share(rows: Sequence[Row]) -> Share:
-    """Of some runs together."""
+    """Sum up what was judged of some runs."""
     numbers = [one for row in rows for one in row.judged]
     told = [one for one in numbers if not one.apart]
     wrong = [one.claimed / one.away for one in told if one.away > 0.0]
@@ -142,7 +142,7 @@ def share(rows: Sequence[Row]) -> Share:
 
 
 def groups(rows: Sequence[Row]) -> Iterator[tuple[str, str, Share]]:
-    """By kind and accuracy, by accuracy, and all together."""
+    """Sum up the rows by kind and accuracy, by accuracy, and all together."""
     accuracies = list(dict.fromkeys(row.accuracy for row in rows))
     for kind in (*KINDS, ALL):
         for accuracy in (*accuracies, ALL):
@@ -152,7 +152,7 @@ def groups(rows: Sequence[Row]) -> Iterator[tuple[str, str, Share]]:
 
 
 def coverage_sheet(rows: Sequence[Row]) -> Sheet:
-    """The table."""
+    """Lay out the table of kinds and accuracies."""
     header = (
         "scenes", "accuracy", "runs", "refused", "met", "numbers", "set apart", "covered [%]",
         "worst true / claimed", "median claimed / true",
@@ -170,7 +170,7 @@ def coverage_sheet(rows: Sequence[Row]) -> Sheet:
 
 
 def offender_sheet(rows: Sequence[Row]) -> Sheet:
-    """Numbers that are not covered, the worst first."""
+    """Lay out the numbers that are not covered, the worst first."""
     found = [(row, one) for row in rows for one in row.judged if not one.apart and one.ratio > 1.0]
     found.sort(key=lambda item: -item[1].ratio)
     lines = tuple(
@@ -186,13 +186,13 @@ def offender_sheet(rows: Sequence[Row]) -> Sheet:
 
 
 def refusal_sheet(rows: Sequence[Row]) -> Sheet:
-    """Runs that were refused, and why."""
+    """Lay out the runs that were refused, and why."""
     lines = tuple((str(row.number), row.kind, row.accuracy, row.refused) for row in rows if row.refused)
     return Sheet("Refused", ("scene", "kind", "accuracy", "reason"), lines, wide=True)
 
 
 def numbers(rows: Sequence[Row]) -> list[Number]:
-    """For summary.json."""
+    """Return what summary.json holds."""
     return [
         Number(field.name, f"{kind}, {accuracy}", float(value), "1", 0.0)
         for kind, accuracy, one in groups(rows)
@@ -202,7 +202,7 @@ def numbers(rows: Sequence[Row]) -> list[Number]:
 
 
 def save_rows(path: Path, rows: Sequence[Row]) -> None:
-    """All numbers of all runs as CSV, SI."""
+    """Write all numbers of all runs as CSV, in SI."""
     names = [field.name for field in fields(Judged)]
     with whole_file(path) as temporary, temporary.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)
@@ -232,14 +232,14 @@ def study(chosen: Chosen) -> None:
 
 
 def _seed(text: str) -> int:
-    """A seed from the command line, or a scene's number."""
+    """Read a seed from the command line, or a scene's number."""
     if not text.isdecimal() or int(text) >= LARGEST_SEED:
         raise argparse.ArgumentTypeError(f"{text[:40]!r}: allowed: a whole number from 0 to {LARGEST_SEED - 1}")
     return int(text)
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Entry of `python -m studies.coverage`."""
+    """Run `python -m studies.coverage`; return its exit code."""
     parser = Parser(prog=f"python -m studies.{STUDY}", description=(__doc__ or "").splitlines()[0])
     add, out = parser.add_argument, Path("results") / STUDY
     add("--seed", type=_seed, required=True, metavar="S", help="that scenes are drawn from")

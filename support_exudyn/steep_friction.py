@@ -36,16 +36,16 @@ class SteepFriction:
 
     @property
     def acting(self) -> EngineForce:
-        """The force that acts now."""
+        """The engine uses this force now."""
         return self._plain if self._line is None or self._straight is None else self._straight
 
     @property
     def calls(self) -> int:
-        """Evaluations in Python."""
+        """Python was called so often."""
         return self._plain.calls + (self._straight.calls if self._straight else 0)
 
     def begin(self) -> None:
-        """A step is tried from its start on."""
+        """Begin to try a step from its start."""
         if self._line is not None:
             self._line.begin()
 
@@ -60,7 +60,7 @@ class SteepFriction:
         return True
 
     def part(self) -> bool:
-        """The surfaces have parted: the law acts again. Whether a line did."""
+        """Let the law act again, for the surfaces have parted; return whether a line acted."""
         straight, self._line = self._line is not None, None
         return straight
 
@@ -83,5 +83,5 @@ class SteepFriction:
         return 0.5 * step if line.exhausted else math.inf
 
     def rounding(self, normal_force: float, size: float, step: float) -> float:
-        """By how much a line scatters, see `FrictionLine.rounding`; 0 without one."""
+        """Return by how much a line scatters, see `FrictionLine.rounding`; 0 without one."""
         return 0.0 if self._line is None else self._line.rounding(normal_force, size, step)

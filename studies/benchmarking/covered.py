@@ -153,7 +153,7 @@ class Row:
 
 @cache
 def digest() -> str:
-    """Of how scenes are judged: of this file."""
+    """Return a digest of this file, so that scenes that were judged otherwise are judged again."""
     return hashlib.sha256(Path(__file__).read_bytes()).hexdigest()
 
 
@@ -185,7 +185,7 @@ def rows(scene: Fresh) -> Iterator[Row]:
 
 
 def at(scene: Fresh, accuracy: Accuracy) -> Scenario:
-    """The scene with an accuracy."""
+    """Return the scene that asks for an accuracy."""
     return replace(scene.scenario, accuracy=accuracy)
 
 
@@ -197,7 +197,7 @@ def accuracies(scene: Fresh) -> tuple[Accuracy, ...]:
 
 
 def references(scene: Fresh, runs: Sequence[Result]) -> Iterator[Reference]:
-    """All that are worth it: of formulations with error control, and of the engine's as another."""
+    """Run a scene by formulations with error control, and by the engine's as another; yield each that ended."""
     plain = replace(scene.scenario, accuracy=None)
     sharp = False
     for name, tolerances in TIGHT.items():
@@ -224,7 +224,7 @@ def references(scene: Fresh, runs: Sequence[Result]) -> Iterator[Reference]:
 
 
 def _finest(runs: Sequence[Result]) -> Result | None:
-    """The finest of runs whose steps can be made shorter still; None if there are none."""
+    """Return the finest of the runs whose steps can be made shorter still; None if there are none."""
     for run in reversed(runs):
         if FINER[0] * run.scenario.solver.impact_steps <= MOST_IMPACT_STEPS:
             return run
@@ -232,13 +232,13 @@ def _finest(runs: Sequence[Result]) -> Result | None:
 
 
 def _falls(errors: Sequence[float]) -> float:
-    """The distance of the finer two of three runs with these errors, as a share of that of the coarser two."""
+    """Return the distance of the finer two of three runs with these errors over that of the coarser two."""
     fine, coarse, coarsest = errors
     return (coarse - fine) / (coarsest - coarse)
 
 
 def _numbers(scenarios: Sequence[Scenario]) -> list[Mapping[str, float]]:
-    """Of runs, one after another; of none, if one of them fails."""
+    """Run one scenario after another and return the numbers of each; none at all if one of them fails."""
     try:
         return [tight_numbers(0.0, simulate(scenario)) for scenario in scenarios]
     except SimulationError:
@@ -246,7 +246,7 @@ def _numbers(scenarios: Sequence[Scenario]) -> list[Mapping[str, float]]:
 
 
 def _reference(name: str, found: Sequence[Mapping[str, float]], falls: float) -> Reference | None:
-    """None if one of its three runs has failed."""
+    """Make a reference of the numbers of three runs; None if one of them has failed."""
     if not found:
         return None
     fine, coarse, coarsest = found
@@ -254,13 +254,13 @@ def _reference(name: str, found: Sequence[Mapping[str, float]], falls: float) ->
 
 
 def judged(run: Result, known: Sequence[Reference]) -> Iterator[Judged]:
-    """All numbers of a run beside what is known of them."""
+    """Judge all numbers of a run by the references."""
     for name, number in numbers_of_records(run).items():
         yield judge(name, number.value, number.error, run.scenario.formulation, known)
 
 
 def judge(name: str, value: float, claimed: float, formulation: str, known: Sequence[Reference]) -> Judged:
-    """A number beside references, of which those of another formulation go first; see the module."""
+    """Judge a number by references, those of another formulation first; see the top of this file."""
     found = sorted(
         (
             (Judged(name, value, claimed, _distance(value, one, name), one.error(name), one.formulation), one)

@@ -90,7 +90,7 @@ class Fresh:
 
     @property
     def accuracies(self) -> tuple[Accuracy, ...]:
-        """To which accuracies it is run."""
+        """It is run to these accuracies."""
         share = self.number // len(KINDS) % REFERENCE_SHARE == 0
         return ("draft", "standard", "reference") if share else ("draft", "standard")
 
@@ -113,12 +113,12 @@ def fresh(seed: int, number: int) -> Fresh:
 
 
 def _between(random: np.random.Generator, low: float, high: float) -> float:
-    """Evenly by its logarithm."""
+    """Draw a value, evenly by its logarithm."""
     return float(low * (high / low) ** random.uniform())
 
 
 def _contact(random: np.random.Generator, size: float, stiffness: float) -> JournalContact:
-    """A pin's contact; size, stiffness: of its bearing, in those of the support."""
+    """Draw a pin's contact; size and stiffness of its bearing are multiples of those of the support."""
     bearing = JournalBearing(
         bore_radius=paper_machine.BORE_RADIUS * size, clearance=_between(random, 1e-4, 3e-3) * size
     )
@@ -170,7 +170,7 @@ def _duration(random: np.random.Generator, longest: float) -> float:
 
 
 def _drive(random: np.random.Generator, duration: float) -> Drive:
-    """Of columns: none, or as far as the fastest of them goes in that time [s]."""
+    """Draw a drive of columns: none, or one that goes as far as the fastest does in that time [s]."""
     far = float(random.uniform(-1.0, 1.0)) * SPEED_OF_STROKE * duration
     begin, end = (share * duration for share in sorted(random.uniform(0.0, 1.0, 2).tolist()))
     drives: tuple[Callable[[], Drive], ...] = (

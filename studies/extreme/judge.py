@@ -87,7 +87,7 @@ class Verdict:
     wall_s: float = 0.0
 
     def row(self) -> dict[str, object]:
-        """As plain data."""
+        """Return the verdict as plain data."""
         return asdict(self)
 
 
@@ -95,7 +95,7 @@ Run = Callable[[Scenario], Result]
 
 
 def run_with_its_error(scenario: Scenario) -> Result:
-    """What a user runs who wants numbers with their errors."""
+    """Run a scene as a user does who wants numbers with their errors."""
     return simulate(scenario, errors=True)
 
 
@@ -280,5 +280,5 @@ def _by_steps(scenario: Scenario) -> list[Scenario]:
 
 
 def _patient(scenario: Scenario) -> Scenario:
-    """The same that may take more steps."""
+    """Return the same scene that may take more steps."""
     return replace(scenario, solver=replace(scenario.solver, most_steps=MOST_STEPS))

@@ -49,7 +49,7 @@ def _cases(quick: bool) -> list[Case]:
 
 
 def judged(place: int, quick: bool, number: int) -> Verdict:
-    """In a worker: the verdict on a case."""
+    """Judge a case, in a worker."""
     report(place, 0.0)
     try:
         with patience(PATIENCE):
@@ -59,7 +59,7 @@ def judged(place: int, quick: bool, number: int) -> Verdict:
 
 
 def lasted(place: int, name: str, duration: float) -> LongRun | str:
-    """In a worker: a long run, or why there is none."""
+    """Make a long run, in a worker; return why there is none if it fails."""
     try:
         return long_runs.run(long_runs.scene(name, duration), name, lambda share: report(place, share))
     except SimulationError as error:
