@@ -8,10 +8,10 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from studies.catalogue import STUDIES
+from studies.common.study import Options, add_options, output_folder, run_main
 from studies.report import rebuild
-from studies.study import Options, add_options, output_folder, run_main
-from support_exudyn.command_line import Parser, answered
-from support_exudyn.workers import worker_pool
+from support_exudyn.commands.command_line import Parser, answered
+from support_exudyn.sweeps.workers import worker_pool
 
 
 def main(argv: Sequence[str] | None = None) -> int:

@@ -4,19 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from studies import (
-    claims,
-    clearance_influence,
-    clearance_size,
-    contact_laws,
-    drive_mode,
-    extremes,
-    scene_detail,
-    slider_crank,
-    speed_accuracy,
-    which_pin,
-)
-from studies.study import Options
+from studies.claims import run as claims
+from studies.clearance_influence import run as clearance_influence
+from studies.clearance_size import run as clearance_size
+from studies.common.study import Options
+from studies.contact_laws import run as contact_laws
+from studies.drive_mode import run as drive_mode
+from studies.extremes import run as extremes
+from studies.scene_detail import run as scene_detail
+from studies.slider_crank import run as slider_crank
+from studies.speed_accuracy import run as speed_accuracy
+from studies.which_pin import run as which_pin
 
 STUDIES: dict[str, Callable[[Options], None]] = {
     clearance_influence.STUDY: clearance_influence.study,

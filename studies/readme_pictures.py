@@ -16,17 +16,19 @@ from tempfile import TemporaryDirectory
 from matplotlib.figure import Figure
 from PIL import Image
 
-from studies import clearance_influence, extremes_figures, paper_machine
-from studies.extreme.cases import STEP_STIFFNESS, cases
-from studies.extreme.runs import run_cases as judged
-from studies.study import add_options, output_folder, run_cases
+from studies.clearance_influence import run as clearance_influence
+from studies.common import paper_machine
+from studies.common.study import add_options, output_folder, run_cases
+from studies.extremes import figures as extremes_figures
+from studies.extremes.cases import STEP_STIFFNESS, cases
+from studies.extremes.runs import run_cases as judged
 from support_exudyn import Result
-from support_exudyn.command_line import Parser, answered
-from support_exudyn.figures import style
-from support_exudyn.figures.orbit import orbit
-from support_exudyn.figures.spectrum import force_spectrum
-from support_exudyn.files import whole_file
-from support_exudyn.render import render, still
+from support_exudyn.commands.command_line import Parser, answered
+from support_exudyn.files.whole_file import whole_file
+from support_exudyn.postprocessing.figures import style
+from support_exudyn.postprocessing.figures.orbit import orbit
+from support_exudyn.postprocessing.figures.spectrum import force_spectrum
+from support_exudyn.postprocessing.render import render, still
 
 FOLDER = Path(__file__).parent / "pictures"
 MIDDLE = 4.0  # of the rise [s]

@@ -10,13 +10,13 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from studies.catalogue import STUDIES
-from studies.reporting.chapter import FILE
+from studies.common.chapter import FILE
 from studies.reporting.content import Section, content
 from studies.reporting.html import page
 from studies.reporting.markdown_page import text
-from support_exudyn.command_line import Parser, folder, warn
-from support_exudyn.files import whole_file
-from user_forces.values import InputError
+from support_exudyn.commands.command_line import Parser, folder, warn
+from support_exudyn.files.whole_file import whole_file
+from user_forces.values.value import InputError
 
 
 def write_report(out: Path, chapters: Sequence[Section], quick: bool) -> Path:

@@ -8,32 +8,41 @@
 One entry, `simulate`; everything else is a value that is handed in. SI units and radians.
 """
 
-from support_exudyn import at_start as at_start
-from support_exudyn.channels import Channel
-from support_exudyn.columns import ColumnModel, OilColumn, RigidColumn, TwoBodyColumn, bore_area
-from support_exudyn.cylinder import HydraulicCylinder
-from support_exudyn.drives import CubicStep, Drive, Held, Reciprocating, Steady, Stroke, UniformSpeed
-from support_exudyn.errors import Failure, SimulationError
-from support_exudyn.estimate import Estimate
-from support_exudyn.impulse import Impulse
-from support_exudyn.inlet import ClosedInlet, Inlet, RampedOpening, SuddenOpening
-from support_exudyn.linkages.hydraulic_support import HydraulicSupport
-from support_exudyn.linkages.impact_stand import ImpactStand
-from support_exudyn.linkages.slider_crank import SliderCrank, ravn_slider_crank
-from support_exudyn.linkages.two_leg_shield import TwoLegShield
-from support_exudyn.loads import AppliedForce, FallingBlock, Load, LoadedPoint, Roof
-from support_exudyn.machine import Body, Column, Crank, Linkage, Machine, Part, PinPlace, Slide, TracePoint
-from support_exudyn.machines import load_support, reference_support, two_body_columns
-from support_exudyn.onset import Onset
-from support_exudyn.parts import Lumped, OwnBody, PartModel
-from support_exudyn.pins import ClearancePin, IdealPin, Pin
-from support_exudyn.recommend import Recommendation, recommend
-from support_exudyn.result import Result
-from support_exudyn.scenario import Scenario
-from support_exudyn.simulate import simulate
-from support_exudyn.solver_settings import SolverSettings
-from support_exudyn.table_drive import TableDrive
-from support_exudyn.width import Width
+from support_exudyn.commands import at_start as at_start
+from support_exudyn.files.machines import load_support, reference_support, two_body_columns
+from support_exudyn.formulations.contract import Failure, SimulationError
+from support_exudyn.machines.four_column_support import HydraulicSupport
+from support_exudyn.machines.free_impact import ImpactStand
+from support_exudyn.machines.slider_crank import SliderCrank, ravn_slider_crank
+from support_exudyn.machines.two_leg_shield import TwoLegShield
+from support_exudyn.mechanics.contact_state import Onset
+from support_exudyn.mechanics.impulse import Impulse
+from support_exudyn.model.columns import ColumnModel, OilColumn, RigidColumn, TwoBodyColumn, bore_area
+from support_exudyn.model.drives.drive import (
+    CubicStep,
+    Drive,
+    Held,
+    Reciprocating,
+    Steady,
+    Stroke,
+    UniformSpeed,
+)
+from support_exudyn.model.drives.table_drive import TableDrive
+from support_exudyn.model.hydraulic_cylinder import HydraulicCylinder
+from support_exudyn.model.lateral_dimensions import Width
+from support_exudyn.model.linkage import Body, Column, Crank, Linkage, Part, PinPlace, Slide, TracePoint
+from support_exudyn.model.loads import AppliedForce, FallingBlock, Load, LoadedPoint, Roof
+from support_exudyn.model.machine import Machine
+from support_exudyn.model.parts import Lumped, OwnBody, PartModel
+from support_exudyn.model.pins import ClearancePin, IdealPin, Pin
+from support_exudyn.model.valve_opening import ClosedInlet, Inlet, RampedOpening, SuddenOpening
+from support_exudyn.scenario.recorded_channels import Channel
+from support_exudyn.scenario.scenario import Scenario
+from support_exudyn.scenario.solver_settings import SolverSettings
+from support_exudyn.simulation.estimate import Estimate
+from support_exudyn.simulation.recommend import Recommendation, recommend
+from support_exudyn.simulation.result import Result
+from support_exudyn.simulation.simulate import simulate
 
 __all__ = [
     "AppliedForce",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 
-from support_exudyn.command_line import answered
+from support_exudyn.commands.command_line import answered
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -15,7 +15,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def _asked(argv: Sequence[str] | None) -> None:
     from support_exudyn.commands import command, parser  # and libraries: long enough to be interrupted
-    from support_exudyn.own_modules import at_work, import_modules
+    from support_exudyn.commands.user_modules import at_work, import_modules
 
     given = parser().parse_args(argv)
     import_modules(given.imports)

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from support_exudyn.workshop import MARK, OWNER, PREFIX
+from support_exudyn.files.temporary import MARK, OWNER, PREFIX
 
 posix_only = pytest.mark.skipif(os.name == "nt", reason="signals and limits of POSIX")
 DISKS = ("full disk", "limit of size")

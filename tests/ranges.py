@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from hypothesis import strategies as st
 
-from user_forces.values import LARGEST
+from user_forces.values.value import LARGEST
 
 
 def from_zero(high: float) -> st.SearchStrategy[float]:

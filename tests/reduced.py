@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 
 from support_exudyn import Result, Scenario, simulate
-from support_exudyn.progress import Progress, silent
-from support_exudyn.solver_settings import MOST_STEPS
+from support_exudyn.formulations.progress import Progress, silent
+from support_exudyn.scenario.solver_settings import MOST_STEPS
 
 
 def simulate_reduced(

@@ -21,10 +21,10 @@ from support_exudyn import (
     bore_area,
     reference_support,
 )
-from support_exudyn.loads import Powers
+from support_exudyn.model.loads import Powers
 from user_forces import value
-from user_forces.scalar import maximum
-from user_forces.values import Vector2
+from user_forces.expressions.scalar import maximum
+from user_forces.values.value import Vector2
 
 MASS, STIFFNESS = 1000.0, 1e6
 TOP = (0.0, 1.0)

@@ -52,7 +52,7 @@ from support_exudyn import (
 )
 from tests.unit.cases import contact
 from user_forces import CubicCoulomb, InputError, LuGre, Value
-from user_forces.values import DEEPEST
+from user_forces.values.value import DEEPEST
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -560,7 +560,8 @@ seed_trees = st.deferred(lambda: one_of(seed_data()))
 @cache
 def machine_tree() -> Any:
     """The reference support's file as a tree."""
-    return tomllib.loads((resources.files("support_exudyn.machines") / "reference.toml").read_text("utf-8"))
+    shipped = resources.files("support_exudyn.files.machines")
+    return tomllib.loads((shipped / "reference.toml").read_text("utf-8"))
 
 
 def toml(tree: Any) -> str:

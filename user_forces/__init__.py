@@ -57,7 +57,7 @@ from user_forces.normal.radzimovsky import Radzimovsky
 from user_forces.normal.safaeifar_farshidianfar import SafaeifarFarshidianfar
 from user_forces.normal.zhiying_qishao import ZhiyingQishao
 from user_forces.stiffness import external_contact_stiffness, internal_contact_stiffness
-from user_forces.values import InputError, Value, value
+from user_forces.values.value import InputError, Value, value
 
 __all__ = [
     "STEEL",

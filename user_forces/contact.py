@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from user_forces.expressions.scalar import hypot, is_number, maximum, where
 from user_forces.friction.frictionless import Frictionless
 from user_forces.friction.law import FrictionLaw
 from user_forces.journal import JournalBearing
 from user_forces.normal.law import NormalLaw, Touch
-from user_forces.scalar import hypot, is_number, maximum, where
-from user_forces.values import Value, value
+from user_forces.values.value import Value, value
 
 SMALLEST = 1e-300  # [m], only so that nothing is divided by zero
 SHALLOWEST = 1e-30  # depth [m] with which a law is evaluated where there is no contact
@@ -77,7 +77,7 @@ class JournalContact(Value):
         touch: Touch | None,
         history: SlipHistory = AT_REST,
     ) -> ContactForce:
-        """Force of the bore on the journal. Takes floats or expressions (`user_forces.scalar`).
+        """Force of the bore on the journal. Takes floats or expressions (`user_forces.expressions.scalar`).
 
         Arguments:
             x, y: journal's centre minus bore's centre [m], in any axes.

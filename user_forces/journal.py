@@ -15,8 +15,8 @@ from __future__ import annotations
 
 from pydantic import model_validator
 
-from user_forces.quantity import Metres
-from user_forces.values import Positive, Value, value
+from user_forces.values.units import Metres
+from user_forces.values.value import Positive, Value, value
 
 
 @value

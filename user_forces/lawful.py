@@ -12,7 +12,7 @@ import math
 
 from user_forces.contact import JournalContact
 from user_forces.normal.law import Touch
-from user_forces.values import InputError
+from user_forces.values.value import InputError
 
 ROUNDING = 1e-9  # share of a force that a law may be off by from its own elastic part
 

@@ -7,8 +7,8 @@ from typing import Annotated
 
 from pydantic import Field
 
-from user_forces.quantity import KilogramsPerCubicMetre, Pascals
-from user_forces.values import Positive, Real, Value, value
+from user_forces.values.units import KilogramsPerCubicMetre, Pascals
+from user_forces.values.value import Positive, Real, Value, value
 
 
 @value

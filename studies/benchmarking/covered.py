@@ -25,12 +25,12 @@ import numpy as np
 
 from studies.benchmarking.estimates import numbers_of_records, tight_numbers
 from studies.benchmarking.fresh_scenes import Fresh
-from studies.extreme.runs import HangError, patience
+from studies.extremes.runs import HangError, patience
 from support_exudyn import Failure, Result, Scenario, SimulationError, simulate
-from support_exudyn.choose import FormulationName, settings_for
-from support_exudyn.formulations import covers
-from support_exudyn.scenario import ACCURACIES, Accuracy
-from support_exudyn.solver_settings import ERROR_CONTROLLED, MOST_IMPACT_STEPS
+from support_exudyn.formulations.registry import covers
+from support_exudyn.scenario.scenario import ACCURACIES, Accuracy
+from support_exudyn.scenario.solver_settings import ERROR_CONTROLLED, MOST_IMPACT_STEPS
+from support_exudyn.simulation.automatic_settings import FormulationName, settings_for
 
 # tolerances of a reference, and of its own error
 TIGHT: Mapping[FormulationName, tuple[float, float, float]] = {

@@ -11,9 +11,9 @@ import numpy as np
 from studies.benchmarking.references import tight_runs
 from studies.benchmarking.scenes import SCENES, Scene
 from support_exudyn import Estimate, Result, Scenario, SolverSettings, simulate
-from support_exudyn.compiled import is_compiling
-from support_exudyn.measures import measures
-from support_exudyn.scenario import Accuracy
+from support_exudyn.formulations.compiled import is_compiling
+from support_exudyn.scenario.scenario import Accuracy
+from support_exudyn.simulation.reported_numbers import measures
 
 PRESETS: tuple[Accuracy, ...] = ("draft", "standard", "reference")
 NUMBERS: tuple[Accuracy, ...] = (1e-4,)  # that are asked for besides

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from studies import paper_machine
+from studies.common import paper_machine
 from support_exudyn import (
     ClearancePin,
     CubicStep,
@@ -36,7 +36,7 @@ from support_exudyn import (
     ravn_slider_crank,
     reference_support,
 )
-from support_exudyn.scenario import Accuracy
+from support_exudyn.scenario.scenario import Accuracy
 from user_forces import (
     Ambrosio,
     BengisuAkay,

@@ -18,9 +18,9 @@ import numpy.typing as npt
 from scipy.integrate import solve_ivp
 
 from support_exudyn import Scenario, SliderCrank, Steady
-from support_exudyn.onset import Onset
+from support_exudyn.mechanics.contact_state import Onset
 from user_forces import Frictionless, LankaraniNikravesh, TouchSpeed
-from user_forces.values import InputError
+from user_forces.values.value import InputError
 
 PIN = "slider_pin"
 LOOSEST, TIGHTEST = -5, -11  # decimal exponents of tolerances that are tried

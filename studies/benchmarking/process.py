@@ -10,7 +10,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-from support_exudyn.provenance import versions
+from support_exudyn.simulation.provenance import versions
 
 IMPORT = "import time, exudyn; t = time.perf_counter(); import support_exudyn; print(time.perf_counter() - t)"
 GROW = """

@@ -20,8 +20,8 @@ import numpy as np
 from studies.benchmarking.measures import GOALS, Sample, errors, of_result
 from studies.benchmarking.scenes import SCENES, Scene
 from support_exudyn import Scenario, SolverSettings, simulate
-from support_exudyn.files import whole_file
-from support_exudyn.provenance import versions
+from support_exudyn.files.whole_file import whole_file
+from support_exudyn.simulation.provenance import versions
 
 FILE = Path(__file__).with_name("references.json")
 TIGHTEST = 1e-12

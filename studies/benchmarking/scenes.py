@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from studies import paper_machine, slider_crank
+from studies.common import paper_machine
+from studies.slider_crank import run as slider_crank
 from support_exudyn import Held, Scenario, SolverSettings
 
 CLEARANCE_MM = 1.5

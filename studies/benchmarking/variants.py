@@ -8,12 +8,12 @@ from functools import partial
 from typing import Literal
 
 from studies.benchmarking.measures import ONSETS, Sample, of_result, sample
+from studies.benchmarking.peers.built_in import run_built_in
+from studies.benchmarking.peers.peer_run import PeerRun
+from studies.benchmarking.peers.stock import run_stock
 from studies.benchmarking.scenes import Scene
 from support_exudyn import Scenario, SolverSettings, simulate
-from support_exudyn.compiled import is_compiling
-from support_exudyn.peers.built_in import run_built_in
-from support_exudyn.peers.peer_run import PeerRun
-from support_exudyn.peers.stock import run_stock
+from support_exudyn.formulations.compiled import is_compiling
 from user_forces import Frictionless
 
 LADDER = (4.0, 2.0, 1.0, 0.5, 0.25)  # times the scene's default step

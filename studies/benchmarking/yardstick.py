@@ -19,11 +19,11 @@ import numpy as np
 import numpy.typing as npt
 
 from support_exudyn import CubicStep, HydraulicSupport, Scenario
-from support_exudyn.machine import lumped
-from support_exudyn.onset import Onset
-from support_exudyn.plane import minus, parts_of, side
+from support_exudyn.mechanics.contact_state import Onset
+from support_exudyn.model.linkage import lumped
+from support_exudyn.model.plane_geometry import minus, parts_of, side
 from user_forces import Ambrosio, Frictionless, JournalContact, LankaraniNikravesh, TouchSpeed
-from user_forces.values import InputError
+from user_forces.values.value import InputError
 
 SOURCE = Path(__file__).with_name("yardstick.c")
 PIN = "rear_base"

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from typing import Any
 
-from studies import paper_machine
-from studies.reporting.chapter import Sheet
+from studies.common import paper_machine
+from studies.common.chapter import Sheet
 from support_exudyn import CubicStep, HydraulicSupport, reference_support
-from support_exudyn.machine import Part, lumped
+from support_exudyn.model.linkage import Part, lumped
 from user_forces import STEEL, STEEL_35CRMO, Material
-from user_forces.values import Vector2
+from user_forces.values.value import Vector2
 
 PAPER, ASSUMED = "paper", "assumed"
-PIVOTS = {  # with the letters of the sketch in support_exudyn/linkages/hydraulic_support.py
+PIVOTS = {  # with the letters of the sketch in support_exudyn/machines/four_column_support.py
     "rear_base": "B, rear link on base (the loose pin)",
     "front_base": "A, front link on base",
     "rear_shield": "C, rear link on shield beam",

@@ -9,11 +9,11 @@ from pathlib import Path
 
 from pydantic import BaseModel, ValidationError
 
+from studies.common.chapter import LARGEST_FILE, Chapter, Picture, Sheet
 from studies.reporting import assumptions
-from studies.reporting.chapter import LARGEST_FILE, Chapter, Picture, Sheet
-from support_exudyn.files import contents
-from support_exudyn.provenance import provenance
-from user_forces.values import InputError
+from support_exudyn.files.whole_file import contents
+from support_exudyn.simulation.provenance import provenance
+from user_forces.values.value import InputError
 
 TITLE = "Clearance in the rear-link pin of a hydraulic support: the published results repeated"
 SUMMARY = (

@@ -8,10 +8,10 @@ from pathlib import Path
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
-from studies.reporting.chapter import LARGEST_FILE, Sheet
+from studies.common.chapter import LARGEST_FILE, Sheet
+from studies.common.markdown import unbroken
 from studies.reporting.content import Report, Section, verdict_class, verdict_column
-from studies.reporting.markdown import unbroken
-from support_exudyn.files import contents
+from support_exudyn.files.whole_file import contents
 
 SHORT = 28  # characters of a cell that is kept in one line, unless the table is wide
 

@@ -7,9 +7,9 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from urllib.parse import quote
 
-from studies.reporting.chapter import Picture, Sheet
+from studies.common.chapter import Picture, Sheet
+from studies.common.markdown import bullets, escaped, paragraph
 from studies.reporting.content import Report, Section
-from studies.reporting.markdown import bullets, escaped, paragraph
 
 
 def text(report: Report, out: Path) -> str:

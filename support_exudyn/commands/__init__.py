@@ -13,8 +13,8 @@ from importlib import import_module
 from pathlib import Path
 from typing import Protocol, cast
 
-from support_exudyn.command_line import Parser, say
-from support_exudyn.provenance import versions
+from support_exudyn.commands.command_line import Parser, say
+from support_exudyn.simulation.provenance import versions
 
 NAMES: tuple[str, ...] = (
     "check",

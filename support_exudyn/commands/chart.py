@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import re
 
-from support_exudyn.command_line import folder, say
+from support_exudyn.commands.command_line import folder, say
 
 HELP = "figure of a sweep: one number over one varied field, with errors, as PNG and PDF"
 NO_NAME = re.compile(r"[^\w.-]+")  # what is left out of a file's name
@@ -26,9 +26,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(given: argparse.Namespace) -> None:
     """Draw, write, and print the names of the files."""
-    from support_exudyn.figures import style
-    from support_exudyn.figures.sweep_chart import sweep_chart
-    from support_exudyn.sweeping.table import read_table
+    from support_exudyn.postprocessing.figures import style
+    from support_exudyn.postprocessing.figures.sweep_chart import sweep_chart
+    from support_exudyn.sweeps.table import read_table
 
     table = read_table(given.store)
     store = given.store if given.store.is_dir() else given.store.parent

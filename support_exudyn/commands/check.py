@@ -7,9 +7,9 @@ import json
 from functools import partial
 from pathlib import Path
 
-from support_exudyn.command_line import folder, number, say
-from support_exudyn.machine_data import read_machine
-from user_forces.values import InputError
+from support_exudyn.commands.command_line import folder, number, say
+from support_exudyn.machines.machine_data import read_machine
+from user_forces.values.value import InputError
 
 HELP = "draw a machine and tell its mobility, closure, dead centres, static forces, and what looks wrong"
 FARTHEST = 1e5  # [mm]
@@ -37,8 +37,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(given: argparse.Namespace) -> None:
     """Print what was found, and write the figure."""
-    from support_exudyn.checking import check_machine  # and numpy's linear algebra
-    from support_exudyn.figures import style
+    from support_exudyn.machines.check import check_machine  # and numpy's linear algebra
+    from support_exudyn.postprocessing.figures import style
 
     data = read_machine(given.machine)
     try:

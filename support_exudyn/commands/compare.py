@@ -8,16 +8,16 @@ from collections.abc import Mapping
 
 from rich.console import Console
 
-from support_exudyn import account
-from support_exudyn.command_line import add_json, add_times, answer, folder, say
-from support_exudyn.comparison import Difference, compared, same_to_the_bit
-from support_exudyn.estimate import Estimate
-from support_exudyn.figures import windows
-from support_exudyn.figures.names import matching
-from support_exudyn.figures.units import readable_change
-from support_exudyn.printed_table import printed, show_table
-from support_exudyn.result import Result
-from user_forces.values import InputError
+from support_exudyn.commands.command_line import add_json, add_times, answer, folder, say
+from support_exudyn.commands.tables import printed, show_table
+from support_exudyn.postprocessing import summary as account
+from support_exudyn.postprocessing.comparison import Difference, compared, same_to_the_bit
+from support_exudyn.postprocessing.figures import windows
+from support_exudyn.postprocessing.figures.names import matching
+from support_exudyn.postprocessing.figures.units import readable_change
+from support_exudyn.simulation.estimate import Estimate
+from support_exudyn.simulation.result import Result
+from user_forces.values.value import InputError
 
 HELP = "by how much a second run differs from a first, channel by channel, with errors"
 WHOLE = (0.0, math.inf)  # run

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
-from support_exudyn.command_line import (
+from support_exudyn.commands.command_line import (
     add_json,
     add_times,
     answer,
@@ -20,9 +20,9 @@ from support_exudyn.command_line import (
     shown_progress,
     warn,
 )
-from support_exudyn.progress import Progress
-from support_exudyn.result import Result
-from user_forces.values import InputError
+from support_exudyn.formulations.progress import Progress
+from support_exudyn.simulation.result import Result
+from user_forces.values.value import InputError
 
 HELP = "moving meshes for ParaView (XDMF, VTU) and tables of all channels (CSV, HDF5)"
 USUAL = ("xdmf", "vtu", "csv", "hdf5")
@@ -66,7 +66,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(given: argparse.Namespace) -> None:
     """Write what was asked for, and print what was written."""
-    from support_exudyn.export import MESHES, TABLES, Sampling, to_csv, to_hdf5, to_vtu, to_xdmf  # and meshio
+    from support_exudyn.postprocessing.export.export import (  # and meshio
+        MESHES,
+        TABLES,
+        Sampling,
+        to_csv,
+        to_hdf5,
+        to_vtu,
+        to_xdmf,
+    )
 
     if given.end is not None and given.end < given.start:
         raise InputError(f"--from {given.start:g} --until {given.end:g}: allowed: --until not before --from")

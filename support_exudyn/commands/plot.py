@@ -10,11 +10,11 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from typing import TYPE_CHECKING
 
-from support_exudyn.command_line import add_json, add_times, answer, folder, number, say, warn
-from support_exudyn.figures.journal import chosen_pin, loose_pins
-from support_exudyn.figures.names import matching
-from support_exudyn.result import Result
-from user_forces.values import InputError
+from support_exudyn.commands.command_line import add_json, add_times, answer, folder, number, say, warn
+from support_exudyn.postprocessing.figures.journal import chosen_pin, loose_pins
+from support_exudyn.postprocessing.figures.names import matching
+from support_exudyn.simulation.result import Result
+from user_forces.values.value import InputError
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -58,7 +58,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(given: argparse.Namespace) -> None:
     """Draw, write, and print the names of the files."""
-    from support_exudyn.figures import style
+    from support_exudyn.postprocessing.figures import style
 
     result = Result.load(given.run)
     out = given.out or given.run.with_name(f"{given.run.stem}_figures")
@@ -115,7 +115,7 @@ def _overview(result: Result, given: argparse.Namespace) -> tuple[dict[str, Draw
 
 
 def _of_channels(result: Result, given: argparse.Namespace, names: list[str]) -> dict[str, Draw]:
-    from support_exudyn.figures.channels import over_time
+    from support_exudyn.postprocessing.figures.channels import over_time
 
     return {"channels": lambda: over_time(result, names, given.start, given.end)}
 
@@ -124,9 +124,9 @@ def _of_pin(
     result: Result, given: argparse.Namespace, pin: str | None, kinds: Sequence[str] = KINDS
 ) -> dict[str, Draw]:
     """Figures of these kinds by file name, as far as the pin can have them."""
-    from support_exudyn.figures.orbit import orbit
-    from support_exudyn.figures.poincare import poincare
-    from support_exudyn.figures.spectrum import force_spectrum
+    from support_exudyn.postprocessing.figures.orbit import orbit
+    from support_exudyn.postprocessing.figures.poincare import poincare
+    from support_exudyn.postprocessing.figures.spectrum import force_spectrum
 
     ends = given.start, given.end
     pair = matching(result.channels, given.section)

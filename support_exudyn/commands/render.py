@@ -6,9 +6,17 @@ import argparse
 import re
 import sys
 
-from support_exudyn.command_line import add_json, add_times, answer, folder, number, say, shown_progress
-from support_exudyn.result import Result
-from user_forces.values import InputError, short
+from support_exudyn.commands.command_line import (
+    add_json,
+    add_times,
+    answer,
+    folder,
+    number,
+    say,
+    shown_progress,
+)
+from support_exudyn.simulation.result import Result
+from user_forces.values.value import InputError, short
 
 HELP = "ray-traced frames and a movie of a run, without a display"
 
@@ -61,7 +69,7 @@ def run(given: argparse.Namespace) -> None:
     if given.still is not None:
         _still(given, result)
         return
-    from support_exudyn.render import render
+    from support_exudyn.postprocessing.render import render
 
     out = given.out or given.run.with_name(f"{given.run.stem}_frames")
     with shown_progress(f"rendering {given.run.name}") as progress:
@@ -94,8 +102,8 @@ def run(given: argparse.Namespace) -> None:
 def _still(given: argparse.Namespace, result: Result) -> None:
     from PIL import Image
 
-    from support_exudyn.files import whole_file
-    from support_exudyn.render import still
+    from support_exudyn.files.whole_file import whole_file
+    from support_exudyn.postprocessing.render import still
 
     path = given.out or given.run.with_name(f"{given.run.stem}_{given.still:g}s.png")
     if path.suffix.lower() != ".png":

@@ -10,15 +10,15 @@ from typing import Any
 
 from rich.console import Console
 
-from support_exudyn import account
-from support_exudyn.command_line import add_json, answer, folder, shown_progress
-from support_exudyn.datafiles import ScenarioFile, read_scenario_file
-from support_exudyn.files import check_may_be_replaced, real_path
-from support_exudyn.printed_table import printed, show_table
-from support_exudyn.result import Result
-from support_exudyn.scenario import ACCURACIES, LARGEST_GOAL, SMALLEST_GOAL
-from support_exudyn.simulate import simulate
-from user_forces.values import InputError, short
+from support_exudyn.commands.command_line import add_json, answer, folder, shown_progress
+from support_exudyn.commands.tables import printed, show_table
+from support_exudyn.files import ScenarioFile, read_scenario_file
+from support_exudyn.files.whole_file import check_may_be_replaced, real_path
+from support_exudyn.postprocessing import summary as account
+from support_exudyn.scenario.scenario import ACCURACIES, LARGEST_GOAL, SMALLEST_GOAL
+from support_exudyn.simulation.result import Result
+from support_exudyn.simulation.simulate import simulate
+from user_forces.values.value import InputError, short
 
 HELP = "simulate a scenario's file and save the run"
 WHOLE = (0.0, float("inf"))  # run

@@ -5,10 +5,10 @@ from __future__ import annotations
 import argparse
 from dataclasses import replace
 
-from support_exudyn.command_line import folder, say
-from support_exudyn.datafiles import save_scenario, scenario_text
-from support_exudyn.result import Result
-from support_exudyn.scenario import Scenario
+from support_exudyn.commands.command_line import folder, say
+from support_exudyn.files import save_scenario, scenario_text
+from support_exudyn.scenario.scenario import Scenario
+from support_exudyn.simulation.result import Result
 
 HELP = "the scenario of a run as a TOML file, which `run` takes"
 

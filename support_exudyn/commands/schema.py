@@ -9,14 +9,14 @@ from importlib import import_module
 from importlib.util import find_spec
 from typing import Any
 
-from support_exudyn.command_line import folder, say
-from support_exudyn.files import whole_file
+from support_exudyn.commands.command_line import folder, say
+from support_exudyn.files.whole_file import whole_file
 
 HELP = "the JSON Schema of scenario files, or of machine files, by which editors complete and check them"
 # where the schemas are made: module and function
 MADE_BY = {
-    "scenario": ("support_exudyn.datafiles", "scenario_schema"),
-    "machine": ("support_exudyn.machines", "machine_schema"),
+    "scenario": ("support_exudyn.files", "scenario_schema"),
+    "machine": ("support_exudyn.files.machines", "machine_schema"),
 }
 KINDS = tuple(kind for kind, (module, _) in MADE_BY.items() if find_spec(module) is not None)
 

@@ -9,12 +9,12 @@ from typing import Any
 
 from rich.console import Console
 
-from support_exudyn import account
-from support_exudyn.command_line import add_json, add_times, answer, folder
-from support_exudyn.figures import windows
-from support_exudyn.figures.names import matching
-from support_exudyn.printed_table import NARROWEST, printed, show_table
-from support_exudyn.result import Result
+from support_exudyn.commands.command_line import add_json, add_times, answer, folder
+from support_exudyn.commands.tables import NARROWEST, printed, show_table
+from support_exudyn.postprocessing import summary as account
+from support_exudyn.postprocessing.figures import windows
+from support_exudyn.postprocessing.figures.names import matching
+from support_exudyn.simulation.result import Result
 
 HELP = "tables of what a run was and what came out of it"
 WHOLE = (0.0, math.inf)  # run

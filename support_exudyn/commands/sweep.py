@@ -11,11 +11,11 @@ from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING, Any
 
-from support_exudyn.command_line import count, folder, say, warn
-from user_forces.values import cleaned
+from support_exudyn.commands.command_line import count, folder, say, warn
+from user_forces.values.value import cleaned
 
 if TYPE_CHECKING:
-    from support_exudyn.sweeping.run import Outcome, Told
+    from support_exudyn.sweeps.run import Outcome, Told
 
 HELP = "run a scenario with fields of it varied, into a store that can be continued"
 EPILOG = """
@@ -61,8 +61,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(given: argparse.Namespace) -> None:
     """Run what is missing, and tell how many runs there are of each kind, and where the table is."""
-    from support_exudyn.sweeping import read_sweep, sweep  # and pyarrow
-    from support_exudyn.sweeping.run import known
+    from support_exudyn.sweeps import read_sweep, sweep  # and pyarrow
+    from support_exudyn.sweeps.run import known
 
     plan = read_sweep(given.file)
     out = given.out or given.file.with_name(f"{given.file.stem}_sweep")
@@ -97,7 +97,7 @@ def run(given: argparse.Namespace) -> None:
 
 def _tell(outcome: Outcome, given: argparse.Namespace, words: str) -> None:
     if given.json:
-        from support_exudyn.command_line import answer
+        from support_exudyn.commands.command_line import answer
 
         data: dict[str, Any] = asdict(outcome)
         answer(data | {"to_do": outcome.runs - outcome.finished})
@@ -148,7 +148,7 @@ def _show(path: Path) -> None:
     from rich.markup import escape
     from rich.table import Table
 
-    from support_exudyn.sweeping import read_table
+    from support_exudyn.sweeps import read_table
 
     found = read_table(path)
     wanted = [name for name in found.column_names if name not in ("key", "reason", "wall_time_s")]

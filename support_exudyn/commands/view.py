@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import argparse
 
-from support_exudyn.command_line import count, folder
-from support_exudyn.result import Result
+from support_exudyn.commands.command_line import count, folder
+from support_exudyn.simulation.result import Result
 
 HELP = "open Exudyn's solution viewer on a run"
 
@@ -30,6 +30,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(given: argparse.Namespace) -> None:
     """Open it, and wait until it is closed."""
     result = Result.load(given.run)
-    from support_exudyn.view import open_viewer  # libraries of shapes, which refusing a file has no use for
+    from support_exudyn.postprocessing.viewer.view import (
+        open_viewer,  # libraries of shapes, which refusing a file has no use for
+    )
 
     open_viewer(result, solution=given.solution, every=given.every, name=given.run.name)

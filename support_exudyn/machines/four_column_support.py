@@ -1,37 +1,164 @@
-"""Files of four-column supports."""
+r"""A four-bar shield support on four columns, both sides lumped into one plane.
+
+        I___________________T      canopy, on the shield's hinge I, with its tip T
+       /        G      E           columns: rear H-G, front F-E
+    D /         |     /
+    C*----.     |    /             shield beam C-D-I with tail beam
+     \     \    |   /
+      \     \   |  /               rear link B-C, front link A-D
+       B      A  H  F
+    ===================== base (ground)
+
+x forward (towards the coal face), y up. With all pins ideal the two column lengths fix the posture:
+the four-bar has one degree of freedom and the canopy on its hinge another.
+"""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
-from typing import Any, ClassVar, Literal
+from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
-from pydantic import Field
+import numpy as np
+from pydantic import model_validator
 
-from support_exudyn.linkages.four_bar_shield import FourBarShield
-from support_exudyn.linkages.hydraulic_support import HydraulicSupport
-from support_exudyn.machines.shield_form import PLACES, ShieldForm, WidthForm, places
+from support_exudyn.machines.four_bar_shield import PRECISE, FourBarShield, Strut, turn
+from support_exudyn.machines.shield_layout import BODIES, TAIL
+from support_exudyn.model.lateral_dimensions import Width
+from support_exudyn.model.linkage import GROUND, Part
+from support_exudyn.model.plane_geometry import direction, moved
+from user_forces.values.units import Metres
+from user_forces.values.value import Positive, Vector2, value
 
-COLUMNS = {"front_column": "front columns", "rear_column": "rear columns"}
-ENDS = {
-    "front_foot": "front column on base",
-    "front_head": "front column on canopy",
-    "rear_foot": "rear column on base",
-    "rear_head": "rear column on canopy",
-}
+if TYPE_CHECKING:
+    from support_exudyn.postprocessing.look.solid import Look
+    from support_exudyn.scenario.scenario import Scenario
 
-
-class FourColumnWidth(WidthForm):
-    """Lateral dimensions, for the spatial model."""
-
-    NAMES: ClassVar[Mapping[str, Mapping[str, str]]] = WidthForm.names(COLUMNS)
+__all__ = ["BODIES", "PIVOTS", "TAIL", "HydraulicSupport", "Posture"]
 
 
-class Form(ShieldForm):
-    """A four-bar shield support on two pairs of columns between base and canopy."""
+class Posture(NamedTuple):
+    """Where everything is with ideal pins. Angles [rad] are turns from the reference posture."""
 
-    MACHINE: ClassVar[type[FourBarShield[Any]]] = HydraulicSupport
-    NAMES: ClassVar[Mapping[str, Mapping[str, str]]] = ShieldForm.tables(places(ENDS), COLUMNS)
-    REQUIRED: ClassVar[Mapping[str, tuple[str, ...]]] = {"pivots_mm": (*PLACES, *ENDS)}
+    rear_link: float
+    front_link: float
+    shield: float
+    canopy: float
+    rear_shield: Metres[Vector2]  # C [m]
+    front_shield: Metres[Vector2]  # D
+    hinge: Metres[Vector2]  # I
+    front_head: Metres[Vector2]  # E
+    rear_head: Metres[Vector2]  # G
+    tip: Metres[Vector2]
 
-    kind: Literal["four_column_support"] = Field(description="What the machine is.")
-    width_mm: FourColumnWidth | None = None
+
+@value
+class HydraulicSupport(FourBarShield[Posture]):
+    """Pivots, parts and start height of a four-column shield support.
+
+    Arguments:
+        rear_base, front_base: B and A, pivots of rear and front link on the base [m].
+        rear_shield, front_shield: C and D, pivots of the links on the shield beam.
+        hinge: I, shield beam on canopy.
+        front_foot, front_head: F and E, ends of the front column.
+        rear_foot, rear_head: H and G, ends of the rear column.
+        tip: foremost point of the canopy.
+        tail_hinge: tail beam on shield beam.
+        tail_jack_foot, tail_jack_head: ends of the tail beam's jack, on the shield beam and on the tail beam;
+            these and the hinge are only needed where the tail beam is a body of its own.
+            All of these in one reference posture.
+        parts: for each of rear_link, front_link, shield and canopy the parts it is made of, in the
+            reference posture. Those named COLUMN_rods stand for a massless column's mass; that named tail_beam,
+            of the shield, can be a body of its own.
+        start_hinge_height: y of the hinge at the start [m], with the canopy level.
+        width: lateral dimensions, for the spatial model; None: there are none.
+    """
+
+    STRUTS: ClassVar[Mapping[str, Strut]] = {
+        "front_column": Strut(foot=(GROUND, "front_foot"), head=("canopy", "front_head")),
+        "rear_column": Strut(foot=(GROUND, "rear_foot"), head=("canopy", "rear_head")),
+    }
+
+    rear_base: Metres[Vector2]
+    front_base: Metres[Vector2]
+    rear_shield: Metres[Vector2]
+    front_shield: Metres[Vector2]
+    hinge: Metres[Vector2]
+    front_foot: Metres[Vector2]
+    front_head: Metres[Vector2]
+    rear_foot: Metres[Vector2]
+    rear_head: Metres[Vector2]
+    tip: Metres[Vector2]
+    parts: Mapping[str, tuple[Part, ...]]
+    start_hinge_height: Metres[Positive]
+    width: Width | None = None
+    tail_hinge: Metres[Vector2] | None = None
+    tail_jack_foot: Metres[Vector2] | None = None
+    tail_jack_head: Metres[Vector2] | None = None
+
+    @model_validator(mode="after")
+    def _can_be_built(self) -> HydraulicSupport:
+        return self.check()
+
+    def posture(self, rear_link: float, canopy: float) -> Posture | None:
+        """Posture for turns of rear link and canopy [rad]; None where the four-bar does not close."""
+        closed = self.four_bar(rear_link)
+        if closed is None:
+            return None
+        c, d, i = closed
+
+        def on_canopy(point: Vector2) -> Vector2:
+            return moved(point, self.hinge, i, canopy)
+
+        return Posture(
+            rear_link,
+            turn(direction(self.front_base, self.front_shield), direction(self.front_base, d)),
+            turn(direction(self.rear_shield, self.front_shield), direction(c, d)),
+            canopy,
+            c,
+            d,
+            i,
+            on_canopy(self.front_head),
+            on_canopy(self.rear_head),
+            on_canopy(self.tip),
+        )
+
+    def extended(self, extension: float, near: Posture | None = None) -> Posture | None:
+        """Posture with both columns longer than at the start by `extension` [m]; None if there is none.
+
+        `near`: a posture to search from, the start by default; steps of some centimetres are safe.
+        """
+        from scipy.optimize import root  # slow to import
+
+        start = self.start()
+        front, rear = (length + extension for length in self.column_lengths(start))
+        near = near or start
+
+        def turned(by: np.ndarray) -> Posture | None:
+            return self.posture(near.rear_link + float(by[0]), near.canopy + float(by[1]))
+
+        def misfit(by: np.ndarray) -> list[float]:
+            posture = turned(by)
+            if posture is None:
+                return [math.inf, math.inf]
+            got = self.column_lengths(posture)
+            return [got[0] - front, got[1] - rear]
+
+        with np.errstate(invalid="ignore"):
+            # MINPACK measures its first steps by where it starts: turns of a rounding would hold it there, from
+            # exactly zero it goes as far as it likes
+            found = root(misfit, [0.0, 0.0], tol=1e-14)
+        if not np.all(np.abs(misfit(found.x)) < PRECISE):
+            return None
+        return turned(found.x)
+
+    def look(self, scenario: Scenario) -> Look:
+        """A shield support: base, links, shield and tail beam, canopy, columns and pins."""
+        from support_exudyn.postprocessing.look.shield_support import (
+            look,
+        )  # libraries of shapes, which a run has no use for
+
+        return look(scenario)
+
+
+PIVOTS = HydraulicSupport.pivots()

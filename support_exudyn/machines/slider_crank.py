@@ -1,75 +1,128 @@
-"""Files of slider-cranks."""
+"""The slider-crank: the field's first example of a joint with clearance.
+
+          rod
+     .-----------.
+B   /             `-.      crank AB turns at constant speed, angle from +x
+   / crank            `-.
+  /                      `-.   C
+A o-------------------------[#]------ guide along +x through A
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from decimal import Decimal
-from typing import ClassVar, Literal
+import math
 
-from pydantic import Field
+from pydantic import model_validator
 
-from support_exudyn.linkages.slider_crank import SliderCrank
-from support_exudyn.machine_data import MachineData
-from support_exudyn.machines.form import Degrees, Inertia, MachineForm, Mass, Size, metres, radians
-from user_forces.values import InputError
-
-PINS = {"main": "crank on ground", "crank_pin": "crank on rod", "slider_pin": "rod on slider"}
+from support_exudyn.model.linkage import GROUND, Body, Crank, Linkage, PinPlace, Slide, TracePoint, pinned
+from support_exudyn.model.machine import Machine
+from user_forces.values.units import Kilograms, KilogramSquareMetres, Metres, Radians
+from user_forces.values.value import Positive, Real, value
 
 
-class Form(MachineForm):
-    """A slider-crank; crank and rod have their centres of mass in the middle."""
+@value
+class SliderCrank(Machine):
+    """A slider-crank in the plane. Crank and rod have their centres of mass in the middle.
 
-    NAMES: ClassVar[Mapping[str, Mapping[str, str]]] = {"bore_radius_mm": PINS}
+    Pins: `main` (ground, crank), `crank_pin` (crank, rod), `slider_pin` (slider, rod). Driven: `crank`,
+    by a drive in rad (`Steady`). Guide: `guide`. Point: `slider`. With ideal pins the machine moves in one way
+    only, and in closed form:
 
-    kind: Literal["slider_crank"] = Field(description="What the machine is.")
-    crank_length_mm: Size
-    rod_length_mm: Size = Field(description="More than that of the crank [mm].")
-    crank_mass_kg: Mass
-    rod_mass_kg: Mass
-    slider_mass_kg: Mass
-    crank_inertia_kg_m2: Inertia | None = Field(
-        None, description="About its middle [kg m^2]; else a uniform bar."
-    )
-    rod_inertia_kg_m2: Inertia | None = Field(
-        None, description="About its middle [kg m^2]; else a uniform bar."
-    )
-    start_angle_deg: Degrees = Field(Decimal(0), description="Of the crank at the start, from +x [degrees].")
-    bore_radius_mm: dict[str, Size] = Field(
-        default_factory=dict, description="Radii of the bores of pins, for pins with clearance."
-    )
+        x = r cos(a) + sqrt(l^2 - r^2 sin(a)^2)
 
-    def data(self) -> MachineData:
-        """The machine, in SI. Raises InputError if it cannot be built."""
-        crank, rod = metres(self.crank_length_mm), metres(self.rod_length_mm)
-        if rod <= crank:
-            raise InputError(
-                f"rod_length_mm = {self.rod_length_mm}: allowed: > crank_length_mm = {self.crank_length_mm}, "
+    Arguments:
+        crank_length: r [m], > 0. rod_length: l [m], > r.
+        crank_mass, rod_mass, slider_mass: [kg], > 0.
+        crank_inertia, rod_inertia: about the centre of mass [kg m^2], > 0.
+        start_angle: of the crank at the start [rad].
+    """
+
+    crank_length: Metres[Positive]
+    rod_length: Metres[Positive]
+    crank_mass: Kilograms[Positive]
+    rod_mass: Kilograms[Positive]
+    slider_mass: Kilograms[Positive]
+    crank_inertia: KilogramSquareMetres[Positive]
+    rod_inertia: KilogramSquareMetres[Positive]
+    start_angle: Radians[Real] = 0.0
+
+    @model_validator(mode="after")
+    def _turns_right_round(self) -> SliderCrank:
+        if self.rod_length <= self.crank_length:
+            raise ValueError(
+                f"rod_length = {self.rod_length} m: allowed: > crank_length = {self.crank_length} m, "
                 "else the crank cannot turn right round"
             )
-        machine = SliderCrank(
-            crank_length=crank,
-            rod_length=rod,
-            crank_mass=float(self.crank_mass_kg),
-            rod_mass=float(self.rod_mass_kg),
-            slider_mass=float(self.slider_mass_kg),
-            crank_inertia=_inertia(self.crank_inertia_kg_m2, self.crank_mass_kg, crank),
-            rod_inertia=_inertia(self.rod_inertia_kg_m2, self.rod_mass_kg, rod),
-            start_angle=radians(self.start_angle_deg),
-        )
-        return MachineData(
-            machine,
-            self.name,
-            bore_radii={name: metres(radius) for name, radius in self.bore_radius_mm.items()},
-            sources=self.sources,
-            kind=self.kind,
-            assumed=tuple(
-                f"{name}: its mass is spread evenly over its length"
-                for name in ("crank", "rod")
-                if getattr(self, f"{name}_inertia_kg_m2") is None
-            ),
+        return self
+
+    def slider_position(self, angle: float) -> float:
+        """x of the slider [m] at a crank angle [rad], ideal pins."""
+        return self.crank_length * math.cos(angle) + self._rod_along(angle)
+
+    def slider_speed(self, angle: float, speed: float) -> float:
+        """Its rate [m/s] at a crank angle [rad] and a speed of the crank [rad/s]."""
+        return -speed * self._height(angle) * (1.0 + self._crank_along(angle) / self._rod_along(angle))
+
+    def slider_acceleration(self, angle: float, speed: float) -> float:
+        """Its acceleration [m/s^2] at a crank angle [rad] and a constant speed of the crank [rad/s]."""
+        along, height, rod = self._crank_along(angle), self._height(angle), self._rod_along(angle)
+        bend = (along**2 - height**2) / rod + (height * along) ** 2 / rod**3
+        return -(speed**2) * (along + bend)
+
+    def _crank_along(self, angle: float) -> float:
+        return self.crank_length * math.cos(angle)
+
+    def _height(self, angle: float) -> float:
+        return self.crank_length * math.sin(angle)
+
+    def _rod_along(self, angle: float) -> float:
+        return math.sqrt(self.rod_length**2 - self._height(angle) ** 2)
+
+    def linkage(self) -> Linkage:
+        """The mechanism at the start angle, at rest; the drive sets it in motion."""
+        a = self.start_angle
+        b = (self._crank_along(a), self._height(a))
+        c = (self.slider_position(a), 0.0)
+        return Linkage(
+            bodies={
+                "crank": Body(
+                    mass=self.crank_mass,
+                    inertia=self.crank_inertia,
+                    centre=(0.5 * b[0], 0.5 * b[1]),
+                    angle=a,
+                ),
+                "rod": Body(
+                    mass=self.rod_mass,
+                    inertia=self.rod_inertia,
+                    centre=(0.5 * (b[0] + c[0]), 0.5 * b[1]),
+                    angle=math.atan2(-b[1], c[0] - b[0]),
+                ),
+                # it cannot turn, so its inertia has no influence
+                "slider": Body(mass=self.slider_mass, inertia=self.rod_inertia, centre=c),
+            },
+            pins={
+                "main": pinned(GROUND, "crank", (0.0, 0.0)),
+                "crank_pin": pinned("crank", "rod", b),
+                "slider_pin": PinPlace(first="slider", second="rod", first_point=c, second_point=c),
+            },
+            points={"slider": TracePoint(body="slider", point=c)},
+            cranks={"crank": Crank(body="crank")},
+            slides={"guide": Slide(body="slider", point=c)},
         )
 
 
-def _inertia(said: Decimal | None, mass: Decimal, length: float) -> float:
-    """As said, or of a uniform bar [kg m^2]."""
-    return float(mass) * length**2 / 12.0 if said is None else float(said)
+def ravn_slider_crank() -> SliderCrank:
+    """The machine on which joints with clearance are commonly shown: r = 50 mm, l = 120 mm.
+
+    Source: Ravn, Multibody Syst. Dyn. 2 (1998) 1-24; Flores and Ambrosio, Comput. Struct. 82 (2004) 1359-1369.
+    Run there at 5000 rpm with a bearing of 10 mm radius and a journal of 9.5 mm at the slider.
+    """
+    return SliderCrank(
+        crank_length=0.05,
+        rod_length=0.12,
+        crank_mass=0.30,
+        rod_mass=0.21,
+        slider_mass=0.14,
+        crank_inertia=1.0e-4,
+        rod_inertia=2.5e-4,
+    )

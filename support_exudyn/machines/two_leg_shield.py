@@ -1,37 +1,212 @@
-"""Files of two-leg shields."""
+r"""A four-bar shield support on one pair of legs, both sides lumped into one plane.
+
+        I___Q_______________T      canopy, on the shield's hinge I, with its tip T
+       / `-´     L                 stabilising ram P-Q between shield beam and canopy
+    D /  P      /
+    C*----.    /                   leg F-L between base and canopy
+     \     \  /                    shield beam C-D-I with tail beam
+      \     \/
+       B    /A                     rear link B-C, front link A-D
+    =======F============= base (ground)
+
+x forward (towards the coal face), y up. With all pins ideal the lengths of leg and ram fix the posture. Unless
+a scenario drives it otherwise, the ram follows the leg so that the canopy keeps level.
+"""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
-from typing import Any, ClassVar, Literal
+from functools import cached_property
+from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
-from pydantic import Field
+import numpy as np
+from pydantic import model_validator
 
-from support_exudyn.linkages.four_bar_shield import FourBarShield
-from support_exudyn.linkages.two_leg_shield import TwoLegShield
-from support_exudyn.machines.shield_form import PLACES, ShieldForm, WidthForm, places
+from support_exudyn.machines.four_bar_shield import (
+    LONGEST_STEP,
+    MOST_REMEMBERED,
+    PRECISE,
+    FourBarShield,
+    Strut,
+    turn,
+)
+from support_exudyn.model.drives.coupled_drive import following
+from support_exudyn.model.drives.drive import Drive, Held
+from support_exudyn.model.lateral_dimensions import Width
+from support_exudyn.model.linkage import GROUND, Part
+from support_exudyn.model.plane_geometry import direction, moved
+from user_forces.values.units import Metres
+from user_forces.values.value import InputError, Positive, Vector2, value
 
-COLUMNS = {"leg": "legs", "ram": "stabilising ram"}
-ENDS = {
-    "leg_foot": "leg on base",
-    "leg_head": "leg on canopy",
-    "ram_foot": "stabilising ram on shield beam",
-    "ram_head": "stabilising ram on canopy",
-}
+if TYPE_CHECKING:
+    from support_exudyn.postprocessing.look.solid import Look
+    from support_exudyn.scenario.scenario import Scenario
+
+MOST_CORRECTIONS = 50  # of Newton's method; five do
+STRIDE = 0.02  # [m] from one level posture to the next
 
 
-class TwoLegWidth(WidthForm):
-    """Lateral dimensions, for the spatial model."""
+class LegPosture(NamedTuple):
+    """Where everything is with ideal pins. Angles [rad] are turns from the reference posture."""
 
-    NAMES: ClassVar[Mapping[str, Mapping[str, str]]] = WidthForm.names(COLUMNS)
+    rear_link: float
+    front_link: float
+    shield: float
+    canopy: float
+    rear_shield: Metres[Vector2]  # C [m]
+    front_shield: Metres[Vector2]  # D
+    hinge: Metres[Vector2]  # I
+    leg_head: Metres[Vector2]  # L
+    ram_foot: Metres[Vector2]  # P
+    ram_head: Metres[Vector2]  # Q
+    tip: Metres[Vector2]
 
 
-class Form(ShieldForm):
-    """A four-bar shield support on a pair of legs, with a stabilising ram between shield beam and canopy."""
+@value
+class TwoLegShield(FourBarShield[LegPosture]):
+    """Pivots, parts and start height of a two-leg shield support.
 
-    MACHINE: ClassVar[type[FourBarShield[Any]]] = TwoLegShield
-    NAMES: ClassVar[Mapping[str, Mapping[str, str]]] = ShieldForm.tables(places(ENDS), COLUMNS)
-    REQUIRED: ClassVar[Mapping[str, tuple[str, ...]]] = {"pivots_mm": (*PLACES, *ENDS)}
+    Columns: `leg` and `ram`. Arguments:
+        rear_base, front_base: B and A, pivots of rear and front link on the base [m].
+        rear_shield, front_shield: C and D, pivots of the links on the shield beam.
+        hinge: I, shield beam on canopy.
+        leg_foot, leg_head: F and L, ends of the legs on base and canopy.
+        ram_foot, ram_head: P and Q, ends of the stabilising ram on shield beam and canopy.
+        tip: foremost point of the canopy.
+        tail_hinge: tail beam on shield beam.
+        tail_jack_foot, tail_jack_head: ends of the tail beam's jack, on the shield beam and on the tail beam;
+            these and the hinge are only needed where the tail beam is a body of its own.
+            All of these in one reference posture.
+        parts: for each of rear_link, front_link, shield and canopy the parts it is made of, in the
+            reference posture. Those named leg_rods or ram_rods stand for a massless column's mass; that named
+            tail_beam, of the shield, can be a body of its own.
+        start_hinge_height: y of the hinge at the start [m], with the canopy level.
+        width: lateral dimensions, for the spatial model; None: there are none.
+    """
 
-    kind: Literal["two_leg_shield"] = Field(description="What the machine is.")
-    width_mm: TwoLegWidth | None = None
+    STRUTS: ClassVar[Mapping[str, Strut]] = {
+        "leg": Strut(foot=(GROUND, "leg_foot"), head=("canopy", "leg_head")),
+        "ram": Strut(foot=("shield", "ram_foot"), head=("canopy", "ram_head")),
+    }
+
+    rear_base: Metres[Vector2]
+    front_base: Metres[Vector2]
+    rear_shield: Metres[Vector2]
+    front_shield: Metres[Vector2]
+    hinge: Metres[Vector2]
+    leg_foot: Metres[Vector2]
+    leg_head: Metres[Vector2]
+    ram_foot: Metres[Vector2]
+    ram_head: Metres[Vector2]
+    tip: Metres[Vector2]
+    parts: Mapping[str, tuple[Part, ...]]
+    start_hinge_height: Metres[Positive]
+    width: Width | None = None
+    tail_hinge: Metres[Vector2] | None = None
+    tail_jack_foot: Metres[Vector2] | None = None
+    tail_jack_head: Metres[Vector2] | None = None
+
+    @model_validator(mode="after")
+    def _can_be_built(self) -> TwoLegShield:
+        return self.check()
+
+    def posture(self, rear_link: float, canopy: float) -> LegPosture | None:
+        """Posture for turns of rear link and canopy [rad]; None where the four-bar does not close."""
+        closed = self.four_bar(rear_link)
+        if closed is None:
+            return None
+        c, d, i = closed
+        shield = turn(direction(self.rear_shield, self.front_shield), direction(c, d))
+        return LegPosture(
+            rear_link,
+            turn(direction(self.front_base, self.front_shield), direction(self.front_base, d)),
+            shield,
+            canopy,
+            c,
+            d,
+            i,
+            moved(self.leg_head, self.hinge, i, canopy),
+            moved(self.ram_foot, self.rear_shield, c, shield),
+            moved(self.ram_head, self.hinge, i, canopy),
+            moved(self.tip, self.hinge, i, canopy),
+        )
+
+    def extended(self, extension: float, near: LegPosture | None = None) -> LegPosture | None:
+        """Posture with a level canopy and the leg longer than at the start by `extension` [m]; None if none.
+
+        `near`: a posture to search from, the start by default; steps of some centimetres are safe.
+        """
+        start = self.start()
+        wanted = self.column_lengths(start)[0] + extension
+        at = (near or start).rear_link
+        for _ in range(MOST_CORRECTIONS):
+            posture = self.posture(at, 0.0)
+            if posture is None:
+                return None
+            short = wanted - self.column_lengths(posture)[0]
+            rate = float(self.column_rates(posture)[0, 0])
+            if rate == 0.0 or not math.isfinite(rate) or abs(short / rate) > LONGEST_STEP:
+                return None  # it locks here
+            following_turn = at + short / rate
+            if following_turn == at or abs(short) < 4.0 * math.ulp(wanted):
+                return posture
+            at = following_turn
+        return posture if abs(short) < PRECISE else None
+
+    @property
+    def leaders(self) -> Mapping[str, str]:
+        """The ram follows the leg."""
+        return {"ram": "leg"}
+
+    def follower(self, name: str, lead: Drive, duration: float) -> Drive:
+        """How the ram moves so that the canopy keeps level while the leg is driven."""
+        if name != "ram":
+            return super().follower(name, lead, duration)
+        for key, found in self._known:
+            if key == (lead, duration):
+                return found
+        low, high = lead.span(duration)
+        self.check_extension(low, high)
+        size = math.hypot(*self.hinge)
+        drive: Drive = Held() if low == high == 0.0 else following(lead, duration, self.level_ram, size)
+        if len(self._known) == MOST_REMEMBERED:
+            self._known.clear()
+        self._known.append(((lead, duration), drive))
+        return drive
+
+    @cached_property
+    def _known(self) -> list[tuple[tuple[Drive, float], Drive]]:
+        """Drives of the ram by that of the leg and for how long; scenarios ask again and again."""
+        return []
+
+    def level_ram(self, leg: np.ndarray) -> np.ndarray:
+        """Extensions of the ram [m] that keep the canopy level, for extensions of the leg [m], shape (n,).
+
+        Raises InputError if the leg cannot extend so far.
+        """
+        start = self.start()
+        at_start = self.column_lengths(start)[1]
+        found = np.empty(leg.size)
+        order = np.argsort(np.abs(leg))
+        for side in (leg >= 0.0, leg < 0.0):
+            reached, posture = 0.0, start
+            for n in order[side[order]]:
+                for stop in np.linspace(reached, leg[n], 2 + int(abs(leg[n] - reached) / STRIDE))[1:]:
+                    following = self.extended(float(stop), posture)
+                    if following is None:
+                        raise InputError(
+                            f"column extension = {stop} m: the leg cannot close the linkage there; "
+                            f"allowed: up to {reached:.3f} m from the start posture"
+                        )
+                    reached, posture = float(stop), following
+                found[n] = self.column_lengths(posture)[1] - at_start
+        return found
+
+    def look(self, scenario: Scenario) -> Look:
+        """A shield support: base, links, shield and tail beam, canopy, legs, ram and pins."""
+        from support_exudyn.postprocessing.look.shield_support import (
+            look,
+        )  # libraries of shapes, which a run has no use for
+
+        return look(scenario)

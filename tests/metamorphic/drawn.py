@@ -12,7 +12,7 @@ from typing import Any
 
 from hypothesis import strategies as st
 
-from studies.paper_machine import JACK, hydraulic_cylinders, oil_columns
+from studies.common.paper_machine import JACK, hydraulic_cylinders, oil_columns
 from support_exudyn import (
     AppliedForce,
     ClearancePin,
@@ -39,8 +39,8 @@ from support_exudyn import (
     ravn_slider_crank,
     two_body_columns,
 )
-from support_exudyn.linkages.four_bar_shield import PINS
-from support_exudyn.machines.read import shipped
+from support_exudyn.files.machines.read import shipped
+from support_exudyn.machines.four_bar_shield import PINS
 from user_forces import (
     Ambrosio,
     BrownMcPhee,

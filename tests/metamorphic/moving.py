@@ -23,8 +23,8 @@ from support_exudyn import (
     SliderCrank,
     Steady,
 )
-from support_exudyn.linkages.four_bar_shield import FourBarShield
-from support_exudyn.machine import Part, turned_moments
+from support_exudyn.machines.four_bar_shield import FourBarShield
+from support_exudyn.model.linkage import Part, turned_moments
 from user_forces import value
 
 Point = tuple[float, float]

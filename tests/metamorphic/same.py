@@ -16,7 +16,7 @@ import numpy as np
 from hypothesis import Phase, assume, settings
 
 from support_exudyn import Result, Scenario, SimulationError, simulate
-from support_exudyn.solver_settings import ERROR_CONTROLLED
+from support_exudyn.scenario.solver_settings import ERROR_CONTROLLED
 from tests.metamorphic.moving import FROM_THE_START
 from tests.strategies import OFTEN
 

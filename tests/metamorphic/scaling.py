@@ -12,7 +12,7 @@ from pint import UnitRegistry
 from support_exudyn import Result, Scenario
 from tests.strategies import fields_of
 from user_forces import Value
-from user_forces.quantity import Unit
+from user_forces.values.units import Unit
 
 REGISTRY = UnitRegistry()
 

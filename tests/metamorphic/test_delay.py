@@ -20,7 +20,7 @@ from support_exudyn import (
     SuddenOpening,
     UniformSpeed,
 )
-from support_exudyn.drives import Drive
+from support_exudyn.model.drives.drive import Drive
 from tests.metamorphic import drawn
 from tests.metamorphic.moving import FROM_THE_START
 from tests.metamorphic.same import Seen, plain, run, scenes, told

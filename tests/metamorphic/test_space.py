@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from support_exudyn import Scenario, SolverSettings
-from support_exudyn.linkages.four_bar_shield import PINS
+from support_exudyn.machines.four_bar_shield import PINS
 from tests.metamorphic import drawn
 from tests.metamorphic.same import Run, Seen, plain, run, scenes, sizes, told
 

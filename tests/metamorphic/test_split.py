@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from support_exudyn import AppliedForce, CubicStep, Load, Part, Roof, Scenario
-from support_exudyn.linkages.four_bar_shield import FourBarShield
+from support_exudyn.machines.four_bar_shield import FourBarShield
 from tests.metamorphic import drawn
 from tests.metamorphic.same import Run, plain, run, scenes, told
 

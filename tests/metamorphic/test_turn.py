@@ -5,7 +5,7 @@ from __future__ import annotations
 from hypothesis import given
 
 from support_exudyn import Scenario
-from support_exudyn.linkages.four_bar_shield import FourBarShield
+from support_exudyn.machines.four_bar_shield import FourBarShield
 from tests.metamorphic import drawn
 from tests.metamorphic.moving import Move, moved, seen, turn
 from tests.metamorphic.same import run, scenes, told

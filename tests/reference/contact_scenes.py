@@ -29,7 +29,7 @@ from support_exudyn import (
     reference_support,
     simulate,
 )
-from support_exudyn.formulations import formulation
+from support_exudyn.formulations.registry import formulation
 from tests.reference.cases import CRANK_SPEED, PIN, SLIDER_PIN
 from user_forces import (
     STEEL,

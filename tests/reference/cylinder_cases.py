@@ -19,7 +19,7 @@ from support_exudyn import (
     Slide,
     simulate,
 )
-from support_exudyn.machine import GROUND
+from support_exudyn.model.linkage import GROUND
 from tests.reference.cases import loose_support, support
 from user_forces import value
 

@@ -12,10 +12,10 @@ import numpy as np
 import vtk
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
-from studies.paper_machine import oil_columns
+from studies.common.paper_machine import oil_columns
 from support_exudyn import CubicStep, Held, Result, Scenario, SolverSettings, UniformSpeed, simulate
-from support_exudyn.drawing.solid import Look
-from support_exudyn.machine import GROUND
+from support_exudyn.model.linkage import GROUND
+from support_exudyn.postprocessing.look.solid import Look
 from tests.reference.cases import loose_slider_crank, loose_support, support
 
 MOVING = UniformSpeed(stroke=0.05, start=0.0, end=0.2)  # [m] in [s]

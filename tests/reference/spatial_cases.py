@@ -10,10 +10,10 @@ import numpy as np
 from hypothesis import strategies as st
 
 from support_exudyn import Body, Column, Linkage, Machine, PinPlace, Scenario
-from support_exudyn.redundant import run
-from support_exudyn.spatial.layout import Bearing, SpatialBody, SpatialLinkage
-from support_exudyn.spatial.observation import Observation
-from support_exudyn.trajectory import Outcome
+from support_exudyn.formulations.redundant.run import run
+from support_exudyn.formulations.redundant.space.observation import Observation
+from support_exudyn.mechanics.trajectory import Outcome
+from support_exudyn.model.spatial_linkage import Bearing, SpatialBody, SpatialLinkage
 from user_forces import (
     Ambrosio,
     DepthSpeed,

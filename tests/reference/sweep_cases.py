@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from support_exudyn.sweeping import read_table
+from support_exudyn.sweeps import read_table
 from tests.processes import ROOT, environment
 
 STAND = """

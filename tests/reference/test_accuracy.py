@@ -22,13 +22,12 @@ from support_exudyn import (
     Scenario,
     SimulationError,
     SolverSettings,
-    simulate,
-    to_accuracy,
 )
-from support_exudyn.measures import measures
-from support_exudyn.progress import Progress
-from support_exudyn.sweep import run_all
-from support_exudyn.to_accuracy import FACTOR, FEWEST_RUNS, MOST_RUNS, PATIENCE
+from support_exudyn.formulations.progress import Progress
+from support_exudyn.simulation import simulate, to_accuracy
+from support_exudyn.simulation.reported_numbers import measures
+from support_exudyn.simulation.to_accuracy import FACTOR, FEWEST_RUNS, MOST_RUNS, PATIENCE
+from support_exudyn.sweeps.parallel_runs import run_all
 from tests.reference.cases import (
     FORCE,
     PIN,
@@ -50,7 +49,7 @@ from user_forces import (
     TouchSpeed,
     value,
 )
-from user_forces.scalar import where
+from user_forces.expressions.scalar import where
 
 DROP = loose_support(drive=Held(), duration=0.05)
 

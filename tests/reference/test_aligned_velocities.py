@@ -11,12 +11,12 @@ import numpy as np
 import pytest
 
 from support_exudyn import Reciprocating, Result, Scenario, SolverSettings, simulate
-from support_exudyn.audit import turned_over
-from support_exudyn.scene_builder import build
-from support_exudyn.solver import MUCH_SHORTER, Run
-from support_exudyn.spatial.constraints import matrix
-from support_exudyn.spatial.scene import rates, velocities
-from support_exudyn.spatial.scene_builder import build as build_in_space
+from support_exudyn.formulations.redundant.scene.scene_builder import build
+from support_exudyn.formulations.redundant.solver.solver import MUCH_SHORTER, Run
+from support_exudyn.formulations.redundant.space.scene import rates, velocities
+from support_exudyn.formulations.redundant.space.scene_builder import build as build_in_space
+from support_exudyn.mechanics.space.constraints import matrix
+from support_exudyn.simulation.audit import turned_over
 from tests.reference.cases import FORCE, PIN, SLIDER_PIN, loose_slider_crank, loose_support, slider_crank
 
 LONG = 1e-3  # [s]

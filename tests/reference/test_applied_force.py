@@ -7,7 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from studies import slack, which_pin_cases
+from studies.which_pin import cases as which_pin_cases
+from studies.which_pin import closed_form as slack
 from support_exudyn import (
     AppliedForce,
     ClearancePin,
@@ -18,11 +19,11 @@ from support_exudyn import (
     reference_support,
     simulate,
 )
-from support_exudyn.kinetics import kinetics_of
+from support_exudyn.mechanics.kinetics import kinetics_of
 from tests.reference.cases import PIN, loose_support
 from tests.roof_cases import MASS, ON_OIL, OVER_THE_COLUMNS, TOP, Ram
 from user_forces import DepthSpeed
-from user_forces.values import InputError, Vector2
+from user_forces.values.value import InputError, Vector2
 
 MEGANEWTON = 1e6
 

@@ -12,7 +12,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from support_exudyn import ClearancePin, Failure, Held, OilColumn, Scenario, SolverSettings, bore_area, simulate
-from support_exudyn import audit as looking
+from support_exudyn.simulation import audit as looking
 from tests.reference.cases import PIN, loose_support, support
 from user_forces import JournalBearing, JournalContact, LankaraniNikravesh
 

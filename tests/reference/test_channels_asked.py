@@ -28,13 +28,13 @@ from support_exudyn import (
     ravn_slider_crank,
     simulate,
 )
-from support_exudyn.channels import needs
-from support_exudyn.engine_settings import engine_settings
-from support_exudyn.onset import PinMemory
-from support_exudyn.recorder import History, Recorder
-from support_exudyn.redundant import build
-from support_exudyn.redundant_forces import with_causes
-from support_exudyn.solver import Run
+from support_exudyn.formulations.engine_settings import engine_settings
+from support_exudyn.formulations.redundant.redundant_forces import with_causes
+from support_exudyn.formulations.redundant.run import build
+from support_exudyn.formulations.redundant.solver.recorder import History, Recorder
+from support_exudyn.formulations.redundant.solver.solver import Run
+from support_exudyn.mechanics.contact_state import PinMemory
+from support_exudyn.scenario.recorded_channels import needs
 from tests.reference.cases import FORCE, PIN, loose_support, support
 from user_forces import JournalBearing, JournalContact, LankaraniNikravesh, LuGre
 
@@ -265,7 +265,7 @@ def with_iterations(most: int, monkeypatch: pytest.MonkeyPatch) -> None:
         made.timeIntegration.newton.maxIterations = most
         return made
 
-    monkeypatch.setattr("support_exudyn.solver.engine_settings", fewer)
+    monkeypatch.setattr("support_exudyn.formulations.redundant.solver.solver.engine_settings", fewer)
 
 
 HASTY = support(drive=CubicStep(stroke=0.4, start=0.0, end=0.02), duration=0.05, step=0.01, record_period=0.01)

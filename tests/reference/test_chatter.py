@@ -20,7 +20,7 @@ from support_exudyn import (
     SolverSettings,
     simulate,
 )
-from support_exudyn.machine import GROUND
+from support_exudyn.model.linkage import GROUND
 from user_forces import (
     AdamsImpact,
     Ambrosio,

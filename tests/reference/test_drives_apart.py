@@ -7,7 +7,7 @@ import pytest
 from scipy.optimize import root
 
 from support_exudyn import CubicStep, Held, OilColumn, Result, UniformSpeed, bore_area, simulate
-from support_exudyn.machines import reference_support
+from support_exudyn.files.machines import reference_support
 from tests.reference.cases import FORCE, loose_support, support
 
 FRONT = CubicStep(stroke=0.12, start=0.05, end=0.45)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from studies.paper_machine import oil_columns
+from studies.common.paper_machine import oil_columns
 from support_exudyn import ClearancePin, Held, Scenario, simulate
 from tests.reference.cases import FORCE, PIN, paper_contact, support
 

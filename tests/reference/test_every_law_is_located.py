@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from studies import law_catalogue
+from studies.contact_laws import catalogue
 from support_exudyn import ClearancePin, Held, Result, SolverSettings, simulate
 from tests.reference.cases import PIN, loose_support, paper_contact
 from user_forces import FrictionLaw, NormalLaw
@@ -38,14 +38,14 @@ def check(coarse: Result, fine: Result) -> None:
 
 
 @pytest.mark.parametrize("backend", ["python", "symbolic"])
-@pytest.mark.parametrize("name", law_catalogue.normal_laws(1.5, 0.9))
+@pytest.mark.parametrize("name", catalogue.normal_laws(1.5, 0.9))
 def test_normal_laws(name: str, backend: str) -> None:
-    law = law_catalogue.normal_laws(1.5, 0.9)[name]
+    law = catalogue.normal_laws(1.5, 0.9)[name]
     check(drop(1e-3, backend, normal=law), drop(2.3e-4, backend, normal=law))
 
 
 @pytest.mark.parametrize("backend", ["python", "symbolic"])
-@pytest.mark.parametrize("name", law_catalogue.friction_laws(0.25))
+@pytest.mark.parametrize("name", catalogue.friction_laws(0.25))
 def test_friction_laws(name: str, backend: str) -> None:
-    law = law_catalogue.friction_laws(0.25)[name]
+    law = catalogue.friction_laws(0.25)[name]
     check(drop(1e-3, backend, friction=law), drop(2.3e-4, backend, friction=law))

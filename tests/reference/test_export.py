@@ -12,11 +12,11 @@ import pytest
 from meshio.xdmf import TimeSeriesReader
 
 from support_exudyn import Result, simulate
-from support_exudyn.drawing.solid import Role
-from support_exudyn.export import Sampling, to_csv, to_hdf5, to_vtu, to_xdmf
-from support_exudyn.exporting import machine_mesh
-from support_exudyn.exporting.pin_points import PinPoints
-from support_exudyn.render.pin_view import pin_view
+from support_exudyn.postprocessing.export import machine_mesh
+from support_exudyn.postprocessing.export.export import Sampling, to_csv, to_hdf5, to_vtu, to_xdmf
+from support_exudyn.postprocessing.export.pin_points import PinPoints
+from support_exudyn.postprocessing.look.solid import Role
+from support_exudyn.postprocessing.render.pin_view import pin_view
 from tests.reference.cases import PIN, loose_support, support
 from tests.reference.export_cases import (
     Read,
@@ -457,7 +457,7 @@ def test_an_export_of_a_machine_without_pins_leaves_no_pins_of_another(tmp_path:
 
 
 def test_too_many_steps_for_the_memory_are_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("support_exudyn.export.MOST_VALUES", 100_000)
+    monkeypatch.setattr("support_exudyn.postprocessing.export.export.MOST_VALUES", 100_000)
     with pytest.raises(
         InputError, match=r"101 steps of \d+ numbers each: allowed .* here \d steps; choose fewer"
     ):

@@ -19,8 +19,8 @@ from support_exudyn import (
     SimulationError,
     simulate,
 )
-from support_exudyn.engine_words import explained
-from support_exudyn.sweep import run_all
+from support_exudyn.formulations.engine_errors import explained
+from support_exudyn.sweeps.parallel_runs import run_all
 from tests.reference.cases import Pair, loose_support, paper_contact
 from tests.reference.test_momentum import ONE, TWO
 from user_forces import FrictionLaw, LankaraniNikravesh, LoadError, Touch, value

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad, solve_ivp
 
-from studies import paper_machine
+from studies.common import paper_machine
 from support_exudyn import (
     FallingBlock,
     Load,
@@ -22,10 +22,10 @@ from support_exudyn import (
     reference_support,
     simulate,
 )
-from support_exudyn.loads import Powers
+from support_exudyn.model.loads import Powers
 from tests.roof_cases import MASS, OVER_THE_COLUMNS, TOP, Ram
 from user_forces import value
-from user_forces.values import InputError, Vector2
+from user_forces.values.value import InputError, Vector2
 
 G = 9.81
 HEIGHT = 0.5

@@ -20,10 +20,11 @@ from support_exudyn import (
     reference_support,
     simulate,
 )
-from support_exudyn.machine import Linkage, Machine
-from support_exudyn.machines.read import shipped
+from support_exudyn.files.machines.read import shipped
+from support_exudyn.model.linkage import Linkage
+from support_exudyn.model.machine import Machine
 from tests.reference.cases import paper_contact
-from user_forces.values import Vector2, value
+from user_forces.values.value import Vector2, value
 
 SHIFTS = [(300.0, 0.0), (0.0, 300.0), (-900.0, 600.0)]
 OIL = OilColumn(bore_area=0.1, oil_length=0.5, bulk_modulus=1.5e9)

@@ -18,12 +18,12 @@ from pyarrow import parquet
 
 from support_exudyn import Held, Result, simulate
 from support_exudyn.__main__ import main
-from support_exudyn.channels import Channel
-from support_exudyn.result import FORMAT
-from support_exudyn.sealed import BLOCK, seal
-from support_exudyn.solution_file import read_solution
-from support_exudyn.sweeping import read_sweep, read_table
-from support_exudyn.sweeping.table import OWN
+from support_exudyn.files.hdf5 import BLOCK, seal
+from support_exudyn.postprocessing.export.solution_file import read_solution
+from support_exudyn.scenario.recorded_channels import Channel
+from support_exudyn.simulation.result import FORMAT
+from support_exudyn.sweeps import read_sweep, read_table
+from support_exudyn.sweeps.table import OWN
 from tests.hostile import posix_only
 from tests.reference.cases import loose_support
 from tests.reference.sweep_cases import speeds, write_sweep
@@ -236,7 +236,7 @@ def test_a_solution_file_without_an_end_is_refused(tmp_path: Path) -> None:
 def test_a_table_of_points_with_too_many_items_is_refused(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("support_exudyn.datafiles.drive_table.MOST_ITEMS", 100)
+    monkeypatch.setattr("support_exudyn.files.scenarios.drive_table.MOST_ITEMS", 100)
     (tmp_path / "a.csv").write_text(f"time_s,a_mm\n{'0,' * 200}\n", encoding="utf-8")
     path = scenario(tmp_path, '[drive]\ntable = "a.csv"')
     assert main(["run", str(path)]) == 1

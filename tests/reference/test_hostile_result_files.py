@@ -15,8 +15,8 @@ import numpy as np
 import pytest
 
 from support_exudyn import Held, Result, simulate
-from support_exudyn.channels import Channel
-from support_exudyn.sealed import BLOCK
+from support_exudyn.files.hdf5 import BLOCK
+from support_exudyn.scenario.recorded_channels import Channel
 from tests.hostile import DISKS, little_room, posix_only
 from tests.reference.cases import loose_support
 from user_forces import InputError

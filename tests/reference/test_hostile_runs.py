@@ -25,10 +25,10 @@ from support_exudyn import (
     UniformSpeed,
     simulate,
 )
-from support_exudyn.engine_scene import InEngine
-from support_exudyn.formulations import formulation
-from support_exudyn.sweep import run_all
-from support_exudyn.tree.engine import Engine
+from support_exudyn.formulations.redundant.scene.engine_scene import InEngine
+from support_exudyn.formulations.registry import formulation
+from support_exudyn.formulations.tree.engine import Engine
+from support_exudyn.sweeps.parallel_runs import run_all
 from tests.hostile import Interruption, posix_only
 from tests.reference.cases import FORCE, PIN, loose_slider_crank, loose_support, paper_contact
 from user_forces import LankaraniNikravesh, Touch, value
@@ -110,7 +110,7 @@ def test_pauses_of_a_compiled_run_change_nothing(monkeypatch: pytest.MonkeyPatch
     before = simulate(scenario)
     assert len(before.impulses) == 2
     assert len(before.onsets[PIN]) > 2
-    monkeypatch.setattr(importlib.import_module("support_exudyn.reduced.run"), "AT_ONCE", at_once)
+    monkeypatch.setattr(importlib.import_module("support_exudyn.formulations.reduced.run"), "AT_ONCE", at_once)
     told: list[float] = []
     paused = simulate(scenario, progress=told.append)
     assert same(paused, before)
@@ -193,11 +193,11 @@ def test_an_interruption_waits_for_an_import_to_end(monkeypatch: pytest.MonkeyPa
         done.append(name)
         return name
 
-    monkeypatch.setattr("support_exudyn.formulations.import_module", slow)
+    monkeypatch.setattr("support_exudyn.formulations.registry.import_module", slow)
     handler = signal.getsignal(signal.SIGINT)
     with pytest.raises(KeyboardInterrupt):
         formulation("reduced")
-    assert done == ["support_exudyn.reduced"]
+    assert done == ["support_exudyn.formulations.reduced"]
     assert signal.getsignal(signal.SIGINT) is handler
 
 

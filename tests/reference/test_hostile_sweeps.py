@@ -10,9 +10,10 @@ from typing import Any
 
 import pytest
 
-from support_exudyn import ClearancePin, Held, Scenario, SimulationError, memory, room, simulate
+from support_exudyn import ClearancePin, Held, Scenario, SimulationError
 from support_exudyn.__main__ import main
-from support_exudyn.sweeping import Plan, Record, read_table, sweep
+from support_exudyn.simulation import memory, room, simulate
+from support_exudyn.sweeps import Plan, Record, read_table, sweep
 from tests.reference.cases import loose_support, paper_contact
 from tests.reference.sweep_cases import write_sweep
 from user_forces import FrictionLaw, InputError, value

@@ -10,18 +10,9 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-from support_exudyn import (
-    ClosedInlet,
-    Held,
-    Inlet,
-    Linkage,
-    RampedOpening,
-    Scenario,
-    SuddenOpening,
-    simulate,
-)
-from support_exudyn.kinetics import kinetics_of
-from support_exudyn.oil import static_loads
+from support_exudyn import ClosedInlet, Held, Inlet, Linkage, RampedOpening, Scenario, SuddenOpening, simulate
+from support_exudyn.mechanics.kinetics import kinetics_of
+from support_exudyn.mechanics.oil_column import static_loads
 from tests.reference.cylinder_cases import GRAVITY, MASS, Ram, lift, on_cylinders, opened
 from user_forces import value
 

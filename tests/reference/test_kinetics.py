@@ -10,14 +10,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from support_exudyn import Body, ClearancePin, Column, Crank, Linkage, PinPlace, Scenario, Slide, SliderCrank
-from support_exudyn.engine_scene import INITIAL
-from support_exudyn.kinetics import Kinetics
-from support_exudyn.machine import GROUND, pinned
-from support_exudyn.onset import HEAVIEST, Mobility
-from support_exudyn.scene_builder import build
-from support_exudyn.scene_items import BodyItem
+from support_exudyn.formulations.redundant.scene.engine_scene import INITIAL
+from support_exudyn.formulations.redundant.scene.scene_builder import build
+from support_exudyn.mechanics.body_coordinates import BodyItem
+from support_exudyn.mechanics.contact_state import HEAVIEST, Mobility
+from support_exudyn.mechanics.kinetics import Kinetics
+from support_exudyn.model.linkage import GROUND, pinned
 from tests.reference.cases import PIN, Pair, paper_contact, slider_crank_contact, support
-from user_forces.values import Vector2
+from user_forces.values.value import Vector2
 
 sometimes = settings(deadline=None, max_examples=40)
 

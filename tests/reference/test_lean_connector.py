@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 from support_exudyn import ClearancePin, Held, Result, Scenario, SolverSettings, simulate
-from support_exudyn.attachment import Attachment, attachment
-from support_exudyn.loose_pin import LoosePin
-from support_exudyn.scene_builder import build
+from support_exudyn.formulations.redundant.clearance.attachment import Attachment, attachment
+from support_exudyn.formulations.redundant.clearance.clearance_pin import LoosePin
+from support_exudyn.formulations.redundant.scene.scene_builder import build
 from tests.reference.cases import PIN, Pair, loose_support, paper_contact
 from tests.reference.test_momentum import ONE, TWO, momenta
 from user_forces import (

@@ -10,21 +10,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from studies.extreme import long_runs
-from support_exudyn import (
-    Drive,
-    Reciprocating,
-    Scenario,
-    SolverSettings,
-    Steady,
-    reference_support,
-    simulate,
-)
-from support_exudyn.audit import joints_apart
-from support_exudyn.formulations import formulation
-from support_exudyn.onset import PinMemory
-from support_exudyn.progress import silent
-from support_exudyn.solver import Run
+from studies.extremes import long_runs
+from support_exudyn import Drive, Reciprocating, Scenario, SolverSettings, Steady, reference_support, simulate
+from support_exudyn.formulations.progress import silent
+from support_exudyn.formulations.redundant.solver.solver import Run
+from support_exudyn.formulations.registry import formulation
+from support_exudyn.mechanics.contact_state import PinMemory
+from support_exudyn.simulation.audit import joints_apart
 from tests.reference.cases import loose_slider_crank, slider_crank
 from user_forces import value
 

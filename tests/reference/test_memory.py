@@ -9,9 +9,9 @@ from dataclasses import replace
 import pytest
 
 from support_exudyn import Drive, Held, Scenario, SolverSettings, simulate
-from support_exudyn.load_item import LoadItem
-from support_exudyn.loose_pin import LoosePin
-from support_exudyn.scene import Scene
+from support_exudyn.formulations.redundant.clearance.clearance_pin import LoosePin
+from support_exudyn.formulations.redundant.scene.load_item import LoadItem
+from support_exudyn.formulations.redundant.scene.scene import Scene
 from tests.reference.cases import loose_support
 from tests.roof_cases import Branching, over_the_canopy
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from studies.paper_machine import oil_columns
+from studies.common.paper_machine import oil_columns
 from support_exudyn import Failure, Held, Result, Scenario, SolverSettings, simulate
 from tests.reference.cases import Pair, loose_support, support
 from tests.reference.test_momentum import ONE, TWO

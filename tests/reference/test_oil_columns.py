@@ -25,7 +25,7 @@ from support_exudyn import (
     bore_area,
     simulate,
 )
-from support_exudyn.machine import GROUND
+from support_exudyn.model.linkage import GROUND
 from tests.reference.cases import FORCE, loose_support, support
 from user_forces import InputError, value
 

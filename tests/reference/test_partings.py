@@ -22,7 +22,7 @@ from support_exudyn import (
     SolverSettings,
     simulate,
 )
-from support_exudyn.spatial.layout import Bearing, SpatialBody, SpatialLinkage
+from support_exudyn.model.spatial_linkage import Bearing, SpatialBody, SpatialLinkage
 from tests.analytic import delivered_restitution
 from tests.reference.cases import PIN, loose_support
 from tests.reference.spatial_cases import LENGTH, InSpace, contact

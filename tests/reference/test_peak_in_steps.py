@@ -9,10 +9,10 @@ from functools import cache
 import pytest
 
 from support_exudyn import ClearancePin, Held, Scenario, SimulationError
-from support_exudyn.attachment import Relative
-from support_exudyn.force_in_step import Course, has_a_top, peak
-from support_exudyn.loose_pin import LoosePin
-from support_exudyn.onset import DepthPath
+from support_exudyn.formulations.contact_events import DepthPath
+from support_exudyn.formulations.redundant.clearance.attachment import Relative
+from support_exudyn.formulations.redundant.clearance.clearance_pin import LoosePin
+from support_exudyn.formulations.redundant.clearance.force_in_step import Course, has_a_top, peak
 from tests.reduced import simulate_reduced, simulate_redundant
 from tests.reference.cases import PIN, paper_contact, support
 from user_forces import DepthSpeed, Flores

@@ -7,13 +7,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from studies.benchmarking.peers.built_in import Evaluator, run_built_in
+from studies.benchmarking.peers.peer_run import PeerRun, touches
+from studies.benchmarking.peers.stock import run_stock
+from studies.benchmarking.peers.tree import run_tree
 from support_exudyn import Held
-from support_exudyn.onset import Onset
-from support_exudyn.peers.built_in import Evaluator, run_built_in
-from support_exudyn.peers.peer_run import PeerRun, touches
-from support_exudyn.peers.stock import run_stock
-from support_exudyn.peers.tree import run_tree
-from support_exudyn.scenario import Scenario
+from support_exudyn.mechanics.contact_state import Onset
+from support_exudyn.scenario.scenario import Scenario
 from tests.reference.cases import loose_slider_crank, loose_support
 from tests.reference.test_drop import SPEEDS as DROP_SPEEDS
 from tests.reference.test_drop import TIMES as DROP_TIMES

@@ -21,8 +21,8 @@ from support_exudyn import (
     simulate,
     two_body_columns,
 )
-from support_exudyn.formulations import formulation
-from support_exudyn.machine import pinned
+from support_exudyn.formulations.registry import formulation
+from support_exudyn.model.linkage import pinned
 from tests.reference.cases import loose_support, paper_contact, support
 from user_forces import Ambrosio, InputError, LuGre, value
 

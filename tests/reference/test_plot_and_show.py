@@ -14,7 +14,7 @@ import pytest
 from support_exudyn import Result, simulate
 from support_exudyn.__main__ import main
 from tests.reference.cases import loose_slider_crank, loose_support, support
-from user_forces.values import Value
+from user_forces.values.value import Value
 
 
 @pytest.fixture(scope="module")
@@ -188,7 +188,7 @@ def test_some_channels_are_shown_by_pattern(runs: Path, capsys: pytest.CaptureFi
 def test_narrow_terminals_keep_the_numbers(
     runs: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("support_exudyn.printed_table.PIPED", 80)
+    monkeypatch.setattr("support_exudyn.commands.tables.PIPED", 80)
     said = shown(runs / "space.h5", capsys)
     result = Result.load(runs / "space.h5")
     assert max(map(len, said.splitlines())) <= 80
@@ -211,7 +211,7 @@ def test_the_narrowest_terminals_cut_no_number(
     runs: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, words: list[str]
 ) -> None:
     wide = shown(runs / "loose.h5", capsys, *words)
-    monkeypatch.setattr("support_exudyn.printed_table.PIPED", 30)
+    monkeypatch.setattr("support_exudyn.commands.tables.PIPED", 30)
     narrow = shown(runs / "loose.h5", capsys, *words)
 
     def rows(said: str) -> list[list[str]]:

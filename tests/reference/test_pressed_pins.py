@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from studies.paper_machine import oil_columns
+from studies.common.paper_machine import oil_columns
 from support_exudyn import (
     Body,
     ClearancePin,
@@ -24,18 +24,18 @@ from support_exudyn import (
     reference_support,
     simulate,
 )
-from support_exudyn.engine_scene import INITIAL
-from support_exudyn.kinetics import kinetics_of
-from support_exudyn.machine import GROUND, PinPlace, pinned
-from support_exudyn.onset import Mobility
-from support_exudyn.pressed import GIVES, Mobilities, mobilities, normal
-from support_exudyn.scene_builder import build
-from support_exudyn.settle import settle
-from support_exudyn.spatial.scene_builder import build as build_in_space
-from support_exudyn.tree.branches import branches
-from support_exudyn.tree.dynamics import Posture, pin_mobility
-from support_exudyn.tree.forces import Forces
-from support_exudyn.tree.start import first_memory
+from support_exudyn.formulations.redundant.scene.engine_scene import INITIAL
+from support_exudyn.formulations.redundant.scene.scene_builder import build
+from support_exudyn.formulations.redundant.scene.static_equilibrium import settle
+from support_exudyn.formulations.redundant.space.scene_builder import build as build_in_space
+from support_exudyn.formulations.tree.branches import branches
+from support_exudyn.formulations.tree.dynamics import Posture, pin_mobility
+from support_exudyn.formulations.tree.forces import Forces
+from support_exudyn.formulations.tree.start import first_memory
+from support_exudyn.mechanics.contact_state import Mobility
+from support_exudyn.mechanics.kinetics import kinetics_of
+from support_exudyn.mechanics.pressed_pins import GIVES, Mobilities, mobilities, normal
+from support_exudyn.model.linkage import GROUND, PinPlace, pinned
 from tests.reference.cases import paper_contact, support
 from user_forces import DepthSpeed, Exact, Hertz, JournalBearing, JournalContact, NormalLaw, value
 

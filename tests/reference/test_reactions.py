@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from studies.paper_machine import oil_columns
+from studies.common.paper_machine import oil_columns
 from support_exudyn import (
     CubicStep,
     Drive,
@@ -18,10 +18,10 @@ from support_exudyn import (
     simulate,
     two_body_columns,
 )
-from support_exudyn.body_motion import BodyMotion
-from support_exudyn.kinetics import kinetics_of
-from support_exudyn.reactions import Held as HeldParts
-from support_exudyn.reactions import matrix, turning
+from support_exudyn.mechanics.body_motion import BodyMotion
+from support_exudyn.mechanics.kinetics import kinetics_of
+from support_exudyn.mechanics.reactions import Held as HeldParts
+from support_exudyn.mechanics.reactions import matrix, turning
 from tests.reference.cases import loose_support, support
 
 STROKE = CubicStep(stroke=0.05, start=0.02, end=0.2)

@@ -16,23 +16,23 @@ from PIL import Image
 from PIL.ImageColor import getrgb
 from scipy.spatial.transform import Rotation
 
-from studies.paper_machine import ideal_rise, loose_rise
+from studies.common.paper_machine import ideal_rise, loose_rise
 from support_exudyn import CubicStep, Held, Result, simulate
 from support_exudyn.__main__ import main
-from support_exudyn.exporting.machine_mesh import MachineMesh
-from support_exudyn.figures.style import CONTACT, FLIGHT
-from support_exudyn.loads.roof import Roof
-from support_exudyn.render import painter, render, still
-from support_exudyn.render.camera import Camera, direction_of_view
-from support_exudyn.render.ink import Sheet
-from support_exudyn.render.inset import Inset
-from support_exudyn.render.layout import Layout
-from support_exudyn.render.moments import moment
-from support_exudyn.render.movie import durations
-from support_exudyn.render.pin_view import pin_view
-from support_exudyn.render.scene import Scene
-from support_exudyn.render.stage import Image as Picture
-from support_exudyn.render.stage import Prop, Stage
+from support_exudyn.model.loads.roof import Roof
+from support_exudyn.postprocessing.export.machine_mesh import MachineMesh
+from support_exudyn.postprocessing.figures.style import CONTACT, FLIGHT
+from support_exudyn.postprocessing.render import painter, render, still
+from support_exudyn.postprocessing.render.camera import Camera, direction_of_view
+from support_exudyn.postprocessing.render.ink import Sheet
+from support_exudyn.postprocessing.render.inset import Inset
+from support_exudyn.postprocessing.render.layout import Layout
+from support_exudyn.postprocessing.render.moments import moment
+from support_exudyn.postprocessing.render.movie import durations
+from support_exudyn.postprocessing.render.pin_view import pin_view
+from support_exudyn.postprocessing.render.scene import Scene
+from support_exudyn.postprocessing.render.stage import Image as Picture
+from support_exudyn.postprocessing.render.stage import Prop, Stage
 from tests.hostile import DISKS, left_behind, little_room, with_own_files
 from user_forces import InputError
 

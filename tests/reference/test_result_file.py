@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 from support_exudyn import Held, Result, UniformSpeed, simulate
-from support_exudyn.result import FORMAT
-from support_exudyn.sealed import BLOCK, seal
+from support_exudyn.files.hdf5 import BLOCK, seal
+from support_exudyn.simulation.result import FORMAT
 from tests.reference.cases import SLIDER_PIN, loose_slider_crank, loose_support
 from user_forces import InputError, LuGre
 

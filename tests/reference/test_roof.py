@@ -20,8 +20,8 @@ from support_exudyn import (
     UniformSpeed,
     simulate,
 )
-from support_exudyn.kinetics import kinetics_of
-from support_exudyn.timescales import timescales
+from support_exudyn.mechanics.kinetics import kinetics_of
+from support_exudyn.scenario.timescales import timescales
 from tests.reference.cases import PIN, loose_support
 from tests.roof_cases import (
     GAP,

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from studies.paper_machine import JACK, loose_pin, oil_columns
+from studies.common.paper_machine import JACK, loose_pin, oil_columns
 from support_exudyn import (
     CubicStep,
     IdealPin,
@@ -28,7 +28,7 @@ from support_exudyn import (
     two_body_columns,
 )
 from support_exudyn.__main__ import main
-from support_exudyn.datafiles import read_scenario
+from support_exudyn.files import read_scenario
 from user_forces import CubicCoulomb
 
 EXAMPLES = Path(__file__).parents[2] / "support_exudyn" / "examples"
@@ -164,7 +164,7 @@ OWN = '''
 from support_exudyn import ImpactStand
 from user_forces import NormalLaw
 from user_forces.normal.hertz import Hertz
-from user_forces.values import value
+from user_forces.values.value import value
 
 @value
 class Twice(Hertz):

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from studies.paper_machine import oil_columns
+from studies.common.paper_machine import oil_columns
 from support_exudyn import (
     AppliedForce,
     ClearancePin,

@@ -26,18 +26,18 @@ from support_exudyn import (
     SimulationError,
     SolverSettings,
     bore_area,
-    dressed_model,
     simulate,
-    solver,
 )
 from support_exudyn.__main__ import main
-from support_exudyn.drawing.poses import Poses
-from support_exudyn.drawing.solid import solids_of
-from support_exudyn.drawing.strut_pose import strut_pose
-from support_exudyn.dressed_model import POSITION, SHOWN, dressed
-from support_exudyn.model import model
-from support_exudyn.solution_file import read_solution, rows
-from support_exudyn.view import open_viewer
+from support_exudyn.formulations.redundant.model import model
+from support_exudyn.formulations.redundant.solver import solver
+from support_exudyn.postprocessing.export.solution_file import read_solution, rows
+from support_exudyn.postprocessing.look.poses import Poses
+from support_exudyn.postprocessing.look.solid import solids_of
+from support_exudyn.postprocessing.look.strut_pose import strut_pose
+from support_exudyn.postprocessing.viewer import viewer_model
+from support_exudyn.postprocessing.viewer.view import open_viewer
+from support_exudyn.postprocessing.viewer.viewer_model import POSITION, SHOWN, dressed
 from tests.processes import environment
 from tests.reference.cases import PIN, loose_slider_crank, loose_support, support
 from user_forces import InputError
@@ -356,7 +356,7 @@ def test_surfaces_and_columns_are_where_the_run_was(name: str) -> None:
         SetSolutionState(shown.scene.mbs, rows(result, shown.scene), record, SHOWN)
         for body, item in shown.scene.bodies.items():
             for solid in solids_of(shown.look, body):
-                drawn = dressed_model._of_solid(solid, dressed_model._axes(shown.scene, body))
+                drawn = viewer_model._of_solid(solid, viewer_model._axes(shown.scene, body))
                 points = np.reshape(drawn["points"], (-1, 3))
                 ends = np.array([np.argmin(points, axis=0), np.argmax(points, axis=0)]).ravel()
                 there = [
@@ -368,7 +368,7 @@ def test_surfaces_and_columns_are_where_the_run_was(name: str) -> None:
                 assert apart.max() < 1e-12, solid.name
         for strut in shown.look.struts:
             cylinder, rod = (
-                np.reshape(part()["points"], (-1, 3)) for part in dressed_model._parts(shown, strut)
+                np.reshape(part()["points"], (-1, 3)) for part in viewer_model._parts(shown, strut)
             )
             expected = strut_pose(strut, poses, record)
             for points, where in (
@@ -388,13 +388,13 @@ def test_journal_and_rim_of_a_loose_pin_are_on_their_bodies(bore: str, monkeypat
     scenario = dataclasses.replace(scenario, pins={PIN: loose})
     place, bearing = scenario.linkage.pins[PIN], loose.contact.bearing
     rims: list[tuple[np.ndarray, Any]] = []
-    drawn = dressed_model._of_rim
+    drawn = viewer_model._of_rim
 
-    def of_rim(points: np.ndarray, axes: Any = dressed_model.STILL) -> dict[str, Any]:
+    def of_rim(points: np.ndarray, axes: Any = viewer_model.STILL) -> dict[str, Any]:
         rims.append((points, axes))
         return drawn(points, axes)
 
-    monkeypatch.setattr(dressed_model, "_of_rim", of_rim)
+    monkeypatch.setattr(viewer_model, "_of_rim", of_rim)
     shown = dressed(scenario)
     try:
         (journal,) = [solid for solid in shown.look.solids if solid.name == f"journal of {PIN}"]
@@ -406,7 +406,7 @@ def test_journal_and_rim_of_a_loose_pin_are_on_their_bodies(bore: str, monkeypat
         assert 0.5 * (low + high)[:2] == pytest.approx(centre, abs=1e-12)
         assert (high - low)[0] == pytest.approx(2.0 * bearing.journal_radius, rel=1e-9)
         ((points, axes),) = rims  # of which body: its axes, or those of the ground
-        assert (axes is dressed_model.STILL) == on_second
+        assert (axes is viewer_model.STILL) == on_second
         away = points[:, :2] - np.array(place.first_point if on_second else place.second_point)
         assert np.hypot(*away.T) == pytest.approx(bearing.bore_radius, abs=1e-12)
         if not on_second:

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from support_exudyn import ClearancePin, CubicStep, Held, OilColumn, Result, SolverSettings, bore_area, simulate
-from support_exudyn.smooth_steps import SMOOTH
+from support_exudyn.formulations.redundant.solver.step_growth import SMOOTH
 from tests.reference.cases import (
     CRANK_SPEED,
     FORCE,

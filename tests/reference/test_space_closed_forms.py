@@ -13,9 +13,9 @@ from hypothesis import strategies as st
 from scipy.integrate import quad, solve_ivp
 from scipy.optimize import root
 
-from studies.paper_machine import oil_columns
+from studies.common.paper_machine import oil_columns
 from support_exudyn import ClearancePin, CubicStep, Held, OilColumn, Scenario, SolverSettings, simulate
-from support_exudyn.spatial.layout import Bearing, SpatialBody, SpatialColumn, SpatialLinkage
+from support_exudyn.model.spatial_linkage import Bearing, SpatialBody, SpatialColumn, SpatialLinkage
 from tests.reference.cases import paper_contact, support
 from tests.reference.spatial_cases import (
     CLEARANCE,

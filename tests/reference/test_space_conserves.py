@@ -11,7 +11,7 @@ from hypothesis import HealthCheck, Phase, assume, given, settings
 from hypothesis import strategies as st
 
 from support_exudyn import ClearancePin, Scenario, SolverSettings, simulate
-from support_exudyn.spatial.layout import Bearing, SpatialBody, SpatialLinkage
+from support_exudyn.model.spatial_linkage import Bearing, SpatialBody, SpatialLinkage
 from tests.reference.spatial_cases import (
     CLEARANCE,
     LENGTH,

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from studies.paper_machine import JACK, oil_columns
+from studies.common.paper_machine import JACK, oil_columns
 from support_exudyn import (
     ClearancePin,
     CubicStep,
@@ -22,7 +22,7 @@ from support_exudyn import (
     simulate,
     two_body_columns,
 )
-from support_exudyn.sweep import run_all
+from support_exudyn.sweeps.parallel_runs import run_all
 from tests.reference.cases import PIN, loose_support, paper_contact, support
 from user_forces import DepthSpeed
 

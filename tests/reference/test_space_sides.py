@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from studies.paper_machine import LOOSE_PIN, loose_rise, oil_columns
+from studies.common.paper_machine import LOOSE_PIN, loose_rise, oil_columns
 from support_exudyn import CubicStep, Held, Result, Scenario, SolverSettings, simulate
 
 LENGTH = 0.7  # of the rear pin, reference support [m]

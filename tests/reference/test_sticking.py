@@ -19,7 +19,7 @@ from support_exudyn import (
     SolverSettings,
     simulate,
 )
-from support_exudyn.scene_builder import build
+from support_exudyn.formulations.redundant.scene.scene_builder import build
 from tests.reference.cases import FORCE, PIN, paper_contact, support
 from user_forces import Ambrosio, DepthSpeed, FrictionLaw, LuGre
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from studies.paper_machine import hydraulic_cylinders
+from studies.common.paper_machine import hydraulic_cylinders
 from support_exudyn import (
     AppliedForce,
     ClosedInlet,
@@ -26,8 +26,8 @@ from support_exudyn import (
     bore_area,
     simulate,
 )
-from support_exudyn.scene_builder import build
-from support_exudyn.velocity_jump import slide
+from support_exudyn.formulations.redundant.scene.scene_builder import build
+from support_exudyn.formulations.redundant.scene.velocity_jump import slide
 from tests.reference.cases import PIN, loose_support, support
 
 OIL = OilColumn(bore_area=bore_area(0.25, 2), oil_length=0.5, bulk_modulus=1.5e9)
@@ -190,7 +190,7 @@ def test_one_rest_is_moved_over_once(scene: str, beside: float, monkeypatch: pyt
         rests.append(rest)
         slide(moving, rest)
 
-    monkeypatch.setattr("support_exudyn.solver.slide", slid)
+    monkeypatch.setattr("support_exudyn.formulations.redundant.solver.solver.slide", slid)
     found, without = (simulate(replace(SCENES[scene](t), duration=0.012)) for t in (BREAK + beside, BREAK))
     assert rests == [pytest.approx(abs(beside), rel=1e-6)]
     assert found.counts.steps == without.counts.steps

@@ -11,14 +11,14 @@ import pytest
 
 from support_exudyn import Result, Scenario
 from support_exudyn.__main__ import main
-from support_exudyn.errors import Failure, SimulationError
-from support_exudyn.files import writing_alone
-from support_exudyn.sweeping import Outcome, read_sweep, read_table, sweep, work
-from support_exudyn.sweeping.run import known
-from support_exudyn.sweeping.store import Store
-from support_exudyn.sweeping.work import Task
+from support_exudyn.files.whole_file import writing_alone
+from support_exudyn.formulations.contract import Failure, SimulationError
+from support_exudyn.sweeps import Outcome, read_sweep, read_table, sweep, work
+from support_exudyn.sweeps.run import known
+from support_exudyn.sweeps.store import Store
+from support_exudyn.sweeps.work import Task
 from tests.reference.sweep_cases import columns, rows, speeds, write_sweep
-from user_forces.values import InputError
+from user_forces.values.value import InputError
 
 
 @pytest.fixture
@@ -31,7 +31,7 @@ def ran(monkeypatch: pytest.MonkeyPatch) -> list[Task]:
             done.append(task)
             yield work.run_into(store, task)
 
-    monkeypatch.setattr("support_exudyn.sweeping.run.in_processes", here)
+    monkeypatch.setattr("support_exudyn.sweeps.run.in_processes", here)
     return done
 
 
@@ -146,7 +146,7 @@ def test_the_same_run_twice_fills_both_rows_also_while_it_is_under_way(
     def all_at_once(tasks, store, workers):  # type: ignore[no-untyped-def]
         yield from [work.run_into(store, task) for task in list(tasks)]
 
-    monkeypatch.setattr("support_exudyn.sweeping.run.in_processes", all_at_once)
+    monkeypatch.setattr("support_exudyn.sweeps.run.in_processes", all_at_once)
     path = write_sweep(tmp_path, '"machine.speed_m_per_s" = [0.1, 0.2, 0.1]')
     assert do(path).done == 3
     assert columns(tmp_path / "store")["status"] == ["done"] * 3
@@ -162,7 +162,7 @@ def test_what_ends_after_an_interruption_stands_in_the_table(
             raise KeyboardInterrupt
         yield
 
-    monkeypatch.setattr("support_exudyn.sweeping.run.in_processes", interrupted)
+    monkeypatch.setattr("support_exudyn.sweeps.run.in_processes", interrupted)
     with pytest.raises(KeyboardInterrupt):
         do(write_sweep(tmp_path, speeds(2)))
     assert columns(tmp_path / "store")["status"] == ["done", "waiting"]
@@ -199,7 +199,7 @@ def test_another_program_makes_everything_again(
 ) -> None:
     path = write_sweep(tmp_path, speeds(2))
     do(path)
-    monkeypatch.setattr("support_exudyn.sweeping.key.program", lambda: {"exudyn": "another"})
+    monkeypatch.setattr("support_exudyn.sweeps.key.program", lambda: {"exudyn": "another"})
     assert do(path).found == 0
     assert len(ran) == 4
 

@@ -13,22 +13,22 @@ from pathlib import Path
 import pytest
 
 from support_exudyn.__main__ import main
-from support_exudyn.sweeping import read_sweep, sweep, work
-from support_exudyn.sweeping.cluster import _remote
-from support_exudyn.sweeping.key import program
-from support_exudyn.sweeping.plan import Record
-from support_exudyn.sweeping.store import Store
-from support_exudyn.sweeping.work import Task
+from support_exudyn.sweeps import read_sweep, sweep, work
+from support_exudyn.sweeps.cluster import _remote
+from support_exudyn.sweeps.key import program
+from support_exudyn.sweeps.plan import Record
+from support_exudyn.sweeps.store import Store
+from support_exudyn.sweeps.work import Task
 from tests.processes import ROOT, environment, linux_only, wait_until
 from tests.reference.sweep_cases import columns, rows, speeds, start, write_sweep
-from user_forces.values import InputError
+from user_forces.values.value import InputError
 
 SOON = 90.0  # [s]; what comes at all has come by then, on a busy machine too
 RUNS = 20
 SOON_GIVEN_UP = """
 import sys
 from support_exudyn.__main__ import main
-from support_exudyn.sweeping import cluster
+from support_exudyn.sweeps import cluster
 cluster.REACHED = 0.5
 sys.exit(main())
 """
@@ -90,7 +90,7 @@ def test_with_a_worker_killed_midway_it_gives_the_same_table_as_here(
     assert workers[0].wait() == -signal.SIGKILL
     whole = Store(tmp_path / "whole")
     monkeypatch.setattr(
-        "support_exudyn.sweeping.run.in_processes",
+        "support_exudyn.sweeps.run.in_processes",
         lambda tasks, *_: (work.run_into(whole, task) for task in tasks),  # here, one after the other
     )
     sweep(read_sweep(path), whole.folder)

@@ -8,11 +8,11 @@ from pathlib import Path
 
 import pytest
 
-from support_exudyn.sweeping import local, read_sweep, sweep, work
-from support_exudyn.sweeping.row import Row
-from support_exudyn.sweeping.store import Store
-from support_exudyn.sweeping.work import Task
-from support_exudyn.workers import ProcessEndedError
+from support_exudyn.sweeps import local, read_sweep, sweep, work
+from support_exudyn.sweeps.row import Row
+from support_exudyn.sweeps.store import Store
+from support_exudyn.sweeps.work import Task
+from support_exudyn.sweeps.workers import ProcessEndedError
 from tests.processes import linux_only, session_of, wait_until
 from tests.reference.sweep_cases import columns, rows, speeds, start, write_sweep
 
@@ -84,7 +84,7 @@ def test_interrupted_killed_and_hurt_it_ends_as_if_left_alone(
             process.communicate()
     whole = Store(tmp_path / "whole")
     monkeypatch.setattr(
-        "support_exudyn.sweeping.run.in_processes",
+        "support_exudyn.sweeps.run.in_processes",
         lambda tasks, *_: (work.run_into(whole, task) for task in tasks),  # here, one after the other
     )
     sweep(read_sweep(path), whole.folder)

@@ -16,11 +16,11 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from support_exudyn import Body, ClearancePin, Held, Result, Scenario, SolverSettings, simulate
-from support_exudyn.attachment import Attachment, attachment
-from support_exudyn.connector import displacement_scale, user_function
-from support_exudyn.onset import Mobility, Onset, PinMemory
-from support_exudyn.python_force import PythonForce
-from support_exudyn.symbolic_force import SymbolicForce, engine
+from support_exudyn.formulations.redundant.clearance.attachment import Attachment, attachment
+from support_exudyn.formulations.redundant.clearance.connector import displacement_scale, user_function
+from support_exudyn.formulations.redundant.clearance.python_force import PythonForce
+from support_exudyn.formulations.redundant.clearance.symbolic_force import SymbolicForce, engine
+from support_exudyn.mechanics.contact_state import Mobility, Onset, PinMemory
 from tests.reference.cases import PIN, Pair, loose_support
 from tests.unit.law_cases import (
     BEARING,

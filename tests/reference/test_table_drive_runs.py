@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from studies.paper_machine import loose_pin
+from studies.common.paper_machine import loose_pin
 from support_exudyn import TableDrive, UniformSpeed, simulate
 from tests.reference.test_scenario_commands import BASE, POINTS, SCENARIOS, STROKE, same
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from studies.paper_machine import JACK, oil_columns
+from studies.common.paper_machine import JACK, oil_columns
 from support_exudyn import (
     ClearancePin,
     CubicStep,
@@ -21,7 +21,7 @@ from support_exudyn import (
     simulate,
     two_body_columns,
 )
-from support_exudyn.plane import moved
+from support_exudyn.model.plane_geometry import moved
 from tests.reference.cases import FORCE, loose_support, paper_contact, support
 
 G = 9.81

@@ -10,7 +10,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from studies.law_catalogue import friction_laws, normal_laws
+from studies.contact_laws.catalogue import friction_laws, normal_laws
 from support_exudyn import (
     Body,
     ClearancePin,
@@ -30,8 +30,8 @@ from support_exudyn import (
     bore_area,
     simulate,
 )
-from support_exudyn.machine import GROUND, pinned
-from support_exudyn.tree.integration import Integration
+from support_exudyn.formulations.tree.integration import Integration
+from support_exudyn.model.linkage import GROUND, pinned
 from tests.reference.cases import FORCE, PIN, loose_slider_crank, loose_support, paper_contact, support
 from user_forces import (
     Anagnostopoulos,

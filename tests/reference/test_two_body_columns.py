@@ -25,8 +25,8 @@ from support_exudyn import (
     simulate,
     two_body_columns,
 )
-from support_exudyn.kinetics import kinetics_of
-from support_exudyn.scene_builder import build
+from support_exudyn.formulations.redundant.scene.scene_builder import build
+from support_exudyn.mechanics.kinetics import kinetics_of
 from tests.reference.cases import FORCE, loose_support, paper_contact, support
 
 G = 9.81

@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from studies.paper_machine import loose_pin
+from studies.common.paper_machine import loose_pin
 from support_exudyn import CubicStep, Held, OilColumn, Result, Scenario, UniformSpeed, bore_area, simulate
-from support_exudyn.checking.shield_stroke import stations
-from support_exudyn.drawing.solid import Look
-from support_exudyn.machine_data import read_machine
-from support_exudyn.machines import load_machine
+from support_exudyn.files.machines import load_machine
+from support_exudyn.machines.check.shield_stroke import stations
+from support_exudyn.machines.machine_data import read_machine
+from support_exudyn.postprocessing.look.solid import Look
 from tests.machine_files import written
 from user_forces import InputError
 

@@ -22,7 +22,7 @@ from support_exudyn import (
     reference_support,
     simulate,
 )
-from support_exudyn.machine import GROUND, pinned
+from support_exudyn.model.linkage import GROUND, pinned
 from tests.reference.cases import FORCE, loose_support, slider_crank, support
 from user_forces import value
 

@@ -23,11 +23,11 @@ from support_exudyn import (
     bore_area,
     simulate,
 )
-from support_exudyn.loads.load import LoadedPoint, Powers
+from support_exudyn.model.loads.load import LoadedPoint, Powers
 from tests.reference.cases import CRANK_SPEED, PIN, slider_crank, support
 from user_forces import FrictionLaw, JournalBearing, JournalContact, NormalLaw, Touch, value
-from user_forces.scalar import tanh, where
-from user_forces.values import Vector2
+from user_forces.expressions.scalar import tanh, where
+from user_forces.values.value import Vector2
 
 BEARING = JournalBearing(bore_radius=0.0655, clearance=0.0005)
 OIL = OilColumn(bore_area=bore_area(0.25, 2), oil_length=0.5, bulk_modulus=1.5e9)

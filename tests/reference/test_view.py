@@ -94,7 +94,7 @@ STEP = """
 import sys
 import numpy as np
 from support_exudyn import Result
-from support_exudyn.view import window
+from support_exudyn.postprocessing.viewer.view import window
 result = Result.load(sys.argv[1])
 with window(result, size=(900, 600)) as shown:
     found = {}

@@ -21,15 +21,14 @@ from support_exudyn import (
     SimulationError,
     SolverSettings,
     UniformSpeed,
-    simulate,
-    with_error,
 )
-from support_exudyn.estimate import disagreement
-from support_exudyn.measures import measures
-from support_exudyn.progress import Progress
-from support_exudyn.run_once import run_once
-from support_exudyn.solver_settings import MOST_IMPACT_STEPS, SMALLEST_TOLERANCE
-from support_exudyn.with_error import LARGEST_ERROR, MOST_RUNS
+from support_exudyn.formulations.progress import Progress
+from support_exudyn.scenario.solver_settings import MOST_IMPACT_STEPS, SMALLEST_TOLERANCE
+from support_exudyn.simulation import halved_steps, simulate
+from support_exudyn.simulation.estimate import disagreement
+from support_exudyn.simulation.halved_steps import LARGEST_ERROR, MOST_RUNS
+from support_exudyn.simulation.reported_numbers import measures
+from support_exudyn.simulation.single_run import run_once
 from tests.reference.cases import FORCE, PIN, loose_support, support
 from tests.unit.test_formulations import SCENES
 from user_forces import InputError
@@ -229,7 +228,7 @@ def plant(monkeypatch: pytest.MonkeyPatch, factors: Sequence[float]) -> None:
         wrong = replace(force, values=factor * force.values)
         return replace(result, channels={**result.channels, FORCE: wrong})
 
-    monkeypatch.setattr(with_error, "run_once", run)
+    monkeypatch.setattr(halved_steps, "run_once", run)
 
 
 @pytest.mark.parametrize("factors", [(1.0, 1.0, 1.05), (1.0, 1.0001, 1.05)])
@@ -289,7 +288,7 @@ def fail_first(monkeypatch: pytest.MonkeyPatch, failure: Failure, often: int) ->
             raise SimulationError(failure)
         return run_once(replace(scenario, duration=0.03), progress)
 
-    monkeypatch.setattr(with_error, "run_once", run)
+    monkeypatch.setattr(halved_steps, "run_once", run)
     return begun
 
 
@@ -317,7 +316,7 @@ def test_a_run_that_fails_ends_it(monkeypatch: pytest.MonkeyPatch) -> None:
         begun.append(scenario)
         raise SimulationError(Failure("the solver gave up", "Take a smaller step.", 0.01))
 
-    monkeypatch.setattr(with_error, "run_once", run)
+    monkeypatch.setattr(halved_steps, "run_once", run)
     with pytest.raises(SimulationError, match="gave up"):
         simulate(FALL, errors=True)
     assert len(begun) == 1
@@ -330,7 +329,7 @@ def test_where_there_are_no_finer_settings_nothing_is_run(monkeypatch: pytest.Mo
         begun.append(scenario)
         raise AssertionError
 
-    monkeypatch.setattr(with_error, "run_once", run)
+    monkeypatch.setattr(halved_steps, "run_once", run)
     many = replace(FALL, solver=SolverSettings(impact_steps=MOST_IMPACT_STEPS // 4 + 1))
     with pytest.raises(InputError, match=r"impact_steps = 1000\d: allowed: "):
         simulate(many, errors=True)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from dataclasses import replace
 
-from studies.study import Number, Options, options, run_cases, run_main, write_summary
+from studies.common.study import Number, Options, options, run_cases, run_main, write_summary
 from support_exudyn import Held
 from tests.reference.cases import loose_support
 

@@ -20,9 +20,9 @@ PROGRAM = "this program"  # in place of the digest of its sources, which may be 
 
 def main() -> None:
     """Until there are no more lines."""
-    from studies.judging import hypercube, plausible
-    from support_exudyn import workers
-    from support_exudyn.warm import warm_up
+    from studies.claims import hypercube, plausible
+    from support_exudyn.sweeps import workers
+    from support_exudyn.sweeps.precompile import warm_up
 
     hypercube._program = lambda: PROGRAM  # type: ignore[assignment]
     warm_up()

@@ -6,14 +6,13 @@ from collections.abc import Callable, Iterator
 
 import pytest
 
-from studies import benchmark
-from studies.benchmark import Line, cheapest_way, in_turns, long_lines, restless, sheet, whole
-from studies.benchmarking import process
+from studies.benchmarking import benchmark, process
+from studies.benchmarking.benchmark import Line, cheapest_way, in_turns, long_lines, restless, sheet, whole
 from studies.benchmarking.scenes import SCENES
 from studies.benchmarking.variants import Way, with_tolerance
 from studies.benchmarking.yardstick import YardstickError, compiled, run_yardstick
 from support_exudyn import Failure, Scenario, SimulationError, simulate
-from support_exudyn.audit import energy_open
+from support_exudyn.simulation.audit import energy_open
 
 
 @pytest.mark.parametrize(("ours", "other", "ratio"), [(1.0, 8.0, "1/8"), (3.0, 2.0, "1.5"), (2.0, 2.0, "1/1")])

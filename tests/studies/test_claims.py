@@ -9,9 +9,9 @@ from typing import Any
 
 import pytest
 
-from studies import claims as study
-from studies.judging.claim_list import CLAIMS
-from studies.reporting.chapter import Chapter
+from studies.claims import run as study
+from studies.claims.claim_list import CLAIMS
+from studies.common.chapter import Chapter
 
 
 @pytest.fixture(scope="module")

@@ -10,10 +10,10 @@ from typing import Any
 import h5py
 import pytest
 
-from studies import clearance_influence as study
-from studies.reporting.chapter import Chapter
+from studies.clearance_influence import run as study
+from studies.common.chapter import Chapter
 from support_exudyn import Result
-from support_exudyn.figures import style
+from support_exudyn.postprocessing.figures import style
 from tests import figure_checks
 from tests.studies.another_way import by_the_engine, off
 

@@ -10,9 +10,9 @@ from typing import Any
 
 import pytest
 
-from studies import clearance_size as study
-from studies import rise
-from studies.reporting.chapter import Chapter
+from studies.clearance_size import run as study
+from studies.common import rise
+from studies.common.chapter import Chapter
 from support_exudyn import Result
 from tests.studies.another_way import by_another_integrator, off
 

@@ -11,10 +11,11 @@ from typing import Any
 import pytest
 
 import user_forces
-from studies import contact_law_cases, law_catalogue
-from studies import contact_laws as study
-from studies.free_impact import delivered_restitution, free_impact
-from studies.reporting.chapter import Chapter
+from studies.common.chapter import Chapter
+from studies.contact_laws import cases as contact_law_cases
+from studies.contact_laws import catalogue
+from studies.contact_laws import run as study
+from studies.contact_laws.free_impact import delivered_restitution, free_impact
 from support_exudyn import Result, simulate
 from user_forces import FrictionLaw, Frictionless, NormalLaw, TouchSpeed
 
@@ -45,9 +46,9 @@ def laws(kind: type) -> set[type]:
 
 
 def test_the_catalogue_holds_every_law() -> None:
-    normal = {type(law) for law in law_catalogue.normal_laws(1.5, 0.9).values()}
+    normal = {type(law) for law in catalogue.normal_laws(1.5, 0.9).values()}
     assert normal == laws(NormalLaw)
-    friction = {type(law) for law in law_catalogue.friction_laws(0.25).values()}
+    friction = {type(law) for law in catalogue.friction_laws(0.25).values()}
     assert friction | {Frictionless} == laws(FrictionLaw)
 
 
@@ -72,7 +73,7 @@ def test_restitution_cases_are_named_as_agreed_and_right(
 ) -> None:
     assert numbers["delivered_restitution", "exact e=0.9"]["value"] == pytest.approx(0.9, abs=3e-5)
     cases = [case for name, case in numbers if name == "delivered_restitution"]
-    laws_asked = len(law_catalogue.POWER_LAWS) + len(law_catalogue.CYLINDER_LAWS) + 1
+    laws_asked = len(catalogue.POWER_LAWS) + len(catalogue.CYLINDER_LAWS) + 1
     assert len(cases) == laws_asked * len(contact_law_cases.QUICK_ASKED) + 7
     for case in cases:
         number = numbers["delivered_restitution", case]

@@ -12,14 +12,13 @@ from pathlib import Path
 
 import pytest
 
-from studies import coverage
-from studies.benchmarking import covered
+from studies.benchmarking import coverage, covered
+from studies.benchmarking.coverage import ALL, Chosen, offender_sheet, run_scenes, share
 from studies.benchmarking.covered import Judged, Reference, Row, judge
 from studies.benchmarking.fresh_scenes import KINDS, RECORDS, Fresh, fresh
-from studies.coverage import ALL, Chosen, offender_sheet, run_scenes, share
 from support_exudyn import Estimate, Failure, Result, Scenario, SimulationError, simulate
-from support_exudyn.measures import measures
-from support_exudyn.workers import Workers
+from support_exudyn.simulation.reported_numbers import measures
+from support_exudyn.sweeps.workers import Workers
 from tests.studies.test_hypercube import Here
 
 FORCE = "pin.rear_base.force.mean"

@@ -9,10 +9,10 @@ from typing import Any
 
 import pytest
 
-from studies import drive_mode as study
-from studies.drive_mode_cases import COLUMNS, MODES, PINS, case_name, naive_peaks
-from studies.drive_mode_tables import CONVERGES, verdict
-from studies.reporting.chapter import Chapter
+from studies.common.chapter import Chapter
+from studies.drive_mode import run as study
+from studies.drive_mode.cases import COLUMNS, MODES, PINS, case_name, naive_peaks
+from studies.drive_mode.tables import CONVERGES, verdict
 
 IDEAL, LOOSE = PINS
 

@@ -16,17 +16,19 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from studies import extremes
-from studies.extreme import long_runs, runs, scenes
-from studies.extreme.cases import BOX, MAPS, RANDOM, cases
-from studies.extreme.judge import GOOD, REFUSED, SILENT, Case, Verdict, independent, judge, run_with_its_error
-from studies.extreme.ranges import LARGEST_SPEED, SPANS, Point
-from studies.reporting.chapter import Chapter
-from support_exudyn import Failure, Result, Scenario, SimulationError, simulate, workers
-from support_exudyn.audit import DEEPEST, turned_over
-from support_exudyn.measures import measured
-from support_exudyn.ringing import ringing_step
-from support_exudyn.workers import CONTEXT, Workers, worker_pool
+from studies.common.chapter import Chapter
+from studies.extremes import long_runs, runs, scenes
+from studies.extremes import run as extremes
+from studies.extremes.cases import BOX, MAPS, RANDOM, cases
+from studies.extremes.judge import GOOD, REFUSED, SILENT, Case, Verdict, independent, judge, run_with_its_error
+from studies.extremes.ranges import LARGEST_SPEED, SPANS, Point
+from support_exudyn import Failure, Result, Scenario, SimulationError, simulate
+from support_exudyn.formulations.limits import DEEPEST
+from support_exudyn.simulation.audit import turned_over
+from support_exudyn.simulation.contact_ringing import ringing_step
+from support_exudyn.simulation.reported_numbers import measured
+from support_exudyn.sweeps import workers
+from support_exudyn.sweeps.workers import CONTEXT, Workers, worker_pool
 from tests.hostile import posix_only
 from tests.studies.test_hypercube import Here
 from user_forces import InputError
@@ -333,7 +335,7 @@ def test_a_check_by_steps_does_not_damp_out_what_the_loaded_contact_still_does(
         made.append(scenario)
         raise SimulationError(Failure("not run", "", 0.0))
 
-    monkeypatch.setattr("studies.extreme.judge.simulate", simulate_none)
+    monkeypatch.setattr("studies.extremes.judge.simulate", simulate_none)
     scene = scenes.fallen(Point(clearance_m=clearance, restitution=0.9))
     scene = replace(scene, duration=seconds, record_period=seconds / 50.0, formulation="reduced")
     assert independent(scene) is None

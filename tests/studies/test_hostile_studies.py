@@ -19,12 +19,12 @@ import pytest
 
 from studies import __main__ as all_studies
 from studies import report
-from studies.judging import hypercube
-from studies.judging.plausible import REFERENCE
-from studies.study import Number, Options, run_main, save_figures, write_summary
-from support_exudyn.figures import style
-from support_exudyn.files import writing_alone
-from support_exudyn.workers import ProcessEndedError, Workers
+from studies.claims import hypercube
+from studies.claims.plausible import REFERENCE
+from studies.common.study import Number, Options, run_main, save_figures, write_summary
+from support_exudyn.files.whole_file import writing_alone
+from support_exudyn.postprocessing.figures import style
+from support_exudyn.sweeps.workers import ProcessEndedError, Workers
 from tests.hostile import DISKS, left_behind, little_room, posix_only
 from tests.processes import ROOT, environment, linux_only, session_of, wait_until
 from tests.studies import hostile_main

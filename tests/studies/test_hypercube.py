@@ -21,13 +21,13 @@ from typing import Any
 
 import pytest
 
-from studies import claims
-from studies.judging import hypercube
-from studies.judging.claim_list import CLAIMS
-from studies.judging.plausible import FACTORS, REFERENCE, Choice, samples
-from studies.judging.plausible_runs import CASES, measures
+from studies.claims import hypercube
+from studies.claims import run as claims
+from studies.claims.claim_list import CLAIMS
+from studies.claims.plausible import FACTORS, REFERENCE, Choice, samples
+from studies.claims.plausible_runs import CASES, measures
 from support_exudyn import Failure, SimulationError
-from support_exudyn.workers import CONTEXT, Workers
+from support_exudyn.sweeps.workers import CONTEXT, Workers
 from tests.hostile import left_behind, with_own_files
 from tests.processes import ROOT, environment, linux_only, session_of, wait_until
 from tests.studies import hypercube_main

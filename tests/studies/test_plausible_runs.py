@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from studies.judging.plausible import Choice, machine
-from studies.judging.plausible_runs import scenario
+from studies.claims.plausible import Choice, machine
+from studies.claims.plausible_runs import scenario
 from tests.reduced import simulate_reduced
 
 # no. 695 of 1024: the contact's force comes down to the cut of tension and turns there

@@ -6,8 +6,9 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
-from studies import clearance_influence, readme_pictures
-from studies.paper_machine import loose_rise
+from studies import readme_pictures
+from studies.clearance_influence import run as clearance_influence
+from studies.common.paper_machine import loose_rise
 from studies.readme_pictures import FOLDER, PICTURES, Runs, main
 from support_exudyn import simulate
 

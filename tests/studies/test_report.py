@@ -15,11 +15,11 @@ import pytest
 
 from studies import __main__ as all_studies
 from studies import report
-from studies.reporting.chapter import Chapter, Picture, Sheet
+from studies.common.chapter import Chapter, Picture, Sheet
+from studies.common.study import Options
 from studies.reporting.content import TITLE, verdict_class
-from studies.study import Options
-from support_exudyn.provenance import versions
-from user_forces.values import InputError
+from support_exudyn.simulation.provenance import versions
+from user_forces.values.value import InputError
 
 PNG = base64.b64decode(  # one white pixel
     "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAQAAAC1HAwCAAAAC0lEQVR42mP8/x8AAwMCAO+ip1sAAAAASUVORK5CYII="

@@ -9,10 +9,11 @@ from typing import Any
 
 import pytest
 
-from studies import scene_detail as study
-from studies.detail import sheets
-from studies.detail.measures import Change, change
-from studies.detail.scenes import (
+from studies.common.chapter import Chapter
+from studies.scene_detail import run as study
+from studies.scene_detail import sheets
+from studies.scene_detail.measures import Change, change
+from studies.scene_detail.scenes import (
     EQUAL,
     FULLEST,
     PLAINEST,
@@ -22,10 +23,9 @@ from studies.detail.scenes import (
     Scene,
     scenes,
 )
-from studies.reporting.chapter import Chapter
 from support_exudyn import Estimate, recommend
-from support_exudyn.evidence.table import Table, check_replaceable, committed, fields_of
-from support_exudyn.recommend import QUESTIONS, comparisons
+from support_exudyn.simulation.evidence.table import Table, check_replaceable, committed, fields_of
+from support_exudyn.simulation.recommend import QUESTIONS, comparisons
 
 Numbers = dict[tuple[str, str], dict[str, Any]]
 

@@ -8,10 +8,10 @@ from typing import Any
 
 import pytest
 
-from studies import slider_crank as study
-from studies.reporting.chapter import Chapter
+from studies.common.chapter import Chapter
+from studies.slider_crank import run as study
 from support_exudyn import Result
-from support_exudyn.figures import style
+from support_exudyn.postprocessing.figures import style
 from tests import figure_checks
 
 

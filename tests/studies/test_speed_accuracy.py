@@ -10,17 +10,18 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from studies import speed_accuracy, speed_accuracy_figures
 from studies.benchmarking import estimates, variants
 from studies.benchmarking.front import Row, cheapest, front
 from studies.benchmarking.measures import GOALS, Sample, errors, of_result, thinned, times_the_goal
 from studies.benchmarking.references import own_errors, references, tight_runs
 from studies.benchmarking.scenes import SCENES
 from studies.benchmarking.variants import STOCK, Done, Way, ways
-from studies.reporting.chapter import Chapter
-from studies.study import Options
+from studies.common.chapter import Chapter
+from studies.common.study import Options
+from studies.speed_accuracy import figures as speed_accuracy_figures
+from studies.speed_accuracy import run as speed_accuracy
 from support_exudyn import SimulationError, SolverSettings, simulate
-from support_exudyn.errors import Failure
+from support_exudyn.formulations.contract import Failure
 
 EXACT = Sample({name: 2.0 for name in GOALS if name != "path"}, np.zeros((2, 5)))
 

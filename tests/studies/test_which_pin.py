@@ -10,12 +10,15 @@ from typing import Any
 import numpy as np
 import pytest
 
-from studies import rise, slack, which_pin, which_pin_cases
-from studies.reporting.chapter import Chapter
-from studies.which_pin_posture import loads, mean_shift
-from studies.which_pin_tables import in_order
+from studies.common import rise
+from studies.common.chapter import Chapter
+from studies.which_pin import cases as which_pin_cases
+from studies.which_pin import closed_form as slack
+from studies.which_pin import run as which_pin
+from studies.which_pin.posture import loads, mean_shift
+from studies.which_pin.tables import in_order
 from support_exudyn import ClearancePin, CubicStep, Result, SolverSettings, reference_support, simulate
-from support_exudyn.eccentric import eccentric
+from support_exudyn.mechanics.initial_eccentricity import eccentric
 from user_forces import Ambrosio, Exact, Hertz, JournalBearing, JournalContact, KelvinVoigt, Threlfall
 
 PINS = tuple(reference_support().linkage().pins)

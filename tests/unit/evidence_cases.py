@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from studies.judging.evidence import Evidence, Measured
-from studies.judging.plausible_runs import IDEAL, LOOSE, MODE_1, MODE_1_IDEAL, OIL, OIL_IDEAL
+from studies.claims.evidence import Evidence, Measured
+from studies.claims.plausible_runs import IDEAL, LOOSE, MODE_1, MODE_1_IDEAL, OIL, OIL_IDEAL
 
 MIDDLE = LOOSE[2]
 CURVES = {"force": 10000.0, "speed": 5.0, "acceleration": 100.0}  # ranges of the ideal pin's

@@ -8,8 +8,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from support_exudyn import Onset, Result, account
-from support_exudyn.estimate import Estimate
+from support_exudyn import Onset, Result
+from support_exudyn.postprocessing import summary as account
+from support_exudyn.simulation.estimate import Estimate
 from tests import synthetic
 from tests.reference.cases import FORCE, PIN, loose_support
 from user_forces import InputError

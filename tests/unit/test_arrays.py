@@ -12,9 +12,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.unit.law_cases import BEARING, FRICTION_LAWS, NORMAL_LAWS, kind_of
-from user_forces import FrictionLaw, JournalContact, NormalLaw, Touch, scalar
-from user_forces.arrays import Array, as_number, values_of
+from user_forces import FrictionLaw, JournalContact, NormalLaw, Touch
 from user_forces.contact import SlipHistory
+from user_forces.expressions import scalar
+from user_forces.expressions.arrays import Array, as_number, values_of
 
 # numpy's powers, exponentials and logarithms may differ from the machine's in the last digits
 CLOSE = 1e-13

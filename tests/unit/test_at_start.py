@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from studies.catalogue import STUDIES
-from support_exudyn.at_start import DEGRADED, _is_command, be_readable
+from support_exudyn.commands.at_start import DEGRADED, _is_command, be_readable
 from tests.hostile import posix_only
 from tests.processes import ROOT, environment
 
@@ -25,7 +25,7 @@ import {name}
 STARTS = [
     ["-m", "support_exudyn", "--version"],
     ["-m", "studies", "--help"],
-    *(["-m", f"studies.{name}", "--help"] for name in ("report", "benchmark", *STUDIES)),
+    *(["-m", f"studies.{name}", "--help"] for name in ("report", "benchmarking.benchmark", *STUDIES)),
     ["support-exudyn", "--version"],
 ]
 
@@ -55,7 +55,7 @@ def test_an_interruption_while_libraries_are_imported_is_a_line(
     assert done.stdout == ""
 
 
-@pytest.mark.parametrize("code", ["import support_exudyn", "import studies.study"])
+@pytest.mark.parametrize("code", ["import support_exudyn", "import studies.common.study"])
 def test_other_programs_keep_their_interruptions(code: str) -> None:
     check = "import signal; assert signal.getsignal(signal.SIGINT) is signal.default_int_handler"
     subprocess.run([sys.executable, "-c", f"{code}\n{check}"], cwd=ROOT, env=environment(), check=True)

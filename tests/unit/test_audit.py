@@ -22,9 +22,12 @@ from support_exudyn import (
     Steady,
     simulate,
 )
-from support_exudyn.audit import (
+from support_exudyn.formulations.limits import DEEPEST
+from support_exudyn.formulations.redundant.run import run
+from support_exudyn.mechanics.trajectory import Outcome, Trajectory
+from support_exudyn.scenario.recorded_channels import Channel, channels
+from support_exudyn.simulation.audit import (
     APART,
-    DEEPEST,
     GIVEN_BACK,
     OPEN,
     audit,
@@ -33,9 +36,6 @@ from support_exudyn.audit import (
     rounding_of_energy,
     turned_over,
 )
-from support_exudyn.channels import Channel, channels
-from support_exudyn.redundant import run
-from support_exudyn.trajectory import Outcome, Trajectory
 from tests.reference.cases import PIN, loose_support
 from user_forces import LuGre
 
@@ -221,7 +221,7 @@ WRONG = {
 def test_a_run_that_comes_out_wrong_is_refused_unless_asked_for(
     change: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("support_exudyn.run_once.formulation", lambda name: wrong_by(change))
+    monkeypatch.setattr("support_exudyn.simulation.single_run.formulation", lambda name: wrong_by(change))
     scenario = replace(SCENARIO, duration=0.01)
     # whatever is recorded
     scenario = replace(scenario, channels=("tip.x",))

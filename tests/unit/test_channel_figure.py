@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from support_exudyn import Onset, Result
-from support_exudyn.figures import style, units
-from support_exudyn.figures.channels import error_over_time, over_time
-from support_exudyn.figures.names import matching
-from support_exudyn.figures.units import readable
+from support_exudyn.postprocessing.figures import style, units
+from support_exudyn.postprocessing.figures.channels import error_over_time, over_time
+from support_exudyn.postprocessing.figures.names import matching
+from support_exudyn.postprocessing.figures.units import readable
 from tests import figure_checks, synthetic
 from tests.reference.cases import loose_support
 from user_forces import InputError

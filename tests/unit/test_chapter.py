@@ -10,9 +10,9 @@ from pathlib import Path
 import pytest
 from rich.console import Console
 
-from studies.reporting.chapter import Chapter, Picture, Sheet
-from studies.reporting.markdown import bullets, escaped, paragraph
-from user_forces.values import InputError
+from studies.common.chapter import Chapter, Picture, Sheet
+from studies.common.markdown import bullets, escaped, paragraph
+from user_forces.values.value import InputError
 
 HOSTILE = "<script>alert('x')</script> | [red]no[/red] *a* `b`\n_c_ [d](http://e) &lt; back\\slash"
 SHEET = Sheet(

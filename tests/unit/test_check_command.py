@@ -10,7 +10,7 @@ import pytest
 from PIL import Image
 
 from support_exudyn.__main__ import main
-from support_exudyn.machines import SHIPPED
+from support_exudyn.files.machines import SHIPPED
 from tests.machine_files import written
 
 

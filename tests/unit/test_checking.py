@@ -12,15 +12,15 @@ import numpy as np
 import pytest
 
 from support_exudyn import ravn_slider_crank
-from support_exudyn.checking import Report, check_machine
-from support_exudyn.checking.mobility import mobility
-from support_exudyn.checking.shield import check_shield
-from support_exudyn.checking.shield_stroke import Shield, Station, _between, _cross, _station, stations
-from support_exudyn.linkages.impact_stand import ImpactStand
-from support_exudyn.machine import lumped
-from support_exudyn.machine_data import MachineData, read_machine
-from support_exudyn.machines import load_machine
-from support_exudyn.plane import moved
+from support_exudyn.files.machines import load_machine
+from support_exudyn.machines.check import Report, check_machine
+from support_exudyn.machines.check.mobility import mobility
+from support_exudyn.machines.check.shield import check_shield
+from support_exudyn.machines.check.shield_stroke import Shield, Station, _between, _cross, _station, stations
+from support_exudyn.machines.free_impact import ImpactStand
+from support_exudyn.machines.machine_data import MachineData, read_machine
+from support_exudyn.model.linkage import lumped
+from support_exudyn.model.plane_geometry import moved
 from tests.machine_files import MASSES, OURS, written
 from user_forces import InputError
 

@@ -9,8 +9,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from support_exudyn import Held, Scenario, SolverSettings, choose, simulate
-from support_exudyn.choose import (
+from support_exudyn import Held, Scenario, SolverSettings
+from support_exudyn.scenario.scenario import LARGEST_GOAL, LARGEST_STEP, SMALLEST_GOAL
+from support_exudyn.scenario.solver_settings import MOST_IMPACT_STEPS, SMALLEST_TOLERANCE
+from support_exudyn.scenario.timescales import timescales
+from support_exudyn.simulation import automatic_settings, simulate
+from support_exudyn.simulation.automatic_settings import (
     DRIVE,
     FEWEST_IMPACT_STEPS,
     FLIGHT,
@@ -21,9 +25,6 @@ from support_exudyn.choose import (
     RESTING,
     settings_for,
 )
-from support_exudyn.scenario import LARGEST_GOAL, LARGEST_STEP, SMALLEST_GOAL
-from support_exudyn.solver_settings import MOST_IMPACT_STEPS, SMALLEST_TOLERANCE
-from support_exudyn.timescales import timescales
 from tests.reference.cases import loose_slider_crank, loose_support, slider_crank, support
 from tests.unit.test_formulations import COVERED, SCENES
 from user_forces import Ambrosio, InputError
@@ -163,7 +164,7 @@ def test_only_the_formulations_that_come_first_are_looked_at(monkeypatch: pytest
         asked.append(name)
         return name == "tree"
 
-    monkeypatch.setattr(choose, "covers", covers)
+    monkeypatch.setattr(automatic_settings, "covers", covers)
     scene = replace(SCENES["loose support on oil"], accuracy=1e-3)
     assert settings_for(scene, 1e-3).formulation == "tree"
     assert asked == ["reduced", "tree"]

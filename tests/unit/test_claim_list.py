@@ -7,12 +7,12 @@ from dataclasses import replace
 
 import pytest
 
-from studies import paper_machine, rise
-from studies.judging import claim_list
-from studies.judging.claim_list import CLAIMS, Claim
-from studies.judging.evidence import Evidence, Measured
-from studies.judging.plausible import REFERENCE
-from studies.judging.plausible_runs import CASES, MODE_1, OIL, OIL_IDEAL, evidence, measures
+from studies.claims import claim_list
+from studies.claims.claim_list import CLAIMS, Claim
+from studies.claims.evidence import Evidence, Measured
+from studies.claims.plausible import REFERENCE
+from studies.claims.plausible_runs import CASES, MODE_1, OIL, OIL_IDEAL, evidence, measures
+from studies.common import paper_machine, rise
 from tests.unit.evidence_cases import blurred, right, wrong
 
 CLOSED_FORM = "closed form"

@@ -7,7 +7,7 @@ from typing import Any
 import numba
 import pytest
 
-from support_exudyn import compiled
+from support_exudyn.formulations import compiled
 
 
 def twice(value: float) -> float:

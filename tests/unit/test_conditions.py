@@ -9,8 +9,8 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from studies.judging.conditions import CUTS, OTHER_THAN, PAIR_GAIN, best_condition
-from studies.judging.plausible import FACTORS, Choice, samples
+from studies.claims.conditions import CUTS, OTHER_THAN, PAIR_GAIN, best_condition
+from studies.claims.plausible import FACTORS, Choice, samples
 
 MACHINES = samples(256, 7)
 RANGES = [factor for factor in FACTORS if not factor.choices]

@@ -10,8 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from support_exudyn import ClearancePin
-from support_exudyn.contact_series import RelativeMotion, journal_arm, series
-from support_exudyn.onset import PinMemory
+from support_exudyn.mechanics.contact_history import RelativeMotion, journal_arm, series
+from support_exudyn.mechanics.contact_state import PinMemory
 from tests.reference.cases import paper_contact
 from user_forces import Ambrosio, DepthSpeed, FrictionLaw, Frictionless, Touch, value
 from user_forces.contact import SlipHistory

@@ -12,11 +12,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from support_exudyn import ClearancePin, Drive, Part, Scenario, TwoBodyColumn, Width
-from support_exudyn.datafiles import parsed, read_value, table_of, toml_text
+from support_exudyn.files import parsed, read_value, table_of
+from support_exudyn.files.toml import toml_text
 from tests import strategies as some
 from user_forces import InputError, JournalBearing, JournalContact, LuGre, NormalLaw, Value
-from user_forces.quantity import Metres, Seconds
-from user_forces.values import Positive, Real, value
+from user_forces.values.units import Metres, Seconds
+from user_forces.values.value import Positive, Real, value
 
 LAW = '[normal]\ntype = "LankaraniNikravesh"\nstiffness_N_per_m_to_n = 1e10\nrestitution = 0.9\n'
 

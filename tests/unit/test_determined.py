@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from studies.paper_machine import loose_pin, oil_columns
+from studies.common.paper_machine import loose_pin, oil_columns
 from support_exudyn import CubicStep, Scenario, reference_support, simulate
-from support_exudyn.spatial.constraints import matrix
-from support_exudyn.spatial.determined import Loads
+from support_exudyn.mechanics.space.constraints import matrix
+from support_exudyn.mechanics.space.determined import Loads
 
 RIGID = Scenario(
     machine=reference_support(),

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from support_exudyn import CubicStep, Drive, Held, Reciprocating, Steady, TableDrive, UniformSpeed
-from support_exudyn.drive_acceleration import accelerations
+from support_exudyn.mechanics.drive_acceleration import accelerations
 
 
 def rate(drive: Drive, *times: float) -> list[float]:

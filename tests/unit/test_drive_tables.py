@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from support_exudyn.datafiles import read_drives
-from support_exudyn.datafiles.drive_table import one_drive
+from support_exudyn.files import read_drives
+from support_exudyn.files.scenarios.drive_table import one_drive
 from tests import strategies as some
 from user_forces import InputError
 
@@ -94,13 +94,13 @@ def test_tables_as_windows_and_spreadsheets_write_them(tmp_path: Path) -> None:
 
 
 def test_files_too_large_are_not_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("support_exudyn.datafiles.drive_table.LARGEST_FILE", len(GOOD) - 1)
+    monkeypatch.setattr("support_exudyn.files.scenarios.drive_table.LARGEST_FILE", len(GOOD) - 1)
     with pytest.raises(InputError, match=r"a\.csv: has more than \d+ bytes"):
         drives(tmp_path, GOOD)
 
 
 def test_no_more_points_than_a_drive_can_have(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("support_exudyn.datafiles.drive_table.MOST_POINTS", 2)
+    monkeypatch.setattr("support_exudyn.files.scenarios.drive_table.MOST_POINTS", 2)
     with pytest.raises(InputError, match=r"a\.csv: has 3 points; allowed: up to 2"):
         drives(tmp_path, GOOD)
 

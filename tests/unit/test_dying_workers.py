@@ -15,8 +15,8 @@ from pathlib import Path
 
 import pytest
 
-from support_exudyn import workers
-from support_exudyn.workers import ProcessEndedError, Workers, worker_pool
+from support_exudyn.sweeps import workers
+from support_exudyn.sweeps.workers import ProcessEndedError, Workers, worker_pool
 from tests.hostile import posix_only
 from tests.processes import ROOT, environment, linux_only, session_of, wait_until
 
@@ -140,7 +140,7 @@ def test_one_that_is_killed_between_sweeps_is_replaced(pool: Workers, tmp_path: 
 
 
 UNGUARDED = """
-from support_exudyn.workers import worker_pool
+from support_exudyn.sweeps.workers import worker_pool
 from tests.unit.test_dying_workers import meet, silent
 with worker_pool(1) as pool:
     pool.run([(None,)], meet, silent)
@@ -155,7 +155,8 @@ def test_a_script_that_starts_itself_again_is_told_what_is_missing(tmp_path: Pat
     )
     assert done.returncode == 1
     last = done.stderr.strip().splitlines()[-1]
-    assert last.startswith("support_exudyn.workers.NoProcessError: processes end before they begin their work")
+    name = "support_exudyn.sweeps.workers.NoProcessError"
+    assert last.startswith(f"{name}: processes end before they begin their work")
     assert "if __name__ == '__main__'" in last
 
 
@@ -195,7 +196,7 @@ def test_a_bug_ends_a_stream_and_the_pool_lives_on(pool: Workers, tmp_path: Path
 INTERRUPTED = """
 import sys, time
 from pathlib import Path
-from support_exudyn.workers import worker_pool
+from support_exudyn.sweeps.workers import worker_pool
 from tests.unit.test_dying_workers import end, silent
 if __name__ == "__main__":
     try:

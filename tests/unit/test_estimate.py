@@ -23,7 +23,7 @@ from support_exudyn import (
     ravn_slider_crank,
     simulate,
 )
-from support_exudyn.estimate import (
+from support_exudyn.simulation.estimate import (
     ALIKE,
     CHOSEN,
     FASTEST,
@@ -34,8 +34,8 @@ from support_exudyn.estimate import (
     SLOWEST_OWN,
     disagreement,
 )
-from support_exudyn.estimate import SAFETY as SAFETY_OF
-from support_exudyn.measures import ONSETS, ROUNDING, measures
+from support_exudyn.simulation.estimate import SAFETY as SAFETY_OF
+from support_exudyn.simulation.reported_numbers import ONSETS, ROUNDING, measures
 from tests.reduced import simulate_reduced
 from tests.reference.cases import FORCE, PIN, loose_support
 from user_forces import Exact, InputError, JournalBearing, JournalContact

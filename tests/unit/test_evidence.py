@@ -9,7 +9,7 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from studies.judging.evidence import (
+from studies.claims.evidence import (
     Evidence,
     Measured,
     Verdict,

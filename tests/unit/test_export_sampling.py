@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from support_exudyn.exporting.sampling import Sampling
+from support_exudyn.postprocessing.export.sampling import Sampling
 from user_forces import InputError
 
 TIME = np.arange(101) * 0.01  # 100 records a second

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from support_exudyn.extremes import TOWARDS, largest, missed
+from support_exudyn.mechanics.extremes import TOWARDS, largest, missed
 
 
 def test_a_pull_counts_like_a_push() -> None:

@@ -10,13 +10,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from support_exudyn import AppliedForce, FallingBlock, Load, LoadedPoint, Scenario, reference_support
-from support_exudyn.drawing.blocks import blocks
-from support_exudyn.drawing.plain import look
-from support_exudyn.drawing.solid import Role
-from support_exudyn.load_item import _pull
+from support_exudyn.formulations.redundant.scene.load_item import _pull
+from support_exudyn.postprocessing.look.blocks import blocks
+from support_exudyn.postprocessing.look.plain import look
+from support_exudyn.postprocessing.look.solid import Role
 from tests.roof_cases import TOP, Ram
 from user_forces import InputError, delivered_restitution
-from user_forces.values import Value
+from user_forces.values.value import Value
 
 ROCK = FallingBlock(body="ram", point=TOP, mass=400.0, height=0.2, stiffness=2e8, restitution=0.4)
 FORCE = AppliedForce(body="ram", point=TOP, full_force=(2e3, -5e4), start=0.1, end=0.3)

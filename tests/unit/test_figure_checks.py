@@ -5,7 +5,7 @@ from __future__ import annotations
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from support_exudyn.figures import style
+from support_exudyn.postprocessing.figures import style
 from tests import figure_checks
 
 

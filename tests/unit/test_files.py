@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from support_exudyn.files import whole_file
-from support_exudyn.workshop import OWNER, PREFIX, remove_leftovers
+from support_exudyn.files.temporary import OWNER, PREFIX, remove_leftovers
+from support_exudyn.files.whole_file import whole_file
 from tests.hostile import left_behind, posix_only, with_own_files
 
 

@@ -8,8 +8,8 @@ from types import ModuleType
 import pytest
 
 from support_exudyn import Held, OilColumn, Scenario, SolverSettings, bore_area, simulate
-from support_exudyn.formulations import MODULES, covers, formulation
-from support_exudyn.solver_settings import ERROR_CONTROLLED
+from support_exudyn.formulations.registry import MODULES, covers, formulation
+from support_exudyn.scenario.solver_settings import ERROR_CONTROLLED
 from tests.reference.cases import PIN, loose_slider_crank, loose_support, slider_crank, support
 from user_forces import InputError, LuGre
 

@@ -14,16 +14,16 @@ from PIL import Image
 from PIL.ImageColor import getrgb
 
 from support_exudyn import Result
-from support_exudyn.figures.style import CONTACT, FLIGHT
-from support_exudyn.render import inset as insets
-from support_exudyn.render import movie, strip
-from support_exudyn.render.camera import fitted
-from support_exudyn.render.ink import INK, Sheet
-from support_exudyn.render.inset import Inset
-from support_exudyn.render.moments import moments, nearest
-from support_exudyn.render.pin_view import PinView, pin_view
-from support_exudyn.render.scales import round_down, round_up, said, usual
-from support_exudyn.render.strip import Strip
+from support_exudyn.postprocessing.figures.style import CONTACT, FLIGHT
+from support_exudyn.postprocessing.render import inset as insets
+from support_exudyn.postprocessing.render import movie, strip
+from support_exudyn.postprocessing.render.camera import fitted
+from support_exudyn.postprocessing.render.ink import INK, Sheet
+from support_exudyn.postprocessing.render.inset import Inset
+from support_exudyn.postprocessing.render.moments import moments, nearest
+from support_exudyn.postprocessing.render.pin_view import PinView, pin_view
+from support_exudyn.postprocessing.render.scales import round_down, round_up, said, usual
+from support_exudyn.postprocessing.render.strip import Strip
 from tests import synthetic
 from tests.reference.cases import PIN, loose_support
 

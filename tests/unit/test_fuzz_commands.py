@@ -15,9 +15,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import studies.__main__ as all_studies
-from studies import report, scene_detail
+from studies import report
 from studies.catalogue import STUDIES
-from studies.study import ALL_OPTIONS, Options, options, run_main
+from studies.common.study import ALL_OPTIONS, Options, options, run_main
+from studies.scene_detail import run as scene_detail
 from tests import strategies as some
 from user_forces import InputError
 
@@ -119,6 +120,9 @@ class NoPool:
         pass
 
 
+PLACES = (*(f"{name}.run" for name in STUDIES), "benchmarking.benchmark", "report")
+
+
 @pytest.fixture
 def nothing_runs(monkeypatch: pytest.MonkeyPatch) -> list[Options]:
     """Studies that only note with what they would run."""
@@ -128,7 +132,7 @@ def nothing_runs(monkeypatch: pytest.MonkeyPatch) -> list[Options]:
         noted.append(chosen)
         return 0
 
-    for name in (*STUDIES, "benchmark"):
+    for name in PLACES[:-1]:
         module = importlib.import_module(f"studies.{name}")
         monkeypatch.setattr(module, "run_main", note)
     monkeypatch.setattr(all_studies, "run_main", note)
@@ -142,7 +146,7 @@ def nothing_runs(monkeypatch: pytest.MonkeyPatch) -> list[Options]:
 
 
 def test_every_study_takes_its_command_line_or_refuses_it(nothing_runs: list[Options]) -> None:
-    mains = [importlib.import_module(f"studies.{name}").main for name in (*STUDIES, "benchmark", "report")]
+    mains = [importlib.import_module(f"studies.{name}").main for name in PLACES]
 
     @given(argv=command_lines, main=st.sampled_from((all_studies.main, *mains)))
     @some.tried("all studies")

@@ -13,23 +13,17 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from support_exudyn import (
-    Recommendation,
-    Result,
-    load_support,
-    recommend,
-    simulate,
-    two_body_columns,
-)
-from support_exudyn.evidence.table import Table
-from support_exudyn.recommend import QUESTIONS
+from support_exudyn import Recommendation, Result, load_support, two_body_columns
+from support_exudyn.simulation import recommend, simulate
+from support_exudyn.simulation.evidence.table import Table
+from support_exudyn.simulation.recommend import QUESTIONS
 from tests import strategies as some
 from tests.sound import sensible, sound, taken_or_refused
 from user_forces import InputError
 
 # --- machine data files ---
 
-MACHINE = (resources.files("support_exudyn.machines") / "reference.toml").read_text(encoding="utf-8")
+MACHINE = (resources.files("support_exudyn.files.machines") / "reference.toml").read_text(encoding="utf-8")
 
 
 @pytest.fixture(scope="module")
@@ -90,7 +84,8 @@ def test_a_machine_file_that_no_number_fits_is_refused(tmp_path: Path, text: str
 @cache
 def evidence() -> Any:
     """The table of the program, of which a few scenes are enough."""
-    data = json.loads((resources.files("support_exudyn.evidence") / "scene_detail.json").read_text("utf-8"))
+    shipped = resources.files("support_exudyn.simulation.evidence")
+    data = json.loads((shipped / "scene_detail.json").read_text("utf-8"))
     kept = [scene for scene in data["scenes"] if scene["name"] in data["fullest"].values()]
     return {**data, "scenes": [*kept, *[scene for scene in data["scenes"] if scene not in kept][:4]]}
 

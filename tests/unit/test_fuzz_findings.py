@@ -14,11 +14,11 @@ import numpy as np
 import pytest
 
 from support_exudyn import ImpactStand, Linkage, Scenario, SolverSettings, load_support, reference_support
-from support_exudyn.columns import ColumnModel
-from support_exudyn.evidence.table import Table
-from support_exudyn.machine import Body, Part, bar
-from support_exudyn.parts import PartModel
-from support_exudyn.spatial.layout import Bearing
+from support_exudyn.model.columns import ColumnModel
+from support_exudyn.model.linkage import Body, Part, bar
+from support_exudyn.model.parts import PartModel
+from support_exudyn.model.spatial_linkage import Bearing
+from support_exudyn.simulation.evidence.table import Table
 from tests import strategies as some
 from tests.sound import sound
 from tests.unit.cases import PIVOTS_MM

@@ -9,7 +9,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from support_exudyn import Scenario
-from support_exudyn.datafiles import parsed, read_scenario, scenario_of, scenario_text, table_of
+from support_exudyn.files import parsed, read_scenario, scenario_of, scenario_text, table_of
 from tests import strategies as some
 from user_forces import InputError
 

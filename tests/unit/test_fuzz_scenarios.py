@@ -25,7 +25,7 @@ from support_exudyn import (
     ravn_slider_crank,
     simulate,
 )
-from support_exudyn.recipes import chosen
+from support_exudyn.mechanics.channels import chosen
 from tests import strategies as some
 from tests.sound import sensible, sound, taken_or_refused
 from user_forces import (

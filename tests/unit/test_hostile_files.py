@@ -11,9 +11,9 @@ from pathlib import Path
 
 import pytest
 
-from support_exudyn import files
-from support_exudyn.files import LOCK, contents, whole_file, writing_alone
-from support_exudyn.workshop import remove_leftovers
+from support_exudyn.files import whole_file as writing
+from support_exudyn.files.temporary import remove_leftovers
+from support_exudyn.files.whole_file import LOCK, contents, whole_file, writing_alone
 from tests.hostile import DISKS, little_room, posix_only
 from tests.processes import ROOT, environment, wait_until
 from user_forces import InputError
@@ -142,7 +142,7 @@ def test_a_file_is_on_the_disk_before_it_takes_its_place(
 ) -> None:
     seen: list[str] = []
     sync, replace = os.fsync, Path.replace
-    monkeypatch.setattr(files.os, "fsync", lambda handle: (seen.append("on the disk"), sync(handle)))
+    monkeypatch.setattr(writing.os, "fsync", lambda handle: (seen.append("on the disk"), sync(handle)))
     monkeypatch.setattr(Path, "replace", lambda *paths: (seen.append("in its place"), replace(*paths)))
     with whole_file(tmp_path / "run.json") as temporary:
         temporary.write_text("new", encoding="utf-8")
@@ -154,7 +154,7 @@ def test_a_file_is_on_the_disk_before_it_takes_its_place(
 HOLD = """
 import sys, time
 from pathlib import Path
-from support_exudyn.files import whole_file, writing_alone
+from support_exudyn.files.whole_file import whole_file, writing_alone
 folder = Path(sys.argv[1])
 with writing_alone(folder), whole_file(folder / "row.json") as temporary:
     print(temporary.parent.name, flush=True)
@@ -236,7 +236,7 @@ def test_what_has_no_end_is_not_read(tmp_path: Path) -> None:
 TAKE = """
 import os, sys, time
 from pathlib import Path
-from support_exudyn.files import writing_alone
+from support_exudyn.files.whole_file import writing_alone
 folder, mark = Path(sys.argv[1]), Path(sys.argv[1]) / "mark"
 taken, end = 0, time.monotonic() + 0.4
 print("ready", flush=True)
@@ -271,7 +271,7 @@ def test_no_two_processes_that_hurry_are_ever_in_a_folder_together(tmp_path: Pat
 def test_a_lock_that_is_removed_while_it_is_taken_is_taken_anew(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    flock, asked = files.fcntl.flock, []
+    flock, asked = writing.fcntl.flock, []
 
     def after_its_owner_left(handle: int, how: int) -> None:
         if not asked:
@@ -279,7 +279,7 @@ def test_a_lock_that_is_removed_while_it_is_taken_is_taken_anew(
         asked.append(how)
         flock(handle, how)
 
-    monkeypatch.setattr(files.fcntl, "flock", after_its_owner_left)
+    monkeypatch.setattr(writing.fcntl, "flock", after_its_owner_left)
     with writing_alone(tmp_path):
         assert names(tmp_path) == [LOCK]
     assert len(asked) == 2

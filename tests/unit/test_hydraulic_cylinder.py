@@ -23,13 +23,13 @@ from support_exudyn import (
     SuddenOpening,
     reference_support,
 )
-from support_exudyn.body_motion import BodyMotion
-from support_exudyn.filled_cylinder import FilledCylinder, fill_cylinders
-from support_exudyn.formulations import formulation
-from support_exudyn.machine import GROUND, Body, Column, Linkage
-from support_exudyn.recipes import Part
-from support_exudyn.timescales import timescales
-from support_exudyn.trajectory import CylinderSeries
+from support_exudyn.formulations.registry import formulation
+from support_exudyn.mechanics.body_motion import BodyMotion
+from support_exudyn.mechanics.channels import Part
+from support_exudyn.mechanics.cylinder_chambers import FilledCylinder, fill_cylinders
+from support_exudyn.mechanics.trajectory import CylinderSeries
+from support_exudyn.model.linkage import GROUND, Body, Column, Linkage
+from support_exudyn.scenario.timescales import timescales
 from tests.unit.cases import support
 from user_forces import InputError
 

@@ -10,8 +10,8 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from support_exudyn import CubicStep, HydraulicSupport, Part, reference_support
-from support_exudyn.linkages.hydraulic_support import Posture
-from support_exudyn.machine import lumped
+from support_exudyn.machines.four_column_support import Posture
+from support_exudyn.model.linkage import lumped
 from tests.unit.cases import PARTS, PIVOTS, PIVOTS_MM, support
 from user_forces import InputError
 

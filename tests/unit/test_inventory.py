@@ -28,10 +28,10 @@ from support_exudyn import (
     reference_support,
     two_body_columns,
 )
-from support_exudyn.inventory import Inventory, inventory
-from support_exudyn.machine import GROUND
-from support_exudyn.scene_builder import build
-from support_exudyn.spatial.scene_builder import build as build_in_space
+from support_exudyn.formulations.redundant.inventory import Inventory, inventory
+from support_exudyn.formulations.redundant.scene.scene_builder import build
+from support_exudyn.formulations.redundant.space.scene_builder import build as build_in_space
+from support_exudyn.model.linkage import GROUND
 from tests.roof_cases import Branching, Ram, over_the_canopy, over_the_ram
 from tests.unit.cases import contact, support
 from user_forces import Ambrosio, Frictionless

@@ -10,9 +10,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from support_exudyn import Body, Column, Linkage, PinPlace, Slide
-from support_exudyn.body_motion import BodyMotion
-from support_exudyn.joint_forces import PinForce, open_joint_forces
-from support_exudyn.machine import GROUND, Crank, pinned
+from support_exudyn.mechanics.body_motion import BodyMotion
+from support_exudyn.mechanics.joint_forces import PinForce, open_joint_forces
+from support_exudyn.model.linkage import GROUND, Crank, pinned
 
 Triple = tuple[float, float, float]
 angles, rates, masses = st.floats(-3.0, 3.0), st.floats(-5.0, 5.0), st.floats(0.1, 10.0)

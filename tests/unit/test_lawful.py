@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from studies import law_catalogue
+from studies.contact_laws import catalogue
 from user_forces import (
     Ambrosio,
     Frictionless,
@@ -22,15 +22,15 @@ from user_forces import (
     Touch,
     value,
 )
+from user_forces.compilation.flat import flat_force
 from user_forces.contact import SlipHistory
-from user_forces.flat import flat_force
+from user_forces.expressions.scalar import maximum, minimum, where
 from user_forces.friction.law import FrictionLaw
 from user_forces.lawful import AT_REST, LawError, look, look_at_rest
-from user_forces.scalar import maximum, minimum, where
 
 BEARING = JournalBearing(bore_radius=0.0655, clearance=0.0015)
-NORMAL = {f"{name} {e}": law for e in (0.2, 0.9) for name, law in law_catalogue.normal_laws(1.5, e).items()}
-FRICTION = law_catalogue.friction_laws(0.25)
+NORMAL = {f"{name} {e}": law for e in (0.2, 0.9) for name, law in catalogue.normal_laws(1.5, e).items()}
+FRICTION = catalogue.friction_laws(0.25)
 
 depths = st.floats(-12.0, -3.5).map(lambda x: 10.0**x)
 speeds = st.floats(-9.0, 0.7).map(lambda x: 10.0**x) | st.just(0.0)

@@ -22,7 +22,7 @@ from support_exudyn import (
     reference_support,
     simulate,
 )
-from support_exudyn.timescales import timescales
+from support_exudyn.scenario.timescales import timescales
 from tests.reference.cases import loose_support
 from tests.roof_cases import (
     GAP,

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from support_exudyn import Body, Column, Crank, Linkage, Machine, Part, PinPlace, Slide, TracePoint
-from support_exudyn.machine import bar, lumped, pinned
+from support_exudyn.model.linkage import bar, lumped, pinned
 from user_forces import InputError, Value, value
 
 coordinates = st.floats(-10.0, 10.0)

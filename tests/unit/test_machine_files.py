@@ -13,10 +13,10 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from support_exudyn import HydraulicSupport, SliderCrank, load_support, ravn_slider_crank, reference_support
-from support_exudyn.linkages.two_leg_shield import TwoLegShield
-from support_exudyn.machine import lumped
-from support_exudyn.machine_data import read_machine
-from support_exudyn.machines import SHIPPED, load_machine, machine_schema, shipped
+from support_exudyn.files.machines import SHIPPED, load_machine, machine_schema, shipped
+from support_exudyn.machines.machine_data import read_machine
+from support_exudyn.machines.two_leg_shield import TwoLegShield
+from support_exudyn.model.linkage import lumped
 from tests.machine_files import OURS, written
 from user_forces import InputError
 
@@ -34,7 +34,7 @@ def refusal(folder: Path, old: str, new: str, text: str = OURS) -> str:
 
 
 def text_of(name: str) -> str:
-    return (resources.files("support_exudyn.machines") / f"{name}.toml").read_text(encoding="utf-8")
+    return (resources.files("support_exudyn.files.machines") / f"{name}.toml").read_text(encoding="utf-8")
 
 
 # --- those that come with the package ---

@@ -9,19 +9,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.polynomial import Polynomial
 
-from support_exudyn.onset import (
+from support_exudyn.formulations.contact_events import (
     BEYOND,
-    HEAVIEST,
     SHARE,
     Action,
-    Mobility,
-    Onset,
-    PinMemory,
     Verdict,
     goes_on,
     judge,
     judge_at_ends,
 )
+from support_exudyn.mechanics.contact_state import HEAVIEST, Mobility, Onset, PinMemory
 from tests.analytic import fall_through
 from user_forces import Touch
 

@@ -9,9 +9,9 @@ import pytest
 from matplotlib.axes import Axes
 
 from support_exudyn import Onset
-from support_exudyn.figures import style
-from support_exudyn.figures.journal import journal, loose_pins
-from support_exudyn.figures.orbit import orbit
+from support_exudyn.postprocessing.figures import style
+from support_exudyn.postprocessing.figures.journal import journal, loose_pins
+from support_exudyn.postprocessing.figures.orbit import orbit
 from tests import figure_checks, synthetic
 from tests.reference.cases import loose_support, support
 from user_forces import InputError

@@ -6,8 +6,10 @@ import re
 
 import pytest
 
-from studies import clearance_influence, clearance_size_figures, drive_mode_figures
-from studies.reporting.chapter import Picture
+from studies.clearance_influence import run as clearance_influence
+from studies.clearance_size import figures as clearance_size_figures
+from studies.common.chapter import Picture
+from studies.drive_mode import figures as drive_mode_figures
 
 PICTURES = (
     *clearance_influence._pictures(),

@@ -7,8 +7,8 @@ from itertools import pairwise
 import pytest
 
 from support_exudyn import CubicStep, Drive, Reciprocating, Scenario, reference_support
-from support_exudyn.linkages import path_check
-from support_exudyn.linkages.path_check import times
+from support_exudyn.machines import drive_path
+from support_exudyn.machines.drive_path import times
 from user_forces import InputError
 
 SUPPORT = reference_support()
@@ -44,7 +44,7 @@ def test_columns_one_after_the_other_are_told_when() -> None:
 def test_what_was_followed_once_is_not_looked_at_again(monkeypatch: pytest.MonkeyPatch) -> None:
     looked = []
     monkeypatch.setattr(
-        "support_exudyn.linkages.four_bar_shield.check_path", lambda *given: looked.append(given)
+        "support_exudyn.machines.four_bar_shield.check_path", lambda *given: looked.append(given)
     )
     for _ in range(3):
         driven(CubicStep(stroke=0.111), CubicStep(stroke=0.112))
@@ -58,7 +58,7 @@ def test_times_hold_breaks_and_the_end_and_swings() -> None:
     assert found == sorted(found)
     swinging = list(times((Reciprocating(stroke=0.1, period=0.5),), 4.0))
     assert max(b - a for a, b in pairwise(swinging)) < 0.5 / 16.0
-    assert len(list(times((Reciprocating(stroke=0.1, period=1e-3),), 1e6))) == path_check.MOST_SAMPLES
+    assert len(list(times((Reciprocating(stroke=0.1, period=1e-3),), 1e6))) == drive_path.MOST_SAMPLES
 
 
 def test_what_was_followed_for_a_while_is_looked_at_for_longer() -> None:

@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from support_exudyn import ClearancePin, Scenario
-from support_exudyn.drawing.placed_pins import PlacedPin, placed_pins
+from support_exudyn.postprocessing.look.placed_pins import PlacedPin, placed_pins
 from tests.reference.cases import PIN, loose_support, paper_contact
 from tests.unit.test_shield_look import HEAVY
 

@@ -13,18 +13,18 @@ import numpy as np
 import pytest
 
 from support_exudyn import ClearancePin, CubicStep, Scenario, SimulationError, UniformSpeed
-from support_exudyn import compiled as compiling
-from support_exudyn.compiled import compiled, on_arrays, plain
-from support_exudyn.reduced import layout, support_model
-from support_exudyn.reduced.drive import Drive, driven
-from support_exudyn.reduced.equations import law_at
-from support_exudyn.reduced.parameters import parameters
-from support_exudyn.reduced.support_posture import meeting_point
+from support_exudyn.formulations import compiled as compiling
+from support_exudyn.formulations.compiled import compiled, on_arrays, plain
+from support_exudyn.formulations.reduced import layout, support_model
+from support_exudyn.formulations.reduced.drive import Drive, driven
+from support_exudyn.formulations.reduced.equations import law_at
+from support_exudyn.formulations.reduced.parameters import parameters
+from support_exudyn.formulations.reduced.support_posture import meeting_point
 from tests.processes import environment
 from tests.reduced import simulate_reduced
 from tests.unit.cases import contact, support
 from user_forces import FrictionLaw, InputError, value
-from user_forces.scalar import exp, magnitude, where
+from user_forces.expressions.scalar import exp, magnitude, where
 
 PIN = support_model.PIN
 
@@ -146,7 +146,7 @@ SCRIPT = """
 import json, sys
 sys.modules["numba"] = None  # as if it were not installed: importing it fails
 from support_exudyn import compiled
-from support_exudyn.warm import warm_up
+from support_exudyn.sweeps.precompile import warm_up
 from support_exudyn import CubicStep
 from tests.reduced import simulate_reduced
 from tests.unit.test_plain import scene

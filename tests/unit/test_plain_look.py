@@ -8,12 +8,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from studies.slider_crank import scenarios
+from studies.slider_crank.run import scenarios
 from support_exudyn import ClearancePin, Scenario
-from support_exudyn.drawing.placed_pins import planar_pins
-from support_exudyn.drawing.solid import Role
-from support_exudyn.linkages.impact_stand import ImpactStand
-from support_exudyn.machine import GROUND
+from support_exudyn.machines.free_impact import ImpactStand
+from support_exudyn.model.linkage import GROUND
+from support_exudyn.postprocessing.look.placed_pins import planar_pins
+from support_exudyn.postprocessing.look.solid import Role
 from user_forces import Frictionless, JournalBearing, JournalContact, LankaraniNikravesh
 
 BEARING = JournalBearing(bore_radius=0.3, clearance=0.03)

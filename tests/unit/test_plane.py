@@ -6,7 +6,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from support_exudyn.plane import (
+from support_exudyn.model.plane_geometry import (
     circle_intersection,
     direction,
     distance,

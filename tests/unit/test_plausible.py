@@ -11,9 +11,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from studies import paper_machine
-from studies.judging import plausible
-from studies.judging.plausible import (
+from studies.claims import plausible
+from studies.claims.plausible import (
     BODIES,
     FACTORS,
     MEMBERS,
@@ -24,9 +23,10 @@ from studies.judging.plausible import (
     pin,
     samples,
 )
-from studies.law_catalogue import POWER_LAWS
+from studies.common import paper_machine
+from studies.contact_laws.catalogue import POWER_LAWS
 from support_exudyn import HydraulicSupport, reference_support
-from support_exudyn.machine import lumped
+from support_exudyn.model.linkage import lumped
 from user_forces import STEEL, STEEL_35CRMO, DepthSpeed, InputError, TouchSpeed, internal_contact_stiffness
 
 BY_NAME = {factor.name: factor for factor in FACTORS}

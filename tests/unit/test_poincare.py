@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from support_exudyn import CubicStep, Held, Onset, Reciprocating, Result
-from support_exudyn.figures import style
-from support_exudyn.figures.poincare import period, periodic_times, poincare, stroboscopic
+from support_exudyn.postprocessing.figures import style
+from support_exudyn.postprocessing.figures.poincare import period, periodic_times, poincare, stroboscopic
 from tests import figure_checks, synthetic
 from tests.reference.cases import CRANK_SPEED, loose_slider_crank, loose_support
 from user_forces import InputError

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from support_exudyn.drawing.poses import turned
+from support_exudyn.postprocessing.look.poses import turned
 
 small = st.floats(-0.5, 0.5)
 

@@ -7,8 +7,8 @@ from importlib.metadata import PackageNotFoundError
 
 import pytest
 
-from studies.judging import hypercube
-from support_exudyn import provenance
+from studies.claims import hypercube
+from support_exudyn.simulation import provenance
 
 
 @pytest.fixture

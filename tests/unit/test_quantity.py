@@ -11,8 +11,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from support_exudyn import CubicStep, Part
-from user_forces import InputError, JournalBearing, LankaraniNikravesh, quantity
-from user_forces.quantity import Unit
+from user_forces import InputError, JournalBearing, LankaraniNikravesh
+from user_forces.values import units as quantity
+from user_forces.values.units import Unit
 
 UREG: pint.UnitRegistry = pint.UnitRegistry()
 UNITS: dict[str, Unit] = {

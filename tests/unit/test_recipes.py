@@ -11,9 +11,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from support_exudyn import ClearancePin, OilColumn, Scenario, SolverSettings, bore_area, ravn_slider_crank
-from support_exudyn.channels import channels, needs
-from support_exudyn.recipes import EVERYTHING, Part, Recipe, chosen
-from support_exudyn.trajectory import Trajectory
+from support_exudyn.mechanics.channels import EVERYTHING, Part, Recipe, chosen
+from support_exudyn.mechanics.trajectory import Trajectory
+from support_exudyn.scenario.recorded_channels import channels, needs
 from tests.unit.cases import contact, support
 from user_forces import InputError, Value
 

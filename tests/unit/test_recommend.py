@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from support_exudyn import Estimate, Recommendation, Scenario, recommend, reference_support
-from support_exudyn.evidence.table import Table, Tried, committed, fields_of
-from support_exudyn.recommend import QUESTIONS, STROKE, answers_alike
+from support_exudyn.simulation.evidence.table import Table, Tried, committed, fields_of
+from support_exudyn.simulation.recommend import QUESTIONS, STROKE, answers_alike
 from user_forces import InputError
 
 PLAIN = Scenario(machine=reference_support(), duration=0.1)

@@ -28,15 +28,15 @@ from support_exudyn import (
     UniformSpeed,
     ravn_slider_crank,
 )
-from support_exudyn.compiled import plain
-from support_exudyn.reduced import layout, support_model
-from support_exudyn.reduced.contact import contact_force
-from support_exudyn.reduced.drive import driven
-from support_exudyn.reduced.free_motion import PinState
-from support_exudyn.reduced.parameters import parameters, segments
-from support_exudyn.reduced.records import peak
-from support_exudyn.steps import record_times
-from support_exudyn.warm import warm_up
+from support_exudyn.formulations.compiled import plain
+from support_exudyn.formulations.reduced import layout, support_model
+from support_exudyn.formulations.reduced.contact import contact_force
+from support_exudyn.formulations.reduced.drive import driven
+from support_exudyn.formulations.reduced.free_motion import PinState
+from support_exudyn.formulations.reduced.parameters import parameters, segments
+from support_exudyn.formulations.reduced.records import peak
+from support_exudyn.formulations.time_grid import record_times
+from support_exudyn.sweeps.precompile import warm_up
 from tests.reduced import simulate_reduced
 from tests.unit.cases import contact, support
 from tests.unit.law_cases import LUGRE, cylinder_law
@@ -232,7 +232,7 @@ def test_a_run_with_too_many_steps_is_given_up(backend: str) -> None:
 @BACKENDS
 def test_a_run_with_too_many_touches_is_given_up(monkeypatch: pytest.MonkeyPatch, backend: str) -> None:
     for name in ("run", "outline"):
-        module = importlib.import_module(f"support_exudyn.reduced.{name}")
+        module = importlib.import_module(f"support_exudyn.formulations.reduced.{name}")
         monkeypatch.setattr(module, "MOST_TOUCHES", 1)
     with pytest.raises(SimulationError, match="more than 1 touches"):
         simulate_reduced(scene(hertz(1e10), duration=0.3), backend=backend)

@@ -9,9 +9,16 @@ import numpy as np
 import pytest
 
 from support_exudyn import ClearancePin, Held, Scenario, SolverSettings, simulate
-from support_exudyn.choose import settings_for
-from support_exudyn.ringing import FASTEST, GONE, KEPT, numerical_damping, ringing_step, vibrations
-from support_exudyn.timescales import loaded_contacts
+from support_exudyn.scenario.timescales import loaded_contacts
+from support_exudyn.simulation.automatic_settings import settings_for
+from support_exudyn.simulation.contact_ringing import (
+    FASTEST,
+    GONE,
+    KEPT,
+    numerical_damping,
+    ringing_step,
+    vibrations,
+)
 from tests.reference.cases import paper_contact, support
 from user_forces import Frictionless, KelvinVoigt, LankaraniNikravesh, NormalLaw, TouchSpeed
 

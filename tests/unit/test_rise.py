@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from studies import rise
+from studies.common import rise
 
 Series = npt.NDArray[np.float64]
 BEGIN, END = rise.START + rise.EDGE, rise.END - rise.EDGE

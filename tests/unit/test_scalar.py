@@ -11,8 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.analytic import adams_step
-from user_forces import scalar
-from user_forces.scalar import Expression
+from user_forces.expressions import scalar
+from user_forces.expressions.scalar import Expression
 
 numbers = st.floats(-1e6, 1e6)
 positives = st.floats(1e-12, 1e6)

@@ -27,9 +27,9 @@ from support_exudyn import (
     reference_support,
     two_body_columns,
 )
-from support_exudyn.machine import Body, Part
-from support_exudyn.reduced import coverage as reduced_coverage
-from support_exudyn.tree import coverage as tree_coverage
+from support_exudyn.formulations.reduced import coverage as reduced_coverage
+from support_exudyn.formulations.tree import coverage as tree_coverage
+from support_exudyn.model.linkage import Body, Part
 from tests.unit.cases import contact, support
 from user_forces import InputError, JournalBearing, Value, value
 

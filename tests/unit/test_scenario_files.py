@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from studies.paper_machine import bearing, ideal_rise, loose_pin, loose_rise
+from studies.common.paper_machine import bearing, ideal_rise, loose_pin, loose_rise
 from support_exudyn import (
     CubicStep,
     IdealPin,
@@ -21,7 +21,7 @@ from support_exudyn import (
     reference_support,
     two_body_columns,
 )
-from support_exudyn.datafiles import (
+from support_exudyn.files import (
     load_toml,
     parsed,
     read_drives,
@@ -32,7 +32,7 @@ from support_exudyn.datafiles import (
     scenario_of,
     scenario_text,
 )
-from support_exudyn.machine_data import read_machine
+from support_exudyn.machines.machine_data import read_machine
 from tests import strategies as some
 from tests.machine_files import OURS
 from user_forces import (
@@ -48,7 +48,7 @@ from user_forces import (
 TOP = 'machine = "reference"\nduration_s = 5\n'
 LOOSE = "[pins.rear_base]\nclearance_mm = 1.5\nbore_radius_mm = 65.5\n"
 some.kinds()  # imports all modules: not while something is drawn
-EXAMPLES = resources.files("support_exudyn.examples")
+EXAMPLES = resources.files("support_exudyn.files.examples")
 
 
 def scenario(text: str, folder: Path = Path()) -> Scenario:
@@ -175,7 +175,7 @@ def test_columns_of_two_bodies_take_their_masses_from_the_machine() -> None:
 
 
 def test_a_machine_of_its_own_file(tmp_path: Path) -> None:
-    text = (resources.files("support_exudyn.machines") / "reference.toml").read_text("utf-8")
+    text = (resources.files("support_exudyn.files.machines") / "reference.toml").read_text("utf-8")
     (tmp_path / "mine.toml").write_text(text, encoding="utf-8")
     assert scenario('machine = "mine.toml"\nduration_s = 1', tmp_path).machine == reference_support()
 
@@ -192,7 +192,7 @@ def test_what_people_say_of_it() -> None:
 
 
 def test_programs_may_put_numbers_of_their_own() -> None:
-    table = load_toml(resources.files("support_exudyn.examples") / "rise.toml")  # type: ignore[arg-type]
+    table = load_toml(resources.files("support_exudyn.files.examples") / "rise.toml")  # type: ignore[arg-type]
     table["pins"]["rear_base"]["clearance_mm"] = 0.1 + 0.2
     found = scenario_of(table, "a", Path()).clearance_pins["rear_base"]
     assert found.contact.bearing.clearance == float("0.30000000000000004e-3")
@@ -341,7 +341,7 @@ def test_mistakes_are_said_with_file_key_value_and_range(tmp_path: Path, text: s
 
 
 def test_a_bore_that_nobody_gives_is_asked_for(tmp_path: Path) -> None:
-    text = (resources.files("support_exudyn.machines") / "reference.toml").read_text("utf-8")
+    text = (resources.files("support_exudyn.files.machines") / "reference.toml").read_text("utf-8")
     text = text.partition("[bore_radius_mm]")[0]  # which is the last table
     (tmp_path / "mine.toml").write_text(text, encoding="utf-8")
     said = refusal('machine = "mine.toml"\nduration_s = 1\n[pins.front_base]\nclearance_mm = 1', tmp_path)

@@ -15,11 +15,12 @@ from jsonschema import Draft7Validator, Draft202012Validator
 
 from support_exudyn import Scenario
 from support_exudyn.__main__ import main
-from support_exudyn.datafiles import load_toml, parsed, scenario_of, scenario_schema, scenario_text
+from support_exudyn.files import load_toml, parsed, scenario_of, scenario_text
+from support_exudyn.files.scenarios import scenario_schema
 from tests import strategies as some
 from tests.unit.test_fuzz_scenario_files import FOLDER, SHORT
 from user_forces import InputError
-from user_forces.values import Value
+from user_forces.values.value import Value
 
 some.kinds()  # imports all modules: not while something is drawn
 VALIDATOR = Draft202012Validator(scenario_schema())
@@ -155,5 +156,5 @@ def test_the_command_writes_it(tmp_path: Path, capsys: pytest.CaptureFixture[str
 
 
 def test_examples_come_with_the_package() -> None:
-    names = {one.name for one in resources.files("support_exudyn.examples").iterdir()}
+    names = {one.name for one in resources.files("support_exudyn.files.examples").iterdir()}
     assert {"rise.toml", "columns_apart.toml", "columns_apart.csv"} <= names

@@ -13,13 +13,13 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from trimesh import Trimesh
 
-from studies.paper_machine import loose_rise
+from studies.common.paper_machine import loose_rise
 from support_exudyn import CubicStep, OwnBody, Scenario, TwoBodyColumn, reference_support
-from support_exudyn.drawing.cylinders import cylinder_and_rod, lengths
-from support_exudyn.drawing.shield_support import canopy_top
-from support_exudyn.drawing.solid import Look, Role
-from support_exudyn.linkages.hydraulic_support import PIVOTS, HydraulicSupport
-from support_exudyn.machine import GROUND
+from support_exudyn.machines.four_column_support import PIVOTS, HydraulicSupport
+from support_exudyn.model.linkage import GROUND
+from support_exudyn.postprocessing.look.cylinders import cylinder_and_rod, lengths
+from support_exudyn.postprocessing.look.shield_support import canopy_top
+from support_exudyn.postprocessing.look.solid import Look, Role
 from user_forces import InputError
 
 RISE = 0.5  # [m]

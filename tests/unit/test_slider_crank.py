@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from support_exudyn import ClearancePin, Crank, Scenario, Slide, SliderCrank, Steady, ravn_slider_crank
-from support_exudyn.machine import GROUND
+from support_exudyn.model.linkage import GROUND
 from tests.unit.cases import contact
 from user_forces import InputError, Value
 

@@ -28,13 +28,13 @@ from support_exudyn import (
     reference_support,
     two_body_columns,
 )
-from support_exudyn.drives import CubicStep, UniformSpeed
-from support_exudyn.machine import bar, check_moments, lumped, pinned, turned_moments
-from support_exudyn.spatial.constraints import frame_of
-from support_exudyn.spatial.kinetics import tensor
-from support_exudyn.spatial.layout import Bearing, SpatialBody, SpatialLinkage
-from support_exudyn.spatial.lift import lift
-from support_exudyn.width import Width
+from support_exudyn.mechanics.space.constraints import frame_of
+from support_exudyn.mechanics.space.kinetics import tensor
+from support_exudyn.model.drives.drive import CubicStep, UniformSpeed
+from support_exudyn.model.lateral_dimensions import Width
+from support_exudyn.model.linkage import bar, check_moments, lumped, pinned, turned_moments
+from support_exudyn.model.spatial_linkage import Bearing, SpatialBody, SpatialLinkage
+from support_exudyn.model.to_space import lift
 from tests.unit.cases import support as narrow_support
 from user_forces import InputError
 
@@ -261,7 +261,7 @@ def test_impossible_bodies_and_bearings_are_refused() -> None:
 def reference_file() -> str:
     from importlib import resources
 
-    return (resources.files("support_exudyn.machines") / "reference.toml").read_text(encoding="utf-8")
+    return (resources.files("support_exudyn.files.machines") / "reference.toml").read_text(encoding="utf-8")
 
 
 def test_the_reference_has_the_widths_of_its_file() -> None:

@@ -12,11 +12,13 @@ from scipy.integrate import quad
 from scipy.spatial.transform import Rotation
 
 from support_exudyn import ClearancePin, Scenario, reference_support
-from support_exudyn.attachment import Attachment, in_plane
-from support_exudyn.spatial.constraints import Row, all_rows, frame_of, independent, matrix
-from support_exudyn.spatial.kinetics import SpatialKinetics, tensor
-from support_exudyn.spatial.layout import Bearing, SpatialBody, SpatialColumn, SpatialLinkage
-from support_exudyn.spatial.motion import (
+from support_exudyn.formulations.redundant.clearance.attachment import Attachment, in_plane
+from support_exudyn.formulations.redundant.space.section_pin import SectionEnd, SectionMover
+from support_exudyn.formulations.redundant.space.section_pin import half_way as half_way_of_one
+from support_exudyn.formulations.redundant.space.sections import half_way, lobatto, section_motion, sections
+from support_exudyn.mechanics.space.constraints import End, Row, all_rows, frame_of, independent, matrix
+from support_exudyn.mechanics.space.kinetics import SpatialKinetics, tensor
+from support_exudyn.mechanics.space.motion import (
     UNTURNED,
     SpatialMotion,
     motion_of,
@@ -24,10 +26,8 @@ from support_exudyn.spatial.motion import (
     rotation,
     turning_matrix,
 )
-from support_exudyn.spatial.reactions import inertia_forces, reactions
-from support_exudyn.spatial.section_pin import SectionEnd, SectionMover
-from support_exudyn.spatial.section_pin import half_way as half_way_of_one
-from support_exudyn.spatial.sections import End, half_way, lobatto, section_motion, sections
+from support_exudyn.mechanics.space.reactions import inertia_forces, reactions
+from support_exudyn.model.spatial_linkage import Bearing, SpatialBody, SpatialColumn, SpatialLinkage
 from tests.unit.cases import contact
 from tests.unit.law_cases import NORMAL_LAWS
 from user_forces import LankaraniNikravesh, LoadError, NormalLaw, Touch

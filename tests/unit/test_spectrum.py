@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 from scipy import fft
 
 from support_exudyn import Onset, Result
-from support_exudyn.figures import style
-from support_exudyn.figures.spectrum import equally_spaced, force_spectrum, spectrum
+from support_exudyn.postprocessing.figures import style
+from support_exudyn.postprocessing.figures.spectrum import equally_spaced, force_spectrum, spectrum
 from tests import figure_checks, synthetic
 from tests.reference.cases import FORCE, support
 from user_forces import InputError

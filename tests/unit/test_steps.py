@@ -8,7 +8,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from support_exudyn.steps import SHARE_OF_STEP, StepPlan, shortest_step
+from support_exudyn.formulations.time_grid import SHARE_OF_STEP, StepPlan, shortest_step
 
 Times = list[float]
 

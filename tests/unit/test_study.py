@@ -12,7 +12,7 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from studies.study import (
+from studies.common.study import (
     Number,
     brief,
     compared,
@@ -26,8 +26,8 @@ from studies.study import (
     save_run,
 )
 from support_exudyn import Result, Scenario, Steady, ravn_slider_crank
-from support_exudyn.command_line import count
-from support_exudyn.workshop import PREFIX
+from support_exudyn.commands.command_line import count
+from support_exudyn.files.temporary import PREFIX
 from tests.hostile import left_behind, posix_only, with_own_files
 
 sizes = st.floats(1e-9, 1e9)

@@ -6,15 +6,18 @@ from dataclasses import replace
 
 import pytest
 
-from studies import which_pin_cases, which_pin_measures, which_pin_tables, which_pin_words
-from studies.drive_mode_cases import PINS as CASES
-from studies.drive_mode_cases import case_name
-from studies.drive_mode_tables import CONVERGES, DIVERGES
-from studies.drive_mode_words import VELOCITY, _converging_said, _velocity_said
-from studies.reporting.wording import by_case
-from studies.study import Number
-from studies.which_pin_tables import together_sheet
-from support_exudyn.linkages.four_bar_shield import PINS
+from studies.common.study import Number
+from studies.common.wording import by_case
+from studies.drive_mode.cases import PINS as CASES
+from studies.drive_mode.cases import case_name
+from studies.drive_mode.tables import CONVERGES, DIVERGES
+from studies.drive_mode.words import VELOCITY, _converging_said, _velocity_said
+from studies.which_pin import cases as which_pin_cases
+from studies.which_pin import measures as which_pin_measures
+from studies.which_pin import tables as which_pin_tables
+from studies.which_pin import words as which_pin_words
+from studies.which_pin.tables import together_sheet
+from support_exudyn.machines.four_bar_shield import PINS
 
 A, B, C, D, E = PINS
 SHIFT, RIPPLE = "mean_tip_shift_forward", "ripple_pin_forces"

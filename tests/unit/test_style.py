@@ -6,7 +6,7 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from support_exudyn.figures import style
+from support_exudyn.postprocessing.figures import style
 
 
 def drawing() -> Figure:

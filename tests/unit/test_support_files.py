@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from support_exudyn import OilColumn, RigidColumn, load_support, reference_support, two_body_columns
-from support_exudyn.machine import lumped
+from support_exudyn.model.linkage import lumped
 from tests.unit.cases import PARTS, PIVOTS, PIVOTS_MM, support
 from user_forces import InputError
 

@@ -10,11 +10,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from support_exudyn.sweeping import Record, grid, latin_hypercube, read_sweep, side_by_side
-from support_exudyn.sweeping.fields import keys_of, replaced
-from support_exudyn.sweeping.points import Range
-from support_exudyn.sweeping.row import Number, Row
-from user_forces.values import InputError
+from support_exudyn.sweeps import Record, grid, latin_hypercube, read_sweep, side_by_side
+from support_exudyn.sweeps.fields import keys_of, replaced
+from support_exudyn.sweeps.points import Range
+from support_exudyn.sweeps.row import Number, Row
+from user_forces.values.value import InputError
 
 SCENARIO = """
 machine = "reference"

@@ -17,18 +17,18 @@ import pytest
 from pyarrow import csv
 
 from support_exudyn import reference_support
-from support_exudyn.datafiles import read_scenario
-from support_exudyn.drives import CubicStep
-from support_exudyn.result import FORMAT
-from support_exudyn.scenario import Scenario
-from support_exudyn.sealed import seal
-from support_exudyn.sweeping import key as keys
-from support_exudyn.sweeping.key import LENGTH
-from support_exudyn.sweeping.plan import Plan, Record
-from support_exudyn.sweeping.row import Number, Row
-from support_exudyn.sweeping.store import Store
-from support_exudyn.sweeping.table import Table, read_table
-from support_exudyn.workshop import PREFIX
+from support_exudyn.files import read_scenario
+from support_exudyn.files.hdf5 import seal
+from support_exudyn.files.temporary import PREFIX
+from support_exudyn.model.drives.drive import CubicStep
+from support_exudyn.scenario.scenario import Scenario
+from support_exudyn.simulation.result import FORMAT
+from support_exudyn.sweeps import key as keys
+from support_exudyn.sweeps.key import LENGTH
+from support_exudyn.sweeps.plan import Plan, Record
+from support_exudyn.sweeps.row import Number, Row
+from support_exudyn.sweeps.store import Store
+from support_exudyn.sweeps.table import Table, read_table
 from tests.hostile import left_behind, posix_only, with_own_files
 from tests.processes import ROOT, environment
 

@@ -20,7 +20,7 @@ from support_exudyn import (
     ravn_slider_crank,
     simulate,
 )
-from support_exudyn.inventory import inventory
+from support_exudyn.formulations.redundant.inventory import inventory
 from tests.unit.cases import support
 from user_forces import value
 
@@ -155,7 +155,8 @@ def test_a_jump_that_a_drive_does_not_tell_is_refused_at_any_step(step: float) -
 
 def test_python_and_the_engine_agree(monkeypatch: pytest.MonkeyPatch) -> None:
     alone = simulate(TURN)
-    monkeypatch.setattr("support_exudyn.solver.turns_by_itself", lambda scene: False)
+    solver = "support_exudyn.formulations.redundant.solver.solver"
+    monkeypatch.setattr(f"{solver}.turns_by_itself", lambda scene: False)
     told = simulate(TURN)
     for name in alone.channels:
         # the same product of rate and time: to the last bit

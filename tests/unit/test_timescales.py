@@ -20,8 +20,8 @@ from support_exudyn import (
     Steady,
     UniformSpeed,
 )
-from support_exudyn.kinetics import kinetics_of
-from support_exudyn.timescales import SLOWEST_FALL, timescales
+from support_exudyn.mechanics.kinetics import kinetics_of
+from support_exudyn.scenario.timescales import SLOWEST_FALL, timescales
 from tests.reference.cases import (
     CRANK_SPEED,
     PIN,

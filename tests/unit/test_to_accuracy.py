@@ -11,9 +11,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from support_exudyn import Failure, Held, Scenario, SimulationError, to_accuracy
-from support_exudyn.counts import Counts
-from support_exudyn.progress import silent
+from support_exudyn import Failure, Held, Scenario, SimulationError
+from support_exudyn.formulations.progress import silent
+from support_exudyn.mechanics.counts import Counts
+from support_exudyn.simulation import to_accuracy
 from tests.reference.cases import loose_support
 
 GOAL = 1e-3

@@ -9,21 +9,27 @@ import numpy as np
 import pytest
 
 from support_exudyn import CubicStep, Drive, Held, OilColumn, Steady, UniformSpeed, reference_support
-from support_exudyn.kinetics import Kinetics
-from support_exudyn.oil import fill
-from support_exudyn.scene_items import BodyItem
-from support_exudyn.steps import record_times
-from support_exudyn.tree.branches import LoopError, LooseError, Tree, branches
-from support_exudyn.tree.drive_pieces import extension, pieces, speed
-from support_exudyn.tree.dynamics import Posture, accelerations, mass_matrix, mass_moment, pin_mobility
-from support_exudyn.tree.events import Event, Kind, event
-from support_exudyn.tree.forces import Forces
-from support_exudyn.tree.from_scenario import largest_error
-from support_exudyn.tree.integration import growth
-from support_exudyn.tree.loads import SPEED_X, SPEED_Y, X, Y
-from support_exudyn.tree.loose import Place
-from support_exudyn.tree.path import Ends, motion_within
-from support_exudyn.tree.quadrature import POINTS, largest, running, weights
+from support_exudyn.formulations.time_grid import record_times
+from support_exudyn.formulations.tree.branches import LoopError, LooseError, Tree, branches
+from support_exudyn.formulations.tree.drive_pieces import extension, pieces, speed
+from support_exudyn.formulations.tree.dynamics import (
+    Posture,
+    accelerations,
+    mass_matrix,
+    mass_moment,
+    pin_mobility,
+)
+from support_exudyn.formulations.tree.events import Event, Kind, event
+from support_exudyn.formulations.tree.forces import Forces
+from support_exudyn.formulations.tree.from_scenario import largest_error
+from support_exudyn.formulations.tree.integration import growth
+from support_exudyn.formulations.tree.loads import SPEED_X, SPEED_Y, X, Y
+from support_exudyn.formulations.tree.loose import Place
+from support_exudyn.formulations.tree.path import Ends, motion_within
+from support_exudyn.formulations.tree.quadrature import POINTS, largest, running, weights
+from support_exudyn.mechanics.body_coordinates import BodyItem
+from support_exudyn.mechanics.kinetics import Kinetics
+from support_exudyn.mechanics.oil_column import fill
 from tests.reference.cases import PIN, loose_support
 
 GRAVITY = (0.5, -9.81)

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 
 from support_exudyn import CubicStep, Drive, Held, Scenario, Steady, UniformSpeed
-from support_exudyn.follower import Follower, following
-from support_exudyn.linkages.two_leg_shield import TwoLegShield
-from support_exudyn.machine_data import read_machine
-from support_exudyn.plane import distance
+from support_exudyn.machines.machine_data import read_machine
+from support_exudyn.machines.two_leg_shield import TwoLegShield
+from support_exudyn.model.drives.coupled_drive import Follower, following
+from support_exudyn.model.plane_geometry import distance
 from user_forces import InputError
-from user_forces.values import Value
+from user_forces.values.value import Value
 
 STROKE = 1.15
 

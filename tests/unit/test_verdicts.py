@@ -12,10 +12,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from studies.judging.claim_list import Claim
-from studies.judging.evidence import Evidence, Measured, Verdict
-from studies.judging.plausible import Choice, samples
-from studies.judging.verdicts import ENOUGH, TELLING, Ruling, rule
+from studies.claims.claim_list import Claim
+from studies.claims.evidence import Evidence, Measured, Verdict
+from studies.claims.plausible import Choice, samples
+from studies.claims.verdicts import ENOUGH, TELLING, Ruling, rule
 
 Sample = Mapping[str, Choice]
 MACHINES = samples(256, 7)

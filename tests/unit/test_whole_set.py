@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from support_exudyn.exporting.whole_set import whole_set
+from support_exudyn.postprocessing.export.whole_set import whole_set
 from tests.hostile import DISKS, left_behind, little_room, posix_only, with_own_files
 from user_forces import InputError
 

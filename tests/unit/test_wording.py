@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from studies.reporting.wording import against, percent, said
-from studies.study import Number
+from studies.common.study import Number
+from studies.common.wording import against, percent, said
 
 
 def number(value: float, error: float, unit: str = "N") -> Number:

@@ -13,8 +13,8 @@ from itertools import pairwise
 
 import pytest
 
-from support_exudyn import workers
-from support_exudyn.workers import Workers, report, worker_pool
+from support_exudyn.sweeps import workers
+from support_exudyn.sweeps.workers import Workers, report, worker_pool
 from tests.processes import ROOT, alive, environment, linux_only, wait_until
 
 SOON = 10.0  # [s]; what ends at once has ended by then, on a busy machine too
@@ -138,7 +138,7 @@ def test_a_block_that_raises_ends_its_processes_in_mid_work(pool: Workers) -> No
 @linux_only
 def test_processes_end_with_a_parent_that_is_killed() -> None:
     script = (
-        "from support_exudyn.workers import worker_pool\n"
+        "from support_exudyn.sweeps.workers import worker_pool\n"
         "from tests.unit.test_workers import LONG, show_processes, stay\n"
         "with worker_pool(2) as pool:\n"
         "    pool.run([(0.0,), (LONG,)], stay, show_processes)\n"

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from pydantic import model_validator
 
+from user_forces.expressions.scalar import exp, magnitude, maximum, where
 from user_forces.friction.law import FrictionLaw, against, check_coefficients
-from user_forces.quantity import MetresPerSecond, SecondsPerMetre
-from user_forces.scalar import exp, magnitude, maximum, where
-from user_forces.values import NonNegative, Positive, value
+from user_forces.values.units import MetresPerSecond, SecondsPerMetre
+from user_forces.values.value import NonNegative, Positive, value
 
 
 @value

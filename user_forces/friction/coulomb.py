@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from user_forces.expressions.scalar import magnitude, step
 from user_forces.friction.law import FrictionLaw, against
-from user_forces.quantity import MetresPerSecond
-from user_forces.scalar import magnitude, step
-from user_forces.values import NonNegative, Positive, value
+from user_forces.values.units import MetresPerSecond
+from user_forces.values.value import NonNegative, Positive, value
 
 
 @value

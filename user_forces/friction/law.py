@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 
-from user_forces.scalar import sign
-from user_forces.values import Value
+from user_forces.expressions.scalar import sign
+from user_forces.values.value import Value
 
 
 class FrictionLaw(Value, ABC):
@@ -20,7 +20,7 @@ class FrictionLaw(Value, ABC):
        The law owns no memory: `next_deflection` is handed its value at the start of a step and returns that
        at the end, and the solver makes the step with it. `swing_time` says how short steps
        have to be.
-    4. It is written with the functions of `user_forces.scalar`, so that it can be compiled too.
+    4. It is written with the functions of `user_forces.expressions.scalar`, so that it can be compiled too.
     """
 
     @abstractmethod

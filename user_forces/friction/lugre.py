@@ -6,10 +6,10 @@ import math
 
 from pydantic import model_validator
 
+from user_forces.expressions.scalar import exp, magnitude, sign
 from user_forces.friction.law import FrictionLaw, check_coefficients
-from user_forces.quantity import MetresPerSecond, PerMetre, SecondsPerMetre
-from user_forces.scalar import exp, magnitude, sign
-from user_forces.values import NonNegative, Positive, value
+from user_forces.values.units import MetresPerSecond, PerMetre, SecondsPerMetre
+from user_forces.values.value import NonNegative, Positive, value
 
 
 @value

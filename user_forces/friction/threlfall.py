@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 
+from user_forces.expressions.scalar import exp, magnitude, where
 from user_forces.friction.law import FrictionLaw, against
-from user_forces.quantity import MetresPerSecond
-from user_forces.scalar import exp, magnitude, where
-from user_forces.values import NonNegative, Positive, value
+from user_forces.values.units import MetresPerSecond
+from user_forces.values.value import NonNegative, Positive, value
 
 FULL = 1.0 - math.exp(-3.0)
 

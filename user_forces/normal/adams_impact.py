@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from user_forces.expressions.scalar import step
 from user_forces.normal.law import Touch
 from user_forces.normal.power_law import ElasticPower
-from user_forces.quantity import Metres, NewtonSecondsPerMetre
-from user_forces.scalar import step
-from user_forces.values import NonNegative, Positive, value
+from user_forces.values.units import Metres, NewtonSecondsPerMetre
+from user_forces.values.value import NonNegative, Positive, value
 
 
 @value

@@ -9,11 +9,11 @@ from typing import Annotated
 
 from pydantic import Field
 
+from user_forces.expressions.scalar import sqrt
 from user_forces.normal.kelvin_voigt import cut_dashpot_restitution
 from user_forces.normal.law import Touch
 from user_forces.normal.power_law import ElasticPower
-from user_forces.scalar import sqrt
-from user_forces.values import Real, Restitution, value
+from user_forces.values.value import Real, Restitution, value
 
 
 @value

@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from abc import abstractmethod
 
+from user_forces.expressions.scalar import is_number, log, maximum, sqrt
 from user_forces.journal import JournalBearing
 from user_forces.normal.hysteresis import Hysteresis, exact_damping_factor
 from user_forces.normal.law import LoadError
-from user_forces.quantity import Metres, Pascals
-from user_forces.scalar import is_number, log, maximum, sqrt
-from user_forces.values import Positive, Restitution, value
+from user_forces.values.units import Metres, Pascals
+from user_forces.values.value import Positive, Restitution, value
 
 SMALLEST = 1e-14  # of z - 1: at the largest depth, where the root is 1
 

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 
+from user_forces.expressions.scalar import maximum, sqrt
 from user_forces.normal.law import Touch
-from user_forces.quantity import MetresPerSecond
-from user_forces.scalar import maximum, sqrt
-from user_forces.values import Positive, Value, value
+from user_forces.values.units import MetresPerSecond
+from user_forces.values.value import Positive, Value, value
 
 SMALLEST = 1e-12  # [m/s], only so that nothing is divided by zero
 

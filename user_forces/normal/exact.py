@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from user_forces.normal.hysteresis import exact_damping_factor
 from user_forces.normal.power_law import PowerLaw
-from user_forces.values import Restitution, value
+from user_forces.values.value import Restitution, value
 
 
 @value

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 from user_forces.normal.cylinder import LogarithmicLaw
-from user_forces.quantity import Metres
-from user_forces.values import NonNegative, value
+from user_forces.values.units import Metres
+from user_forces.values.value import NonNegative, value
 
 
 @value

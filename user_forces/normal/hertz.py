@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from user_forces.normal.law import Touch
 from user_forces.normal.power_law import ElasticPower
-from user_forces.values import value
+from user_forces.values.value import value
 
 
 @value

@@ -7,10 +7,10 @@ from abc import abstractmethod
 from dataclasses import field
 from functools import cached_property
 
+from user_forces.expressions.roots import bracketed_root
 from user_forces.normal.damping_speed import DampingSpeed, DepthSpeed
 from user_forces.normal.law import NormalLaw, Touch
-from user_forces.roots import bracketed_root
-from user_forces.values import Fraction, value
+from user_forces.values.value import Fraction, value
 
 
 @value

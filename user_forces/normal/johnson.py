@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from user_forces.normal.cylinder import LogarithmicLaw
-from user_forces.values import value
+from user_forces.values.value import value
 
 
 @value

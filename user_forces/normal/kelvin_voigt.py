@@ -10,8 +10,8 @@ from pydantic import Field
 
 from user_forces.normal.law import Touch
 from user_forces.normal.power_law import ElasticPower
-from user_forces.quantity import NewtonSecondsPerMetre
-from user_forces.values import NonNegative, Real, value
+from user_forces.values.units import NewtonSecondsPerMetre
+from user_forces.values.value import NonNegative, Real, value
 
 
 @value

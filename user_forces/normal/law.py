@@ -7,8 +7,8 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable
 from typing import NamedTuple
 
-from user_forces.roots import bracketed_root
-from user_forces.values import InputError, Value
+from user_forces.expressions.roots import bracketed_root
+from user_forces.values.value import InputError, Value
 
 
 class Touch(NamedTuple):
@@ -36,7 +36,7 @@ class NormalLaw(Value, ABC):
     2. `touch` stays the same until the surfaces part. The law owns no memory: who calls it keeps the touch.
     3. The result may be negative (tension). The caller cuts it at zero and counts that it did.
     4. `elastic_force` and `elastic_energy` are the part that is given back; the rest is dissipated.
-    5. It is written with the functions of `user_forces.scalar`, so that it can be compiled too.
+    5. It is written with the functions of `user_forces.expressions.scalar`, so that it can be compiled too.
     6. A law that is valid up to some depth raises LoadError beyond it.
     """
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from user_forces.normal.power_law import PowerLaw
-from user_forces.values import value
+from user_forces.values.value import value
 
 
 @value

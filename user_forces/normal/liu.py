@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 
+from user_forces.expressions.scalar import log, sqrt, where
 from user_forces.normal.cylinder import CylinderLaw
-from user_forces.scalar import log, sqrt, where
-from user_forces.values import value
+from user_forces.values.value import value
 
 
 @value

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pydantic import model_validator
 
 from user_forces.normal.law import NormalLaw, Touch
-from user_forces.values import Share, value
+from user_forces.values.value import Share, value
 
 MOST_PARTS = 5
 

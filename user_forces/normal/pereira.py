@@ -7,9 +7,9 @@ from functools import cached_property
 
 from pydantic import model_validator
 
+from user_forces.expressions.scalar import power
 from user_forces.normal.cylinder import CylinderLaw
-from user_forces.scalar import power
-from user_forces.values import value
+from user_forces.values.value import value
 
 SMALLEST_MM, BRANCH_MM, LARGEST_MM = 0.005, 0.34954, 10.0  # of the clearance dR
 

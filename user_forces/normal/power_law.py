@@ -6,11 +6,11 @@ from typing import Annotated
 
 from pydantic import Field
 
+from user_forces.expressions.scalar import power
 from user_forces.normal.hysteresis import Hysteresis
 from user_forces.normal.law import NormalLaw
-from user_forces.quantity import NewtonsPerMetreToN
-from user_forces.scalar import power
-from user_forces.values import InputError, Positive, Real, value
+from user_forces.values.units import NewtonsPerMetreToN
+from user_forces.values.value import InputError, Positive, Real, value
 
 
 @value

@@ -7,7 +7,7 @@ from typing import Annotated
 from pydantic import Field
 
 from user_forces.normal.cylinder import LogarithmicLaw
-from user_forces.values import Real, value
+from user_forces.values.value import Real, value
 
 
 @value

@@ -1,0 +1,103 @@
+"""Which data of a machine decide a judgement: the bound, or the two together, that foretells most of them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from studies.claims.plausible import FACTORS, Factor, Sample
+
+CUTS = 24  # bounds tried on a range
+OTHER_THAN = "machines other than those with "
+PAIR_GAIN = 0.03  # by how much two bounds together must beat the best one alone
+
+Mask = npt.NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class Condition:
+    """When a claim holds, in words.
+
+    right: share of the machines for which that is so. unseen: the same for what is found on one half of the
+    machines, judged on the other half; by chance alone it is no better than one answer for all.
+    """
+
+    text: str
+    right: float
+    unseen: float
+
+
+def best_condition(decided: Sequence[tuple[Sample, bool]]) -> Condition | None:
+    """The condition that foretells most judgements; None if there is only one kind of them.
+
+    Tried are bounds on every factor, alone and in pairs, and that the claim holds where they are met, or except
+    where they are met.
+    """
+    holds = np.array([verdict for _, verdict in decided])
+    if holds.all() or not holds.any():
+        return None
+    texts, met = _bounds([sample for sample, _ in decided])
+    places, other, right = _search(met, holds)
+    text = (OTHER_THAN if other else "") + " and ".join(texts[place] for place in places)
+    one = np.arange(len(holds)) % 2 == 0
+    unseen = [_right_elsewhere(met, holds, half) for half in (one, ~one)]
+    return Condition(text, right, float(np.mean(unseen)))
+
+
+def _right_elsewhere(met: Mask, holds: Mask, half: Mask) -> float:
+    """Share of the other half of the machines for which what is found on this half is right."""
+    places, other, _ = _search(met[:, half], holds[half])
+    foretold = met[list(places)].all(axis=0) != other
+    return float((foretold == holds)[~half].mean())
+
+
+def _search(met: Mask, holds: Mask) -> tuple[tuple[int, ...], bool, float]:
+    """Places of the best bound or two, whether they say where it does not hold, and how often that is right."""
+    single = max((_best(met, holds != other, other) for other in (False, True)), key=_right)
+    double = max((_best_pair(met, holds != other, other) for other in (False, True)), key=_right)
+    return double if _right(double) >= _right(single) + PAIR_GAIN else single
+
+
+def _right(found: tuple[tuple[int, ...], bool, float]) -> float:
+    return found[2]
+
+
+def _best(met: Mask, goal: Mask, other: bool) -> tuple[tuple[int, ...], bool, float]:
+    right = (met == goal).mean(axis=1)
+    best = int(np.argmax(right))
+    return (best,), other, float(right[best])
+
+
+def _best_pair(met: Mask, goal: Mask, other: bool) -> tuple[tuple[int, ...], bool, float]:
+    """The same for two bounds that are both met."""
+    ones = met.astype(float)
+    # right: met and to be, or neither
+    right = ((ones * (2.0 * goal - 1.0)) @ ones.T + (~goal).sum()) / len(goal)
+    one, two = divmod(int(np.argmax(right)), len(met))
+    return (one, two), other, float(right[one, two])
+
+
+def _bounds(samples: Sequence[Sample]) -> tuple[list[str], Mask]:
+    """All bounds in words, and which machines meet them, shape (bounds, machines)."""
+    texts: list[str] = []
+    met: list[Mask] = []
+    for factor in FACTORS:
+        for text, mask in _bounds_on(factor, samples):
+            texts.append(text)
+            met.append(mask)
+    return texts, np.array(met)
+
+
+def _bounds_on(factor: Factor, samples: Sequence[Sample]) -> list[tuple[str, Mask]]:
+    if factor.choices:
+        chosen = np.array([str(sample[factor.name]) for sample in samples])
+        return [(factor.chosen(choice), chosen == choice) for choice in factor.choices]
+    numbers = np.array([float(sample[factor.name]) for sample in samples])
+    found = []
+    for cut in np.unique(np.quantile(numbers, np.arange(1, CUTS) / CUTS)):
+        found.append((factor.bound("below", cut), numbers < cut))
+        found.append((factor.bound("above", cut), numbers >= cut))
+    return found

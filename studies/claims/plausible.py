@@ -1,0 +1,298 @@
+"""Plausible machines: a Latin hypercube over everything that the paper leaves open.
+
+Each factor is a range or a list of choices with the reason for it. A sample names a value of every factor;
+machine, pin and drive follow from it.
+"""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from scipy.stats import qmc
+
+from studies.common import paper_machine
+from studies.contact_laws.catalogue import POWER_LAWS
+from support_exudyn import ClearancePin, HydraulicSupport, Part, reference_support
+from user_forces import (
+    STEEL,
+    STEEL_35CRMO,
+    Ambrosio,
+    DepthSpeed,
+    JournalContact,
+    TouchSpeed,
+    external_contact_stiffness,
+    internal_contact_stiffness,
+)
+from user_forces.values.value import InputError, Vector2
+
+Choice = str | float
+Sample = Mapping[str, Choice]  # a value of every factor, by name
+
+REFERENCE_SCALE = 0.65  # of the support whose pivots the reference support has
+
+
+@dataclass(frozen=True)
+class Factor:
+    """Something assumed: a range from low to high, evenly or in powers, or a list of choices.
+
+    unit: of the range. phrase: a choice in a sentence.
+    """
+
+    name: str
+    meaning: str
+    reason: str
+    low: float = 0.0
+    high: float = 0.0
+    powers: bool = False
+    choices: tuple[str, ...] = ()
+    unit: str = ""
+    phrase: str = ""
+
+    def at(self, share: float) -> Choice:
+        """The value at a share from 0 to 1 of the range."""
+        if self.choices:
+            return self.choices[min(int(share * len(self.choices)), len(self.choices) - 1)]
+        if self.powers:
+            return float(self.low * (self.high / self.low) ** share)
+        return float(self.low + (self.high - self.low) * share)
+
+    @property
+    def said(self) -> str:
+        """Its name in words."""
+        return SYMBOLS.get(self.name, self.name.replace("_", " "))
+
+    def chosen(self, choice: str) -> str:
+        """A choice in words."""
+        return self.phrase.format(choice)
+
+    def bound(self, side: str, value: float) -> str:
+        """A bound in words; side: above or below."""
+        return f"{self.said} {side} {value:.3g} {self.unit}".rstrip()
+
+    @property
+    def span(self) -> str:
+        """The range or the choices, in words."""
+        if self.choices:
+            return ", ".join(self.choices)
+        return f"{self.low:g} to {self.high:g}" + (", even in powers" if self.powers else "")
+
+
+SYMBOLS = {"sliding_coefficient": "mu_d", "static_speed": "v_s", "dynamic_speed": "v_d"}
+MASS_REASON = "published supports of this size differ by about as much in the weight of their parts"
+CENTRE_REASON = "plate thickness and jacks are unknown; a tenth of the length either way"
+BODIES = {  # what a mass factor multiplies: body and which of its parts
+    "rear_link": ("rear_link", (0,)),
+    "front_link": ("front_link", (0,)),
+    "shield_beam": ("shield", (0,)),
+    "tail_beam": ("shield", (1,)),
+    "canopy": ("canopy", (0, 1, 2)),
+}
+MEMBERS = {  # by whose direction a centre of mass is shifted
+    "rear_link": ("rear_base", "rear_shield"),
+    "front_link": ("front_base", "front_shield"),
+    "shield": ("rear_shield", "hinge"),
+    "canopy": ("hinge", "tip"),
+}
+
+FACTORS: tuple[Factor, ...] = (
+    Factor(
+        "scale",
+        "of a ZF18000's pivots; masses with its cube",
+        "0.65 assumed; 500 mm of stroke fit from 0.6 on",
+        0.6,
+        1.0,
+    ),
+    *(
+        Factor(
+            f"mass_{name}", f"mass of the {name.replace('_', ' ')}, times assumed", MASS_REASON, 0.6, 1.7, True
+        )
+        for name in BODIES
+    ),
+    *(
+        Factor(
+            f"centre_along_{name}",
+            f"centre of mass of the {name.replace('_', ' ')}, along it, of its length",
+            CENTRE_REASON,
+            -0.1,
+            0.1,
+        )
+        for name in MEMBERS
+    ),
+    *(
+        Factor(
+            f"centre_across_{name}",
+            f"centre of mass of the {name}, across it, of its length",
+            CENTRE_REASON,
+            -0.1,
+            0.1,
+        )
+        for name in ("shield", "canopy")
+    ),
+    Factor("start_height", "height of the hinge at the start, times assumed", "not given", 0.88, 1.08),
+    Factor(
+        "restitution", "asked of the law", "not given; from a damped to a nearly elastic steel pin", 0.3, 0.95
+    ),
+    Factor(
+        "law",
+        "of damping",
+        "the name Lankarani-Nikravesh is printed, its factor is not",
+        choices=tuple(POWER_LAWS),
+        phrase="the law {}",
+    ),
+    Factor(
+        "damping_speed",
+        "of a contact that does not part",
+        "not given",
+        choices=("last touch", "depth"),
+        phrase="damping by the {}",
+    ),
+    Factor(
+        "stiffness",
+        "of the contact",
+        "Eq. 5 is for spheres side by side; the pin is inside",
+        choices=("external", "internal"),
+        phrase="the {} stiffness",
+    ),
+    Factor("sliding_coefficient", "of friction [-]", "not given; greased to dry steel", 0.0, 0.4),
+    Factor("static_speed", "of friction [m/s]", "not given", 1e-5, 1e-3, True, unit="m/s"),
+    Factor(
+        "dynamic_speed",
+        "of friction [m/s]",
+        "not given; ADAMS' usual value is 0.01",
+        1.5e-3,
+        1e-1,
+        True,
+        unit="m/s",
+    ),
+    Factor(
+        "window",
+        "over which forces and accelerations are averaged",
+        "not given",
+        choices=("rise", "rise and dwell"),
+        phrase="averages over the {}",
+    ),
+    Factor(
+        "bore",
+        "body that carries the bore",
+        "not given",
+        choices=("base", "rear link"),
+        phrase="the bore in the {}",
+    ),
+)
+
+REFERENCE: dict[str, Choice] = {
+    "scale": REFERENCE_SCALE,
+    **{f"mass_{name}": 1.0 for name in BODIES},
+    **{f"centre_along_{name}": 0.0 for name in MEMBERS},
+    **{f"centre_across_{name}": 0.0 for name in ("shield", "canopy")},
+    "start_height": 1.0,
+    "restitution": paper_machine.RESTITUTION,
+    "law": "lankarani_nikravesh",
+    "damping_speed": "last touch",
+    "stiffness": "external",
+    "sliding_coefficient": paper_machine.SLIDING_COEFFICIENT,
+    "static_speed": 1e-4,
+    "dynamic_speed": 1e-2,
+    "window": "rise",
+    "bore": "base",
+}
+
+
+def samples(number: int, seed: int) -> list[dict[str, Choice]]:
+    """So many samples of a Latin hypercube over all factors; the same for the same number and seed."""
+    if number < 1:
+        raise InputError(f"machines = {number}: allowed: at least 1")
+    generator: dict[str, Any] = {_generator_name(): np.random.default_rng(seed)}
+    cube = qmc.LatinHypercube(len(FACTORS), **generator).random(number)
+    return [{f.name: f.at(float(share)) for f, share in zip(FACTORS, row, strict=True)} for row in cube]
+
+
+def _generator_name() -> str:
+    """What this version of scipy calls the argument."""
+    return "rng" if "rng" in inspect.signature(qmc.LatinHypercube).parameters else "seed"
+
+
+def machine(sample: Sample) -> HydraulicSupport:
+    """The support of a sample.
+
+    Raises InputError if its linkage cannot be closed at the start.
+    """
+    base = reference_support()
+    scale = number(sample, "scale") / REFERENCE_SCALE
+    pivots: dict[str, Any] = {
+        name: _scaled(getattr(base, name), scale)
+        for name in (
+            "rear_base", "front_base", "rear_shield", "front_shield", "hinge", "front_foot", "front_head",
+            "rear_foot", "rear_head", "tip", "tail_hinge", "tail_jack_foot", "tail_jack_head",
+        )
+    }  # fmt: skip
+    parts = {name: _parts(name, base, sample, scale) for name in base.parts}
+    height = base.start_hinge_height * scale * number(sample, "start_height")
+    width = base.width and base.width.scaled(scale)
+    return replace(base, **pivots, parts=parts, start_hinge_height=height, width=width)
+
+
+def _parts(body: str, base: HydraulicSupport, sample: Sample, scale: float) -> tuple[Part, ...]:
+    """Parts of a body: masses with the cube of the scale, all centres shifted alike."""
+    factors = {
+        place: number(sample, f"mass_{name}")
+        for name, (of, places) in BODIES.items()
+        if of == body
+        for place in places
+    }
+    a, b = (np.array(getattr(base, pivot)) for pivot in MEMBERS[body])
+    along, across = b - a, np.array([a[1] - b[1], b[0] - a[0]])
+    shift = number(sample, f"centre_along_{body}") * along
+    if f"centre_across_{body}" in sample:
+        shift = shift + number(sample, f"centre_across_{body}") * across
+    shifted = []
+    for place, part in enumerate(base.parts[body]):
+        mass = part.mass * scale**3 * factors[place]
+        centre = (part.centre[0] + float(shift[0]), part.centre[1] + float(shift[1]))
+        heavier = scale**5 * factors[place]
+        moments = part.moments and (
+            part.moments[0] * heavier,
+            part.moments[1] * heavier,
+            part.moments[2] * heavier,
+        )
+        shifted.append(
+            replace(
+                part, mass=mass, centre=_scaled(centre, scale), inertia=part.inertia * heavier, moments=moments
+            )
+        )
+    return tuple(shifted)
+
+
+def _scaled(point: Vector2, scale: float) -> Vector2:
+    return point[0] * scale, point[1] * scale
+
+
+def pin(sample: Sample, clearance_mm: float) -> ClearancePin:
+    """The loose rear-link pin of a sample; the pin's size is the paper's."""
+    bearing = paper_machine.bearing(clearance_mm)
+    form = external_contact_stiffness if sample["stiffness"] == "external" else internal_contact_stiffness
+    law = POWER_LAWS[str(sample["law"])]
+    normal = law(
+        stiffness=form(bearing, STEEL, STEEL_35CRMO),
+        restitution=number(sample, "restitution"),
+        damping_speed=TouchSpeed(floor=1e-3) if sample["damping_speed"] == "last touch" else DepthSpeed(),
+    )
+    friction = Ambrosio(
+        sliding_coefficient=number(sample, "sliding_coefficient"),
+        static_speed=number(sample, "static_speed"),
+        dynamic_speed=number(sample, "dynamic_speed"),
+    )
+    contact = JournalContact(bearing=bearing, normal=normal, friction=friction)
+    return ClearancePin(contact=contact, bore="first" if sample["bore"] == "base" else "second")
+
+
+def number(sample: Sample, name: str) -> float:
+    """A factor that is a number."""
+    value = sample[name]
+    if isinstance(value, str):
+        raise InputError(f"{name} = {value!r}: allowed: a number")
+    return value

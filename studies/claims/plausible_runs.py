@@ -1,0 +1,159 @@
+"""What is run and measured of one plausible machine.
+
+Seven scenes by the reduced formulation, each at three tolerances: the ideal pin and four clearances in drive
+mode 2, the ideal pin and 1.5 mm in mode 1. How fast the distances of the three runs fall tells the numerical
+error of every measure, as it does of runs to an accuracy.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from studies.claims.evidence import Evidence, Measured
+from studies.claims.plausible import REFERENCE, Sample, machine, pin
+from studies.common import paper_machine, rise
+from studies.common.study import halvings, with_coarser
+from support_exudyn import (
+    CubicStep,
+    Drive,
+    HydraulicSupport,
+    Result,
+    Scenario,
+    SolverSettings,
+    UniformSpeed,
+    reference_support,
+    simulate,
+)
+from support_exudyn.mechanics.impulse import Impulse
+
+IDEAL = "ideal"
+LOOSE = tuple(f"{size:.1f} mm" for size in paper_machine.SIZES_MM)
+MODE_1, MODE_1_IDEAL = "1.5 mm, mode 1", "ideal, mode 1"
+OIL, OIL_IDEAL = "1.5 mm, mode 1, oil", "ideal, mode 1, oil"
+CASES = (IDEAL, *LOOSE, MODE_1_IDEAL, MODE_1)
+OIL_START = 0.8  # of mode 1 on columns of oil, when the journal has come to rest [s]
+TOLERANCE = 1e-6  # of the reduced formulation in the first of three runs
+Values = dict[str, float]
+
+
+def scenario(sample: Sample, case: str, support: HydraulicSupport) -> Scenario:
+    """A case of a sample and its machine. Raises InputError if the machine cannot rise by 500 mm."""
+    drive: Drive = UniformSpeed() if "mode 1" in case else CubicStep()
+    pins = {}
+    if not case.startswith("ideal"):
+        pins = {paper_machine.LOOSE_PIN: pin(sample, float(case.split()[0]))}
+    return Scenario(machine=support, drive=drive, duration=rise.END, pins=pins)
+
+
+def measures(sample: Sample) -> dict[str, dict[str, list[float]]]:
+    """All measures of a sample as plain data: case, name, [value, numerical error].
+
+    Raises InputError or SimulationError if a case cannot be run.
+    """
+    support = machine(sample)
+    scenarios = {case: scenario(sample, case, support) for case in CASES}
+    solver = SolverSettings(tolerance=TOLERANCE)
+    coarse = {case: replace(item, formulation="reduced", solver=solver) for case, item in scenarios.items()}
+    half = {case: item.refined() for case, item in coarse.items()}
+    runs = [
+        {case: simulate(item) for case, item in each.items()}
+        for each in (coarse, half, {case: item.refined() for case, item in half.items()})
+    ]
+    found = [_measures(each, str(sample["window"])) for each in runs]
+    return {case: _with_errors([each[case] for each in runs], [each[case] for each in found]) for case in CASES}
+
+
+def _with_errors(runs: Sequence[Result], values: Sequence[Values]) -> dict[str, list[float]]:
+    """Values of the last of three runs with their errors; what is compared with another run is so at each."""
+    result = with_coarser(runs)
+    of_run = {id(run): found for run, found in zip(halvings(result), values, strict=True)}
+
+    def number(name: str) -> list[float]:
+        found = result.estimate(lambda run: of_run[id(run)][name])
+        return [found.value, found.error]
+
+    return {name: number(name) for name in values[-1]}
+
+
+def evidence(data: Mapping[str, Mapping[str, list[float]]]) -> Evidence:
+    """The same for judging."""
+    return Evidence(
+        {
+            case: {name: Measured(value, error) for name, (value, error) in row.items()}
+            for case, row in data.items()
+        }
+    )
+
+
+def oil_scenarios(quick: bool) -> dict[str, Scenario]:
+    """Mode 1 on columns of oil, which only the engine runs: the reference support, ideal pin and 1.5 mm."""
+    step = 1e-3  # and time between records: twice that may miss 2 % of a peak, which is as much as is asked for
+    settings = SolverSettings(impact_steps=16 if quick else 64, backend="symbolic")
+    drive = UniformSpeed(start=OIL_START, end=OIL_START + 2.0)
+    return {
+        case: replace(
+            scenario(REFERENCE, case, reference_support()),
+            drive=drive,
+            duration=OIL_START + 0.4,
+            step=step,
+            record_period=step,
+            columns=paper_machine.oil_columns(),
+            solver=settings,
+        )
+        for case in (OIL, OIL_IDEAL)
+    }
+
+
+LARGEST_FORCE = rise.Peak(rise.FORCE, begin=OIL_START)  # of the pin after the start of mode 1 on oil [N]
+
+
+def _measures(runs: Mapping[str, Result], window: str) -> dict[str, Values]:
+    found = {}
+    for case, run in runs.items():
+        ideal = runs[MODE_1_IDEAL if "mode 1" in case else IDEAL]
+        found[case] = _run_measures(run, ideal, window)
+        if run.impulses:
+            found[case]["impulse"] = _struck(run.impulses[0])
+    return found
+
+
+def _struck(impulse: Impulse) -> float:
+    """Sum of magnitudes over the columns [N s]."""
+    return sum(abs(value) for value in impulse.columns.values())
+
+
+def _run_measures(run: rise.Run, ideal: rise.Run, window: str) -> Values:
+    """All measures of one run; forces in N, angles in degrees, lengths in mm."""
+    averaged = rise.in_rise(run) if window == "rise" else rise.between(run, 0.0, rise.END)
+    force, acceleration = run[rise.FORCE], rise.DEGREES * run[rise.ACCELERATION]
+    inside = rise.in_rise(run)
+    found = {
+        "mean_force": float(force[averaged].mean()),
+        "std_force": float(force[averaged].std()),
+        "largest_force": float(force[inside].max()),
+        "mean_acceleration": float(acceleration[averaged].mean()),
+        "mean_tip_shift": 1e3 * float(rise.departure(run, ideal, "tip.x").mean()),
+        "tip_range": 1e3 * float(np.ptp(run["tip.x"][inside])),
+    }
+    for name, channel, scale in (
+        ("force", rise.FORCE, 1.0),
+        ("speed", rise.SPEED, rise.DEGREES),
+        ("acceleration", rise.ACCELERATION, rise.DEGREES),
+    ):
+        found[f"ripple_{name}"] = scale * rise.ripple(run, run[channel])
+        found[f"shaking_{name}"] = scale * rise.ripple(run, run[channel], rise.START)
+        found[f"range_{name}"] = scale * float(np.ptp(run[channel][inside]))
+        found[f"likeness_{name}"] = rise.likeness(run, ideal, channel)
+    found["likeness_tip"] = min(rise.likeness(run, ideal, name) for name in ("tip.x", "tip.y"))
+    for stage, times in rise.STAGES.items():
+        found[f"ripple_speed_{stage}"] = rise.DEGREES * rise.ripple(run, run[rise.SPEED], *times)
+        found[f"speed_{stage}"] = rise.DEGREES * rise.stage_mean(run, rise.SPEED, stage)
+    for side in ("front", "rear"):
+        column = f"{side}_column"
+        found[f"{side}_angle"] = rise.DEGREES * float(rise.rearward_angle(run, column)[inside].mean())
+        found[f"{side}_lean"] = rise.DEGREES * float(rise.lean(run, column)[inside].mean())
+        found[f"{side}_upright"] = float(np.sin(run[f"{column}.angle"][inside]).mean())
+    return found

@@ -1,0 +1,93 @@
+"""From judgements of many machines to a verdict in words."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from scipy.stats import binomtest
+
+from studies.claims.claim_list import Claim
+from studies.claims.conditions import best_condition
+from studies.claims.evidence import Evidence, NotedEvidence, Verdict
+from studies.claims.plausible import Sample
+
+NEARLY_ALL = 0.95  # share of machines from which a claim holds; one less this: not supported
+# share that a condition must get right, of machines not used to find it, to be the one that decides
+TELLING = 0.85
+GAIN = 0.05  # by how much it must beat the same answer for all to be named at all
+ENOUGH = 128  # machines from which conditions are looked for; with fewer chance looks like one
+
+
+@dataclass(frozen=True)
+class Ruling:
+    """A claim, judged.
+
+    reference: on the reference support. holds, fails, open: numbers of plausible machines. ours: our numbers,
+    on the reference support. verdict: in words. error: the largest numerical error of our numbers, as a share
+    of the number; None for closed forms and where nothing is judged.
+    """
+
+    claim: Claim
+    reference: Verdict
+    holds: int
+    fails: int
+    open: int
+    ours: str
+    verdict: str
+    error: float | None = None
+
+    @property
+    def share(self) -> float | None:
+        """Share of the plausible machines for which it holds, of those that are decided."""
+        decided = self.holds + self.fails
+        return self.holds / decided if decided else None
+
+    @property
+    def interval(self) -> tuple[float, float] | None:
+        """Between what shares the whole population lies with 95 % confidence (Wilson)."""
+        decided = self.holds + self.fails
+        if not decided:
+            return None
+        found = binomtest(self.holds, decided).proportion_ci(0.95, "wilson")
+        return float(found.low), float(found.high)
+
+
+def rule(claim: Claim, reference: Evidence, machines: Sequence[tuple[Sample, Evidence]]) -> Ruling:
+    """Judge a claim on the reference support and on all plausible machines."""
+    if claim.judge is None:
+        return Ruling(claim, None, 0, 0, 0, "", "cannot be judged")
+    on_reference = claim.judge(reference)
+    judge = claim.judge
+    judged = [(sample, judge(evidence)) for sample, evidence in machines] if not claim.alone else []
+    holds, fails, left = (sum(verdict is kind for _, verdict in judged) for kind in (True, False, None))
+    noted = NotedEvidence(reference.measures)
+    ours, verdict = claim.tell(noted), _words(on_reference, judged)
+    return Ruling(claim, on_reference, holds, fails, left, ours, verdict, noted.largest_error)
+
+
+def _words(reference: Verdict, judged: Sequence[tuple[Sample, Verdict]]) -> str:
+    decided = [(sample, verdict) for sample, verdict in judged if verdict is not None]
+    if not decided:
+        alone = {True: "holds", False: "not supported", None: "cannot be judged: within the numerical error"}
+        return alone[reference]
+    share = sum(verdict for _, verdict in decided) / len(decided)
+    if share >= NEARLY_ALL:
+        return "holds"
+    if share <= 1.0 - NEARLY_ALL:
+        return "not supported"
+    part = f"{percent(share)} % of the machines"
+    condition = best_condition(decided) if len(decided) >= ENOUGH else None
+    if condition is None or condition.unseen < max(share, 1.0 - share) + GAIN:
+        return f"holds only for {part}"
+    right = f"right for {100 * condition.unseen:.0f} %"
+    if condition.unseen < TELLING:
+        return f"holds only for {part}; most telling: {condition.text} ({right})"
+    return f"holds only for {condition.text} ({right})"
+
+
+def percent(share: float) -> str:
+    """A share in per cent, not rounded onto the bounds that decide."""
+    text = f"{100.0 * share:.0f}"
+    bounds = (100.0 * NEARLY_ALL, 100.0 * (1.0 - NEARLY_ALL))
+    return f"{100.0 * share:.1f}" if any(abs(float(text) - bound) < 0.5 for bound in bounds) else text

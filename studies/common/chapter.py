@@ -1,0 +1,134 @@
+"""What a study says: a chapter of the report, with its pictures and tables of text, kept as chapter.json."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict, dataclass
+from functools import cache
+from pathlib import Path
+
+from pydantic import ConfigDict, TypeAdapter, ValidationError
+from rich.table import Table
+from rich.text import Text
+
+from studies.common.markdown import WIDEST, escaped, paragraph, pipe_table, record_list
+from support_exudyn.files.whole_file import contents, whole_file
+from user_forces.values.value import InputError
+
+FILE = "chapter.json"
+LARGEST_FILE = 200_000_000  # bytes, of what is read for a report
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """A table of text cells.
+
+    left: so many columns from the left are left-aligned, the others right-aligned.
+    wide: long text cells that wrap; all columns are left-aligned.
+    """
+
+    __pydantic_config__ = ConfigDict(extra="forbid", strict=True)  # for reading
+
+    title: str
+    header: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+    caption: str = ""
+    left: int = 1
+    wide: bool = False
+
+    def __post_init__(self) -> None:
+        if not self.header:
+            raise ValueError("header = (): allowed: at least one heading")
+        for n, row in enumerate(self.rows):
+            if len(row) != len(self.header):
+                raise ValueError(f"row {n} has {len(row)} cells; allowed: {len(self.header)}, as the header")
+
+    @property
+    def left_columns(self) -> int:
+        """How many columns are left-aligned."""
+        return len(self.header) if self.wide else self.left
+
+    def rich(self) -> Table:
+        """For a terminal; nothing in the cells is taken for markup."""
+        shown = Table(
+            title=Text(self.title, style="table.title"),
+            caption=Text(self.caption, style="table.caption") if self.caption else None,
+            caption_justify="left",
+        )
+        for n, heading in enumerate(self.header):
+            shown.add_column(Text(heading), justify="left" if n < self.left_columns else "right")
+        for row in self.rows:
+            shown.add_row(*(Text(cell) for cell in row))
+        return shown
+
+    def markdown(self) -> str:
+        """As a pipe table, or as a list if it is wide and its rows would be very long."""
+        table = pipe_table(self.header, self.rows, self.left_columns)
+        if self.wide and len(table.partition("\n")[0]) > WIDEST:
+            table = record_list(self.header, self.rows)
+        parts = [f"**{escaped(self.title)}**", table, paragraph(self.caption)]
+        return "\n\n".join(part for part in parts if part) + "\n"
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A figure: stem.png and stem.pdf in the study's folder, and what it shows."""
+
+    __pydantic_config__ = ConfigDict(extra="forbid", strict=True)
+
+    stem: str
+    caption: str
+
+    def __post_init__(self) -> None:
+        if not self.stem or Path(self.stem).name != self.stem or "\\" in self.stem:
+            raise ValueError(f"stem = {self.stem!r}: allowed: a file name without folder and ending")
+
+
+@dataclass(frozen=True)
+class Chapter:
+    """A study in words, pictures and tables; all texts are plain sentences.
+
+    method: paragraphs. findings: bullet points, with the numbers of this very run.
+    quick: whether it was run with coarse steps; None if the study does not say.
+    """
+
+    __pydantic_config__ = ConfigDict(extra="forbid", strict=True)
+
+    study: str
+    title: str
+    question: str
+    method: tuple[str, ...]
+    findings: tuple[str, ...]
+    pictures: tuple[Picture, ...]
+    sheets: tuple[Sheet, ...]
+    quick: bool | None = None
+
+    def save(self, out: Path) -> Path:
+        """Write DIR/chapter.json, whole or not at all."""
+        path = out / FILE
+        with whole_file(path) as temporary:
+            text = json.dumps(asdict(self), indent=1, ensure_ascii=False, allow_nan=False)
+            temporary.write_text(text + "\n", encoding="utf-8")
+        return path
+
+    @staticmethod
+    def load(folder: Path) -> Chapter:
+        """Read it back. Raises InputError that names the file and what is wrong with it."""
+        path = folder / FILE
+        try:
+            return _reader().validate_json(contents(path, LARGEST_FILE))
+        except FileNotFoundError:
+            raise InputError(f"{path}: no such file; the study that writes it has not run here") from None
+        except ValidationError as error:
+            raise InputError(f"{path}: {_complaints(error)}") from None
+
+
+@cache
+def _reader() -> TypeAdapter[Chapter]:
+    return TypeAdapter(Chapter)
+
+
+def _complaints(error: ValidationError) -> str:
+    """All that is wrong, with places such as sheets.0.title."""
+    found = [(".".join(str(part) for part in item["loc"]), item["msg"]) for item in error.errors()]
+    return "; ".join(f"{place}: {message}" if place else message for place, message in found)

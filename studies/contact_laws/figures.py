@@ -1,0 +1,171 @@
+"""Pictures of what contact laws deliver and change."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+import numpy.typing as npt
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
+
+from studies.common import rise
+from studies.common.chapter import Picture
+from studies.common.study import (
+    Number,
+)
+from studies.contact_laws.cases import ASKED, LOOP_RESTITUTION, SPEED, TEXTBOOK
+from studies.contact_laws.catalogue import POWER_LAWS, title
+from studies.contact_laws.free_impact import (
+    PIN,
+)
+from support_exudyn import Result
+from support_exudyn.postprocessing.figures import style
+
+Series = npt.NDArray[np.float64]
+
+
+def restitution_figure(numbers: Sequence[Number]) -> Figure:
+    """A panel for each power law: closed form as a line, the engine as points, what was asked dashed."""
+    drawing = Figure(figsize=style.size(170, 150))
+    panels = drawing.subplots(3, 4, sharex=True, sharey=True)
+    values = {(n.name, n.case): n.value for n in numbers}
+    fine = np.linspace(0.01, 1.0, 200)
+    for axes, (name, law) in zip(panels.flat, POWER_LAWS.items(), strict=True):
+        curve = [law(stiffness=1.0, restitution=float(e)).delivered_restitution for e in fine]
+        measured = {e: values.get(("delivered_restitution", f"{name} e={e:g}")) for e in ASKED}
+        shown = [(e, value) for e, value in measured.items() if value is not None]
+        axes.plot([0, 1], [0, 1], color="#999999", lw=0.8, ls=(0, (4, 2)), label="as asked")
+        axes.plot(fine, curve, color=style.LOOSE, label="closed form")
+        axes.plot(
+            *zip(*shown, strict=True), "o", ms=2.6, color=style.SMOOTH, mec="black", mew=0.3, label="engine"
+        )
+        axes.set(xlim=(0, 1), ylim=(0, 1), xticks=(0, 0.5, 1), yticks=(0, 0.5, 1))
+        axes.set_title(title(name), fontsize=8)
+    drawing.supxlabel("restitution asked for [-]", fontsize=9)
+    drawing.supylabel("restitution delivered [-]", fontsize=9)
+    panels[0, 0].legend(loc="lower right", fontsize=7, handlelength=1.5, borderaxespad=0.2)
+    drawing.suptitle("Free impact: restitution asked for and delivered")
+    return drawing
+
+
+def loop_figure(results: Mapping[str, Result]) -> Figure:
+    """Force over depth in a free impact, a panel for each law."""
+    drawing = Figure(figsize=style.size(170, 170))
+    panels = drawing.subplots(4, 4)
+    for axes, (name, result) in zip(panels.flat, results.items(), strict=True):
+        depth, force = result[f"pin.{PIN}.depth"], result[f"pin.{PIN}.normal_force"]
+        touching = depth > 0.0
+        ends = np.concatenate([[0.0], depth[touching], [0.0]])
+        axes.plot(1e3 * ends, 1e-3 * np.concatenate([[0.0], force[touching], [0.0]]), color=style.LOOSE)
+        elastic = np.linspace(0.0, ends.max(), 60)
+        law = result.scenario.clearance_pins[PIN].contact.normal
+        held = [law.elastic_force(float(d)) if d > 0.0 else 0.0 for d in elastic]
+        axes.plot(1e3 * elastic, 1e-3 * np.array(held), color="#999999", lw=0.8, ls=(0, (4, 2)))
+        axes.set(xlim=(0, None), ylim=(0, None))
+        axes.set_title(title(name), fontsize=8)
+        axes.locator_params(nbins=3)
+    drawing.supxlabel("depth [mm]", fontsize=9)
+    drawing.supylabel("normal force [kN]", fontsize=9)
+    drawing.suptitle(
+        f"Force over depth in a free impact at {SPEED} m/s, restitution {LOOP_RESTITUTION} asked for "
+        "(dashed: elastic part)"
+    )
+    return drawing
+
+
+def rise_figure(numbers: Sequence[Number]) -> Figure:
+    """Mean, spread, peak and energy lost of the rise, a row for each law."""
+    cases = list(dict.fromkeys(n.case for n in numbers))
+    found = {(n.name, n.case): n for n in numbers}
+    shown = [
+        ("mean_pin_force", 1e-3, "mean force,\n3 to 5 s [kN]"),
+        ("std_pin_force", 1e-3, "its std,\n3 to 5 s [kN]"),
+        ("largest_pin_force_any_step", 1e-3, "largest force,\n0 to 5 s [kN]"),
+        ("energy_dissipated", 1.0, "energy lost,\n0 to 5 s [J]"),
+    ]
+    drawing = Figure(figsize=style.size(190, 35 + 5 * len(cases)))
+    panels = drawing.subplots(1, len(shown), sharey=True)
+    rows = np.arange(len(cases))
+    for axes, (name, scale, label) in zip(panels, shown, strict=True):
+        values = np.array([scale * found[name, case].value for case in cases])
+        errors = np.array([scale * found[name, case].numerical_error for case in cases])
+        axes.errorbar(values, rows, xerr=errors, fmt="o", ms=3, color=style.LOOSE, capsize=2, lw=0.8)
+        axes.set(xlabel=label)
+        if values.max() > 4.0 * np.median(values) and values.min() > 0.0:
+            axes.set_xscale("log")
+            axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 3.0)))
+            axes.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+            axes.xaxis.set_minor_formatter(NullFormatter())
+    panels[0].set_yticks(rows, [row_title(case) for case in cases], fontsize=7)
+    panels[0].invert_yaxis()
+    drawing.suptitle("Rise of the support, 1.5 mm clearance (bars: estimated error)")
+    return drawing
+
+
+def permanent_figure(results: Mapping[str, Result]) -> Figure:
+    """What becomes of the vibration after the last bounce, by how a contact that does not part is damped."""
+    drawing = Figure(figsize=style.size(170, 125))
+    whole, rest = drawing.subplots(2, 1)
+    curves = [
+        ("lankarani_nikravesh", style.LOOSE, "-", "damped by the depth (DepthSpeed)"),
+        *zip(
+            TEXTBOOK,
+            (style.SMOOTH, style.THIRD),
+            ("-", (0, (5, 1.5))),  # for grey prints
+            (f"textbook: by the last touch, not below {floor:g} m/s" for floor in TEXTBOOK.values()),
+            strict=True,
+        ),
+    ]
+    for axes, (begin, end) in ((whole, (0.0, 0.5)), (rest, (0.5, 1.5))):
+        for case, colour, dashes, label in curves:
+            result = results[case]
+            axes.plot(result.time, 1e-3 * result[rise.FORCE], color=colour, ls=dashes, lw=0.9, label=label)
+        axes.set(xlim=(begin, end), xlabel="time [s]", ylabel="pin force [kN]")
+    inside = [results[c][rise.FORCE][(results[c].time > 0.5) & (results[c].time < 1.5)] for c, *_ in curves]
+    _fit(rest, [1e-3 * force for force in inside])
+    whole.set_title("a) the fall into the bore")
+    rest.set_title("b) what is left of it")
+    drawing.legend(*whole.get_legend_handles_labels(), loc="outside lower center", ncols=1)
+    drawing.suptitle("Lankarani-Nikravesh in the support: a contact that does not part, three ways to damp it")
+    return drawing
+
+
+def _fit(axes: Axes, curves: Sequence[Series]) -> None:
+    low, high = min(c.min() for c in curves), max(c.max() for c in curves)
+    axes.set_ylim(low - 0.05 * (high - low), high + 0.05 * (high - low))
+
+
+def row_title(case: str) -> str:
+    """A case of a rise as it stands in tables and figures."""
+    if case.startswith("friction "):
+        return f"friction: {title(case.removeprefix('friction '))}"
+    name, _, rest = case.partition(", ")
+    return title(name) + (f", {rest}" if rest else "")
+
+
+def pictures() -> tuple[Picture, ...]:
+    """The figures with what they show."""
+    return (
+        Picture(
+            "delivered_restitution",
+            "Restitution that a free impact delivers over the restitution asked for, a panel for each law: "
+            "closed form (line), through the engine (points), and as asked (dashed).",
+        ),
+        Picture(
+            "force_depth_loops",
+            f"Force over depth in a free impact at {SPEED} m/s, a restitution of {LOOP_RESTITUTION} asked for; "
+            "dashed: the elastic part alone.",
+        ),
+        Picture(
+            "rise_under_each_law",
+            "The rise under each law: mean force and its standard deviation from 3 to 5 s, largest force and "
+            "energy lost from 0 to 5 s. Bars are the estimated errors.",
+        ),
+        Picture(
+            "permanent_contact",
+            "Lankarani-Nikravesh in the support, three ways to damp a contact that does not part: the fall "
+            "into the bore (a), and what is left of the vibration (b).",
+        ),
+    )

@@ -1,0 +1,230 @@
+"""All cases of the study: grids for the maps, the box, and random corners of every kind."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+
+from studies.extremes import scenes
+from studies.extremes.judge import Case
+from studies.extremes.ranges import SPANS, Point, drawn
+from support_exudyn import Held, Scenario
+from support_exudyn.scenario.scenario import Accuracy
+
+SEED = 20261122
+ACCURACIES: tuple[Accuracy, ...] = ("draft", "standard", "reference")
+STEP_STIFFNESS, CLEARANCE_SPEED, FRICTION_STEP = (
+    "step and stiffness",
+    "clearance and speed",
+    "friction and step",
+)
+MAPS = (STEP_STIFFNESS, CLEARANCE_SPEED, FRICTION_STEP)
+BOX = "box"
+LONG_OF, SHORT_OF = 500, 50  # records of a stroke, full and quick
+PACE = (0.5, 0.1)  # full and quick
+STROKE = 0.05  # [m]
+STARTS = ("concentric", "touching", "overlapping", "settled")
+BODIES = ("rear_link", "front_link", "shield", "canopy")
+# how many of each kind, full and quick; grids: lines and columns
+GRIDS = {STEP_STIFFNESS: (13, 4), CLEARANCE_SPEED: (12, 3), FRICTION_STEP: (13, 4)}
+RANDOM = {
+    "corners": (560, 14),
+    BOX: (520, 12),
+    "slider-crank": (140, 4),
+    "free impact": (80, 3),
+    "start": (60, 4),
+    "solver": (60, 4),
+    "mass ratio": (50, 3),
+    "posture": (70, 4),
+    "dead centre": (30, 2),
+    "all pins": (30, 1),
+    "no gravity": (30, 2),
+    "hang-up": (30, 2),
+    "roof": (40, 3),
+    "columns": (20, 1),
+    "space": (16, 1),
+}
+
+
+def cases(quick: bool) -> list[Case]:
+    """All of them, in the same order always."""
+    drawn_ones = (
+        _random(group, i, np.random.default_rng([SEED, n, i]), PACE[quick])
+        for n, (group, numbers) in enumerate(RANDOM.items())
+        for i in range(numbers[quick])
+    )
+    return [*_maps(quick), *drawn_ones]
+
+
+def _maps(quick: bool) -> Iterator[Case]:
+    pace = PACE[quick]
+    size = GRIDS[STEP_STIFFNESS][quick]
+    for step in _steps(size):
+        for stiffness in _axis("stiffness", size):
+            point = Point(step_s=step, stiffness=stiffness, pace=pace)
+            values = {"step_s": step, "stiffness": stiffness}
+            yield _case(STEP_STIFFNESS, values, partial(scenes.fallen, point), False)
+    size = GRIDS[CLEARANCE_SPEED][quick]
+    for clearance in _axis("clearance_m", size):
+        for time in np.geomspace(0.05, 100.0, size).tolist():
+            point = Point(clearance_m=clearance)
+            values = {"clearance_m": clearance, "speed_m_s": STROKE / time}
+            make = partial(scenes.stroke_of, point, time, STROKE, "standard", SHORT_OF if quick else LONG_OF)
+            yield _case(CLEARANCE_SPEED, values, make, False)
+    size = GRIDS[FRICTION_STEP][quick]
+    for static in np.geomspace(1e-7, 5e-2, size).tolist():
+        for step in _steps(size):
+            rubbing = {"static_speed_m_s": static, "dynamic_speed_m_s": 2.0 * static}
+            point = Point(step_s=step, mu=0.25, pace=pace, **rubbing)
+            values = {"static_speed_m_s": static, "step_s": step}
+            yield _case(FRICTION_STEP, values, partial(scenes.fallen, point), False)
+
+
+def _axis(name: str, size: int) -> list[float]:
+    span = SPANS[name]
+    values: list[float] = np.geomspace(span.low, span.high, size).tolist()
+    return values
+
+
+def _steps(size: int) -> list[float]:
+    return _axis("step_s", size)
+
+
+def _case(group: str, values: Mapping[str, float | str], make: Callable[[], Scenario], box: bool) -> Case:
+    said = ", ".join(
+        f"{name} {value:.3g}" if isinstance(value, float) else str(value) for name, value in values.items()
+    )
+    return Case(f"{group}: {said}", group, box, make, values)
+
+
+def _random(group: str, i: int, random: np.random.Generator, pace: float) -> Case:
+    """A random case of a group."""
+    box = group == BOX
+    point = replace(drawn(random, box), pace=pace)
+    if group != "corners":  # tiny steps are tried there and in the maps; they take long
+        point = replace(point, step_s=max(point.step_s, 5e-5))
+    values: dict[str, float | str] = {"number": float(i)}
+    values |= {name: getattr(point, name) for name in SPANS if hasattr(point, name)}
+    values |= {"law": point.law, "dynamic_speed_m_s": point.dynamic_speed_m_s, "bore": point.bore}
+    more, make = _KINDS[group](point, i, random)
+    return _case(group, values | more, make, box)
+
+
+Made = tuple[dict[str, float | str], Callable[[], Scenario]]
+
+
+def _corner(point: Point, i: int, random: np.random.Generator) -> Made:
+    edge = i % 10
+    if edge == 0:
+        point = replace(point, static_speed_m_s=0.0)
+    elif edge == 1:
+        point = replace(point, mu=max(point.mu, 0.1), static_speed_m_s=point.dynamic_speed_m_s)  # v_s = v_d
+    return {"static": point.static_speed_m_s}, partial(scenes.fallen, point)
+
+
+def _boxed(point: Point, i: int, random: np.random.Generator) -> Made:
+    accuracy = ACCURACIES[i % 3]
+    drive = Held() if i % 2 else scenes.gentle(point)
+    return {"accuracy": accuracy}, partial(scenes.boxed, point, accuracy, drive)
+
+
+def _cranked(point: Point, i: int, random: np.random.Generator) -> Made:
+    rpm = float(10.0 ** random.uniform(1.0, 4.0))
+    accuracy = (*ACCURACIES, None)[i % 4]
+    return {"rpm": rpm, "accuracy": str(accuracy)}, partial(scenes.cranked, point, rpm, accuracy)
+
+
+def _colliding(point: Point, i: int, random: np.random.Generator) -> Made:
+    ratio, speed = float(10.0 ** random.uniform(-4.0, 4.0)), float(10.0 ** random.uniform(-4.0, 1.0))
+    point = replace(point, mu=0.0)
+    return {"mu": 0.0, "mass_ratio": ratio, "speed": speed}, partial(scenes.colliding, point, ratio, speed)
+
+
+def _started(point: Point, i: int, random: np.random.Generator) -> Made:
+    start = STARTS[i % len(STARTS)]
+    return {"start": start}, partial(scenes.started, point, start)
+
+
+def _with_solver(point: Point, i: int, random: np.random.Generator) -> Made:
+    point = replace(point, spectral_radius=(0.0, 0.5, 1.0, point.spectral_radius)[i % 4])
+    settings: scenes.OtherSettings = {
+        "newton": "full" if i % 2 else "modified",
+        "growth": (1.0, 8.0, 64.0)[i % 3],
+    }
+    if i % 5 == 0:
+        settings |= {"integrator": "trapezoidal", "constraint_index": 2}
+    if i % 5 == 1:
+        settings["backend"] = "symbolic"
+    if i % 5 == 2:
+        settings["locate"] = False
+    said: dict[str, float | str] = {name: str(value) for name, value in settings.items()}
+    said["spectral_radius"] = point.spectral_radius
+    make = scenes.on_oil if i % 2 else scenes.with_solver
+    return said, partial(make, point, **settings)
+
+
+def _of_masses(point: Point, i: int, random: np.random.Generator) -> Made:
+    body, factor = BODIES[i % 4], float(10.0 ** random.uniform(-4.0, 4.0))
+    return {"body": body, "factor": factor}, partial(scenes.of_masses, point, body, factor)
+
+
+def _of_posture(point: Point, i: int, random: np.random.Generator) -> Made:
+    height, stroke = float(random.uniform(1.0, 3.6)), float(random.uniform(-1.0, 1.5))
+    loose = bool(i % 2)
+    more: dict[str, float | str] = {"height_m": height, "stroke_m": stroke, "loose": str(loose)}
+    return more, partial(scenes.of_posture, point, height, stroke, loose)
+
+
+def _past_dead_centre(point: Point, i: int, random: np.random.Generator) -> Made:
+    share = 1.0 - float(10.0 ** random.uniform(-6.0, -0.5))
+    return {"share": share}, partial(scenes.past_dead_centre, point, share)
+
+
+def _everywhere(point: Point, i: int, random: np.random.Generator) -> Made:
+    return {"friction": str(bool(i % 2))}, partial(scenes.everywhere, point, bool(i % 2))
+
+
+def _weightless(point: Point, i: int, random: np.random.Generator) -> Made:
+    return {}, partial(scenes.weightless, point)
+
+
+def _hung_up(point: Point, i: int, random: np.random.Generator) -> Made:
+    angle = scenes.rest_angle(random)
+    mu = max(point.mu, 0.5)
+    return {"mu": mu, "angle": angle}, partial(scenes.hung_up, replace(point, mu=mu), angle)
+
+
+def _under_roof(point: Point, i: int, random: np.random.Generator) -> Made:
+    force, stiffness = float(10.0 ** random.uniform(4.0, 7.0)), float(10.0 ** random.uniform(7.0, 10.0))
+    more: dict[str, float | str] = {"force_N": force, "roof_N_m": stiffness}
+    return more, partial(scenes.under_roof, point, force, stiffness, bool(i % 2))
+
+
+def _heavy(point: Point, i: int, random: np.random.Generator) -> Made:
+    return {}, partial(scenes.heavy_columns, point)
+
+
+def _in_space(point: Point, i: int, random: np.random.Generator) -> Made:
+    return {}, partial(scenes.in_space, point)
+
+
+_KINDS: dict[str, Callable[[Point, int, np.random.Generator], Made]] = {
+    "corners": _corner,
+    BOX: _boxed,
+    "slider-crank": _cranked,
+    "free impact": _colliding,
+    "start": _started,
+    "solver": _with_solver,
+    "mass ratio": _of_masses,
+    "posture": _of_posture,
+    "dead centre": _past_dead_centre,
+    "all pins": _everywhere,
+    "no gravity": _weightless,
+    "hang-up": _hung_up,
+    "roof": _under_roof,
+    "columns": _heavy,
+    "space": _in_space,
+}

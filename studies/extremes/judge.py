@@ -1,0 +1,285 @@
+"""Whether a run ended well: good, or refused with a reason; anything else is a silent failure.
+
+A run is good if it has finished and what can be asked of it is so:
+
+- all of its numbers are finite, energy adds up, no journal is deeper in its bore than a stated share of the
+  radius (`simulation.audit` looks at that in every run; here it is looked at once more);
+- no free impact gives back more than the law does;
+- a run of half its steps agrees with it within the error that it reports;
+- so does, where there is one, an independent formulation of the same scene.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+import traceback
+import warnings
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass, replace
+
+import numpy as np
+
+from support_exudyn import Result, Scenario, SimulationError, SolverSettings, simulate
+from support_exudyn.formulations.limits import DEEPEST
+from support_exudyn.formulations.registry import covers
+from support_exudyn.scenario.scenario import LARGEST_STEP
+from support_exudyn.scenario.timescales import timescales
+from support_exudyn.simulation.audit import OPEN, energy_open
+from support_exudyn.simulation.contact_ringing import ringing_step
+from support_exudyn.simulation.estimate import disagreement, rounding_share
+from user_forces import Frictionless, InputError
+from user_forces.normal.hysteresis import Hysteresis
+
+GOOD, REFUSED, SILENT = "good", "refused", "silent"
+# An impact is free if gravity changes the speed by less than this share of it while it lasts, and nothing rubs.
+# Where there is no gravity and nothing is driven, every one is.
+# Its restitution then is that of the law within some thousandths (1.3e-3 at most in 500 random scenes).
+FREE, MORE = 0.02, 0.005
+PULL = 9.81  # [m/s^2]
+ALONE = 1e-9  # [s] by which contacts of two pins are apart at least
+TOLERANCE = 1e-8  # of an independent formulation
+MOST_STEPS = 300_000  # of runs that only check
+TELLING = 0.05  # a run that is less certain does not check anything
+CHECKING = 3.0  # times the estimated error of a run that only checks: an estimate covers 97 % of errors
+# of a check by the redundant formulation: steps of an impact, fewest and most steps of the grid
+IMPACT_STEPS, FEWEST, LONGEST = 64, 200, 20_000
+FOLLOWED = 2.0  # times of a vibration of a loaded contact (one over its angular frequency) that a step may be
+# spectral radii of a check: the larger, the less its steps damp, and the more rounding stays. The first that
+# keeps what rings with no more steps than that
+RADII = (0.5, 0.9)
+
+
+@dataclass(frozen=True)
+class Case:
+    """A scene of the study.
+
+    name, group: what it is, and what it belongs to. box: whether it is physically sensible. scenario: makes
+    it, or raises InputError. values: what was varied, for the table.
+    """
+
+    name: str
+    group: str
+    box: bool
+    scenario: Callable[[], Scenario]
+    values: Mapping[str, float | str]
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """How a case ended.
+
+    outcome: good, refused or silent. reason: why not good. error: reported, relative, of the worst number.
+    half: how far half the steps are away in the same measure. other: how far the independent formulation is,
+    nan if there is none. energy: by how much it is open as a share of what was turned over. depth: largest
+    share of the bore's radius. restitution: the largest of free impacts over that of the law, nan if there is
+    none. met: whether an accuracy that was asked for was reached. wall_s: of everything.
+    """
+
+    outcome: str
+    reason: str = ""
+    error: float = math.nan
+    half: float = math.nan
+    other: float = math.nan
+    energy: float = math.nan
+    depth: float = math.nan
+    restitution: float = math.nan
+    met: bool = False
+    wall_s: float = 0.0
+
+    def row(self) -> dict[str, object]:
+        """Return the verdict as plain data."""
+        return asdict(self)
+
+
+Run = Callable[[Scenario], Result]
+
+
+def run_with_its_error(scenario: Scenario) -> Result:
+    """Run a scene as a user does who wants numbers with their errors."""
+    return simulate(scenario, errors=True)
+
+
+def judge(make: Callable[[], Scenario], run: Run = run_with_its_error) -> Verdict:
+    """Make a scene, run it and look at what comes out; warnings are errors."""
+    began = time.perf_counter()
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            verdict = _judged(make, run)
+    except Exception as error:  # whatever it is: nobody has explained it
+        where = traceback.extract_tb(error.__traceback__)[-1]
+        said = f"{type(error).__name__}: {error} ({where.filename.rpartition('/')[2]}:{where.lineno})"
+        verdict = Verdict(SILENT, said[:400])
+    return replace(verdict, wall_s=time.perf_counter() - began)
+
+
+def _judged(make: Callable[[], Scenario], run: Run) -> Verdict:
+    try:
+        scenario = make()
+        result = run(scenario)
+    except InputError as error:
+        return Verdict(REFUSED, f"before the run: {error}"[:400])
+    except SimulationError as error:
+        return _refused(error)
+    found = Verdict(
+        GOOD,
+        error=result.worst_error,
+        energy=_energy(result),
+        depth=_deepest(result),
+        restitution=largest_restitution(result),
+        met=result.met,
+    )
+    return _compared(result, found)
+
+
+def _refused(error: SimulationError) -> Verdict:
+    """A failure has to say why, when, and what to change."""
+    failure = error.failure
+    if failure.reason and failure.advice and math.isfinite(failure.time):
+        return Verdict(REFUSED, f"at {failure.time:.6g} s: {failure.reason}"[:400])
+    return Verdict(SILENT, f"refused without cause, time or advice: {failure}")
+
+
+def _compared(result: Result, found: Verdict) -> Verdict:
+    """The verdict after what is asked of a run by itself and beside others."""
+    faults = []
+    if not all(np.isfinite(channel.values).all() for channel in result.channels.values()):
+        faults.append("a number is not finite")
+    if not found.energy <= OPEN:
+        faults.append(f"energy is open by {found.energy:.2g} of what was turned over")
+    if found.depth > DEEPEST:
+        faults.append(f"depth is {found.depth:.2g} of the bore's radius")
+    if found.restitution > 1.0 + MORE:
+        faults.append(f"a free impact gives back {found.restitution:.4g} times what its law does")
+    pair = _halved(result)
+    if pair is not None:
+        whole, half = pair
+        found = replace(found, half=disagreement(whole, half))
+        reported = whole.worst_error + rounding_share(half)
+        if not found.half <= reported:
+            faults.append(f"half the steps are {found.half:.2g} away, reported error {reported:.2g}")
+    other = independent(result.scenario)
+    if other is not None:
+        found = replace(found, other=disagreement(result, other))
+        if not found.other <= found.error + CHECKING * other.worst_error:
+            faults.append(
+                f"formulation {other.scenario.formulation} is {found.other:.2g} away, reported errors "
+                f"{found.error:.2g} and {other.worst_error:.2g}"
+            )
+    return replace(found, outcome=SILENT, reason="; ".join(faults)) if faults else found
+
+
+def _energy(result: Result) -> float:
+    open_by, allowed = energy_open(result.scenario, result.channels)
+    return OPEN * float(open_by.max()) / allowed if allowed > 0.0 else 0.0
+
+
+def _deepest(result: Result) -> float:
+    depths = [
+        float(result[f"pin.{name}.depth"].max()) / pin.contact.bearing.bore_radius
+        for name, pin in result.scenario.clearance_pins.items()
+        if f"pin.{name}.depth" in result.channels
+    ]
+    return max(depths, default=0.0)
+
+
+def largest_restitution(result: Result) -> float:
+    """The largest restitution of a free impact over that of its law; nan if there was none."""
+    found = [math.nan]
+    pull = _pull(result.scenario)
+    contacts = {
+        name: [(touch.time, touch.parting_time) for touch in result.onsets.get(name, ())]
+        for name in result.scenario.clearance_pins
+    }
+    for name, pin in result.scenario.clearance_pins.items():
+        law = pin.contact.normal
+        if not isinstance(law, Hysteresis) or not isinstance(pin.contact.friction, Frictionless):
+            continue
+        others = [span for other, spans in contacts.items() if other != name for span in spans]
+        for touch in result.onsets.get(name, ()):
+            lasted = touch.parting_time - touch.time
+            if not pull * lasted < FREE * touch.speed:
+                continue
+            if any(begin - ALONE < touch.parting_time and touch.time < end + ALONE for begin, end in others):
+                continue
+            if any(touch.time - ALONE <= one.time <= touch.parting_time for one in result.impulses):
+                continue
+            found.append(touch.parting_speed / (law.delivered_restitution * touch.speed))
+    return float(np.nanmax(found)) if len(found) > 1 else math.nan
+
+
+def _pull(scenario: Scenario) -> float:
+    """What pulls a journal besides its contact [m/s^2]: gravity, and what the machine's drives do to it.
+
+    That of a running machine from the time of flight that is known of it; of other drives a guess.
+    """
+    moves = (
+        PULL if any(drive.span(scenario.duration) != (0.0, 0.0) for drive in scenario.drives_in_use) else 0.0
+    )
+    clearances = [pin.contact.bearing.clearance for pin in scenario.clearance_pins.values()]
+    flight = timescales(scenario).flight
+    return max(
+        [math.hypot(*scenario.gravity), moves, *(2.0 * clearance / flight**2 for clearance in clearances)]
+    )
+
+
+def _halved(result: Result) -> tuple[Result, Result] | None:
+    """A run with its error, and that of half its steps; None if there are no finer settings.
+
+    A run that was asked for at chosen steps has been halved already.
+    """
+    if result.goal is None and result.coarser is not None:
+        return result.coarser, result
+    try:
+        finer = result.scenario.refined()
+    except InputError:  # so many steps an impact are not allowed
+        return None
+    if finer == result.scenario:
+        return None
+    try:
+        return result, simulate(_patient(finer))
+    except SimulationError:  # it cannot be told then; the runs that gave the error have agreed
+        return None
+
+
+def independent(scenario: Scenario) -> Result | None:
+    """The scene by a formulation that shares nothing but the laws; None if none covers it."""
+    if scenario.dimensions == 3:
+        return None
+    patient = _patient(scenario)
+    if scenario.formulation in ("reduced", "tree"):
+        others = _by_steps(patient)
+    else:
+        solver = SolverSettings(tolerance=TOLERANCE, most_steps=MOST_STEPS)
+        others = [replace(patient, formulation=name, solver=solver) for name in ("reduced", "tree")]
+    for other in others:
+        if covers(other.formulation, other):
+            try:
+                result = simulate(other, errors=True)
+            except SimulationError:
+                return None
+            return result if result.worst_error < TELLING else None
+    return None
+
+
+def _by_steps(scenario: Scenario) -> list[Scenario]:
+    """The scene by the redundant formulation, none if it would take too many steps.
+
+    A step that does not follow the vibration of the loaded contact damps it out, as would its halves: they
+    agree on what is wrong.
+    """
+    longest = FOLLOWED * timescales(scenario).resting
+    longest = min(scenario.record_period, scenario.duration / FEWEST, LARGEST_STEP, longest)
+    for radius in RADII:
+        steps = SolverSettings(impact_steps=IMPACT_STEPS, most_steps=MOST_STEPS, spectral_radius=radius)
+        other = replace(scenario, formulation="redundant", solver=steps)
+        other = replace(other, step=min(longest, ringing_step(other)))
+        if other.duration / other.step <= LONGEST:
+            return [other]
+    return []
+
+
+def _patient(scenario: Scenario) -> Scenario:
+    """Return the same scene that may take more steps."""
+    return replace(scenario, solver=replace(scenario.solver, most_steps=MOST_STEPS))

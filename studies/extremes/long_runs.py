@@ -1,0 +1,242 @@
+"""Do runs stay right for long? Joints, energy and memory over a thousand seconds.
+
+The reference support raised and lowered by 100 mm every 4 s, with ideal pins, with 1.5 mm in the rear-link pin,
+with friction there, and on oil columns; held at rest; and a slider-crank with a loose slider pin that turns for
+as long. A run is measured in the process that calls; for memory that should be a fresh one.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from studies.common import paper_machine
+from studies.slider_crank import run as slider_crank
+from support_exudyn import (
+    Drive,
+    Held,
+    OilColumn,
+    Reciprocating,
+    Scenario,
+    SimulationError,
+    SolverSettings,
+    Steady,
+    reference_support,
+)
+from support_exudyn.formulations.progress import Progress, silent
+from support_exudyn.formulations.registry import formulation
+from support_exudyn.mechanics.trajectory import Outcome
+from support_exudyn.scenario.recorded_channels import Channel, channels
+from support_exudyn.simulation.audit import audit, energy_open, joints_apart, turned_over
+from support_exudyn.simulation.collector import paused_collector
+
+Series = npt.NDArray[np.float64]
+FULL, QUICK = 1000.0, 20.0  # [s]
+STROKE, PERIOD = 0.1, 4.0  # [m], [s]
+CLEARANCE_MM = 1.5
+CRANK_SPEED = 10.0  # [rad/s]
+RECORD_PERIOD = 0.05  # [s]
+STEP = 2e-3  # [s]
+GROWTH = 8.0
+AT_REST = 64.0  # the same where nothing moves
+IMPACT_STEPS = 64
+MOST_STEPS = 10**9
+IDEAL, SMOOTH, DRY, OIL, REST = "ideal pins", "1.5 mm", "friction", "oil columns", "at rest"
+CRANK = "crank"
+PARTS = 10  # of a run: the first is compared with the last
+NUMBER = 8  # [bytes]
+TOUCH = 168  # an Onset of four numbers in a list of CPython [bytes]
+STATUS = Path("/proc/self/status")
+
+
+@dataclass(frozen=True)
+class LongRun:
+    """What a long run came to.
+
+    scene, simulated, wall: name, [s], [s]. steps, touches: numbers. gap_first, gap_last: largest distance of
+    what is joined, in the first and the last tenth of the run [m]. gap_slope: of the line through all [m/s].
+    energy_first, energy_open: by how much the balance is open after the first tenth and at the end [J].
+    turned_over: kinetic, potential and elastic energy, losses and work that changed hands [J].
+    memory_first, memory_end: resident after a tenth and at the end [bytes]. memory_slope: their difference less
+    what records and touches take, by simulated time [bytes/s]; nan where the system does not tell.
+    late: largest distance of a record from its time [s].
+    """
+
+    scene: str
+    simulated: float
+    wall: float
+    steps: int
+    touches: int
+    gap_first: float
+    gap_last: float
+    gap_slope: float
+    energy_first: float
+    energy_open: float
+    turned_over: float
+    memory_first: float
+    memory_end: float
+    memory_slope: float
+    late: float
+
+    @property
+    def energy_share(self) -> float:
+        """By how much the energy balance is open at the end, of what was turned over."""
+        return self.energy_open / self.turned_over
+
+
+# --- scenes ---
+
+
+def scene(name: str, duration: float) -> Scenario:
+    """The scene of this name, for so long [s]; names are the keys of SCENES."""
+    return SCENES[name](duration)
+
+
+def _support(duration: float, sliding_coefficient: float | None = None, drive: Drive | None = None) -> Scenario:
+    pin = paper_machine.LOOSE_PIN
+    loose = (
+        {} if sliding_coefficient is None else {pin: paper_machine.loose_pin(CLEARANCE_MM, sliding_coefficient)}
+    )
+    return Scenario(
+        machine=reference_support(),
+        pins=loose,
+        drive=drive or Reciprocating(stroke=STROKE, period=PERIOD),
+        duration=duration,
+        formulation="redundant",
+        step=STEP,
+        record_period=RECORD_PERIOD,
+        solver=SolverSettings(
+            impact_steps=IMPACT_STEPS,
+            growth=GROWTH if drive is None else AT_REST,
+            backend="symbolic",
+            most_steps=MOST_STEPS,
+        ),
+    )
+
+
+def _on_oil(duration: float) -> Scenario:
+    columns: dict[str, OilColumn] = paper_machine.oil_columns()
+    return replace(_support(duration, 0.0), columns=columns)
+
+
+def _crank(duration: float) -> Scenario:
+    """The slider-crank of the field with a loose slider pin with friction, turning slowly, with its weight.
+
+    It rattles for seconds and stays closed from then on.
+    """
+    return replace(
+        slider_crank.scenarios(quick=True)[slider_crank.DRY],
+        drive=Steady(rate=CRANK_SPEED),
+        duration=duration,
+        formulation="redundant",
+        step=STEP,
+        record_period=RECORD_PERIOD,
+        gravity=(0.0, -9.81),
+        solver=SolverSettings(
+            impact_steps=IMPACT_STEPS, growth=GROWTH, backend="symbolic", most_steps=MOST_STEPS
+        ),
+    )
+
+
+SCENES: dict[str, Callable[[float], Scenario]] = {
+    IDEAL: _support,
+    SMOOTH: lambda duration: _support(duration, 0.0),
+    DRY: lambda duration: _support(duration, paper_machine.SLIDING_COEFFICIENT),
+    OIL: _on_oil,
+    REST: lambda duration: _support(duration, 0.0, Held()),
+    CRANK: _crank,
+}
+
+
+# --- running and measuring ---
+
+
+def run(scenario: Scenario, name: str = "", progress: Progress = silent) -> LongRun:
+    """Run a scenario and measure it.
+
+    Raises SimulationError if it fails or does not stand up to the audit, as `simulate` does.
+    """
+    memory = [resident(), math.nan, math.nan]  # before, after a tenth, at the end [bytes]
+
+    def watch(share: float) -> None:
+        if share >= 1.0 / PARTS and math.isnan(memory[1]):
+            memory[1] = resident()
+        if share >= 1.0:
+            memory[2] = resident()
+        progress(share)
+
+    chosen = formulation(scenario.formulation)
+    chosen.check(scenario)
+    began = time.perf_counter()
+    with paused_collector():
+        outcome = chosen.run(scenario, watch)
+    wall = time.perf_counter() - began
+    found = channels(scenario, outcome.trajectory)
+    if (failure := audit(scenario, outcome, found)) is not None:
+        raise SimulationError(failure)
+    return _measured(scenario, name, outcome, found, wall, memory)
+
+
+def _measured(
+    scenario: Scenario,
+    name: str,
+    outcome: Outcome,
+    found: dict[str, Channel],
+    wall: float,
+    memory: Sequence[float],
+) -> LongRun:
+    times = outcome.trajectory.time
+    first, last = times <= scenario.duration / PARTS, times >= scenario.duration * (1.0 - 1.0 / PARTS)
+    gaps = joints_apart(scenario, outcome)
+    if gaps is None:
+        raise ValueError("the motion was not recorded")
+    open_by, _ = energy_open(scenario, found)
+    begun = [onset.time for pin in outcome.onsets.values() for onset in pin]
+    later = sum(t > scenario.duration / PARTS for t in begun)
+    kept = (times.size - first.sum()) * record_bytes(scenario) + later * TOUCH
+    nominal = np.minimum(np.arange(times.size) * scenario.record_period, scenario.duration)
+    return LongRun(
+        scene=name,
+        simulated=scenario.duration,
+        wall=wall,
+        steps=outcome.counts.steps,
+        touches=len(begun),
+        gap_first=float(gaps[first].max()),
+        gap_last=float(gaps[last].max()),
+        gap_slope=slope(times, gaps),
+        energy_first=float(open_by[first][-1]),
+        energy_open=float(open_by[-1]),
+        turned_over=turned_over(found),
+        memory_first=memory[1],
+        memory_end=memory[2],
+        memory_slope=float(memory[2] - memory[1] - kept) / (scenario.duration * (1.0 - 1.0 / PARTS)),
+        late=float(np.abs(times - nominal).max()),
+    )
+
+
+def slope(times: Series, values: Series) -> float:
+    """Of the straight line that fits values best, per second."""
+    apart = times - times.mean()
+    return float(apart @ values / (apart @ apart))
+
+
+def record_bytes(scenario: Scenario) -> int:
+    """What a record of a scenario in the plane takes while it runs [bytes]."""
+    # time and three integrals; position and velocity; the memory of a loose pin is nine numbers
+    return NUMBER * (4 + 6 * len(scenario.linkage.bodies) + 9 * len(scenario.clearance_pins))
+
+
+def resident() -> float:
+    """Memory of this process that is in use now [bytes]; nan where the system does not tell."""
+    try:
+        lines = STATUS.read_text().splitlines()
+    except OSError:
+        return math.nan
+    sizes = [line.split()[1] for line in lines if line.startswith("VmRSS:")]
+    return 1024.0 * float(sizes[0]) if sizes else math.nan

@@ -1,0 +1,274 @@
+"""What is measured of a scene, what that changes against another, and what it costs."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from studies.common import rise
+from studies.common.study import Number, halvings, touches
+from studies.scene_detail.runs import Timed, timed
+from studies.scene_detail.scenes import FULLEST, REAR, Scene
+from support_exudyn import Estimate, Result
+from support_exudyn.formulations.redundant.inventory import Inventory, inventory
+from support_exudyn.simulation.evidence.table import Table, Tried, fields_of
+from support_exudyn.simulation.recommend import STROKE, UNEQUAL
+
+ROUNDING = 1e-7  # share of a number that no error is below
+# what Newton's tolerance and rounding leave open, below which no error of such a number is put, by its unit
+SMALLEST = {"N": 1e-3, "N m": 1e-3, "m": 1e-9, "m/s": 1e-9, "deg": 1e-8, "deg/s^2": 1e-2}
+TOUCHES = 3
+MM, DEGREES = 1e3, rise.DEGREES
+Series = npt.NDArray[np.float64]
+Get = Callable[[Result], float]
+Numbers = dict[str, Estimate]
+FROM_REFERENCE, FROM_FULLEST = "tip_distance_from_reference", "tip_distance_from_fullest"
+
+
+@dataclass(frozen=True)
+class Change:
+    """What a number changes from one scene to another, and both numerical errors together, in one unit."""
+
+    value: float
+    error: float
+
+    @property
+    def below_error(self) -> bool:
+        """Whether nothing can be said but that it is no larger than the errors."""
+        return abs(self.value) <= self.error
+
+    def of(self, size: float) -> Change:
+        """The same in per cent of a size."""
+        return Change(100.0 * self.value / size, 100.0 * self.error / abs(size))
+
+    def scaled(self, scale: float) -> Change:
+        """The same in another unit."""
+        return Change(scale * self.value, scale * self.error)
+
+
+def change(here: Estimate, there: Estimate) -> Change:
+    """From there to here."""
+    return Change(here.value - there.value, here.error + there.error)
+
+
+@dataclass(frozen=True)
+class Cost:
+    """What a scene costs at its longer steps.
+
+    seconds: processor time. scatter: of it [s]. steps. calls: of user functions, a step. held: what the engine
+    holds.
+    """
+
+    seconds: float
+    scatter: float
+    steps: int
+    calls: float
+    held: Inventory
+
+    @property
+    def per_step(self) -> float:
+        """Processor time of a step [us]."""
+        return 1e6 * self.seconds / self.steps
+
+
+@dataclass(frozen=True)
+class Measured:
+    """A scene that has been run: numbers with errors, cost, and the finer run."""
+
+    scene: Scene
+    numbers: Numbers
+    cost: Cost
+    run: Result
+
+
+# --- numbers ---
+
+
+def estimate(run: Result, unit: str, get: Get) -> Estimate:
+    """A number of a run with its error, which is no less than rounding."""
+    found = run.estimate(get, unit)
+    between_records = get.missed(run) if isinstance(get, rise.Peak) else 0.0
+    rounding = SMALLEST[unit] if unit == "m" else max(SMALLEST[unit], ROUNDING * abs(found.value))
+    return found._replace(error=max(found.error + between_records, rounding))
+
+
+def measure(scenes: Mapping[str, Scene], runs: Mapping[str, Timed], short: float) -> dict[str, Measured]:
+    """All numbers of all scenes; short: runs that are shorter are timed again, alone [s]."""
+    finest = {name: timed.run for name, timed in runs.items()}
+    found = {}
+    for name, scene in scenes.items():
+        numbers = _of_stroke(scene, finest[name]) | _touches(finest[name])
+        if scene.group == "unequal":
+            numbers |= _of_unequal(scene, finest[name])
+        elif scene.reference:
+            numbers[FROM_REFERENCE] = tip_distance(scene, finest[name], finest[scene.reference])
+        if scene.family == STROKE:
+            numbers[FROM_FULLEST] = tip_distance(scene, finest[name], finest[FULLEST])
+        found[name] = Measured(scene, numbers, _cost(runs[name], short), finest[name])
+    return found
+
+
+def _of_stroke(scene: Scene, result: Result) -> Numbers:
+    force = f"pin.{REAR}.force"
+
+    def during(run: Result, channel: str) -> Series:
+        return np.asarray(run[channel][rise.between(run, scene.begin, scene.end)])
+
+    def largest(channel: str, scale: float) -> Get:
+        return rise.Peak(channel, scale, scene.begin, scene.end)
+
+    measures: dict[str, tuple[str, Get]] = {
+        "mean_pin_force": ("N", lambda run: float(during(run, force).mean())),
+        "std_pin_force": ("N", lambda run: float(during(run, force).std())),
+        "largest_pin_force_in_stroke": ("N", largest(force, 1.0)),
+        "largest_pin_force": ("N", lambda run: max(float(run[force].max()), run.largest_force.get(REAR, 0.0))),
+        "mean_tip_x": ("m", lambda run: float(during(run, "tip.x").mean())),
+        "mean_tip_y": ("m", lambda run: float(during(run, "tip.y").mean())),
+        "std_angular_acceleration": (
+            "deg/s^2",
+            lambda run: DEGREES * float(during(run, "rear_link.angular_acceleration").std()),
+        ),
+        "largest_canopy_acceleration": ("deg/s^2", largest("canopy.angular_acceleration", DEGREES)),
+    }
+    return {name: estimate(result, unit, get) for name, (unit, get) in measures.items()}
+
+
+def _touches(result: Result) -> Numbers:
+    """Speeds of the first touches of the rear pin, if it is loose; a settled one has none."""
+
+    def speed(n: int) -> Get:
+        return lambda run: run.onsets[REAR][n].speed
+
+    return {
+        f"onset_speed_{n + 1}": estimate(result, "m/s", speed(n))
+        for n in range(min(TOUCHES, touches(result, REAR)))
+    }
+
+
+def _of_unequal(scene: Scene, result: Result) -> Numbers:
+    def largest(*channels: str, scale: float = 1.0) -> Get:
+        return lambda run: max(scale * float(np.abs(run[channel]).max()) for channel in channels)
+
+    def last(channel: str) -> Get:
+        return lambda run: float(run[channel][-1])
+
+    moment, column = f"pin.{REAR}.moment", "front_column"
+    measures: dict[str, tuple[str, Get]] = {
+        "largest_roll": ("deg", largest("canopy.roll", scale=DEGREES)),
+        "largest_yaw": ("deg", largest("canopy.yaw", scale=DEGREES)),
+        "largest_front_column_force": ("N", largest(f"{column}_left.force", f"{column}_right.force")),
+        "left_front_column_force_at_the_end": ("N", last(f"{column}_left.force")),
+        "right_front_column_force_at_the_end": ("N", last(f"{column}_right.force")),
+    }
+    if result.channels[f"{moment}_x"].is_determined:  # not of ideal pins, which share it at will
+        measures["largest_moment"] = (
+            "N m",
+            lambda run: float(np.hypot(run[f"{moment}_x"], run[f"{moment}_y"]).max()),
+        )
+    if REAR in scene.scenario.clearance_pins:
+        measures |= {f"largest_{side}_depth": ("m", _deepest(side)) for side in ("left", "right")}
+    return {name: estimate(result, unit, get) for name, (unit, get) in measures.items()}
+
+
+def _deepest(side: str) -> Get:
+    return lambda run: float(run[f"pin.{REAR}.{side}_depth"].max())
+
+
+def tip_distance(scene: Scene, run: Result, other: Result) -> Estimate:
+    """Largest distance of the tip's paths of two scenes during the stroke [m]."""
+    if run is other:
+        return Estimate(0.0, 0.0, "m")
+
+    def wandering(one: Result) -> float:
+        return one.estimate(lambda coarser: _apart(scene, one, coarser)).error
+
+    error = wandering(run) + wandering(other)
+    return Estimate(_apart(scene, run, other), max(error, SMALLEST["m"]), "m")
+
+
+def _apart(scene: Scene, one: Result, other: Result) -> float:
+    inside = rise.between(one, scene.begin, scene.end)
+    away = [(one[f"tip.{axis}"] - other[f"tip.{axis}"])[inside] for axis in ("x", "y")]
+    return float(np.hypot(*away).max())
+
+
+# --- cost ---
+
+
+def _cost(run: Timed, short: float) -> Cost:
+    coarse, half, _ = halvings(run.run)
+    seconds = run.seconds
+    # a step of the next finer run costs as much
+    scatter = abs(seconds - run.half_seconds * coarse.counts.steps / half.counts.steps)
+    if seconds < short:
+        times = [timed(coarse.scenario) for _ in range(4)]
+        seconds, scatter = min(times), sorted(times)[2] - min(times)
+    counts = coarse.counts
+    calls = counts.user_function_calls / counts.steps
+    return Cost(seconds, scatter, counts.steps, calls, inventory(coarse.scenario))
+
+
+# --- for the summary and for advice ---
+
+
+def listed(measured: Mapping[str, Measured]) -> list[Number]:
+    """All numbers of all scenes, costs among them."""
+    found = []
+    for name, one in measured.items():
+        for what, (size, error, unit) in one.numbers.items():
+            found.append(Number(what, name, size, unit, error))
+        found += _costs(name, one.cost)
+    return found
+
+
+def _costs(name: str, cost: Cost) -> Sequence[Number]:
+    held = cost.held
+    share = cost.scatter / cost.seconds
+    return [
+        Number("processor_time", name, cost.seconds, "s", cost.scatter),
+        Number("processor_time_of_a_step", name, cost.per_step, "us", share * cost.per_step),
+        Number("user_function_calls_a_step", name, cost.calls, "1", 0.0),
+        *(
+            Number(what, name, float(size), "1", 0.0)
+            for what, size in {
+                "steps": cost.steps,
+                "coordinates": held.coordinates,
+                "constraints": held.constraints,
+                "markers": held.markers,
+                "connectors": held.connectors,
+                "user_functions": held.user_functions,
+                "callbacks_a_step": held.callbacks,
+            }.items()
+        ),
+    ]
+
+
+def table(measured: Mapping[str, Measured], said: Mapping[str, str]) -> Table:
+    """What advice is taken from."""
+    scenes = [
+        Tried(
+            name,
+            one.scene.family,
+            fields_of(one.scene.scenario),
+            one.numbers,
+            round(one.cost.seconds, 4),
+            one.cost.steps,
+        )
+        for name, one in measured.items()
+    ]
+    unequal = next(name for name, one in measured.items() if one.scene.family == UNEQUAL)
+    return Table(tuple(scenes), {STROKE: FULLEST, UNEQUAL: unequal}, said)
+
+
+def times_as_long(one: Measured, other: Measured) -> float:
+    """Ratio of the costs."""
+    return one.cost.seconds / other.cost.seconds
+
+
+def finite(measured: Mapping[str, Measured]) -> bool:
+    """Whether every number and every error is a number."""
+    return all(math.isfinite(x) for one in listed(measured) for x in (one.value, one.numerical_error))

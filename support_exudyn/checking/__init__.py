@@ -1,6 +1,0 @@
-"""What can be said of a machine before it is run: mobility, closure, dead centres, statics, doubts."""
-
-from support_exudyn.checking.check import check_machine
-from support_exudyn.checking.report import Report, Sheet
-
-__all__ = ["Report", "Sheet", "check_machine"]

@@ -1,0 +1,160 @@
+"""What all command lines share: options that are refused in a line, and errors that are said in a sentence."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import os
+import sys
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from functools import partial
+from pathlib import Path
+from typing import Any, NoReturn
+
+from support_exudyn.commands.at_start import EXIT_CODE, INTERRUPTED, be_interruptible, be_readable
+from support_exudyn.formulations.contract import SimulationError, told
+from support_exudyn.formulations.progress import Progress
+from support_exudyn.sweeps.workers import NoProcessError, ProcessEndedError
+from user_forces.values.value import InputError, cleaned, short
+
+LONGEST_REFUSAL = 400  # characters
+
+
+class Parser(argparse.ArgumentParser):
+    """Of a command line; what is wrong with it is said in one line, whatever words it was given."""
+
+    def error(self, message: str) -> NoReturn:
+        """End the program with exit code 2, a usage and a line."""
+        line = cleaned(" ".join(message.split()))
+        super().error(line if len(line) <= LONGEST_REFUSAL else line[: LONGEST_REFUSAL - 3] + "...")
+
+
+def count(text: str, most: int = sys.maxsize) -> int:
+    """A number of things from the command line."""
+    try:
+        number = int(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{short(text)}: allowed: a whole number from 1 on") from None
+    if number < 1:
+        raise argparse.ArgumentTypeError(f"{short(number)}: allowed: from 1 on")
+    if number > most:
+        raise argparse.ArgumentTypeError(f"{short(number)}: allowed: from 1 to {most}")
+    return number
+
+
+def number(text: str, low: float = -math.inf, high: float = math.inf) -> float:
+    """A finite number from the command line, from low to high."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not (math.isfinite(value) and low <= value <= high):
+        bounds = [f"from {low:g}" if low > -math.inf else "", f"to {high:g}" if high < math.inf else ""]
+        said = " ".join(filter(None, ["a number", *bounds]))
+        raise argparse.ArgumentTypeError(f"{short(text)}: allowed: {said}")
+    return value
+
+
+def add_times(parser: argparse.ArgumentParser, start: float | None = None, end: float | None = None) -> None:
+    """Take --from and --until, times of a run, as `start` and `end` [s], with what they are if not given."""
+    add, time = parser.add_argument, partial(number, low=0.0)
+    add("--from", dest="start", type=time, default=start, metavar="T", help="first time [s] (the start)")
+    add("--until", dest="end", type=time, default=end, metavar="T", help="last time [s] (the end)")
+
+
+def folder(text: str) -> Path:
+    """A folder or file from the command line, there or not."""
+    try:
+        if b"\0" in os.fsencode(text):
+            raise ValueError
+    except ValueError:  # also of letters that no file's name can have
+        raise argparse.ArgumentTypeError(f"{short(text)}: allowed: a name that a folder can have") from None
+    return Path(text)
+
+
+def add_json(parser: argparse.ArgumentParser) -> None:
+    """Take --json: what came out as one JSON object on standard output, for scripts."""
+    parser.add_argument("--json", action="store_true", help="one JSON object instead of text, in SI units")
+
+
+def answer(data: Mapping[str, Any]) -> None:
+    """Print a JSON object; numbers that are none (not known, without end) as null."""
+    plain = _finite(data)
+    text = json.dumps(plain, indent=1, ensure_ascii=False, allow_nan=False)
+    say(text if cleaned(text) == text else json.dumps(plain, indent=1, allow_nan=False))
+
+
+def _finite(item: Any) -> Any:
+    if isinstance(item, Mapping):
+        return {str(key): _finite(value) for key, value in item.items()}
+    if isinstance(item, (list, tuple)):
+        return [_finite(value) for value in item]
+    if isinstance(item, Path):
+        return str(item)
+    return None if isinstance(item, float) and not math.isfinite(item) else item
+
+
+def say(text: str) -> None:
+    """Print a line; if nobody reads on (`| head`, a closed terminal), the work goes on without a word.
+
+    Names, units and titles may be of somebody else's file: what they would do to a terminal is not done.
+    """
+    try:
+        print(cleaned(text), flush=True)
+    except BrokenPipeError:
+        hush()
+
+
+def warn(text: str) -> None:
+    """Print a line on standard error, likewise."""
+    print(cleaned(text), file=sys.stderr, flush=True)
+
+
+def hush() -> None:
+    """Let what is printed from now on go nowhere: at its end Python would try once more, and complain."""
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, sys.stdout.fileno())
+    os.close(nowhere)
+
+
+@contextmanager
+def shown_progress(what: str) -> Iterator[Progress]:
+    """A progress bar on standard error: gives what is told the share done. None where it is no terminal."""
+    from rich.console import Console  # which most refusals have no use for
+    from rich.progress import BarColumn, TextColumn, TimeRemainingColumn
+    from rich.progress import Progress as Bar
+
+    console = Console(stderr=True)
+    columns = TextColumn("{task.description}"), BarColumn(), TextColumn("{task.percentage:3.0f} %")
+    with Bar(
+        *columns, TimeRemainingColumn(), console=console, transient=True, disable=not console.is_terminal
+    ) as bar:
+        task = bar.add_task(what, total=1.0)
+        yield lambda share: bar.update(task, completed=share)
+
+
+def _sentence(error: Exception) -> str:
+    """What went wrong; with files of the system, which one and why."""
+    if isinstance(error, OSError) and error.filename is not None and error.strerror:
+        return f"{os.fsdecode(error.filename)}: {error.strerror}"
+    return str(error)
+
+
+def answered(work: Callable[[], None]) -> int:
+    """Do it; what the user can mend is said in a sentence. Returns the exit code."""
+    be_readable()
+    be_interruptible()
+    try:
+        work()
+    except (SimulationError, InputError, OSError, ProcessEndedError, NoProcessError) as error:
+        warn(f"error: {_sentence(error)}")
+        return 1
+    except MemoryError as error:
+        warn(f"error: {told(error)}; allowed: fewer records or channels, a smaller file")
+        return 1
+    except KeyboardInterrupt:
+        print(INTERRUPTED, file=sys.stderr)
+        return EXIT_CODE
+    return 0

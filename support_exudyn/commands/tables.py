@@ -1,0 +1,68 @@
+"""Tables in the terminal, or in what reads standard output: numbers whole, words broken at its width."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Sequence
+
+from rich import box
+from rich.cells import cell_len
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table
+
+from support_exudyn.commands.command_line import hush
+from user_forces.values.value import cleaned
+
+NARROWEST = 25  # characters that words are worth showing in
+PIPED = 150  # characters of a line where there is no terminal
+
+
+def printed(tables: Callable[[Console], None]) -> None:
+    """Print tables; as many of them as are read, if another program takes them."""
+    if sys.stdout is None:  # it was closed before the program began
+        return
+    try:
+        tables(Console(width=None if sys.stdout.isatty() else PIPED, highlight=False))
+        sys.stdout.flush()
+    except BrokenPipeError:  # `show RUN | head`
+        hush()
+
+
+def _unbroken(header: Sequence[str], rows: Sequence[Sequence[str]]) -> int:
+    """Width of a table's names and numbers, with the least that words take; the terminal may be narrower."""
+    names = header or ("", "words")
+    wide = [
+        NARROWEST
+        if name in ("words", "meaning")
+        else max(cell_len(text) for text in (name, *(row[n] for row in rows)))
+        for n, name in enumerate(names)
+    ]
+    return sum(wide) + 3 * len(wide) + 2  # with what stands between and beside them
+
+
+def show_table(console: Console, title: str, header: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
+    """A table; columns whose header begins with > are of numbers. Without a header: names and words.
+
+    Names and numbers are never cut or broken, even if the terminal is too narrow for them; words are broken, at
+    its width.
+    """
+    table = Table(
+        box=box.SIMPLE_HEAD if header else None, show_header=bool(header), pad_edge=False, padding=(0, 1)
+    )
+    for name in header or ("", "words"):
+        table.add_column(
+            escape(name.lstrip(">")) if header else "",
+            justify="right" if name.startswith(">") else "left",
+            no_wrap=name not in ("words", "meaning"),
+            overflow="fold",
+        )
+    for row in rows:
+        table.add_row(*(escape(cleaned(cell)) for cell in row))
+    with console.capture() as shown:
+        console.print(cleaned(title), style="bold", markup=False)
+    broad = Console(width=max(console.width, _unbroken(header, rows)), highlight=False)
+    with broad.capture() as told:
+        broad.print(table)
+    lines = (shown.get() + told.get()).splitlines()
+    print("\n".join(line.rstrip() for line in lines), end="\n\n")

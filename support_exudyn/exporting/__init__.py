@@ -1,1 +1,0 @@
-"""What is written for other programs; the entry is `support_exudyn.export`."""

@@ -1,0 +1,34 @@
+"""Scenarios and values as TOML files: read, with messages that name file, key, value and range; written."""
+
+from support_exudyn.files.scenarios.drive_table import read_drives
+from support_exudyn.files.scenarios.scenario_file import (
+    ScenarioFile,
+    read_scenario,
+    read_scenario_file,
+    save_scenario,
+    scenario_file_of,
+    scenario_of,
+    scenario_text,
+)
+from support_exudyn.files.scenarios.scenario_schema import scenario_schema
+from support_exudyn.files.toml.reading import read_value
+from support_exudyn.files.toml.toml_reading import load_toml, parsed
+from support_exudyn.files.toml.toml_text import toml_text
+from support_exudyn.files.toml.writing import table_of
+
+__all__ = [
+    "ScenarioFile",
+    "load_toml",
+    "parsed",
+    "read_drives",
+    "read_scenario",
+    "read_scenario_file",
+    "read_value",
+    "save_scenario",
+    "scenario_file_of",
+    "scenario_of",
+    "scenario_schema",
+    "scenario_text",
+    "table_of",
+    "toml_text",
+]

@@ -1,0 +1,130 @@
+"""From machine data files to machines."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from difflib import get_close_matches
+from functools import lru_cache
+from importlib import import_module, resources
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, cast
+
+from support_exudyn.files.toml.toml_reading import parsed, text_of
+from support_exudyn.machines.four_column_support import HydraulicSupport
+from support_exudyn.machines.machine_data import MachineData
+from support_exudyn.model.columns import OilColumn, RigidColumn, TwoBodyColumn
+from user_forces.values.value import InputError, short
+
+if TYPE_CHECKING:
+    from support_exudyn.files.machines.form import MachineForm
+
+KINDS = ("four_column_support", "two_leg_shield", "slider_crank")  # each a module
+SHIPPED = ("reference", "zf18000", "two_leg_shield", "slider_crank")  # each a data file
+REMEMBERED = 8  # machines that are not read again as long as their text is the same
+
+
+def form(kind: str) -> type[MachineForm]:
+    """What a data file of this kind of machine holds."""
+    return cast("type[MachineForm]", import_module(f"{__package__}.{kind}").Form)
+
+
+def load_machine(path: str | Path, named: bool = False) -> MachineData:
+    """Read a machine data file of any kind into SI; named: by another file, see `load_toml`.
+
+    Raises InputError, naming file, key, value and what is allowed, for anything that does not fit; OSError if
+    there is no file.
+    """
+    path = Path(path)
+    text = text_of(path)
+    try:
+        found = _of_text(text)
+    except InputError as error:
+        parsed(text, str(path), named)  # what is no TOML is told with its line
+        raise InputError("\n".join(f"{path}: {line}" for line in str(error).splitlines())) from None
+    except ArithmeticError as error:  # of a number such as 1e999999999
+        raise InputError(f"{path}: {type(error).__name__}: allowed: numbers of a sensible size") from None
+    return found if found.name else replace(found, name=path.stem)
+
+
+@lru_cache(maxsize=REMEMBERED)
+def _of_text(text: str) -> MachineData:
+    """The machine that a data file of this text describes.
+
+    The same text gives the same value, which remembers what motions it was found to follow: the scenarios of a
+    sweep ask for that again and again, and finding it takes longer than a short run.
+    """
+    data = parsed(text, "")
+    return form(_kind(data)).read(data)
+
+
+def shipped(name: str) -> MachineData:
+    """A machine that comes with the package, by its name in `SHIPPED`.
+
+    Raises InputError if there is none of this name.
+    """
+    if name not in SHIPPED:
+        near = get_close_matches(name, SHIPPED, n=1)
+        meant = f"; did you mean {near[0]!r}?" if near else ""
+        raise InputError(
+            f"machine = {short(name)}: there is none of this name; allowed: a file that ends in .toml, "
+            f"or one of {', '.join(SHIPPED)}{meant}"
+        )
+    with resources.as_file(resources.files(__package__) / f"{name}.toml") as path:
+        return load_machine(path)
+
+
+def reference_support() -> HydraulicSupport:
+    """The reference support that comes with the package."""
+    return cast(HydraulicSupport, shipped("reference").machine)
+
+
+def load_support(path: str | Path) -> HydraulicSupport:
+    """Read the data file of a four-column support into SI; for other kinds see `load_machine`.
+
+    Raises InputError, naming file and key, for anything that does not fit; OSError if there is no file.
+    """
+    machine = load_machine(path).machine
+    if not isinstance(machine, HydraulicSupport):
+        raise InputError(f"{path}: kind: is another machine; allowed: 'four_column_support'")
+    return machine
+
+
+def two_body_columns(
+    drive: RigidColumn | OilColumn | None = None, path: str | Path | None = None
+) -> dict[str, TwoBodyColumn]:
+    """Columns with mass, by name, for `Scenario.columns`: cylinder and rod each a uniform bar from its pin on.
+
+    Arguments:
+        drive: what holds their lengths; rigid if nothing is said.
+        path: of the machine data file whose `[columns.NAME]` say masses and lengths; by default that of the
+            reference support.
+
+    Raises as `load_machine` does.
+    """
+    columns = (shipped("reference") if path is None else load_machine(path)).columns
+    return dict(columns) if drive is None else {k: replace(item, drive=drive) for k, item in columns.items()}
+
+
+def machine_schema() -> dict[str, Any]:
+    """JSON Schema (draft 2020-12) of machine data files, for editors that check and complete them."""
+    from support_exudyn.files.machines.schema import (
+        whole_schema,  # and pydantic's models, which a run has no use for
+    )
+
+    return whole_schema({kind: form(kind) for kind in KINDS})
+
+
+def _kind(data: dict[str, Any]) -> str:
+    allowed = f"allowed: {', '.join(map(repr, KINDS))}"
+    if "kind" not in data and "machine" in data:
+        raise InputError(
+            f"machine = {short(data['machine'])}: is a key of scenarios, which `run` takes; allowed: "
+            "the file of a machine, which says its kind"
+        )
+    if "kind" not in data:
+        raise InputError(f"kind: missing; it says what the machine is; {allowed}")
+    kind = data["kind"]
+    if not isinstance(kind, str) or kind not in KINDS:
+        near = get_close_matches(kind, KINDS, n=1) if isinstance(kind, str) else []
+        raise InputError(f"kind = {short(kind)}: {allowed}" + (f"; did you mean {near[0]!r}?" if near else ""))
+    return kind

@@ -1,0 +1,132 @@
+"""Scenarios as TOML files."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from support_exudyn.files.scenarios.short_forms import ShortForms, read_machine_of
+from support_exudyn.files.toml.place import Faults
+from support_exudyn.files.toml.reading import FAILED, Failed, Reader
+from support_exudyn.files.toml.toml_reading import load_toml
+from support_exudyn.files.toml.toml_text import toml_text
+from support_exudyn.files.toml.writing import table_of
+from support_exudyn.files.whole_file import whole_file
+from support_exudyn.machines.machine_data import MachineData
+from support_exudyn.model.columns import ColumnModel
+from support_exudyn.model.drives.drive import Drive
+from support_exudyn.model.machine import Machine
+from support_exudyn.model.pins import Pin
+from support_exudyn.scenario.scenario import Scenario
+from user_forces.values.value import InputError
+
+HEAD: Mapping[str, type] = {"name": str, "description": str, "errors": bool}  # besides what a scenario has
+OTHER_FILES = {  # by a key that they have
+    "kind": "is the file of a machine; allowed: a scenario, which names it, `machine = FILE`; or `check` it",
+    "scenario": "is the file of a sweep; allowed: a scenario; or `sweep` it",
+}
+
+
+@dataclass(frozen=True)
+class ScenarioFile:
+    """What a scenario's file says.
+
+    scenario: what is run. name, description: of people, for people. errors: whether it is run with estimated
+    errors, see `simulate`. assumed: of the machine, because its file does not say it, in sentences.
+    """
+
+    scenario: Scenario
+    name: str = ""
+    description: str = ""
+    errors: bool = False
+    assumed: tuple[str, ...] = ()
+
+
+def read_scenario(path: str | Path) -> Scenario:
+    """The scenario of a TOML file.
+
+    Raises InputError with a line for each thing that is wrong: file, key, value and what is allowed; OSError if
+    the file cannot be read.
+    """
+    return read_scenario_file(path).scenario
+
+
+def read_scenario_file(path: str | Path) -> ScenarioFile:
+    """All that the TOML file of a scenario says. Raises as `read_scenario` does."""
+    path = Path(path)
+    return scenario_file_of(load_toml(path), str(path), path.parent)
+
+
+def scenario_of(table: Mapping[str, Any], where: str, folder: Path) -> Scenario:
+    """The scenario of a table that has been read already.
+
+    Arguments:
+        table: as `load_toml` gives it; a program may have put numbers of its own there, also floats.
+        where: what errors call it: the name of its file.
+        folder: from which the files lie that it names.
+
+    Raises InputError as `read_scenario` does.
+    """
+    return scenario_file_of(table, where, folder).scenario
+
+
+def scenario_file_of(table: Mapping[str, Any], where: str, folder: Path) -> ScenarioFile:
+    """All that a table says. Arguments and errors as of `scenario_of`."""
+    faults = Faults(where)
+    head = {key: table[key] for key in HEAD if key in table}
+    for key, item in head.items():
+        if not isinstance(item, HEAD[key]):
+            faults.wrong((key,), item, "a text" if HEAD[key] is str else "true, false")
+    rest = {key: item for key, item in table.items() if key not in HEAD}
+    other = next((said for key, said in OTHER_FILES.items() if key in rest and "machine" not in rest), "")
+    if other:
+        raise InputError(f"{where}: {other}")
+    if rest.get("type", "Scenario") != "Scenario":
+        faults.wrong(("type",), rest["type"], '"Scenario", or to leave it out')
+    machine = read_machine_of(rest, faults, folder)
+    scenario = _scenario(rest, faults, folder, machine)
+    faults.check()
+    return ScenarioFile(scenario, **head, assumed=() if machine is None else machine.assumed)
+
+
+def _scenario(table: dict[str, Any], faults: Faults, folder: Path, machine: MachineData | None) -> Any:
+    """A scenario, or FAILED."""
+    forms = ShortForms(folder, machine)
+    reader = Reader(
+        faults, {Pin: forms.pin, ColumnModel: forms.column, Drive: forms.drive, Machine: forms.machine}
+    )
+    apart = forms.drives(reader, table)
+    if apart:
+        table = {**table, "drives": forms.without_file(table["drives"])}
+    table = {"machine": "", **table}  # that it is missing has been said
+    given = reader.fields(Scenario, table, (), also=tuple(HEAD))
+    if isinstance(given, Failed) or FAILED in apart.values():
+        return FAILED
+    if apart:
+        given["drives"] = {**apart, **given["drives"]}
+    return reader.made(Scenario, given, ())
+
+
+def scenario_text(scenario: Scenario, name: str = "", description: str = "", errors: bool = False) -> str:
+    """A scenario as TOML, in full: `read_scenario` gives an equal one, to the bit.
+
+    Raises InputError if it holds a value of a class that files have no form for.
+    """
+    table = {key: item for key, item in table_of(scenario, says_type=False).items() if item != {}}
+    head: dict[str, Any] = {"name": name, "description": description, "errors": errors}
+    return toml_text({key: item for key, item in head.items() if item} | table)
+
+
+def save_scenario(
+    scenario: Scenario, path: str | Path, name: str = "", description: str = "", errors: bool = False
+) -> Path:
+    """Write a scenario as TOML, whole or not at all.
+
+    Raises InputError as `scenario_text` does, OSError that names the file if it cannot be written.
+    """
+    text = scenario_text(scenario, name, description, errors)
+    with whole_file(path) as temporary:
+        temporary.write_text(text, encoding="utf-8", newline="\n")
+    return Path(path)

@@ -1,0 +1,192 @@
+"""What a scenario's file may say in short: by the machine, its pins and columns, and by tables of numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from difflib import get_close_matches
+from pathlib import Path
+from typing import Any
+
+from support_exudyn.files.machines import SHIPPED
+from support_exudyn.files.scenarios.drive_table import one_drive, read_drives
+from support_exudyn.files.scenarios.short_drive import DriveFile, DriveMode, DrivesFile
+from support_exudyn.files.scenarios.short_pin import ShortPin
+from support_exudyn.files.toml.place import Faults, Place, said
+from support_exudyn.files.toml.reading import FAILED, Failed, Reader
+from support_exudyn.files.toml.shapes import Group
+from support_exudyn.machines.machine_data import MachineData, read_machine
+from support_exudyn.model.columns import TwoBodyColumn
+from support_exudyn.model.drives.drive import Drive
+from support_exudyn.model.machine import Machine
+from support_exudyn.model.pins import IdealPin
+from user_forces.values.value import InputError
+
+
+def read_machine_of(table: Mapping[str, Any], faults: Faults, folder: Path) -> MachineData | None:
+    """The machine that a scenario's table names or holds; None, with the reason among the faults."""
+    given = table.get("machine")
+    if isinstance(given, str):
+        return _from_file(given, faults, folder)
+    if isinstance(given, dict):
+        found = Reader(faults).item(Group((Machine,)), given, ("machine",))
+        return None if isinstance(found, Failed) else MachineData(found)
+    said = f"a path that ends in .toml, one of {', '.join(SHIPPED)}, or a table [machine]"
+    if given is None:
+        faults.add(("machine",), f"missing; allowed: {said}")
+    else:
+        faults.wrong(("machine",), given, said)
+    return None
+
+
+def _from_file(name: str, faults: Faults, folder: Path) -> MachineData | None:
+    if "\0" in name:
+        faults.wrong(("machine",), name, "a name that a file can have")
+        return None
+    own = _own(name, folder)
+    if own and name not in SHIPPED and not name.lower().endswith(".toml"):
+        faults.add((), f"machine = {said(name)}: there is none of this name; did you mean {own}?")
+        return None
+    try:
+        return read_machine(name, folder)
+    except InputError as error:
+        of_file = name.lower().endswith(".toml")  # which it then names itself
+        faults.lines += [line if of_file else f"{faults.where}: {line}" for line in str(error).splitlines()]
+    except (OSError, ValueError) as error:  # ValueError: of names that no file can have
+        reason = getattr(error, "strerror", None) or error
+        meant = f"; did you mean {own}?" if own and isinstance(error, FileNotFoundError) else ""
+        faults.wrong(
+            ("machine",), name, f"a file that can be read ({reason}), from {folder.resolve()} on{meant}"
+        )
+    return None
+
+
+def _own(name: str, folder: Path) -> str:
+    """The file of the same folder whose name is nearest; empty if none is near."""
+    try:
+        files = [one.name for one in folder.glob("*.toml")]
+    except OSError:
+        return ""
+    near = [f"{name}.toml"] if f"{name}.toml" in files else get_close_matches(name[:80], files, 1, 0.8)
+    return said(near[0]) if near else ""
+
+
+OF_CRANKS = 'none of cranks, for modes extend columns; type = "Steady" with rate_rpm, or a table in degrees'
+
+
+class ShortForms:
+    """Readers of the short forms.
+
+    folder: from which files lie. data: the machine, None if it could not be read.
+    """
+
+    def __init__(self, folder: Path, data: MachineData | None) -> None:
+        self.folder = folder
+        self.data = data
+
+    def machine(self, reader: Reader, item: Any, place: Place) -> Any:
+        """The machine, which has been read before all else."""
+        del reader, item, place
+        return FAILED if self.data is None else self.data.machine
+
+    def pin(self, reader: Reader, item: Any, place: Place) -> Any:
+        """A pin with `ideal = true`, or by its clearance."""
+        if not isinstance(item, dict) or "type" in item:
+            return None
+        if "ideal" in item:
+            if item["ideal"] is not True:
+                reader.faults.wrong(
+                    (*place, "ideal"), item["ideal"], "true; a loose pin has a clearance_mm instead"
+                )
+                return FAILED
+            return reader.value(IdealPin, {key: one for key, one in item.items() if key != "ideal"}, place)
+        short = reader.value(ShortPin, item, place)
+        if isinstance(short, Failed) or self.data is None:
+            return FAILED
+        try:
+            return short.pin(self.data.bore_radii.get(place[-1]))
+        except InputError as error:
+            if short.bore_radius is None and place[-1] not in self.data.bore_radii:
+                bores = ", ".join(self.data.bore_radii) or "no pin"
+                reader.faults.add(place, f"{error}; it says those of {bores}")
+                return FAILED
+            for line in str(error).splitlines():
+                reader.faults.add(place, line)
+            return FAILED
+
+    def column(self, reader: Reader, item: Any, place: Place) -> Any:
+        """A column of two bodies whose masses the machine's file says."""
+        if not isinstance(item, dict) or item.get("type") != TwoBodyColumn.__name__ or len(place) != 2:
+            return None
+        if self.data is None or place[-1] not in self.data.columns:
+            return None
+        return reader.value(TwoBodyColumn, item, place, self.data.columns[place[-1]])
+
+    def drive(self, reader: Reader, item: Any, place: Place) -> Any:
+        """A mode of the paper, or a column of a file."""
+        if not isinstance(item, dict) or "type" in item:
+            return None
+        if "mode" in item and self._turns(place[-1]):
+            reader.faults.wrong((*place, "mode"), item["mode"], OF_CRANKS)
+            return FAILED
+        if "mode" in item:
+            mode = reader.value(DriveMode, item, place)
+            if isinstance(mode, Failed) or self.data is None:
+                return FAILED
+            return mode.drive(self.data.stroke)
+        if "table" in item:
+            file = reader.value(DriveFile, item, place)
+            return FAILED if isinstance(file, Failed) else self._read(reader, file, place)
+        kinds = ", ".join(Group((Drive,)).kinds)
+        reader.faults.add(
+            place, f"says no mode, table or type; allowed: mode = 1 or 2, table = a CSV file, type: {kinds}"
+        )
+        return FAILED
+
+    def _turns(self, name: str) -> bool | None:
+        """Whether what a drive of this name moves is a crank; None if nothing, or not only, is known."""
+        if self.data is None:
+            return None
+        linkage = self.data.machine.linkage()
+        if name == "drive":  # of all
+            return None if linkage.cranks and linkage.columns else bool(linkage.cranks)
+        return name in linkage.cranks if name in linkage.driven else None
+
+    def _read(self, reader: Reader, file: DriveFile, place: Place) -> Any:
+        try:
+            return one_drive(self.folder / file.table, file.column, file.between, self._turns(place[-1]))
+        except InputError as error:
+            reader.faults.lines += str(error).splitlines()
+        except (OSError, ValueError) as error:
+            _not_read(reader, file.table, error, (*place, "table"))
+        return FAILED
+
+    def drives(self, reader: Reader, table: Mapping[str, Any]) -> dict[str, Any]:
+        """The drives that `[drives] table = FILE` gives, by name; empty if it names none."""
+        given = table.get("drives")
+        if not isinstance(given, dict) or not isinstance(given.get("table"), str):
+            return {}
+        own = {key: one for key, one in given.items() if not isinstance(one, dict)}
+        file = reader.value(DrivesFile, own, ("drives",))
+        if isinstance(file, Failed):
+            return {"": FAILED}
+        try:
+            found: dict[str, Any] = dict(read_drives(self.folder / file.table, file.between, self._turns))
+        except InputError as error:
+            reader.faults.lines += str(error).splitlines()
+            return {"": FAILED}
+        except (OSError, ValueError) as error:
+            _not_read(reader, file.table, error, ("drives", "table"))
+            return {"": FAILED}
+        for name in found.keys() & given.keys():
+            reader.faults.add(("drives", name), f"is a column of {file.table} too; allowed: one of them")
+        return found
+
+    @staticmethod
+    def without_file(given: Mapping[str, Any]) -> dict[str, Any]:
+        """What `[drives]` says besides its file."""
+        return {key: one for key, one in given.items() if isinstance(one, dict)}
+
+
+def _not_read(reader: Reader, name: str, error: OSError | ValueError, place: Place) -> None:
+    reason = getattr(error, "strerror", None) or error
+    reader.faults.wrong(place, name, f"a file that can be read ({reason})")

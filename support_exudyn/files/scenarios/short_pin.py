@@ -1,0 +1,147 @@
+"""A pin as people write it: clearance, restitution, friction; the rest has usual values."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import fields
+from types import MappingProxyType
+from typing import Annotated, Any, Literal
+
+from pydantic import model_validator
+
+from support_exudyn.files.toml.shapes import Group, Names
+from support_exudyn.model.pins import ClearancePin
+from user_forces.contact import JournalContact
+from user_forces.friction.ambrosio import Ambrosio
+from user_forces.friction.law import FrictionLaw
+from user_forces.journal import JournalBearing
+from user_forces.materials import STEEL, STEEL_35CRMO, Material
+from user_forces.normal.damping_speed import DampingSpeed
+from user_forces.normal.law import NormalLaw
+from user_forces.normal.power_law import ElasticPower
+from user_forces.stiffness import external_contact_stiffness, internal_contact_stiffness
+from user_forces.values.units import Metres, NewtonsPerMetreToN
+from user_forces.values.value import InputError, NonNegative, Positive, Restitution, Value, Vector2, value
+
+MATERIALS: Mapping[str, Material] = MappingProxyType({one.name: one for one in (STEEL, STEEL_35CRMO)})
+USUAL_RESTITUTION = 0.9
+NEEDED = {"stiffness", "restitution"}  # all that the short form can give a law
+
+
+def simple_laws() -> tuple[str, ...]:
+    """Names of the laws K depth^1.5 that need a stiffness and, if anything else, a restitution."""
+    known = Group((NormalLaw,)).kinds.items()
+    return tuple(name for name, law in known if issubclass(law, ElasticPower) and _is_simple(law))
+
+
+def _is_simple(law: type[Value]) -> bool:
+    info: Mapping[str, Any] = law.__pydantic_fields__  # type: ignore[attr-defined]
+    needed = {name for name, one in info.items() if one.is_required()}
+    return needed <= NEEDED and info["exponent"].default == 1.5
+
+
+def material_names() -> tuple[str, ...]:
+    """Names of the materials that need no table."""
+    return tuple(MATERIALS)
+
+
+NamedMaterial = Annotated[str, Names(material_names)]
+
+
+@value
+class ShortPin(Value):
+    """A pin with clearance, in few words.
+
+    Arguments:
+        clearance: radial, bore radius minus journal radius [m], > 0.
+        bore_radius: [m], > 0; the machine's file may say it for the pin.
+        restitution: of an impact, > 0 and <= 1; 0.9 if nothing is said.
+        friction: sliding coefficient of Ambrosio's law, >= 0, 0: none; or a friction law as a table.
+        law: of the normal force: one that needs a stiffness and a restitution only.
+        damping_speed: what the damping of the law is scaled with; the law's own default if nothing is said.
+        stiffness: K of K depth^1.5: "external" or "internal", Hertz's for spheres that touch from outside or
+            inside, from radii and materials; or a number [N/m^1.5], > 0.
+        bore_material, journal_material: names or tables; steel and 35CrMo if nothing is said.
+        bore: which of the two bodies of the pin's place carries the bore.
+        eccentricity: of the journal's centre from the bore's at the start [m], forward and up.
+    """
+
+    clearance: Metres[Positive]
+    bore_radius: Metres[Positive] | None = None
+    restitution: Restitution | None = None
+    friction: NonNegative | FrictionLaw = 0.0
+    law: Annotated[str, Names(simple_laws)] = "LankaraniNikravesh"
+    damping_speed: DampingSpeed | None = None
+    stiffness: Literal["external", "internal"] | NewtonsPerMetreToN[Positive] = "external"
+    bore_material: NamedMaterial | Material | None = None
+    journal_material: NamedMaterial | Material | None = None
+    bore: Literal["first", "second"] = ClearancePin.bore
+    eccentricity: Metres[Vector2] = ClearancePin.eccentricity
+
+    @model_validator(mode="after")
+    def _nothing_is_left_unused(self) -> ShortPin:
+        if self.law not in simple_laws():
+            raise ValueError(f"law = {self.law!r}: allowed: {', '.join(simple_laws())}")
+        for name in ("restitution", "damping_speed"):
+            if getattr(self, name) is not None and name not in _fields_of(self.law):
+                raise ValueError(f"{name}: the law {self.law} has none; allowed with it: to leave this out")
+        for name in ("bore_material", "journal_material"):
+            given = getattr(self, name)
+            if given is not None and not isinstance(self.stiffness, str):
+                raise ValueError(
+                    f"{name}: would be left unused, for the stiffness is given as a number; "
+                    "allowed: one of them"
+                )
+            if isinstance(given, str) and given not in MATERIALS:
+                raise ValueError(f"{name} = {given!r}: allowed: {', '.join(MATERIALS)}, or a table")
+        return self
+
+    def pin(self, bore_radius: float | None = None) -> ClearancePin:
+        """The pin in full; bore_radius: of the machine's file [m], if this has none."""
+        radius = bore_radius if self.bore_radius is None else self.bore_radius
+        if radius is None:
+            raise InputError(
+                "bore_radius_mm: missing, and the machine's file says none for this pin; "
+                "allowed: > 0, here or there"
+            )
+        if self.clearance >= radius:  # which the class says in metres
+            raise InputError(
+                f"clearance_mm = {1e3 * self.clearance:g}: leaves no journal in a bore of bore_radius_mm = "
+                f"{1e3 * radius:g}; allowed: > 0 and < {1e3 * radius:g}"
+            )
+        bearing = JournalBearing(bore_radius=radius, clearance=self.clearance)
+        contact = JournalContact(bearing=bearing, normal=self._normal(bearing), friction=self._friction())
+        return ClearancePin(contact=contact, bore=self.bore, eccentricity=self.eccentricity)
+
+    def _normal(self, bearing: JournalBearing) -> NormalLaw:
+        law: Any = Group((NormalLaw,)).kinds[self.law]
+        given: dict[str, Any] = {"stiffness": self._stiffness(bearing)}
+        if "restitution" in _fields_of(self.law):
+            given["restitution"] = USUAL_RESTITUTION if self.restitution is None else self.restitution
+        if self.damping_speed is not None:
+            given["damping_speed"] = self.damping_speed
+        return law(**given)  # type: ignore[no-any-return]
+
+    def _stiffness(self, bearing: JournalBearing) -> float:
+        """K [N/m^1.5]."""
+        if isinstance(self.stiffness, float):
+            return self.stiffness
+        form = external_contact_stiffness if self.stiffness == "external" else internal_contact_stiffness
+        return form(
+            bearing, _material(self.bore_material, STEEL), _material(self.journal_material, STEEL_35CRMO)
+        )
+
+    def _friction(self) -> FrictionLaw:
+        if isinstance(self.friction, FrictionLaw):
+            return self.friction
+        return Ambrosio(sliding_coefficient=self.friction) if self.friction else JournalContact.friction
+
+
+def _fields_of(law: str) -> set[str]:
+    return {one.name for one in fields(Group((NormalLaw,)).kinds[law])}  # type: ignore[arg-type]
+
+
+def _material(given: str | Material | None, usual: Material) -> Material:
+    if given is None:
+        return usual
+    return given if isinstance(given, Material) else MATERIALS[given]

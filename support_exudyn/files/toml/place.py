@@ -1,0 +1,74 @@
+"""Where in a file something stands, and what is said of all that is wrong in it."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from decimal import Decimal
+from difflib import get_close_matches
+from typing import Any
+
+from user_forces.values.value import InputError, short, step
+
+Place = tuple[str, ...]  # keys from the top of a file on, as they are written in it
+LONGEST = 80  # characters of a value that is repeated
+NESTED = 3  # levels of lists that are repeated
+MOST_LINES = 30
+
+
+class Faults:
+    """What is wrong in a file, one line each.
+
+    where: the file's name, or what the table is.
+    """
+
+    def __init__(self, where: str) -> None:
+        self.where = where
+        self.lines: list[str] = []
+
+    def add(self, place: Place, text: str) -> None:
+        """Something that is said of a place."""
+        self.lines.append(": ".join(filter(None, (self.where, said_place(place), text))))
+
+    def wrong(self, place: Place, item: Any, allowed: str) -> None:
+        """A value that cannot be used."""
+        key = said_place(place)
+        self.lines.append(": ".join(filter(None, (self.where, f"{key} = {said(item)}", f"allowed: {allowed}"))))
+
+    def unknown(self, place: Place, known: Collection[str]) -> None:
+        """A key that nothing asks for."""
+        self.add(place, f"unknown key; {nearest(place[-1], known)}")
+
+    def check(self) -> None:
+        """Raise InputError if anything was added."""
+        if not self.lines:
+            return
+        rest = len(self.lines) - MOST_LINES
+        more = [f"{self.where}: and {rest} more"] if rest > 0 else []
+        raise InputError("\n".join([*dict.fromkeys(self.lines[:MOST_LINES]), *more]))
+
+
+def nearest(word: str, known: Collection[str]) -> str:
+    """What is said of a misspelt word: the names that look like it, then all that are allowed."""
+    near = get_close_matches(word[:LONGEST], known, 3)
+    guess = f"did you mean {' or '.join(near)}? " if near else ""
+    return f"{guess}allowed: {', '.join(known) or 'none'}"
+
+
+def said_place(place: Place) -> str:
+    """Keys as TOML joins them."""
+    return ".".join(map(step, place))
+
+
+def said(item: Any, level: int = 0) -> str:
+    """A value as it is written in TOML, cut to fit a line."""
+    if isinstance(item, bool):
+        text = str(item).lower()
+    elif isinstance(item, Decimal):
+        text = str(item)
+    elif isinstance(item, Mapping):
+        text = "a table"
+    elif isinstance(item, list):
+        text = f"[{', '.join(said(one, level + 1) for one in item[:LONGEST])}]" if level < NESTED else "[...]"
+    else:
+        text = short(item)
+    return text if len(text) <= LONGEST else text[: LONGEST - 3] + "..."

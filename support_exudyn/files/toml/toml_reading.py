@@ -1,0 +1,96 @@
+"""TOML files and texts as tables; numbers with a point are decimals, so that units round them once."""
+
+from __future__ import annotations
+
+import re
+import sys
+from decimal import Decimal, InvalidOperation
+from pathlib import Path
+from typing import Any
+
+from support_exudyn.files.whole_file import contents
+from user_forces.values.value import DEEPEST, InputError, short
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+LARGEST_FILE = 50_000_000  # bytes
+TOO_DEEP = f"is nested too deep; allowed: {DEEPEST} levels"
+PLACE = re.compile(r" \(at line (\d+), column \d+\)$")  # after what the library says
+TWICE = re.compile(r"Cannot declare \((.*?),?\) twice")
+COMMA = re.compile(r"=\s*[-+]?\d+,\d+\s*(#.*)?$")  # a decimal comma
+
+
+def load_toml(path: str | Path, named: bool = False) -> dict[str, Any]:
+    """The table of a TOML file; its numbers with a point or an exponent are of type Decimal.
+
+    named: another file names it. It may then be any file of this machine, whose lines are not repeated.
+
+    Raises InputError, with file and line, if the file is no TOML; OSError if it cannot be read.
+    """
+    return parsed(text_of(Path(path)), str(path), named)
+
+
+def text_of(path: Path) -> str:
+    """The text of a file that people write. Raises InputError if it is none, OSError if it cannot be read."""
+    if "\0" in str(path):
+        raise InputError(f"{path!s:.80}: allowed: a name that a file can have")
+    try:
+        return contents(path, LARGEST_FILE).decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise InputError(f"{path}: byte {error.start} is not UTF-8; allowed: text in UTF-8") from None
+
+
+def parsed(text: str, where: str, named: bool = False) -> dict[str, Any]:
+    """The table of a text in TOML, as `load_toml` gives it; `where` is what errors call it."""
+    try:
+        table = tomllib.loads(text, parse_float=_decimal)
+    except RecursionError:
+        raise InputError(f"{where}: {TOO_DEEP}") from None
+    except ValueError as error:  # of TOML, or of a whole number with thousands of digits
+        raise InputError(f"{where}: {_reason(str(error), text, named)}") from None
+    _check_depth(table, where)
+    return table
+
+
+def _reason(said: str, text: str, named: bool) -> str:
+    """What is wrong with a text, from what the library says: with the line, and twofold keys by their name.
+
+    named: the line by its number only.
+    """
+    lines = text.replace("\r\n", "\n").splitlines()
+    place = PLACE.search(said)
+    number = int(place[1]) if place else len(lines)
+    if named:
+        return f"line {number}: is no TOML; allowed: TOML"
+    line = short(lines[number - 1].strip()) if 0 < number <= len(lines) else "''"
+    what = PLACE.sub("", said).removesuffix(" (at end of document)")
+    if what == "Cannot overwrite a value":
+        return f"line {number}: {line}: its key has been given before; allowed: once"
+    if twice := TWICE.match(what):
+        name = ".".join(re.findall(r"'([^']*)'", twice[1]))
+        return f"line {number}: {line}: the table {name} has been begun before; allowed: once"
+    if place is None:
+        return f"{said.replace('at end of document', f'at line {number}, the last')}; allowed: TOML"
+    comma = COMMA.search(lines[number - 1]) if number <= len(lines) else None
+    return f"line {number}: {line}: {what}; allowed: {'decimals after a point, as in 1.5' if comma else 'TOML'}"
+
+
+def _decimal(text: str) -> Decimal:
+    try:
+        return Decimal(text.replace("_", ""))
+    except InvalidOperation:  # an exponent of 20 digits
+        raise ValueError(f"{text[:40]} is no number that can be read") from None
+
+
+def _check_depth(table: dict[str, Any], where: str) -> None:
+    """Raise InputError if tables lie in tables too deep; keys with many dots make them without brackets."""
+    level: list[Any] = [table]
+    for _ in range(DEEPEST):
+        inside = [item.values() if isinstance(item, dict) else item for item in level]
+        level = [item for items in inside for item in items if isinstance(item, (dict, list))]
+        if not level:
+            return
+    raise InputError(f"{where}: {TOO_DEEP}")

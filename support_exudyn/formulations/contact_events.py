@@ -1,0 +1,270 @@
+"""Where within a step a contact begins, and what to do with the step then.
+
+Between the start and the end of a step the depth of a pin is taken as the cubic that fits depth and
+rate at both ends. In free flight its error is of fourth order in the step, and the approach speed at
+zero depth is its slope where it crosses zero.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from enum import Enum
+from typing import NamedTuple
+
+from support_exudyn.mechanics.contact_state import Onset, PinMemory
+from user_forces.expressions.roots import bracketed_root
+
+# A step that ends within this share of an impact's step from a touch or a parting is taken as ending there, and
+# one that starts that close before it as starting there. The force missed or added in between is of the order
+# K (v0 share h)^n, a relative 1e-5 of an impact of a hundred steps even for n = 1; the speed is exact anyway.
+SHARE = 0.001
+BEYOND = 0.1  # of that share is a cut step aimed behind the touch or parting, so as not to end before it
+# How far the true course of a depth may be off the cubic, as a share of the change of the rate: its rate, in
+# the middle and times four, and the depth, per length of the step. A swing of which the step is a third keeps
+# within both.
+DOUBT, DOUBT_OF_DEPTH = 0.5, 1.0 / 64.0
+# [m] over which no turn of a depth can be told: places of machines are rounded to some 1e-13 m 300 m from the
+# origin, and a pin that rests moves less
+STILL = 1e-12
+
+
+class Action(Enum):
+    """What to do with a step that has been tried."""
+
+    ACCEPT = "accept"
+    REPEAT = "repeat with the new memory"
+    CUT = "repeat with a shorter step"
+
+
+class Verdict(NamedTuple):
+    """How a tried step is to be treated, and the memory that goes with it."""
+
+    action: Action
+    memory: PinMemory
+    onset: Onset | None = None
+    anew: bool = False  # the contact has been pressed on again without having parted
+    step: float = math.inf  # to repeat with, if cut [s]
+    landing: float = math.inf  # where steps are to end, if cut [s]
+
+
+class DepthPath(NamedTuple):
+    """Depth over a step as a cubic of the fraction x of the step, from 0 to 1."""
+
+    depth0: float
+    rate0: float
+    depth1: float
+    rate1: float
+    step: float
+
+    def depth(self, x: float) -> float:
+        """Depth [m] at fraction x."""
+        y = 1.0 - x
+        return (
+            self.depth0 * (1.0 + 2.0 * x) * y * y
+            + self.step * self.rate0 * x * y * y
+            + self.depth1 * x * x * (3.0 - 2.0 * x)
+            - self.step * self.rate1 * x * x * y
+        )
+
+    def rate(self, x: float) -> float:
+        """Its rate [m/s] at fraction x."""
+        return (
+            6.0 * x * (1.0 - x) * (self.depth1 - self.depth0) / self.step
+            + self.rate0 * (1.0 - x) * (1.0 - 3.0 * x)
+            + self.rate1 * x * (3.0 * x - 2.0)
+        )
+
+    def turns_up(self) -> float | None:
+        """The fraction within the step at which the rate passes zero on its way up; None if it does not."""
+        return self._turn(1.0)
+
+    def turns_down(self) -> float | None:
+        """The same on its way down."""
+        return self._turn(-1.0)
+
+    def _turn(self, sign: float) -> float | None:
+        """The root of the rate, rate0 + slope x + bend x^2, at which it has a slope of this sign."""
+        bend = self._bend
+        slope = self.rate1 - self.rate0 - bend
+        square = slope * slope - 4.0 * bend * self.rate0
+        surely = sign * self.rate0 < 0.0 <= sign * self.rate1
+        if not (square > 0.0 or surely):
+            return None
+        there = sign * math.sqrt(max(0.0, square))  # the slope at the root
+        # without cancellation
+        if slope * there > 0.0:
+            x = -2.0 * self.rate0 / (slope + there)
+        else:
+            x = (there - slope) / (2.0 * bend) if bend else math.inf
+        if surely:  # whatever rounding says
+            return min(max(x, 0.0), 1.0)
+        return x if 0.0 < x <= 1.0 else None
+
+    def may_turn(self, doubt: float = DOUBT) -> bool:
+        """Whether the rate, of one sign at both ends, may pass zero in between, if the pin moves at all.
+
+        doubt: how far it may be off this cubic's, see `DOUBT`.
+        """
+        if self.step * max(abs(self.rate0), abs(self.rate1)) < STILL:
+            return False
+        sign = -1.0 if self.rate0 + self.rate1 < 0.0 else 1.0
+        rate0, rate1, bend = sign * self.rate0, sign * self.rate1, sign * self._bend
+        off = doubt * self._swing
+        slope, bend = rate1 - rate0 - bend - off, bend + off
+        # the lowest point of rate0 + slope x + bend x^2, if it lies between the ends
+        return slope < 0.0 < slope + 2.0 * bend and 4.0 * bend * rate0 <= slope * slope
+
+    @property
+    def doubt(self) -> float:
+        """How far the true depth may be off this cubic [m]."""
+        return DOUBT_OF_DEPTH * self.step * self._swing
+
+    @property
+    def _bend(self) -> float:
+        """Second coefficient of the rate as a polynomial of the fraction [m/s]."""
+        return 3.0 * (self.rate0 + self.rate1) - 6.0 * (self.depth1 - self.depth0) / self.step
+
+    @property
+    def _swing(self) -> float:
+        """By how much the rate changes within the step, and back [m/s]."""
+        return abs(self.rate1 - self.rate0) + abs(self._bend)
+
+    def crossing(self, a: float, b: float) -> float:
+        """The fraction between a and b at which the depth passes zero, its signs there being different."""
+        return bracketed_root(self.depth, a, b, xtol=1e-15)
+
+
+def first_rise(path: DepthPath) -> float | None:
+    """Fraction at which a pin that starts the step apart first touches; None if it does not."""
+    if path.depth0 > 0.0:
+        return 0.0
+    top = path.turns_down()
+    if top is not None and path.depth(top) > 0.0:  # perhaps up and down again within the step
+        return path.crossing(0.0, top)
+    return path.crossing(0.0, 1.0) if path.depth1 > 0.0 else None
+
+
+def last_return(path: DepthPath) -> float | None:
+    """Fraction at which a pin in contact, having parted within the step, touches again; None if not."""
+    if path.depth0 > 0.0 and path.depth1 > 0.0:
+        bottom = path.turns_up()
+        if bottom is not None and path.depth(bottom) < 0.0:
+            return path.crossing(bottom, 1.0)
+    return None
+
+
+def goes_on(start: PinMemory, depth: float, rate: float, step: float) -> bool:
+    """Whether in a step from `start` to this depth [m] and rate [m/s] surely nothing has happened to the pin.
+
+    It stayed closed without being pressed on anew, or apart without turning back. If not, `judge` says what.
+    """
+    before = start.rate
+    change = 6.0 * (depth - start.depth) / step if step > 0.0 else 3.0 * (before + rate)
+    monotone = abs(3.0 * (before + rate) - change) <= abs(rate - before)  # the rate of the cubic
+    if start.in_contact:
+        return depth > 0.0 and monotone and not before < 0.0 <= rate
+    return depth <= 0.0 and start.depth <= 0.0 and monotone and not before > 0.0 > rate
+
+
+def judge(
+    start: PinMemory,
+    depth: float,
+    rate: float,
+    end_time: float,
+    step: float,
+    impact_step: Callable[[float], float],
+    forgets: bool,
+) -> Verdict:
+    """Whether a tried step may stand, seen from one clearance pin.
+
+    Arguments:
+        start: the pin's memory at the start of the step.
+        depth, rate: at its end [m], [m/s].
+        end_time: end of the step [s].
+        step: its length [s].
+        impact_step: the length that steps are to have in an impact that begins with a speed [m/s], [s].
+        forgets: whether a contact that is pressed on again begins anew (`NormalLaw.forgets`).
+    """
+    path = DepthPath(start.depth, start.rate, depth, rate, step)
+    end = start.moved(depth, rate)
+    if start.in_contact:
+        return _judge_contact(path, start, end, end_time, forgets)
+    touch = first_rise(path)
+    if touch is None:
+        return Verdict(Action.ACCEPT, end)
+    onset = _onset(path, touch, end_time)
+    shorter = impact_step(onset.speed)
+    share = SHARE * min(1.0, shorter / step)  # of this step, which may be far longer than those of the impact
+    if touch >= 1.0 - share:
+        return Verdict(Action.ACCEPT, end._replace(in_contact=True, approach_speed=onset.speed), onset)
+    if touch > share:
+        return _cut(touch, share, path, start, end_time, onset)
+    if step > 1.01 * shorter:  # the impact must not begin with a long step
+        return Verdict(Action.CUT, start, onset, step=shorter)
+    return Verdict(Action.REPEAT, start._replace(in_contact=True, approach_speed=onset.speed), onset)
+
+
+def _judge_contact(
+    path: DepthPath, start: PinMemory, end: PinMemory, end_time: float, forgets: bool
+) -> Verdict:
+    """The same for a pin that is in contact at the start of the step."""
+    again = last_return(path)
+    if again is not None:
+        onset = _onset(path, again, end_time)
+        return Verdict(Action.ACCEPT, end._replace(approach_speed=onset.speed), onset)
+    if end.depth <= 0.0:
+        parting = path.crossing(0.0, 1.0) if start.depth > 0.0 else 0.0
+        if SHARE < parting < 1.0 - SHARE:  # else the last step would push too long or too hard
+            return _cut(parting, SHARE, path, start, end_time)
+        return Verdict(Action.ACCEPT, end._replace(in_contact=False, approach_speed=0.0))
+    return _gone_on(end, path.turns_up() is not None, forgets)
+
+
+def _gone_on(end: PinMemory, anew: bool, forgets: bool) -> Verdict:
+    """The verdict on a step over which the contact goes on; anew: it has been pressed on again."""
+    if anew and forgets:
+        end = end._replace(approach_speed=0.0)
+    return Verdict(Action.ACCEPT, end, anew=anew)
+
+
+def judge_at_ends(
+    start: PinMemory, depth: float, rate: float, end_time: float, step: float, forgets: bool
+) -> Verdict:
+    """The same without locating anything, as plain recipes do: every step stands.
+
+    A touch or a parting counts from the end of the step in which it happens, so that a contact begins with some
+    depth, and with the speed it has there. What touches and parts within a step is missed.
+
+    Arguments: those of `judge`.
+    """
+    end = start.moved(depth, rate)
+    if start.in_contact:
+        if depth > 0.0:
+            return _gone_on(end, start.rate < 0.0 <= end.rate, forgets)
+        return Verdict(Action.ACCEPT, end._replace(in_contact=False, approach_speed=0.0))
+    if depth <= 0.0:
+        return Verdict(Action.ACCEPT, end)
+    before = min(start.depth, 0.0)
+    onset = Onset(end_time - step * depth / (depth - before), max(0.0, rate))
+    return Verdict(Action.ACCEPT, end._replace(in_contact=True, approach_speed=onset.speed), onset)
+
+
+def _cut(
+    fraction: float,
+    share: float,
+    path: DepthPath,
+    start: PinMemory,
+    end_time: float,
+    onset: Onset | None = None,
+) -> Verdict:
+    """Repeat the step so that it ends at a fraction of it, and rather a little later than before."""
+    goal = fraction + BEYOND * share
+    landing = end_time - (1.0 - goal) * path.step
+    # the engine shortens a repeated step to three quarters or less, so a late one is reached in two
+    length = (goal if goal <= 0.75 else goal / 2.0) * path.step
+    return Verdict(Action.CUT, start, onset, step=length, landing=landing)
+
+
+def _onset(path: DepthPath, fraction: float, end_time: float) -> Onset:
+    return Onset(end_time - (1.0 - fraction) * path.step, max(0.0, path.rate(fraction)))

@@ -1,0 +1,23 @@
+"""Limits that all formulations share."""
+
+from __future__ import annotations
+
+from user_forces.journal import JournalBearing
+
+# Depth of a journal as a share of the bore's radius. Laws and geometry are those of small depths; the reference
+# support meets 1 % of it.
+DEEPEST = 0.2
+
+
+SOFT = (
+    "The contact is too soft for the load that it meets: take a larger stiffness, or a smaller load. If both "
+    "are as they should be, shorter steps."
+)
+
+
+def too_deep(pin: str, depth: float, bearing: JournalBearing) -> str:
+    """What to say of a journal that is too deep in its bore."""
+    return (
+        f"the journal of {pin} is {1e3 * depth:.3g} mm deep in a bore of {1e3 * bearing.bore_radius:.4g} mm "
+        f"radius; allowed: up to {DEEPEST:.0%} of it"
+    )

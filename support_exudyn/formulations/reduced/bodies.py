@@ -1,0 +1,88 @@
+"""Bodies of a machine at the records."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from support_exudyn.formulations.reduced.drive import Vector
+from support_exudyn.model.linkage import Linkage
+
+
+class Place(NamedTuple):
+    """A body: centre of mass [m] and turn from the start [rad], their rates, and the rates of those; (n,)."""
+
+    x: Vector
+    y: Vector
+    turn: Vector
+    vx: Vector
+    vy: Vector
+    spin: Vector
+    ax: Vector
+    ay: Vector
+    spin_rate: Vector
+
+
+@dataclass(frozen=True)
+class Bodies:
+    """All bodies at the records, as in `Trajectory`; columns: forces (n,) [N]; pin_force: in the ideal pin."""
+
+    position: Vector
+    velocity: Vector
+    acceleration: Vector
+    columns: Mapping[str, Vector]
+    pin_force: tuple[Vector, Vector] | None = None
+
+
+def moved(
+    base: tuple[Vector, Vector, Vector, Vector, Vector, Vector],
+    arm: tuple[Vector, Vector],
+    turn: Vector,
+    spin: Vector,
+    spin_rate: Vector,
+) -> Place:
+    """A body from the motion of one of its points.
+
+    Arguments:
+        base: x, y of the point, their rates, and the rates of those.
+        arm: from the point to the centre of mass.
+    """
+    x, y, vx, vy, ax, ay = base
+    rx, ry = arm
+    square = spin * spin
+    return Place(
+        x + rx,
+        y + ry,
+        turn,
+        vx - spin * ry,
+        vy + spin * rx,
+        spin,
+        ax - spin_rate * ry - square * rx,
+        ay + spin_rate * rx - square * ry,
+        spin_rate,
+    )
+
+
+def placed(
+    linkage: Linkage,
+    places: Sequence[Place],
+    columns: Mapping[str, Vector],
+    pin_force: tuple[Vector, Vector] | None = None,
+) -> Bodies:
+    """All bodies, in the order of the linkage's."""
+    count = np.asarray(places[0].turn).size
+
+    def together(rows: Sequence[Sequence[Vector]]) -> Vector:
+        return np.column_stack([np.broadcast_to(item, (count,)) for row in rows for item in row])
+
+    centres = [body.centre for body in linkage.bodies.values()]
+    return Bodies(
+        together([(p.x - c[0], p.y - c[1], p.turn) for p, c in zip(places, centres, strict=True)]),
+        together([(p.vx, p.vy, p.spin) for p in places]),
+        together([(p.ax, p.ay, p.spin_rate) for p in places]),
+        columns,
+        pin_force,
+    )

@@ -1,0 +1,387 @@
+"""The run of a support with a loose pin: steps of chosen length, cut at touches and partings."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from support_exudyn.formulations.compiled import compiled, entry
+from support_exudyn.formulations.reduced.drive import Matrix, Vector
+from support_exudyn.formulations.reduced.equations import (
+    approach,
+    evaluate,
+    freeze_mobility,
+    move_with_the_drive,
+)
+from support_exudyn.formulations.reduced.events import (
+    CUT,
+    CUT_MET,
+    NOTHING,
+    PARTING,
+    RETURN,
+    TOO_LONG,
+    TOUCH,
+    event,
+)
+from support_exudyn.formulations.reduced.jump import jump
+from support_exudyn.formulations.reduced.layout import (
+    BEGIN,
+    BY_DEPTH,
+    CONTACT,
+    DEPTH,
+    END,
+    JUMP,
+    NEARNESS,
+    PUSH,
+    RATE,
+    SINE,
+    STATES,
+    SWIFTNESS,
+    TOUCH_SPEED,
+    TOUCHING,
+)
+from support_exudyn.formulations.reduced.records import peak, record, size
+from support_exudyn.formulations.reduced.runge_kutta import STAGES, advance, fit, within
+
+FINISHED, STUCK, TOO_MANY_STEPS, TOO_MANY_TOUCHES, DEAD_CENTRE, PAUSED = range(6)
+# what is reported of a run
+STEPS, EVALUATIONS, LARGEST, STOPPED_AT, TOUCHES, JUMPS, LAST_STEP, NOT_A_NUMBER, RECORDS = range(9)
+ACCEPTED, CUTS, CLAMPED, REPORT = range(9, 13)  # steps: accepted, cut to end at an event, that end in tension
+# With what a run goes on after a pause: the number of its segment, whether it is in the midst of it, time [s],
+# next step [s], last error, and of the last step's end the rate of the state and the contact
+SEGMENT_NUMBER, MIDST, AT, NEXT_STEP, LAST_ERROR, RATES = range(6)
+SEEN = RATES + STATES
+GOING = SEEN + CONTACT
+
+SAFETY, SLOWEST, FASTEST = 0.9, 0.2, 8.0  # change of the step: margin, smallest and largest factor
+SHORTEN = 0.25  # factor for a step in which too much happens
+STEADY = 0.04  # weight of the last error in the choice of a step (Gustafsson), against hunting
+ORDER = 0.2 - 0.75 * STEADY
+SMALLEST_STEP = 1e-13  # [s]
+LANDED = 1e-14  # depth [m] at which a touch or parting is met; rounding of the posture is some 1e-16
+LANDINGS = 12
+TURNS = 3  # looks for where a contact is pressed on again; the force is continuous there
+SMALLEST_SINE = 0.01  # of the angles that vanish at a dead centre: nearer to it the run is given up
+SHARE_OF_WAY = 0.5  # of the way to a dead centre is the longest step, so that none is stepped over
+CLOSE = 1e-12  # [s]: a record that lies so little behind the end of a step belongs to it
+
+
+@compiled
+def factor(error: float, before: float) -> float:
+    """By which the next step may be longer than one with this error, in units of what is allowed."""
+    if not error < 1e30:
+        return SLOWEST
+    wanted: float = SAFETY * max(error, 1e-9) ** -ORDER * before**STEADY
+    return min(FASTEST, max(SLOWEST, wanted))
+
+
+@compiled
+def land(
+    p: Vector,
+    segment: Vector,
+    memory: Vector,
+    t: float,
+    h: float,
+    what: int,
+    low: float,
+    high: float,
+    y: Vector,
+    k: Matrix,
+    end: Vector,
+    contact: Vector,
+    weights: Vector,
+    report: Vector,
+) -> float:
+    """Make a step of h [s] again so that it ends where something happens, see `event`; its length [s].
+
+    A touch or parting is met by Newton's method on the depth at the end of the step, kept by bisection where it
+    was seen.
+    """
+    before, after = low * h, high * h
+    length = 0.5 * (before + after)
+    for n in range(1, LANDINGS + 1):
+        advance(p, segment, memory, t, length, y, k, end, contact, weights)
+        report[EVALUATIONS] += STAGES - 1
+        depth = contact[DEPTH]
+        if abs(depth) <= LANDED or n == LANDINGS:
+            break
+        if (depth > 0.0) == (what == TOUCH):
+            after = max(length, before)
+        else:
+            before = min(length, after)
+        following = length - depth / contact[RATE]
+        # the step made again may differ from what was seen by its error, so a little more is allowed
+        if not before - 0.1 * h < following < after + 0.1 * h or following <= 0.0:
+            following = 0.5 * (before + after)
+        if following == length:
+            break
+        length = following
+    return length
+
+
+@compiled
+def land_on_cut(
+    p: Vector,
+    segment: Vector,
+    memory: Vector,
+    t: float,
+    h: float,
+    before: float,
+    y: Vector,
+    k: Matrix,
+    end: Vector,
+    contact: Vector,
+    weights: Vector,
+    report: Vector,
+) -> float:
+    """Make a step of h [s] again so that it ends where PUSH, `before` at its start, changes sign; its length.
+
+    While tension is cut there is no force, steps grow, and one would miss where the force sets in again. By
+    false position (Illinois).
+    """
+    low, high, at_low, at_high = 0.0, h, before, contact[PUSH]
+    length = h
+    for _ in range(LANDINGS):
+        length = (low * at_high - high * at_low) / (at_high - at_low)
+        advance(p, segment, memory, t, length, y, k, end, contact, weights)
+        report[EVALUATIONS] += STAGES - 1
+        value = contact[PUSH]
+        if abs(value) <= CUT_MET:
+            break
+        if (value < 0.0) == (at_low < 0.0):
+            low, at_low = length, value
+            at_high *= 0.5
+        else:
+            high, at_high = length, value
+            at_low *= 0.5
+    return length
+
+
+@compiled
+def land_on_turn(
+    p: Vector,
+    segment: Vector,
+    memory: Vector,
+    t: float,
+    h: float,
+    before: float,
+    guess: float,
+    y: Vector,
+    k: Matrix,
+    end: Vector,
+    contact: Vector,
+    weights: Vector,
+    report: Vector,
+) -> float:
+    """Make a step of h [s] again so that it ends where the rate, `before` at its start, passes zero.
+
+    The first look is at a guessed fraction; then by false position. Gives the step's length [s].
+    """
+    low, high, at_low, at_high = 0.0, h, before, contact[RATE]
+    length = guess * h
+    for n in range(TURNS):
+        advance(p, segment, memory, t, length, y, k, end, contact, weights)
+        report[EVALUATIONS] += STAGES - 1
+        value = contact[RATE]
+        if value == 0.0 or n + 1 == TURNS:
+            break
+        if value < 0.0:
+            low, at_low = length, value
+        else:
+            high, at_high = length, value
+        length = (low * at_high - high * at_low) / (at_high - at_low)
+    return length
+
+
+@compiled
+def happen(what: int, t: float, rate: float, memory: Vector, onsets: Matrix, report: Vector) -> bool:
+    """Change the memory as an event at t [s] at a rate of depth [m/s] does; whether there is room for it."""
+    if what in (PARTING, RETURN):
+        memory[TOUCH_SPEED] = 0.0
+    n = int(report[TOUCHES])
+    if what == PARTING:
+        memory[TOUCHING] = 0.0
+        onsets[n - 1, 2], onsets[n - 1, 3] = t, max(0.0, -rate)
+    elif what == TOUCH:
+        if n >= onsets.shape[0]:
+            return False
+        memory[TOUCHING], memory[TOUCH_SPEED] = 1.0, max(0.0, rate)
+        onsets[n, 0], onsets[n, 1], onsets[n, 2], onsets[n, 3] = t, memory[TOUCH_SPEED], math.inf, 0.0
+        report[TOUCHES] += 1
+    return True
+
+
+@compiled
+def write_records(
+    segment: Vector,
+    memory: Vector,
+    t: float,
+    h: float,
+    until: float,
+    path: Matrix,
+    times: Vector,
+    rows: Matrix,
+    y: Vector,
+    report: Vector,
+) -> None:
+    """Write the records within a step of h [s] from t, up to `until` [s]; y is overwritten."""
+    n = int(report[RECORDS])
+    while n < times.size and times[n] <= until:
+        within(path, min(1.0, (times[n] - t) / h), y)
+        record(segment, memory, times[n], y, rows, n)
+        n += 1
+    report[RECORDS] = n
+
+
+@compiled
+def run_segment(
+    p: Vector,
+    segment: Vector,
+    going: Vector,
+    times: Vector,
+    weights: Vector,
+    most_steps: int,
+    pause: int,
+    y: Vector,
+    memory: Vector,
+    rows: Matrix,
+    onsets: Matrix,
+    report: Vector,
+) -> int:
+    """Run to the end of a segment of the drive, from its start or from a pause; FINISHED, or why not.
+
+    The arguments are those of `integrate`.
+    """
+    k = np.empty((STAGES, STATES))
+    end, probe, path = np.empty(STATES), np.empty(STATES), np.empty((5, STATES))
+    now, then, there = np.zeros(CONTACT), np.zeros(CONTACT), np.zeros(CONTACT)
+    near = np.zeros(NEARNESS)
+    h, error_before = going[NEXT_STEP], 1e-4
+    t, stop = segment[BEGIN], segment[END]
+    if going[MIDST] != 0.0:
+        t, error_before = going[AT], going[LAST_ERROR]
+        k[0, :] = going[RATES:SEEN]
+        now[:] = going[SEEN:GOING]
+    else:
+        evaluate(p, segment, memory, t, y, k[0], now)
+    while t < stop:
+        if report[STEPS] >= pause:
+            going[MIDST], going[AT], going[NEXT_STEP], going[LAST_ERROR] = 1.0, t, h, error_before
+            going[RATES:SEEN] = k[0]
+            going[SEEN:GOING] = now
+            return PAUSED
+        report[STEPS] += 1
+        report[STOPPED_AT], report[LAST_STEP] = t, h
+        if report[STEPS] > most_steps:
+            return TOO_MANY_STEPS
+        if h < SMALLEST_STEP:
+            return STUCK
+        wanted = h
+        last = h >= 0.999999 * (stop - t)
+        if last:
+            h = stop - t
+        error = advance(p, segment, memory, t, h, y, k, end, then, weights)
+        report[EVALUATIONS] += STAGES - 1
+        report[NOT_A_NUMBER] = 1.0 if math.isnan(error) else 0.0
+        if not error <= 1.0:
+            h *= min(factor(error, 1.0), 1.0)
+            continue
+        approach(p, segment, t + h, end, near)
+        if near[SINE] < SMALLEST_SINE:
+            return DEAD_CENTRE
+        fit(h, y, end, k, path)
+        what, low, high = event(p, segment, memory, t, h, now, then, path, probe, there)
+        if what == TOO_LONG or h * near[SWIFTNESS] > SHARE_OF_WAY:
+            h *= SHORTEN
+            continue
+        follow = wanted if last else h * factor(error, error_before)
+        error_before = max(error, 1e-4)
+        was_cut = now[PUSH] < 0.0
+        if what == CUT:
+            h = land_on_cut(p, segment, memory, t, h, now[PUSH], y, k, end, then, weights, report)
+            fit(h, y, end, k, path)
+            last = h >= stop - t
+        elif what == RETURN:
+            h = land_on_turn(p, segment, memory, t, h, now[RATE], high, y, k, end, then, weights, report)
+            fit(h, y, end, k, path)
+            last = h >= stop - t
+        elif what != NOTHING and low < 1.0:
+            h = land(p, segment, memory, t, h, what, low, high, y, k, end, then, weights, report)
+            fit(h, y, end, k, path)
+            last = h >= stop - t
+        if memory[TOUCHING] != 0.0:
+            first, final = size(now), size(then)
+            report[LARGEST] = peak(p, segment, memory, t, h, path, report[LARGEST], first, final, probe, there)
+        report[ACCEPTED] += 1
+        report[CUTS] += what not in (NOTHING, RETURN)
+        report[CLAMPED] += then[PUSH] < 0.0
+        until = stop + CLOSE if last else t + h
+        write_records(segment, memory, t, h, until, path, times, rows, probe, report)
+        t = stop if last else t + h
+        y[:] = end
+        if what == NOTHING:
+            k[0, :] = k[STAGES - 1]
+            now[:] = then
+        else:
+            if not happen(what, t, then[RATE], memory, onsets, report):
+                return TOO_MANY_TOUCHES
+            if p[BY_DEPTH] != 0.0 and what in (TOUCH, RETURN):
+                freeze_mobility(p, segment, memory, t, y)
+            evaluate(p, segment, memory, t, y, k[0], now)
+            # whatever rounding says
+            if what == RETURN:
+                now[RATE] = max(0.0, now[RATE])
+            elif what == CUT:
+                now[PUSH] = 1e-30 if was_cut else -1e-30
+        h = follow
+    going[MIDST], going[NEXT_STEP] = 0.0, h
+    return FINISHED
+
+
+@entry
+def integrate(
+    p: Vector,
+    segments: Matrix,
+    times: Vector,
+    weights: Vector,
+    going: Vector,
+    most_steps: int,
+    pause: int,
+    y: Vector,
+    memory: Vector,
+    rows: Matrix,
+    onsets: Matrix,
+    jumps: Matrix,
+    report: Vector,
+) -> int:
+    """Run from 0 to the end of the last segment; FINISHED, or why not.
+
+    Arguments:
+        p: parameters. segments: of the drive, one a row. See `layout` for both.
+        times: of the records [s], from 0.
+        weights: one over the largest error of a step, for each component.
+        going: zeros with the first step in NEXT_STEP; after a pause as it was left.
+        most_steps: before giving up. pause: after so many steps it returns PAUSED, to be called again.
+        y, memory: state and memory at the start; at the end when it returns.
+        rows, onsets, jumps, report: are filled.
+    """
+    if report[RECORDS] == 0.0:
+        # a drive that moves from the start on without a jump has been moving for long
+        if segments[0, JUMP] == 0.0:
+            move_with_the_drive(p, segments[0], 0.0, y)
+        freeze_mobility(p, segments[0], memory, 0.0, y)
+        record(segments[0], memory, 0.0, y, rows, 0)
+        report[RECORDS] = 1
+    for n in range(int(going[SEGMENT_NUMBER]), segments.shape[0]):
+        segment = segments[n]
+        going[SEGMENT_NUMBER] = n
+        if segment[JUMP] != 0.0 and going[MIDST] == 0.0:
+            jump(p, segment, y, False, jumps, int(report[JUMPS]))
+            report[JUMPS] += 1
+        code = run_segment(
+            p, segment, going, times, weights, most_steps, pause, y, memory, rows, onsets, report
+        )
+        if code != FINISHED:
+            return code
+    return FINISHED

@@ -1,0 +1,120 @@
+"""From a scenario to the numbers that the functions of this package work on."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+
+from support_exudyn.formulations.reduced import layout
+from support_exudyn.formulations.reduced.drive import Matrix, Vector
+from support_exudyn.model.drives.drive import Drive, Reciprocating, Steady, Stroke, UniformSpeed
+from support_exudyn.model.drives.table_drive import TableDrive
+from support_exudyn.model.pins import ClearancePin
+from support_exudyn.scenario.scenario import Scenario
+from user_forces.friction.ambrosio import Ambrosio
+from user_forces.normal.damping_speed import SMALLEST, TouchSpeed
+from user_forces.normal.power_law import ElasticPower, PowerLaw
+
+TABLE = slice(layout.ORIGIN, layout.A3 + 1)  # of a segment: what a cubic is
+SLOWEST = 1e-3  # [m/s], of what the journal may do in its bore, for scenes in which nothing falls
+
+
+def parameters(scenario: Scenario, machine: Mapping[str, float], pin: ClearancePin | None) -> Vector:
+    """The vector of parameters, see `layout`.
+
+    Arguments:
+        machine: the machine's parameters by name.
+        pin: the loose pin; without one the contact's are zero, and the bore is in the first body.
+    """
+    named = {
+        **machine,
+        "GRAVITY_X": scenario.gravity[0],
+        "GRAVITY_Y": scenario.gravity[1],
+        **(_contact(pin) if pin else {"BORE_FIRST": 1.0}),
+    }
+    vector = np.zeros(layout.PARAMETERS)
+    for name, number in named.items():
+        vector[getattr(layout, name)] = number
+    return vector
+
+
+def _contact(pin: ClearancePin) -> dict[str, float]:
+    bearing, law, friction = pin.contact.bearing, pin.contact.normal, pin.contact.friction
+    found = {
+        "CLEARANCE": bearing.clearance,
+        "BORE_RADIUS": bearing.bore_radius,
+        "SPEED_FLOOR": SMALLEST,
+        "STATIC_SPEED": 0.0,
+        "DYNAMIC_SPEED": 1.0,
+        "BORE_FIRST": float(pin.bore == "first"),
+        "BY_DEPTH": float(law.forgets),
+    }
+    if isinstance(law, ElasticPower):
+        found |= {"STIFFNESS": law.stiffness, "EXPONENT": law.exponent}
+    if isinstance(law, PowerLaw):
+        found["DAMPING_FACTOR"] = law.damping_factor
+        if isinstance(law.damping_speed, TouchSpeed):
+            found["SPEED_FLOOR"] = law.damping_speed.floor
+    if isinstance(friction, Ambrosio):
+        found["SLIDING_COEFFICIENT"] = friction.sliding_coefficient
+        found["STATIC_SPEED"] = friction.static_speed
+        found["DYNAMIC_SPEED"] = friction.dynamic_speed
+    return found
+
+
+def segments(drive: Drive, duration: float) -> Matrix:
+    """The drive between its breaks, one segment a row, see `layout`.
+
+    Arguments:
+        drive: Held, Steady, CubicStep, UniformSpeed, Reciprocating or TableDrive.
+        duration: of the run [s].
+    """
+    inner = sorted({t for t in drive.breaks if 0.0 < t < duration})
+    edges = [0.0, *inner, duration]
+    rows = np.zeros((len(edges) - 1, layout.SEGMENT))
+    rows[:, layout.WIDTH] = 1.0
+    for row, begin, end in zip(rows, edges, edges[1:], strict=False):
+        row[layout.BEGIN], row[layout.END] = begin, end
+        row[layout.JUMP] = drive.speed_jump(begin)
+        if isinstance(drive, Stroke):
+            _fill(row, drive, 0.5 * (begin + end))
+        elif isinstance(drive, TableDrive):
+            row[TABLE] = drive.cubic(0.5 * (begin + end))
+        elif isinstance(drive, Steady):
+            row[layout.A1] = drive.rate
+        elif isinstance(drive, Reciprocating):
+            row[layout.AMPLITUDE], row[layout.FREQUENCY] = 0.5 * drive.stroke, drive.frequency
+    return rows
+
+
+def _fill(row: Vector, drive: Stroke, t: float) -> None:
+    """Polynomial of the segment that time t [s] lies in."""
+    if t >= drive.end:
+        row[layout.A0] = drive.stroke
+    elif t > drive.start:
+        row[layout.ORIGIN], row[layout.WIDTH] = drive.start, drive.end - drive.start
+        if isinstance(drive, UniformSpeed):
+            row[layout.A1] = drive.stroke
+        else:
+            row[layout.A2], row[layout.A3] = 3.0 * drive.stroke, -2.0 * drive.stroke
+
+
+def error_weights(
+    reaches: tuple[float, float], mass: float, fall: float, clearance: float, tolerance: float
+) -> Vector:
+    """One over the largest error of a step, for each component of the state.
+
+    `tolerance` times: the clearance, for the free coordinates; the speed of a fall through half of it, for
+    their rates; the weight of all bodies times the clearance, for energies.
+
+    Arguments:
+        reaches: by how much the journal moves with the free coordinates [m/rad] or 1.
+        mass: of all bodies [kg]. fall: acceleration of such a fall [m/s^2].
+    """
+    speed = max(math.sqrt(fall * clearance), SLOWEST)
+    way = [reach / clearance / tolerance for reach in reaches]
+    rate = [reach / speed / tolerance for reach in reaches]
+    energy = 1.0 / (mass * speed**2 * tolerance)
+    return np.array([*way, *rate, energy, energy, energy], dtype=np.float64)

@@ -1,0 +1,149 @@
+"""The engine's side of a pin with clearance: markers and connector.
+
+Without friction it is the engine's spring-damper between two points, or its Cartesian one if the law asks for
+directions: a force along the line of centres conserves momentum and angular momentum wherever on that line it
+acts. With friction it is the rigid-body connector, and if both bodies move, that in its intrinsic form, which
+applies force and moment in the middle between both marker points, so that they act at one point on both
+bodies. That is exact only while both marker frames are parallel: with frames turned by an angle a against each
+other the engine's displacement is longer than the distance of the points by (a/2)/sin(a/2), and as much angular
+momentum is lost. The journal's marker frame is therefore turned along, so that a stays small.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from exudyn.itemInterface import (
+    MarkerBodyRigid,
+    ObjectConnectorCartesianSpringDamper,
+    ObjectConnectorRigidBodySpringDamper,
+    ObjectConnectorSpringDamper,
+)
+
+from support_exudyn.formulations.redundant.clearance.attachment import Attachment
+from user_forces.values.value import Vector2
+
+# Largest turn between the marker frames before they are lined up again [rad]: the displacement is then
+# right within 4e-10 of itself, and the rest is corrected.
+FRAME_TURN = 1e-4
+
+
+Frame = list[list[float]]
+
+
+class PinConnector:
+    """Markers and connector of one clearance pin in the engine.
+
+    Arguments:
+        mbs: the engine's system.
+        bore, journal: the engine's body, and the frame of the bore or journal on it, in the body's axes
+            (4 x 4): its centre, and its axis as z.
+        turn: of the journal's frame relative to the bore's about the axis [rad].
+        at: what the force acts on.
+        clearance: [m].
+    """
+
+    def __init__(
+        self,
+        mbs: Any,
+        bore: tuple[Any, Frame],
+        journal: tuple[Any, Frame],
+        turn: float,
+        at: Attachment,
+        clearance: float,
+    ) -> None:
+        self.mbs = mbs
+        self._clearance = clearance
+        self.at = at
+        self._bore, self._journal = np.array(bore[1]), np.array(journal[1])
+        self._journal_shift = 0.0
+        self.frame_turn = -turn if at is Attachment.MIDDLE else 0.0  # of the journal's frame on its body [rad]
+        self.bore_marker = mbs.AddMarker(MarkerBodyRigid(bodyNumber=bore[0], localHT=bore[1]))
+        self.journal_marker = mbs.AddMarker(MarkerBodyRigid(bodyNumber=journal[0], localHT=self._frame()))
+        self.object = mbs.AddObject(self._connector([self.bore_marker, self.journal_marker]))
+
+    def _connector(self, markers: list[Any]) -> Any:
+        if self.at is Attachment.LINE:  # what it is stretched by is the depth
+            return ObjectConnectorSpringDamper(markerNumbers=markers, referenceLength=self._clearance)
+        if self.at is Attachment.CENTRAL:
+            return ObjectConnectorCartesianSpringDamper(markerNumbers=markers)
+        return ObjectConnectorRigidBodySpringDamper(
+            markerNumbers=markers, useIntrinsicFormulation=self.at is Attachment.MIDDLE
+        )
+
+    def set_force(self, function: Any) -> None:
+        """Let this user function, Python's or symbolic, give force and moment."""
+        self.mbs.SetObjectParameter(self.object, user_function(self.at)[1], function)
+
+    def set_spring(self, stiffness: Callable[[float], float]) -> None:
+        """Let a spring between both centres act instead, its stiffness [N/m] given by their distance [m]."""
+        if self.at is Attachment.LINE:
+
+            def tension(mbs: Any, t: float, item: int, depth: float, *others: Any) -> float:
+                eccentricity = depth + self._clearance
+                return stiffness(eccentricity) * eccentricity
+
+            self.set_force(tension)
+            return
+        zeros = [0.0] if self.at is Attachment.CENTRAL else [0.0] * 4
+
+        def force(mbs: Any, t: float, item: int, displacement: list[float], *others: Any) -> list[float]:
+            # the rigid-body connector hands over the rotation next
+            scale = displacement_scale(others[0][2]) if self.at is Attachment.MIDDLE else 1.0
+            x, y = scale * displacement[0], scale * displacement[1]
+            hold = stiffness(math.hypot(x, y))
+            return [hold * x, hold * y, *zeros]
+
+        self.set_force(force)
+
+    def line_up(self, turn: float) -> bool:
+        """Line up the marker frames if the journal's will have turned by so much [rad]; whether it was done."""
+        if abs(turn) <= FRAME_TURN:
+            return False
+        self.frame_turn = math.remainder(self.frame_turn - turn, 2.0 * math.pi)
+        self.mbs.SetMarkerParameter(self.journal_marker, "localHT", self._frame())
+        return True
+
+    def slide(self, bore: float, journal: float) -> None:
+        """Let the force act beside both centres, by so much along bore and journal [m]."""
+        slid = self._bore.copy()
+        slid[:3, 3] += bore * slid[:3, 2]
+        self.mbs.SetMarkerParameter(self.bore_marker, "localHT", slid.tolist())
+        if journal != self._journal_shift:
+            self._journal_shift = journal
+            self.mbs.SetMarkerParameter(self.journal_marker, "localHT", self._frame())
+
+    def _frame(self) -> Frame:
+        turned = self._journal @ frame((0.0, 0.0), self.frame_turn)
+        turned[:3, 3] += self._journal_shift * turned[:3, 2]
+        found: list[list[float]] = turned.tolist()
+        return found
+
+
+def frame(centre: Vector2, turn: float = 0.0) -> Frame:
+    """A frame in the plane, turned by an angle [rad], as the engine wants it (4 x 4)."""
+    c, s = math.cos(turn), math.sin(turn)
+    x, y = centre
+    return [[c, -s, 0.0, x], [s, c, 0.0, y], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]]
+
+
+def user_function(at: Attachment) -> tuple[str, str]:
+    """The engine's names of the connector and of its force's user function."""
+    if at is Attachment.LINE:
+        return "ObjectConnectorSpringDamper", "springForceUserFunction"
+    if at is Attachment.CENTRAL:
+        return "ObjectConnectorCartesianSpringDamper", "springForceUserFunction"
+    return "ObjectConnectorRigidBodySpringDamper", "springForceTorqueUserFunction"
+
+
+def displacement_scale(turn: float) -> float:
+    """Distance of the marker points over the engine's displacement, see the top of this file.
+
+    sin(a/2)/(a/2) of the turn a [rad] by its series: right to rounding as long as frames are lined up. Takes a
+    number or an expression.
+    """
+    square = 0.25 * turn * turn
+    return 1.0 - square / 6.0 * (1.0 - square / 20.0 * (1.0 - square / 42.0))

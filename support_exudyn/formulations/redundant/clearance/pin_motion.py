@@ -1,0 +1,59 @@
+"""How a journal moves in its bore, from the engine's coordinates of both bodies."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple, Protocol
+
+from user_forces.values.value import Vector2
+
+# x, y, vx, vy [m], [m/s]; angle [rad] and spin [rad/s] of the body
+Motion = tuple[float, float, float, float, float, float]
+
+
+class Moving(Protocol):
+    """How a journal moves in its bore."""
+
+    def now(self) -> tuple[Motion, Motion]:
+        """The present motions of bore and journal."""
+        ...
+
+
+class PinEnd(NamedTuple):
+    """One centre of a pin on its body.
+
+    first: the body's first coordinate in the vector of all (x, y, angle follow); None: the ground. centre,
+    angle: of the body where its coordinates are zero [m], [rad]. arm: of the point in the body's axes [m]; of
+    the ground from its origin.
+    """
+
+    first: int | None
+    centre: Vector2
+    angle: float
+    arm: Vector2
+
+    def motion(self, position: list[float], velocity: list[float]) -> Motion:
+        """Motion of the point and its body."""
+        first, centre, angle, (x, y) = self
+        if first is None:
+            return x, y, 0.0, 0.0, angle, 0.0
+        qx, qy, turned = position[first : first + 3]
+        vx, vy, spin = velocity[first : first + 3]
+        angle += turned
+        c, s = math.cos(angle), math.sin(angle)
+        ax, ay = c * x - s * y, s * x + c * y
+        return centre[0] + qx + ax, centre[1] + qy + ay, vx - spin * ay, vy + spin * ax, angle, spin
+
+
+class PinMotion(NamedTuple):
+    """The motion of a pin's journal in its bore. data: the engine's, once it is assembled."""
+
+    data: Any
+    bore: PinEnd
+    journal: PinEnd
+
+    def now(self) -> tuple[Motion, Motion]:
+        """The present motions of bore and journal."""
+        position = self.data.GetODE2Coordinates().tolist()
+        velocity = self.data.GetODE2Coordinates_t().tolist()
+        return self.bore.motion(position, velocity), self.journal.motion(position, velocity)

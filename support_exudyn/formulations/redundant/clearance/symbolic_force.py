@@ -1,0 +1,265 @@
+"""A contact's force as an expression that the engine evaluates by itself.
+
+The laws are called once, with `Symbol`s in place of numbers; what comes back is the expression of the same
+formulas. What changes from step to step (the touch, the state of friction) stands in named variables of the
+expression, which Python sets before a step is tried.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable, Iterable
+from typing import Any, cast
+
+import exudyn
+from exudyn.advancedUtilities import CreateSymbolicUserFunction
+
+from support_exudyn.formulations.redundant.clearance.attachment import Attachment, Relative, rough_force
+from support_exudyn.formulations.redundant.clearance.connector import displacement_scale, user_function
+from support_exudyn.formulations.redundant.clearance.friction_line import straightened
+from support_exudyn.mechanics.contact_state import Mobility, PinMemory
+from user_forces.contact import SMALLEST, JournalContact, SlipHistory
+from user_forces.expressions.scalar import Expression, hypot, maximum, where
+from user_forces.normal.law import Touch
+
+engine: Any = getattr(exudyn, "symbolic")  # noqa: B009 - its stubs lack the module
+APART = 1e300  # [m], deeper than any pin
+_numbers = itertools.count()  # names of variables differ between all pins of all scenes of a process
+
+
+class Symbol(Expression):
+    """An expression of the engine."""
+
+    __slots__ = ("real",)
+
+    def __init__(self, real: Any) -> None:
+        self.real = real
+
+    def function(self, name: str) -> Symbol:
+        """sqrt, exp, log, tanh, cos, sin, abs or sign of it."""
+        return Symbol(getattr(engine, name)(self.real))
+
+    def hypotenuse(self, other: Expression | float) -> Symbol:
+        """Square root of the sum of both squares."""
+        return Symbol(engine.Vector([self.real, _real(other)]).NormL2())
+
+    def choose(self, yes: Expression | float, no: Expression | float) -> Symbol:
+        """`yes` where this condition holds, else `no`."""
+        return Symbol(engine.IfThenElse(self.real, _real(yes), _real(no)))
+
+    def larger(self, other: Expression | float) -> Symbol:
+        """The larger of both."""
+        return Symbol(engine.max(self.real, _real(other)))
+
+    def smaller(self, other: Expression | float) -> Symbol:
+        """The smaller of both."""
+        return Symbol(engine.min(self.real, _real(other)))
+
+    def __add__(self, other: Any) -> Symbol:
+        return Symbol(self.real + _real(other))
+
+    def __radd__(self, other: Any) -> Symbol:
+        return Symbol(_real(other) + self.real)
+
+    def __sub__(self, other: Any) -> Symbol:
+        return Symbol(self.real - _real(other))
+
+    def __rsub__(self, other: Any) -> Symbol:
+        return Symbol(_real(other) - self.real)
+
+    def __mul__(self, other: Any) -> Symbol:
+        return Symbol(self.real * _real(other))
+
+    def __rmul__(self, other: Any) -> Symbol:
+        return Symbol(_real(other) * self.real)
+
+    def __truediv__(self, other: Any) -> Symbol:
+        return Symbol(self.real / _real(other))
+
+    def __rtruediv__(self, other: Any) -> Symbol:
+        return Symbol(_real(other) / self.real)
+
+    def __pow__(self, exponent: float) -> Symbol:
+        return Symbol(engine.pow(self.real, engine.Real(exponent)))
+
+    def __neg__(self) -> Symbol:
+        return Symbol(-self.real)
+
+    def __lt__(self, other: Any) -> Symbol:
+        return Symbol(self.real < _real(other))
+
+    def __le__(self, other: Any) -> Symbol:
+        return Symbol(self.real <= _real(other))
+
+    def __gt__(self, other: Any) -> Symbol:
+        return Symbol(self.real > _real(other))
+
+    def __ge__(self, other: Any) -> Symbol:
+        return Symbol(self.real >= _real(other))
+
+
+def _real(item: Any) -> Any:
+    return item.real if isinstance(item, Symbol) else engine.Real(float(item))
+
+
+def _unknown(real: Any) -> float:
+    """A symbol where a number is expected."""
+    return cast(float, Symbol(real))
+
+
+class SymbolicForce:
+    """Force and moment of one clearance pin as a symbolic user function of the engine.
+
+    Arguments:
+        mbs: the engine's system.
+        contact: bearing and laws.
+        at: what the force acts on.
+        straight: whether friction follows a line, see `friction_line`, that is laid by `lay`.
+    """
+
+    calls = 0  # in Python
+
+    def __init__(self, mbs: Any, contact: JournalContact, at: Attachment, straight: bool = False) -> None:
+        number = next(_numbers)
+
+        def variable(name: str, value: float = 0.0) -> Any:
+            return engine.Real(f"pin{number}_{name}", value)
+
+        self._surface = variable("surface", APART)  # depth beyond which there is a force [m]
+        self._touch = [variable("speed"), *(variable(f"mobility_{axes}") for axes in ("xx", "xy", "yy"))]
+        self._history = [variable("deflection"), variable("slip"), variable("step")]
+        self._bore_spin = variable("bore_spin")
+        self._scale = variable("scale", 1.0)
+        self._line = [variable("offset"), variable("slope")]
+        self._contact = straightened(contact, *map(_unknown, self._line)) if straight else contact
+        self._at = at
+        self._loaded: tuple[object, ...] = ()
+        item, self.name = user_function(at)
+        # kept alive here: the engine's function refers to it
+        self.function = CreateSymbolicUserFunction(mbs, self.expression(), self.name, itemTypeName=item)
+
+    def load(self, memory: PinMemory, mobility: Mobility, step: float, bore_spin: float, turn: float) -> None:
+        """Set what the force depends on besides the motion.
+
+        Arguments:
+            memory: of the pin, at the start of the step.
+            mobility: its, in the axes of the connector's displacement.
+            step: its length [s].
+            bore_spin: expected at its end [rad/s].
+            turn: between the marker frames, expected at its end [rad].
+        """
+        touch = (memory.in_contact, memory.approach_speed, *mobility)  # seldom changes, and setting takes time
+        if touch != self._loaded:
+            self._loaded = touch
+            self._surface.SetValue(0.0 if memory.in_contact else APART)
+            _set(self._touch, touch[1:])
+        if self._contact.friction.has_state:
+            _set(self._history, (memory.deflection, memory.slip, step))
+        if self._at is Attachment.MIDDLE:
+            self._scale.SetValue(displacement_scale(turn))
+            self._bore_spin.SetValue(bore_spin)
+
+    def lay(self, offset: float, slope: float) -> None:
+        """Set the line that friction follows."""
+        _set(self._line, (offset, slope))
+
+    def expression(self) -> Callable[..., Any]:
+        """A function of the engine's signature, to be called once with the engine's symbols.
+
+        The engine goes by the names and the number of its arguments. It evaluates an expression as often as it
+        stands in others; products with a vector keep that rare.
+        """
+        if self._at is Attachment.LINE:
+
+            def line(mbs, t, itemNumber, deltaL, deltaL_t, stiffness, damping, force):  # type: ignore[no-untyped-def] # noqa: N803
+                return self._between(deltaL, deltaL_t)
+
+            return line
+        if self._at is Attachment.CENTRAL:
+
+            def central(  # type: ignore[no-untyped-def]
+                mbs,
+                t,
+                itemNumber,  # noqa: N803
+                displacement,
+                velocity,
+                stiffness,
+                damping,
+                offset,
+            ):
+                return self._central(displacement, velocity)
+
+            return central
+
+        def rough(  # type: ignore[no-untyped-def]
+            mbs,
+            t,
+            itemNumber,  # noqa: N803
+            displacement,
+            rotation,
+            velocity,
+            angularVelocity,  # noqa: N803
+            stiffness,
+            damping,
+            rotJ0,  # noqa: N803
+            rotJ1,  # noqa: N803
+            offset,
+        ):
+            if self._at is Attachment.SPACE:
+                pull = self._central(displacement, velocity)
+                return engine.Vector([pull[0], pull[1], pull[2], *_zeros(3)])
+            return self._rough(displacement, velocity, angularVelocity)
+
+        return rough
+
+    def _between(self, depth: Any, rate: Any) -> Any:
+        """The force from depth and rate alone."""
+        asked = self._contact.normal(_unknown(depth), _unknown(rate), Touch(self._speed, math.nan))
+        return _real(where(cast(Any, Symbol(depth) > _unknown(self._surface)), maximum(asked, 0.0), 0.0))
+
+    def _central(self, displacement: Any, velocity: Any) -> Any:
+        """The force along the line of centres."""
+        eccentricity = _unknown(displacement.NormL2())
+        depth = self._contact.bearing.depth(eccentricity)
+        rate = _unknown(displacement * velocity) / eccentricity
+        mass = self._mobility.mass(_unknown(displacement[0]), _unknown(displacement[1]))
+        asked = self._contact.normal(depth, rate, Touch(self._speed, mass))
+        pressed = cast(Any, depth) > _unknown(self._surface)
+        return _real(where(pressed, maximum(asked, 0.0) / eccentricity, 0.0)) * displacement
+
+    def _rough(self, displacement: Any, velocity: Any, angular_velocity: Any) -> Any:
+        """Force and moment with friction."""
+        x, y = _unknown(displacement[0]), _unknown(displacement[1])
+        if self._at is Attachment.MIDDLE:
+            x, y = _unknown(self._scale) * x, _unknown(self._scale) * y
+        vx, vy = _unknown(velocity[0]), _unknown(velocity[1])
+        motion = Relative(x, y, vx, vy, _unknown(angular_velocity[2]), _unknown(self._bore_spin))
+        touch = Touch(self._speed, self._mobility.mass(x, y))
+        history = SlipHistory(*(_unknown(variable) for variable in self._history))
+        found, arm = rough_force(self._contact, self._at, motion, touch, history)
+        away = maximum(hypot(x, y), SMALLEST)
+        nx, ny = x / away, y / away
+        along = engine.Vector([_real(nx), _real(ny), *_zeros(4)])
+        across = engine.Vector([_real(ny), _real(-nx), *_zeros(3), _real(-arm)])
+        pressed = cast(Any, found.depth) > _unknown(self._surface)
+        normal = where(pressed, found.normal_force, 0.0)
+        friction = where(pressed, found.friction_force, 0.0)
+        return along * _real(normal) + across * _real(friction)
+
+    @property
+    def _speed(self) -> float:
+        return _unknown(self._touch[0])
+
+    @property
+    def _mobility(self) -> Mobility:
+        return Mobility(*(_unknown(variable) for variable in self._touch[1:]))
+
+
+def _set(variables: Iterable[Any], values: Iterable[object]) -> None:
+    for variable, value in zip(variables, values, strict=True):
+        variable.SetValue(value)
+
+
+def _zeros(count: int) -> list[Any]:
+    return [engine.Real(0.0)] * count

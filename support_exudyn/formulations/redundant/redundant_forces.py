@@ -1,0 +1,119 @@
+"""What follows at the records of a redundant run from its motion: accelerations, and forces of what is held."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from support_exudyn.formulations.redundant.scene.scene import Scene
+from support_exudyn.mechanics.body_motion import BodyMotion
+from support_exudyn.mechanics.channels import MOTION, Part
+from support_exudyn.mechanics.contact_history import acting
+from support_exudyn.mechanics.drive_acceleration import accelerations
+from support_exudyn.mechanics.joint_forces import JointForces
+from support_exudyn.mechanics.reactions import Held, direction, equations, push, twist, weight_of
+from support_exudyn.mechanics.trajectory import ContactSeries, LoadSeries, Series
+
+FOLLOWING = Part.ACCELERATION | Part.JOINTS
+APPLIED = Part.CONTACTS | Part.OIL | Part.LOADS
+# Friction of a pin depends on its force, and that on friction, by its coefficient times radius over lever.
+FRICTION_ROUNDS, SETTLED = 30, 1e-13
+
+
+def with_causes(needed: Part) -> Part:
+    """What has to be known for parts of a trajectory: also what accelerations and reactions follow from."""
+    return needed | MOTION | APPLIED if needed & FOLLOWING else needed
+
+
+@dataclass(frozen=True)
+class Applied:
+    """Forces that follow from the motion by themselves, by the names of what gives them.
+
+    contacts: of loose pins. columns: that push their ends apart (n,) [N]. loads: on their points.
+    """
+
+    contacts: Mapping[str, ContactSeries]
+    columns: Mapping[str, Series]
+    loads: Mapping[str, LoadSeries]
+
+
+@dataclass(frozen=True)
+class Following:
+    """Accelerations (n, 3 b), forces of joints, of rigid columns (n,) and moments of friction (n,)."""
+
+    acceleration: Series
+    joints: JointForces
+    columns: Mapping[str, Series]
+    friction_moments: Mapping[str, Series]
+
+
+def following(scene: Scene, motion: BodyMotion, time: Series, applied: Applied) -> Following:
+    """Accelerations and reactions at the records [s], from positions and velocities."""
+    scenario, linkage = scene.scenario, scene.linkage
+    held = Held(
+        [linkage.pins[name] for name in scene.ideal_pins],
+        [linkage.columns[name] for name in scene.rigid_columns],
+        [linkage.cranks[name] for name in scene.cranks],
+        [linkage.slides[name] for name in scene.slides],
+    )
+    drives = [scenario.drive_of(name) for name in (*scene.rigid_columns, *scene.cranks)]
+    driven = [accelerations(drive, time, scenario.duration) for drive in drives]
+    all_bodies = equations(motion, held, np.array(driven).reshape(-1, len(time)).T)
+    forces = _applied_forces(scene, motion, applied)
+    acceleration, reactions = all_bodies.solve(forces)
+    moments: dict[str, Series] = {}
+    for _ in range(FRICTION_ROUNDS if scene.frictions else 0):
+        moments = _friction_moments(scene, motion, reactions)
+        last, rubbed = reactions, forces.copy()
+        for name, moment in moments.items():
+            twist(rubbed, motion, linkage.pins[name].second, moment)
+            twist(rubbed, motion, linkage.pins[name].first, -moment)
+        acceleration, reactions = all_bodies.solve(rubbed)
+        if np.abs(reactions - last).max() <= SETTLED * np.abs(reactions).max():
+            break
+    joints = JointForces(
+        # rows of pins are second minus first, so that what holds them acts on the second reversed
+        pins={name: -reactions[:, 2 * n : 2 * n + 2] for n, name in enumerate(scene.ideal_pins)},
+        slides={
+            name: np.abs(reactions[:, held.guided][:, 2 * n : 2 * n + 2]) for n, name in enumerate(scene.slides)
+        },
+    )
+    pushed = dict(zip((*scene.rigid_columns, *scene.cranks), -reactions[:, held.driven].T, strict=True))
+    joints.cranks |= {name: pushed.pop(name) for name in scene.cranks}
+    return Following(acceleration, joints, pushed, moments)
+
+
+def _applied_forces(scene: Scene, motion: BodyMotion, applied: Applied) -> Series:
+    """Forces on all coordinates (n, 3 b) but those of friction in ideal pins."""
+    scenario, linkage = scene.scenario, scene.linkage
+    forces = weight_of(motion, scenario.gravity)
+    for name, contact in applied.contacts.items():
+        place = linkage.pins[name]
+        known = acting(motion, place, scenario.clearance_pins[name], contact)
+        push(forces, motion, place.second, known.force, known.point)
+        push(forces, motion, place.first, -known.force, known.point)
+    for name, force in applied.columns.items():
+        column = linkage.columns[name]
+        apart = force[:, None] * direction(motion, column)
+        push(forces, motion, column.head, apart, motion.place(column.head, column.head_point))
+        push(forces, motion, column.foot, -apart, motion.place(column.foot, column.foot_point))
+    for name, loaded in applied.loads.items():
+        load = scenario.loads[name]
+        for body, force in ((load.body, loaded.force), (load.against(name), -loaded.force)):
+            push(forces, motion, body, force, motion.place(body, load.point))
+    return forces
+
+
+def _friction_moments(scene: Scene, motion: BodyMotion, reactions: Series) -> dict[str, Series]:
+    """Moments of friction on the second bodies of ideal pins (n,) [N m], for forces in them."""
+    place = {name: 2 * n for n, name in enumerate(scene.ideal_pins)}
+    return {
+        name: item.series(
+            reactions[:, place[name] : place[name] + 2],
+            motion.spin(scene.linkage.pins[name].first),
+            motion.spin(scene.linkage.pins[name].second),
+        )
+        for name, item in scene.frictions.items()
+    }

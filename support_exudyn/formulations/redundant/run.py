@@ -1,0 +1,156 @@
+"""The redundant formulation: Exudyn's rigid bodies with constraints, generalised alpha, located impacts.
+
+It covers every scenario and is the reference for the others.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TypeVar
+
+import numpy as np
+
+from support_exudyn.formulations.progress import Progress
+from support_exudyn.formulations.redundant.redundant_forces import (
+    FOLLOWING,
+    Applied,
+    Following,
+    following,
+    with_causes,
+)
+from support_exudyn.formulations.redundant.scene.cylinder_item import UNIT, CylinderItem
+from support_exudyn.formulations.redundant.scene.engine_scene import EngineScene
+from support_exudyn.formulations.redundant.scene.load_item import load_series
+from support_exudyn.formulations.redundant.scene.scene import Scene
+from support_exudyn.formulations.redundant.scene.scene_builder import build
+from support_exudyn.formulations.redundant.scene.static_equilibrium import settle
+from support_exudyn.formulations.redundant.solver.recorder import History, Recorder
+from support_exudyn.formulations.redundant.solver.solver import Run
+from support_exudyn.formulations.redundant.space.outcome import outcome as outcome_in_space
+from support_exudyn.formulations.redundant.space.scene_builder import build as build_in_space
+from support_exudyn.mechanics.body_motion import BodyMotion
+from support_exudyn.mechanics.channels import Part
+from support_exudyn.mechanics.contact_history import contact_series
+from support_exudyn.mechanics.joint_forces import JointForces
+from support_exudyn.mechanics.oil_column import oil_series
+from support_exudyn.mechanics.trajectory import CylinderSeries, Outcome, Series, Trajectory
+from support_exudyn.scenario.recorded_channels import needs
+from support_exudyn.scenario.scenario import Scenario
+from user_forces.values.value import InputError
+
+AnyScene = TypeVar("AnyScene", bound=EngineScene)
+
+
+def check(scenario: Scenario) -> None:
+    """Raise InputError if the settings do not fit the scenario."""
+    if scenario.solver.backend == "compiled":
+        raise InputError(
+            "solver.backend = 'compiled': only formulation = 'reduced' has it; allowed: 'auto', 'python', "
+            "'symbolic', or 'compiled' with formulation = 'reduced'"
+        )
+    rigid = [
+        name
+        for name in scenario.linkage.columns
+        if name not in scenario.oil_columns and scenario.drive_of(name).span(scenario.duration) != (0.0, 0.0)
+    ]
+    if scenario.solver.constraint_index == 2 and scenario.solver.integrator != "trapezoidal":
+        raise InputError(
+            "solver.constraint_index = 2: the engine's generalised alpha takes 3 only; allowed: 3, or 2 with "
+            "integrator = 'trapezoidal'"
+        )
+    if scenario.solver.constraint_index == 2 and rigid:
+        raise InputError(
+            f"solver.constraint_index = 2: {rigid[0]} is rigid and moves, and the engine's constraint knows no "
+            "speed; allowed: 3, or columns of oil"
+        )
+
+
+def run(scenario: Scenario, progress: Progress) -> Outcome:
+    """Run a scenario. Raises SimulationError if it cannot be finished."""
+    if scenario.dimensions == 3:
+        return _run(build_in_space(scenario), progress, outcome_in_space)
+    return _run(build(scenario), progress, _outcome)
+
+
+def _run(scene: AnyScene, progress: Progress, outcome: Callable[[AnyScene, Progress], Outcome]) -> Outcome:
+    try:
+        if scene.scenario.start == "settled":
+            settle(scene)
+        return outcome(scene, progress)
+    finally:
+        scene.release()
+
+
+def _outcome(scene: Scene, progress: Progress) -> Outcome:
+    needed = with_causes(needs(scene.scenario))
+    recorder = Recorder(scene, needed)
+    solving = Run(scene, recorder, progress)
+    counts = solving.go()
+    return Outcome(
+        trajectory=trajectory(scene, recorder.history(), needed),
+        onsets={name: tuple(pin.onsets) for name, pin in scene.loose_pins.items()},
+        largest_force={name: pin.largest_force for name, pin in scene.loose_pins.items()},
+        impulses=tuple(solving.impulses),
+        counts=counts,
+    )
+
+
+def trajectory(scene: Scene, history: History, needed: Part) -> Trajectory:
+    """What the records say, in the order of the linkage; what is not needed is left out."""
+    order = np.concatenate([np.arange(item.first, item.first + 3) for item in scene.bodies.values()])
+
+    def ordered(series: Series, part: Part) -> Series:
+        return series[:, order] if part in needed else series
+
+    position, velocity = ordered(history.position, Part.POSITION), ordered(history.velocity, Part.VELOCITY)
+    motion = BodyMotion(scene.linkage, position, velocity, np.zeros_like(velocity))
+    oil = {
+        name: oil_series(item.filled, motion, scene.scenario.drive_of(name), history.time)
+        for name, item in scene.oil_columns.items()
+        if Part.OIL in needed
+    }
+    cylinders = {
+        name: _cylinder_series(item, motion, history)
+        for name, item in scene.cylinders.items()
+        if Part.OIL in needed
+    }
+    giving = {name: series.force for name, series in (oil | cylinders).items()}
+    contacts = {
+        name: contact_series(
+            motion, scene.linkage.pins[name], scene.scenario.clearance_pins[name], history.memory[:, n]
+        )
+        for n, name in enumerate(scene.loose_pins)
+        if Part.CONTACTS in needed
+    }
+    loads = {
+        name: load_series(name, load, motion, history.time)
+        for name, load in scene.scenario.loads.items()
+        if Part.LOADS in needed
+    }
+    found = Following(velocity[:, :0], JointForces(), {}, {})
+    if needed & FOLLOWING:
+        found = following(scene, motion, history.time, Applied(contacts, giving, loads))
+    return Trajectory(
+        time=history.time,
+        position=position,
+        velocity=velocity,
+        acceleration=found.acceleration,
+        ideal_pins=found.joints.pins,
+        contacts=contacts,
+        friction_moments=found.friction_moments,
+        columns={**found.columns, **giving},
+        cranks=found.joints.cranks,
+        slides=found.joints.slides,
+        oil_energy=sum((series.energy for series in (oil | cylinders).values()), np.zeros_like(history.time)),
+        work=history.work,
+        damping_loss=history.damping_loss,
+        friction_loss=history.friction_loss,
+        loads=loads,
+        cylinders=cylinders,
+    )
+
+
+def _cylinder_series(item: CylinderItem, motion: BodyMotion, history: History) -> CylinderSeries:
+    """A hydraulic cylinder at the records."""
+    opening = np.array([item.filled.model.inlet.opening(t) for t in history.time.tolist()])
+    return item.filled.series(motion, UNIT * history.pressure[:, item.first : item.first + 2], opening)

@@ -1,0 +1,109 @@
+"""Columns and cranks in the engine that follow the same drive."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any, TypeVar
+
+from support_exudyn.mechanics.body_coordinates import ColumnItem, CrankItem
+from support_exudyn.mechanics.oil_column import FilledColumn
+from support_exudyn.model.drives.drive import Drive
+from user_forces.lawful import LawError
+
+Item = TypeVar("Item")
+
+
+@dataclass(frozen=True)
+class OilColumnItem:
+    """A column of oil in the engine."""
+
+    filled: FilledColumn
+    object: Any
+
+
+@dataclass
+class DrivenParts:
+    """All that one drive moves.
+
+    mbs: the engine's system. drive: of all of these. rigid, oil, cranks: in the engine. velocity_level: whether
+    cranks follow the drive's speed instead of its angle. state: extension and speed that the engine has.
+    """
+
+    mbs: Any
+    drive: Drive
+    rigid: tuple[ColumnItem, ...]
+    oil: tuple[OilColumnItem, ...]
+    cranks: tuple[CrankItem, ...]
+    velocity_level: bool = False
+    state: tuple[float, float] | None = None
+
+    @property
+    def multipliers(self) -> tuple[int, ...]:
+        """Of rigid columns and cranks."""
+        return (*(item.multiplier for item in self.rigid), *(item.multiplier for item in self.cranks))
+
+    def moves(self, duration: float) -> bool:
+        """Whether anything moves within this time [s]."""
+        return self.drive.span(duration) != (0.0, 0.0)
+
+    def move_to(self, t: float) -> None:
+        """Let the engine have lengths and angles of time t [s], unless it has them already."""
+        drive = self.drive
+        # at the start the speed is the one just after it
+        state = drive.extension(t), drive.speed(t) if t > 0.0 else drive.initial_speed
+        if not math.isfinite(state[0] + state[1]):
+            self.look(t)
+        if state != self.state:
+            self.state = state
+            self._set(*state)
+
+    def look(self, t: float) -> None:
+        """Raise LawError if the drive has no finite extension and speed at t [s]."""
+        extension, speed = self.drive.extension(t), self.drive.speed(t)
+        if not math.isfinite(extension + speed):
+            raise LawError(
+                f"{type(self.drive).__name__} has an extension of {extension:g} and a speed of {speed:g} at "
+                f"{t:.9g} s"
+            )
+
+    def follow_speed(self) -> None:
+        """Let cranks follow the speed from now on."""
+        self.velocity_level = True
+        for crank in self.cranks:
+            self.mbs.SetObjectParameter(crank.object, "velocityLevel", True)
+        if self.state is not None:
+            self._set(*self.state)
+
+    def _set(self, extension: float, speed: float) -> None:
+        put = self.mbs.SetObjectParameter
+        for rigid in self.rigid:
+            put(rigid.object, "distance", rigid.column.start_length + extension)
+        for oil in self.oil:
+            stiffness = oil.filled.model.stiffness(extension)
+            put(oil.object, "referenceLength", oil.filled.natural_length(extension))
+            put(oil.object, "velocityOffset", speed)
+            put(oil.object, "stiffness", stiffness)
+            put(oil.object, "damping", stiffness * oil.filled.model.damping_time)
+        for crank in self.cranks:
+            put(crank.object, "offset", speed if self.velocity_level else extension)
+
+
+def by_drive(
+    mbs: Any,
+    drive_of: Callable[[str], Drive],
+    rigid: Mapping[str, ColumnItem],
+    oil: Mapping[str, OilColumnItem],
+    cranks: Mapping[str, CrankItem],
+) -> tuple[DrivenParts, ...]:
+    """All that can be driven, by the drive that it follows; drive_of: gives that of a name."""
+    drives: list[Drive] = []
+    for name in (*rigid, *oil, *cranks):
+        if (drive := drive_of(name)) not in drives:
+            drives.append(drive)
+
+    def of(drive: Drive, items: Mapping[str, Item]) -> tuple[Item, ...]:
+        return tuple(item for name, item in items.items() if drive_of(name) == drive)
+
+    return tuple(DrivenParts(mbs, one, of(one, rigid), of(one, oil), of(one, cranks)) for one in drives)

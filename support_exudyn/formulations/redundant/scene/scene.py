@@ -1,0 +1,204 @@
+"""The model of a scenario in the engine, ready for the solver; `scene_builder` makes it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import exudyn
+import numpy as np
+
+from support_exudyn.formulations.redundant.clearance.clearance_pin import LoosePin
+from support_exudyn.formulations.redundant.clearance.pin_motion import PinEnd, PinMotion
+from support_exudyn.formulations.redundant.scene.cylinder_item import CylinderItem
+from support_exudyn.formulations.redundant.scene.driven_parts import DrivenParts, OilColumnItem
+from support_exudyn.formulations.redundant.scene.engine_scene import CURRENT, INITIAL, InEngine
+from support_exudyn.formulations.redundant.scene.load_item import LoadItem
+from support_exudyn.formulations.redundant.scene.pin_friction import PinFriction
+from support_exudyn.formulations.redundant.scene.velocity_jump import align_velocities, jump_velocities
+from support_exudyn.mechanics.body_coordinates import BodyItem, ColumnItem, CrankItem, IdealItem, SlideItem
+from support_exudyn.mechanics.contact_state import PinMemory
+from support_exudyn.mechanics.impulse import Impulse
+from support_exudyn.mechanics.kinetics import Kinetics, Matrix
+from support_exudyn.mechanics.pressed_pins import Mobilities, mobilities, normal
+from support_exudyn.model.linkage import GROUND, Linkage
+from support_exudyn.scenario.scenario import Scenario
+from user_forces.contact import ContactForce
+
+FRICTION_ROUNDS = 4  # each with an error smaller by the coefficient of friction times radius over lever
+
+
+@dataclass(frozen=True)
+class Scene(InEngine):
+    """The model of one scenario, assembled and ready for the solver."""
+
+    scenario: Scenario
+    linkage: Linkage
+    container: Any  # owns the system: must live as long as it
+    mbs: Any
+    bodies: dict[str, BodyItem]
+    ideal_pins: dict[str, IdealItem]
+    frictions: dict[str, PinFriction]  # of ideal pins
+    loose_pins: dict[str, LoosePin]
+    rigid_columns: dict[str, ColumnItem]
+    oil_columns: dict[str, OilColumnItem]
+    cylinders: dict[str, CylinderItem]
+    cranks: dict[str, CrankItem]
+    slides: dict[str, SlideItem]
+    loads: dict[str, LoadItem]
+    weights: dict[str, Any]  # loads of the engine, by body; none without gravity
+    driven: tuple[DrivenParts, ...]  # all columns and cranks, by the drive that they follow
+
+    @cached_property
+    def kinetics(self) -> Kinetics:
+        """Masses and constraints as matrices; clearance pins and oil columns are free."""
+        return Kinetics(self.linkage, self.bodies, tuple(self.ideal_pins), tuple(self.rigid_columns))
+
+    @cached_property
+    def closed_kinetics(self) -> Kinetics:
+        """The same with all pins ideal and all columns rigid."""
+        return Kinetics(self.linkage, self.bodies, tuple(self.linkage.pins), tuple(self.linkage.columns))
+
+    def mobilities(self, name: str, state: Any = CURRENT) -> Mobilities:
+        """Of a clearance pin's journal, by itself and with the other ones as they are pressed."""
+        position = self.mbs.systemData.GetODE2Coordinates(state)
+        answers = self.kinetics.pin_mobility(position, name, self._pressed(name, position))
+        angle = self.bore_angle(name, position)
+        axes = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
+        return mobilities(answers, axes)
+
+    def _pressed(self, name: str, position: Matrix) -> dict[str, Matrix]:
+        """Normals of all clearance pins but one that are pressed."""
+        found = {}
+        for other, pin in self.loose_pins.items():
+            if other != name:
+                x, y = self.kinetics.relative(position, self.linkage.pins[other])[0].tolist()
+                along = normal(x, y, pin.contact.bearing.clearance)
+                if along is not None:
+                    found[other] = along
+        return found
+
+    def bore_angle(self, name: str, position: Any) -> float:
+        """Angle [rad] of the axes of the bore's body."""
+        body = self._ends(name)[0]
+        start = 0.0 if body == GROUND else self.bodies[body].body.angle
+        return start + self._turn(body, position)
+
+    def _ends(self, name: str) -> tuple[str, str]:
+        """Bodies of the bore and of the journal of a clearance pin."""
+        place = self.linkage.pins[name]
+        bore_first = self.scenario.clearance_pins[name].bore == "first"
+        return (place.first, place.second) if bore_first else (place.second, place.first)
+
+    def _turn(self, body: str, coordinates: Any) -> float:
+        """Rotation [rad] of a body since the start posture, or its rate, from the vector of all."""
+        return 0.0 if body == GROUND else float(coordinates[self.bodies[body].first + 2])
+
+    def start_moving(self) -> None:
+        """Give the bodies the velocities that the drive has at the start, with ideal pins."""
+        if all(drive.initial_speed == 0.0 for drive in self.scenario.drives_in_use):
+            return
+        closed = self.closed_kinetics
+        data = self.mbs.systemData
+        position, velocity = data.GetODE2Coordinates(INITIAL), data.GetODE2Coordinates_t(INITIAL)
+        rates = closed.rates(lambda name: self.scenario.drive_of(name).initial_speed)
+        missing = rates - closed.rows(position) @ velocity
+        change, _ = closed.respond(position, np.zeros_like(velocity), missing)
+        data.SetODE2Coordinates_t(velocity + change, INITIAL)
+
+    def jump(self, time: float) -> Impulse | None:
+        """See `velocity_jump`."""
+        return jump_velocities(self, time)
+
+    def align(self, time: float) -> float:
+        """See `velocity_jump`."""
+        return align_velocities(self, time)
+
+    def spins(self) -> dict[str, float]:
+        """Angular velocity of every body [rad/s]."""
+        velocity = self.mbs.systemData.GetODE2Coordinates_t()
+        return {name: float(velocity[item.first + 2]) for name, item in self.bodies.items()}
+
+    def coordinate_masses(self) -> Matrix:
+        """Mass or inertia of every coordinate [kg], [kg m^2]."""
+        return self.kinetics.mass()
+
+    def start_rubbing(self) -> None:
+        """Let friction of ideal pins know about their forces at the start, if it turns them then.
+
+        The solver's first accelerations follow from forces of friction, which follow from those of the pins:
+        without, the first step would be taken with none. Forces of loose pins and oil are left out of it.
+        """
+        data = self.mbs.systemData
+        position, velocity = data.GetODE2Coordinates(INITIAL), data.GetODE2Coordinates_t(INITIAL)
+        if not self.frictions or not velocity.any():
+            return
+        kinetics, small = self.kinetics, 1e-6 / np.abs(velocity).max()
+        later, earlier = (kinetics.rows(position + h * velocity) for h in (small, -small))
+        turning = (earlier - later) @ velocity / (2.0 * small)  # accelerations that the constraints ask for
+        place = {name: 2 * n for n, name in enumerate(self.ideal_pins)}
+        force = kinetics.weight(self.scenario.gravity)
+        multipliers = data.GetAECoordinates(INITIAL)
+        for _ in range(FRICTION_ROUNDS):
+            _, reactions = kinetics.respond(position, force, turning)
+            force = kinetics.weight(self.scenario.gravity)
+            for name, friction in self.frictions.items():
+                pin = reactions[place[name] : place[name] + 2]
+                first = self.ideal_pins[name].first
+                multipliers[first : first + 2] = pin
+                friction.add_moment(force, float(np.hypot(*pin)), velocity)
+        data.SetAECoordinates(multipliers, INITIAL)
+
+    def reset_memory(self) -> None:
+        """Give every clearance pin the memory that belongs to the initial state of the bodies."""
+        data = self.mbs.systemData
+        position, rates = data.GetODE2Coordinates(INITIAL), data.GetODE2Coordinates_t(INITIAL)
+        for name, pin in self.loose_pins.items():
+            state = self._contact_state(name, pin, INITIAL)
+            touching = state.depth > 0.0
+            memory = PinMemory(
+                in_contact=touching,
+                approach_speed=max(0.0, state.rate) if touching else 0.0,
+                depth=state.depth,
+                rate=state.rate,
+                slip=state.slip,
+            )
+            bore, journal = self._ends(name)
+            turn = self._turn(journal, position) - self._turn(bore, position)
+            bore_motion = self.bore_angle(name, position), self._turn(bore, rates)
+            pin.start(memory, self.mobilities(name, INITIAL), turn, bore_motion)
+
+    def refresh_memory(self) -> None:
+        """Tell every clearance pin that velocities have jumped; contacts that go on go on."""
+        for name, pin in self.loose_pins.items():
+            state = self._contact_state(name, pin, CURRENT)
+            pin.jumped(pin.kept._replace(depth=state.depth, rate=state.rate, slip=state.slip))
+
+    def pin_motion(self, name: str) -> PinMotion:
+        """How the journal of a clearance pin moves in its bore."""
+        place = self.linkage.pins[name]
+        bore, journal = self._ends(name)
+        points = {place.first: place.first_point, place.second: place.second_point}
+
+        def end(body: str) -> PinEnd:
+            if body == GROUND:
+                return PinEnd(None, (0.0, 0.0), 0.0, points[body])
+            item = self.bodies[body]
+            return PinEnd(item.first, item.body.centre, item.body.angle, item.local(points[body]))
+
+        return PinMotion(self.mbs.systemData, end(bore), end(journal))
+
+    def _contact_state(self, name: str, pin: LoosePin, state: Any) -> ContactForce:
+        def relative(what: Any) -> tuple[float, float]:
+            journal = self.mbs.GetMarkerOutput(pin.connector.journal_marker, what, state)
+            bore = self.mbs.GetMarkerOutput(pin.connector.bore_marker, what, state)
+            return float(journal[0] - bore[0]), float(journal[1] - bore[1])
+
+        output = exudyn.OutputVariableType
+        rates = self.mbs.systemData.GetODE2Coordinates_t(state)
+        bore_spin, journal_spin = (self._turn(body, rates) for body in self._ends(name))
+        return pin.contact.force(
+            *relative(output.Position), *relative(output.Velocity), bore_spin, journal_spin, None
+        )

@@ -1,0 +1,256 @@
+"""From a scenario to a model in the engine: bodies, pins, columns; nothing that was not asked for."""
+
+from __future__ import annotations
+
+import math
+from functools import cached_property, partial
+from typing import Any
+
+import exudyn
+from exudyn.itemInterface import (
+    LoadForceVector,
+    MarkerBodyRigid,
+    MarkerNodeCoordinate,
+    NodePointGround,
+    NodeRigidBody2D,
+    ObjectConnectorCoordinate,
+    ObjectConnectorDistance,
+    ObjectConnectorSpringDamper,
+    ObjectGround,
+    ObjectJointPrismatic2D,
+    ObjectJointRevolute2D,
+    ObjectRigidBody2D,
+)
+
+from support_exudyn.formulations.redundant.clearance.clearance_pin import LoosePin
+from support_exudyn.formulations.redundant.clearance.connector import frame
+from support_exudyn.formulations.redundant.scene.cylinder_item import CylinderItem
+from support_exudyn.formulations.redundant.scene.driven_parts import OilColumnItem, by_drive
+from support_exudyn.formulations.redundant.scene.load_item import add_load
+from support_exudyn.formulations.redundant.scene.pin_friction import PinFriction
+from support_exudyn.formulations.redundant.scene.scene import Scene
+from support_exudyn.mechanics.body_coordinates import BodyItem, ColumnItem, CrankItem, IdealItem, SlideItem
+from support_exudyn.mechanics.cylinder_chambers import FilledCylinder, fill_cylinders
+from support_exudyn.mechanics.oil_column import fill
+from support_exudyn.model.linkage import GROUND, Body, Column, Crank, PinPlace, Slide
+from support_exudyn.model.pins import ClearancePin, IdealPin
+from support_exudyn.scenario.scenario import Scenario
+from user_forces.values.value import Vector2
+
+
+class _Builder:
+    def __init__(self, scenario: Scenario) -> None:
+        self.scenario = scenario
+        self.linkage = scenario.linkage
+        self.container = exudyn.SystemContainer()
+        self.mbs = self.container.AddSystem()
+        self._markers: dict[tuple[str, Vector2], Any] = {}  # by body and point of the start posture
+        self.bodies = {name: self.add_body(body) for name, body in self.linkage.bodies.items()}
+
+    @cached_property
+    def ground(self) -> Any:
+        """The engine's body that does not move, made if something stands on it."""
+        return self.mbs.AddObject(ObjectGround())
+
+    @cached_property
+    def fixed(self) -> Any:
+        """A coordinate that stays zero, made if there is a crank."""
+        return self.mbs.AddMarker(
+            MarkerNodeCoordinate(nodeNumber=self.mbs.AddNode(NodePointGround()), coordinate=0)
+        )
+
+    def add_body(self, body: Body) -> BodyItem:
+        node = self.mbs.AddNode(
+            NodeRigidBody2D(
+                referenceCoordinates=[*body.centre, body.angle],
+                initialVelocities=[*body.velocity, body.spin],
+            )
+        )
+        item = self.mbs.AddObject(ObjectRigidBody2D(mass=body.mass, inertia=body.inertia, nodeNumber=node))
+        return BodyItem(body, node, item, first=-1)
+
+    def add_weight(self, name: str, body: Body) -> Any:
+        gx, gy = self.scenario.gravity
+        weight = [body.mass * gx, body.mass * gy, 0.0]
+        return self.mbs.AddLoad(LoadForceVector(markerNumber=self.marker(name, body.centre), loadVector=weight))
+
+    def marker(self, body: str, point: Vector2) -> Any:
+        """The marker on a body at a point of the start posture; parts that meet there share it."""
+        if (body, point) not in self._markers:
+            on_ground = body == GROUND
+            item = self.ground if on_ground else self.bodies[body].object
+            place = point if on_ground else self.bodies[body].local(point)
+            marker = MarkerBodyRigid(bodyNumber=item, localPosition=[*place, 0.0])
+            self._markers[body, point] = self.mbs.AddMarker(marker)
+        return self._markers[body, point]
+
+    def add_ideal(self, place: PinPlace) -> Any:
+        markers = [self.marker(place.first, place.first_point), self.marker(place.second, place.second_point)]
+        return self.mbs.AddObject(ObjectJointRevolute2D(markerNumbers=markers))
+
+    def add_friction(self, place: PinPlace, pin: IdealPin) -> PinFriction:
+        assert pin.friction is not None  # the pins without are left out
+        assert pin.radius is not None  # goes with it
+        first, second = (
+            self.bodies[name].node if name != GROUND else None for name in (place.first, place.second)
+        )
+        return PinFriction(self.mbs, pin.friction, pin.radius, first, second)
+
+    def add_loose(self, place: PinPlace, pin: ClearancePin) -> LoosePin:
+        ends = [(place.first, place.first_point), (place.second, place.second_point)]
+        if pin.bore == "second":
+            ends.reverse()
+        (bore, bore_point), (journal, journal_point) = ends
+
+        def local(body: str, point: Vector2) -> Vector2:
+            return point if body == GROUND else self.bodies[body].local(point)
+
+        def item(body: str) -> Any:
+            return self.ground if body == GROUND else self.bodies[body].object
+
+        def angle(body: str) -> float:
+            return 0.0 if body == GROUND else self.bodies[body].body.angle
+
+        def node(body: str) -> Any:
+            return None if body == GROUND else self.bodies[body].node
+
+        return LoosePin(
+            self.mbs,
+            pin.contact,
+            bore=(item(bore), frame(local(bore, bore_point))),
+            journal=(item(journal), frame(local(journal, journal_point))),
+            turn=angle(journal) - angle(bore),
+            bore_node=node(bore),
+            journal_node=node(journal),
+            symbolic=self.scenario.solver.backend == "symbolic",
+            impact_steps=self.scenario.solver.impact_steps,
+        )
+
+    def add_rigid_column(self, column: Column) -> Any:
+        return self.mbs.AddObject(
+            ObjectConnectorDistance(markerNumbers=self.ends(column), distance=column.start_length)
+        )
+
+    def add_oil_column(self, column: Column) -> Any:
+        # what it carries and how stiff it is follows once the machine is whole
+        return self.mbs.AddObject(
+            ObjectConnectorSpringDamper(markerNumbers=self.ends(column), referenceLength=column.start_length)
+        )
+
+    def filled_cylinders(self) -> dict[str, FilledCylinder]:
+        """Those that hold the machine at the start."""
+        return fill_cylinders(self.linkage, self.scenario.cylinders, self.scenario.gravity)
+
+    def add_cylinder(self, name: str, filled: FilledCylinder) -> CylinderItem:
+        settles = self.scenario.start == "settled"
+        return CylinderItem(self.mbs, filled, self.ends(self.linkage.columns[name]), settles)
+
+    def ends(self, column: Column) -> list[Any]:
+        """Markers of foot and head."""
+        return [self.marker(column.foot, column.foot_point), self.marker(column.head, column.head_point)]
+
+    def add_crank(self, crank: Crank) -> Any:
+        markers = [
+            self.fixed,
+            self.mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=self.bodies[crank.body].node, coordinate=2)),
+        ]
+        return self.mbs.AddObject(ObjectConnectorCoordinate(markerNumbers=markers))
+
+    def add_slide(self, slide: Slide) -> Any:
+        # the moment is about the first marker, which therefore is the body's; the normal is the second one's
+        markers = [self.marker(slide.body, slide.point), self.marker(slide.against, slide.point)]
+        carrier = 0.0 if slide.against == GROUND else self.bodies[slide.against].body.angle
+        along = slide.direction - self.bodies[slide.body].body.angle
+        across = slide.direction + 0.5 * math.pi - carrier
+        return self.mbs.AddObject(
+            ObjectJointPrismatic2D(
+                markerNumbers=markers,
+                axisMarker0=[math.cos(along), math.sin(along), 0.0],
+                normalMarker1=[math.cos(across), math.sin(across), 0.0],
+            )
+        )
+
+    def build(self) -> Scene:
+        loose = {
+            name: self.add_loose(self.linkage.pins[name], pin)
+            for name, pin in self.scenario.clearance_pins.items()
+        }
+        ideal = {name: self.add_ideal(place) for name, place in self.linkage.pins.items() if name not in loose}
+        frictions = {
+            name: self.add_friction(self.linkage.pins[name], pin)
+            for name, pin in self.scenario.friction_pins.items()
+        }
+        oil = {name: self.add_oil_column(self.linkage.columns[name]) for name in self.scenario.oil_columns}
+        rigid = {
+            name: self.add_rigid_column(column)
+            for name, column in self.linkage.columns.items()
+            if name not in self.scenario.giving
+        }
+        cranks = {name: self.add_crank(crank) for name, crank in self.linkage.cranks.items()}
+        slides = {name: self.add_slide(slide) for name, slide in self.linkage.slides.items()}
+        loads = {
+            name: add_load(
+                self.mbs,
+                load,
+                self.marker(load.against(name), load.point),
+                self.marker(load.body, load.point),
+            )
+            for name, load in self.scenario.loads.items()
+        }
+        cylinders = {name: self.add_cylinder(name, filled) for name, filled in self.filled_cylinders().items()}
+        heavy = self.linkage.bodies if any(self.scenario.gravity) else {}
+        weights = {name: self.add_weight(name, body) for name, body in heavy.items()}
+        self.mbs.Assemble()
+        data = self.mbs.systemData
+        bodies = {
+            name: BodyItem(item.body, item.node, item.object, int(data.GetNodeLTGODE2(item.node)[0]))
+            for name, item in self.bodies.items()
+        }
+        filled = fill(self.linkage, self.scenario.oil_columns, self.scenario.gravity)
+        rigid_columns = {
+            name: ColumnItem(self.linkage.columns[name], o, int(data.GetObjectLTGAE(o)[0]))
+            for name, o in rigid.items()
+        }
+        oil_columns = {name: OilColumnItem(filled[name], o) for name, o in oil.items()}
+        crank_items = {
+            name: CrankItem(self.linkage.cranks[name], o, int(data.GetObjectLTGAE(o)[0]))
+            for name, o in cranks.items()
+        }
+        scene = Scene(
+            scenario=self.scenario,
+            linkage=self.linkage,
+            container=self.container,
+            mbs=self.mbs,
+            bodies=bodies,
+            ideal_pins={name: IdealItem(o, int(data.GetObjectLTGAE(o)[0])) for name, o in ideal.items()},
+            frictions=frictions,
+            loose_pins=loose,
+            rigid_columns=rigid_columns,
+            oil_columns=oil_columns,
+            cylinders=cylinders,
+            cranks=crank_items,
+            slides={name: SlideItem(o, int(data.GetObjectLTGAE(o)[0])) for name, o in slides.items()},
+            loads=loads,
+            weights=weights,
+            driven=by_drive(self.mbs, self.scenario.drive_of, rigid_columns, oil_columns, crank_items),
+        )
+        for name, friction in frictions.items():
+            place = self.linkage.pins[name]
+            turns = (bodies[end].first + 2 if end != GROUND else None for end in (place.first, place.second))
+            friction.assembled(scene.ideal_pins[name].first, *turns)
+            friction.lagged = bool(loose) or self.scenario.jumps
+        for name, pin in loose.items():
+            pin.find_mobilities = partial(scene.mobilities, name)
+            pin.motion = scene.pin_motion(name)
+        scene.drive_to(0.0)
+        scene.start_moving()
+        for cylinder in cylinders.values():
+            cylinder.assembled()
+        scene.start_rubbing()
+        scene.reset_memory()
+        return scene
+
+
+def build(scenario: Scenario) -> Scene:
+    """The engine's model of a scenario at its start, before any settling."""
+    return _Builder(scenario).build()

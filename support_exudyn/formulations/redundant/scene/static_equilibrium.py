@@ -1,0 +1,123 @@
+"""Static equilibrium with loose pins, so that a run can start settled."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
+from typing import Any
+
+import exudyn
+
+from support_exudyn.formulations.contract import Failure, SimulationError
+from support_exudyn.formulations.engine_settings import quiet_engine
+from support_exudyn.formulations.redundant.clearance.clearance_pin import LoosePin
+from support_exudyn.formulations.redundant.scene.engine_scene import INITIAL, EngineScene
+from support_exudyn.formulations.redundant.scene.load_item import LoadItem
+from support_exudyn.mechanics.body_coordinates import BodyItem
+
+# The engine solves at the end of its only step of loads, 1 s by default: drives and loads, which are told the
+# time, would be settled as they are then.
+AT_THE_START = 1e-30  # [s]
+# A journal in the middle of its bore has no stiffness. A centring spring in every loose pin is there at
+# first, stiff enough to hold the weight of the machine within the clearance, and is then taken away.
+# What Newton's method still changes tells whether it is done. What is left of the forces does not: contacts are
+# so stiff that the rounding of coordinates of 300 m is thousands of times what is left of them near the origin.
+BY_CHANGES = 1  # the engine's number for that
+CLOSE = 1e-11  # [m]
+ROUNDINGS = 64.0  # of the coordinates
+CENTRING = (1.0, 0.3, 0.1, 0.03, 0.01, 1e-3, 1e-4, 1e-6, 0.0)
+
+
+def settle(scene: EngineScene) -> None:
+    """Make the static equilibrium under gravity the initial state of the scene, at rest.
+
+    Elastic contact without friction. Velocities the machine asks for are set to zero. What loads bring along
+    hangs over its point meanwhile, such as a block that falls, and starts from there as it was to start.
+
+    Raises SimulationError if there is no equilibrium or it is not found.
+    """
+    data = scene.mbs.systemData
+    weight = sum(item.body.mass for item in scene.bodies.values()) * _norm(scene.scenario.gravity)
+    share = CENTRING[0]
+
+    def stiffness(clearance: float) -> Callable[[], float]:
+        return lambda: share * weight / clearance
+
+    hanging = _hanging(scene)
+    with ExitStack() as for_a_while:
+        for load, pull in hanging.values():
+            for_a_while.enter_context(load.hung(pull))
+        for pin in scene.loose_pins.values():
+            for_a_while.enter_context(_settling(pin, stiffness(pin.contact.bearing.clearance)))
+        for cylinder in scene.cylinders.values():
+            for_a_while.enter_context(cylinder.settling())
+        for share in CENTRING:  # noqa: B007
+            _solve(scene)
+            data.SetODE2Coordinates(data.GetODE2Coordinates(), INITIAL)
+            for cylinder in scene.cylinders.values():
+                cylinder.follow()
+            scene.reset_memory()  # of where journals have shifted to along their bores
+    velocity = 0.0 * data.GetODE2Coordinates_t(INITIAL)
+    for name in hanging:
+        item = scene.bodies[name]
+        if isinstance(item, BodyItem):  # loads are planar
+            velocity[item.first : item.first + 3] = *item.body.velocity, item.body.spin
+    data.SetODE2Coordinates_t(velocity, INITIAL)
+    scene.reset_memory()
+
+
+@contextmanager
+def _settling(pin: LoosePin, stiffness: Callable[[], float]) -> Iterator[None]:
+    """Replace a contact by its elastic part and a spring that pulls a free journal to the middle.
+
+    Arguments:
+        pin: whose contact it is.
+        stiffness: of the spring [N/m], asked at every evaluation.
+    """
+
+    def held(eccentricity: float) -> float:
+        depth = pin.contact.bearing.depth(eccentricity)
+        pressed = pin.contact.normal.elastic_force(depth) / eccentricity if depth > 0.0 else 0.0
+        return stiffness() + pressed
+
+    pin.connector.set_spring(held)
+    try:
+        yield
+    finally:
+        pin.connector.set_force(pin.engine_force.function)
+
+
+def _hanging(scene: EngineScene) -> dict[str, tuple[LoadItem, Any]]:
+    """By body that a load brings along, the load and the body's weight."""
+    brought = {item.load.against(name): item for name, item in scene.loads.items()}
+    return {body: (item, scene.weights[body]) for body, item in brought.items() if body in scene.weights}
+
+
+def _solve(scene: EngineScene) -> None:
+    solver: Any = exudyn.MainSolverStatic()
+    settings: Any = exudyn.SimulationSettings()
+    settings.solution.file.write = False
+    settings.staticSolver.verboseMode = 0
+    settings.staticSolver.loadStepDuration = AT_THE_START
+    newton = settings.staticSolver.newton
+    newton.residualMode, newton.relativeTolerance = BY_CHANGES, 1e-10
+    newton.absoluteTolerance = max(CLOSE, ROUNDINGS * math.ulp(scene.scenario.linkage.farthest))
+    try:
+        with quiet_engine():
+            found = solver.SolveSystem(scene.mbs, settings)
+    except exudyn.ExudynError:
+        found = False
+    if not found:
+        raise SimulationError(
+            Failure(
+                "no static equilibrium was found",
+                "Is every body held by pins and columns, and does gravity press the loose pins? "
+                "Otherwise start concentric.",
+                0.0,
+            )
+        )
+
+
+def _norm(vector: tuple[float, float]) -> float:
+    return float((vector[0] ** 2 + vector[1] ** 2) ** 0.5)

@@ -1,0 +1,213 @@
+"""What is kept of a run: states at the records, and integrals over all steps."""
+
+from __future__ import annotations
+
+from array import array
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import exudyn
+import numpy as np
+
+from support_exudyn.formulations.redundant.clearance.law_checks import look_at
+from support_exudyn.formulations.redundant.scene.driven_parts import OilColumnItem
+from support_exudyn.formulations.redundant.scene.engine_scene import EngineScene
+from support_exudyn.formulations.redundant.solver.energy import RunningIntegrals
+from support_exudyn.formulations.redundant.solver.record_interpolation import StepEnd, between
+from support_exudyn.mechanics.channels import EVERYTHING, Part
+from support_exudyn.mechanics.contact_state import PinMemory
+from support_exudyn.mechanics.trajectory import Series
+
+# of a StepEnd after its time
+STATE = (Part.POSITION, Part.VELOCITY, Part.CONTACTS)
+
+
+@dataclass(frozen=True)
+class History:
+    """Raw states at the records, one row each; see `channels` for what they mean.
+
+    time (n,); position, velocity (n, coordinates); memory (n, loose pins, fields of PinMemory);
+    pressure (n, 2 cylinders) as the engine has it; work, damping_loss, friction_loss (n,) [J]. What was not to
+    be kept has rows without columns; integrals that were not are zero.
+    """
+
+    time: np.ndarray
+    position: np.ndarray
+    velocity: np.ndarray
+    memory: np.ndarray
+    pressure: np.ndarray
+    work: np.ndarray
+    damping_loss: np.ndarray
+    friction_loss: np.ndarray
+
+
+class Recorder:
+    """Collects a History while a run goes on.
+
+    Arguments:
+        scene: that is run.
+        needs: what is to be kept, see `recipes`.
+    """
+
+    def __init__(self, scene: EngineScene, needs: Part = EVERYTHING) -> None:
+        duration = scene.scenario.duration
+        # rigid columns that are held and ideal pins neither work nor lose anything
+        works = any(parts.oil or (parts.multipliers and parts.moves(duration)) for parts in scene.driven)
+        self.integrates = Part.INTEGRALS in needs and bool(
+            works or scene.loose_pins or scene.frictions or scene.loads or scene.cylinders
+        )
+        self._kept = tuple(part in needs for part in STATE)
+        self.energies = RunningIntegrals(3)  # work of the drive, losses by damping and by friction
+        self._data = scene.mbs.systemData
+        self._pins = tuple(scene.loose_pins.items())
+        self._looks = scene.scenario.solver.audit  # whether what is lost is
+        self._driven = tuple((parts.drive, parts.multipliers, parts.oil) for parts in scene.driven)
+        self._frictions = tuple(scene.frictions.items())
+        self._loads = tuple(scene.loads.items())
+        self._cylinders = tuple(scene.cylinders.values())
+        self._mbs = scene.mbs
+        # numbers one behind the other: with an object for each part of a record they take three times as much
+        self._time = array("d")
+        self._states = tuple(array("d") for _ in STATE)
+        self._totals = array("d")
+        self._keeps_pressures = bool(self._cylinders) and Part.OIL in needs
+        self._pressures = array("d")
+        self._powers_now = (0.0, 0.0, 0.0)  # [W]
+        self._start: StepEnd | None = None  # of the step going on
+
+    def after_step(self, t: float, kink: bool) -> None:
+        """Add a step that has been accepted; `kink`: an impact or a break of the drive lies at its end."""
+        if not self.integrates:
+            return
+        self._powers_now = self._powers(t)
+        self.energies.add(t, self._powers_now)
+        if kink:
+            self.energies.restart()
+
+    def jump(self, t: float, energy: float) -> None:
+        """The columns' speed has jumped at t [s], which gave the bodies this energy [J]."""
+        self.energies.totals[0] += energy
+        self.energies.jump(t)
+
+    def switch(self, t: float) -> None:
+        """Valves have opened or closed at t [s], the end of the last step."""
+        if self.integrates:
+            self.energies.add(t, self._powers(t))
+
+    def begin_step(self, t: float) -> None:
+        """A step that may pass over records begins at t [s]."""
+        self._start = self._state(t)
+
+    def record_between(self, t: float, end: float) -> None:
+        """Keep the state at time t [s] inside the step that has just ended at another [s]."""
+        if self._start is None:
+            raise RuntimeError("begin_step: was not called before the step")
+        state = between(self._start, self._state(end), t)
+        # in contact or not, with which touch: as over all of the step
+        state.memory[:, :2] = self._start.memory[:, :2]
+        self._keep(t, (state.position, state.velocity, state.memory), state.totals.tolist())
+
+    def _state(self, t: float) -> StepEnd:
+        data = self._data
+        return StepEnd(
+            t,
+            data.GetODE2Coordinates(),
+            data.GetODE2Coordinates_t(),
+            data.GetODE2Coordinates_tt(),
+            _memories([pin.kept for _, pin in self._pins]),
+            np.array(self.energies.totals),
+            np.array(self._powers_now),
+        )
+
+    def record(self, t: float) -> None:
+        """Keep the state at time t [s]."""
+        data = self._data
+        position, velocity, memory = self._kept
+        self._keep(
+            t,
+            (
+                data.GetODE2Coordinates() if position else None,
+                data.GetODE2Coordinates_t() if velocity else None,
+                _memories([pin.kept for _, pin in self._pins]) if memory else None,
+            ),
+            self.energies.totals,
+        )
+        if self._keeps_pressures:
+            self._pressures.frombytes(data.GetODE1Coordinates().tobytes())
+
+    def _keep(self, t: float, state: Sequence[Series | None], totals: Sequence[float]) -> None:
+        """Add a record; parts of the state that are not to be kept may be None."""
+        self._time.append(t)
+        for rows, part, keep in zip(self._states, state, self._kept, strict=True):
+            if keep and part is not None:
+                rows.frombytes(part.tobytes())
+        self._totals.extend(totals)
+
+    def _length(self, item: OilColumnItem) -> tuple[float, float]:
+        """Length [m] of an oil column and its rate [m/s]."""
+        output = exudyn.OutputVariableType
+        distance = float(self._mbs.GetObjectOutput(item.object, output.Distance))
+        apart = self._mbs.GetObjectOutput(item.object, output.Displacement)
+        rate = self._mbs.GetObjectOutput(item.object, output.Velocity)
+        return distance, float(apart @ rate) / distance
+
+    def history(self) -> History:
+        """What has been recorded so far."""
+        time = np.array(self._time)
+        position, velocity, memory = (
+            np.array(rows).reshape(time.size, len(rows) // max(1, time.size)) for rows in self._states
+        )
+        pins = memory.shape[1] // len(PinMemory._fields)
+        return History(
+            time,
+            position,
+            velocity,
+            memory.reshape(time.size, pins, len(PinMemory._fields)),
+            np.array(self._pressures).reshape(time.size, -1 if self._pressures else 0),
+            *np.array(self._totals).reshape(time.size, 3).T,
+        )
+
+    def _powers(self, t: float) -> tuple[float, float, float]:
+        """Power [W] of the drive, of damping and of friction at the end of a step."""
+        columns = damping = friction = 0.0
+        for drive, struts, oil in self._driven:
+            speed = drive.speed(t)
+            if speed != 0.0 and struts:
+                multipliers = self._data.GetAECoordinates()
+                # the multiplier of a distance is the tension, that of a crank's angle the moment against it
+                columns -= speed * sum(float(multipliers[n]) for n in struts)
+            for item in oil:
+                work, loss = item.filled.powers(*self._length(item), drive.extension(t), speed)
+                columns += work
+                damping += loss
+        for name, load in self._loads:
+            work, loss = load.powers(t)
+            if self._looks and not loss >= 0.0:
+                load.look(t, name)
+            columns += work
+            damping += loss
+        for cylinder in self._cylinders:
+            work, loss = cylinder.powers()
+            columns += work
+            damping += loss
+        for name, rubbing in self._frictions:
+            lost = rubbing.power()
+            if self._looks and not lost >= 0.0:
+                rubbing.look(name)
+            friction += lost
+        for name, pin in self._pins:
+            force = pin.force
+            if force.depth > 0.0:
+                elastic = pin.contact.normal.elastic_force(force.depth) if pin.memory.in_contact else 0.0
+                lost = (force.normal_force - elastic) * force.rate
+                rubbed = force.friction_force * force.slip
+                if self._looks and not (lost >= 0.0 >= rubbed and elastic >= 0.0):
+                    look_at(pin, elastic, name)
+                damping += lost
+                friction -= rubbed
+        return columns, damping, friction
+
+
+def _memories(pins: Series | Sequence[PinMemory]) -> Series:
+    """Memory of all loose pins, shape (loose pins, fields of PinMemory)."""
+    return np.asarray(pins, dtype=np.float64).reshape(-1, len(PinMemory._fields))

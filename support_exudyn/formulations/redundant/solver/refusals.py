@@ -1,0 +1,68 @@
+"""Why a run could not go on, in words: reason and advice."""
+
+from __future__ import annotations
+
+from support_exudyn.formulations import engine_errors
+from support_exudyn.formulations.engine_errors import explained, first_line
+from support_exudyn.formulations.redundant.clearance.law_checks import probe
+from support_exudyn.formulations.redundant.scene.engine_scene import EngineScene
+from user_forces.lawful import UNLAWFUL, LawError
+from user_forces.normal.law import LoadError
+
+ADVICE = (
+    "Try a smaller step; if that does not help, look whether the posture is near a dead centre "
+    "or a contact is far stiffer than the masses beside it allow."
+)
+STEEP = (
+    "Is friction far steeper than steps can follow (mass times the ramp from static to dynamic speed over the "
+    "friction force, against the step)? Widen the ramp, take a smaller step, or formulation = 'reduced' with "
+    "more `solver.most_steps`."
+)
+FEWER_STEPS = (
+    "Allow longer steps, fewer of them in an impact (`solver.impact_steps`), a shorter duration, or more steps "
+    "in all (`solver.most_steps`)."
+)
+
+
+def why(error: Exception, scene: EngineScene, ahead: float) -> tuple[str, str]:
+    """Reason and advice, where the engine has raised an error.
+
+    Raises its cause if that is no matter of the run's numbers.
+
+    Arguments:
+        error: the engine's.
+        scene, ahead: see `unlawful`.
+    """
+    cause = error.__cause__  # set if a function of ours raised
+    if isinstance(cause, LawError):
+        return str(cause), UNLAWFUL
+    if isinstance(cause, LoadError):
+        return "a contact is overloaded", str(cause)
+    if isinstance(cause, ArithmeticError):
+        return first_line(cause), ADVICE
+    if cause is not None:
+        raise cause from None
+    return unlawful(scene, ahead) or (explained(error), engine_errors.ADVICE)
+
+
+def unlawful(scene: EngineScene, ahead: float) -> tuple[str, str] | None:
+    """Reason and advice if a law, a load or a drive gives no number a little further on.
+
+    The engine meets what is no number by shorter and shorter steps, and tells nothing of it in the end.
+
+    Arguments:
+        scene: at the last step that could be made.
+        ahead: time that was to be reached [s].
+    """
+    try:
+        for parts in scene.driven:
+            parts.look(ahead)
+        for name, load in scene.loads.items():
+            load.probe(ahead, name)
+        for name, friction in scene.frictions.items():
+            friction.probe(name)
+        for name, pin in scene.loose_pins.items():
+            probe(pin, name)
+    except LawError as error:
+        return str(error), UNLAWFUL
+    return None

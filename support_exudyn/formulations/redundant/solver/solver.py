@@ -1,0 +1,409 @@
+"""The generalised-alpha solver with impacts located in time.
+
+Steps lie on the grid of a StepPlan. A step in which a clearance pin touches is cut so that it ends at
+the touch, and the remainder of the grid step follows. The engine's own step control is left out of it:
+the size of every step is set here before it is tried. Where nothing can touch, the engine runs by itself
+from record to record, see `stretches`.
+
+Two traps of Exudyn 1.13.6 that this avoids: a rejected step loses the algorithmic accelerations of
+generalised alpha if `discontinuous.maxIterations` is 1 or used up; and its recovery of step sizes would
+leave the grid.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import exudyn
+
+from support_exudyn.formulations.contact_events import SHARE
+from support_exudyn.formulations.contract import Failure, SimulationError
+from support_exudyn.formulations.engine_settings import SMALLEST_STEP, engine_settings, quiet_engine
+from support_exudyn.formulations.limits import DEEPEST, SOFT, too_deep
+from support_exudyn.formulations.progress import Progress
+from support_exudyn.formulations.redundant.scene.engine_scene import EngineScene
+from support_exudyn.formulations.redundant.scene.velocity_jump import slide
+from support_exudyn.formulations.redundant.solver.newton_method import NewtonMethod
+from support_exudyn.formulations.redundant.solver.recorder import Recorder
+from support_exudyn.formulations.redundant.solver.refusals import ADVICE, FEWER_STEPS, STEEP, unlawful, why
+from support_exudyn.formulations.redundant.solver.step_growth import SmoothSteps, smooth_steps
+from support_exudyn.formulations.redundant.solver.symbolic_drive import turns_by_itself
+from support_exudyn.formulations.redundant.solver.uninterrupted_steps import Stretch, solve_in_stretches
+from support_exudyn.formulations.time_grid import StepPlan
+from support_exudyn.mechanics.counts import Counts
+from support_exudyn.mechanics.impulse import Impulse
+from support_exudyn.mechanics.oil_column import force_rounding
+from support_exudyn.simulation.estimate import rounding_of_positions
+from user_forces import Frictionless
+from user_forces.lawful import UNLAWFUL, LawError
+
+REPEAT_ERROR = 1e6  # above any tolerance of the engine's discontinuous iteration: the step is repeated
+SMALLEST_IMPACT_STEP = 1e-11  # [s], well above the rounding of times
+# The joint forces overshoot in the first steps after a jump of the columns' acceleration, by a factor that
+# falls with the spectral radius from step to step. The grid step that follows is divided so often, so that
+# nothing of it is left at the next record.
+BREAK_REFINEMENT = 32
+# The engine computes a new Jacobian at the start of every stretch of steps. Where Python is called in each of
+# them for columns and energies, stretches are worth that if they are longer than so many.
+FEW_STEPS = 5
+# Before steps that are so many times shorter than the last, velocities are aligned, see `velocity_jump`.
+MUCH_SHORTER = 8.0
+
+
+class Run:
+    """One integration of a scene from 0 to its duration."""
+
+    def __init__(self, scene: EngineScene, recorder: Recorder, progress: Progress) -> None:
+        scenario = scene.scenario
+        self.scene = scene
+        self.pins = tuple(scene.loose_pins.values())
+        self.frictions = tuple(scene.frictions.values())
+        self.strikers = tuple(item for item in scene.loads.values() if item.load.strikes)
+        self.data = scene.mbs.systemData
+        self.recorder = recorder
+        self.progress = progress
+        self.plan = StepPlan(
+            scenario.duration,
+            scenario.record_period,
+            scenario.step,
+            scenario.breaks,
+            rounding_of_positions(scenario),
+        )
+        self.solver: Any = exudyn.MainSolverImplicitSecondOrder()  # its stubs lack self
+        self.impulses: list[Impulse] = []
+        self.cylinders = tuple(scene.cylinders.values())
+        self.valves = any(cylinder.moves for cylinder in self.cylinders)
+        unknowns = int(self.data.ODE2Size() + self.data.ODE1Size() + self.data.AEsize())
+        self.settings = engine_settings(
+            scenario.solver,
+            scenario.duration,
+            unknowns,
+            force_rounding([item.filled for parts in scene.driven for item in parts.oil]),
+            bool(self.cylinders),
+        )
+        self.locates = scenario.solver.locate
+        self.impact_steps = scenario.solver.impact_steps
+        # what a load does need not show in accelerations, and long steps would pass over where it begins
+        # and pressures are not interpolated at records that a step passes over
+        grows = scenario.solver.growth > 1.0 and not scene.loads and not scene.cylinders
+        self.smooth = smooth_steps(scene) if grows else None
+        self.time = 0.0  # end of the last accepted step
+        self.steps = self.cut_steps = self.failed_newton = 0
+        self.most_steps = scenario.solver.most_steps
+        self.trying = False  # a step has been tried and not accepted yet
+        self.repeated = False  # that step is tried again, shorter
+        newton = self.settings.timeIntegration.newton
+        self.newton = NewtonMethod(self.solver, newton, scenario, self.pins, unknowns)
+        # whether anything of the model has to follow a drive, and whether Python has to see every step
+        self.follows = self.valves or any(parts.moves(scenario.duration) for parts in scene.driven)
+        self.watches = bool(self.pins or self.frictions or self.strikers) or self.smooth is not None
+        columns = any(parts.rigid or parts.oil for parts in scene.driven if parts.moves(scenario.duration))
+        if (
+            (columns or self.valves)
+            and recorder.integrates
+            and scenario.step * FEW_STEPS > scenario.record_period
+        ):
+            self.watches = True  # it is called in every step anyway, and a stretch costs more than it saves
+        self.audited = -math.inf  # end of the last step that the recorder has been told of [s]
+
+    def go(self) -> Counts:
+        """Integrate. Raises SimulationError if the run cannot be finished."""
+        mbs, it = self.scene.mbs, self.solver.it
+        for pin in self.pins:
+            pin.step_size = lambda: float(it.currentStepSize)
+            pin.locates = self.locates
+            pin.begin_try(0.0)
+            if self.scene.scenario.start != "settled":
+                pin.begin_impact()
+        if self.scene.scenario.solver.constraint_index == 2:
+            for parts in self.scene.driven:
+                parts.follow_speed()
+        self.connect()
+        try:
+            with quiet_engine():
+                if self.watches:
+                    finished = self.solver.SolveSystem(mbs, self.settings)
+                else:
+                    finished = self._go_in_stretches()
+        except LawError as error:  # between two stretches
+            raise SimulationError(self._failure(str(error), UNLAWFUL)) from error
+        except exudyn.ExudynError as error:
+            raise SimulationError(self._failure(*why(error, self.scene, self._ahead))) from error
+        if not finished or self.time < self.plan.duration * (1.0 - 1e-9):
+            advice = f"{ADVICE} {STEEP}" if self.newton.failures.of_step and self._has_friction() else ADVICE
+            told = unlawful(self.scene, self._ahead) or ("the solver gave up", advice)
+            raise SimulationError(self._failure(*told))
+        return Counts(
+            steps=self.steps,
+            cut_steps=self.cut_steps,
+            newton_iterations=int(it.newtonStepsCount),
+            jacobians=int(it.newtonJacobiCount),
+            user_function_calls=sum(pin.calls for pin in self.pins)
+            + sum(friction.calls for friction in self.frictions),
+            failed_newton=self.failed_newton,
+            clamped_steps=sum(pin.clamped_steps for pin in self.pins),
+        )
+
+    def connect(self) -> None:
+        """Have the engine call what has to see every step, and nothing else."""
+        mbs = self.scene.mbs
+        if self.watches:
+            mbs.SetPreStepUserFunction(self._before_try)
+            if self.pins:
+                mbs.SetPostNewtonUserFunction(self._after_newton)
+            mbs.SetPostStepUserFunction(self._after_step)
+            return
+        if self.follows and not turns_by_itself(self.scene):
+            mbs.SetPreStepUserFunction(self._follow)
+        if self.recorder.integrates:
+            mbs.SetPostStepUserFunction(self._audit)
+
+    def _go_in_stretches(self) -> bool:
+        """Integrate where nothing is to be decided between one record or break and the next."""
+        mbs, finished = self.scene.mbs, False
+        try:
+            finished = solve_in_stretches(self.solver, mbs, self.settings, self._stretch, self._arrive)
+        finally:
+            if not finished:
+                self.time = float(self.data.GetTime())  # inside a stretch
+        return finished
+
+    def _stretch(self, t: float) -> Stretch | None:
+        """The equal steps from t [s] on."""
+        if t >= self.plan.duration * (1.0 - 1e-12):
+            return None
+        return Stretch(*self.plan.stretch(t, self._longest_step(t)))
+
+    def _arrive(self, t: float, steps: int, repeats: int) -> float:
+        """A stretch of so many steps has ended at t [s]; so many had to be repeated."""
+        self.steps += steps
+        self.failed_newton += repeats
+        self._count()
+        if t == 0.0 and self.recorder.integrates:  # before the speed jumps; the engine tells the start later
+            self._audit(self.scene.mbs, t)
+        return self._arrived(t)
+
+    # --- called by the engine ---
+
+    def _before_try(self, mbs: Any, t: float) -> bool:
+        """Before every attempt at a step that would end at t."""
+        if self.trying:
+            self.repeated = True
+            if any(pin.wants_cut for pin in self.pins):
+                self.cut_steps += 1
+            else:
+                self.failed_newton += 1
+                self.newton.failed()
+        self.trying = True
+        self.scene.drive_to(t)
+        if self.pins:
+            step = float(self.solver.it.currentStepSize)
+            for pin in self.pins:
+                pin.begin_try(step)
+            self.newton.begin(step)
+        return True
+
+    def _follow(self, mbs: Any, t: float) -> bool:
+        """Set driven parts to where they are at t [s], the end of a step."""
+        self.scene.drive_to(t)
+        return True
+
+    def _audit(self, mbs: Any, t: float) -> bool:
+        """After a step that is only looked at for its energies; the start of a stretch is told once more."""
+        if t > self.audited:
+            self.audited = t
+            self.recorder.after_step(t, bool(self.plan.breaks_at(t)))
+        return True
+
+    def _after_newton(self, mbs: Any, t: float) -> list[float]:
+        """After a step that would end at t has been solved: [error, recommended step]."""
+        again, shortest = False, math.inf
+        name = ""
+        try:
+            for name, pin in self.scene.loose_pins.items():  # noqa: B007 - is told if one fails
+                step = pin.after_newton(t)
+                if step is not None:
+                    again, shortest = True, min(shortest, step)
+        except LawError as error:
+            raise error.at(name) from None
+        if not again:
+            return [0.0, -1.0]
+        if shortest == math.inf:
+            return [REPEAT_ERROR, -1.0]
+        # to a time that has no rounding: else drives, which are asked for that time, would move on by another
+        # one than the step, and late in a long run forces would show it
+        exact = (self.time + shortest) - self.time
+        return [REPEAT_ERROR, exact if exact > SMALLEST_IMPACT_STEP else shortest]
+
+    def _after_step(self, mbs: Any, t: float) -> bool:
+        """After every accepted step, and once at the start."""
+        taken = t - self.time
+        breaks = self.plan.breaks_at(t)
+        kink = bool(breaks)
+        if self.trying:
+            self.trying = False
+            self.steps += 1
+            self._look_for_limits()
+            self.newton.solved(taken)
+            for name, pin in self.scene.loose_pins.items():
+                kink = kink or pin.onset is not None
+                try:
+                    pin.accept(t)
+                except LawError as error:  # inside the step
+                    raise error.at(name) from None
+        self.recorder.after_step(t, kink)
+        for friction in self.frictions:
+            friction.accept()
+        if self.smooth is not None:
+            self._look_for_smoothness(t, self.smooth)
+        if (later := self._arrived(t)) != t:
+            t, breaks = later, self.plan.breaks_at(later)
+        goal = self._next_time(t)
+        if not breaks and self._is_to_be_cut(taken, goal - t):
+            self.recorder.energies.totals[0] += self.scene.align(t)
+            self.scene.refresh_memory()
+            self._tell_rates()
+        if self.smooth is not None:
+            self.recorder.begin_step(t)
+        self.solver.it.currentStepSize = max(SMALLEST_STEP, goal - t)
+        return True
+
+    def _arrived(self, t: float) -> float:
+        """A step has ended at t [s]; stops may follow that are not worth one. From when the run goes on [s]."""
+        self._at_stop(t)
+        while self.plan.rest(t) and (stop := self.plan.rest(t, self._longest_step(t))):
+            slide(self.scene, stop - t)
+            self.data.SetTime(stop)
+            self.solver.it.currentTime = t = stop
+            self.recorder.after_step(t, True)
+            self._at_stop(t)
+        return t
+
+    def _at_stop(self, t: float) -> None:
+        """The run is at t: it may be a record, or a break of the drive."""
+        self.time = t
+        if (asked := self.plan.record_at(t)) is not None:
+            self.recorder.record(asked)
+            self._check_finite()
+            self.progress(t / self.plan.duration)
+        if breaks := self.plan.breaks_at(t):
+            self._jump(t, breaks)
+
+    @property
+    def _ahead(self) -> float:
+        """A time that was to be reached [s]."""
+        return self.time + self.plan.step
+
+    def _is_to_be_cut(self, taken: float, following: float) -> bool:
+        """Whether far shorter steps follow on one of this length [s], or the next will be cut.
+
+        It will if a loose pin touches or parts in it.
+        """
+        if not self.pins or not self.locates:
+            return False
+        if following < taken / MUCH_SHORTER:
+            return True
+        for pin in self.pins:
+            if pin.impact.step == math.inf:
+                depth = pin.reached.depth
+                if depth * (depth + 2.0 * following * pin.reached.rate) < 0.0:
+                    return True
+        return False
+
+    def _has_friction(self) -> bool:
+        """Whether there is any in a pin."""
+        rough = (pin for pin in self.pins if not isinstance(pin.contact.friction, Frictionless))
+        return bool(self.frictions) or any(rough)
+
+    def _count(self) -> None:
+        """Raise SimulationError if there have been too many steps."""
+        if self.steps + self.cut_steps + self.failed_newton > self.most_steps:
+            raise SimulationError(self._failure(f"more than {self.most_steps} steps", FEWER_STEPS))
+
+    def _look_for_limits(self) -> None:
+        """Raise SimulationError if a journal is too deep, or there were too many steps, or too many failed."""
+        self._count()
+        if self.newton.failures.too_many:
+            reason = f"Newton's method has failed {self.failed_newton} times, and needs next to no step"
+            raise SimulationError(self._failure(reason, STEEP))
+        if not self.scene.scenario.solver.audit:
+            return
+        for name, pin in self.scene.loose_pins.items():
+            bearing = pin.contact.bearing
+            if pin.reached.depth > DEEPEST * bearing.bore_radius:
+                raise SimulationError(self._failure(too_deep(name, pin.reached.depth, bearing), SOFT))
+
+    def _look_for_smoothness(self, t: float, smooth: SmoothSteps) -> None:
+        """A step has ended at t: may the next be longer? And the records that it has passed over."""
+        for passed in self.plan.records_between(self.time, t):
+            self.recorder.record_between(passed, t)
+        at_rest = all(pin.impact.step == math.inf and pin.reached.depth > 0.0 for pin in self.pins)
+        if at_rest and not self.repeated and not self.plan.follows_break(t):
+            smooth.follow(t - self.time, self.data.GetODE2Coordinates_tt())
+        else:
+            smooth.restart()
+        self.repeated = False
+
+    def _jump(self, t: float, breaks: list[float]) -> None:
+        """Velocities after the breaks that t [s] is, if the speed of a drive jumps there, and valves."""
+        drives = self.scene.scenario.drives_in_use
+        jumps = [b for b in breaks if any(drive.speed_jump(b) for drive in drives)]
+        for b in jumps:
+            impulse = self.scene.jump(b)
+            if impulse is not None:
+                self.impulses.append(impulse)
+            self.recorder.jump(t, 0.0 if impulse is None else impulse.energy)
+        if jumps:
+            self.scene.refresh_memory()
+            for pin in self.pins:
+                pin.begin_impact()
+        for cylinder in self.cylinders:
+            for b in breaks:
+                cylinder.switch(b)
+        self._tell_rates()
+        if self.cylinders and not jumps:
+            self.recorder.switch(t)
+
+    def _tell_rates(self) -> None:
+        """Velocities or valves have jumped: pressures change at other rates."""
+        for cylinder in self.cylinders:
+            cylinder.tell_rates()
+
+    def _longest_step(self, t: float) -> float:
+        """How long a step from t [s] on may be [s]; infinite: as the plan says."""
+        largest = self.newton.failures.length
+        for pin in self.pins:
+            largest = min(largest, pin.longest_step)
+        for striker in self.strikers:
+            largest = min(largest, striker.longest_step(t, self.impact_steps))
+        if self.locates and self.plan.follows_break(t):
+            largest = min(largest, self.plan.step / BREAK_REFINEMENT)
+        return largest
+
+    def _next_time(self, t: float) -> float:
+        """Where the step that starts at t is to end: on the grid, or at an impact seen coming [s]."""
+        largest = self._longest_step(t)
+        if self.smooth is not None and largest == math.inf:
+            goal = self.plan.far_time(t, self.smooth.size)
+        else:
+            goal = self.plan.next_time(t, max(largest, SMALLEST_IMPACT_STEP))
+        for pin in self.pins:
+            if t + SHARE * (goal - t) < pin.landing < goal:
+                goal = pin.landing
+        return goal
+
+    def _check_finite(self) -> None:
+        velocity = self.data.GetODE2Coordinates_t()
+        if not math.isfinite(velocity @ velocity):
+            raise ArithmeticError("a velocity is no longer a finite number")
+
+    def _failure(self, reason: str, advice: str = ADVICE) -> Failure:
+        state: dict[str, float] = {"step": float(self.solver.it.currentStepSize)}
+        for name, spin in self.scene.spins().items():
+            state[f"{name}.angular_velocity"] = spin
+        for name, pin in self.scene.loose_pins.items():
+            state[f"pin.{name}.depth"] = pin.memory.depth
+            state[f"pin.{name}.rate"] = pin.memory.rate
+            state[f"pin.{name}.approach_speed"] = pin.memory.approach_speed
+        return Failure(reason, advice, self.time, state, finer=advice is not FEWER_STEPS)

@@ -1,0 +1,59 @@
+"""Cranks that follow their drive by an expression of the engine, so that Python is not asked at every step.
+
+The engine takes an expression for the angle of a crank. For the length of a rigid column it takes none: that is
+a parameter, which Python sets before every step.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, cast
+
+from exudyn.advancedUtilities import CreateSymbolicUserFunction
+
+from support_exudyn.formulations.redundant.clearance.symbolic_force import Symbol, engine
+from support_exudyn.formulations.redundant.scene.engine_scene import EngineScene
+from support_exudyn.model.drives.drive import Drive
+
+NAME = "offsetUserFunction"  # the engine's, of its connector of two coordinates
+
+
+def turns_by_itself(scene: EngineScene) -> bool:
+    """Give the cranks their drives as expressions; whether nothing is left that has to be set at every step.
+
+    Nothing is done where something would be left: columns that move, constraints of velocities, or a drive that
+    branches on time.
+    """
+    if scene.scenario.solver.constraint_index == 2:
+        return False
+    moving = [parts for parts in scene.driven if parts.moves(scene.scenario.duration)]
+    if any(cylinder.moves for cylinder in scene.cylinders.values()):
+        return False
+    if any(parts.rigid or parts.oil for parts in moving) or not all(
+        _is_formula(parts.drive) for parts in moving
+    ):
+        return False
+    for parts in moving:
+        for crank in parts.cranks:
+            function = CreateSymbolicUserFunction(scene.mbs, _angle(parts.drive), NAME, crank.object)
+            scene.mbs.SetObjectParameter(crank.object, NAME, function)
+    return True
+
+
+def _angle(drive: Drive) -> Callable[..., Any]:
+    """The angle of a crank over time, of the engine's signature."""
+
+    def angle(mbs: Any, t: Any, item: Any, offset: Any) -> Any:
+        found: Any = drive.extension(cast(float, Symbol(t)))
+        return found.real if isinstance(found, Symbol) else engine.Real(found)
+
+    return angle
+
+
+def _is_formula(drive: Drive) -> bool:
+    """Whether a drive takes expressions, see `scalar.Expression`."""
+    try:
+        _angle(drive)(None, engine.Real(0.0), None, None)
+    except TypeError:
+        return False
+    return True

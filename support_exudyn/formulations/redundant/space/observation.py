@@ -1,0 +1,229 @@
+"""A run in space at its records: motion, contacts, reactions, energies, each computed when it is asked for."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from support_exudyn.formulations.redundant.solver.recorder import History
+from support_exudyn.formulations.redundant.space.scene import SpatialScene
+from support_exudyn.formulations.redundant.space.section_pin import SectionPin
+from support_exudyn.formulations.redundant.space.sections import SectionMotion, section_motion
+from support_exudyn.mechanics.contact_history import RelativeMotion, journal_arm, series
+from support_exudyn.mechanics.drive_acceleration import accelerations as drive_accelerations
+from support_exudyn.mechanics.oil_column import OilSeries
+from support_exudyn.mechanics.space.accelerations import accelerations
+from support_exudyn.mechanics.space.constraints import Row, direction_of
+from support_exudyn.mechanics.space.kinetics import inertias, weight
+from support_exudyn.mechanics.space.motion import SpatialMotion, cross, motion_of
+from support_exudyn.mechanics.space.reactions import inertia_forces, reactions
+from support_exudyn.mechanics.trajectory import ContactSeries, Series
+from support_exudyn.model.linkage import GROUND
+from support_exudyn.model.pins import ClearancePin
+from user_forces.friction.frictionless import Frictionless
+
+
+@dataclass(frozen=True)
+class SectionSeries:
+    """A section of a loose bearing over time.
+
+    motion: of its journal. contact: depths and forces in the axes of the bore. force: of the bore on the
+    journal (n, 3) [N], ground's axes. point: where it acts (n, 3) [m].
+    """
+
+    motion: SectionMotion
+    contact: ContactSeries
+    force: Series
+    point: Series
+
+
+@dataclass(frozen=True)
+class Observation:
+    """A finished run.
+
+    Arguments:
+        scene: that has been run.
+        history: its records.
+    """
+
+    scene: SpatialScene
+    history: History
+
+    @property
+    def time(self) -> Series:
+        """Of the records [s]."""
+        return self.history.time
+
+    @cached_property
+    def motion(self) -> SpatialMotion:
+        """Of all bodies; velocities are zero if they have not been kept."""
+        order, history = self.scene.order, self.history
+        position = history.position[:, order]
+        velocity = history.velocity[:, order] if history.velocity.shape[1] else np.zeros_like(position)
+        return motion_of(self.scene.linkage, position, velocity)
+
+    @cached_property
+    def sections(self) -> dict[str, list[SectionSeries]]:
+        """Of every loose bearing."""
+        memories = iter(np.moveaxis(self.history.memory, 1, 0))
+        return {
+            name: [self._section(pin, memory) for pin, memory in zip(group, memories, strict=False)]
+            for name, group in self.scene.sections.items()
+        }
+
+    def contacts_of(self, pin: str) -> list[ContactSeries]:
+        """Of all sections of the bearings that make up a loose pin."""
+        bearings = self.scene.linkage.bearings
+        groups = [group for name, group in self.sections.items() if bearings[name].pin == pin]
+        return [section.contact for group in groups for section in group]
+
+    def _section(self, pin: SectionPin, memory: Series) -> SectionSeries:
+        bore, journal = pin.ends
+        moving = section_motion(self.motion, bore, journal, pin.section.place, pin.at, pin.slides)
+        ones, zeros = np.ones(self.motion.count), np.zeros(self.motion.count)
+        relative = RelativeMotion(
+            moving.x, moving.y, moving.vx, moving.vy, moving.bore_spin, moving.journal_spin, ones, zeros
+        )
+        model = ClearancePin(contact=pin.contact)
+        contact = series(model, relative, memory)
+        away = np.linalg.norm(moving.displacement, axis=1)
+        outward = moving.displacement / np.where(away > 0.0, away, 1.0)[:, None]
+        if isinstance(pin.contact.friction, Frictionless):
+            force = -contact.normal_force[:, None] * outward
+        else:
+            plane = np.column_stack([contact.force_x, contact.force_y, zeros])
+            force = np.einsum("nij,nj->ni", moving.axes, plane)
+        arm = journal_arm(model, contact.depth)
+        return SectionSeries(moving, contact, force, moving.centre + arm[:, None] * outward)
+
+    @cached_property
+    def oil(self) -> dict[str, OilSeries]:
+        """Of every column of oil."""
+        return {name: self._oil(name) for name in self.scene.oil_columns}
+
+    def _oil(self, name: str) -> OilSeries:
+        drive = self.scene.scenario.drive_of(name)
+        extension = np.array([drive.extension(t) for t in self.time.tolist()])
+        speed = np.array([drive.speed(t) for t in self.time.tolist()])
+        apart, relative = self.span(name)
+        length = np.linalg.norm(apart, axis=1)
+        moving = length, np.einsum("ni,ni->n", apart, relative) / length, extension, speed
+        filled = self.scene.oil_columns[name].filled
+        return OilSeries(filled.force(*moving), filled.energy(length, extension), *filled.powers(*moving))
+
+    def span(self, column: str) -> tuple[Series, Series]:
+        """From foot to head of a column, and its rate, (n, 3) each."""
+        strut = self.scene.linkage.columns[column]
+        foot = self.motion.point(strut.foot, strut.foot_point)
+        head = self.motion.point(strut.head, strut.head_point)
+        return head.position - foot.position, head.velocity - foot.velocity
+
+    @cached_property
+    def accelerations(self) -> Series:
+        """Of the centres and rates of the spins of all bodies, (n, b, 6) [m/s^2], [rad/s^2]."""
+        scenario = self.scene.scenario
+        driven = np.zeros((self.motion.count, len(self.scene.rows)))
+        for place, row in enumerate(self.scene.rows):
+            if row.kind == "column":
+                drive = scenario.drive_of(row.name)
+                driven[:, place] = drive_accelerations(drive, self.time, scenario.duration)
+        turning = inertia_forces(self.motion, np.zeros_like(self._applied))
+        return accelerations(self.motion, self.scene.rows, driven, self._applied - turning)
+
+    @cached_property
+    def held(self) -> dict[Row, Series]:
+        """Force of everything that is held, (n,) each; see `reactions`."""
+        left = inertia_forces(self.motion, self.accelerations) - self._applied
+        rows = self.scene.all_rows
+        return dict(zip(rows, reactions(self.motion, rows, left).T, strict=True))
+
+    @cached_property
+    def _applied(self) -> Series:
+        """Weights and forces of oil and loose bearings on all bodies, (n, b, 6)."""
+        weights = weight(self.scene.linkage, self.scene.gravity).reshape(1, -1, 6)
+        forces = np.tile(weights, (self.motion.count, 1, 1))
+        for name, oil in self.oil.items():
+            column = self.scene.linkage.columns[name]
+            along, _ = self.span(name)
+            push = oil.force[:, None] * along / np.linalg.norm(along, axis=1)[:, None]
+            self._push(forces, column.head, push, self.motion.point(column.head, column.head_point).position)
+            self._push(forces, column.foot, -push, self.motion.point(column.foot, column.foot_point).position)
+        for name, group in self.sections.items():
+            bore, journal = self.scene.ends_of(name)
+            for section in group:
+                self._push(forces, journal.body, section.force, section.point)
+                self._push(forces, bore.body, -section.force, section.point)
+        return forces
+
+    def _push(self, forces: Series, body: str, force: Series, point: Series) -> None:
+        """Add a force on a body (n, 3) at points (n, 3) to the forces on all bodies."""
+        if body == GROUND:
+            return
+        n = self.motion.index(body)
+        centre = np.array(self.scene.linkage.bodies[body].centre) + self.motion.displacement[:, n]
+        forces[:, n, :3] += force
+        forces[:, n, 3:] += cross(point - centre, force)
+
+    def column_force(self, name: str) -> Series:
+        """Force that pushes a column's ends apart (n,) [N]."""
+        return self.oil[name].force if name in self.oil else self.held[Row(name, "column")]
+
+    def bearing_load(self, name: str) -> tuple[Series, Series]:
+        """Force of the first body on the second [N], moment about the bearing's middle [N m], (n, 3) each."""
+        bearing = self.scene.linkage.bearings[name]
+        force, moment = np.zeros((2, self.motion.count, 3))
+        middle = self.motion.point(bearing.second, bearing.second_point).position
+        for row, value in self.held.items() if self._is_held(name) else ():
+            if row.name == name:
+                part = moment if row.kind.startswith("tilt") else force
+                part += value[:, None] * direction_of(self.motion, bearing, row.kind)
+        sign = 1.0 if name in self.sections and self.scene.ends_of(name)[1].body == bearing.second else -1.0
+        for section in self.sections.get(name, ()):
+            force += sign * section.force
+            moment += cross(section.point - middle, sign * section.force)
+        return force, moment
+
+    def _is_held(self, name: str) -> bool:
+        return any(row.name == name for row in self.scene.all_rows)
+
+    @cached_property
+    def loads(self) -> dict[str, tuple[Series, Series]]:
+        """Force and moment in every bearing, see `bearing_load`."""
+        return {name: self.bearing_load(name) for name in self.scene.linkage.bearings}
+
+    # --- energy ---
+
+    @cached_property
+    def kinetic(self) -> Series:
+        """Kinetic energy [J]."""
+        motion = self.motion
+        mass = np.array([body.mass for body in motion.linkage.bodies.values()])
+        spinning = np.einsum("nbi,nbij,nbj->n", motion.spin, inertias(motion), motion.spin)
+        return np.asarray(0.5 * (np.einsum("b,nbi,nbi->n", mass, motion.velocity, motion.velocity) + spinning))
+
+    @cached_property
+    def potential(self) -> Series:
+        """Of weight [J], zero in the start posture."""
+        forces = weight(self.scene.linkage, self.scene.gravity).reshape(-1, 6)[:, :3]
+        return np.asarray(-np.einsum("bi,nbi->n", forces, self.motion.displacement))
+
+    @cached_property
+    def stored(self) -> Series:
+        """In contacts and oil [J]."""
+        found = np.zeros_like(self.time)
+        for oil in self.oil.values():
+            found = found + oil.energy
+        for group in self.sections.values():
+            for section in group:
+                found = found + section.contact.stored
+        return found
+
+    @cached_property
+    def balance(self) -> Series:
+        """Gain minus work plus loss [J]."""
+        total = self.kinetic + self.potential + self.stored
+        history = self.history
+        found: Series = total - total[0] + (history.damping_loss + history.friction_loss) - history.work
+        return found

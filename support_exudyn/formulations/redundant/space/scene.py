@@ -1,0 +1,236 @@
+"""The model of a scenario in space, ready for the solver; `scene_builder` makes it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from support_exudyn.formulations.redundant.scene.cylinder_item import CylinderItem
+from support_exudyn.formulations.redundant.scene.driven_parts import DrivenParts, OilColumnItem
+from support_exudyn.formulations.redundant.scene.engine_scene import CURRENT, INITIAL, InEngine
+from support_exudyn.formulations.redundant.scene.load_item import LoadItem
+from support_exudyn.formulations.redundant.scene.pin_friction import PinFriction
+from support_exudyn.formulations.redundant.space.section_pin import SectionPin
+from support_exudyn.formulations.redundant.space.sections import ends
+from support_exudyn.mechanics.body_coordinates import ColumnItem
+from support_exudyn.mechanics.contact_state import Mobility, PinMemory
+from support_exudyn.mechanics.impulse import Impulse
+from support_exudyn.mechanics.pressed_pins import Mobilities, held, normal
+from support_exudyn.mechanics.space.constraints import End, Row, all_rows, independent, matrix
+from support_exudyn.mechanics.space.kinetics import SpatialKinetics
+from support_exudyn.mechanics.space.motion import COORDINATES, SpatialMotion, motion_of, parameter_rates
+from support_exudyn.mechanics.space.reactions import reactions
+from support_exudyn.mechanics.trajectory import Series
+from support_exudyn.model.spatial_linkage import SpatialBody, SpatialLinkage
+from support_exudyn.scenario.scenario import Scenario
+from user_forces.values.value import Vector3
+
+
+@dataclass(frozen=True)
+class BodyItem:
+    """A moving body in the engine: its node, object and the first of its seven coordinates."""
+
+    body: SpatialBody
+    node: Any
+    object: Any
+    first: int
+
+
+@dataclass(frozen=True)
+class SpatialScene(InEngine):
+    """The model of one scenario in space, assembled and ready for the solver.
+
+    rows: the constraints that are in the model. all_rows: those and the ones that repeat them.
+    """
+
+    scenario: Scenario
+    linkage: SpatialLinkage
+    container: Any  # owns the system: must live as long as it
+    mbs: Any
+    bodies: dict[str, BodyItem]
+    rows: Sequence[Row]
+    all_rows: Sequence[Row]
+    loose_pins: dict[str, SectionPin]
+    sections: dict[str, list[SectionPin]]  # of every loose bearing
+    rigid_columns: dict[str, ColumnItem]
+    oil_columns: dict[str, OilColumnItem]
+    driven: tuple[DrivenParts, ...]  # all columns, by the drive that they follow
+    frictions: dict[str, PinFriction] = field(default_factory=dict)  # of ideal pins: not covered
+    loads: dict[str, LoadItem] = field(default_factory=dict)  # nor are they
+    weights: dict[str, Any] = field(default_factory=dict)  # are asked for where loads bring bodies along
+    cylinders: dict[str, CylinderItem] = field(default_factory=dict)  # nor these
+
+    @property
+    def gravity(self) -> Vector3:
+        """Acceleration [m/s^2]."""
+        return (*self.scenario.gravity, 0.0)
+
+    def coordinate_masses(self) -> Series:
+        """A mass for each of the engine's coordinates [kg], [kg m^2], by which accelerations are weighed."""
+        found = np.zeros(COORDINATES * len(self.bodies))
+        for item in self.bodies.values():
+            found[item.first : item.first + 3] = item.body.mass
+            # the spin is twice the rate of the Euler parameters
+            found[item.first + 3 : item.first + COORDINATES] = 4.0 * sum(item.body.inertia[:3]) / 3.0
+        return found
+
+    def spins(self) -> dict[str, float]:
+        """Angular velocity of every body [rad/s]."""
+        motion = self.motion()
+        return {name: float(np.linalg.norm(motion.spin[0, n])) for n, name in enumerate(self.bodies)}
+
+    @cached_property
+    def order(self) -> Series:
+        """Places of the bodies' coordinates, in the order of the linkage, in the engine's vector."""
+        return np.concatenate([np.arange(b.first, b.first + COORDINATES) for b in self.bodies.values()])
+
+    def motion(self, state: Any = CURRENT) -> SpatialMotion:
+        """Of all bodies now."""
+        data = self.mbs.systemData
+        position, velocity = data.GetODE2Coordinates(state), data.GetODE2Coordinates_t(state)
+        return motion_of(self.linkage, position[self.order], velocity[self.order])
+
+    def kinetics(self, state: Any = CURRENT) -> SpatialKinetics:
+        """Masses and the constraints of the model as matrices."""
+        return SpatialKinetics(self.motion(state), self.rows)
+
+    def mobilities(self, name: str, state: Any = CURRENT) -> Mobilities:
+        """Of the middle of a loose bearing's journal, in the axes of its bore, for the law of its whole pin.
+
+        A bearing of a pair has a share of its pin's force and energy, so the law of the pin is told the mass
+        over that share. Bearings of the pin that are pressed move together: with both, it is the whole energy
+        and the mass that moves if both journals move alike, as in the plane. Other pins are held where they are
+        pressed, see `pressed`.
+        """
+        kinetics, normals = self.kinetics(state), self._normals(state)
+        bearings = self.linkage.bearings
+        along = {
+            other: kinetics.bearing_rate(*self.ends_of(other)) for other in dict.fromkeys((name, *normals))
+        }
+        parts = [part for part in along if bearings[part].pin == bearings[name].pin]
+        share = sum(bearings[part].share for part in parts)
+        together = sum(bearings[part].share * along[part] for part in parts) / share
+        others = [normals[other][None] @ along[other] for other in normals if other not in parts]
+        answers = kinetics.answers(np.concatenate([along[name], together, *others]))
+        alone, pressed = bearings[name].share * answers[:2, :2], share * held(answers[2:, 2:])
+        return Mobilities(Mobility.of(alone), Mobility.of(pressed))
+
+    def _normals(self, state: Any) -> dict[str, Series]:
+        """Along which the journals are pressed that are, in the axes of their bores."""
+        data, found = self.mbs.systemData, {}
+        at = data.GetODE2Coordinates(state).tolist(), data.GetODE2Coordinates_t(state).tolist()
+        for name, group in self.sections.items():
+            clearance = group[0].contact.bearing.clearance
+            touching = (normal(*pin.moving.when(*at)[1][:2], clearance) for pin in group)
+            if any(one is not None for one in touching):
+                x, y = group[0].whole.moving.when(*at)[1][:2]
+                size = np.hypot(x, y)
+                if size > 0.0:  # else it is wedged, and pressed in no direction
+                    found[name] = np.array([x, y]) / size
+        return found
+
+    def ends_of(self, name: str) -> tuple[End, End]:
+        """Bore and journal of a loose bearing."""
+        bearing = self.linkage.bearings[name]
+        return ends(bearing, self.scenario.clearance_pins[bearing.pin].bore)
+
+    def set_velocities(self, velocity: Series, state: Any = CURRENT) -> None:
+        """Give the bodies velocities v and omega, (6 bodies,)."""
+        data = self.mbs.systemData
+        position, rates = data.GetODE2Coordinates(state), data.GetODE2Coordinates_t(state)
+        for item, (v, spin) in zip(self.bodies.values(), velocity.reshape(-1, 2, 3), strict=True):
+            p = position[item.first + 3 : item.first + COORDINATES] + np.array([1.0, 0.0, 0.0, 0.0])
+            rates[item.first : item.first + 3] = v
+            rates[item.first + 3 : item.first + COORDINATES] = parameter_rates(p, spin)
+        data.SetODE2Coordinates_t(rates, state)
+
+    def start_moving(self) -> None:
+        """Give the bodies the velocities that the drives have at the start, with ideal pins."""
+        speeds = {name: self.scenario.drive_of(name).initial_speed for name in self.linkage.columns}
+        if not any(speeds.values()):
+            return
+        motion = self.motion(INITIAL)
+        held = all_rows(self.linkage, (), list(self.linkage.columns))
+        closed = SpatialKinetics(motion, independent(held, matrix(motion, held)[0]))
+        before = velocities(motion)
+        wanted = rates(closed.rows, speeds) - matrix(motion, closed.rows)[0] @ before
+        self.set_velocities(before + closed.respond(np.zeros_like(before), wanted)[0], INITIAL)
+
+    def align(self, time: float) -> float:
+        """Give the bodies velocities that the constraints have at a time [s]; work of the drives in it [J]."""
+        kinetics = self.kinetics()
+        before = velocities(kinetics.motion)
+        speeds = {name: self.scenario.drive_of(name).speed(time) for name in self.rigid_columns}
+        wanted = rates(kinetics.rows, speeds)
+        missing = wanted - matrix(kinetics.motion, kinetics.rows)[0] @ before
+        change, impulses = kinetics.respond(np.zeros_like(before), missing)
+        self.set_velocities(before + change)
+        return -float(impulses @ wanted)
+
+    def jump(self, time: float) -> Impulse | None:
+        """Give the bodies the velocities that belong to drives whose speed has jumped at a break [s].
+
+        None if nothing is struck, because all that jumps gives.
+        """
+        kinetics = self.kinetics()
+        speeds = {name: self.scenario.drive_of(name).speed_jump(time) for name in self.rigid_columns}
+        if not any(speeds.values()):
+            return None
+        before = velocities(kinetics.motion)
+        change, _ = kinetics.respond(np.zeros_like(before), rates(self.rows, speeds))
+        after, mass = before + change, kinetics.mass()
+        self.set_velocities(after)
+        struck = reactions(kinetics.motion, self.all_rows, (mass @ change).reshape(1, -1, 6))[0]
+        return Impulse(
+            time,
+            {row.name: float(i) for row, i in zip(self.all_rows, struck, strict=True) if row.kind == "column"},
+            float(0.5 * after @ mass @ after - 0.5 * before @ mass @ before),
+            {},
+        )
+
+    def reset_memory(self) -> None:
+        """Give every section the memory that belongs to the initial state of the bodies."""
+        data = self.mbs.systemData
+        at = data.GetODE2Coordinates(INITIAL).tolist(), data.GetODE2Coordinates_t(INITIAL).tolist()
+        for pin in self.loose_pins.values():
+            pin.look_beside(*at)
+        for name, group in self.sections.items():
+            mobilities = self.mobilities(name, INITIAL)
+            for pin in group:
+                force = self._force(pin, *at)
+                touching = force.depth > 0.0
+                memory = PinMemory(
+                    in_contact=touching,
+                    approach_speed=max(0.0, force.rate) if touching else 0.0,
+                    depth=force.depth,
+                    rate=force.rate,
+                    slip=force.slip,
+                )
+                bore, journal = pin.moving.when(*at)
+                pin.start(memory, mobilities, journal[4], (0.0, bore[5]))
+
+    def refresh_memory(self) -> None:
+        """Tell every section that velocities have jumped; contacts that go on go on."""
+        data = self.mbs.systemData
+        at = data.GetODE2Coordinates().tolist(), data.GetODE2Coordinates_t().tolist()
+        for pin in self.loose_pins.values():
+            force = self._force(pin, *at)
+            pin.jumped(pin.kept._replace(depth=force.depth, rate=force.rate, slip=force.slip))
+
+    def _force(self, pin: SectionPin, position: list[float], velocity: list[float]) -> Any:
+        bore, (x, y, vx, vy, _, spin) = pin.moving.when(position, velocity)
+        return pin.contact.force(x, y, vx, vy, bore[5], spin, None)
+
+
+def rates(rows: Sequence[Row], speeds: Mapping[str, float]) -> Series:
+    """Rates of all rows: of columns as told [m/s], else 0."""
+    return np.array([speeds[row.name] if row.kind == "column" else 0.0 for row in rows])
+
+
+def velocities(motion: SpatialMotion) -> Series:
+    """v and omega of all bodies at the first instant, (6 bodies,)."""
+    return np.concatenate([motion.velocity[0], motion.spin[0]], axis=1).ravel()

@@ -1,0 +1,225 @@
+"""From a scenario to a model in space: bodies with Euler parameters, bearings, columns with spherical ends."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cached_property, partial
+from typing import Any
+
+import exudyn
+import numpy as np
+from exudyn.itemInterface import (
+    LoadForceVector,
+    MarkerBodyPosition,
+    MarkerBodyRigid,
+    NodeRigidBodyEP,
+    ObjectConnectorDistance,
+    ObjectConnectorSpringDamper,
+    ObjectGround,
+    ObjectRigidBody,
+)
+
+from support_exudyn.formulations.redundant.scene.driven_parts import OilColumnItem, by_drive
+from support_exudyn.formulations.redundant.space.joints import joint
+from support_exudyn.formulations.redundant.space.scene import BodyItem, SpatialScene
+from support_exudyn.formulations.redundant.space.section_pin import (
+    Journal,
+    SectionEnd,
+    SectionMover,
+    SectionPin,
+    marker_frame,
+)
+from support_exudyn.formulations.redundant.space.sections import ends, sections
+from support_exudyn.mechanics.body_coordinates import ColumnItem
+from support_exudyn.mechanics.oil_column import FilledColumn, fill
+from support_exudyn.mechanics.space.constraints import End, Kind, all_rows, independent, matrix
+from support_exudyn.mechanics.space.motion import COORDINATES, motion_of, parameter_rates
+from support_exudyn.model.columns import OilColumn
+from support_exudyn.model.linkage import GROUND
+from support_exudyn.model.spatial_linkage import Bearing, SpatialBody, SpatialColumn, SpatialLinkage
+from support_exudyn.scenario.scenario import Scenario
+from user_forces.values.value import Vector3
+
+
+class _Builder:
+    def __init__(self, scenario: Scenario, linkage: SpatialLinkage) -> None:
+        self.scenario = scenario
+        self.linkage = linkage
+        self.container = exudyn.SystemContainer()
+        self.mbs = self.container.AddSystem()
+        self._markers: dict[tuple[str, Vector3], Any] = {}  # by body and point of the start posture
+        self.bodies = {name: self.add_body(body) for name, body in linkage.bodies.items()}
+
+    @cached_property
+    def ground(self) -> Any:
+        """The engine's body that does not move, made if something stands on it."""
+        return self.mbs.AddObject(ObjectGround())
+
+    def add_body(self, body: SpatialBody) -> BodyItem:
+        rates = parameter_rates(np.array([1.0, 0.0, 0.0, 0.0]), np.array(body.spin))
+        node = self.mbs.AddNode(
+            NodeRigidBodyEP(
+                referenceCoordinates=[*body.centre, 1.0, 0.0, 0.0, 0.0],
+                initialVelocities=[*body.velocity, *rates],
+            )
+        )
+        item = self.mbs.AddObject(ObjectRigidBody(mass=body.mass, inertia=body.inertia, nodeNumber=node))
+        return BodyItem(body, node, item, first=-1)
+
+    def add_weight(self, name: str, body: SpatialBody) -> None:
+        load = [body.mass * g for g in (*self.scenario.gravity, 0.0)]
+        marker = self.point_marker(name, body.centre)
+        self.mbs.AddLoad(LoadForceVector(markerNumber=marker, loadVector=load))
+
+    def item(self, body: str) -> Any:
+        return self.ground if body == GROUND else self.bodies[body].object
+
+    def node(self, body: str) -> Any:
+        return None if body == GROUND else self.bodies[body].node
+
+    def centre(self, body: str) -> Vector3:
+        return (0.0, 0.0, 0.0) if body == GROUND else self.linkage.bodies[body].centre
+
+    def point_marker(self, body: str, point: Vector3) -> Any:
+        """A marker at a point of the start posture."""
+        if (body, point) not in self._markers:
+            local = np.array(point) - np.array(self.centre(body))
+            marker = MarkerBodyPosition(bodyNumber=self.item(body), localPosition=local)
+            self._markers[body, point] = self.mbs.AddMarker(marker)
+        return self._markers[body, point]
+
+    def frame_marker(self, end: End) -> Any:
+        """A marker in the middle of a bore or journal, its z along the axis."""
+        frame = marker_frame(end, 0.0, self.centre(end.body))
+        return self.mbs.AddMarker(MarkerBodyRigid(bodyNumber=self.item(end.body), localHT=frame))
+
+    def add_joint(self, bearing: Bearing, held: set[Kind]) -> Any:
+        markers = [self.frame_marker(end) for end in ends(bearing, "first")]
+        return self.mbs.AddObject(joint(bearing, held, markers))
+
+    def add_sections(self, bearing: Bearing) -> list[SectionPin]:
+        pin = self.scenario.clearance_pins[bearing.pin]
+        bore, journal = ends(bearing, pin.bore)
+        settings = self.scenario.solver
+        whole = Journal()
+        return [
+            SectionPin(
+                self.mbs,
+                pin.contact,
+                whole,
+                section,
+                bore,
+                journal,
+                items=(self.item(bore.body), self.item(journal.body)),
+                nodes=(self.node(bore.body), self.node(journal.body)),
+                centres=(self.centre(bore.body), self.centre(journal.body)),
+                slides="along" not in bearing.holds,
+                symbolic=settings.backend == "symbolic",
+                impact_steps=settings.impact_steps,
+            )
+            for section in sections(bearing, settings.sections)
+        ]
+
+    def add_rigid(self, column: SpatialColumn) -> Any:
+        return self.mbs.AddObject(
+            ObjectConnectorDistance(markerNumbers=self.column_ends(column), distance=column.start_length)
+        )
+
+    def add_oil(self, column: SpatialColumn) -> Any:
+        return self.mbs.AddObject(
+            ObjectConnectorSpringDamper(
+                markerNumbers=self.column_ends(column), referenceLength=column.start_length
+            )
+        )
+
+    def column_ends(self, column: SpatialColumn) -> list[Any]:
+        """Markers of foot and head."""
+        return [
+            self.point_marker(column.foot, column.foot_point),
+            self.point_marker(column.head, column.head_point),
+        ]
+
+    def build(self) -> SpatialScene:
+        scenario, linkage = self.scenario, self.linkage
+        loose = [name for name, bearing in linkage.bearings.items() if bearing.pin in scenario.clearance_pins]
+        on_oil = [name for name, column in linkage.columns.items() if column.column in scenario.oil_columns]
+        candidates = all_rows(
+            linkage, list(scenario.clearance_pins), [name for name in linkage.columns if name not in on_oil]
+        )
+        still = np.zeros(COORDINATES * len(linkage.bodies))
+        start = motion_of(linkage, still, still)
+        rows = independent(candidates, matrix(start, candidates)[0])
+        for name, bearing in linkage.bearings.items():
+            held: set[Kind] = {row.kind for row in rows if row.name == name}
+            if held:
+                self.add_joint(bearing, held)
+        rigid = {row.name: self.add_rigid(linkage.columns[row.name]) for row in rows if row.kind == "column"}
+        oil = {name: self.add_oil(linkage.columns[name]) for name in on_oil}
+        groups = {name: self.add_sections(linkage.bearings[name]) for name in loose}
+        if any(scenario.gravity):
+            for name, body in linkage.bodies.items():
+                self.add_weight(name, body)
+        self.mbs.Assemble()
+        data = self.mbs.systemData
+        bodies = {
+            name: replace(item, first=int(data.GetNodeLTGODE2(item.node)[0]))
+            for name, item in self.bodies.items()
+        }
+        rigid_items: dict[str, ColumnItem] = {
+            name: ColumnItem(linkage.columns[name], item, int(data.GetObjectLTGAE(item)[0]))
+            for name, item in rigid.items()
+        }
+        oil_items = {name: OilColumnItem(filled, oil[name]) for name, filled in self.filled(oil).items()}
+        scene = SpatialScene(
+            scenario=scenario,
+            linkage=linkage,
+            container=self.container,
+            mbs=self.mbs,
+            bodies=bodies,
+            rows=rows,
+            all_rows=candidates,
+            loose_pins={f"{name}[{n}]": pin for name, group in groups.items() for n, pin in enumerate(group)},
+            sections=groups,
+            rigid_columns=rigid_items,
+            oil_columns=oil_items,
+            driven=by_drive(self.mbs, scenario.drive_of, rigid_items, oil_items, {}),
+        )
+        for name, group in groups.items():
+            whole = group[0].whole
+            whole.sections = group
+            whole.find_mobilities = partial(scene.mobilities, name)
+            whole.mover = self.mover(scene, group[0], 0.0)
+            for pin in group:
+                pin.mover = self.mover(scene, pin, pin.section.place)
+        scene.drive_to(0.0)
+        scene.start_moving()
+        scene.reset_memory()
+        return scene
+
+    def filled(self, oil: dict[str, Any]) -> dict[str, FilledColumn]:
+        """Oil columns that hold the machine: those of the plane, each side with its share of the area."""
+        plane = fill(self.scenario.linkage, self.scenario.oil_columns, self.scenario.gravity)
+        found = {}
+        for name in oil:
+            column = self.linkage.columns[name]
+            whole = plane[column.column]
+            model: OilColumn = replace(whole.model, bore_area=column.share * whole.model.bore_area)
+            found[name] = replace(whole, model=model)
+        return found
+
+    def mover(self, scene: SpatialScene, pin: SectionPin, place: float) -> SectionMover:
+        """How a section moves, from the engine's coordinates."""
+
+        def end(of: End) -> SectionEnd:
+            frame = np.array(marker_frame(of, place, self.centre(of.body)))
+            first = None if of.body == GROUND else scene.bodies[of.body].first
+            arm, *axes = (tuple(frame[:3, k].tolist()) for k in (3, 0, 1, 2))
+            return SectionEnd(first, self.centre(of.body), arm, (axes[0], axes[1]), axes[2])
+
+        bore, journal = pin.ends
+        return SectionMover(self.mbs.systemData, end(bore), end(journal), pin.at)
+
+
+def build(scenario: Scenario) -> SpatialScene:
+    """The engine's model of a scenario in space at its start, before any settling."""
+    return _Builder(scenario, scenario.space).build()

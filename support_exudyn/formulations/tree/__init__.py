@@ -1,0 +1,11 @@
+"""The tree formulation: minimal coordinates in the engine, an explicit method with error control.
+
+It covers linkages that have no closed loop but through loose pins and columns of oil. Of the settings it
+uses `tolerance` alone: the contact laws are always called from Python, which is quicker here than symbolic
+functions of the engine.
+"""
+
+from support_exudyn.formulations.tree.coverage import check
+from support_exudyn.formulations.tree.from_scenario import run
+
+__all__ = ["check", "run"]

@@ -1,0 +1,78 @@
+"""From a scenario to its outcome: the run in the engine, then what is asked of it, for all records at once."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from support_exudyn.formulations.progress import Progress
+from support_exudyn.formulations.tree.branches import Tree, branches
+from support_exudyn.formulations.tree.drive_pieces import pieces
+from support_exudyn.formulations.tree.dynamics import Posture, pin_mobility
+from support_exudyn.formulations.tree.engine import Engine
+from support_exudyn.formulations.tree.forces import Forces
+from support_exudyn.formulations.tree.integration import Integration
+from support_exudyn.formulations.tree.outcome import Aftermath
+from support_exudyn.formulations.tree.start import first_memory, rates, settled
+from support_exudyn.mechanics.oil_column import fill
+from support_exudyn.mechanics.pressed_pins import Mobilities, mobilities
+from support_exudyn.mechanics.trajectory import Outcome
+from support_exudyn.scenario.scenario import Scenario
+
+CLEARANCE = 1e-3  # [m], stands for that of a machine without any
+SLOWEST_FALL = 1e-3  # [m/s], for scenes without gravity
+OF_THE_DRIVE = 1e-3  # share of the error that the drive's cubics may have
+
+
+def run(scenario: Scenario, progress: Progress) -> Outcome:
+    """Run a scenario. Raises SimulationError if it cannot be finished."""
+    linkage, loose = scenario.linkage, scenario.clearance_pins
+    tree = branches(linkage, loose)
+    filled = fill(linkage, scenario.oil_columns, scenario.gravity)
+    forces = Forces(tree, scenario, filled)
+    smallest = min((pin.contact.bearing.clearance for pin in loose.values()), default=CLEARANCE)
+    drives = [scenario.drive_of(name) for name in filled]
+    drive = pieces(drives, scenario.duration, OF_THE_DRIVE * scenario.solver.tolerance * smallest)
+    forces.cubic[:] = drive[0].cubic
+    velocity = rates(tree, scenario)
+    position = np.zeros_like(velocity)
+    if scenario.start == "settled":
+        position, velocity = settled(tree, scenario, forces), 0.0 * velocity
+    forces(None, 0.0, 0, position.tolist(), velocity.tolist())
+
+    def find_mobilities(name: str) -> Mobilities:
+        now = Posture(tree, np.array([forces.position]), np.array([forces.velocity]))
+        normals = [(linkage.pins[other], pin.normal()) for other, pin in forces.pins.items() if other != name]
+        pressed = [(place, along) for place, along in normals if along is not None]
+        answers = pin_mobility(now, linkage.pins[name], pressed)
+        return mobilities(answers, forces.pins[name].frame())
+
+    for name, pin in forces.pins.items():
+        pin.start = pin.place()
+        pin.remember(first_memory(pin, find_mobilities(name)))
+    engine = Engine(tree, forces, scenario.gravity, position, velocity)
+    error, most_steps = largest_error(tree, scenario), scenario.solver.most_steps
+    integration = Integration(engine, forces, find_mobilities, drive, error, most_steps, progress)
+    integration.go()
+    return Aftermath(tree, scenario, filled, integration).outcome()
+
+
+def largest_error(tree: Tree, scenario: Scenario) -> float:
+    """Root mean square error that a step may have [rad], [rad/s].
+
+    No coordinate alone moves a loose pin's journal by more than `solver.tolerance` times the speed of a fall
+    through half its clearance. Within a step that moves it by far less than so much of the clearance: it is
+    the speed that counts.
+    """
+    weight = math.hypot(*scenario.gravity)
+    allowed = []
+    for name, pin in scenario.clearance_pins.items():
+        speed = max(math.sqrt(weight * pin.contact.bearing.clearance), SLOWEST_FALL)
+        place = tree.linkage.pins[name]
+        movers = {n for body in (place.first, place.second) for n in tree.movers(body)}
+        levers = [math.hypot(*tree.arm(n, place.second_point)) for n in movers]
+        allowed.append(speed / max(levers, default=1.0))
+    lever = max(math.hypot(*tree.arm(n, link.body.centre)) for n, link in enumerate(tree.links))
+    everywhere = max(math.sqrt(weight * CLEARANCE), SLOWEST_FALL) / max(lever, CLEARANCE)
+    return scenario.solver.tolerance * min(allowed, default=everywhere) / math.sqrt(2.0 * len(tree.links))

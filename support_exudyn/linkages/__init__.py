@@ -1,1 +1,0 @@
-"""Machines, one per file: closed-form kinematics and their layout as a linkage."""

@@ -1,8 +1,0 @@
-"""What presses on a machine besides its weight, one kind a file."""
-
-from support_exudyn.loads.applied_force import AppliedForce
-from support_exudyn.loads.falling_block import FallingBlock
-from support_exudyn.loads.load import Load, LoadedPoint, Observed, Powers
-from support_exudyn.loads.roof import Roof
-
-__all__ = ["AppliedForce", "FallingBlock", "Load", "LoadedPoint", "Observed", "Powers", "Roof"]

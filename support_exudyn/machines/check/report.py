@@ -1,0 +1,81 @@
+"""What a check came to: tables in mm, degrees and kN, warnings, numbers in SI, and how it is drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """A table: its title, the heads of its columns and its rows, as text."""
+
+    title: str
+    header: Sequence[str]
+    rows: Sequence[Sequence[str]]
+
+    def lines(self) -> Iterator[str]:
+        """As text: the first column to the left, numbers to the right."""
+        table = [self.header, *self.rows]
+        widths = [max(len(row[n]) for row in table) for n in range(len(self.header))]
+        yield self.title
+        for row in table:
+            cells = [
+                row[0].ljust(widths[0]),
+                *(cell.rjust(w) for cell, w in zip(row[1:], widths[1:], strict=True)),
+            ]
+            yield "  " + "  ".join(cells).rstrip()
+
+
+@dataclass(frozen=True)
+class Report:
+    """A check of a machine.
+
+    Arguments:
+        name, kind: of the machine.
+        facts: sentences.
+        sheets: tables.
+        warnings: what a colleague would point at, in sentences.
+        notes: what was assumed, what cannot be done for want of data, and where the data come from.
+        numbers: plain data, SI and radians, with the unit in the key.
+        draw: makes its figure.
+    """
+
+    name: str
+    kind: str
+    facts: Sequence[str]
+    sheets: Sequence[Sheet]
+    warnings: Sequence[str]
+    notes: Sequence[str]
+    numbers: dict[str, Any] = field(repr=False)
+    draw: Callable[[], Figure] = field(repr=False)
+
+    def lines(self) -> Iterator[str]:
+        """All of it as text."""
+        yield f"{self.name or 'machine'} ({self.kind})"
+        yield ""
+        yield from self.facts
+        for sheet in self.sheets:
+            yield ""
+            yield from sheet.lines()
+        for title, said in (("notes", self.notes), ("warnings", self.warnings)):
+            yield ""
+            yield f"{title}: none" if not said else f"{title} ({len(said)})"
+            yield from (f"  - {one}" for one in said)
+
+    def data(self) -> dict[str, Any]:
+        """All of it as plain data."""
+        return {
+            "name": self.name,
+            "kind": self.kind,
+            **self.numbers,
+            "warnings": list(self.warnings),
+            "notes": list(self.notes),
+        }
+
+
+WANDER = 0.080  # [m] that MT/T 556-1996, 4.6.4 allows the tip

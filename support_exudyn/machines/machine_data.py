@@ -1,0 +1,46 @@
+"""What a machine's data file holds: the machine, and what a scenario may ask for besides."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from support_exudyn.model.columns import TwoBodyColumn
+from support_exudyn.model.machine import Machine
+
+
+@dataclass(frozen=True)
+class MachineData:
+    """A machine as its file describes it.
+
+    machine: bodies, pivots, masses. name: what it is called. bore_radii: of pins [m], by name, for scenarios
+    that give a pin a clearance. columns: masses of columns, by name, for scenarios that model them as two
+    bodies. stroke: by how much its columns extend from the start posture on in use [m], None if it is not said.
+    sources: where the data come from, by what they are of. kind: as the file says. assumed: what was assumed
+    because the file does not say it, in sentences.
+    """
+
+    machine: Machine
+    name: str = ""
+    bore_radii: Mapping[str, float] = field(default_factory=dict)
+    columns: Mapping[str, TwoBodyColumn] = field(default_factory=dict)
+    stroke: float | None = None
+    sources: Mapping[str, str] = field(default_factory=dict)
+    kind: str = ""
+    assumed: tuple[str, ...] = ()
+
+
+def read_machine(name: str, folder: Path | None = None) -> MachineData:
+    """A machine from its data file.
+
+    name: a path that ends in .toml, from `folder` on (the working directory); or the name of a machine that
+    comes with the package: "reference", "zf18000", "two_leg_shield" or "slider_crank".
+
+    Raises InputError that names file, key, value and what is allowed; OSError if there is no such file.
+    """
+    from support_exudyn.files.machines import load_machine, shipped
+
+    if not name.lower().endswith(".toml"):
+        return shipped(name)
+    return load_machine((folder or Path()) / name, named=folder is not None)

@@ -1,0 +1,147 @@
+"""A loose pin at all records, from the motion of its bodies and what it remembers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from support_exudyn.mechanics.body_motion import BodyMotion, PointMotion
+from support_exudyn.mechanics.contact_state import Mobility, PinMemory
+from support_exudyn.mechanics.joint_forces import PinForce
+from support_exudyn.mechanics.trajectory import ContactSeries, Series
+from support_exudyn.model.linkage import PinPlace
+from support_exudyn.model.pins import ClearancePin
+from user_forces.contact import SHALLOWEST, ContactForce, SlipHistory
+from user_forces.expressions.arrays import as_number, values_of
+from user_forces.normal.law import Touch
+
+
+def ends(motion: BodyMotion, place: PinPlace, pin: ClearancePin) -> tuple[PointMotion, PointMotion]:
+    """Motions of the bore's and of the journal's centre."""
+    first = motion.point(place.first, place.first_point)
+    second = motion.point(place.second, place.second_point)
+    return (first, second) if pin.bore == "first" else (second, first)
+
+
+class RelativeMotion(NamedTuple):
+    """A journal in its bore over time, shape (n,) each, SI, ground's axes.
+
+    x, y, vx, vy: journal's centre minus bore's, and its rate. bore_spin, journal_spin: of their bodies.
+    cos_bore, sin_bore: of the angle of the bore's axes.
+    """
+
+    x: Series
+    y: Series
+    vx: Series
+    vy: Series
+    bore_spin: Series
+    journal_spin: Series
+    cos_bore: Series
+    sin_bore: Series
+
+
+def contact_series(
+    motion: BodyMotion, place: PinPlace, pin: ClearancePin, memories: Series | Sequence[PinMemory]
+) -> ContactSeries:
+    """The contact at every record, with the memory that the pin has there: PinMemory's fields, shape (n, 9)."""
+    bore, journal = ends(motion, place, pin)
+    x, y = (journal.position - bore.position).T
+    vx, vy = (journal.velocity - bore.velocity).T
+    c, s = np.cos(bore.angle), np.sin(bore.angle)
+    return series(pin, RelativeMotion(x, y, vx, vy, bore.spin, journal.spin, c, s), memories)
+
+
+def series(pin: ClearancePin, moving: RelativeMotion, memories: Series | Sequence[PinMemory]) -> ContactSeries:
+    """The same from the journal's motion in its bore."""
+    remembered = np.asarray(memories, dtype=np.float64)
+    memory = dict(zip(PinMemory._fields, remembered.T, strict=True))
+    touching = memory["in_contact"] > 0.5
+    force = _force(pin, moving, memory)
+    count = moving.x.size
+    depth = values_of(force.depth, count)
+    pressed = touching & (depth > 0.0)
+
+    def where_pressed(values: float) -> Series:
+        return np.where(pressed, values_of(values, count), 0.0)
+
+    stored = of_depth(pin.contact.normal.elastic_energy, np.maximum(depth, SHALLOWEST))
+    return ContactSeries(
+        force_x=where_pressed(force.force_x),
+        force_y=where_pressed(force.force_y),
+        normal_force=where_pressed(force.normal_force),
+        friction_force=where_pressed(force.friction_force),
+        depth=depth,
+        slip=values_of(force.slip, count),
+        approach_speed=np.where(touching, memory["approach_speed"], 0.0),
+        eccentricity_x=moving.x,
+        eccentricity_y=moving.y,
+        stored=np.where(depth > 0.0, stored, 0.0),
+        deflection=where_pressed(force.deflection) if pin.contact.friction.has_state else None,
+    )
+
+
+def acting(motion: BodyMotion, place: PinPlace, pin: ClearancePin, contact: ContactSeries) -> PinForce:
+    """A loose pin's force of the first body on the second, and where it acts: the contact point."""
+    _, journal = ends(motion, place, pin)
+    force = np.column_stack([contact.force_x, contact.force_y])
+    offset = np.column_stack([contact.eccentricity_x, contact.eccentricity_y])
+    away = np.maximum(np.linalg.norm(offset, axis=1), SHALLOWEST)  # there is no force in the middle
+    arm = journal_arm(pin, contact.depth) / away
+    return PinForce(force if pin.bore == "first" else -force, journal.position + arm[:, None] * offset)
+
+
+def journal_arm(pin: ClearancePin, depth: Series) -> Series:
+    """Distance of the contact point from the journal's centre [m]."""
+    return values_of(pin.contact.bearing.contact_arms(as_number(depth))[1], depth.size)
+
+
+def _force(pin: ClearancePin, moving: RelativeMotion, memory: dict[str, Series]) -> ContactForce:
+    """The contact's force as if the surfaces touched at every record."""
+    try:
+        return _at_once(pin, moving, memory)
+    except TypeError:  # a law that branches takes numbers only
+        return _one_by_one(pin, moving, memory)
+
+
+def of_depth(function: Callable[[float], float], depth: Series) -> Series:
+    """What a law says of every depth: its elastic force [N] or energy [J]."""
+    try:
+        return values_of(function(as_number(depth)), depth.size)
+    except TypeError:  # it branches
+        return np.array([function(d) for d in depth.tolist()])
+
+
+def _one_by_one(pin: ClearancePin, moving: RelativeMotion, memory: dict[str, Series]) -> ContactForce:
+    """The same, record by record."""
+    remembered = np.column_stack([memory[name] for name in PinMemory._fields]).tolist()
+    found = []
+    for row, (x, y, vx, vy, bore_spin, journal_spin, c, s) in zip(
+        remembered, np.column_stack(moving).tolist(), strict=True
+    ):
+        kept = PinMemory(row[0] > 0.5, *row[1:])
+        touch = Touch(kept.approach_speed, kept.mobility.mass(c * x + s * y, c * y - s * x))
+        now = SlipHistory(kept.deflection, kept.slip, 0.0)
+        found.append(pin.contact.force(x, y, vx, vy, bore_spin, journal_spin, touch, now))
+    return ContactForce(*(as_number(np.array(values)) for values in zip(*found, strict=True)))  # type: ignore[arg-type]
+
+
+def _at_once(pin: ClearancePin, moving: RelativeMotion, memory: dict[str, Series]) -> ContactForce:
+    """The same, for all records at once."""
+    x, y, vx, vy, bore_spin, journal_spin, c, s = moving
+    mobility = Mobility(*(as_number(memory[f"mobility_{axes}"]) for axes in ("xx", "xy", "yy")))
+    mass = mobility.mass(as_number(c * x + s * y), as_number(c * y - s * x))  # in the bore's axes
+    # the memory has been taken at the same instant: no time has passed since
+    now = SlipHistory(as_number(memory["deflection"]), as_number(memory["slip"]), 0.0)
+    with np.errstate(divide="ignore", invalid="ignore"):  # where the surfaces are apart
+        return pin.contact.force(
+            as_number(x),
+            as_number(y),
+            as_number(vx),
+            as_number(vy),
+            as_number(bore_spin),
+            as_number(journal_spin),
+            Touch(as_number(memory["approach_speed"]), mass),
+            now,
+        )

@@ -1,0 +1,53 @@
+"""Second derivatives of drives, which say only how far they are and how fast."""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+
+import numpy as np
+
+from support_exudyn.mechanics.trajectory import Series
+from support_exudyn.model.drives.drive import Drive
+
+# [s] over which speeds are compared: no drive changes so fast, and rounding of speeds is far less. A power of
+# two, so that times of a fine grid have no rounding late in a run that they do not have early.
+BACK = 2.0**-17
+PARTS = 4.0  # of the time since the last break, of which three are looked at
+CLOSE = 1e-9  # [s] and share of its time by which a break is the same time
+
+
+def accelerations(drive: Drive, time: Series, duration: float) -> Series:
+    """Rate of a drive's speed at times from 0 on [s], (n,) [m/s^2], [rad/s^2].
+
+        (11 v(t) - 18 v(t - d) + 9 v(t - 2 d) - 2 v(t - 3 d)) / (6 d)
+
+    At a break it is the value before it. duration: of the run [s].
+    """
+    if drive.span(duration) == (0.0, 0.0):
+        return np.zeros_like(time)
+    breaks = sorted(drive.breaks)
+    return np.array([_at(drive, breaks, t) for t in time.tolist()])
+
+
+def _at(drive: Drive, breaks: list[float], t: float) -> float:
+    if t <= 0.0:
+        return _at_the_start(drive, breaks)
+    close = CLOSE * max(1.0, t)
+    place = bisect_left(breaks, t - close)
+    if place < len(breaks) and breaks[place] <= t + close:
+        t = breaks[place]  # beyond it the speed may be another
+    d = min(BACK, (t - (breaks[place - 1] if place else 0.0)) / PARTS)
+    return _difference(drive.speed(t), *(drive.speed(t - n * d) for n in (1, 2, 3))) / d
+
+
+def _at_the_start(drive: Drive, breaks: list[float]) -> float:
+    """The same with times after the start; before one that is a break nothing has been accelerated."""
+    if 0.0 in breaks:
+        return 0.0
+    d = min([BACK, *(b / PARTS for b in breaks)])
+    return -_difference(drive.initial_speed, *(drive.speed(n * d) for n in (1, 2, 3))) / d
+
+
+def _difference(last: float, first: float, second: float, third: float) -> float:
+    """Of the cubic through four speeds, the change in a step up to the last; they are counted back from it."""
+    return (11.0 * last - 18.0 * first + 9.0 * second - 2.0 * third) / 6.0

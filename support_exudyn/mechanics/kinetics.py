@@ -1,0 +1,168 @@
+"""Masses and constraints of a scene as matrices, for what happens at an instant.
+
+Mass matrix M and constraint Jacobian C (ideal pins, rigid columns, cranks, slides) give the change of
+velocities dv and the impulses L under generalised impulses b and a change c of the constraints' rates:
+
+    M dv + C^T L = b,    C dv = c
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from types import MappingProxyType
+
+import numpy as np
+import numpy.typing as npt
+
+from support_exudyn.mechanics.body_coordinates import BodyItem
+from support_exudyn.model.linkage import GROUND, Linkage, PinPlace, Slide
+from user_forces.values.value import Vector2
+
+Matrix = npt.NDArray[np.float64]
+
+
+def kinetics_of(
+    linkage: Linkage, ideal: Sequence[str] | None = None, rigid: Sequence[str] | None = None
+) -> Kinetics:
+    """Matrices of a linkage by itself, coordinates in the order of its bodies.
+
+    ideal, rigid: names of the pins that are closed, and of the columns that are rigid; all by default.
+    """
+    bodies = {name: BodyItem(body, None, None, 3 * n) for n, (name, body) in enumerate(linkage.bodies.items())}
+    pins = tuple(linkage.pins) if ideal is None else ideal
+    return Kinetics(linkage, bodies, pins, tuple(linkage.columns) if rigid is None else rigid)
+
+
+@dataclass(frozen=True)
+class Kinetics:
+    """Matrices of a linkage, whose bodies stand in the engine or not.
+
+    linkage: the mechanism. bodies: where each body's coordinates stand. ideal, columns: names of the pins that
+    are closed and of the columns that are rigid, in the order of their rows.
+    """
+
+    linkage: Linkage
+    bodies: dict[str, BodyItem]
+    ideal: Sequence[str]
+    columns: Sequence[str]
+
+    def mass(self) -> Matrix:
+        """Diagonal of the mass matrix, shape (n,)."""
+        mass = np.zeros(3 * len(self.bodies))
+        for item in self.bodies.values():
+            body = item.body
+            mass[item.first : item.first + 3] = body.mass, body.mass, body.inertia
+        return mass
+
+    def weight(self, gravity: Vector2) -> Matrix:
+        """Forces of gravity [m/s^2] on all coordinates [N], shape (n,)."""
+        along = np.zeros(3 * len(self.bodies))
+        for item in self.bodies.values():
+            along[item.first : item.first + 2] = gravity
+        return self.mass() * along
+
+    def rows(self, position: Matrix) -> Matrix:
+        """Jacobian C, shape (m, n): two rows an ideal pin, one a rigid column, one a crank, two a slide."""
+        rows: list[Matrix] = []
+        for name in self.ideal:
+            rows += list(self.relative(position, self.linkage.pins[name])[1])
+        for column in (self.linkage.columns[name] for name in self.columns):
+            foot, foot_rate = self.point(position, column.foot, column.foot_point)
+            head, head_rate = self.point(position, column.head, column.head_point)
+            along = (head - foot) / np.linalg.norm(head - foot)
+            rows.append(along @ (head_rate - foot_rate))
+        rows += [self._turning(position.size, crank.body) for crank in self.linkage.cranks.values()]
+        for slide in self.linkage.slides.values():
+            rows += self._guided(position, slide)
+        return np.array(rows).reshape(-1, position.size)
+
+    def _guided(self, position: Matrix, slide: Slide) -> list[Matrix]:
+        """Rows of a slide: rate of the point's distance from the line, which may turn, and of the angle."""
+        point, rate = self.point(position, slide.body, slide.point)
+        origin, origin_rate = self.point(position, slide.against, slide.point)
+        carrier = self._turning(position.size, slide.against)
+        turn = 0.0 if slide.against == GROUND else position[self.bodies[slide.against].first + 2]
+        angle = slide.direction + turn
+        along, across = np.array([np.cos(angle), np.sin(angle)]), np.array([-np.sin(angle), np.cos(angle)])
+        # as the line turns, what is along it comes to lie across it
+        distance = across @ (rate - origin_rate) - (along @ (point - origin)) * carrier
+        return [distance, self._turning(position.size, slide.body) - carrier]
+
+    def _turning(self, size: int, body: str) -> Matrix:
+        """The row that gives a body's angular velocity; that of the ground is none."""
+        row = np.zeros(size)
+        if body != GROUND:
+            row[self.bodies[body].first + 2] = 1.0
+        return row
+
+    def driven(self) -> slice:
+        """Which of the rows can be driven: rigid columns, then cranks."""
+        first = 2 * len(self.ideal)
+        return slice(first, first + len(self.columns) + len(self.linkage.cranks))
+
+    def rates(self, speed: Callable[[str], float]) -> Matrix:
+        """Rates of all rows, shape (m,): of rigid columns and cranks as told by name [m/s], [rad/s], else 0."""
+        rates = np.zeros(self.driven().stop + 2 * len(self.linkage.slides))
+        rates[self.driven()] = [speed(name) for name in (*self.columns, *self.linkage.cranks)]
+        return rates
+
+    def point(self, position: Matrix, body: str, point: Vector2) -> tuple[Matrix, Matrix]:
+        """Where a point of a body is (2,) and the matrix that turns all velocities into its own (2, n)."""
+        rate = np.zeros((2, position.size))
+        if body == GROUND:
+            return np.array(point), rate
+        item = self.bodies[body]
+        i = item.first
+        angle = item.body.angle + position[i + 2]
+        x, y = item.local(point)
+        arm = np.array([x * np.cos(angle) - y * np.sin(angle), x * np.sin(angle) + y * np.cos(angle)])
+        rate[0, i : i + 3] = 1.0, 0.0, -arm[1]
+        rate[1, i : i + 3] = 0.0, 1.0, arm[0]
+        return np.array(item.body.centre) + position[i : i + 2] + arm, rate
+
+    def relative(self, position: Matrix, place: PinPlace) -> tuple[Matrix, Matrix]:
+        """Centre of a pin on its second body minus that on its first (2,), and its rate's matrix (2, n)."""
+        first, first_rate = self.point(position, place.first, place.first_point)
+        second, second_rate = self.point(position, place.second, place.second_point)
+        return second - first, second_rate - first_rate
+
+    def respond(self, position: Matrix, impulse: Matrix, jump: Matrix | float) -> tuple[Matrix, Matrix]:
+        """Change of velocities dv (n,) and impulses L (m,) under impulses b (n,) and a jump c (m,).
+
+        Of several at once, b (n, k) with c a number: (n, k) and (m, k).
+        """
+        rows = self.rows(position)
+        size, count = position.size, len(rows)
+        system = np.zeros((size + count, size + count))
+        system[:size, :size] = np.diag(self.mass())
+        system[:size, size:] = rows.T
+        system[size:, :size] = rows
+        right = np.concatenate([impulse, np.broadcast_to(jump, (count, *impulse.shape[1:]))])
+        try:
+            solution = np.linalg.solve(system, right)
+        except np.linalg.LinAlgError:  # constraints that repeat each other
+            solution = np.linalg.lstsq(system, right, rcond=None)[0]
+        return solution[:size], solution[size:]
+
+    def pin_mobility(
+        self, position: Matrix, name: str, pressed: Mapping[str, Matrix] = MappingProxyType({})
+    ) -> Matrix:
+        """How a clearance pin's eccentricity answers an impulse in it: J dv per impulse (2, 2) [1/kg].
+
+            M dv + C^T L = J^T,   C dv = 0
+
+        with J the rows that give the rate of the eccentricity. The inverse of n J dv n is the mass that an
+        impact along n feels. Other clearance pins transmit no impulse.
+
+        pressed: normals (2,) of other pins by name. Each adds a row to J, so that the answers, (2 + m, 2 + m),
+        tell what holding it changes; see `pressed.mobilities`.
+        """
+        rates = [self.relative(position, self.linkage.pins[name])[1]]
+        rates += [
+            along[None] @ self.relative(position, self.linkage.pins[other])[1]
+            for other, along in pressed.items()
+        ]
+        rate = np.concatenate(rates)
+        answers: Matrix = (rate @ self.respond(position, rate.T, 0.0)[0]).T
+        return answers

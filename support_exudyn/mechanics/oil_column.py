@@ -1,0 +1,126 @@
+"""Columns of oil: what they carry at the start, and their force, energy and power; see `columns.OilColumn`."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from support_exudyn.mechanics.body_motion import BodyMotion, PointMotion
+from support_exudyn.mechanics.kinetics import kinetics_of
+from support_exudyn.mechanics.trajectory import Series
+from support_exudyn.model.columns import OilColumn, Quantity
+from support_exudyn.model.drives.drive import Drive
+from support_exudyn.model.linkage import Column, Linkage
+from user_forces.values.value import Vector2
+
+
+@dataclass(frozen=True)
+class FilledColumn:
+    """A column of oil in its place, and by how much its oil is compressed at the start [m]."""
+
+    column: Column
+    model: OilColumn
+    precompression: float
+
+    def natural_length(self, extension: Quantity) -> Quantity:
+        """Length [m] at which the oil carries nothing."""
+        return self.column.start_length + self.precompression + extension
+
+    def force(self, length: Quantity, rate: Quantity, extension: Quantity, speed: Quantity) -> Quantity:
+        """Force that pushes the ends apart [N]."""
+        compression = self.natural_length(extension) - length
+        return self.model.stiffness(extension) * (compression + self.model.damping_time * (speed - rate))
+
+    def energy(self, length: Quantity, extension: Quantity) -> Quantity:
+        """Stored in the oil [J]."""
+        compression = self.natural_length(extension) - length
+        return 0.5 * self.model.stiffness(extension) * compression * compression
+
+    def powers(
+        self, length: Quantity, rate: Quantity, extension: Quantity, speed: Quantity
+    ) -> tuple[Quantity, Quantity]:
+        """Power of the drive that lets oil in, and of the damping [W].
+
+            drive = F speed + (dk/dextension) speed u^2 / 2,   damping = k T (du/dt)^2
+
+        The second term of the drive is what the oil gives back because there is more of it to be compressed.
+        """
+        compression = self.natural_length(extension) - length
+        closing = speed - rate
+        force = self.force(length, rate, extension, speed)
+        more = 0.5 * self.model.stiffness_slope(extension) * speed * compression * compression
+        damping = self.model.stiffness(extension) * self.model.damping_time * closing * closing
+        return force * speed + more, damping
+
+    def ends(self, motion: BodyMotion) -> tuple[PointMotion, PointMotion]:
+        """Motions of foot and head."""
+        column = self.column
+        return motion.point(column.foot, column.foot_point), motion.point(column.head, column.head_point)
+
+    def series(self, motion: BodyMotion, extension: Series, speed: Series) -> OilSeries:
+        """The column over time, while the drive has these extensions [m] and speeds [m/s], shape (n,)."""
+        foot, head = self.ends(motion)
+        apart, relative = head.position - foot.position, head.velocity - foot.velocity
+        length = np.hypot(*apart.T)
+        rate = (apart * relative).sum(axis=1) / length
+        moving = length, rate, extension, speed
+        return OilSeries(self.force(*moving), self.energy(length, extension), *self.powers(*moving))
+
+
+LENGTHS = 4  # that are rounded, each by up to half a unit in its last place, until there is a force
+
+
+class OilSeries(NamedTuple):
+    """A column over time, shape (n,) each.
+
+    force: that pushes the ends apart [N]. energy: stored [J]. work, loss: power of the drive, and of the
+    damping [W].
+    """
+
+    force: Series
+    energy: Series
+    work: Series
+    loss: Series
+
+
+def static_loads(linkage: Linkage, gravity: Vector2) -> dict[str, float]:
+    """What every column carries in the start posture, all pins ideal [N]; positive pushes its ends apart."""
+    closed = kinetics_of(linkage)
+    weight = closed.weight(gravity)
+    tensions = closed.respond(np.zeros(weight.size), weight, 0.0)[1][closed.driven()]
+    return {name: -float(tension) for name, tension in zip(linkage.columns, tensions, strict=False)}
+
+
+def fill(linkage: Linkage, models: Mapping[str, OilColumn], gravity: Vector2) -> dict[str, FilledColumn]:
+    """Columns of oil that hold the machine in its start posture, all pins ideal and the others rigid."""
+    if not models:
+        return {}
+    loads = static_loads(linkage, gravity)
+    return {
+        name: FilledColumn(linkage.columns[name], model, loads[name] / model.stiffness(0.0))
+        for name, model in models.items()
+    }
+
+
+def force_rounding(columns: Iterable[FilledColumn]) -> float:
+    """By how much rounding of lengths lets the forces of these columns scatter [N]."""
+    return sum(
+        LENGTHS * sys.float_info.epsilon * one.model.stiffness(0.0) * _size(one.column) for one in columns
+    )
+
+
+def _size(column: Column) -> float:
+    """Of what a column's length is computed from [m]."""
+    ends = (*column.foot_point, *column.head_point)
+    return max(column.start_length, *map(abs, ends))
+
+
+def oil_series(filled: FilledColumn, motion: BodyMotion, drive: Drive, time: Series) -> OilSeries:
+    """A column over time [s]."""
+    extension = np.array([drive.extension(t) for t in time.tolist()])
+    speed = np.array([drive.speed(t) for t in time.tolist()])
+    return filled.series(motion, extension, speed)

@@ -1,0 +1,71 @@
+"""How a loose pin's journal answers an impulse while other loose pins are pressed.
+
+A pressed contact transmits along its normal and nowhere else: without friction a bore does not hold its journal
+along its surface, and friction only bounds a force. So with n_j the normals of the other pressed pins, J_j the
+rows that give the rates of their eccentricities, and J that of the pin that is asked for,
+
+    M dv + C^T L + sum of J_j^T n_j p_j = J^T,   C dv = 0,   n_j J_j dv = 0
+
+A contact counts as pressed where its surfaces overlap. It is taken as rigid, which is the most that it can be:
+a free impact then stores at most half of this mass times its approach speed squared, and laws that go by the
+mass (`DepthSpeed`) deliver their restitution. Pins that are apart transmit nothing.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from support_exudyn.mechanics.contact_state import Mobility
+from support_exudyn.mechanics.kinetics import Matrix
+
+NEAR = 1e-7  # of the clearance by which surfaces may be apart that touch: as near as a touch is met
+GIVES = 1e-6  # of what moves with all others open that is left with them closed: contacts are not rigid
+SAME = 1e-9  # what a direction must hold besides the others, as a share of its mobility; else it repeats them
+
+
+class Mobilities(NamedTuple):
+    """Of a loose pin's journal, in the axes of its bore.
+
+    alone: with all other loose pins open; the lightest that can move, which steps have to follow.
+    held: with those closed that are pressed; what the laws are told.
+    """
+
+    alone: Mobility
+    held: Mobility
+
+
+NOT_KNOWN = Mobilities(*2 * (Mobility(math.nan, math.nan, math.nan),))
+
+
+def mobilities(answers: Matrix, axes: Matrix) -> Mobilities:
+    """Of a pin from the answers of all that is pressed.
+
+    Arguments:
+        answers: velocities by impulses (2 + m, 2 + m) [1/kg]: both components of the eccentricity, then those
+            of m pressed pins along their normals.
+        axes: of the bore, in columns (2, 2).
+    """
+    alone = answers[:2, :2]
+    return Mobilities(*(Mobility.of(axes.T @ found @ axes) for found in (alone, held(answers))))
+
+
+def normal(x: float, y: float, clearance: float) -> Matrix | None:
+    """Along which a journal at an eccentricity x, y [m] is pressed, (2,); None if it is not."""
+    size = math.hypot(x, y)
+    return np.array([x, y]) / size if size > (1.0 - NEAR) * clearance and size > 0.0 else None
+
+
+def held(answers: Matrix) -> Matrix:
+    """What is left of the first two directions if all others are closed, (2, 2)."""
+    alone, coupling, others = answers[:2, :2], answers[:2, 2:], answers[2:, 2:]
+    size = np.sqrt(np.maximum(np.diag(others), 0.0))
+    moves = size > 0.0
+    if not moves.any():
+        return alone
+    size, coupling = size[moves], coupling[:, moves] / size[moves]
+    others = others[np.ix_(moves, moves)] / np.outer(size, size)
+    lost: Matrix = coupling @ np.linalg.pinv(others, rcond=SAME, hermitian=True) @ coupling.T
+    return np.asarray(alone - (1.0 - GIVES) * lost)

@@ -1,0 +1,199 @@
+"""Accelerations, and forces of ideal pins, rigid columns, cranks and guides at all records, from the motion.
+
+Mass matrix M and constraint Jacobian C of one instant give both from the forces f that are applied and from
+what drives do to the lengths and angles that are held, c:
+
+    M a + C^T L = f,    C a = c'' - C' v
+
+The engine's own multipliers and accelerations are differences of positions over the step's square, in which
+rounding shows at short steps. Nothing here is divided by a step.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from support_exudyn.mechanics.body_motion import BodyMotion
+from support_exudyn.mechanics.trajectory import Series
+from support_exudyn.model.linkage import GROUND, Column, Crank, PinPlace, Slide
+from user_forces.values.value import Vector2
+
+SHIFT = 1e-5  # [m], [rad] by which bodies go on, at most, where it is looked how rows turn with them
+STILL = 1e-6  # [m/s], [rad/s] below which they go on by less: what is left then is far below rounding
+# Beside bodies of next to no mass what heavy ones add to the square of the rows is lost to rounding: the second
+# round makes up for it.
+ROUNDS = 2
+
+
+@dataclass(frozen=True)
+class Held:
+    """What is held, in the order of its rows: two an ideal pin, one a column, one a crank, two a guide."""
+
+    pins: Sequence[PinPlace]
+    columns: Sequence[Column]
+    cranks: Sequence[Crank]
+    slides: Sequence[Slide]
+
+    @property
+    def driven(self) -> slice:
+        """The rows that drives move: columns, then cranks."""
+        first = 2 * len(self.pins)
+        return slice(first, first + len(self.columns) + len(self.cranks))
+
+    @property
+    def guided(self) -> slice:
+        """The rows of guides: the distance from the line, and the angle."""
+        return slice(self.driven.stop, self.driven.stop + 2 * len(self.slides))
+
+
+class _Rows:
+    """Rates of points and turns at all instants as rows over the velocities of all bodies, (n, 3 b)."""
+
+    def __init__(self, motion: BodyMotion) -> None:
+        self.motion = motion
+        self.shape = motion.position.shape
+
+    def point(self, body: str, point: Vector2, along: Series) -> Series:
+        """Of a point of a body in a direction (n, 2)."""
+        row = np.zeros(self.shape)
+        if body != GROUND:
+            i, arm = self.motion.first(body), self.motion.arm(body, point)
+            row[:, i : i + 2] = along
+            row[:, i + 2] = arm[:, 0] * along[:, 1] - arm[:, 1] * along[:, 0]
+        return row
+
+    def turn(self, body: str) -> Series:
+        """Of a body's angle."""
+        row = np.zeros(self.shape)
+        if body != GROUND:
+            row[:, self.motion.first(body) + 2] = 1.0
+        return row
+
+    def pin(self, place: PinPlace) -> list[Series]:
+        """Of the second body's centre of a pin against the first's, forward and up."""
+        return [
+            self.point(place.second, place.second_point, along)
+            - self.point(place.first, place.first_point, along)
+            for along in (np.tile(axis, (self.shape[0], 1)) for axis in ((1.0, 0.0), (0.0, 1.0)))
+        ]
+
+    def column(self, column: Column) -> Series:
+        """Of a column's length."""
+        along = direction(self.motion, column)
+        head = self.point(column.head, column.head_point, along)
+        return head - self.point(column.foot, column.foot_point, along)
+
+    def slide(self, slide: Slide) -> list[Series]:
+        """Of the distance of a guide's point from its line, which may turn, and of the angle."""
+        turned = slide.direction + self.motion.turn(slide.against)
+        along = np.column_stack([np.cos(turned), np.sin(turned)])
+        across = np.column_stack([-along[:, 1], along[:, 0]])
+        apart = self.motion.place(slide.body, slide.point) - self.motion.place(slide.against, slide.point)
+        carrier = self.turn(slide.against)
+        distance = self.point(slide.body, slide.point, across) - self.point(slide.against, slide.point, across)
+        # as the line turns, what is along it comes to lie across it
+        distance -= np.einsum("ni,ni->n", along, apart)[:, None] * carrier
+        return [distance, self.turn(slide.body) - carrier]
+
+
+def direction(motion: BodyMotion, column: Column) -> Series:
+    """From foot to head of a column (n, 2)."""
+    foot, head = motion.place(column.foot, column.foot_point), motion.place(column.head, column.head_point)
+    span = head - foot
+    along: Series = span / np.linalg.norm(span, axis=1)[:, None]
+    return along
+
+
+def matrix(motion: BodyMotion, held: Held) -> Series:
+    """C: the rows of all that is held at every instant, (n, rows, 3 b)."""
+    of = _Rows(motion)
+    rows = [row for place in held.pins for row in of.pin(place)]
+    rows += [of.column(column) for column in held.columns]
+    rows += [of.turn(crank.body) for crank in held.cranks]
+    rows += [row for slide in held.slides for row in of.slide(slide)]
+    return np.stack(rows, axis=1) if rows else np.zeros((len(motion.position), 0, motion.position.shape[1]))
+
+
+def turning(motion: BodyMotion, held: Held) -> Series:
+    """C' v at every instant, (n, rows): by how much the rows change as the bodies move on."""
+    fastest = np.abs(motion.velocity).max(axis=1, initial=0.0)
+    time = SHIFT / np.maximum(fastest, STILL)
+
+    def rows(h: Series) -> Series:
+        there = motion.position + h[:, None] * motion.velocity
+        return matrix(BodyMotion(motion.linkage, there, motion.velocity, motion.acceleration), held)
+
+    changed: Series = np.einsum("nrk,nk->nr", rows(time) - rows(-time), motion.velocity) / (2.0 * time)[:, None]
+    return changed
+
+
+def weight_of(motion: BodyMotion, gravity: Vector2) -> Series:
+    """Forces of gravity on all coordinates, (n, 3 b)."""
+    bodies = motion.linkage.bodies.values()
+    one = [part for body in bodies for part in (body.mass * gravity[0], body.mass * gravity[1], 0.0)]
+    return np.tile(one, (len(motion.position), 1))
+
+
+def push(forces: Series, motion: BodyMotion, body: str, force: Series, point: Series) -> None:
+    """Add a force (n, 2) [N] on a body at points (n, 2) [m] to the forces on all coordinates."""
+    if body == GROUND:
+        return
+    i = motion.first(body)
+    arm = point - motion.place(body, motion.linkage.bodies[body].centre)
+    forces[:, i : i + 2] += force
+    forces[:, i + 2] += arm[:, 0] * force[:, 1] - arm[:, 1] * force[:, 0]
+
+
+def twist(forces: Series, motion: BodyMotion, body: str, moment: Series) -> None:
+    """Add a moment (n,) [N m] on a body to the forces on all coordinates."""
+    if body != GROUND:
+        forces[:, motion.first(body) + 2] += moment
+
+
+def equations(motion: BodyMotion, held: Held, driven: Series) -> Equations:
+    """Those of all bodies of a plane.
+
+    Arguments:
+        motion: positions and velocities of all bodies.
+        held: what is held.
+        driven: second derivatives of what drives move, (n, columns and cranks) [m/s^2], [rad/s^2].
+    """
+    bodies = motion.linkage.bodies.values()
+    mass = np.array([part for body in bodies for part in (body.mass, body.mass, body.inertia)])
+    wanted = -turning(motion, held)
+    wanted[:, held.driven] += driven
+    return Equations(matrix(motion, held), wanted, lambda forces: forces / mass)
+
+
+class Equations:
+    """The equations of motion at all records, to be solved for any forces.
+
+    Arguments:
+        rows: C, (n, rows, coordinates).
+        wanted: C a, (n, rows).
+        lightness: gives M^-1 f for forces f on all coordinates, (n, ..., coordinates).
+    """
+
+    def __init__(self, rows: Series, wanted: Series, lightness: Callable[[Series], Series]) -> None:
+        self._rows, self._wanted, self._lightness = rows, wanted, lightness
+        self._square = rows @ np.swapaxes(lightness(rows), 1, 2)  # C M^-1 C^T
+
+    def solve(self, forces: Series) -> tuple[Series, Series]:
+        """Accelerations (n, coordinates) and L (n, rows) under forces on all coordinates."""
+        held = np.zeros(self._wanted.shape)
+        acceleration = self._lightness(forces)
+        for _ in range(ROUNDS):
+            missing = np.einsum("nrk,nk->nr", self._rows, acceleration) - self._wanted
+            held += self._respond(missing)
+            left = forces - np.einsum("nrk,nr->nk", self._rows, held)
+            acceleration = self._lightness(left)
+        return acceleration, held
+
+    def _respond(self, missing: Series) -> Series:
+        try:
+            return np.asarray(np.linalg.solve(self._square, missing[..., None])[..., 0])
+        except np.linalg.LinAlgError:  # rows that repeat each other, as at a dead centre
+            return np.asarray(np.einsum("nrs,ns->nr", np.linalg.pinv(self._square, hermitian=True), missing))

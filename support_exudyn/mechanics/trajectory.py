@@ -1,0 +1,130 @@
+"""What every formulation hands over of a run: motion and forces at the records, and what happened between."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import NamedTuple, Protocol
+
+import numpy as np
+import numpy.typing as npt
+
+from support_exudyn.mechanics.contact_state import Onset
+from support_exudyn.mechanics.counts import Counts
+from support_exudyn.mechanics.impulse import Impulse
+
+Series = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class ContactSeries:
+    """A loose pin at the records, shape (n,) each, SI, ground's axes.
+
+    force_x, force_y: of the bore on the journal [N]. eccentricity_x, eccentricity_y: journal's centre minus
+    bore's [m]. approach_speed: that the laws are told, 0 apart. stored: elastic energy [J]. deflection: state
+    of the friction law [m], None if it has none. The others as in `user_forces.contact.ContactForce`.
+    """
+
+    force_x: Series
+    force_y: Series
+    normal_force: Series
+    friction_force: Series
+    depth: Series
+    slip: Series
+    approach_speed: Series
+    eccentricity_x: Series
+    eccentricity_y: Series
+    stored: Series
+    deflection: Series | None = None
+
+
+@dataclass(frozen=True)
+class LoadSeries:
+    """A load at the records, shape (n,) each.
+
+    force: on the loaded point (n, 2) [N]. stored: energy [J]. observed: values of its channels, by name.
+    """
+
+    force: Series
+    stored: Series
+    observed: Mapping[str, Series]
+
+
+class CylinderSeries(NamedTuple):
+    """A hydraulic cylinder over time, shape (n,) each.
+
+    force: that pushes the ends apart [N]. energy: stored in the oil [J]. pressure, rod_pressure: of piston side
+    and rod side [Pa]. opening: of the valve. flow, rod_flow: into the piston side and the rod side [m^3/s].
+    """
+
+    force: Series
+    energy: Series
+    pressure: Series
+    rod_pressure: Series
+    opening: Series
+    flow: Series
+    rod_flow: Series
+
+
+@dataclass(frozen=True)
+class Trajectory:
+    """A run at its records, for a linkage with b bodies.
+
+    time (n,) [s]. position, velocity, acceleration (n, 3 b): x, y, turn of each body in the order of
+    `Linkage.bodies`, positions from those at the start. ideal_pins: force of the first body on the second
+    (n, 2) [N], by name. friction_moments: of ideal pins with friction, on the second body (n,) [N m].
+    contacts: loose pins by name. columns: force (n,) [N] that pushes the ends apart.
+    cranks: moment of the drive on the crank (n,) [N m]. slides: magnitude of force across and of moment (n, 2).
+    oil_energy: stored in all columns (n,) [J]. work: of the drive so far, damping_loss, friction_loss: so far
+    (n,) [J]. loads: by name. cylinders: of columns, by name.
+    """
+
+    time: Series
+    position: Series
+    velocity: Series
+    acceleration: Series
+    ideal_pins: Mapping[str, Series]
+    contacts: Mapping[str, ContactSeries]
+    columns: Mapping[str, Series]
+    cranks: Mapping[str, Series]
+    slides: Mapping[str, Series]
+    oil_energy: Series
+    work: Series
+    damping_loss: Series
+    friction_loss: Series
+    friction_moments: Mapping[str, Series] = field(default_factory=dict)
+    loads: Mapping[str, LoadSeries] = field(default_factory=dict)
+    cylinders: Mapping[str, CylinderSeries] = field(default_factory=dict)
+
+    def contacts_of(self, pin: str) -> list[ContactSeries]:
+        """Where a loose pin touches: in the plane in one place."""
+        return [self.contacts[pin]]
+
+
+class Observed(Protocol):
+    """A run that is known otherwise, such as one in space, from which its own recipes compute channels."""
+
+    @property
+    def time(self) -> Series:
+        """Of the records (n,) [s]."""
+        ...
+
+    def contacts_of(self, pin: str) -> list[ContactSeries]:
+        """Where a loose pin touches, section by section."""
+        ...
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """A finished run of a formulation.
+
+    trajectory: at the records. onsets: for each loose pin the beginnings of contact. largest_force: for each
+    loose pin the largest force [N] at any time. impulses: where the speed of rigid columns or cranks jumped.
+    counts: what the solver did.
+    """
+
+    trajectory: Trajectory | Observed
+    onsets: Mapping[str, tuple[Onset, ...]]
+    largest_force: Mapping[str, float]
+    impulses: tuple[Impulse, ...]
+    counts: Counts

@@ -1,0 +1,122 @@
+"""What a column can be: a rigid drive, oil that gives, or two bodies. One field of the scenario chooses it."""
+
+from __future__ import annotations
+
+import math
+from abc import ABC
+from dataclasses import field
+from typing import TypeVar
+
+import numpy as np
+import numpy.typing as npt
+
+from user_forces.values.units import Kilograms, KilogramSquareMetres, Metres, Pascals, Seconds, SquareMetres
+from user_forces.values.value import InputError, NonNegative, Positive, Value, value
+
+Quantity = TypeVar("Quantity", float, npt.NDArray[np.float64])  # one, or one for every instant
+
+
+class ColumnModel(Value, ABC):
+    """How a driven column holds its length."""
+
+    def check_extension(self, lowest: float, name: str) -> None:
+        """Raise InputError if the column cannot be drawn in so far [m]; by default any can."""
+        del lowest, name
+
+    @property
+    def oil(self) -> OilColumn | None:
+        """The oil that holds its length; None if nothing gives."""
+        return None
+
+
+@value
+class RigidColumn(ColumnModel):
+    """A massless drive: the length is what the drive says, a constraint whose multiplier is the force."""
+
+
+@value
+class OilColumn(ColumnModel):
+    """A massless column on a cushion of oil, into which the drive lets oil.
+
+        F = k u + d du/dt,   k = B A / (h + extension),   d = k T
+
+    u is by how much the oil is compressed: length at the start + precompression + extension - length. The
+    precompression carries the static load of the start posture with ideal pins, so that a machine at rest
+    stays there. k is that of a closed volume of oil; steel, seals and hoses are taken as stiff. The oil pulls
+    as well as it pushes: that a real one boils when it is pulled is not modelled.
+
+    Arguments:
+        bore_area: A, area of the piston, all columns of a pair together [m^2], > 0.
+        oil_length: h, length of the oil under the piston at the start [m], > 0.
+        bulk_modulus: B of the oil or emulsion [Pa], > 0.
+        damping_time: T [s], >= 0; a mass on the column that vibrates at w rad/s is damped by T w / 2 of the
+            critical damping.
+    """
+
+    bore_area: SquareMetres[Positive]
+    oil_length: Metres[Positive]
+    bulk_modulus: Pascals[Positive]
+    damping_time: Seconds[NonNegative] = 1e-3
+
+    def stiffness(self, extension: Quantity) -> Quantity:
+        """k [N/m] at an extension from the start [m], or at many."""
+        return self.bulk_modulus * self.bore_area / (self.oil_length + extension)
+
+    def stiffness_slope(self, extension: Quantity) -> Quantity:
+        """Derivative of k by the extension [N/m^2]."""
+        return -self.stiffness(extension) / (self.oil_length + extension)
+
+    @property
+    def oil(self) -> OilColumn:
+        """Itself."""
+        return self
+
+    def check_extension(self, lowest: float, name: str) -> None:
+        """Raise InputError if no oil would be left under the piston."""
+        if self.oil_length + lowest <= 0.0:
+            raise InputError(
+                f"columns.{name}.oil_length = {self.oil_length} m: the drive draws the column in by "
+                f"{-lowest:.4g} m and no oil is left; allowed: more than that"
+            )
+
+
+@value
+class TwoBodyColumn(ColumnModel):
+    """A column with mass: a cylinder on the foot's pin and a rod on the head's, which slides in the cylinder.
+
+    The drive acts between both, so that the forces in the pins of foot and head differ from it by weight and
+    inertia. Centres of mass are on the line from foot to head. `two_bodies` names bodies and pins.
+
+    Arguments:
+        cylinder_mass: [kg], > 0, all cylinders of a pair together.
+        cylinder_centre: distance of its centre of mass from the foot [m], >= 0.
+        cylinder_inertia: about its centre of mass [kg m^2], > 0.
+        rod_mass: [kg], > 0.
+        rod_centre: distance of its centre of mass from the head [m], >= 0.
+        rod_inertia: about its centre of mass [kg m^2], > 0.
+        drive: what holds the length: a constraint or oil.
+    """
+
+    cylinder_mass: Kilograms[Positive]
+    cylinder_centre: Metres[NonNegative]
+    cylinder_inertia: KilogramSquareMetres[Positive]
+    rod_mass: Kilograms[Positive]
+    rod_centre: Metres[NonNegative]
+    rod_inertia: KilogramSquareMetres[Positive]
+    drive: RigidColumn | OilColumn = field(default_factory=RigidColumn)
+
+    @property
+    def oil(self) -> OilColumn | None:
+        """That of its drive."""
+        return self.drive.oil
+
+    def check_extension(self, lowest: float, name: str) -> None:
+        """Raise InputError if its drive cannot be drawn in so far [m]."""
+        self.drive.check_extension(lowest, f"{name}.drive")
+
+
+def bore_area(diameter: float, number: int = 1) -> float:
+    """Piston area [m^2] of so many cylinders of this bore diameter [m]."""
+    if not (math.isfinite(diameter) and diameter > 0.0 and number >= 1):
+        raise InputError(f"diameter = {diameter} m, number = {number}: allowed: > 0 and at least 1")
+    return number * math.pi / 4.0 * diameter**2

@@ -1,0 +1,150 @@
+"""A drive that follows another, so that a machine keeps what its two lengths would otherwise leave open."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from functools import cached_property
+
+import numpy as np
+from pydantic import model_validator
+
+from support_exudyn.model.drives.drive import Drive
+from user_forces.values.units import Metres
+from user_forces.values.value import InputError, NonNegative, Real, value
+
+DEGREES = (12, 24, 48, 96, 192)  # of polynomials, one after the other until one is good enough
+LEFT = 1e-12  # share of the largest coefficient that the last ones may still have
+ROUNDING = 1e-15  # [m] below which coefficients are what numbers of metres are rounded by
+TAIL = 3  # coefficients that are looked at for it
+
+
+@value
+class Follower(Drive):
+    """Extends as a smooth function of the extension of another drive, which it follows at every instant.
+
+        extension = f(lead's extension), f(0) = 0, speed = f' times the lead's speed
+
+    f is a polynomial in Chebyshev's form, which has no breaks of its own: those of the lead are all.
+
+    Arguments:
+        lead: the drive that is followed.
+        lowest: smallest extension of the lead for which f is known [m], <= 0; beyond both ends f stays as
+            it is there.
+        reach: length of that range [m], >= 0.
+        coefficients: of Chebyshev's polynomials of 2 (extension - lowest) / reach - 1, constant first [m].
+    """
+
+    lead: Drive
+    lowest: Metres[Real]
+    reach: Metres[NonNegative]
+    coefficients: Metres[tuple[Real, ...]]
+
+    @model_validator(mode="after")
+    def _holds_the_start(self) -> Follower:
+        if not self.lowest <= 0.0 <= self.lowest + self.reach:
+            raise ValueError(
+                f"lowest = {self.lowest} m, reach = {self.reach} m: allowed: a range that holds the start, 0"
+            )
+        if not 1 <= len(self.coefficients) <= DEGREES[-1] + 1:
+            raise ValueError(f"coefficients: {len(self.coefficients)} of them; allowed: 1 to {DEGREES[-1] + 1}")
+        return self
+
+    def extension(self, t: float) -> float:
+        """Extension [m] at time t [s]."""
+        return self._value(self.lead.extension(t)) - self._at_start
+
+    def speed(self, t: float) -> float:
+        """Speed [m/s] at time t [s]; at a jump the value before it."""
+        return self._slope(self.lead.extension(t)) * self.lead.speed(t)
+
+    def speed_jump(self, t: float) -> float:
+        """By how much the speed jumps [m/s] where the lead's does."""
+        return self._slope(self.lead.extension(t)) * self.lead.speed_jump(t)
+
+    @property
+    def initial_speed(self) -> float:
+        """Speed just after the start [m/s]."""
+        return self._slope(self.lead.extension(0.0)) * self.lead.initial_speed
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """Those of the lead [s]."""
+        return self.lead.breaks
+
+    def span(self, duration: float) -> tuple[float, float]:
+        """Smallest and largest extension [m] within this time [s]."""
+        low, high = self.lead.span(duration)
+        turns = [low, high, *(one for one in self._turns if low < one < high)]
+        values = [self._value(one) - self._at_start for one in turns]
+        return min(0.0, *values), max(0.0, *values)
+
+    @cached_property
+    def _at_start(self) -> float:
+        return self._value(0.0)
+
+    @cached_property
+    def _slopes(self) -> tuple[float, ...]:
+        """Coefficients of the derivative by the place within the range, from -1 to 1."""
+        return tuple(np.polynomial.chebyshev.chebder(np.array(self.coefficients)).tolist())
+
+    @cached_property
+    def _turns(self) -> tuple[float, ...]:
+        """Extensions of the lead at which this one turns back [m]."""
+        if self.reach == 0.0 or not any(self._slopes[1:]):
+            return ()
+        size = max(map(abs, self._slopes))
+        roots = np.polynomial.chebyshev.chebroots(np.array(self._slopes) / size)
+        real = roots.real[(np.abs(roots.imag) < 1e-6) & (np.abs(roots.real) <= 1.0)]
+        return tuple(self.lowest + 0.5 * self.reach * (one + 1.0) for one in real.tolist())
+
+    def _place(self, extension: float) -> float:
+        """Where an extension of the lead lies within the range, from -1 to 1."""
+        place = 2.0 * (extension - self.lowest) / self.reach - 1.0 if self.reach > 0.0 else 0.0
+        return min(1.0, max(-1.0, place))
+
+    def _value(self, extension: float) -> float:
+        return _series(self.coefficients, self._place(extension))
+
+    def _slope(self, extension: float) -> float:
+        """Derivative of f by the lead's extension."""
+        if self.reach == 0.0:
+            return 0.0
+        return _series(self._slopes, self._place(extension)) * 2.0 / self.reach
+
+
+def following(
+    lead: Drive, duration: float, length: Callable[[np.ndarray], np.ndarray], size: float = 1.0
+) -> Follower:
+    """The drive that extends by `length(extension)` [m] where `lead` extends by `extension` [m].
+
+    duration: of the run [s]: what the lead does within it is covered. length: of extensions in any order, an
+    analytic function; as exact as it is computed the follower is. size: of the coordinates from which it
+    computes [m].
+
+    Raises InputError if no polynomial follows it: next to a dead centre.
+    """
+    low, high = lead.span(duration)
+    if low == high:
+        return Follower(lead=lead, lowest=low, reach=0.0, coefficients=(0.0,))
+    coefficients, rounding = np.zeros(1), max(ROUNDING, math.ulp(size))
+    for degree in DEGREES:
+        places = np.cos(np.pi * (np.arange(degree + 1) + 0.5) / (degree + 1))
+        values = length(low + 0.5 * (high - low) * (places + 1.0))
+        # those of the polynomial through Chebyshev's points
+        coefficients = 2.0 / (degree + 1) * np.cos(np.outer(np.arange(degree + 1), np.arccos(places))) @ values
+        coefficients[0] /= 2.0
+        if np.abs(coefficients[-TAIL:]).max() <= max(LEFT * np.abs(coefficients[1:]).max(), rounding):
+            return Follower(lead=lead, lowest=low, reach=high - low, coefficients=tuple(coefficients.tolist()))
+    raise InputError(
+        f"drive: from {low:.4g} to {high:.4g} m the part that follows it would have to move without bounds; "
+        "allowed: strokes that keep away from where the linkage locks"
+    )
+
+
+def _series(coefficients: tuple[float, ...], place: float) -> float:
+    """Sum of Chebyshev's polynomials by Clenshaw's recurrence; a solver asks in every step."""
+    twice, one, two = 2.0 * place, 0.0, 0.0
+    for coefficient in coefficients[:0:-1]:
+        one, two = coefficient + twice * one - two, one
+    return coefficients[0] + place * one - two

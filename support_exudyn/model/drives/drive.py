@@ -1,0 +1,234 @@
+"""How the driven parts of a machine move over time: columns extend, cranks turn."""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+
+from pydantic import model_validator
+
+from user_forces.expressions.scalar import cos, is_number, maximum, minimum, sin
+from user_forces.values.units import Metres, RadiansPerSecond, Seconds
+from user_forces.values.value import NonNegative, Positive, Real, Value, value
+
+
+class Drive(Value, ABC):
+    """Extension of a column from its start length [m], or of a crank from its start angle [rad], over time.
+
+    The contract: `extension` is continuous; `speed` is its derivative; between two neighbouring `breaks`
+    both are smooth; at a break the speed may jump by `speed_jump`. The solver lands on every break. An
+    `extension` written as laws are, see `expressions.scalar`, is handed to the engine as an expression where
+    that takes one: for cranks.
+    """
+
+    @abstractmethod
+    def extension(self, t: float) -> float:
+        """Extension [m] at time t [s]."""
+
+    @abstractmethod
+    def speed(self, t: float) -> float:
+        """Its rate [m/s]; at a jump the value before it."""
+
+    def speed_jump(self, t: float) -> float:
+        """By how much the speed jumps [m/s] at a break t [s]; nowhere by default."""
+        del t
+        return 0.0
+
+    @property
+    def initial_speed(self) -> float:
+        """Speed just after the start [m/s]; the machine starts with velocities that belong to it."""
+        return 0.0
+
+    @property
+    @abstractmethod
+    def breaks(self) -> tuple[float, ...]:
+        """Times [s] at which a derivative jumps."""
+
+    @abstractmethod
+    def span(self, duration: float) -> tuple[float, float]:
+        """Smallest and largest extension [m] within this time [s]."""
+
+
+@value
+class Held(Drive):
+    """Columns of constant length."""
+
+    def extension(self, t: float) -> float:
+        """0 m."""
+        return 0.0
+
+    def speed(self, t: float) -> float:
+        """0 m/s."""
+        return 0.0
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """None."""
+        return ()
+
+    def span(self, duration: float) -> tuple[float, float]:
+        """(0, 0)."""
+        return 0.0, 0.0
+
+
+@value
+class Stroke(Drive):
+    """A stroke between two times, at rest before and after.
+
+    Arguments:
+        stroke: [m], 0.5 by default; negative to lower.
+        start, end: [s], 3 and 5 by default; end > start >= 0.
+    """
+
+    stroke: Metres[Real] = 0.5
+    start: Seconds[NonNegative] = 3.0
+    end: Seconds[Positive] = 5.0
+
+    @model_validator(mode="after")
+    def _ends_after_it_starts(self) -> Stroke:
+        if self.end <= self.start:
+            raise ValueError(f"end = {self.end} s: allowed: > start = {self.start} s")
+        return self
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """Start and end of the stroke [s]."""
+        return self.start, self.end
+
+    def span(self, duration: float) -> tuple[float, float]:
+        """0 and the stroke [m], in order."""
+        return min(0.0, self.stroke), max(0.0, self.stroke)
+
+    def phase(self, t: float) -> float:
+        """0 at the start of the stroke, 1 at its end, clipped."""
+        x = (t - self.start) / (self.end - self.start)
+        if is_number(x):  # asked for in every step
+            return 0.0 if x <= 0.0 else 1.0 if x >= 1.0 else x
+        return minimum(1.0, maximum(0.0, x))
+
+
+@value
+class CubicStep(Stroke):
+    """Smooth inlet, drive mode 2 of the paper.
+
+        extension = stroke (3 x^2 - 2 x^3), x = (t - start)/(end - start) from 0 to 1
+
+    The cubic STEP function of multibody programs: speed is continuous, acceleration jumps at both ends.
+    The paper's STEP(TIME,0,0,3,0)+STEP(TIME,3,0,5,500), in mm, is the default.
+
+    Arguments: those of `Stroke`.
+    """
+
+    def extension(self, t: float) -> float:
+        """Extension [m] at time t [s]."""
+        x = self.phase(t)
+        return self.stroke * x * x * (3.0 - 2.0 * x)
+
+    def speed(self, t: float) -> float:
+        """Speed [m/s] at time t [s]."""
+        x = self.phase(t)
+        return self.stroke * 6.0 * x * (1.0 - x) / (self.end - self.start)
+
+
+@value
+class UniformSpeed(Stroke):
+    """Direct inlet (drive mode 1 of the paper): constant speed from rest, without transition.
+
+    The speed jumps at both ends. With rigid columns that is an impulse, and the bodies' velocities jump with
+    it; the impulse is reported in N s (`Result.impulses`). A force and an acceleration at that instant do not
+    exist; just before and just after they do.
+
+    Arguments: those of `Stroke`.
+    """
+
+    def extension(self, t: float) -> float:
+        """Extension [m] at time t [s]."""
+        return self.stroke * self.phase(t)
+
+    def speed(self, t: float) -> float:
+        """Speed [m/s] at time t [s]; at the jumps the value before."""
+        return self.stroke / (self.end - self.start) if self.start < t <= self.end else 0.0
+
+    def speed_jump(self, t: float) -> float:
+        """Up at the start, down at the end [m/s]."""
+        speed = self.stroke / (self.end - self.start)
+        return {self.start: speed, self.end: -speed}.get(t, 0.0)
+
+
+@value
+class Steady(Drive):
+    """Constant speed from the start on, for a crank that has been turning for long.
+
+    Arguments:
+        rate: speed [rad/s] of cranks, [m/s] of columns.
+    """
+
+    rate: RadiansPerSecond[Real]
+
+    def extension(self, t: float) -> float:
+        """rate t [rad]."""
+        return self.rate * t
+
+    def speed(self, t: float) -> float:
+        """rate [rad/s]."""
+        return self.rate
+
+    @property
+    def initial_speed(self) -> float:
+        """rate [rad/s]."""
+        return self.rate
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """None: it has been so for long."""
+        return ()
+
+    def span(self, duration: float) -> tuple[float, float]:
+        """0 and rate times duration [rad], in order."""
+        return min(0.0, self.rate * duration), max(0.0, self.rate * duration)
+
+
+@value
+class Reciprocating(Drive):
+    """Raised and lowered over and over, from rest and smoothly.
+
+        extension = stroke (1 - cos(2 pi t / period)) / 2
+
+    Arguments:
+        stroke: between lowest and highest [m], 0.5 by default; negative to lower first.
+        period: of raising and lowering once [s], > 0.
+    """
+
+    stroke: Metres[Real] = 0.5
+    period: Seconds[Positive]
+
+    @property
+    def frequency(self) -> float:
+        """Angular frequency [rad/s]."""
+        return 2.0 * math.pi / self.period
+
+    def extension(self, t: float) -> float:
+        """Extension [m] at time t [s]."""
+        return 0.5 * self.stroke * (1.0 - cos(self._phase(t)))
+
+    def speed(self, t: float) -> float:
+        """Speed [m/s] at time t [s]."""
+        return 0.5 * self.stroke * self.frequency * sin(self._phase(t))
+
+    def _phase(self, t: float) -> float:
+        """Angle [rad] of the cosine.
+
+        Whole periods are left out, which is exact. With them the angle would be rounded the more the longer
+        the run: after 1000 s positions by 1e-14 m, and accelerations by that over the step squared.
+        """
+        return self.frequency * (math.fmod(t, self.period) if is_number(t) else t)
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """The start [s], where the acceleration jumps; it is smooth from then on."""
+        return (0.0,)
+
+    def span(self, duration: float) -> tuple[float, float]:
+        """0 and as far as it comes within this time [m], in order."""
+        farthest = self.stroke if duration >= 0.5 * self.period else self.extension(duration)
+        return min(0.0, farthest), max(0.0, farthest)

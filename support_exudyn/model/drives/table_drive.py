@@ -1,0 +1,172 @@
+"""A drive through given points: measured or planned displacement of a column over time."""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from collections.abc import Sequence
+from functools import cached_property
+from typing import Annotated, Literal, NamedTuple
+
+from pydantic import Field, model_validator
+
+from support_exudyn.model.drives.drive import Drive
+from user_forces.expressions.scalar import is_number
+from user_forces.values.units import Metres, Seconds
+from user_forces.values.value import NonNegative, Real, value
+
+MOST_POINTS = 1_000_000
+
+
+class Cubic(NamedTuple):
+    """a0 + a1 x + a2 x^2 + a3 x^3 [m], x = (t - begin)/length, both in s."""
+
+    begin: float
+    length: float
+    a0: float
+    a1: float
+    a2: float
+    a3: float
+
+
+@value
+class TableDrive(Drive):
+    """Through given points, at rest before the first and after the last.
+
+    "smooth": cubics between the points that neither overshoot them nor jump in speed (Fritsch and Butland's,
+    known as PCHIP, of the points with the rest before and after them); the acceleration may jump at points. Two
+    points make a `CubicStep`.
+    "linear": constant speed between the points, which jumps at them, with an impulse as `UniformSpeed` has.
+
+    Arguments:
+        times: of the points [s], >= 0, each later than the one before; two at least.
+        extensions: at these times [m], of cranks the angles [rad]; the first is 0, for extension counts from
+            the start posture.
+        between: how the points are joined.
+
+    Source: F. N. Fritsch and J. Butland, SIAM J. Sci. Stat. Comput. 5 (1984) 300-304.
+    """
+
+    times: Seconds[Annotated[tuple[NonNegative, ...], Field(min_length=2, max_length=MOST_POINTS)]]
+    extensions: Metres[Annotated[tuple[Real, ...], Field(min_length=2, max_length=MOST_POINTS)]]
+    between: Literal["smooth", "linear"] = "smooth"
+
+    @model_validator(mode="after")
+    def _is_a_table(self) -> TableDrive:
+        if len(self.times) != len(self.extensions):
+            raise ValueError(
+                f"{len(self.times)} times and {len(self.extensions)} extensions: allowed: as many of both"
+            )
+        for n, (before, after) in enumerate(zip(self.times, self.times[1:], strict=False), 1):
+            if after <= before:
+                raise ValueError(f"times[{n}] = {after} s: allowed: > {before} s, the one before")
+        if self.extensions[0] != 0.0:
+            raise ValueError(
+                f"extensions[0] = {self.extensions[0]} m: allowed: 0, for extension counts from the start "
+                "posture"
+            )
+        return self
+
+    def extension(self, t: float) -> float:
+        """Extension [m] at time t [s]."""
+        n = self._piece(t)
+        if n == 0:
+            return self.extensions[0]
+        if n == len(self.times):
+            return self.extensions[-1]
+        if t == self.times[n]:
+            return self.extensions[n]  # which the way below would miss by rounding
+        begin, low = self.times[n - 1], self.extensions[n - 1]
+        length, rise = self.times[n] - begin, self.extensions[n] - low
+        x = (t - begin) / length
+        if self.between == "linear":
+            return low + rise * x
+        first, last = self._slopes[n - 1], self._slopes[n]
+        bent = length * x * (1.0 - x) * (first * (1.0 - x) - last * x)
+        return low + rise * x * x * (3.0 - 2.0 * x) + bent
+
+    def speed(self, t: float) -> float:
+        """Speed [m/s] at time t [s]; at a jump the value before it."""
+        n = self._piece(t)
+        if n in (0, len(self.times)):
+            return 0.0
+        if self.between == "linear":
+            return self._secants[n - 1]
+        begin, low = self.times[n - 1], self.extensions[n - 1]
+        length, rise = self.times[n] - begin, self.extensions[n] - low
+        x = (t - begin) / length
+        first, last = self._slopes[n - 1], self._slopes[n]
+        bent = first * (1.0 - x) * (1.0 - 3.0 * x) + last * x * (3.0 * x - 2.0)
+        return rise * 6.0 * x * (1.0 - x) / length + bent
+
+    def speed_jump(self, t: float) -> float:
+        """By how much the speed jumps [m/s]; where the points are joined smoothly nowhere."""
+        return self._jumps.get(t, 0.0)
+
+    @property
+    def initial_speed(self) -> float:
+        """0 m/s: what begins at the start begins with a jump, as that of `UniformSpeed` does."""
+        return 0.0
+
+    @cached_property
+    def breaks(self) -> tuple[float, ...]:
+        """The points [s]; where they are joined by lines those at which the speed jumps."""
+        return tuple(self._jumps) if self.between == "linear" else self.times
+
+    def span(self, duration: float) -> tuple[float, float]:
+        """Smallest and largest extension [m] within this time [s]."""
+        reached = [self.extensions[0], *self.extensions[: self._piece(duration)], self.extension(duration)]
+        return min(reached), max(reached)  # between two points it only rises or only falls
+
+    def cubic(self, t: float) -> Cubic:
+        """The polynomial of the piece that a time [s] lies in; constant before and after all of them."""
+        n = self._piece(t)
+        if n in (0, len(self.times)):
+            return Cubic(0.0, 1.0, self.extensions[min(n, len(self.times) - 1)], 0.0, 0.0, 0.0)
+        begin, low = self.times[n - 1], self.extensions[n - 1]
+        length, rise = self.times[n] - begin, self.extensions[n] - low
+        if self.between == "linear":
+            return Cubic(begin, length, low, rise, 0.0, 0.0)
+        first, last = length * self._slopes[n - 1], length * self._slopes[n]
+        return Cubic(begin, length, low, first, 3.0 * rise - 2.0 * first - last, first + last - 2.0 * rise)
+
+    def _piece(self, t: float) -> int:
+        """How many points lie before a time [s]."""
+        if not is_number(t):
+            raise TypeError("a table is no formula of time")
+        return bisect_left(self.times, t)
+
+    @cached_property
+    def _secants(self) -> tuple[float, ...]:
+        """Mean speed of every piece [m/s]."""
+        rises = zip(self.extensions[1:], self.extensions, strict=False)
+        lengths = zip(self.times[1:], self.times, strict=False)
+        return tuple((b - a) / (d - c) for (b, a), (d, c) in zip(rises, lengths, strict=True))
+
+    @cached_property
+    def _slopes(self) -> tuple[float, ...]:
+        """Speed at every point of a smooth drive [m/s]."""
+        inner = pchip_slopes(self.times, self._secants)
+        return (0.0, *inner, 0.0)
+
+    @cached_property
+    def _jumps(self) -> dict[float, float]:
+        """Jumps of the speed [m/s] by their times [s], where there are any."""
+        if self.between == "smooth":
+            return {}
+        speeds = (0.0, *self._secants, 0.0)
+        jumps = zip(self.times, speeds, speeds[1:], strict=False)
+        return {t: after - before for t, before, after in jumps if after != before}
+
+
+def pchip_slopes(times: Sequence[float], secants: Sequence[float]) -> list[float]:
+    """Slopes at the inner points of a table: a weighted harmonic mean of those of both sides, 0 at extremes."""
+    found = []
+    for n in range(1, len(secants)):
+        before, after = secants[n - 1], secants[n]
+        if before * after <= 0.0:
+            found.append(0.0)
+            continue
+        left, right = times[n] - times[n - 1], times[n + 1] - times[n]
+        first, last = 2.0 * right + left, right + 2.0 * left
+        found.append((first + last) / (first / before + last / after))
+    return found

@@ -1,0 +1,135 @@
+"""A column that is a hydraulic cylinder: two chambers of oil behind a valve; its equations.
+
+    dp0/dt = B / V0 (Q0 - A0 v),    V0 = A0 (h0 + e) + H0      piston side
+    dp1/dt = B / V1 (Q1 + A1 v),    V1 = A1 (h1 - e) + H1      rod side
+    F = p0 A0 - p1 A1 - d v
+
+e is the extension since the start, v its rate; F pushes the ends apart. Flows follow from the opening o:
+
+    Q = o Qn sqrt(|dp| / dpn) sign(dp),   dp: pump less chamber, or chamber less tank
+
+They are those of the engine's ObjectConnectorHydraulicActuatorSimple with `useChamberVolumeChange`.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import field
+
+import numpy as np
+
+from support_exudyn.model.columns import ColumnModel, Quantity
+from support_exudyn.model.valve_opening import ClosedInlet, Inlet
+from user_forces.values.units import (
+    CubicMetres,
+    CubicMetresPerSecond,
+    Metres,
+    NewtonSecondsPerMetre,
+    Pascals,
+    SquareMetres,
+)
+from user_forces.values.value import InputError, NonNegative, Positive, value
+
+
+@value
+class HydraulicCylinder(ColumnModel):
+    """A massless column that is a hydraulic cylinder: it moves by the oil that its valve lets in.
+
+    No drive moves it. Until the valve opens, the oil in both chambers carries the static load of the start
+    posture with ideal pins: the chamber that the load presses has the pressure for it, the other one that of
+    the tank. Pipe, valve and fittings are one resistance. There is no check valve: where a chamber has more
+    pressure than the pump, oil flows back. Oil pulls as well as it pushes; that a real one boils when it is
+    pulled is not modelled. A run in which the piston comes to an end of its cylinder is refused.
+
+    Arguments:
+        bore_area: of the piston, all cylinders of a pair together [m^2], > 0.
+        rod_side_area: the annulus around the rod, all together [m^2], > 0.
+        oil_length: length of the oil under the piston at the start [m], > 0, less than the column.
+        rod_side_length: length of the oil around the rod at the start [m], > 0: by so much it can extend.
+        bulk_modulus: of the oil or emulsion, with what hoses and cylinders give [Pa], > 0.
+        system_pressure: of the pump [Pa], > tank_pressure.
+        nominal_flow: through the fully open valve at `nominal_drop`, all cylinders together, either side
+            [m^3/s], > 0.
+        nominal_drop: of the pressure, at which that flows [Pa], > 0, 1 MPa by default.
+        tank_pressure: [Pa], >= 0, 0 by default.
+        hose_volume: between valve and piston side, all together [m^3], > 0, 1 litre by default.
+        rod_side_hose_volume: between valve and rod side, all together [m^3], > 0, 1 litre by default.
+        damping: viscous, of the seals, all together [N s/m], >= 0, 0 by default.
+        inlet: how the valve opens over time; closed by default.
+    """
+
+    bore_area: SquareMetres[Positive]
+    rod_side_area: SquareMetres[Positive]
+    oil_length: Metres[Positive]
+    rod_side_length: Metres[Positive]
+    bulk_modulus: Pascals[Positive]
+    system_pressure: Pascals[Positive]
+    nominal_flow: CubicMetresPerSecond[Positive]
+    nominal_drop: Pascals[Positive] = 1e6
+    tank_pressure: Pascals[NonNegative] = 0.0
+    hose_volume: CubicMetres[Positive] = 1e-3
+    rod_side_hose_volume: CubicMetres[Positive] = 1e-3
+    damping: NewtonSecondsPerMetre[NonNegative] = 0.0
+    inlet: Inlet = field(default_factory=ClosedInlet)
+
+    def check_length(self, length: float, name: str) -> None:
+        """Raise InputError if the cylinder does not fit into a column of this length [m] at the start."""
+        if self.oil_length >= length:
+            raise InputError(
+                f"columns.{name}.oil_length = {self.oil_length} m: the column is {length:.4g} m long at the "
+                "start; allowed: less than that"
+            )
+        if self.system_pressure <= self.tank_pressure:
+            raise InputError(
+                f"columns.{name}.system_pressure = {self.system_pressure} Pa: allowed: > tank_pressure = "
+                f"{self.tank_pressure} Pa"
+            )
+
+    @property
+    def flow_factor(self) -> float:
+        """Flow through the open valve over the root of the pressure drop [m^3/(s Pa^0.5)]."""
+        return self.nominal_flow / math.sqrt(self.nominal_drop)
+
+    def volumes(self, extension: Quantity) -> tuple[Quantity, Quantity]:
+        """Of both chambers, hoses included [m^3], at an extension since the start [m]."""
+        piston = self.bore_area * (self.oil_length + extension) + self.hose_volume
+        rod = self.rod_side_area * (self.rod_side_length - extension) + self.rod_side_hose_volume
+        return piston, rod
+
+    def force(self, pressure: Quantity, rod_pressure: Quantity, rate: Quantity) -> Quantity:
+        """That pushes the ends apart [N], at pressures [Pa] and a rate of the length [m/s]."""
+        return self.bore_area * pressure - self.rod_side_area * rod_pressure - self.damping * rate
+
+    def stiffness(self, extension: float) -> float:
+        """Of the closed chambers [N/m]."""
+        piston, rod = self.volumes(extension)
+        return self.bulk_modulus * (self.bore_area**2 / piston + self.rod_side_area**2 / rod)
+
+    def supplies(self, opening: Quantity) -> tuple[Quantity, Quantity]:
+        """Pressures [Pa] that the valve connects the piston side and the rod side to."""
+        if isinstance(opening, float):  # asked for in every step
+            pump, tank = self.system_pressure, self.tank_pressure
+            return (pump, tank) if opening >= 0.0 else (tank, pump)
+        forward = opening >= 0.0
+        piston = np.where(forward, self.system_pressure, self.tank_pressure)
+        rod = np.where(forward, self.tank_pressure, self.system_pressure)
+        return piston, rod
+
+    def flows(self, pressure: Quantity, rod_pressure: Quantity, opening: Quantity) -> tuple[Quantity, Quantity]:
+        """Into the piston side and into the rod side [m^3/s]."""
+        piston, rod = self.supplies(opening)
+        wide = self.flow_factor * np.abs(opening)
+        into: tuple[Quantity, Quantity] = (wide * _root(piston - pressure), wide * _root(rod - rod_pressure))
+        return into
+
+    def energy_density(self, pressure: Quantity) -> Quantity:
+        """Of compressed oil [J/m^3]: B (exp(p/B) - 1 - p/B), about p^2 / 2 B."""
+        strain = pressure / self.bulk_modulus
+        density: Quantity = self.bulk_modulus * (np.expm1(strain) - strain)
+        return density
+
+
+def _root(drop: Quantity) -> Quantity:
+    """Square root of the size, with the sign."""
+    found: Quantity = np.sign(drop) * np.sqrt(np.abs(drop))
+    return found

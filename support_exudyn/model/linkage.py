@@ -1,0 +1,281 @@
+"""A linkage: bodies, pins, columns, cranks and slides."""
+
+from __future__ import annotations
+
+import math
+import sys
+from collections.abc import Iterable, Mapping
+from dataclasses import field
+from typing import TYPE_CHECKING, Annotated
+
+from pydantic import Field, model_validator
+
+from user_forces.values.units import (
+    Kilograms,
+    KilogramSquareMetres,
+    Metres,
+    MetresPerSecond,
+    Radians,
+    RadiansPerSecond,
+)
+from user_forces.values.value import Positive, Real, Value, Vector2, value
+
+if TYPE_CHECKING:
+    pass
+
+
+GROUND = "ground"
+Moments = tuple[Real, Real, Real]
+ROUNDING = 1e-9
+
+
+@value
+class Part(Value):
+    """A rigid part of a body.
+
+    Arguments:
+        mass: [kg], > 0.
+        centre: centre of mass [m].
+        inertia: about the centre of mass [kg m^2], >= 0 (0: a point mass).
+        moments: integrals of x^2, y^2 and x y over its mass [kg m^2], from its centre; the first two add up to
+            the inertia. Only the spatial model asks. None: the inertia in equal halves, as of a disc.
+        name: by which a machine knows it where a scenario models it otherwise.
+    """
+
+    mass: Kilograms[Positive]
+    centre: Metres[Vector2]
+    inertia: KilogramSquareMetres[Annotated[Real, Field(ge=0)]] = (
+        0.0  # of a bar between two points that rounding has parted it is tiny
+    )
+    name: str = ""
+    moments: KilogramSquareMetres[Moments] | None = None
+
+    @model_validator(mode="after")
+    def _moments_fit(self) -> Part:
+        check_moments(self.moments, self.inertia)
+        return self
+
+    @property
+    def second_moments(self) -> Moments:
+        """`moments`, or what stands for them."""
+        return self.moments or (0.5 * self.inertia, 0.5 * self.inertia, 0.0)
+
+
+def check_moments(moments: Moments | None, inertia: float) -> None:
+    """Raise ValueError unless second moments are those of a body in the plane with this inertia."""
+    if moments is None:
+        return
+    xx, yy, xy = moments
+    slack = ROUNDING * inertia + sys.float_info.min  # half of the smallest number is 0
+    if abs(xx + yy - inertia) > slack or min(xx, yy) < -slack or xy * xy > xx * yy + slack * inertia:
+        raise ValueError(
+            f"moments = {moments}: allowed: xx and yy >= 0 that add up to the inertia, {inertia} kg m^2, and "
+            "xy^2 <= xx yy"
+        )
+
+
+def bar(mass: float, a: Vector2, b: Vector2) -> Part:
+    """A uniform slender bar from a to b: centre in the middle, inertia m l^2 / 12."""
+    dx, dy = b[0] - a[0], b[1] - a[1]
+    return Part(
+        mass=mass,
+        centre=((a[0] + b[0]) / 2, (a[1] + b[1]) / 2),
+        inertia=mass * math.hypot(dx, dy) ** 2 / 12,
+        moments=(mass * dx * dx / 12, mass * dy * dy / 12, mass * dx * dy / 12),
+    )
+
+
+def lumped(parts: Iterable[Part]) -> Part:
+    """Several parts fixed to each other, as one: total mass, common centre, Steiner's theorem."""
+    parts = tuple(parts)
+    mass = sum(p.mass for p in parts)
+    x = sum(p.mass * p.centre[0] for p in parts) / mass
+    y = sum(p.mass * p.centre[1] for p in parts) / mass
+    inertia = sum(p.inertia + p.mass * ((p.centre[0] - x) ** 2 + (p.centre[1] - y) ** 2) for p in parts)
+    xx = sum(p.second_moments[0] + p.mass * (p.centre[0] - x) ** 2 for p in parts)
+    yy = sum(p.second_moments[1] + p.mass * (p.centre[1] - y) ** 2 for p in parts)
+    xy = sum(p.second_moments[2] + p.mass * (p.centre[0] - x) * (p.centre[1] - y) for p in parts)
+    return Part(mass=mass, centre=(x, y), inertia=inertia, moments=(xx, yy, xy))
+
+
+def turned_moments(moments: Moments, angle: float) -> Moments:
+    """Second moments of a body that has turned by an angle [rad]."""
+    xx, yy, xy = moments
+    c, s = math.cos(angle), math.sin(angle)
+    cross = 2.0 * c * s * xy
+    return (
+        c * c * xx + s * s * yy - cross,
+        s * s * xx + c * c * yy + cross,
+        c * s * (xx - yy) + (c * c - s * s) * xy,
+    )
+
+
+@value
+class Body(Value):
+    """A moving rigid body at the start.
+
+    Arguments:
+        mass: [kg], > 0.
+        inertia: about the centre of mass [kg m^2], > 0.
+        centre: centre of mass [m].
+        angle: orientation [rad] of the line by which the machine measures this body.
+        velocity: of the centre of mass [m/s].
+        spin: angular velocity [rad/s].
+        moments: integrals of x^2, y^2 and x y over its mass, as of a `Part`, in the start posture.
+    """
+
+    mass: Kilograms[Positive]
+    inertia: KilogramSquareMetres[Positive]
+    centre: Metres[Vector2]
+    angle: Radians[Real] = 0.0
+    velocity: MetresPerSecond[Vector2] = (0.0, 0.0)
+    spin: RadiansPerSecond[Real] = 0.0
+    moments: KilogramSquareMetres[Moments] | None = None
+
+    @model_validator(mode="after")
+    def _moments_fit(self) -> Body:
+        check_moments(self.moments, self.inertia)
+        return self
+
+
+@value
+class PinPlace(Value):
+    """A place where two bodies are pinned together; whether ideally or loosely is the scenario's choice.
+
+    Arguments:
+        first, second: names of the bodies, one of them may be "ground". Pin forces are reported as
+            the force of the first on the second.
+        first_point: the pin's centre on the first body [m], start posture.
+        second_point: the same on the second body; the same point unless the start is eccentric.
+    """
+
+    first: str
+    second: str
+    first_point: Metres[Vector2]
+    second_point: Metres[Vector2]
+
+
+def pinned(first: str, second: str, point: Vector2) -> PinPlace:
+    """A pin whose centres coincide at the start."""
+    return PinPlace(first=first, second=second, first_point=point, second_point=point)
+
+
+@value
+class Column(Value):
+    """A strut of prescribed length between two bodies.
+
+    Arguments:
+        foot, head: names of the bodies, one of them may be "ground".
+        foot_point, head_point: its ends [m], start posture.
+        driven: whether it follows a drive; one that does not keeps its length, or its oil.
+    """
+
+    foot: str
+    head: str
+    foot_point: Metres[Vector2]
+    head_point: Metres[Vector2]
+    driven: Annotated[bool, Field(strict=True)] = True
+
+    @property
+    def start_length(self) -> float:
+        """Distance of its ends at the start [m]."""
+        return math.dist(self.foot_point, self.head_point)
+
+
+@value
+class Crank(Value):
+    """A body whose angle is driven, against the ground. Its pivot is an ideal pin of the linkage.
+
+    Arguments:
+        body: name of the body.
+    """
+
+    body: str
+
+
+@value
+class Slide(Value):
+    """A straight guide: a point of a body stays on a line of another, against which the body does not turn.
+
+    Arguments:
+        body: name of the body.
+        point: the point, start posture [m].
+        direction: of the line [rad], from +x, start posture.
+        against: name of the body that carries the line, which moves and turns with it; or "ground".
+    """
+
+    body: str
+    point: Metres[Vector2]
+    direction: Radians[Real] = 0.0
+    against: str = GROUND
+
+
+@value
+class TracePoint(Value):
+    """A point of a body whose path is recorded.
+
+    Arguments:
+        body: name of the body.
+        point: where it is at the start [m].
+    """
+
+    body: str
+    point: Metres[Vector2]
+
+
+@value
+class Linkage(Value):
+    """A planar mechanism in its start posture; x forward, y up, SI.
+
+    Arguments:
+        bodies: moving bodies by name.
+        pins: pins by name.
+        columns: driven columns and struts by name.
+        points: traced points by name.
+        cranks: driven cranks by name.
+        slides: straight guides by name.
+    """
+
+    bodies: Mapping[str, Body]
+    pins: Mapping[str, PinPlace] = field(default_factory=dict)
+    columns: Mapping[str, Column] = field(default_factory=dict)
+    points: Mapping[str, TracePoint] = field(default_factory=dict)
+    cranks: Mapping[str, Crank] = field(default_factory=dict)
+    slides: Mapping[str, Slide] = field(default_factory=dict)
+
+    @property
+    def farthest(self) -> float:
+        """The largest coordinate of a centre or pin [m]: by its rounding all places are rounded."""
+        pins = (point for pin in self.pins.values() for point in (pin.first_point, pin.second_point))
+        return max(abs(x) for place in (*(body.centre for body in self.bodies.values()), *pins) for x in place)
+
+    @property
+    def driven(self) -> tuple[str, ...]:
+        """Names of all parts that follow a drive: columns, then cranks."""
+        return *(name for name, column in self.columns.items() if column.driven), *self.cranks
+
+    @model_validator(mode="after")
+    def _names_are_known(self) -> Linkage:
+        if GROUND in self.bodies:
+            raise ValueError(f"bodies.{GROUND}: the name of what does not move; call the body otherwise")
+        for name, pin in self.pins.items():
+            if pin.first == pin.second:
+                raise ValueError(f"pins.{name} = {pin.first!r} twice: allowed: two different bodies")
+        used = [(f"pins.{k}", b) for k, p in self.pins.items() for b in (p.first, p.second)]
+        used += [(f"columns.{k}", b) for k, c in self.columns.items() for b in (c.foot, c.head)]
+        used += [(f"slides.{k}.against", s.against) for k, s in self.slides.items()]
+        used += [(f"points.{k}", p.body) for k, p in self.points.items()]
+        moving = [(f"cranks.{k}", c.body) for k, c in self.cranks.items()]
+        moving += [(f"slides.{k}", s.body) for k, s in self.slides.items()]
+        for where, body in used:
+            if body != GROUND and body not in self.bodies:
+                raise ValueError(
+                    f"{where} = {body!r}: no such body; allowed: {GROUND}, {', '.join(self.bodies)}"
+                )
+        for where, body in moving:
+            if body not in self.bodies:
+                raise ValueError(f"{where} = {body!r}: no such moving body; allowed: {', '.join(self.bodies)}")
+        for name, slide in self.slides.items():
+            if slide.body == slide.against:
+                raise ValueError(f"slides.{name} = {slide.body!r} twice: allowed: two different bodies")
+        return self

@@ -1,0 +1,8 @@
+"""What presses on a machine besides its weight, one kind a file."""
+
+from support_exudyn.model.loads.applied_force import AppliedForce
+from support_exudyn.model.loads.falling_block import FallingBlock
+from support_exudyn.model.loads.load import Load, LoadedPoint, Observed, Powers
+from support_exudyn.model.loads.roof import Roof
+
+__all__ = ["AppliedForce", "FallingBlock", "Load", "LoadedPoint", "Observed", "Powers", "Roof"]

@@ -1,0 +1,98 @@
+"""What the engine needs to know of a machine: bodies, pins and columns in their start posture."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Collection, Mapping
+from typing import TYPE_CHECKING
+
+from support_exudyn.model.lateral_dimensions import Width
+from user_forces.values.value import InputError, Value
+
+if TYPE_CHECKING:
+    from support_exudyn.model.drives.drive import Drive
+    from support_exudyn.model.spatial_linkage import SpatialLinkage
+    from support_exudyn.postprocessing.look.solid import Look
+    from support_exudyn.scenario.scenario import Scenario
+from support_exudyn.model.linkage import Linkage
+
+
+class Machine(Value, ABC):
+    """A machine is its dimensions and masses; it knows how to lay itself out as a linkage."""
+
+    @abstractmethod
+    def linkage(self) -> Linkage:
+        """The mechanism in its start posture."""
+
+    def widths(self) -> Width | None:
+        """Its lateral dimensions; None if it is known in its plane only."""
+        return None
+
+    def in_space(self, linkage: Linkage) -> SpatialLinkage:
+        """The mechanism in space, from that in the plane and the lateral dimensions.
+
+        Raises InputError if there are none.
+        """
+        from support_exudyn.model.to_space import lift  # which is made of what stands here
+
+        width = self.widths()
+        if width is None:
+            raise InputError(
+                f"{type(self).__name__}: knows no lateral dimensions; allowed: machines with a Width"
+            )
+        return lift(linkage, width)
+
+    @property
+    def jacks(self) -> Mapping[str, str]:
+        """Parts that can be bodies of their own, each with the name of the jack that locks it; here none."""
+        return {}
+
+    def detailed(self, columns: Collection[str], parts: Collection[str]) -> Linkage:
+        """The mechanism for a scenario that models more of it.
+
+        Arguments:
+            columns: names of those that get a mass of their own: the parts that stand for it are left out.
+            parts: names of those, among `jacks`, that are to be bodies with a hinge and a jack, which is a
+                column that is not driven.
+
+        By default the same as `linkage`. Raises InputError if the machine lacks data for it.
+        """
+        del columns, parts
+        return self.linkage()
+
+    def check_extension(self, lowest: float, highest: float) -> None:
+        """Raise InputError if the drive cannot be extended over this range from the start.
+
+        The range is in m for columns and in rad for cranks; a machine that can follow any has nothing to check.
+        """
+        del lowest, highest
+
+    @property
+    def leaders(self) -> Mapping[str, str]:
+        """Driven parts that follow another unless a scenario says how they move, each with that; here none."""
+        return {}
+
+    def follower(self, name: str, lead: Drive, duration: float) -> Drive:
+        """How a part of `leaders` moves while what it follows is driven by `lead`, for so long [s].
+
+        By default the same. Raises InputError if it cannot follow.
+        """
+        del name, duration
+        return lead
+
+    def check_motion(self, drives: Mapping[str, Drive], duration: float) -> None:
+        """Raise InputError if the driven parts cannot follow their drives, by name, for so long [s].
+
+        By default each of them may be anywhere between the smallest and the largest extension of all.
+        """
+        spans = [drive.span(duration) for drive in drives.values()]
+        if spans:
+            self.check_extension(min(low for low, _ in spans), max(high for _, high in spans))
+
+    def look(self, scenario: Scenario) -> Look:
+        """What pictures of a scenario of this machine show, by default plates around what is joined."""
+        from support_exudyn.postprocessing.look.plain import (
+            look,  # libraries of shapes, which a run has no use for
+        )
+
+        return look(scenario)

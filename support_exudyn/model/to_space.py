@@ -1,0 +1,197 @@
+"""From a planar linkage and its lateral dimensions to the same machine in space.
+
+Symmetric about the plane z = 0. What the plane lumps from two (front links, columns) is two again, called
+NAME_left (z < 0) and NAME_right, each with half the mass, stiffness and piston area. A body of a pair is held
+along z and against tilting by its first pin; in its others it may shift along the pin. Columns stand on
+spherical ends, also those in two bodies, whose rod may slide and turn in its cylinder.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from typing import Literal
+
+from support_exudyn.model.lateral_dimensions import Width
+from support_exudyn.model.linkage import GROUND, Body, Column, Linkage, PinPlace, TracePoint
+from support_exudyn.model.spatial_linkage import (
+    Bearing,
+    SpatialBody,
+    SpatialColumn,
+    SpatialLinkage,
+    SpatialPoint,
+)
+from user_forces.values.value import InputError, Vector2, Vector3
+
+LEFT, RIGHT = "left", "right"
+SIDES = {LEFT: -1.0, RIGHT: 1.0}
+Copy = tuple[str, float, float]  # suffix of its name, z [m], share
+
+
+def lift(linkage: Linkage, width: Width) -> SpatialLinkage:
+    """The machine in space.
+
+    Raises InputError if the linkage has cranks, or guides other than those of columns, or a body has no width.
+    """
+    pairs = _pairs(linkage, width)
+    _check(linkage, width, pairs)
+    return SpatialLinkage(
+        bodies={
+            name + side: _body(body, z, share, width.spreads[name])
+            for name, body in linkage.bodies.items()
+            for side, z, share in copies(pairs.get(name))
+        },
+        bearings={name: bearing for pin in linkage.pins for name, bearing in _bearings(linkage, width, pin)}
+        | {name: bearing for guide in linkage.slides for name, bearing in _guides(linkage, width, guide)},
+        columns={
+            name + side: _column(name, column, z, share, side, pairs)
+            for name, column in linkage.columns.items()
+            for side, z, share in copies(width.columns.get(name))
+        },
+        points={name: point for each in linkage.points for name, point in _points(linkage, width, each)},
+    )
+
+
+def _pairs(linkage: Linkage, width: Width) -> dict[str, float]:
+    """Half the distance of all bodies that there are two of: those that are named, and those of columns."""
+    found = dict(width.pairs)
+    for slide in linkage.slides.values():
+        for name, column in linkage.columns.items():
+            if name in width.columns and {column.foot, column.head} == {slide.against, slide.body}:
+                found[slide.against] = found[slide.body] = width.columns[name]
+    return found
+
+
+def _in_columns(linkage: Linkage) -> set[str]:
+    """Bodies of columns, whose ends are spherical."""
+    return {body for slide in linkage.slides.values() for body in (slide.against, slide.body)}
+
+
+def copies(half_distance: float | None) -> list[Copy]:
+    """One in the middle, or two at both sides."""
+    if half_distance is None:
+        return [("", 0.0, 1.0)]
+    return [(f"_{side}", sign * half_distance, 0.5) for side, sign in SIDES.items()]
+
+
+def _check(linkage: Linkage, width: Width, pairs: Mapping[str, float]) -> None:
+    for name in linkage.cranks:
+        raise InputError(f"cranks.{name}: not covered in space; allowed: pins and columns")
+    for name, slide in linkage.slides.items():
+        if slide.body not in pairs or slide.against not in pairs:
+            raise InputError(f"slides.{name}: not covered in space; allowed: guides of columns in two bodies")
+    for name in linkage.bodies:
+        if width.spreads.get(name, 0.0) <= 0.0:
+            raise InputError(
+                f"width.spreads.{name}: missing; allowed: > 0, without which nothing resists its roll"
+            )
+    for name, column in linkage.columns.items():
+        for body in (column.foot, column.head):
+            if body in width.pairs and name not in width.columns:
+                raise InputError(
+                    f"columns.{name} on {body}, which is a pair: not covered; allowed: single bodies"
+                )
+
+
+def at(point: Vector2, z: float) -> Vector3:
+    """A point of the plane, beside it [m]."""
+    return point[0], point[1], z
+
+
+def _body(body: Body, z: float, share: float, spread: float) -> SpatialBody:
+    xx, yy, xy = body.moments or (0.5 * body.inertia, 0.5 * body.inertia, 0.0)
+    zz = body.mass * spread * spread
+    return SpatialBody(
+        mass=share * body.mass,
+        inertia=(share * (yy + zz), share * (xx + zz), share * body.inertia, 0.0, 0.0, -share * xy),
+        centre=at(body.centre, z),
+        angle=body.angle,
+        velocity=at(body.velocity, 0.0),
+        spin=(0.0, 0.0, body.spin),
+    )
+
+
+def _bearings(linkage: Linkage, width: Width, name: str) -> Iterator[tuple[str, Bearing]]:
+    place = linkage.pins[name]
+    pairs = _pairs(linkage, width)
+    paired = [body for body in (place.first, place.second) if body in pairs]
+    distances = {pairs[body] for body in paired}
+    if len(distances) > 1:
+        raise InputError(
+            f"pins.{name}: joins pairs {' and '.join(paired)} at different distances; allowed: one"
+        )
+    holds: frozenset[Literal["tilt", "along"]] = frozenset({"tilt", "along"})
+    if any(body in _in_columns(linkage) for body in paired):
+        holds = frozenset({"along"})
+    elif any(_first_pin(linkage, body) != name for body in paired):
+        holds = frozenset()
+    for side, z, share in copies(distances.pop() if paired else None):
+        yield (
+            name + side,
+            Bearing(
+                first=place.first + side * (place.first in paired),
+                second=place.second + side * (place.second in paired),
+                first_point=at(place.first_point, z),
+                second_point=at(place.second_point, z),
+                length=width.lengths.get(name, 0.0),
+                holds=holds,
+                pin=name,
+                share=share,
+            ),
+        )
+
+
+def _first_pin(linkage: Linkage, body: str) -> str:
+    """The pin that holds a body of a pair sideways."""
+
+    def joins(place: PinPlace) -> bool:
+        return body in (place.first, place.second)
+
+    return next(name for name, place in linkage.pins.items() if joins(place))
+
+
+def _guides(linkage: Linkage, width: Width, name: str) -> Iterator[tuple[str, Bearing]]:
+    """The rod of a column in its cylinder, left and right."""
+    slide = linkage.slides[name]
+    axis = (math.cos(slide.direction), math.sin(slide.direction), 0.0)
+    for side, z, share in copies(_pairs(linkage, width)[slide.body]):
+        yield (
+            name + side,
+            Bearing(
+                first=slide.against + side,
+                second=slide.body + side,
+                first_point=at(slide.point, z),
+                second_point=at(slide.point, z),
+                first_axis=axis,
+                second_axis=axis,
+                holds=frozenset({"tilt"}),
+                pin=name,
+                share=share,
+                is_guide=True,
+            ),
+        )
+
+
+def _column(
+    name: str, column: Column, z: float, share: float, side: str, pairs: Mapping[str, float]
+) -> SpatialColumn:
+    return SpatialColumn(
+        foot=column.foot + side * (column.foot in pairs),
+        head=column.head + side * (column.head in pairs),
+        foot_point=at(column.foot_point, z),
+        head_point=at(column.head_point, z),
+        column=name,
+        share=share,
+    )
+
+
+def _points(linkage: Linkage, width: Width, name: str) -> Iterator[tuple[str, SpatialPoint]]:
+    traced: TracePoint = linkage.points[name]
+    if traced.body != GROUND and traced.body in width.pairs:
+        raise InputError(
+            f"points.{name} on {traced.body}, which is a pair: not covered; allowed: single bodies"
+        )
+    yield name, SpatialPoint(body=traced.body, point=at(traced.point, 0.0))
+    if name in width.points:
+        for side, z, _ in copies(width.points[name]):
+            yield name + side, SpatialPoint(body=traced.body, point=at(traced.point, z))

@@ -1,0 +1,186 @@
+"""Quick look: channels of a run over time."""
+
+from __future__ import annotations
+
+import math
+import textwrap
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import StrMethodFormatter
+
+from support_exudyn.postprocessing.figures import style, units
+from support_exudyn.postprocessing.figures.caption import caption
+from support_exudyn.postprocessing.figures.journal import Series, loose_pins
+from support_exudyn.postprocessing.figures.names import matching
+from support_exudyn.postprocessing.figures.units import Unit, readable
+from support_exudyn.postprocessing.figures.windows import inside, said, spacing
+from support_exudyn.simulation.estimate import believed, multiple
+from support_exudyn.simulation.reported_numbers import ROUNDING
+from support_exudyn.simulation.result import Result
+from user_forces.values.value import InputError
+
+Dashes = str | tuple[int, tuple[float, ...]]
+# the curves of a panel: colours that are told apart by all readers, dashes for grey prints
+CURVES: tuple[tuple[str, Dashes], ...] = (
+    (style.LOOSE, "-"),
+    (style.SMOOTH, (0, (6, 1.5))),
+    (style.THIRD, (0, (3, 1, 1, 1))),
+    (style.IDEAL, (0, (1, 1))),
+)
+MOST = 32  # channels in a figure
+PANEL_MM, LINE_MM, REST_MM = 38.0, 4.0, 30.0  # height of a panel, of a line of its legend, and of the rest
+LETTERS = 22  # of a line beside a panel
+PLAIN = (1e-3, 1e5)  # sizes of numbers that an axis shows as they are
+UNLIKE = 50.0  # by what factor sizes differ that are not drawn together
+VISIBLE = 2e-3  # share of a panel's height from which on an error is shaded
+
+
+class Group(NamedTuple):
+    """Channels that are drawn in one panel, and the unit in which."""
+
+    unit: Unit
+    names: tuple[str, ...]
+
+
+def groups(result: Result, names: Sequence[str], chosen: np.ndarray) -> list[Group]:
+    """Panels: channels of one unit and of like size together, at most as many as there are colours."""
+    found: list[tuple[Unit, float, list[str]]] = []
+    for name in names:
+        size = float(np.abs(result[name][chosen]).max())
+        together = (one for one in found if _alike(result, one, name, size))
+        unit, largest, members = next(together, (readable(result.unit(name), size), size, []))
+        if members:
+            members.append(name)
+        else:
+            found.append((unit, largest, [name]))
+    most = len(CURVES)
+    return [
+        Group(unit, tuple(part.tolist()))
+        for unit, _, members in found
+        for part in np.array_split(np.array(members), math.ceil(len(members) / most))
+    ]
+
+
+def _alike(result: Result, group: tuple[Unit, float, list[str]], name: str, size: float) -> bool:
+    """Whether a channel of this size [SI] is drawn together with others; zero is with anything of its unit."""
+    unit, largest, members = group
+    if result.unit(members[0]) != result.unit(name):
+        return False
+    if size == 0.0 or largest == 0.0:
+        return size == 0.0
+    return unit == readable(result.unit(name), size) and 1.0 / UNLIKE < size / largest < UNLIKE
+
+
+def error_over_time(result: Result, name: str) -> Series | None:
+    """Estimated numerical error of a channel at every record (n,), SI; None if nothing tells it.
+
+    As those of numbers, see `simulation.estimate`. Around an impact it is large because the time of the
+    impact is uncertain, too.
+    """
+    coarser = result.coarser
+    if coarser is None or name not in coarser.channels or coarser[name].shape != result[name].shape:
+        return None
+    last, before, r = np.abs(result[name] - coarser[name]), np.zeros_like(result[name]), result.fall
+    if coarser.coarser is not None and name in coarser.coarser.channels:
+        before = np.abs(coarser[name] - coarser.coarser[name])
+    rounding = ROUNDING * float(np.abs(result[name]).max())
+    return multiple(result, r, last, before) * believed(result, r, last, before) + rounding
+
+
+def over_time(result: Result, channels: Sequence[str], start: float = 0.0, until: float = math.inf) -> Figure:
+    """Channels over time, those of one unit together in a panel, with touches and numerical errors.
+
+    Arguments:
+        channels: names, or patterns of them as in a shell.
+        start, until: what of the run is drawn [s].
+
+    Raises InputError if there are none, if a pattern matches no channel, if they are too many, or if no records
+    lie between the times.
+    """
+    names = matching(result.channels, channels)
+    if not names:
+        raise InputError("channels = []: none to draw; allowed: runs that have recorded more than their time")
+    if len(names) > MOST:
+        raise InputError(
+            f"{len(names)} channels match; allowed in a figure: {MOST}; name fewer, such as {names[0]!r}"
+        )
+    chosen = inside(result, start, until)
+    panels = groups(result, names, chosen)
+    lines = sum(len(panel.names) for panel in panels)
+    drawing = Figure(figsize=style.size(170, REST_MM + PANEL_MM * len(panels) + LINE_MM * lines))
+    rows = drawing.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
+    seconds = readable("s", float(np.ptp(result.time[chosen])))
+    worst: dict[str, float] = {}
+    for axes, panel in zip(rows, panels, strict=True):
+        worst |= _draw(axes, result, panel, chosen, seconds)
+        _mark_touches(axes, result, chosen, seconds)
+    drawing.align_ylabels(rows)
+    rows[-1].set_xlabel(f"time [{seconds.name}]")
+    rows[-1].set_xlim(*(seconds.scale * result.time[chosen][[0, -1]]))
+    drawing.suptitle(
+        f"{type(result.scenario.machine).__name__}, {said(result, start, until)}", x=0.01, ha="left"
+    )
+    caption(drawing, _words(result, worst))
+    return drawing
+
+
+def _draw(axes: Axes, result: Result, panel: Group, chosen: np.ndarray, seconds: Unit) -> dict[str, float]:
+    """Returns the largest error of each channel that has one, SI."""
+    time, scale = seconds.scale * result.time[chosen], panel.unit.scale
+    worst = {}
+    loose = {f"pin.{pin}.force" for pin in loose_pins(result)}
+    for name, (colour, dashes) in zip(panel.names, CURVES, strict=False):
+        values = scale * result[name][chosen]
+        colour = style.CONTACT if name in loose else colour
+        label = f"{name}: {result.channels[name].meaning}"
+        axes.plot(time, values, color=colour, ls=dashes, lw=0.9, label=label, rasterized=time.size > 20000)
+        error = error_over_time(result, name)
+        if error is None:
+            continue
+        band = scale * error[chosen]
+        worst[name] = float(error[chosen].max())
+        if float(band.max()) > VISIBLE * max(float(np.ptp(values)), 1e-300):
+            axes.fill_between(time, values - band, values + band, color=colour, alpha=0.25, lw=0.0)
+    if not PLAIN[0] < max(np.abs(axes.get_ylim())) < PLAIN[1]:  # no power of ten of its own above the axis
+        axes.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+    quantity = units.QUANTITIES.get(result.unit(panel.names[0]), "value")
+    axes.set_ylabel(textwrap.fill(f"{quantity} [{panel.unit.name}]", LETTERS))
+    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), fontsize=7, borderaxespad=0.0, ncols=1)
+    return worst
+
+
+def _mark_touches(axes: Axes, result: Result, chosen: np.ndarray, seconds: Unit) -> None:
+    first, last = result.time[chosen][[0, -1]]
+    times = [
+        one.time
+        for pin in loose_pins(result)
+        for one in result.onsets.get(pin, ())
+        if first <= one.time <= last
+    ]
+    if not times:
+        return
+    axes.plot(
+        seconds.scale * np.array(times), np.zeros(len(times)), "|", ms=6, mew=0.7, color=style.CONTACT,
+        transform=axes.get_xaxis_transform(), clip_on=False, zorder=4,
+    )  # fmt: skip
+
+
+def _words(result: Result, worst: dict[str, float]) -> str:
+    text = f"Records every {units.said(spacing(result), 's')}, joined by straight lines. "
+    if any(result.onsets.values()):
+        text += "Strokes on the time axis: touches of loose pins. "
+    if not worst:
+        return text + "The run was not made to an accuracy: nothing tells its numerical error."
+    said_of = ", ".join(
+        f"{name} {units.said(error, result.unit(name), 2)}"
+        for name, error in list(worst.items())[:6]
+    )  # fmt: skip
+    more = f" and {len(worst) - 6} more" if len(worst) > 6 else ""
+    return (
+        f"{text}Largest numerical error at any record, shaded where it can be seen: {said_of}{more}; largest "
+        "around impacts, whose times are uncertain too."
+    )

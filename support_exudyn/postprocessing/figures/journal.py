@@ -1,0 +1,159 @@
+"""A loose pin of a run, ready to be drawn: where its journal is in the bore, when it touches, when it flies."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from difflib import get_close_matches
+
+import numpy as np
+import numpy.typing as npt
+
+from support_exudyn.mechanics.contact_state import Onset
+from support_exudyn.postprocessing.figures.windows import inside
+from support_exudyn.simulation.result import Result
+from user_forces.values.value import InputError, short
+
+Series = npt.NDArray[np.float64]
+NEEDED = ("eccentricity_x", "eccentricity_y", "depth")
+
+
+def loose_pins(result: Result) -> tuple[str, ...]:
+    """Names of the loose pins whose journals were recorded, the first one of the scenario first."""
+    prefix, last = "pin.", f".{NEEDED[0]}"
+    named = [name[len(prefix) : -len(last)] for name in result.channels if name.endswith(last)]
+    known = [name for name in named if all(f"pin.{name}.{what}" in result.channels for what in NEEDED)]
+    order = list(result.scenario.pins)
+    return tuple(sorted(known, key=lambda name: order.index(name) if name in order else len(order)))
+
+
+def pins(result: Result) -> tuple[str, ...]:
+    """Names of all pins whose force was recorded, loose ones first."""
+    prefix, last = "pin.", ".force"
+    named = [name[len(prefix) : -len(last)] for name in result.channels if name.startswith(prefix)
+             and name.endswith(last)]  # fmt: skip
+    loose = [name for name in loose_pins(result) if name in named]
+    return tuple(dict.fromkeys([*loose, *named]))
+
+
+def chosen_pin(result: Result, pin: str | None, *, loose: bool) -> str:
+    """A pin by name, or the first one if none is named.
+
+    Raises InputError if there is no such pin, or none at all.
+    """
+    known = loose_pins(result) if loose else pins(result)
+    kind = "loose pin with recorded journal" if loose else "pin with recorded force"
+    if not known:
+        raise InputError(f"the run has no {kind}; allowed: runs that have one")
+    if pin is None:
+        return known[0]
+    if pin not in known:
+        near = get_close_matches(pin, known, 3, 0.4) or known[:6]
+        raise InputError(f"pin {short(pin)}: no {kind}; allowed: {', '.join(near)}")
+    return pin
+
+
+@dataclass(frozen=True)
+class Journal:
+    """The centre of a journal in its bore, between two times.
+
+    time (n,) [s]. x, y: from the bore's centre (n,) [m]. depth: negative: gap (n,) [m].
+    clearance: radial [m]. touches: beginnings of contact between the two times.
+    spacing: of the records [s].
+    """
+
+    pin: str
+    clearance: float
+    time: Series
+    x: Series
+    y: Series
+    depth: Series
+    touches: tuple[Onset, ...]
+    spacing: float
+
+    @property
+    def in_contact(self) -> npt.NDArray[np.bool_]:
+        """At which records it is pressed in (n,)."""
+        return self.depth > 0.0
+
+    @property
+    def directions(self) -> Series:
+        """Of the journal from the bore's centre at every touch [rad], shape (touches,).
+
+        By the straight line through the last two records of the flight before; where there are no two, by that
+        between the records around the touch.
+        """
+        return np.array([self._direction(touch.time) for touch in self.touches])
+
+    def _direction(self, t: float) -> float:
+        after = int(np.searchsorted(self.time, t))
+        last = after - 1
+        first = last - 1
+        if first < 0 or self.in_contact[first] or self.in_contact[last]:
+            x, y = (float(np.interp(t, self.time, values)) for values in (self.x, self.y))
+            return math.atan2(y, x)
+        ahead = (t - self.time[last]) / (self.time[last] - self.time[first])
+        x, y = (values[last] + ahead * (values[last] - values[first]) for values in (self.x, self.y))
+        return math.atan2(y, x)
+
+    def path(self) -> tuple[Series, Series, npt.NDArray[np.bool_]]:
+        """The path with the touches and partings between records put in.
+
+        Returns x, y (m,) [m], and which of the m - 1 pieces between them are contact. A touch lies on the
+        clearance circle in its direction, a parting in the direction that the records around it tell.
+        """
+        partings = [touch.parting_time for touch in self.touches if touch.parting_time <= self.time[-1]]
+        parted = np.array([t for t in partings if t >= self.time[0]])
+        turned = np.unwrap(np.arctan2(self.y, self.x))
+        angles = np.concatenate([self.directions, np.interp(parted, self.time, turned)])
+        times = np.concatenate([self.time, [touch.time for touch in self.touches], parted])
+        x = np.concatenate([self.x, self.clearance * np.cos(angles)])
+        y = np.concatenate([self.y, self.clearance * np.sin(angles)])
+        pressed = np.concatenate([self.in_contact, np.zeros(angles.size, dtype=bool)])
+        order = np.argsort(times, kind="stable")
+        times, pressed = times[order], pressed[order]
+        contact = (pressed[:-1] & pressed[1:]) | self._touching(0.5 * (times[:-1] + times[1:]))
+        return x[order], y[order], contact
+
+    def _touching(self, times: Series) -> npt.NDArray[np.bool_]:
+        """Whether a located contact goes on at these times."""
+        begins = np.array([touch.time for touch in self.touches])
+        if not begins.size:
+            return np.zeros(times.size, dtype=bool)
+        ends = np.minimum([touch.parting_time for touch in self.touches], [*begins[1:], np.inf])
+        n = np.searchsorted(begins, times, side="right") - 1
+        return (n >= 0) & (times < ends[np.maximum(n, 0)])
+
+
+def journal(result: Result, pin: str | None = None, start: float = 0.0, until: float = math.inf) -> Journal:
+    """The journal of a loose pin between two times [s]; of the first loose pin if none is named.
+
+    Raises InputError if there is no such pin, or fewer than two records lie between the times.
+    """
+    pin = chosen_pin(result, pin, loose=True)
+    chosen = inside(result, start, until)
+    time = result.time[chosen]
+    return Journal(
+        pin=pin,
+        clearance=clearance(result, pin),
+        time=time,
+        x=result[f"pin.{pin}.eccentricity_x"][chosen],
+        y=result[f"pin.{pin}.eccentricity_y"][chosen],
+        depth=result[f"pin.{pin}.depth"][chosen],
+        touches=tuple(one for one in result.onsets.get(pin, ()) if time[0] <= one.time <= time[-1]),
+        spacing=float(np.median(np.diff(time))),
+    )
+
+
+def clearance(result: Result, pin: str) -> float:
+    """Radial clearance of a loose pin [m]; in space also of each of a pair."""
+    scenario = result.scenario
+    whole = pin
+    if scenario.dimensions == 3 and pin not in scenario.clearance_pins:
+        whole = scenario.space.bearings[pin].pin
+    return scenario.clearance_pins[whole].contact.bearing.clearance
+
+
+def shortest_touch(touches: tuple[Onset, ...]) -> float:
+    """Shortest time from a touch to its parting [s]; infinite if nothing parted."""
+    return min((touch.parting_time - touch.time for touch in touches), default=math.inf)

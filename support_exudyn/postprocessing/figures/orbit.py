@@ -1,0 +1,173 @@
+"""Journal orbit: the path of the journal's centre within the clearance circle."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from support_exudyn.postprocessing.figures import style, units
+from support_exudyn.postprocessing.figures.caption import caption
+from support_exudyn.postprocessing.figures.journal import Journal, Series, journal, shortest_touch
+from support_exudyn.postprocessing.figures.units import Unit, readable
+from support_exudyn.postprocessing.figures.windows import said
+from support_exudyn.simulation.result import Result
+
+CORNERS = 181  # of the clearance circle
+MARGIN = 1.12  # of the largest eccentricity
+MANY = 20000  # points from which on a line is a picture within a PDF
+FLIGHT_WIDTH, CONTACT_WIDTH = 0.8, 1.6
+TOUCH: dict[str, Any] = {"marker": "v", "ms": 3.5, "mfc": "white", "mec": style.IDEAL, "mew": 0.7, "ls": "none"}
+
+
+def orbit(result: Result, pin: str | None = None, start: float = 0.0, until: float = math.inf) -> Figure:
+    """Path of a journal's centre in its bore, true to scale; depth over time; speeds of the touches.
+
+    Arguments:
+        pin: name of a loose pin; the first one by default.
+        start, until: what of the run is drawn [s].
+
+    Raises InputError if there is no such loose pin, or fewer than two records lie between the times.
+    """
+    shown = journal(result, pin, start, until)
+    drawing = Figure(figsize=style.size(170, 112))
+    grid = drawing.add_gridspec(3, 2, width_ratios=(1.15, 1.0), height_ratios=(1.0, 1.0, 0.12))
+    unit = readable("m", max(shown.clearance, float(np.hypot(shown.x, shown.y).max())))
+    place = drawing.add_subplot(grid[:2, 0])
+    draw_path(place, shown, unit)
+    place.set_title("a) path of the centre")
+    over_time = readable("s", float(np.ptp(shown.time)))
+    depth = drawing.add_subplot(grid[0, 1])
+    _draw_depth(depth, shown, over_time)
+    depth.set_title("b) depth; negative: gap")
+    speeds = drawing.add_subplot(grid[1, 1], sharex=depth)
+    _draw_speeds(speeds, shown, over_time)
+    speeds.set_title("c) speeds of touching and parting")
+    below = drawing.add_subplot(grid[2, :])
+    below.axis("off")
+    handles, labels = place.get_legend_handles_labels()
+    below.legend(handles, labels, loc="center left", ncols=len(labels), fontsize=7, borderaxespad=0.0)
+    depth.locator_params(axis="x", nbins=5)
+    drawing.suptitle(
+        f"Journal orbit, pin {shown.pin}, {1e3 * shown.clearance:g} mm clearance, {said(result, start, until)}",
+        x=0.01, ha="left",
+    )  # fmt: skip
+    caption(drawing, _words(result, shown))
+    return drawing
+
+
+def draw_circle(axes: Axes, radius: float) -> None:
+    """The clearance circle, a line so that the legend shows one; radius: in the unit of the axes."""
+    angle = np.linspace(0.0, 2.0 * np.pi, CORNERS)
+    x, y = radius * np.cos(angle), radius * np.sin(angle)
+    axes.plot(x, y, color=style.IDEAL, ls=(0, (4, 2)), zorder=2, label="clearance circle")
+
+
+def draw_path(axes: Axes, shown: Journal, unit: Unit) -> None:
+    """The path in the colours of contact and flight, within the clearance circle, on equal axes."""
+    x, y, contact = shown.path()
+    radius = unit.scale * shown.clearance
+    draw_circle(axes, radius)
+    for pieces, colour, width, label in (
+        (~contact, style.FLIGHT, FLIGHT_WIDTH, "free flight"),
+        (contact, style.CONTACT, CONTACT_WIDTH, "contact"),
+    ):
+        if pieces.any():
+            axes.plot(
+                *_pieces(unit.scale * x, unit.scale * y, pieces), color=colour, lw=width, label=label,
+                rasterized=x.size > MANY, zorder=3,
+            )  # fmt: skip
+    if shown.touches:
+        directions = shown.directions
+        axes.plot(radius * np.cos(directions), radius * np.sin(directions), label="touch", zorder=4, **TOUCH)
+    for n, mark, name in ((0, "o", "start"), (-1, "s", "end")):
+        axes.plot(
+            unit.scale * shown.x[n], unit.scale * shown.y[n], mark, ms=5, color=style.IDEAL, label=name,
+            zorder=5, mfc="white" if n == 0 else style.IDEAL,
+        )  # fmt: skip
+    reach = MARGIN * unit.scale * max(shown.clearance, float(np.hypot(shown.x, shown.y).max()))
+    axes.set(aspect="equal", xlim=(-reach, reach), ylim=(-reach, reach))
+    axes.set(xlabel=f"eccentricity x [{unit.name}]", ylabel=f"eccentricity y [{unit.name}]")
+
+
+def _pieces(x: Series, y: Series, chosen: npt.NDArray[np.bool_]) -> tuple[Series, Series]:
+    """One line of the chosen pieces of a path, broken where others lie between."""
+    drawn = np.zeros(x.size, dtype=bool)
+    drawn[:-1] |= chosen
+    drawn[1:] |= chosen
+    # where two chosen pieces are parted by one that is not, both of its ends are drawn: a gap goes in between
+    gaps = np.flatnonzero(~chosen & drawn[:-1] & drawn[1:]) + 1
+    broken_x, broken_y = (np.insert(np.where(drawn, values, np.nan), gaps, np.nan) for values in (x, y))
+    return broken_x, broken_y
+
+
+def _draw_depth(axes: Axes, shown: Journal, over_time: Unit) -> None:
+    unit = readable("m", float(np.abs(shown.depth).max()))
+    time, depth = over_time.scale * shown.time, unit.scale * shown.depth
+    axes.axhline(0.0, color=style.IDEAL, lw=0.6)
+    contact = shown.in_contact[:-1] & shown.in_contact[1:]
+    for pieces, colour, width in (
+        (~contact, style.FLIGHT, FLIGHT_WIDTH),
+        (contact, style.CONTACT, CONTACT_WIDTH),
+    ):
+        if pieces.any():
+            axes.plot(
+                *_pieces(time, depth, pieces), color=colour, lw=width, rasterized=time.size > MANY, zorder=3
+            )
+    if shown.touches:
+        times = over_time.scale * np.array([touch.time for touch in shown.touches])
+        axes.plot(times, np.zeros(times.size), zorder=4, **TOUCH)
+    axes.set(xlabel=f"time [{over_time.name}]", ylabel=f"depth [{unit.name}]", xlim=time[[0, -1]])
+
+
+def _draw_speeds(axes: Axes, shown: Journal, over_time: Unit) -> None:
+    fastest = max((touch.speed for touch in shown.touches), default=0.0)
+    unit = readable("m/s", fastest)
+    axes.set(xlabel=f"time [{over_time.name}]", ylabel=f"speed [{unit.name}]")
+    if not shown.touches:
+        said_of = "in contact throughout" if shown.in_contact.all() else "no touch"
+        axes.text(0.5, 0.5, said_of, transform=axes.transAxes, ha="center", va="center")
+        axes.set_yticks([])
+        return
+    parted = [touch for touch in shown.touches if touch.parting_time <= shown.time[-1]]
+    for times, speeds, mark, colour, label in (
+        ([t.time for t in shown.touches], [t.speed for t in shown.touches], "v", style.IDEAL, "touching"),
+        ([t.parting_time for t in parted], [t.parting_speed for t in parted], "^", style.FLIGHT, "parting"),
+    ):
+        axes.plot(
+            over_time.scale * np.array(times), unit.scale * np.array(speeds), mark, ms=3.5, color=colour,
+            mfc="white" if mark == "v" else colour, mew=0.8, label=label,
+        )  # fmt: skip
+    axes.set_ylim(
+        0.0, 1.1 * unit.scale * max(fastest, *(touch.parting_speed for touch in shown.touches), 1e-30)
+    )
+    axes.legend(loc="upper right", fontsize=7)
+
+
+def _words(result: Result, shown: Journal) -> str:
+    """What is drawn, and what is not."""
+    text = (
+        f"Drawn true to scale: {shown.time.size} records, one every {units.said(shown.spacing, 's')}, joined "
+        "by straight lines. "
+    )
+    if shown.touches:
+        text += (
+            f"Touches ({len(shown.touches)}) and partings are put in between them at the times at which they "
+            "were located, touches on the circle in the direction of the last flight. "
+        )
+    shortest = shortest_touch(shown.touches)
+    if shortest < 2.0 * shown.spacing:
+        text += (
+            f"The shortest touch lasts {units.said(shortest, 's')}: its depth falls between the records; a "
+            "smaller record_period shows it. "
+        )
+    deepest = float(shown.depth.max())
+    if deepest > 0.0:
+        text += f"Deepest record: {units.said(deepest, 'm')}. "
+    if result.scenario.dimensions == 3:
+        text += "In space: the middle of the journal; the depth is that where it is deepest along the pin. "
+    return text.rstrip()

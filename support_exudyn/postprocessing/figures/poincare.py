@@ -1,0 +1,319 @@
+"""Poincare view: a run seen once in a period, or at every touch."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from support_exudyn.model.drives.drive import Drive, Held, Reciprocating, Steady
+from support_exudyn.model.linkage import GROUND
+from support_exudyn.postprocessing.figures import style, units
+from support_exudyn.postprocessing.figures.caption import caption
+from support_exudyn.postprocessing.figures.journal import Journal, Series, journal, loose_pins
+from support_exudyn.postprocessing.figures.orbit import draw_circle
+from support_exudyn.postprocessing.figures.units import DEGREES, Unit, readable
+from support_exudyn.postprocessing.figures.windows import SLACK, inside, said, spacing
+from support_exudyn.scenario.scenario import Scenario
+from support_exudyn.simulation.result import Result
+from user_forces.values.value import InputError, short
+
+FEWEST_PERIODS = 3  # points that a section by periods is made of at least
+FEWEST_TOUCHES = 2  # for a return map
+DOT: dict[str, Any] = {"marker": "o", "ms": 3.0, "mew": 0.0, "ls": "none", "zorder": 3}
+CONTACT_MARK = {**DOT, "color": style.CONTACT}
+FLIGHT_MARK = {**DOT, "color": style.FLIGHT, "marker": "^", "ms": 4.0}
+PLAIN_MARK = {**DOT, "color": style.IDEAL}
+NARROW = 0.01  # share of its size below which only the spread of a channel is shown
+SAME = 1e-4  # ... and below which all points are the same, which they are then seen to be
+
+
+class Section(NamedTuple):
+    """Two channels at equal phases of the drive: times (n,) [s], values of both (n,), SI."""
+
+    time: Series
+    first: Series
+    second: Series
+
+
+def period(scenario: Scenario) -> float | None:
+    """Period of the drives [s]; None if they have none in common.
+
+    A crank that turns steadily has a revolution, a reciprocating drive its own. Drives that hold still do not
+    count.
+    """
+    found = set()
+    for name in scenario.driven:
+        drive = scenario.drive_of(name)
+        if isinstance(drive, Held):
+            continue
+        one = _period(drive, turns=name in scenario.linkage.cranks)
+        if one is None:
+            return None
+        found.add(one)
+    return found.pop() if len(found) == 1 else None
+
+
+def _period(drive: Drive, *, turns: bool) -> float | None:
+    if isinstance(drive, Reciprocating):
+        return drive.period
+    if isinstance(drive, Steady) and turns and drive.rate:
+        return 2.0 * math.pi / abs(drive.rate)
+    return None
+
+
+def periodic_times(result: Result, phase: float = 0.0, start: float = 0.0, until: float = math.inf) -> Series:
+    """Times within a run at which its drive is at a phase [s]; empty if the drives have no common period.
+
+    Arguments:
+        phase: share of the period, from 0 to 1.
+        start, until: of the piece of the run [s].
+
+    Raises InputError if the phase is not of the range.
+    """
+    if not 0.0 <= phase <= 1.0:
+        raise InputError(f"phase = {short(phase)}: allowed: a share of the period, from 0 to 1")
+    length = period(result.scenario)
+    if length is None:
+        return np.empty(0)
+    first, last = max(start, float(result.time[0])), min(until, float(result.time[-1]))
+    n = np.arange(math.ceil((first - SLACK) / length - phase), math.floor((last + SLACK) / length - phase) + 1)
+    return np.clip((n + phase) * length, first, last)
+
+
+def stroboscopic(
+    result: Result,
+    first: str,
+    second: str,
+    phase: float = 0.0,
+    start: float = 0.0,
+    until: float = math.inf,
+) -> Section:
+    """Two channels once in every period of the drive, straight between records.
+
+    Raises InputError if the drive is not periodic, KeyError if there is no such channel.
+    """
+    times = periodic_times(result, phase, start, until)
+    if not times.size:
+        raise InputError(
+            "a section once in every period: the drives have no common period, or none begins in the piece "
+            "that was asked for; allowed: steady cranks and reciprocating drives"
+        )
+    return Section(times, *(np.interp(times, result.time, result[name]) for name in (first, second)))
+
+
+def poincare(
+    result: Result,
+    pin: str | None = None,
+    start: float = 0.0,
+    until: float = math.inf,
+    *,
+    phase: float = 0.0,
+    channels: Sequence[str] = (),
+) -> Figure:
+    """The section that fits a run: once in every period if its drive is periodic, else by touches.
+
+    Once in a period: the journal's centre in its bore, and two channels: by default place and velocity of the
+    slider, or angle and angular velocity of the body that the journal moves. By touches: direction and approach
+    speed of every touch, and the approach speed of the next touch over that of the one before.
+
+    Arguments:
+        pin: name of a loose pin; the first one by default.
+        start, until: what of the run is drawn [s].
+        phase: of the period at which it is looked at, from 0 to 1.
+        channels: names of the two of the second panel; only where the drive is periodic.
+
+    Raises InputError if there is no such pin, no such record or touch, or no period where channels are asked
+    for; KeyError if there is no such channel.
+    """
+    inside(result, start, until)
+    if channels and len(channels) != 2:
+        raise InputError(f"channels = {short(list(channels))}: allowed for a section: two names")
+    times = periodic_times(result, phase, start, until)
+    if channels and times.size < FEWEST_PERIODS:
+        raise InputError(
+            f"channels of a section: {times.size} periods of the drive lie in the piece that was asked for; "
+            f"allowed: {FEWEST_PERIODS} and more, of a drive with a period"
+        )
+    if times.size >= FEWEST_PERIODS:
+        return _by_period(result, pin, start, until, phase, channels)
+    return _by_touch(result, journal(result, pin, start, until), start, until)
+
+
+# --- once in a period ---
+
+
+def _by_period(
+    result: Result, pin: str | None, start: float, until: float, phase: float, channels: Sequence[str]
+) -> Figure:
+    loose = pin is not None or bool(loose_pins(result))
+    shown = journal(result, pin, start, until) if loose else None
+    pair = tuple(channels) or _pair(result, shown.pin if shown else None)
+    if shown is None and not pair:
+        raise InputError("a section: the run has neither a loose pin nor a moving body on record")
+    drawing = Figure(figsize=style.size(170, 95 if shown else 110))
+    panels = drawing.subplots(1, bool(shown) + bool(pair), squeeze=False)[0]
+    touching = None
+    if shown is not None:
+        touching = _draw_places(panels[0], result, shown, phase, start, until)
+        panels[0].set_title("a) journal's centre in its bore")
+    if pair:
+        axes = panels[-1]
+        _draw_section(axes, result, (pair[0], pair[1]), phase, start, until, touching)
+        axes.set_title("b) two channels" if shown is not None else "two channels")
+    length = period(result.scenario)
+    assert length is not None  # there are times
+    count = periodic_times(result, phase, start, until).size
+    of = f", pin {shown.pin}" if shown is not None else ""
+    drawing.suptitle(f"Poincare section once in a period{of}, {said(result, start, until)}", x=0.01, ha="left")
+    caption(
+        drawing,
+        f"{count} points, one in every period of the drive ({units.said(length, 's', 4)}) at {phase:g} of it; "
+        f"values straight between records, which lie {units.said(spacing(result), 's')} apart. A motion that "
+        "repeats in every period is one point, in every second two points; a cloud is irregular motion, or one "
+        "that has not settled yet (a later start of the piece leaves that out).",
+    )
+    return drawing
+
+
+def _pair(result: Result, pin: str | None) -> tuple[str, ...]:
+    """Two channels that a section is made of, by what the machine is; none if they were not recorded."""
+    linkage = result.scenario.linkage
+    candidates = [(f"{s.body}.x", f"{s.body}.velocity_x") for s in linkage.slides.values()]
+    places = [linkage.pins[pin]] if pin is not None and pin in linkage.pins else list(linkage.pins.values())
+    for place in places:
+        bodies = [body for body in (place.second, place.first) if body != GROUND]
+        candidates += [(f"{body}.angle", f"{body}.angular_velocity") for body in bodies]
+    return next((pair for pair in candidates if all(name in result.channels for name in pair)), ())
+
+
+def _draw_places(
+    axes: Axes, result: Result, shown: Journal, phase: float, start: float, until: float
+) -> npt.NDArray[np.bool_]:
+    """The journal's centre at every period. Returns at which of them it is in contact."""
+    x, y, depth = (f"pin.{shown.pin}.{what}" for what in ("eccentricity_x", "eccentricity_y", "depth"))
+    section = stroboscopic(result, x, y, phase, start, until)
+    touching: npt.NDArray[np.bool_] = np.interp(section.time, result.time, result[depth]) > 0.0
+    reach = max(shown.clearance, float(np.hypot(section.first, section.second).max()))
+    unit = readable("m", reach)
+    draw_circle(axes, unit.scale * shown.clearance)
+    _marked(axes, unit.scale * section.first, unit.scale * section.second, touching)
+    reach *= 1.12 * unit.scale
+    axes.set(aspect="equal", xlim=(-reach, reach), ylim=(-reach, reach))
+    axes.set(xlabel=f"eccentricity x [{unit.name}]", ylabel=f"eccentricity y [{unit.name}]")
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.19), ncols=3, fontsize=7)
+    return touching
+
+
+def _draw_section(
+    axes: Axes,
+    result: Result,
+    pair: tuple[str, str],
+    phase: float,
+    start: float,
+    until: float,
+    touching: npt.NDArray[np.bool_] | None,
+) -> None:
+    section = stroboscopic(result, *pair, phase, start, until)
+    shown, labels = [], []
+    for name, values in zip(pair, (section.first, section.second), strict=True):
+        numbers, label = _readable_spread(name, values, result.unit(name))
+        shown.append(numbers)
+        labels.append(label)
+    _marked(axes, shown[0], shown[1], touching)
+    axes.set(xlabel=labels[0], ylabel=labels[1])
+    axes.set_xlim(*_widen(float(shown[0].min()), float(shown[0].max())))
+    axes.set_ylim(*_widen(float(shown[1].min()), float(shown[1].max())))
+    axes.locator_params(nbins=4)
+
+
+def _readable_spread(name: str, values: Series, unit: str) -> tuple[Series, str]:
+    """Values in the unit of their spread, from their middle if that is far larger than the spread."""
+    size, spread = float(np.abs(values).max()), float(np.ptp(values))
+    if not SAME * size < spread < NARROW * size:
+        chosen = readable(unit, size)
+        return chosen.scale * values, f"{name} [{chosen.name}]"
+    middle = 0.5 * float(values.max() + values.min())
+    chosen, at = readable(unit, spread), readable(unit, size)
+    return chosen.scale * (values - middle), f"{name},\nfrom {at.scale * middle:.6g} {at.name} [{chosen.name}]"
+
+
+def _widen(low: float, high: float) -> tuple[float, float]:
+    """Limits of an axis; around values that are all the same, so far apart that ticks can be told apart."""
+    margin = 0.08 * (high - low)
+    size = max(abs(low), abs(high))
+    return low - max(margin, 0.01 * NARROW * size), high + max(margin, 0.01 * NARROW * size)
+
+
+def _marked(axes: Axes, x: Series, y: Series, touching: npt.NDArray[np.bool_] | None) -> None:
+    if touching is None:
+        axes.plot(x, y, **PLAIN_MARK)
+        return
+    for chosen, mark, label in ((~touching, FLIGHT_MARK, "free flight"), (touching, CONTACT_MARK, "contact")):
+        if chosen.any():
+            axes.plot(x[chosen], y[chosen], label=label, **mark)
+
+
+# --- at every touch ---
+
+
+def _by_touch(result: Result, shown: Journal, start: float, until: float) -> Figure:
+    if len(shown.touches) < FEWEST_TOUCHES:
+        why = "it is in contact throughout" if shown.in_contact.all() else "the drive has too few periods there"
+        raise InputError(
+            f"a section of pin {shown.pin} from {said(result, start, until)}: it touches "
+            f"{len(shown.touches)} times, and {why}; allowed: at least {FEWEST_TOUCHES} touches, or "
+            f"{FEWEST_PERIODS} periods of a periodic drive"
+        )
+    speeds = np.array([touch.speed for touch in shown.touches])
+    unit = readable("m/s", float(speeds.max()))
+    drawing = Figure(figsize=style.size(170, 95))
+    places, returns = drawing.subplots(1, 2)
+    _draw_touches(places, DEGREES * _together(shown.directions), unit.scale * speeds, unit)
+    _draw_returns(returns, unit.scale * speeds, unit)
+    drawing.suptitle(
+        f"Poincare section by touches, pin {shown.pin}, {said(result, start, until)}", x=0.01, ha="left"
+    )
+    none = period(result.scenario) is None
+    why = "The drive has no period" if none else f"Fewer than {FEWEST_PERIODS} periods of the drive lie here"
+    caption(
+        drawing,
+        f"{why}, so the run is looked at whenever journal and bore touch: {speeds.size} "
+        "touches, located in time. Directions are those of the last two records before the touch. On the "
+        "dashed line of (b) the next touch is as fast as the one before; below it the journal comes to rest.",
+    )
+    return drawing
+
+
+def _together(directions: Series) -> Series:
+    """The same directions [rad] side by side where they fit into a turn, else from -pi to pi."""
+    side_by_side: Series = np.unwrap(directions)
+    if np.ptp(side_by_side) < 2.0 * np.pi:
+        return side_by_side
+    return (directions + np.pi) % (2.0 * np.pi) - np.pi
+
+
+def _draw_touches(axes: Axes, directions: Series, speeds: Series, unit: Unit) -> None:
+    axes.plot(directions, speeds, color="#999999", lw=0.6, zorder=2)
+    axes.plot(directions, speeds, **CONTACT_MARK)
+    axes.plot(directions[0], speeds[0], "o", ms=6, mfc="none", mec=style.IDEAL, zorder=4, label="first touch")
+    axes.set(xlabel="direction of the touch from +x [deg]", ylabel=f"approach speed [{unit.name}]")
+    axes.set_ylim(0.0, None)
+    axes.margins(x=0.08)
+    axes.set_title("a) where and how fast it touches")
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.19), fontsize=7)
+
+
+def _draw_returns(axes: Axes, speeds: Series, unit: Unit) -> None:
+    top = 1.08 * float(speeds.max())
+    axes.plot([0.0, top], [0.0, top], color=style.IDEAL, lw=0.7, ls=(0, (4, 2)), label="as fast as before")
+    axes.plot(speeds[:-1], speeds[1:], label="touches", **CONTACT_MARK)
+    axes.set(aspect="equal", xlim=(0.0, top), ylim=(0.0, top))
+    axes.set(xlabel=f"approach speed of a touch [{unit.name}]", ylabel=f"of the next one [{unit.name}]")
+    axes.set_title("b) from touch to touch")
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.19), ncols=2, fontsize=7)

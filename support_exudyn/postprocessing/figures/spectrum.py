@@ -1,0 +1,240 @@
+"""Spectrum of a pin force: amplitudes by frequency, and how they change over time."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from scipy import signal
+
+from support_exudyn.postprocessing.figures import style, units
+from support_exudyn.postprocessing.figures.caption import caption
+from support_exudyn.postprocessing.figures.journal import Series, chosen_pin, shortest_touch
+from support_exudyn.postprocessing.figures.units import readable
+from support_exudyn.postprocessing.figures.windows import inside, said
+from support_exudyn.simulation.result import Result
+from user_forces.values.value import InputError
+
+WINDOW = "hann"
+WIDTH = 1.5  # of the window in the frequency, in bins: what a pure tone is smeared over
+SEGMENTS = 4  # of equal length that a piece is cut into; overlapping by half, seven are averaged
+FEWEST = 16  # records that a spectrum is made of
+EVEN = 1e-6  # share of the spacing by which records may be off
+LETTERS = "ABC"  # of the peaks that are marked
+MANY = 1000  # frequencies from which on their axis is logarithmic
+CLOSE = 0.03  # of the width of a panel: letters closer would lie upon one another
+LOWEST = 1e-3  # amplitude of a peak, of the largest one; lower ones are ripple
+PROMINENCE = 3.0  # by how much a peak stands out of what is around it, as a factor of the amplitude
+FINE_ENOUGH = 10.0  # records within the shortest touch, for its spectrum not to be folded
+TINY = 1e-12  # of the largest amplitude: below, nothing is drawn
+COLOURS = "Greys"
+
+
+@dataclass(frozen=True)
+class Spectrum:
+    """Of a quantity of unit U that was sampled at equal times.
+
+    frequency: (m,) [Hz]. amplitude: of a sine of each frequency [U], (m,). density: power by frequency,
+    one-sided [U^2/Hz], (m,). resolution: between two frequencies [Hz]. spacing: between two samples [s].
+    averaged: how many overlapping segments. resampled: whether the samples had to be interpolated to equal
+    times.
+    """
+
+    frequency: Series
+    amplitude: Series
+    density: Series
+    resolution: float
+    spacing: float
+    averaged: int
+    resampled: bool
+
+    @property
+    def nyquist(self) -> float:
+        """Highest frequency that the samples can tell [Hz]; what is faster appears below it."""
+        return 0.5 / self.spacing
+
+    def peaks(self, most: int = len(LETTERS)) -> list[tuple[float, float]]:
+        """Frequency [Hz] and amplitude [U] of the highest peaks that stand out, the highest first."""
+        if not self.amplitude.max() > 0.0:
+            return []
+        levels = np.log(np.maximum(self.amplitude, TINY * self.amplitude.max()))
+        found, _ = signal.find_peaks(
+            levels, height=math.log(LOWEST * self.amplitude.max()), prominence=math.log(PROMINENCE)
+        )
+        highest = sorted(found.tolist(), key=lambda n: -self.amplitude[n])[:most]
+        return [(float(self.frequency[n]), float(self.amplitude[n])) for n in highest]
+
+
+def spectrum(time: Series, values: Series, segments: int = SEGMENTS) -> Spectrum:
+    """Welch's averaged spectrum: segments that overlap by half, each without its straight trend, Hann's window.
+
+    Arguments:
+        time: of the samples [s], (n,), increasing. Samples that are not equally spaced are interpolated.
+        values: (n,).
+        segments: how many of equal length the piece is cut into; 1: resolved most finely, not averaged.
+
+    Raises InputError if the samples are too few.
+    """
+    if segments < 1:
+        raise InputError(f"segments = {segments}: allowed: 1 and more")
+    values, spacing, resampled = equally_spaced(time, values)
+    length = values.size // segments
+    if length < FEWEST:
+        raise InputError(
+            f"a spectrum of {values.size} records in {segments} segments: allowed: at least "
+            f"{FEWEST * segments} records"
+        )
+    rate = 1.0 / spacing
+    frequency, density = signal.welch(values, rate, WINDOW, length, detrend=straight, scaling="density")
+    _, power = signal.welch(values, rate, WINDOW, length, detrend=straight, scaling="spectrum")
+    return Spectrum(
+        frequency=frequency,
+        amplitude=np.sqrt(2.0 * power),
+        density=density,
+        resolution=float(frequency[1]),
+        spacing=spacing,
+        averaged=(values.size - length) // (length - length // 2) + 1,
+        resampled=resampled,
+    )
+
+
+def straight(pieces: Series) -> Series:
+    """Pieces of a signal (..., n) without their straight trends."""
+    found: Series = signal.detrend(pieces)
+    return found
+
+
+def equally_spaced(time: Series, values: Series) -> tuple[Series, float, bool]:
+    """Samples at equal times, their spacing [s], and whether they had to be interpolated.
+
+    A last one off the grid, at the end of a run, is left out.
+    """
+    if time.size < FEWEST:
+        raise InputError(f"a spectrum of {time.size} records: allowed: at least {FEWEST}")
+    steps = np.diff(time)
+    spacing = float(np.median(steps))
+    if abs(steps[-1] - spacing) > EVEN * spacing:
+        time, values, steps = time[:-1], values[:-1], steps[:-1]
+    # by the whole length: rounding of single times does not matter
+    if np.all(np.abs(steps - spacing) <= EVEN * spacing):
+        return values, float((time[-1] - time[0]) / (time.size - 1)), False
+    even = np.arange(time[0], time[-1] + 0.5 * spacing, spacing)
+    return np.interp(even, time, values), spacing, True
+
+
+def force_spectrum(
+    result: Result,
+    pin: str | None = None,
+    start: float = 0.0,
+    until: float = math.inf,
+    *,
+    segments: int = SEGMENTS,
+    over_time: bool = True,
+) -> Figure:
+    """Spectrum of the force in a pin.
+
+    Arguments:
+        pin: name of a pin, loose or ideal; the first loose one by default, or the first one.
+        start, until: of the piece of the run [s].
+        segments: see `spectrum`.
+        over_time: whether a second panel shows how the spectrum changes over the time (spectrogram).
+
+    Raises InputError if there is no such pin, or too few records lie between the times.
+    """
+    pin = chosen_pin(result, pin, loose=False)
+    chosen = inside(result, start, until, FEWEST)
+    time, force = result.time[chosen], result[f"pin.{pin}.force"][chosen]
+    found = spectrum(time, force, segments)
+    drawing = Figure(figsize=style.size(170, 130 if over_time else 85))
+    panels = drawing.subplots(2 if over_time else 1, 1, squeeze=False)[:, 0]
+    _draw(panels[0], found, style.CONTACT if pin in result.onsets else style.IDEAL)
+    if over_time:
+        panels[0].set_title("a) amplitudes")
+        _draw_over_time(panels[1], time, force)
+    drawing.suptitle(f"Spectrum of the force in pin {pin}, {said(result, start, until)}", x=0.01, ha="left")
+    caption(drawing, _words(result, pin, found, float(time[0]), float(time[-1]), over_time))
+    return drawing
+
+
+def _draw(axes: Axes, found: Spectrum, colour: str) -> None:
+    unit, hertz = readable("N", float(found.amplitude.max())), readable("Hz", found.nyquist)
+    amplitude, frequencies = unit.scale * found.amplitude[1:], hertz.scale * found.frequency[1:]
+    axes.plot(frequencies, amplitude, color=colour, lw=0.9)
+    axes.set(xlabel=f"frequency [{hertz.name}]", ylabel=f"amplitude [{unit.name}]")
+    axes.set_xlim(0.0, hertz.scale * found.nyquist)
+    if frequencies.size > MANY:  # low frequencies, where machines run, would be a line at the edge
+        axes.set_xscale("log")
+        axes.set_xlim(frequencies[0], hertz.scale * found.nyquist)
+    if not amplitude.max() > 0.0:
+        return
+    axes.set_yscale("log")
+    axes.set_ylim(
+        max(0.5 * float(amplitude.min()), 1e-9 * float(amplitude.max())), 20.0 * float(amplitude.max())
+    )
+    drawn: list[tuple[float, int]] = []
+    for letter, (frequency, height) in zip(LETTERS, found.peaks(), strict=False):
+        shown = axes.transData.transform((hertz.scale * frequency, 1.0))
+        across = float(axes.transAxes.inverted().transform(shown)[0])
+        # one above the other where peaks are close
+        above = max((up + 8 for other, up in drawn if abs(across - other) < CLOSE), default=4)
+        drawn.append((across, above))
+        place = hertz.scale * frequency, unit.scale * height
+        axes.plot(*place, "v", ms=4, color=style.IDEAL, mfc="white", mew=0.8)
+        axes.annotate(letter, place, (0, above), textcoords="offset points", ha="center", fontsize=7)
+        half_a_bin = 0.5 * hertz.scale * found.resolution
+        label = f"{letter}: {place[0]:.4g} ± {half_a_bin:.2g} {hertz.name}, {place[1]:.3g} {unit.name}"
+        axes.plot([], [], ls="none", label=label)
+    if found.peaks():
+        axes.legend(loc="upper right", fontsize=7, handlelength=0.0, title="highest peaks", title_fontsize=7)
+
+
+def _draw_over_time(axes: Axes, time: Series, force: Series) -> None:
+    """Amplitudes over time and frequency, dark where they are large."""
+    values, spacing, _ = equally_spaced(time, force)
+    length = max(FEWEST, min(256, values.size // 16))
+    frequency, moments, power = signal.spectrogram(
+        values, fs=1.0 / spacing, window=WINDOW, nperseg=length, noverlap=length // 2, detrend=straight,
+        scaling="spectrum",
+    )  # fmt: skip
+    amplitude = np.sqrt(2.0 * power)
+    largest = max(float(amplitude.max()), 1e-300)
+    levels = 20.0 * np.log10(np.maximum(amplitude, 1e-4 * largest) / largest)
+    seconds, hertz = readable("s", float(np.ptp(time))), readable("Hz", 0.5 / spacing)
+    drawn = axes.pcolormesh(
+        seconds.scale * (time[0] + moments), hertz.scale * frequency, levels, cmap=COLOURS, vmin=-80.0,
+        vmax=0.0, shading="nearest", rasterized=True,
+    )  # fmt: skip
+    axes.set(xlabel=f"time [{seconds.name}]", ylabel=f"frequency [{hertz.name}]")
+    axes.set_ylim(0.0, hertz.scale * 0.5 / spacing)
+    axes.set_xlim(*(seconds.scale * time[[0, -1]]))
+    axes.grid(False)
+    piece = units.said(length * spacing, "s")
+    axes.set_title(f"b) over time, pieces of {piece}, resolved to {1.0 / (length * spacing):.3g} Hz")
+    axes.figure.colorbar(drawn, ax=axes, label="amplitude [dB]", pad=0.01)
+
+
+def _words(result: Result, pin: str, found: Spectrum, first: float, last: float, over_time: bool) -> str:
+    text = (
+        f"Amplitude of a sine of each frequency, from records every {units.said(found.spacing, 's', 4)}"
+        f"{' (interpolated to equal times)' if found.resampled else ''}: Welch's mean of {found.averaged} "
+        f"overlapping pieces, without straight trend, Hann's window. Bins of "
+        f"{units.said(found.resolution, 'Hz')}, a tone is {WIDTH:g} bins wide; "
+        f"nothing is told above {units.said(found.nyquist, 'Hz', 4)}. "
+    )
+    if over_time:
+        text += "In (b) 0 dB is the largest amplitude. "
+    text += (
+        "The records sample the force: what is faster than that, such as brief impacts, appears at lower "
+        "frequencies (aliasing); a smaller record_period tells. "
+    )
+    touches = tuple(one for one in result.onsets.get(pin, ()) if first <= one.time <= last)
+    shortest = shortest_touch(touches)
+    if shortest < FINE_ENOUGH * found.spacing:
+        text += (
+            f"The shortest touch lasts {units.said(shortest, 's')}: a record_period of "
+            f"{units.said(shortest / FINE_ENOUGH, 's')} would follow it. "
+        )
+    return text.rstrip()

@@ -1,0 +1,62 @@
+"""One look for all figures."""
+
+from __future__ import annotations
+
+from contextlib import AbstractContextManager
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+from matplotlib.figure import Figure
+
+from support_exudyn.files.whole_file import whole_file
+
+# Okabe and Ito's colours: told apart by colour-blind readers; the lightness differs too, for grey prints.
+IDEAL = "#000000"
+LOOSE = "#0072B2"
+SMOOTH = "#E69F00"
+THIRD = "#009E73"
+# of a single run: what a journal does, and the force on it
+CONTACT = "#D55E00"
+FLIGHT = "#56B4E9"
+# what the paper prints, as crosses
+PAPER = "#882255"
+
+STYLE: dict[Any, Any] = {
+    "font.family": "sans-serif",
+    "font.size": 9,
+    "axes.titlesize": 9,
+    "axes.titlelocation": "left",
+    "figure.titlesize": 10,
+    "axes.grid": True,
+    "grid.color": "#dddddd",
+    "grid.linewidth": 0.5,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "lines.linewidth": 1.0,
+    "legend.frameon": False,
+    "figure.constrained_layout.use": True,
+    "savefig.dpi": 200,
+    "axes.formatter.useoffset": False,
+    "pdf.fonttype": 42,
+}
+
+
+def look() -> AbstractContextManager[None]:
+    """Put the common style into force for all drawing and saving inside the with block."""
+    return mpl.rc_context(STYLE)
+
+
+def size(width_mm: float, height_mm: float) -> tuple[float, float]:
+    """Size of a figure in the inches that matplotlib wants."""
+    return width_mm / 25.4, height_mm / 25.4
+
+
+def save(drawing: Figure, out: Path, name: str, *, pdf: bool = True) -> list[Path]:
+    """Write a figure as PNG, and as PDF for print."""
+    paths = [out / f"{name}.png"] + ([out / f"{name}.pdf"] if pdf else [])
+    for path in paths:
+        with whole_file(path) as temporary:
+            drawing.savefig(temporary, format=path.suffix[1:])
+        drawing.set_layout_engine("none")  # it is laid out now; once more would take as long as drawing it
+    return paths

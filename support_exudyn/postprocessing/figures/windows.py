@@ -1,0 +1,42 @@
+"""A piece of a run between two times."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import numpy.typing as npt
+
+from support_exudyn.simulation.result import Result
+from user_forces.values.value import InputError
+
+SLACK = 1e-9  # [s], of times that were computed as sums of steps
+FEWEST = 2  # records that make a line
+
+
+def inside(result: Result, start: float, until: float, fewest: int = FEWEST) -> npt.NDArray[np.bool_]:
+    """Which records lie between two times [s], shape (n,).
+
+    Raises InputError if they are fewer than `fewest`.
+    """
+    found = (result.time >= start - SLACK) & (result.time <= until + SLACK)
+    if (count := int(found.sum())) < fewest:
+        first, last = result.time[[0, -1]]
+        raise InputError(
+            f"from {max(start, first):g} to {min(until, last):g} s: {count} records lie "
+            f"between; allowed: times around at least {fewest} of the {result.time.size} records, "
+            f"from {first:g} to {last:g} s"
+        )
+    return found
+
+
+def said(result: Result, start: float, until: float) -> str:
+    """The piece in words, such as "3 to 5 s"."""
+    first, last = result.time[[0, -1]]
+    return f"{max(start, first):g} to {min(until, last):g} s"
+
+
+def spacing(result: Result) -> float:
+    """Time between records [s], the median; infinite if there is only one."""
+    steps = np.diff(result.time)
+    return float(np.median(steps)) if steps.size else math.inf

@@ -1,0 +1,192 @@
+"""What a machine looks like that says no more of it: plates around the points at which bodies are joined."""
+
+from __future__ import annotations
+
+import math
+from collections import defaultdict
+from collections.abc import Iterator, Mapping, Sequence
+
+import numpy as np
+from shapely.geometry import Polygon
+from shapely.ops import unary_union
+
+from support_exudyn.model.linkage import GROUND, Column, Linkage, Slide
+from support_exudyn.model.to_space import at, copies
+from support_exudyn.postprocessing.look.placed_pins import planar_pins
+from support_exudyn.postprocessing.look.shapes import bar, bored, hull, plate, together, tube
+from support_exudyn.postprocessing.look.solid import Look, Role, Solid, Strut
+from support_exudyn.scenario.scenario import Scenario
+from user_forces.values.value import Vector2
+
+MARGIN = 0.03  # of plates around their points, of the machine's extent
+THICKNESS = 0.05  # of plates, of the machine's extent
+WALL = 1.3  # radius of an eye, of its bore's
+RAIL = 0.45  # half the length of a guide's rail, of the machine's extent
+BORE = 0.35  # radius of bores where nobody says it, of the margin
+CYLINDER = 0.6  # length of a cylinder, of the column at the start
+
+
+def look(scenario: Scenario) -> Look:
+    """The look of a scenario's machine, from its linkage alone.
+
+    Where the machine knows no widths, its bodies lie one behind the other, the ground behind all, so that each
+    is seen.
+    """
+    linkage = scenario.linkage
+    points = joined_points(linkage)
+    size = extent(linkage)
+    margin, thickness = MARGIN * size, THICKNESS * size
+    layers = _layers(scenario, 1.1 * thickness)
+    solids = []
+    for name, around in points.items():
+        wide = max([margin, *(WALL * bore_radius(scenario, pin, margin) for pin in _pins_of(linkage, name))])
+        outline = _outline(linkage, name, around, wide, size)
+        for pin in planar_pins(scenario).values():
+            if pin.bore.body == name:
+                outline = bored(outline, pin.bore.point[:2], bore_radius(scenario, pin.name, margin))
+        if name == GROUND:
+            solids.append(Solid(name, GROUND, Role.BASE, plate(outline, layers[name], 0.5 * thickness)))
+            continue
+        for body, heights in body_copies(scenario, name):
+            mesh = together(plate(outline, z + layers[name], thickness) for z in heights)
+            solids.append(Solid(body, body, Role.BODY, mesh))
+    solids += _pins(scenario, layers, thickness, margin)
+    lowest = min(y for around in points.values() for _, y in around)
+    return Look(tuple(solids), struts(scenario, 0.5 * margin), lowest - margin)
+
+
+def _layers(scenario: Scenario, apart: float) -> dict[str, float]:
+    """How far behind the plane each body is drawn, by its name [m]."""
+    names = [*scenario.linkage.bodies, GROUND]
+    known = scenario.machine.widths() is not None
+    return {name: 0.0 if known else n * apart for n, name in enumerate(names)}
+
+
+def _pins_of(linkage: Linkage, body: str) -> list[str]:
+    """Names of the pins on a body."""
+    return [name for name, place in linkage.pins.items() if body in (place.first, place.second)]
+
+
+def _outline(linkage: Linkage, body: str, around: Sequence[Vector2], wide: float, size: float) -> Polygon:
+    """A plate around the points of a body; a block if it slides on the ground, which has a rail for it."""
+    if body == GROUND:
+        rails = [slide for slide in linkage.slides.values() if slide.against == GROUND]
+        on_rails = {slide.point for slide in rails}
+        rest = [point for point in around if point not in on_rails]
+        parts = [hull(rest, wide)] if rest else []
+        parts += [_along(slide, RAIL * size, 0.5 * wide) for slide in rails]
+        whole = unary_union(parts)
+        return whole if isinstance(whole, Polygon) else unary_union([whole, _joining(parts, 0.35 * wide)])
+    guides = [slide for slide in linkage.slides.values() if slide.body == body and slide.against == GROUND]
+    return unary_union([hull(around, wide), *(_along(slide, 2.0 * wide, 1.2 * wide) for slide in guides)])
+
+
+def _along(slide: Slide, half_length: float, half_width: float) -> Polygon:
+    """A bar along a guide, about its point."""
+    x, y = slide.point
+    u, v = half_length * math.cos(slide.direction), half_length * math.sin(slide.direction)
+    return bar((x - u, y - v), (x + u, y + v), half_width)
+
+
+def _joining(parts: Sequence[Polygon], half_width: float) -> Polygon:
+    """Bars from the first part to all others, so that the ground is in one piece."""
+    (x, y), *others = [(part.centroid.x, part.centroid.y) for part in parts]
+    return unary_union([bar((x, y), other, half_width) for other in others])
+
+
+def _pins(scenario: Scenario, layers: Mapping[str, float], thickness: float, margin: float) -> Iterator[Solid]:
+    """Journals, through both bodies and a little out of them, on the one that has not the bore."""
+    for name, pin in planar_pins(scenario).items():
+        body, centre, loose = pin.journal.body, pin.journal.point[:2], pin.loose
+        radius = loose.contact.bearing.journal_radius if loose else 0.97 * bore_radius(scenario, name, margin)
+        ends = [layers[pin.first.body], layers[pin.second.body]]
+        near, far = min(ends) - 0.6 * thickness, max(ends) + 0.5 * thickness
+        on_ground = [(GROUND, [z for _, z, _ in copies(None)])]
+        copied = on_ground if body == GROUND else body_copies(scenario, body)
+        for one, heights in copied:
+            mesh = together(tube(at(centre, z + near), at(centre, z + far), radius) for z in heights)
+            yield Solid(f"pin_{name}{one.removeprefix(body)}", one, Role.PIN, mesh)
+
+
+def joined_points(linkage: Linkage) -> dict[str, list[Vector2]]:
+    """The points of every body, and of the ground, at which something is joined or traced, start posture."""
+    found: dict[str, list[Vector2]] = defaultdict(list)
+    for name, body in linkage.bodies.items():
+        found[name].append(body.centre)
+    for pin in linkage.pins.values():
+        found[pin.first].append(pin.first_point)
+        found[pin.second].append(pin.second_point)
+    for column in linkage.columns.values():
+        found[column.foot].append(column.foot_point)
+        found[column.head].append(column.head_point)
+    for point in linkage.points.values():
+        found[point.body].append(point.point)
+    for slide in linkage.slides.values():
+        found[slide.against].append(slide.point)
+    return dict(found)
+
+
+def extent(linkage: Linkage) -> float:
+    """The longest side of the box around all points of a linkage [m]; 1 if there is but one."""
+    points = np.array([point for around in joined_points(linkage).values() for point in around])
+    return float(np.ptp(points, axis=0).max()) or 1.0
+
+
+def bore_radius(scenario: Scenario, pin: str, margin: float) -> float:
+    """Of a pin's bore [m], as far as the scenario knows it."""
+    loose = scenario.clearance_pins.get(pin)
+    if loose is not None:
+        return loose.contact.bearing.bore_radius
+    ideal = scenario.friction_pins.get(pin)
+    return ideal.radius if ideal is not None and ideal.radius is not None else BORE * margin
+
+
+def body_copies(scenario: Scenario, name: str) -> list[tuple[str, list[float]]]:
+    """By what names the channels know a body of the plane, each with where it stands beside the plane [m].
+
+    In the plane a pair has one name and two places; in space two names.
+    """
+    sides = copies(_pairs(scenario).get(name))
+    if scenario.dimensions == 3:
+        return [(name + side, [z]) for side, z, _ in sides]
+    return [(name, [z for _, z, _ in sides])]
+
+
+def _pairs(scenario: Scenario) -> Mapping[str, float]:
+    """Half the distance of bodies that there are two of [m], those of columns in two bodies among them."""
+    width = scenario.machine.widths()
+    if width is None:
+        return {}
+    of_columns = {
+        body: width.columns[name]
+        for slide in scenario.linkage.slides.values()
+        for name, column in scenario.linkage.columns.items()
+        if name in width.columns and {column.foot, column.head} == {slide.against, slide.body}
+        for body in (slide.against, slide.body)
+    }
+    return {**width.pairs, **of_columns}
+
+
+def struts(scenario: Scenario, radius: float) -> tuple[Strut, ...]:
+    """All columns as cylinder and rod; radius: of the cylinder [m]."""
+    return tuple(strut for name in scenario.linkage.columns for strut in _struts(scenario, name, radius))
+
+
+def _struts(scenario: Scenario, name: str, radius: float) -> Iterator[Strut]:
+    column: Column = scenario.linkage.columns[name]
+    width = scenario.machine.widths()
+    pairs = _pairs(scenario)
+    reach = math.dist(column.foot_point, column.head_point)
+    cylinder = tube((0.0, 0.0, 0.0), (CYLINDER * reach, 0.0, 0.0), radius)
+    rod = tube((-0.9 * reach, 0.0, 0.0), (0.0, 0.0, 0.0), 0.65 * radius)
+    for side, z, _ in copies(width.columns.get(name) if width else None):
+        part = side if scenario.dimensions == 3 else ""
+        yield Strut(
+            name + side,
+            column.foot + part * (column.foot in pairs),
+            column.head + part * (column.head in pairs),
+            at(column.foot_point, z),
+            at(column.head_point, z),
+            cylinder,
+            rod,
+        )

@@ -1,0 +1,152 @@
+"""Where bodies are at the records of a run, from its channels; of every formulation, in plane and space."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from support_exudyn.mechanics.trajectory import Series
+from support_exudyn.model.linkage import GROUND
+from support_exudyn.scenario.scenario import Scenario
+from support_exudyn.simulation.recorded import recorded
+from support_exudyn.simulation.result import Result
+from user_forces.values.value import Vector3
+
+MOST_CORRECTIONS = 50  # of a rotation; three do for a machine
+WHY = "without it nobody knows where the body is"
+ROUNDING = 1e-14  # [rad]
+
+
+@dataclass(frozen=True)
+class Pose:
+    """A body at the records of a run, ground's axes.
+
+    Arguments:
+        start: its centre of mass in the start posture [m].
+        place: of the same at the records, shape (n, 3) [m].
+        turn: its rotation since the start posture, shape (n, 3, 3).
+        velocity: of the centre of mass, shape (n, 3) [m/s].
+        spin: its angular velocity, shape (n, 3) [rad/s].
+    """
+
+    start: Vector3
+    place: Series
+    turn: Series
+    velocity: Series
+    spin: Series
+
+    def points(self, points: Series, record: int) -> Series:
+        """Where points of the start posture (m, 3) are at a record [m]."""
+        arms = (points - np.array(self.start)) @ self.turn[record].T
+        moved: Series = self.place[record] + arms
+        return moved
+
+    def velocities(self, points: Series, record: int) -> Series:
+        """How fast these points (m, 3) then move [m/s]."""
+        arms = (points - np.array(self.start)) @ self.turn[record].T
+        moving: Series = self.velocity[record] + np.cross(self.spin[record], arms)
+        return moving
+
+    def path(self, point: Vector3) -> Series:
+        """Where a point of the start posture is at all records, shape (n, 3) [m]."""
+        arm = np.array(point) - np.array(self.start)
+        path: Series = self.place + self.turn @ arm
+        return path
+
+
+class Poses:
+    """All bodies of a run.
+
+    Raises InputError if the run has not recorded a channel that this needs, when it is asked for the body.
+    """
+
+    def __init__(self, result: Result) -> None:
+        self._result = result
+        self._of = lru_cache(maxsize=None)(self._read)
+
+    @property
+    def time(self) -> Series:
+        """Of the records, shape (n,) [s]."""
+        return self._result.time
+
+    def of(self, body: str) -> Pose:
+        """A body by its name, or "ground"."""
+        return self._of(body)
+
+    def _read(self, body: str) -> Pose:
+        scenario, rows = self._result.scenario, self.time.size
+        if body == GROUND:
+            nowhere = np.zeros((rows, 3))
+            unturned = np.broadcast_to(np.eye(3), (rows, 3, 3))
+            return Pose((0.0, 0.0, 0.0), nowhere, unturned, nowhere, nowhere)
+        if scenario.dimensions == 3:
+            return self._in_space(scenario, body)
+        return self._in_plane(scenario, body)
+
+    def _in_plane(self, scenario: Scenario, body: str) -> Pose:
+        known, zero = scenario.linkage.bodies[body], np.zeros(self.time.size)
+        turn = self._channel(f"{body}.angle") - known.angle
+        return Pose(
+            (*known.centre, 0.0),
+            np.column_stack([self._channel(f"{body}.x"), self._channel(f"{body}.y"), zero]),
+            _about_z(turn),
+            np.column_stack([self._channel(f"{body}.velocity_x"), self._channel(f"{body}.velocity_y"), zero]),
+            np.column_stack([zero, zero, self._channel(f"{body}.angular_velocity")]),
+        )
+
+    def _in_space(self, scenario: Scenario, body: str) -> Pose:
+        known = scenario.space.bodies[body]
+        turn = self._channel(f"{body}.angle") - known.angle
+        spins = ("angular_velocity_x", "angular_velocity_y", "angular_velocity")
+        return Pose(
+            known.centre,
+            np.column_stack([self._channel(f"{body}.{axis}") for axis in "xyz"]),
+            turned(turn, self._channel(f"{body}.roll"), self._channel(f"{body}.yaw")),
+            np.column_stack([self._channel(f"{body}.velocity_{axis}") for axis in "xyz"]),
+            np.column_stack([self._channel(f"{body}.{spin}") for spin in spins]),
+        )
+
+    def _channel(self, name: str) -> Series:
+        return recorded(self._result, name, WHY)
+
+
+def _about_z(angle: Series) -> Series:
+    """Rotations about z, shape (n, 3, 3)."""
+    turn = np.zeros((angle.size, 3, 3))
+    turn[:, 0, 0] = turn[:, 1, 1] = np.cos(angle)
+    turn[:, 1, 0] = np.sin(angle)
+    turn[:, 0, 1] = -turn[:, 1, 0]
+    turn[:, 2, 2] = 1.0
+    return turn
+
+
+def turned(angle: Series, roll: Series, yaw: Series) -> Series:
+    """Rotations (n, 3, 3) with the angles that the channels of space have.
+
+    Each is the angle by which an axis of the body has turned towards the next of the ground, seen along the
+    third: angle x towards y, roll y towards z, yaw z towards x. Found by Newton's method, from a turn about z.
+    With d a further small rotation, the angle of axis c towards r, seen along k, changes by
+
+        d_k - R_kc (R_cc d_c + R_rc d_r) / (R_cc^2 + R_rc^2)
+    """
+    asked = np.stack([angle, roll, yaw], axis=1)
+    turn = _about_z(angle)
+    for _ in range(MOST_CORRECTIONS):
+        slope = np.zeros((angle.size, 3, 3))
+        seen = np.empty_like(asked)
+        for c in range(3):
+            r, k = (c + 1) % 3, (c + 2) % 3
+            axis = turn[:, :, c]
+            seen[:, c] = np.arctan2(axis[:, r], axis[:, c])
+            share = axis[:, k] / (axis[:, c] ** 2 + axis[:, r] ** 2)
+            slope[:, c, k] = 1.0
+            slope[:, c, c], slope[:, c, r] = -share * axis[:, c], -share * axis[:, r]
+        off = (asked - seen + np.pi) % (2.0 * np.pi) - np.pi
+        if not np.abs(off).max(initial=0.0) > ROUNDING:
+            break
+        correction = np.linalg.solve(slope, off[:, :, None])[:, :, 0]
+        turn = Rotation.from_rotvec(correction).as_matrix() @ turn
+    return turn

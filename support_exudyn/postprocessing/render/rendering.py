@@ -1,0 +1,230 @@
+"""Frames and movies of a run, as files and as pictures."""
+
+from __future__ import annotations
+
+import errno
+import os
+from collections.abc import Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from PIL import Image
+from PIL.PngImagePlugin import PngInfo
+
+from support_exudyn.files.temporary import remove_leftovers, workshop
+from support_exudyn.files.whole_file import named, whole_file
+from support_exudyn.formulations.progress import Progress, silent
+from support_exudyn.postprocessing.render import movie as movies
+from support_exudyn.postprocessing.render.layout import Layout
+from support_exudyn.postprocessing.render.moments import Moments, moment, moments
+from support_exudyn.postprocessing.render.painter import Painter
+from support_exudyn.postprocessing.render.pin_view import pin_view
+from support_exudyn.postprocessing.render.scene import Scene
+from support_exudyn.postprocessing.render.stage import Image as Picture
+from support_exudyn.postprocessing.render.stage import Stage
+from support_exudyn.simulation.result import Result
+from user_forces.values.value import InputError
+
+SIZE = (1280, 720)
+SMALLEST, LARGEST = (320, 180), (3840, 2160)
+RATE = 25.0
+FRAMES_SHARE = 0.85  # of the time that is spent before the movie
+NAME = "frame_{:04d}.png"
+FRAME = "frame_*.png"
+QUICKLY = 3  # compression of PNG
+MAKER = "support_exudyn"
+
+
+@dataclass(frozen=True)
+class Rendered:
+    """What was written.
+
+    Arguments:
+        frames: files of the frames, in their order.
+        movie: file of the movie; None: there is none.
+    """
+
+    frames: tuple[Path, ...]
+    movie: Path | None
+
+
+def render(
+    result: Result,
+    folder: str | Path,
+    *,
+    frames_per_second: float = RATE,
+    start: float | None = None,
+    end: float | None = None,
+    speed: float = 1.0,
+    movie: str = "gif",
+    movie_path: str | Path | None = None,
+    size: tuple[int, int] = SIZE,
+    pin: str | None = None,
+    progress: Progress = silent,
+) -> Rendered:
+    """Write frames of a run to a folder, and a movie of them.
+
+    Each frame shows the record that is next to its time. Frames of earlier movies in the folder are replaced;
+    all of it takes its place when all is done, and after an error or an interruption all is as it was.
+
+    Arguments:
+        result: the run; all bodies and the shown pin have to be recorded.
+        folder: for frame_0000.png and so on.
+        frames_per_second: of the movie, 0.1 to 240.
+        start, end: of the movie in the run's time [s]; None: of the run.
+        speed: seconds of the run in a second of the movie: 0.01 for impacts, a hundred times slower.
+        movie: "gif", "mp4" (needs the extra [movie]) or "none".
+        movie_path: None: the folder's name with the movie's ending, without "_frames".
+        size: width and height of frames [pixels], even, 320 x 180 to 3840 x 2160.
+        pin: whose journal and force are shown; None: the first loose pin, or the first of all.
+        progress: is told the share that is done.
+
+    Raises InputError if one of these is out of its range or a channel was not recorded, OSError if something
+    cannot be written.
+    """
+    folder = Path(folder)
+    shown = moments(result.time, start, end, frames_per_second, speed)
+    movies.check(movie, frames_per_second, shown.times.size)
+    target = _movie_path(folder, movie, movie_path)
+    show = _Show(result, size, pin, shown)
+    number = shown.times.size
+    with _folder_for(folder) as made:
+        paths = [made / NAME.format(n) for n in range(number)]
+        share = FRAMES_SHARE if target else 1.0
+        with ThreadPoolExecutor(1) as painters:  # paints and writes while the next one is traced
+            painted: Future[None] | None = None
+            for n, path in enumerate(paths):
+                machine = show.machine(n)
+                if painted is not None:
+                    painted.result()
+                painted = painters.submit(show.save, machine, n, path)
+                progress(share * (n + 1) / number)
+            assert painted is not None  # there is a frame
+            painted.result()
+        if target is None:
+            _replace_frames(paths, folder)
+        else:
+            with whole_file(target) as temporary:
+                movies.write(
+                    movie, temporary, paths, frames_per_second, lambda s: progress(share + (1.0 - share) * s)
+                )
+            _replace_frames(paths, folder)
+    return Rendered(tuple(folder / path.name for path in paths), target)
+
+
+def still(result: Result, time: float, *, size: tuple[int, int] = SIZE, pin: str | None = None) -> Picture:
+    """A single frame as an array (height, width, 3) of RGB from 0 to 255.
+
+    Arguments:
+        result: the run.
+        time: of the frame [s]; it shows the record next to it.
+        size, pin: as of `render`.
+
+    Raises InputError if the run does not reach the time, or as `render` does.
+    """
+    show = _Show(result, size, pin, moment(result.time, time))
+    return np.asarray(show.frame(show.machine(0), 0))
+
+
+class _Show:
+    """A run on its stage, with the painter of its frames."""
+
+    def __init__(self, result: Result, size: tuple[int, int], pin: str | None, shown: Moments) -> None:
+        _check_size(size)
+        self._scene = Scene(result)
+        self._shown = shown
+        view = pin_view(result, pin)
+        layout = Layout(*size, view is not None)
+        left, top, right, bottom = layout.picture
+        camera = self._scene.camera(right - left, bottom - top)
+        self._stage = Stage(self._scene.props(), camera, _processors())
+        self._painter = Painter(self._scene, layout, camera, view, shown)
+
+    def machine(self, number: int) -> Picture:
+        """The machine alone, of a frame."""
+        return self._stage.image(self._scene.places(int(self._shown.records[number])))
+
+    def frame(self, machine: Picture, number: int) -> Image.Image:
+        """The whole frame."""
+        return self._painter.frame(machine, number)
+
+    def save(self, machine: Picture, number: int, path: Path) -> None:
+        """Write it."""
+        self.frame(machine, number).save(path, format="PNG", compress_level=QUICKLY, pnginfo=_signed())
+
+
+def _processors() -> int:
+    """That this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+def _check_size(size: tuple[int, int]) -> None:
+    for name, number, low, high in zip(("width", "height"), size, SMALLEST, LARGEST, strict=True):
+        if not low <= number <= high or number % 2:
+            raise InputError(f"size: {name} = {number} pixels: allowed: even, from {low} to {high}")
+
+
+def _movie_path(folder: Path, kind: str, path: str | Path | None) -> Path | None:
+    if kind == "none":
+        return None
+    if path is not None:
+        return Path(path)
+    return folder.with_name(f"{folder.name.removesuffix('_frames') or folder.name}.{kind}")
+
+
+@contextmanager
+def _folder_for(folder: Path) -> Iterator[Path]:
+    """A temporary folder beside the one that is asked for; it is gone afterwards."""
+    if folder.exists() and not folder.is_dir():
+        raise NotADirectoryError(
+            errno.ENOTDIR, "a file stands where the folder of frames should be", str(folder)
+        )
+    with ExitStack() as held:
+        try:
+            folder.parent.mkdir(parents=True, exist_ok=True)
+            remove_leftovers(folder.parent)
+            made = held.enter_context(workshop(folder.parent))
+        except FileExistsError:
+            raise named(
+                NotADirectoryError(errno.ENOTDIR, "A file stands where a folder should be"), folder
+            ) from None
+        except OSError as error:  # of a name that nobody has given
+            raise named(error, folder) from None
+        try:
+            yield made
+        except OSError as error:
+            if error.errno is None or (error.filename and Path(str(error.filename)).parent != made):
+                raise  # of something else
+            raise named(error, folder) from error
+
+
+def _signed() -> PngInfo:
+    """What a frame says of itself: who has made it."""
+    said = PngInfo()
+    said.add_text("Software", MAKER)
+    return said
+
+
+def _is_ours(path: Path) -> bool:
+    """Whether a frame says that this program has made it."""
+    try:
+        with Image.open(path, formats=["PNG"]) as opened:
+            return opened.info.get("Software") == MAKER
+    except (OSError, ValueError, SyntaxError):
+        return False
+
+
+def _replace_frames(paths: list[Path], folder: Path) -> None:
+    """Move frames to their folder; those of an earlier movie go."""
+    folder.mkdir(exist_ok=True)
+    new = {path.name for path in paths}
+    for path in paths:
+        path.replace(folder / path.name)
+    for old in folder.glob(FRAME):
+        if old.name not in new and old.stem.removeprefix("frame_").isdigit() and _is_ours(old):
+            old.unlink()

@@ -1,0 +1,143 @@
+"""A run as a scene: the machine's surfaces, what stands around them, and where all of it is at a record."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cached_property
+
+import numpy as np
+
+from support_exudyn.mechanics.trajectory import Series
+from support_exudyn.model.loads.roof import Roof
+from support_exudyn.postprocessing.look.palette import COLOURS
+from support_exudyn.postprocessing.look.poses import Poses
+from support_exudyn.postprocessing.look.solid import Look, Role, Strut
+from support_exudyn.postprocessing.look.strut_pose import strut_pose
+from support_exudyn.postprocessing.render.camera import Camera, fitted
+from support_exudyn.postprocessing.render.pin_view import PinView
+from support_exudyn.postprocessing.render.scenery import GAP, Label, Surroundings, surroundings
+from support_exudyn.postprocessing.render.stage import Prop
+from support_exudyn.simulation.result import Result
+from user_forces.values.value import Vector3
+
+LOOKED_AT = 33  # records, spread over the run, by which the picture's frame is chosen
+UNTURNED = np.eye(3)
+NOWHERE = np.zeros(3)
+
+
+class Scene:
+    """Of a run.
+
+    Raises InputError if the run has not recorded where its bodies are.
+    """
+
+    def __init__(self, result: Result) -> None:
+        self.result = result
+        self.look: Look = result.scenario.machine.look(result.scenario)
+        self.poses = Poses(result)
+        self.records = np.unique(np.linspace(0, self.poses.time.size - 1, LOOKED_AT).astype(int))
+
+    @cached_property
+    def points(self) -> Series:
+        """Where the machine is at these records, shape (n, 3) [m]."""
+        found = []
+        for record in self.records:
+            for solid in self.look.solids:
+                corners = solid.mesh.convex_hull.vertices
+                found.append(self.poses.of(solid.body).points(corners, int(record)))
+            for strut in self.look.struts:
+                for mesh, (place, turn) in zip(
+                    (strut.cylinder, strut.rod), self._strut(strut, int(record)), strict=True
+                ):
+                    found.append(mesh.bounds @ turn.T + place)
+        return np.concatenate(found)
+
+    @cached_property
+    def surroundings(self) -> Surroundings | None:
+        """Of a support; None of machines without a canopy."""
+        canopies = [solid for solid in self.look.solids if solid.role is Role.CANOPY]
+        if not canopies:
+            return None
+        length = float(np.ptp(self.points[:, 0]))
+        highest = max(
+            self.poses.of(solid.body).points(solid.mesh.convex_hull.vertices, int(record))[:, 1].max()
+            for solid in canopies
+            for record in self.records
+        )
+        half_width = float(np.abs(self.points[:, 2]).max())
+        roof = self._face(0)
+        height = highest + 0.25 * GAP * length if roof is None else roof
+        return surroundings(self.points, self.look.floor, height, half_width)
+
+    def _face(self, record: int) -> float | None:
+        """Height of the lowest roof that presses on the canopy, at its upper face [m]; None without one."""
+        found = []
+        for load in self.result.scenario.loads.values():
+            if isinstance(load, Roof):
+                solids = [solid for solid in self.look.solids if solid.body == load.body]
+                top = max((solid.mesh.bounds[1, 1] for solid in solids), default=load.point[1])
+                found.append(top + load.gap - load.descent.extension(float(self.poses.time[record])))
+        return min(found, default=None)
+
+    def props(self) -> list[Prop]:
+        """All surfaces, each in axes of its own."""
+        found = []
+        for solid in self.look.solids:
+            mesh = solid.mesh.copy()
+            mesh.apply_translation(-np.array(self.poses.of(solid.body).start))
+            found.append(Prop(mesh, COLOURS[solid.role]))
+        for strut in self.look.struts:
+            found += [Prop(strut.cylinder, COLOURS[Role.CYLINDER]), Prop(strut.rod, COLOURS[Role.ROD])]
+        around = self.surroundings
+        return found if around is None else [*found, *around.props, around.roof]
+
+    def places(self, record: int) -> Iterator[tuple[Series, Series]]:
+        """Where each of these is: a place (3,) [m] and a turn (3, 3)."""
+        for solid in self.look.solids:
+            pose = self.poses.of(solid.body)
+            yield pose.place[record], pose.turn[record]
+        for strut in self.look.struts:
+            yield from self._strut(strut, record)
+        if self.surroundings is not None:
+            yield from ((NOWHERE, UNTURNED) for _ in self.surroundings.props)
+            yield np.array([0.0, self.roof(record), 0.0]), UNTURNED
+
+    def roof(self, record: int) -> float:
+        """Height of the roof's lower face [m]."""
+        assert self.surroundings is not None
+        face = self._face(record)
+        return self.surroundings.roof_height if face is None else face
+
+    def _strut(self, strut: Strut, record: int) -> Iterator[tuple[Series, Series]]:
+        """Of cylinder and rod; their x axis runs from foot to head."""
+        pose = strut_pose(strut, self.poses, record)
+        yield pose.foot, pose.axes
+        yield pose.head, pose.axes
+
+    def camera(self, width: int, height: int) -> Camera:
+        """That sees all of it over the whole run."""
+        points = (
+            self.points
+            if self.surroundings is None
+            else np.concatenate([self.points, self.surroundings.points])
+        )
+        margin = max(2, round(0.02 * height))
+        return fitted(points, width, height, (margin, margin, margin, margin))
+
+    def labels(self, record: int) -> list[Label]:
+        """What is written into the picture."""
+        if self.surroundings is None:
+            return []
+        word = self.surroundings.roof_label
+        x, y, z = word.place
+        return [*self.surroundings.labels, Label(word.text, (x, y + self.roof(record), z), word.light)]
+
+    def near_end(self, pin: PinView) -> float:
+        """z of the end of a pin that the camera sees [m]."""
+        ends = [s.mesh.bounds[0, 2] for s in self.look.solids if s.name.startswith(f"pin_{pin.name}")]
+        return float(min(ends)) if ends else float(self.points[:, 2].min())
+
+    def seen(self, pin: PinView, record: int) -> Vector3:
+        """Where the visible end of a pin is [m]."""
+        x, y, _ = pin.path[record]
+        return float(x), float(y), self.near_end(pin)

@@ -1,0 +1,156 @@
+"""What stands around a shield support: floor, roof, coal face, and the broken rock of the goaf behind it.
+
+Roof, coal face and goaf are cut through in the plane of symmetry, so that they hide nothing of the machine.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from shapely.geometry import Polygon
+from trimesh import Trimesh
+from trimesh.convex import convex_hull
+
+from support_exudyn.mechanics.trajectory import Series
+from support_exudyn.postprocessing.look.palette import Colour
+from support_exudyn.postprocessing.look.shapes import plate, together
+from support_exudyn.postprocessing.render.stage import Prop
+from user_forces.values.value import Vector3
+
+FLOOR: Colour = (0.74, 0.72, 0.68)
+ROOF: Colour = (0.66, 0.64, 0.61)
+COAL: Colour = (0.23, 0.23, 0.25)
+ROCKS: tuple[Colour, ...] = (0.62, 0.60, 0.57), (0.72, 0.70, 0.66), (0.53, 0.51, 0.49)
+DARK: Colour = (0.40, 0.38, 0.36)
+STEEP = 0.5  # how far the heap leans back, of its depth
+SEED = 5  # of the rocks: they always lie alike
+COURSES = 8  # of rocks, one on the other
+GAP = 0.02  # between things that do not touch, of the machine's length
+BEHIND = 0.30  # how far the goaf reaches, of the machine's length
+
+
+@dataclass(frozen=True)
+class Label:
+    """A word in the picture, with its middle at a point in space."""
+
+    text: str
+    place: Vector3
+    light: bool = False  # on a dark face
+
+
+@dataclass(frozen=True)
+class Surroundings:
+    """What does not move, the roof, and what is written on them.
+
+    Arguments:
+        props: in ground's axes.
+        roof: its lower face at the height 0; it is put at `roof_height` [m].
+        labels: names of things; that of the roof is measured from its lower face.
+        roof_label: likewise.
+        points: corners that should be in the picture (n, 3) [m].
+    """
+
+    props: tuple[Prop, ...]
+    roof: Prop
+    roof_height: float
+    labels: tuple[Label, ...]
+    roof_label: Label
+    points: Series
+
+
+def surroundings(machine: Series, floor: float, roof_height: float, half_width: float) -> Surroundings:
+    """Of a machine that is at some time or other at all these points (n, 3).
+
+    Arguments:
+        machine: points of its surface [m].
+        floor: height of the ground [m].
+        roof_height: of the roof's lower face, at the start of a picture [m].
+        half_width: of the machine [m].
+    """
+    rear, front = machine[:, 0].min(), machine[:, 0].max()
+    length = float(front - rear)
+    face = float(front) + 2.0 * GAP * length
+    back = float(rear) - GAP * length
+    left, right = face + 0.085 * length, back - BEHIND * length
+    thick, deep = 0.085 * length, half_width
+    ground = _slab(right, left, floor - 0.035 * length, floor, -1.25 * half_width, deep)
+    coal = _slab(face, left, floor, roof_height + thick, 0.0, deep)
+    edge = back - 0.02 * length  # where the roof has broken off
+    roof = plate(
+        Polygon(
+            [
+                (face, 0.0),
+                (edge + 0.05 * length, 0.0),
+                (edge, 0.35 * thick),
+                (edge + 0.03 * length, 0.6 * thick),
+                (edge - 0.03 * length, thick),
+                (face, thick),
+            ]
+        ),
+        0.5 * deep,
+        deep,
+    )
+    height = roof_height - floor
+    heap = 0.82 * height
+    behind = Polygon(
+        [(right, floor), (back, floor), (back - STEEP * (back - right), floor + heap), (right, floor + heap)]
+    )
+    rocks = list(_rocks(right, back, floor, heap, deep))
+    props = [Prop(ground, FLOOR), Prop(coal, COAL), Prop(plate(behind, 0.8 * deep, 0.4 * deep), DARK), *rocks]
+    labels = (
+        Label("coal\nface", (0.5 * (face + left), floor + 0.5 * height, 0.0), light=True),
+        Label("floor", (face - 0.16 * length, floor - 0.0175 * length, -1.25 * half_width)),
+        Label("goaf", (right + 0.22 * (back - right), floor + 0.95 * height, 0.0)),
+    )
+    corners = np.concatenate([prop.mesh.bounds for prop in props])
+    above = np.array([[face, roof_height + thick, deep], [edge, roof_height + thick, deep]])
+    return Surroundings(
+        tuple(props),
+        Prop(roof, ROOF),
+        roof_height,
+        labels,
+        Label("roof", (0.5 * (face + edge), 0.5 * thick, 0.0)),
+        np.concatenate([*_all_corners(corners.reshape(-1, 2, 3)), above]),
+    )
+
+
+def _all_corners(bounds: Series) -> Iterator[Series]:
+    """Of boxes."""
+    for low, high in bounds:
+        yield np.array(
+            [(x, y, z) for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])]
+        )
+
+
+def _slab(left: float, right: float, low: float, high: float, near: float, far: float) -> Trimesh:
+    """A box."""
+    outline = Polygon([(left, low), (right, low), (right, high), (left, high)])
+    return plate(outline, 0.5 * (near + far), far - near)
+
+
+def _rocks(right: float, left: float, floor: float, height: float, deep: float) -> Iterator[Prop]:
+    """A heap that leans away from the machine, of one surface to a colour."""
+    random = np.random.default_rng(SEED)
+    found: list[list[Trimesh]] = [[] for _ in ROCKS]
+    step = height / COURSES
+    size = 0.78 * step
+    for course in range(COURSES):
+        nearest = left - size - STEEP * course / COURSES * (left - right)
+        for x in np.arange(nearest, right, -1.45 * size):
+            radius = size * random.uniform(0.8, 1.2)
+            place = np.array([x, floor + (course + 0.5) * step, 0.3 * deep + random.uniform(0.0, 0.3) * deep])
+            found[random.integers(len(ROCKS))].append(_rock(random, place, radius))
+    for colour, rocks in zip(ROCKS, found, strict=True):
+        if rocks:
+            yield Prop(together(rocks), colour)
+
+
+def _rock(random: np.random.Generator, place: Series, radius: float) -> Trimesh:
+    """A lump with flat faces."""
+    directions = random.normal(size=(14, 3))
+    directions /= np.linalg.norm(directions, axis=1)[:, None]
+    points = directions * radius * random.uniform(0.85, 1.2, (14, 1)) * np.array([1.2, 0.95, 1.0])
+    rock: Trimesh = convex_hull(points + place)
+    return rock

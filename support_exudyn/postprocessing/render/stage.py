@@ -1,0 +1,107 @@
+"""A scene of the engine without mechanics: surfaces that are put where a run has them, and the ray tracer."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import exudyn as exu
+import numpy as np
+import numpy.typing as npt
+from exudyn.utilities import NodeRigidBodyEP, ObjectRigidBody, VObjectRigidBody
+from scipy.spatial.transform import Rotation
+from trimesh import Trimesh
+
+from support_exudyn.mechanics.trajectory import Series
+from support_exudyn.postprocessing.look.palette import Colour
+from support_exudyn.postprocessing.render.camera import Camera
+from support_exudyn.postprocessing.viewer.engine_graphics import engine_surface
+
+Image = npt.NDArray[np.uint8]  # height, width, 3
+AMBIENT = 0.46  # light that comes from everywhere
+SAMPLES = 2  # squared: rays to a pixel
+LIGHT_FROM = (-0.45, 0.8, 0.9, 0.0)  # right, up, towards the eye
+FILL_FROM = (0.8, 0.25, 0.7, 0.0)
+
+
+@dataclass(frozen=True)
+class Prop:
+    """Something on the stage.
+
+    Arguments:
+        mesh: its surface in axes of its own [m].
+        colour: RGB from 0 to 1.
+        edges: whether edges are drawn.
+    """
+
+    mesh: Trimesh
+    colour: Colour
+    edges: bool = True
+
+
+class Stage:
+    """All props, and pictures of them."""
+
+    def __init__(self, props: Sequence[Prop], camera: Camera, threads: int = 1) -> None:
+        self._container = exu.SystemContainer()
+        self._system = self._container.AddSystem()
+        self._camera = camera
+        for prop in props:
+            self._add(prop)
+        self._system.Assemble()
+        self._settings(camera, threads)
+        renderer = self._container.renderer
+        window: Any = self._container.visualizationSettings.view0.window
+        window.renderWindowSize = [16, 16]
+        renderer.RedrawAndGetImage(True)  # with its first picture the engine chooses a view of its own
+        window.renderWindowSize = [camera.width_px, camera.height_px]
+        turn = [float(angle) for angle in camera.rotation.as_rotvec()]
+        # its zoom is half of what is seen, and its centre is measured in the axes of the picture
+        seen = camera.rotation.apply(camera.centre)
+        renderer.SetModelView(0.5 * camera.height, turn, [float(seen[0]), float(seen[1]), 0.0])
+
+    def _add(self, prop: Prop) -> None:
+        """A body that nothing moves."""
+        drawn = engine_surface(prop.mesh, prop.colour, prop.edges).placed()
+        node = self._system.AddNode(NodeRigidBodyEP(referenceCoordinates=[0, 0, 0, 1, 0, 0, 0]))
+        self._system.AddObject(
+            ObjectRigidBody(
+                mass=1.0,
+                inertia=[1, 1, 1, 0, 0, 0],
+                nodeNumber=node,
+                visualization=VObjectRigidBody(graphicsData=[drawn]),
+            )
+        )
+
+    def _settings(self, camera: Camera, threads: int) -> None:
+        settings: Any = self._container.visualizationSettings
+        settings.view0.window.showComputationInfo = False
+        settings.view0.scene.drawCoordinateSystem = 0
+        settings.view0.scene.drawWorldBasis = False
+        settings.nodes.show = False
+        settings.general.backgroundColor = [1.0, 1.0, 1.0, 1.0]
+        settings.general.useGradientBackground = False
+        settings.raytracer.multiSampling = SAMPLES
+        settings.raytracer.numberOfThreads = threads
+        settings.raytracer.advanced.showText = False
+        settings.openGL.lineWidth = 1.2
+        settings.openGL.lightModelAmbient = [AMBIENT, AMBIENT, AMBIENT, 1.0]
+        settings.raytracer.advanced.zBiasLines = 5e-4
+        for light, where, shadow, bright in (
+            (settings.openGL.light0, LIGHT_FROM, 0.3, 0.62),
+            (settings.openGL.light1, FILL_FROM, 0.0, 0.36),
+        ):
+            light.enable, light.position, light.shadow = True, list(where), shadow
+            light.useCameraFrame, light.diffuse, light.specular = True, bright, 0.2
+
+    def image(self, places: Iterable[tuple[Series, Series]]) -> Image:
+        """A picture with props at places (3,) [m], turned by matrices (3, 3), in their order."""
+        coordinates = []
+        for place, turn in places:
+            x, y, z, w = Rotation.from_matrix(turn).as_quat()
+            coordinates += [*place, w - 1.0, x, y, z]
+        self._system.systemData.SetODE2Coordinates(coordinates)
+        self._system.SendRedrawSignal()  # what is drawn is a copy, taken now
+        picture: Image = np.asarray(self._container.renderer.RedrawAndGetImage(True), dtype=np.uint8)
+        return picture

@@ -1,0 +1,202 @@
+"""What a run was and what came out of it, in words and numbers with their units."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from support_exudyn.model.pins import ClearancePin, Pin
+from support_exudyn.postprocessing.figures.units import readable, said
+from support_exudyn.postprocessing.figures.windows import inside
+from support_exudyn.simulation.estimate import Estimate
+from support_exudyn.simulation.reported_numbers import FORCE, measures
+from support_exudyn.simulation.result import Result
+from user_forces.values.value import Value
+
+Row = tuple[str, ...]
+AT_ANY_STEP = ".largest_force"  # of the whole run, not only of the records
+TOUCHES = 3  # of every pin that are told one by one
+VERSIONS = ("support-exudyn", "exudyn", "python", "numpy", "scipy", "numba")
+ROUNDING = 1e-14  # share of a channel's largest value that is shown as zero
+DIGITS = 6  # of numbers without known error
+
+
+def what_was_run(result: Result) -> list[Row]:
+    """Machine, pins, drives and settings: name and words."""
+    scenario = result.scenario
+    rows: list[Row] = [
+        (
+            "machine",
+            f"{type(scenario.machine).__name__}, {'in the plane' if scenario.dimensions == 2 else 'in space'}",
+        ),
+        ("duration", f"{scenario.duration:g} s, recorded every {said(scenario.record_period, 's')}"),
+        ("start", f"{scenario.start}, gravity {scenario.gravity[0]:g}, {scenario.gravity[1]:g} m/s²"),
+    ]
+    others = [name for name in scenario.linkage.pins if name not in scenario.pins]
+    rows += [(f"pin {name}", _pin(result, name, pin)) for name, pin in scenario.pins.items()]
+    if others:
+        rows.append(("ideal pins", ", ".join(others)))
+    parts = {**scenario.columns, **scenario.parts, **scenario.loads}
+    rows += [(name, words(part)) for name, part in parts.items()]
+    rows += [("drive", words(scenario.drive))]
+    rows += [(f"drive of {name}", words(drive)) for name, drive in scenario.drives.items()]
+    return rows
+
+
+def how(result: Result) -> list[Row]:
+    """Formulation, accuracy, counts, time taken and versions: name and words."""
+    scenario, counts = result.scenario, result.counts
+    if result.goal is None:
+        accuracy = "none was asked for: settings as they stand"
+    else:
+        met = "met" if result.met else "NOT met"
+        accuracy = f"{result.goal:g} asked for, {result.worst_error:.1g} estimated: {met}"
+    made = dataclasses.asdict(counts).items()
+    versions = [f"{name} {result.provenance[name]}" for name in VERSIONS if name in result.provenance]
+    steps = f"tolerance {scenario.solver.tolerance:g}"
+    if scenario.formulation not in ("tree", "reduced"):
+        steps = f"steps of {said(scenario.step, 's')} and less, {scenario.solver.impact_steps} to an impact"
+    return [
+        ("formulation", f"{scenario.formulation}, {steps}"),
+        ("accuracy", accuracy),
+        ("counts", ", ".join(f"{count} {name.replace('_', ' ')}" for name, count in made if count)),
+        (
+            "wall time",
+            f"{said(result.wall_time, 's')}{' (all runs of the accuracy)' if result.coarser else ''}",
+        ),
+        ("made", f"{result.provenance.get('made_at', 'at a time unknown')} with {', '.join(versions)}"),
+    ]
+
+
+def numbers(result: Result, after: float, until: float) -> dict[str, Estimate]:
+    """Numbers of the forces and of the energy between two times [s], in SI; an error that is not known is NaN.
+
+    Errors are known if an accuracy was asked for. Largest forces at any step and energies are of the whole run.
+
+    Raises InputError if no record lies between.
+    """
+    inside(result, after, until, fewest=1)
+    found: dict[str, Estimate] = {}
+    if result.coarser is not None:
+        found |= result.numbers(after, until)
+    else:
+        found |= {
+            name: Estimate(kind.measure(result), math.nan, kind.unit)
+            for name, kind in measures(result, after, until).items()
+            if f"{FORCE}." in name or name.endswith(AT_ANY_STEP)
+        }
+    return found | {name: Estimate(value, math.nan, "J") for name, value in _energies(result).items()}
+
+
+def came_out(result: Result, after: float, until: float) -> list[Row]:
+    """The same in the units in which they are read best: name, value, error (empty if not known), unit.
+
+    Raises InputError if no record lies between.
+    """
+    return [
+        (f"{name}, any step of the run" if name.endswith(AT_ANY_STEP) else name, *with_error(found))
+        for name, found in numbers(result, after, until).items()
+    ]
+
+
+def touches(result: Result) -> list[Row]:
+    """The first touches of every loose pin: pin, which of how many, time, duration, speeds before and after."""
+    rows: list[Row] = []
+    for pin, onsets in result.onsets.items():
+        if not onsets:
+            rows.append((pin, "none", "", "", "", ""))
+        for n, one in enumerate(onsets[:TOUCHES]):
+            lasted, parted = one.parting_time - one.time, math.isfinite(one.parting_time)
+            ends = "to the next touch" if n + 1 < len(onsets) else "to the end"
+            rows.append((
+                pin, f"{n + 1} of {len(onsets)}", said(one.time, "s", 6),
+                said(lasted, "s", 4) if parted else ends,
+                said(one.speed, "m/s", 5), said(one.parting_speed, "m/s", 5) if parted else "",
+            ))  # fmt: skip
+    return rows
+
+
+def of_channels(result: Result, names: Iterable[str], after: float, until: float) -> list[Row]:
+    """Channels between two times [s]: name, unit, least, mean and greatest value with their signs, meaning.
+
+    Raises InputError if no record lies between.
+    """
+    rows: list[Row] = []
+    for name in names:
+        found = extent(result, name, after, until)
+        values = [found[word] for word in ("min", "mean", "max")]
+        size = max(map(abs, values))
+        unit = readable(found["unit"], size)
+        told = (
+            f"{unit.scale * (value if abs(value) > ROUNDING * size else 0.0):.{DIGITS}g}" for value in values
+        )
+        rows.append((name, unit.name, *told, found["meaning"]))
+    return rows
+
+
+def extent(result: Result, name: str, after: float, until: float) -> dict[str, Any]:
+    """Unit, meaning, and min, mean and max in SI of a channel between two times [s].
+
+    Raises InputError if no record lies between.
+    """
+    channel = result.channels[name]
+    values = channel.values[inside(result, after, until, fewest=1)]
+    extreme = {"min": values.min(), "mean": values.mean(), "max": values.max()}
+    return {"unit": channel.unit, "meaning": channel.meaning} | {k: float(v) for k, v in extreme.items()}
+
+
+def telling(result: Result) -> list[str]:
+    """Names of the channels that are looked at first: forces, depths, moments, traced points, energy."""
+    points = {f"{point}.{axis}" for point in result.scenario.linkage.points for axis in "xyz"}
+    ends = (".force", ".depth", ".moment", ".balance")
+    return [name for name in result.channels if name.endswith(ends) or name in points]
+
+
+def with_error(found: Estimate) -> Row:
+    """A number, its error to its leading digits (empty if it is NaN), and the unit in which both are."""
+    unit = readable(found.unit, abs(found.value))
+    value, error = unit.scale * found.value, unit.scale * found.error
+    if math.isnan(error):
+        return f"{value:.{DIGITS}g}", "", unit.name
+    if not (math.isfinite(error) and error > 0.0):
+        return f"{value:.{DIGITS}g}", "not known" if error else "0", unit.name
+    digits = min(max(0, 1 - math.floor(math.log10(error))), 9)
+    return f"{value:.{digits}f}", f"{error:.1e}", unit.name
+
+
+def words(item: Any) -> str:
+    """A value as its name and its parameters, in SI; settings that are none are left out."""
+    if isinstance(item, Value):
+        fields = {f.name: getattr(item, f.name) for f in dataclasses.fields(item)}  # type: ignore[arg-type]
+        told = ", ".join(f"{name.replace('_', ' ')} {words(v)}" for name, v in fields.items() if v is not None)
+        return f"{type(item).__name__} ({told})" if told else type(item).__name__
+    if isinstance(item, Mapping):
+        return ", ".join(f"{name}: {words(v)}" for name, v in item.items()) or "none"
+    if isinstance(item, tuple):
+        return ", ".join(words(v) for v in item)
+    return f"{item:g}" if isinstance(item, float) else str(item)
+
+
+def _pin(result: Result, name: str, pin: Pin) -> str:
+    if not isinstance(pin, ClearancePin):
+        return words(pin)
+    contact = pin.contact
+    bearing = contact.bearing
+    return (
+        f"{1e3 * bearing.clearance:g} mm clearance in a bore of {1e3 * bearing.bore_radius:g} mm radius in "
+        f"{getattr(result.scenario.linkage.pins[name], pin.bore)}, {words(contact.normal)}, "
+        f"{words(contact.friction)}"
+    )
+
+
+def _energies(result: Result) -> dict[str, float]:
+    """Of the whole run [J], as far as they were recorded."""
+    found = {}
+    for name in ("work", "damping_loss", "friction_loss"):
+        if f"energy.{name}" in result.channels:
+            found[f"energy.{name} at the end"] = float(result[f"energy.{name}"][-1])
+    if "energy.balance" in result.channels:
+        found["energy not accounted for, largest"] = result.energy_error
+    return found

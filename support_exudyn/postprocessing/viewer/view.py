@@ -1,0 +1,224 @@
+"""Exudyn's solution viewer on a run: its model with the look of the machine, moving as it did."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from math import pi
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import exudyn
+import numpy as np
+from exudyn.basicUtilities import SetSolutionState
+
+from support_exudyn.formulations.engine_settings import quiet_engine
+from support_exudyn.mechanics.trajectory import Series
+from support_exudyn.model.linkage import GROUND
+from support_exudyn.postprocessing.export.solution_file import Solution, check_fits, read_solution, rows
+from support_exudyn.postprocessing.viewer.display import check_display
+from support_exudyn.postprocessing.viewer.viewer_model import SHOWN, DressedModel, dressed
+from support_exudyn.simulation.provenance import installed
+from support_exudyn.simulation.result import Result
+from user_forces.values.value import InputError, short
+
+MADE_WITH = ("exudyn", "support-exudyn")  # packages on which the model depends
+WINDOW = (1200, 750)  # width and height [pixels]
+FRAME = 0.04  # [s]
+LASTS = 10.0  # [s] that a run takes in the viewer unless asked otherwise
+MOST_SKIPPED = 200  # rows from frame to frame, as many as the viewer's slider has
+MOST_LOOKED_AT = 60  # states by which the camera is set
+MARGIN = 1.15  # of what is seen, over what the machine needs
+FROM_THE_SIDE = (0.0, pi, 0.0)  # rotation vector: one looks along +z, with the goaf (-x) on the right
+
+
+def differing_versions(result: Result) -> list[str]:
+    """Sentences on the packages that are not those a run was made with."""
+    return [
+        f"made with {name} {result.provenance.get(name, 'of an unknown version')}, and {installed(name)} is "
+        "installed: the model may not be exactly the one that was run"
+        for name in MADE_WITH
+        if result.provenance.get(name) != installed(name)
+    ]
+
+
+def open_viewer(
+    result: Result,
+    *,
+    solution: str | Path | None = None,
+    every: int | None = None,
+    name: str = "",
+) -> None:
+    """Open Exudyn's solution viewer on a run; returns when its user closes it.
+
+    Arguments:
+        result: the run.
+        solution: path of a solution file of it that is shown in place of its records, see
+            `Result.save_solution`.
+        every: rows from frame to frame, 1 to 200, 25 frames a second; by default the run takes about 10 s.
+        name: of the run, shown in the window.
+
+    Raises NoDisplayError, an OSError, if no window can be opened here; InputError if the run has not recorded
+    where its bodies are, or the solution file is not one of its model.
+    """
+    with window(result, solution=solution, name=name) as shown:
+        from exudyn.interactive import SolutionViewer  # which needs tkinter
+
+        count = int(shown.solution["nRows"])
+        SolutionViewer(
+            shown.model.scene.mbs,
+            shown.solution,
+            rowIncrement=every_row(count) if every is None else checked_every(every, count),
+            timeout=FRAME,
+            runMode=0,
+            title=f"{title(result, name)}: solution viewer",
+        )
+
+
+def every_row(count: int) -> int:
+    """Rows from frame to frame with which so many take about 10 s."""
+    return max(1, min(MOST_SKIPPED, round(count * FRAME / LASTS)))
+
+
+def checked_every(every: int, count: int) -> int:
+    """Raise InputError unless it can be so many rows from frame to frame; there are `count`."""
+    most = min(MOST_SKIPPED, count)
+    if isinstance(every, bool) or not isinstance(every, int) or not 1 <= every <= most:
+        raise InputError(f"every = {short(every)}: allowed: a whole number from 1 to {most}")
+    return every
+
+
+@dataclass(frozen=True)
+class Window:
+    """The engine's open window on a run, for scripts: shows any row, without the viewer's dialog.
+
+    model: what is shown. solution: the rows, as the engine's viewer takes them.
+    """
+
+    model: DressedModel
+    solution: Solution
+
+    def show(self, row: int) -> None:
+        """Show a row, which is a record of the run; raises InputError if there is none."""
+        count = self.solution["nRows"]
+        if not 0 <= row < count:
+            raise InputError(f"row = {short(row)}: allowed: from 0 to {count - 1}")
+        _show(self.model, self.solution, row)
+        renderer = self.model.scene.container.renderer
+        renderer.SendRedrawSignal()
+        renderer.DoIdleTasks(0)  # what moves by itself, columns, is drawn by Python
+
+    @property
+    def time(self) -> float:
+        """Of what is shown [s]."""
+        return float(self.model.scene.mbs.systemData.GetTime(SHOWN))
+
+    def picture(self) -> np.ndarray:
+        """What is in the window: RGB (height, width, 3) of 8 bits."""
+        return np.array(self.model.scene.container.renderer.RedrawAndGetImage())
+
+
+@contextmanager
+def window(
+    result: Result,
+    *,
+    solution: str | Path | None = None,
+    name: str = "",
+    size: tuple[int, int] = WINDOW,
+) -> Iterator[Window]:
+    """The engine's window on a run while the block runs.
+
+    Arguments, and what is raised, are those of `open_viewer`; size: width and height of the window [pixels].
+    """
+    for sentence in differing_versions(result):
+        print(f"warning: {sentence}", file=sys.stderr)
+    read = None if solution is None else read_solution(solution)
+    model = dressed(result.scenario)
+    container = model.scene.container
+    try:
+        if read is not None and solution is not None:
+            check_fits(read, model.scene, solution)
+        check_display()
+        shown = Window(model, rows(result, model.scene) if read is None else read)
+        _prepare(container.visualizationSettings, title(result, name), size)
+        camera = Camera.on(model, shown.solution, size)
+        with quiet_engine():
+            container.renderer.Start()
+            container.renderer.SetModelView(camera.zoom, list(FROM_THE_SIDE), camera.centre)
+            shown.show(0)
+            yield shown
+    finally:
+        if container.renderer.IsActive():
+            container.renderer.Stop()
+        model.scene.release()
+
+
+def title(result: Result, name: str = "") -> str:
+    """A run in a few words."""
+    machine = type(result.scenario.machine).__name__
+    space = "in space" if result.scenario.dimensions == 3 else "in the plane"
+    formulation = result.scenario.formulation
+    by = "" if formulation == "auto" else f"formulation {formulation}"
+    return ", ".join(filter(None, [name, f"{machine} {space}", by]))
+
+
+def _prepare(settings: Any, text: str, size: tuple[int, int]) -> None:
+    """The machine, its time and its name, and nothing of what the engine knows besides."""
+    for group in (settings.nodes, settings.markers, settings.connectors, settings.loads, settings.sensors):
+        group.show = False
+    settings.general.autoFitScene = False  # the camera stands still
+    settings.general.renderWindowString = text
+    settings.general.showSolutionInformation = False
+    settings.general.showHelpOnStartup = 0
+    settings.view0.scene.showFaceEdges = False
+    settings.view0.window.renderWindowSize = list(size)
+    settings.view0.window.showComputationInfo = True
+    settings.openGL.multiSampling = 4
+    # the stronger light on the side from which one looks
+    settings.openGL.light0.position = [-2.0, 4.0, -10.0, 0.0]
+    settings.openGL.light1.position = [2.0, 4.0, 10.0, 0.0]
+
+
+class Camera(NamedTuple):
+    """Where one looks, in the axes of the screen [m], and half the height that is seen [m]."""
+
+    centre: list[float]
+    zoom: float
+
+    @staticmethod
+    def on(model: DressedModel, solution: Solution, size: tuple[int, int]) -> Camera:
+        """On all that the machine reaches in any of the rows."""
+        low, high = reach(model, solution)
+        x, y, z = 0.5 * (low + high)
+        width, height = high[0] - low[0], high[1] - low[1]
+        return Camera([-x, y, -z], 0.5 * MARGIN * max(height, width * size[1] / size[0]))
+
+
+def reach(model: DressedModel, solution: Solution) -> tuple[Series, Series]:
+    """The least and largest coordinates (3,) that anything drawn has in any of the rows [m]."""
+    corners: list[Series] = []
+    for row in np.unique(np.linspace(0, solution["nRows"] - 1, MOST_LOOKED_AT).astype(int)):
+        _show(model, solution, int(row))
+        for solid in model.look.solids:
+            corners += (
+                [model.place(solid.body, (x, y, z)) for x, y, z in _box(solid.mesh.bounds)]
+                if solid.body != GROUND
+                else list(solid.mesh.bounds)
+            )
+        for strut in model.look.struts:
+            corners += [model.place(strut.foot, strut.foot_point), model.place(strut.head, strut.head_point)]
+    points = np.array(corners)
+    return points.min(axis=0), points.max(axis=0)
+
+
+def _box(bounds: Series) -> list[tuple[float, float, float]]:
+    """The eight corners between two."""
+    (x0, y0, z0), (x1, y1, z1) = bounds.tolist()
+    return [(x, y, z) for x in (x0, x1) for y in (y0, y1) for z in (z0, z1)]
+
+
+def _show(model: DressedModel, solution: Solution, row: int) -> None:
+    """Let the engine's state that is drawn be a row."""
+    SetSolutionState(model.scene.mbs, solution, row, exudyn.ConfigurationType.Visualization)

@@ -1,0 +1,185 @@
+"""The engine's model of a run with the look of its machine, for the engine's windows.
+
+Only what is drawn is added: surfaces of the bodies, and bodies of the ground, which have no coordinates. The
+equations stay those of the model that runs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import exudyn
+import numpy as np
+from exudyn.itemInterface import ObjectGround, VObjectGround
+
+from support_exudyn.formulations.redundant.model import Model, model
+from support_exudyn.formulations.redundant.scene.engine_scene import INITIAL
+from support_exudyn.mechanics.trajectory import Series
+from support_exudyn.model.linkage import GROUND
+from support_exudyn.postprocessing.look.palette import COLOURS, Colour
+from support_exudyn.postprocessing.look.placed_pins import PlacedPin, placed_pins
+from support_exudyn.postprocessing.look.shapes import tube
+from support_exudyn.postprocessing.look.solid import Look, Role, Solid, Strut, solids_of
+from support_exudyn.postprocessing.look.strut_pose import strut_axes
+from support_exudyn.postprocessing.viewer.engine_graphics import engine_surface
+from support_exudyn.scenario.scenario import Scenario
+from user_forces import JournalBearing
+from user_forces.values.value import Vector3
+
+BORE: Colour = (0.0, 0.0, 0.0)
+PROUD = 0.02  # how far journals stand out of what they join, of its width
+AROUND = 2.0  # radii around a pin within which that is looked for
+CORNERS = 64  # of a bore's rim
+SHOWN = exudyn.ConfigurationType.Visualization
+POSITION = exudyn.OutputVariableType.Position
+
+
+@dataclass(frozen=True)
+class DressedModel:
+    """A model and its look.
+
+    scene: the model; its `release` ends it. look: all that is drawn, journals of loose pins with it.
+    """
+
+    scene: Model
+    look: Look
+
+    def place(self, body: str, point: Vector3) -> Series:
+        """Where a point of the start posture is in the state that is shown [m]."""
+        if body == GROUND:
+            return np.array(point)
+        item = self.scene.bodies[body]
+        local = _local(self.scene, body, np.array([point]))[0]
+        return np.array(self.scene.mbs.GetObjectOutputBody(item.object, POSITION, local, SHOWN))
+
+
+def dressed(scenario: Scenario) -> DressedModel:
+    """The model of a scenario, as `model` makes it, with the look of its machine."""
+    scene, look = model(scenario), scenario.machine.look(scenario)
+    loose = [(pin, pin.loose.contact.bearing) for pin in placed_pins(scenario) if pin.loose is not None]
+    rims = [_rim(pin, bearing, look) for pin, bearing in loose]
+    journals = [_journal(pin, bearing, look) for pin, bearing in loose]
+    whole = Look((*look.solids, *journals), look.struts, look.floor)
+    shown = DressedModel(scene, whole)
+    for name, item in scene.bodies.items():
+        drawn = [_of_solid(solid, _axes(scene, name)) for solid in solids_of(whole, name)]
+        drawn += [_of_rim(rim, _axes(scene, name)) for body, rim in rims if body == name]
+        scene.mbs.SetObjectParameter(item.object, "VgraphicsData", drawn)
+    still = [_of_solid(solid) for solid in solids_of(whole, GROUND)]
+    still += [_of_rim(rim) for body, rim in rims if body == GROUND]
+    scene.mbs.AddObject(ObjectGround(visualization=VObjectGround(graphicsData=still)))
+    moving = [part for strut in look.struts for part in _parts(shown, strut)]
+    scene.mbs.AddObject(
+        ObjectGround(
+            visualization=VObjectGround(graphicsDataUserFunction=lambda mbs, item: [part() for part in moving])
+        )
+    )
+    _assemble_again(scene.mbs)
+    return shown
+
+
+def _assemble_again(mbs: Any) -> None:
+    """Tell the engine of what has come, and keep the initial state, which this would set back."""
+    kept = mbs.systemData.GetSystemState(INITIAL)
+    mbs.Assemble()
+    mbs.systemData.SetSystemState(kept, INITIAL)
+
+
+# --- what bodies show ---
+
+
+class Axes(NamedTuple):
+    """Of a body in the start posture: origin [m], and rotation (3, 3) to the ground's axes."""
+
+    origin: Series
+    turn: Series
+
+    def local(self, points: Series) -> Series:
+        """Points of the start posture (n, 3) in these axes."""
+        found: Series = (points - self.origin) @ self.turn
+        return found
+
+
+STILL = Axes(np.zeros(3), np.eye(3))
+
+
+def _axes(scene: Model, name: str) -> Axes:
+    body = scene.bodies[name].body
+    origin, angle = np.zeros(3), 0.0
+    origin[: len(body.centre)] = body.centre
+    if len(body.centre) == 2:  # in space bodies have the ground's axes at the start
+        angle = body.angle
+    c, s = np.cos(angle), np.sin(angle)
+    return Axes(origin, np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]))
+
+
+def _local(scene: Model, name: str, points: Series) -> Series:
+    return _axes(scene, name).local(points)
+
+
+def _of_solid(solid: Solid, axes: Axes = STILL) -> dict[str, Any]:
+    mesh = solid.mesh.copy()
+    mesh.vertices = axes.local(mesh.vertices)
+    return engine_surface(mesh, COLOURS[solid.role]).placed()
+
+
+def _of_rim(points: Series, axes: Axes = STILL) -> dict[str, Any]:
+    return {"type": "Line", "color": [*BORE, 1.0], "data": axes.local(points).ravel()}
+
+
+# --- columns ---
+
+
+def _parts(shown: DressedModel, strut: Strut) -> Iterator[Callable[[], dict[str, Any]]]:
+    """Cylinder and rod of a column; called, they are where the state that is shown has them."""
+    cylinder = engine_surface(strut.cylinder, COLOURS[Role.CYLINDER])
+    rod = engine_surface(strut.rod, COLOURS[Role.ROD])
+
+    def line() -> tuple[Series, Series]:
+        return shown.place(strut.foot, strut.foot_point), shown.place(strut.head, strut.head_point)
+
+    def from_foot() -> dict[str, Any]:
+        foot, head = line()
+        return cylinder.placed(strut_axes(head - foot), foot)
+
+    def from_head() -> dict[str, Any]:
+        foot, head = line()
+        return rod.placed(strut_axes(head - foot), head)
+
+    yield from_foot
+    yield from_head
+
+
+# --- loose pins ---
+
+
+def _reach(pin: PlacedPin, radius: float, look: Look) -> tuple[float, float]:
+    """From where to where along the pin there is something that it joins [m], a little more."""
+    x, y, z = pin.bore.point
+    nearby = [np.array([z - radius, z + radius])]
+    for body in (pin.first.body, pin.second.body):
+        for solid in solids_of(look, body):
+            points = solid.mesh.vertices
+            apart = np.hypot(points[:, 0] - x, points[:, 1] - y)
+            nearby.append(points[apart < AROUND * radius, 2])
+    heights = np.concatenate(nearby)
+    more = PROUD * float(np.ptp(heights))
+    return float(heights.min()) - more, float(heights.max()) + more
+
+
+def _journal(pin: PlacedPin, bearing: JournalBearing, look: Look) -> Solid:
+    low, high = _reach(pin, bearing.bore_radius, look)
+    x, y, _ = pin.journal.point
+    mesh = tube((x, y, low), (x, y, high), bearing.journal_radius)
+    return Solid(f"journal of {pin.name}", pin.journal.body, Role.PIN, mesh)
+
+
+def _rim(pin: PlacedPin, bearing: JournalBearing, look: Look) -> tuple[str, Series]:
+    """Body of a bore, and its rim on the side from which one looks."""
+    low, _ = _reach(pin, bearing.bore_radius, look)
+    angle = np.linspace(0.0, 2.0 * np.pi, CORNERS + 1)
+    x, y, _ = pin.bore.point
+    along_x, along_y = bearing.bore_radius * np.cos(angle), bearing.bore_radius * np.sin(angle)
+    return pin.bore.body, np.column_stack([x + along_x, y + along_y, np.full_like(angle, low)])

@@ -1,5 +1,0 @@
-"""Pictures and movies of runs by the engine's software ray tracer, which needs no display."""
-
-from support_exudyn.render.rendering import Rendered, render, still
-
-__all__ = ["Rendered", "render", "still"]

@@ -1,0 +1,95 @@
+"""Settings of the time integration."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Annotated, Literal
+
+from pydantic import Field, model_validator
+
+from user_forces.values.value import Fraction, Real, Value, Whole, value
+
+ERROR_CONTROLLED = ("tree", "reduced")  # formulations that choose their steps by a tolerance
+SMALLEST_TOLERANCE = 1e-13  # rounding
+MOST_IMPACT_STEPS = 10000
+MOST_SECTIONS = 64
+MOST_STEPS = 5_000_000  # some minutes of the redundant formulation
+REFINED_TOLERANCE = 3  # power of the refinement by which the tolerance falls
+
+
+@value
+class SolverSettings(Value):
+    """Settings of the time integration; all but `tolerance` and `backend` are of the redundant formulation.
+
+    Arguments:
+        integrator: "generalised_alpha", or "trapezoidal", the engine's rule of that name, which has no
+            spectral radius and needs constraints of index 2.
+        constraint_index: 3: constraints hold the positions; 2: the velocities, so that pins drift apart (on the
+            support by 1e-9 m in a rise, 1e-6 m in a second of impacts). The engine's generalised alpha has 3
+            only. With 2 cranks follow the drive's speed, and rigid columns that move are refused: the engine's
+            have no speed.
+        spectral_radius: rho at infinite frequency, from 0 (all high-frequency content damped out in a
+            step) to 1 (none). At 0.5 the joint forces are quiet at small steps; at 0.9 rounding
+            shows in them below a step of 0.2 ms.
+        newton_tolerance: relative tolerance of Newton's residual, > 0.
+        newton: "modified", which keeps a Jacobian as long as it serves, or "full", a new one each iteration, as
+            hydraulic cylinders always have.
+        impact_steps: how many steps an impact takes at least, from the touch to the parting of an undamped
+            one of the same speed; 16 to 10000. Steps are so short from the touch until the surfaces part, or
+            until the depth swings little any more. Errors are of second order; 512 delivers any
+            restitution within 1e-5.
+        locate: whether steps are cut so that touches and partings lie at their ends, and refined in impacts.
+            Without, all steps lie on the grid, also after breaks of the drive, and a contact is noticed at
+            the end of the step in which it begins or ends, as plain recipes do. A law is then told the speed
+            there; `Onset.time` is interpolated.
+        growth: by what factor steps may grow beyond `step`, from 1 to 64, while loose pins are closed, nothing
+            is in an impact and accelerations hardly change. Records that a step passes over are interpolated.
+            16 saves nine tenths of the steps with ideal pins, a third with a loose one that comes to rest, few
+            with one that vibrates; errors stay those of `step` where impacts decide. Under loads none grows.
+        tolerance: of the formulations with error control, from 1e-13 to 1e-2. Reduced: largest error of a step
+            as a share of the clearance, and of the speed of a fall through half of it. Tree: of that speed;
+            1e-5 is enough for most.
+        backend: what evaluates the force of clearance pins. "python": a Python function. "symbolic": the same
+            law as an expression of the engine (redundant). "compiled": by numba, the extra [fast], for laws
+            K depth^n with hysteresis damping and Ambrosio's friction or none (reduced). "auto": compiled where
+            that can be done in the reduced formulation, else Python.
+        sections: in how many places along its axis the contact of a loose pin is evaluated in space, 2 to 64,
+            the edges among them. Where a pin is not tilted any number gives the same; a tilted one on oil
+            columns driven unequally by 2 % is right to 2 % with 5 and to 4e-4 with 9.
+        most_steps: after how many steps, repeated ones among them, a run is given up, from 1 to 1e12.
+        audit: whether a run is refused whose energy does not add up by 5 % of what was turned over, whose
+            joints come apart by 0.1 mm, or whose journals are deeper in their bores than a fifth of the radius;
+            and one in which a law, load or drive gives no number, or gives energy where it should lose some. It
+            looks at everything, whatever is recorded.
+    """
+
+    integrator: Literal["generalised_alpha", "trapezoidal"] = "generalised_alpha"
+    constraint_index: Literal[2, 3] = 3
+    spectral_radius: Fraction = 0.5
+    newton_tolerance: Annotated[Real, Field(gt=0, le=1e-3)] = 1e-8
+    newton: Literal["modified", "full"] = "modified"
+    impact_steps: Annotated[Whole, Field(ge=16, le=MOST_IMPACT_STEPS)] = 512
+    locate: Annotated[bool, Field(strict=True)] = True
+    growth: Annotated[Real, Field(ge=1, le=64)] = 1.0
+    tolerance: Annotated[Real, Field(ge=1e-13, le=1e-2)] = 1e-7
+    backend: Literal["auto", "python", "symbolic", "compiled"] = "auto"
+    sections: Annotated[Whole, Field(ge=2, le=MOST_SECTIONS)] = 5
+    most_steps: Annotated[Whole, Field(ge=1, le=10**12)] = MOST_STEPS
+    audit: Annotated[bool, Field(strict=True)] = True
+
+    @model_validator(mode="after")
+    def _fit_each_other(self) -> SolverSettings:
+        if self.integrator == "trapezoidal" and self.constraint_index != 2:
+            raise ValueError(
+                f"integrator = 'trapezoidal', constraint_index = {self.constraint_index}: allowed: 2 with this "
+                "integrator"
+            )
+        return self
+
+    def with_more_sections(self, factor: float) -> SolverSettings:
+        """Sections of loose pins so many times shorter, at most as many and at least as few as are allowed."""
+        return replace(self, sections=min(max(round(factor * (self.sections - 1)) + 1, 2), MOST_SECTIONS))
+
+    def with_smaller_tolerance(self, factor: float) -> SolverSettings:
+        """A tolerance factor^3 times smaller, at least the smallest that can be asked for."""
+        return replace(self, tolerance=max(SMALLEST_TOLERANCE, self.tolerance / factor**REFINED_TOLERANCE))

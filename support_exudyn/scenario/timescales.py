@@ -1,0 +1,230 @@
+"""How fast a scene moves, as known before it runs: what its steps have to follow."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+
+from support_exudyn.mechanics.kinetics import Kinetics, Matrix, kinetics_of
+from support_exudyn.model.drives.drive import Reciprocating, Stroke
+from support_exudyn.model.drives.table_drive import TableDrive
+from support_exudyn.model.linkage import Linkage
+from support_exudyn.model.loads.load import Load
+from support_exudyn.scenario.scenario import Scenario
+from user_forces.contact import JournalContact
+from user_forces.friction.law import FrictionLaw
+from user_forces.normal.law import LoadError, NormalLaw
+
+SMALLEST_MOBILITY = 1e-15  # [1/kg]
+ROUNDING = 1e-9  # share of the weight below which a pin carries nothing: loads are of a linear solve
+SLIPS = (0.0, *np.geomspace(1e-9, 1.0, 400).tolist())  # [m/s]
+PARTS, ZOOMS, STEEPER = (
+    32,
+    8,
+    1.01,
+)  # into which the steepest part of SLIPS is divided, while that shows a steeper
+SLOWEST_FALL = 1e-3  # [m/s^2]; a scene in which nothing pulls a journal moves as slowly as one likes
+
+
+@dataclass(frozen=True)
+class Timescales:
+    """Shortest times of a scene [s]; infinite where there is no such motion.
+
+    flight: of a journal across its clearance. resting: of the vibration of a loaded contact, of what friction
+    holds in it, or of what a load presses on, one over its angular frequency. drive: of the drive, its stroke,
+    a valve's ramp, or one over a crank's speed, or one over the angular frequency of what rises and falls.
+    rubbing: in which friction, where it is steepest, stops what slides under the load.
+    """
+
+    flight: float
+    resting: float
+    drive: float
+    rubbing: float = math.inf
+
+
+class LoadedContact(NamedTuple):
+    """A loose pin's contact under a static load in the start posture.
+
+    contact: its laws. load: what it carries [N]. along: its direction, any if it is but rounding (2,).
+    mobility: of the journal, ground's axes (2, 2) [1/kg]. mass: that moves with it along the load [kg].
+    lightest: that moves with it in any direction [kg]. stiffness: of the contact there [N/m]; 0 if it carries
+    nothing or cannot hold it.
+    """
+
+    contact: JournalContact
+    load: float
+    along: Matrix
+    mobility: Matrix
+    mass: float
+    lightest: float
+    stiffness: float
+
+    @property
+    def time(self) -> float:
+        """One over the angular frequency of its vibration [s]; infinite if there is none."""
+        return math.sqrt(self.mass / self.stiffness) if self.stiffness > 0.0 else math.inf
+
+
+def timescales(scenario: Scenario) -> Timescales:
+    """The shortest times of a scene.
+
+        flight = sqrt(2 c / a),    resting = sqrt(m / k),  k the contact's stiffness at the static load
+
+    a is gravity's acceleration and that of the fastest body of a machine that runs already; m the mass that
+    moves with the journal in the start posture along the load, which is that of the weight on ideal pins, or
+    the smallest mass times a if there is no weight. It is the mass with all other loose pins open; held by
+    those that are pressed it is larger, and the vibration slower.
+    """
+    linkage = scenario.linkage
+    pull = _pull(scenario, kinetics_of(linkage))
+    clearances = [pin.contact.bearing.clearance for pin in scenario.clearance_pins.values()]
+    flight = math.sqrt(2.0 * min(clearances, default=math.inf) / max(pull, SLOWEST_FALL))
+    rests, rubs = [math.inf, *_under_loads(scenario)], [math.inf]
+    for loaded in loaded_contacts(scenario):
+        friction = loaded.contact.friction
+        rests += [loaded.time, friction.swing_time(loaded.lightest, loaded.load)]
+        steepest = _steepest(friction, loaded.load)
+        rubs.append(loaded.lightest / steepest if steepest > 0.0 else math.inf)
+    return Timescales(flight, min(rests), _drive_time(scenario, linkage), min(rubs))
+
+
+def loaded_contacts(scenario: Scenario) -> list[LoadedContact]:
+    """Every loose pin under the weight, and under weight and largest loads, see `timescales`."""
+    linkage, found = scenario.linkage, []
+    closed = kinetics_of(linkage)
+    pull = _pull(scenario, closed)
+    loads = _static_loads(scenario, closed)
+    weight = math.hypot(*scenario.gravity) * sum(body.mass for body in linkage.bodies.values())
+    for name, pin in scenario.clearance_pins.items():
+        mobility = _mobility(scenario, name)
+        lightest = 1.0 / max(float(np.linalg.eigvalsh(mobility).max()), SMALLEST_MOBILITY)
+        for static in loads[name]:
+            load, mass, along = float(np.linalg.norm(static)), lightest, np.array([1.0, 0.0])
+            if load > ROUNDING * weight:
+                along = static / load
+                mass = 1.0 / max(float(along @ mobility @ along), SMALLEST_MOBILITY)
+            else:
+                load = mass * pull
+            stiffness = _slope(pin.contact.normal, load) if load > 0.0 else 0.0
+            found.append(LoadedContact(pin.contact, load, along, mobility, mass, lightest, stiffness))
+    return found
+
+
+def _pull(scenario: Scenario, closed: Kinetics) -> float:
+    """What pulls a journal across its clearance [m/s^2]."""
+    return math.hypot(*scenario.gravity) + _running(scenario, closed)
+
+
+def _steepest(law: FrictionLaw, load: float) -> float:
+    """The largest rise of the friction force over the slip [N s/m].
+
+    A ramp narrower than what lies between two of SLIPS is found by dividing what it lies in.
+    """
+    if law.has_state:
+        return 0.0  # a spring, which does not damp
+    slips, found = SLIPS, 0.0
+    for _ in range(ZOOMS):
+        forces = [abs(law(slip, load)) for slip in slips]
+        rises = [(b - a) / (v - u) for (u, a), (v, b) in pairwise(zip(slips, forces, strict=True))]
+        place = int(np.argmax(rises))
+        steeper = rises[place] > STEEPER * found
+        found = max(found, rises[place])
+        if not steeper:
+            break
+        slips = tuple(np.linspace(slips[place], slips[place + 1], PARTS + 1).tolist())
+    return found
+
+
+def _slope(law: NormalLaw, load: float) -> float:
+    """Stiffness of a contact at rest under a load [N/m]; 0 if the law cannot hold it: the run will tell."""
+    try:
+        depth = law.resting_depth(load)
+        return (law.elastic_force(depth) - law.elastic_force(0.99 * depth)) / (0.01 * depth)
+    except LoadError:
+        return 0.0
+
+
+def _static_loads(scenario: Scenario, closed: Kinetics) -> dict[str, list[Matrix]]:
+    """What puts the weight, and weight and largest loads, on every pin in the start posture, all ideal [N]."""
+    weight = closed.weight(scenario.gravity)
+    still, forces = np.zeros(weight.size), [weight]
+    if scenario.loads:
+        loaded = weight.copy()
+        for name, load in scenario.loads.items():
+            rate = _loaded_rate(closed, name, load)
+            loaded += np.array(load.largest(scenario.duration)) @ rate
+        forces.append(loaded)
+    reactions = [closed.respond(still, force, 0.0)[1] for force in forces]
+    return {
+        name: [reaction[2 * n : 2 * n + 2] for reaction in reactions]
+        for n, name in enumerate(closed.linkage.pins)
+    }
+
+
+def _loaded_rate(system: Kinetics, name: str, load: Load) -> Matrix:
+    """What turns all velocities into that of a loaded point in the start posture (2, n)."""
+    still = np.zeros(3 * len(system.bodies))
+    point, origin = (system.point(still, body, load.point)[1] for body in (load.body, load.against(name)))
+    return point - origin
+
+
+def _under_loads(scenario: Scenario) -> list[float]:
+    """One over the angular frequency of what stiff loads press on, in the start posture [s]."""
+    linkage, found = scenario.linkage, []
+    ideal = tuple(pin for pin in linkage.pins if pin not in scenario.clearance_pins)
+    rigid = tuple(column for column in linkage.columns if column not in scenario.giving)
+    for name, load in scenario.loads.items():
+        free = kinetics_of(linkage, ideal, rigid)
+        still = np.zeros(3 * len(linkage.bodies))
+        rate = _loaded_rate(free, name, load)
+        mobility = np.diag(rate @ free.respond(still, rate.T, 0.0)[0])
+        # what nothing but rounding lets move does not vibrate
+        found += [
+            math.sqrt(1.0 / (steep * mobile))
+            for steep, mobile in zip(load.steepness, mobility.tolist(), strict=True)
+            if steep > 0.0 and mobile > SMALLEST_MOBILITY
+        ]
+    return found
+
+
+def _running(scenario: Scenario, closed: Kinetics) -> float:
+    """Acceleration of the fastest body of a machine whose cranks turn from the start on [m/s^2]."""
+    speeds = {name: scenario.drive_of(name).initial_speed for name in closed.linkage.cranks}
+    fastest = max(map(abs, speeds.values()), default=0.0)
+    if fastest == 0.0:
+        return 0.0
+    size = 3 * len(closed.bodies)
+    rates = closed.rates(lambda name: scenario.drive_of(name).initial_speed)
+    velocity = closed.respond(np.zeros(size), np.zeros(size), rates)[0]
+    return fastest * float(np.hypot(velocity[0::3], velocity[1::3]).max())
+
+
+def _mobility(scenario: Scenario, name: str) -> Matrix:
+    """Mobility of a journal in the start posture, ground's axes (2, 2) [1/kg]."""
+    linkage = scenario.linkage
+    ideal = tuple(pin for pin in linkage.pins if pin not in scenario.clearance_pins)
+    size = 3 * len(linkage.bodies)
+    return kinetics_of(linkage, ideal).pin_mobility(np.zeros(size), name)
+
+
+def _drive_time(scenario: Scenario, linkage: Linkage) -> float:
+    times = [math.inf]
+    cranks = bool(linkage.cranks)
+    driving = [(drive, cranks) for drive in scenario.drives_in_use]
+    driving += [(drive, False) for load in scenario.loads.values() for drive in load.drives]
+    times += [cylinder.inlet.shortest_time for cylinder in scenario.cylinders.values()]
+    for drive, turns in driving:
+        speed = abs(drive.initial_speed)
+        if isinstance(drive, Stroke):
+            times.append(drive.end - drive.start)
+        elif isinstance(drive, Reciprocating):
+            times.append(1.0 / drive.frequency)
+        elif isinstance(drive, TableDrive):
+            times.append(drive.times[-1] - drive.times[0])
+        elif speed > 0.0 and turns:
+            times.append(1.0 / speed)
+    return min(times)

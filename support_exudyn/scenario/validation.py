@@ -1,0 +1,161 @@
+"""What of a scenario has to fit its machine."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from support_exudyn.mechanics.channels import ALL_CHANNELS, check_patterns
+from support_exudyn.model.drives.drive import Drive, Held
+from support_exudyn.model.hydraulic_cylinder import HydraulicCylinder
+from support_exudyn.model.linkage import Linkage
+from support_exudyn.model.spatial_linkage import SpatialLinkage
+from support_exudyn.scenario.solver_settings import ERROR_CONTROLLED
+from user_forces.values.value import InputError
+
+if TYPE_CHECKING:
+    from support_exudyn.scenario.scenario import Scenario
+
+
+def check(scenario: Scenario) -> None:
+    """Raise ValueError that says what of a scenario does not fit its machine, or the rest of it."""
+    for name in scenario.parts:
+        if name not in scenario.machine.jacks:
+            raise ValueError(
+                f"parts.{name}: the machine has no such part on a jack; "
+                f"allowed: {', '.join(scenario.machine.jacks) or 'none'}"
+            )
+    try:
+        scenario.unloaded  # noqa: B018 - can it be laid out?
+    except InputError as error:
+        raise ValueError(str(error)) from None
+    _check_loads(scenario)
+    linkage = scenario.linkage
+    if scenario.dimensions == 3:
+        _check_space(scenario)
+    places = linkage.pins
+    for name in scenario.pins:
+        if name not in places:
+            raise ValueError(
+                f"pins.{name}: the machine has no such pin; allowed: {', '.join(places) or 'none'}"
+            )
+    for name, place in places.items():
+        apart = math.dist(place.first_point, place.second_point)
+        if apart > 1e-9 and name not in scenario.clearance_pins:
+            raise ValueError(
+                f"pins.{name}: its points on both bodies are {apart:.3g} m apart at the start; "
+                "allowed for an ideal pin: 0, for a clearance pin: any"
+            )
+    if scenario.record_period > scenario.duration:
+        raise ValueError(
+            f"record_period = {scenario.record_period} s: allowed: at most the duration, {scenario.duration} s"
+        )
+    _check_columns(scenario, linkage)
+    _check_drives(scenario, linkage)
+    if scenario.channels != ALL_CHANNELS:
+        check_patterns(scenario.recipes, scenario.channels)
+
+
+def _check_space(scenario: Scenario) -> None:
+    try:
+        space = scenario.space
+    except InputError as error:
+        raise ValueError(f"dimensions = 3: {error}") from None
+    if scenario.formulation in ERROR_CONTROLLED:
+        raise ValueError(
+            f"formulation = {scenario.formulation!r}: is planar; allowed in space: 'auto', 'redundant'"
+        )
+    for name in scenario.cylinders:
+        raise ValueError(f"columns.{name} = HydraulicCylinder: is planar; allowed in space: OilColumn")
+    for name in scenario.friction_pins:
+        raise ValueError(f"pins.{name}.friction: is planar; allowed in space: friction of clearance pins")
+    for name, bearing in space.bearings.items():
+        if bearing.pin not in scenario.clearance_pins and bearing.misfit:
+            raise ValueError(
+                f"bearings.{name}: {bearing.misfit} at the start; allowed for an ideal pin: none, for a "
+                "clearance pin: any"
+            )
+    _check_pairs(scenario, space)
+
+
+def _check_pairs(scenario: Scenario, space: SpatialLinkage) -> None:
+    """Rigid columns of a pair cannot be driven apart: what they stand under is rigid, too."""
+    for name, column in space.columns.items():
+        if column.column in scenario.oil_columns:
+            continue
+        for other in space.parts_of_column(column.column):
+            if scenario.drive_of(other) != scenario.drive_of(name):
+                raise ValueError(
+                    f"drives.{name}: is not the drive of {other}, and both are rigid; "
+                    "allowed for a pair of rigid columns: one drive, or columns of oil"
+                )
+
+
+def _check_columns(scenario: Scenario, linkage: Linkage) -> None:
+    driven = [name for name, column in linkage.columns.items() if column.driven]
+    for name, column in scenario.columns.items():
+        if name not in driven:
+            raise ValueError(
+                f"columns.{name}: the machine has no such column; allowed: {', '.join(driven) or 'none'}"
+            )
+        for one in scenario.space.parts_of_column(name) if scenario.dimensions == 3 else (name,):
+            column.check_extension(scenario.drive_of(one).span(scenario.duration)[0], one)
+        if isinstance(column, HydraulicCylinder):
+            column.check_length(linkage.columns[name].start_length, name)
+            if name in scenario.drives:
+                raise ValueError(
+                    f"drives.{name}: is a HydraulicCylinder, which follows no drive; allowed: none, but "
+                    f"columns.{name}.inlet"
+                )
+    if scenario.cylinders and not scenario.driven and scenario.drive != Held():
+        raise ValueError(
+            f"drive = {type(scenario.drive).__name__}: nothing follows it, for all columns are "
+            "HydraulicCylinder, which move by their inlet; allowed: Held()"
+        )
+
+
+def _check_drives(scenario: Scenario, linkage: Linkage) -> None:
+    allowed = tuple(dict.fromkeys((*linkage.driven, *scenario.driven)))
+    for name in scenario.drives:
+        if name not in allowed:
+            raise ValueError(
+                f"drives.{name}: the machine has no such driven part; allowed: {', '.join(allowed) or 'none'}"
+            )
+    for drive in scenario.drives_in_use:
+        if scenario.start == "settled" and drive.initial_speed != 0.0:
+            raise ValueError(
+                "start = 'settled': is at rest, but the drive moves from the start on "
+                f"({drive.initial_speed} per s); allowed with this drive: 'concentric'"
+            )
+    for drives in scenario.drives_in_plane:
+        _check_motion(scenario, drives)
+
+
+def _check_motion(scenario: Scenario, drives: Mapping[str, Drive]) -> None:
+    try:
+        scenario.machine.check_motion(drives, scenario.duration)
+    except InputError as error:
+        raise ValueError(scenario.of_drives(drives, error)) from None
+
+
+def _check_loads(scenario: Scenario) -> None:
+    linkage = scenario.unloaded
+    taken = {"pin", "energy", "time", *linkage.bodies, *linkage.points, *linkage.driven, *linkage.columns}
+    taken |= {*linkage.pins, *linkage.slides}
+    for name, load in scenario.loads.items():
+        if scenario.dimensions == 3:
+            raise ValueError(f"loads.{name}: acts in the plane; allowed with dimensions = 3: no loads")
+        if name in taken:
+            raise ValueError(
+                f"loads.{name}: the machine has something of this name; "
+                f"allowed: all but {', '.join(sorted(taken))}"
+            )
+        if load.body not in linkage.bodies:
+            raise ValueError(
+                f"loads.{name}.body = {load.body!r}: no such body; allowed: {', '.join(linkage.bodies)}"
+            )
+        try:
+            load.check(scenario.gravity)
+        except InputError as error:
+            raise ValueError(f"loads.{name}.{error}") from None

@@ -1,0 +1,181 @@
+"""Whether a run that has finished can be believed: what is looked at in every one.
+
+A run that fails is refused, because nothing else tells that its numbers mean nothing. What is allowed is wide:
+that a run passes does not make it accurate.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from support_exudyn.formulations.contract import Failure
+from support_exudyn.formulations.limits import DEEPEST, SOFT, too_deep
+from support_exudyn.mechanics.body_motion import BodyMotion
+from support_exudyn.mechanics.trajectory import Outcome, Series, Trajectory
+from support_exudyn.scenario.recorded_channels import Channel
+from support_exudyn.scenario.scenario import Scenario
+from user_forces.lawful import UNLAWFUL
+
+# Energy that the balance may be open by, as a share of what was turned over: kinetic, potential and elastic
+# energy, losses and work. The reference support closes to 1e-5.
+OPEN = 0.05
+GIVEN_BACK = 1e-3  # share of the same by which a loss may become less: powers are integrated over steps
+ROUNDING = 1e-8  # [m] by which the weight of all bodies would have to be lifted to make up for rounding
+ROUNDING_AT_REST = 1e-12  # [J/kg], of bodies that nothing moves: that of a speed of a micrometre a second
+ENERGY = "energy."
+TURNED = ("kinetic", "potential", "elastic", "damping_loss", "friction_loss", "work")
+COARSE = (
+    "Steps are too long for what happens in them: take a smaller `step` or more `solver.impact_steps`, look "
+    "whether friction is steep (its ramp from static to dynamic speed), or ask for an accuracy."
+)
+UNSAID = " If that does not help: a drive of one's own whose speed jumps has to say so in its `breaks`."
+ENDS = "Close its inlet earlier, open it less, or take a longer cylinder."
+APART = 1e-4  # [m] that what is joined may be apart
+DRIFTED = "Take constraint_index 3, a smaller `step` or a smaller `solver.newton_tolerance`."
+
+
+def audit(scenario: Scenario, outcome: Outcome, channels: Mapping[str, Channel]) -> Failure | None:
+    """The first reason not to believe a run; None if there is none. channels: all, whatever is asked for."""
+    return next(_reasons(scenario, outcome, channels), None)
+
+
+def _reasons(scenario: Scenario, outcome: Outcome, channels: Mapping[str, Channel]) -> Iterator[Failure]:
+    time = channels["time"].values
+    for name, channel in channels.items():
+        if not np.isfinite(channel.values).all():
+            first = float(time[np.argmin(np.isfinite(channel.values))])
+            yield Failure(f"{name} is no longer a finite number", COARSE, first, finer=True)
+    for name, pin in scenario.clearance_pins.items():
+        if (depth := channels.get(f"pin.{name}.depth")) is not None:  # in space the edges have one each
+            place = int(np.argmax(depth.values))
+            deepest, bearing = float(depth.values[place]), pin.contact.bearing
+            if deepest > DEEPEST * bearing.bore_radius:
+                yield Failure(too_deep(name, deepest, bearing), SOFT, float(time[place]), finer=True)
+    open_by, allowed = energy_open(scenario, channels)
+    if (open_by > allowed).any():
+        first = int(np.argmax(open_by > allowed))
+        reason = (
+            f"energy does not add up: it is open by {open_by.max():.3g} J; allowed: {OPEN:.0%} of what was "
+            f"turned over, {allowed:.3g} J"
+        )
+        yield Failure(reason, COARSE + UNSAID, float(time[first]), finer=True)
+    yield from _losses(scenario, outcome, channels)
+    yield from _pistons_at_ends(scenario, outcome)
+    if (gap := joints_apart(scenario, outcome)) is not None and (gap > APART).any():
+        first = int(np.argmax(gap > APART))
+        reason = f"what is joined is {1e3 * gap.max():.3g} mm apart; allowed: {1e3 * APART:g} mm"
+        yield Failure(reason, DRIFTED, float(time[first]), finer=True)
+
+
+def _losses(scenario: Scenario, outcome: Outcome, channels: Mapping[str, Channel]) -> Iterator[Failure]:
+    """Whether what is lost becomes less, though nothing is given back but what friction laws have stored.
+
+    Laws are looked at one by one while a run goes on, too, see `lawful`; what has a state only here.
+    """
+    largest = max(outcome.largest_force.values(), default=0.0)
+    stored = sum(
+        float(np.abs(contact.deflection).max()) * largest
+        for name, pin in scenario.clearance_pins.items()
+        if pin.contact.friction.has_state
+        for contact in outcome.trajectory.contacts_of(name)
+        if contact.deflection is not None
+    )
+    time, allowed = channels["time"].values, GIVEN_BACK * turned_over(channels) + rounding_of_energy(scenario)
+    lost = {name: channels[ENERGY + name].values for name in ("damping_loss", "friction_loss")}
+    for name, more in (("damping_loss", 0.0), ("friction_loss", stored)):
+        back = np.maximum.accumulate(lost[name]) - lost[name]
+        if (back > allowed + more).any():
+            first = int(np.argmax(back > allowed + more))
+            yield Failure(
+                f"{ENERGY}{name} becomes less by {back.max():.3g} J; allowed: {allowed + more:.3g} J, "
+                f"{_who_loses(scenario, name)}",
+                UNLAWFUL,
+                float(time[first]),
+            )
+
+
+def _who_loses(scenario: Scenario, kind: str) -> str:
+    """What of a scenario may lose energy in this way, with its laws."""
+    pins = scenario.clearance_pins.items()
+    laws: list[tuple[str, object]]
+    if kind == "friction_loss":
+        laws = [(f"pins.{name}", pin.contact.friction) for name, pin in pins]
+        laws += [(f"pins.{name}", pin.friction) for name, pin in scenario.friction_pins.items() if pin.friction]
+    else:
+        laws = [(f"pins.{name}", pin.contact.normal) for name, pin in pins]
+    found = [f"{name} = {type(law).__name__}" for name, law in laws]
+    if kind == "damping_loss":
+        found += [f"loads.{name} = {type(load).__name__}" for name, load in scenario.loads.items()]
+        found += [f"columns.{name}" for name in scenario.giving]
+    return "of " + ", ".join(found)
+
+
+def _pistons_at_ends(scenario: Scenario, outcome: Outcome) -> Iterator[Failure]:
+    """Whether a piston has come to an end of its cylinder, which nothing in the model stops it at."""
+    run = outcome.trajectory
+    if not scenario.cylinders or not isinstance(run, Trajectory):
+        return
+    motion = BodyMotion(scenario.linkage, run.position, run.velocity, run.acceleration)
+    for name, cylinder in scenario.cylinders.items():
+        column = scenario.linkage.columns[name]
+        span = motion.place(column.head, column.head_point) - motion.place(column.foot, column.foot_point)
+        extension = np.hypot(*span.T) - column.start_length
+        for end, beyond in (
+            ("drawn in", extension < -cylinder.oil_length),
+            ("extended", extension > cylinder.rod_side_length),
+        ):
+            if beyond.any():
+                first = int(np.argmax(beyond))
+                reason = (
+                    f"{name} is {end} by {abs(extension[first]):.4g} m, beyond its cylinder's end; allowed: "
+                    f"{-cylinder.oil_length:.4g} to {cylinder.rod_side_length:.4g} m from the start"
+                )
+                yield Failure(reason, ENDS, float(run.time[first]))
+
+
+def energy_open(scenario: Scenario, channels: Mapping[str, Channel]) -> tuple[Series, float]:
+    """By how much the energy balance is open at the records (n,) [J], and what is allowed."""
+    allowed = OPEN * turned_over(channels) + rounding_of_energy(scenario)
+    return np.abs(channels[ENERGY + "balance"].values), allowed
+
+
+def rounding_of_energy(scenario: Scenario) -> float:
+    """By how much rounding may leave an energy open [J]."""
+    mass = sum(body.mass for body in scenario.linkage.bodies.values())
+    return (ROUNDING * float(np.hypot(*scenario.gravity)) + ROUNDING_AT_REST) * mass
+
+
+def turned_over(channels: Mapping[str, Channel]) -> float:
+    """Energy that changed hands in a run [J]: how far each kind of it went, and the motion at the start."""
+    energies = [channels[ENERGY + name].values for name in TURNED]
+    return sum(float(np.abs(energy - energy[0]).max()) for energy in energies) + float(energies[0][0])
+
+
+def joints_apart(scenario: Scenario, outcome: Outcome) -> Series | None:
+    """Largest distance of what ideal pins, rigid columns and guides hold together, at the records (n,) [m].
+
+    None for runs in space.
+    """
+    run = outcome.trajectory
+    if not isinstance(run, Trajectory):
+        return None
+    linkage, time = scenario.linkage, run.time
+    motion = BodyMotion(linkage, run.position, run.velocity, run.acceleration)
+    gaps = np.zeros_like(time)
+    for name, pin in linkage.pins.items():
+        if name not in scenario.clearance_pins:
+            apart = motion.place(pin.first, pin.first_point) - motion.place(pin.second, pin.second_point)
+            gaps = np.maximum(gaps, np.hypot(*apart.T))
+    for name, column in linkage.columns.items():
+        if name not in scenario.giving:
+            span = motion.place(column.head, column.head_point) - motion.place(column.foot, column.foot_point)
+            drive = scenario.drive_of(name)
+            wanted = column.start_length + np.array([drive.extension(t) for t in time.tolist()])
+            gaps = np.maximum(gaps, np.abs(np.hypot(*span.T) - wanted))
+    for slide in linkage.slides.values():
+        apart = motion.place(slide.body, slide.point) - motion.place(slide.against, slide.point)
+        along = slide.direction + motion.turn(slide.against)
+        gaps = np.maximum(gaps, np.abs(np.cos(along) * apart[:, 1] - np.sin(along) * apart[:, 0]))
+    return gaps

@@ -1,0 +1,200 @@
+"""The numbers that every result reports, and how each is measured."""
+
+from __future__ import annotations
+
+import math
+import numbers
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from support_exudyn.mechanics.extremes import largest, missed
+from support_exudyn.scenario.solver_settings import ERROR_CONTROLLED
+from user_forces.values.value import InputError, short
+
+if TYPE_CHECKING:
+    from support_exudyn.mechanics.contact_state import Onset
+    from support_exudyn.scenario.scenario import Scenario
+    from support_exudyn.simulation.result import Result
+
+Series = npt.NDArray[np.float64]
+NEWTON = 5.0  # tolerances of Newton's method that are left of a number at any step; 1.6 of a touch's speed
+ROUNDING = 1e-10  # share of a number, or of the largest of its kind, that no estimate is below
+# of forces; the largest is of the magnitude, the extremes have their sign
+STATISTICS: Mapping[str, Callable[[Series], float]] = {
+    "mean": np.mean,
+    "spread": np.std,
+    "largest": largest,
+    "min": np.min,
+    "max": np.max,
+}
+SIGNED, AVERAGED = ("min", "max"), ("mean", "spread")
+FORCE, ANGULAR_ACCELERATION = ".force", ".angular_acceleration"  # how names of channels end
+ONSETS = 3  # of every loose pin that are reported; each multiplies the errors of those before
+
+
+def measured(scenario: Scenario) -> tuple[str, ...]:
+    """Names of the channels that the numbers of `measures`, and so all estimates, are taken from."""
+    points = {f"{point}.{axis}" for point in scenario.linkage.points for axis in ("x", "y")}
+    return tuple(
+        name for name in scenario.recipes if name.endswith((FORCE, ANGULAR_ACCELERATION)) or name in points
+    )
+
+
+Measure = Callable[["Result"], float]
+
+
+def _nothing(run: Result) -> float:
+    del run
+    return 0.0
+
+
+class Kind(NamedTuple):
+    """How a number is measured.
+
+    unit: its unit. measure: gives it, from a result. size: of the largest number of its kind. family: of
+    numbers that are wrong by like shares; empty: none. of: the force or touch that it is of; empty: of none.
+    left: share of it that steps do not make smaller. missed: by how much it may be off because it is taken
+    from records; of extremes, see `extremes.missed`. values: the largest value that it is computed from, which
+    rounding and what Newton's method leaves are shares of: a least value can be next to nothing beside it.
+    step: by how much a single step may be wrong, which counts where runs agree but for rounding.
+    """
+
+    unit: str
+    measure: Measure
+    size: float = 0.0
+    family: str = ""
+    of: str = ""
+    left: float = 0.0
+    missed: Measure = _nothing
+    values: float = 0.0
+    step: float = 0.0
+
+
+def measures(result: Result, after: float, until: float) -> Mapping[str, Kind]:
+    """The numbers that every result reports: name, unit and how it is measured, see `Result.numbers`.
+
+    Raises InputError if no record lies between the times.
+    """
+    after, until = _time(after, "after"), _time(until, "until")
+    if not _inside(result, after, until).any():
+        first, last = result.time[[0, -1]]
+        raise InputError(
+            f"after = {after} s, until = {until} s: no record lies between; allowed: times around at least "
+            f"one, from {first:g} to {last:g} s"
+        )
+    found: dict[str, Kind] = {}
+    left = left_by_newton(result.scenario)
+    steps_chosen = result.scenario.formulation in ERROR_CONTROLLED
+    turning = [name for name in result.channels if name.endswith(ANGULAR_ACCELERATION)]
+    fastest = max((float(np.abs(result[name]).max()) for name in turning), default=0.0)
+    for name, channel in result.channels.items():
+        if name.endswith(FORCE) and channel.is_determined:
+            forces = result[name][_inside(result, after, until)]
+            most = largest(forces)
+            for word, statistic in STATISTICS.items():
+                if word in SIGNED and name.startswith("pin."):
+                    continue  # a magnitude, which has no sign
+                measure, between = over(name, statistic, after, until), _missed(word, name, after, until)
+                of = name if word in AVERAGED else ""  # of a single record, which others average out
+                share, values = left, most
+                if word == "spread":
+                    spread, mean = measure(result), float(np.abs(forces).mean())
+                    # rounding of the forces scatters, and what scatters beside more adds next to nothing
+                    values = spread + (math.hypot(spread, ROUNDING * most) - spread) / ROUNDING
+                    share = left_of_spread(left, spread, mean) / values if values > 0.0 else left
+                family = f"force.{word}"
+                found[f"{name}.{word}"] = Kind(channel.unit, measure, 0.0, family, of, share, between, values)
+        elif name in turning:
+            measure = over(name, np.std, after, until)
+            found[f"{name}.spread"] = Kind(channel.unit, measure, fastest, ANGULAR_ACCELERATION, left=left)
+    for point in result.scenario.linkage.points:
+        if not {f"{point}.x", f"{point}.y"} <= result.channels.keys():
+            continue  # it was not asked for, and no error either, for whose sake it would have been recorded
+        farthest = float(np.abs(path_of(result, point)).max())
+        for axis in ("x", "y"):
+            measure = over(f"{point}.{axis}", np.mean, after, until)
+            found[f"{point}.{axis}.mean"] = Kind("m", measure, farthest, "place")
+    for pin, onsets in result.onsets.items():
+        # not of an edge in space: a section's share of the force is the less the more sections there are
+        if pin.rpartition(".")[0] not in result.onsets:
+            found[f"pin.{pin}.largest_force"] = Kind("N", _largest(pin), family="force.largest", left=left)
+        for n, onset in enumerate(onsets[:ONSETS]):
+            touch = f"pin.{pin}.onset_{n + 1}"
+            late, slow = _of_a_step(result.scenario, pin, onset) if steps_chosen else (0.0, 0.0)
+            found[f"{touch}.time"] = Kind("s", _onset(pin, n, "time"), of=touch, left=left, step=late)
+            found[f"{touch}.speed"] = Kind("m/s", _onset(pin, n, "speed"), of=touch, left=left, step=slow)
+    return found
+
+
+def left_by_newton(scenario: Scenario) -> float:
+    """Share of a number that Newton's method leaves, whatever the steps."""
+    return 0.0 if scenario.formulation in ERROR_CONTROLLED else NEWTON * scenario.solver.newton_tolerance
+
+
+def left_of_spread(left: float, spread: float, mean: float) -> float:
+    """What Newton's method leaves of a spread, where it leaves a share of forces of this mean magnitude.
+
+    It can be as much as that share of the mean, if what is left varies as the force does; mostly it varies with
+    less. Of fifty scenes it was at most what is taken here but in seven, in which means moved by more than
+    their share, too.
+    """
+    return left * math.sqrt(mean * spread)
+
+
+def _of_a_step(scenario: Scenario, pin: str, onset: Onset) -> tuple[float, float]:
+    """By how much a step may be wrong about a touch's time [s] and speed [m/s]; 0 of one at the start."""
+    if not (onset.time > 0.0 and onset.speed > 0.0):
+        return 0.0, 0.0
+    tolerance, clearance = scenario.solver.tolerance, scenario.clearance_pins[pin].contact.bearing.clearance
+    return tolerance * clearance / onset.speed, tolerance * onset.speed
+
+
+def _time(item: Any, name: str) -> float:
+    try:
+        if isinstance(item, numbers.Real):
+            return float(item)
+    except OverflowError:  # a whole number of hundreds of digits
+        pass
+    raise InputError(f"{name} = {short(item)}: allowed: a time in s")
+
+
+def _inside(run: Result, after: float, until: float) -> npt.NDArray[np.bool_]:
+    """Which records lie between two times [s]."""
+    return (run.time >= after - 1e-9) & (run.time <= until + 1e-9)
+
+
+def over(name: str, statistic: Callable[[np.ndarray], float], after: float, until: float) -> Measure:
+    """A statistic of a channel's records between two times [s], in its unit."""
+
+    def measure(run: Result) -> float:
+        return float(statistic(run[name][_inside(run, after, until)]))
+
+    return measure
+
+
+def _missed(word: str, name: str, after: float, until: float) -> Measure:
+    def measure(run: Result) -> float:
+        inside = _inside(run, after, until)
+        return missed(word, run[name][inside], run.time[inside], run.scenario.breaks)
+
+    return measure
+
+
+def _largest(pin: str) -> Measure:
+    return lambda run: run.largest_force[pin]
+
+
+def _onset(pin: str, n: int, field: str) -> Measure:
+    def measure(run: Result) -> float:
+        onsets = run.onsets[pin]
+        return float(getattr(onsets[n], field)) if n < len(onsets) else float("nan")
+
+    return measure
+
+
+def path_of(result: Result, point: str) -> Series:
+    """Where a traced point was [m], shape (2, n)."""
+    return np.array([result[f"{point}.x"], result[f"{point}.y"]])

@@ -1,0 +1,300 @@
+"""What comes out of a run, and its file."""
+
+from __future__ import annotations
+
+import errno
+import json
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass
+from difflib import get_close_matches
+from functools import cached_property
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+from support_exudyn.files.hdf5 import BLOCK, check_seal, seal
+from support_exudyn.files.hdf5_reading import Inside
+from support_exudyn.files.hdf5_writing import write_series
+from support_exudyn.files.whole_file import contents, whole_file
+from support_exudyn.mechanics.contact_state import Onset
+from support_exudyn.mechanics.counts import Counts
+from support_exudyn.mechanics.impulse import Impulse
+from support_exudyn.scenario.recorded_channels import Channel
+from support_exudyn.scenario.scenario import Scenario
+from support_exudyn.simulation.estimate import Estimate, error, errors, fall, worst_error
+from support_exudyn.simulation.memory import available
+from support_exudyn.simulation.reported_numbers import measures
+from user_forces.values.value import InputError, Value, cleaned, short
+
+FORMAT = "support_exudyn result 4"
+DAMAGES = (OSError, LookupError, AttributeError, TypeError, ValueError, RuntimeError, MemoryError)
+
+
+@dataclass(frozen=True)
+class Result:
+    """A finished run.
+
+    scenario: what was run. channels: quantities over time by name, see `result["tip.x"]`.
+    onsets: for each clearance pin the beginnings of contact. largest_force: for each clearance pin the
+    largest force [N] at any time, also inside steps. impulses: where the speed of
+    rigid columns or cranks jumped. counts: what the solver did.
+    wall_time: [s], of building, settling and integrating, of all runs that an accuracy took.
+    provenance: versions and platform.
+    goal: the accuracy that was asked for, None if none was; `scenario` then has the settings that were chosen.
+    coarser: the same run with longer steps, which has one of its own; from their distances errors are
+    estimated.
+    """
+
+    scenario: Scenario
+    channels: Mapping[str, Channel]
+    onsets: Mapping[str, tuple[Onset, ...]]
+    largest_force: Mapping[str, float]
+    impulses: tuple[Impulse, ...]
+    counts: Counts
+    wall_time: float
+    provenance: Mapping[str, str]
+    goal: float | None = None
+    coarser: Result | None = None
+
+    def __repr__(self) -> str:
+        """In a line; all else is asked for by name."""
+        said = f"{len(self.channels)} channels, {self.time.size} records from 0 to {self.time[-1]:g} s"
+        return f"<Result of {type(self.scenario.machine).__name__}, {self.scenario.formulation}: {said}>"
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        """Values of a channel, shape (n,), in SI."""
+        return self._channel(name).values
+
+    def unit(self, name: str) -> str:
+        """Unit of a channel."""
+        return self._channel(name).unit
+
+    def _channel(self, name: str) -> Channel:
+        if not isinstance(name, str):
+            raise KeyError(f"{short(name)}: no such channel; allowed: names, see `channels`")
+        if name not in self.channels and name in self.scenario.recipes:
+            raise KeyError(
+                f"{name!r}: was not recorded, for the scenario asks for channels = {self.scenario.channels}; "
+                "allowed: runs of a scenario that asks for it too"
+            )
+        if name not in self.channels:
+            near = get_close_matches(name, self.channels, 3, 0.4) or list(self.channels)[:3]
+            raise KeyError(
+                f"{short(name)}: no such channel; there are {len(self.channels)}, see `channels`, among them "
+                f"{', '.join(near)}"
+            )
+        return self.channels[name]
+
+    @property
+    def time(self) -> np.ndarray:
+        """Times of the records [s], shape (n,)."""
+        return self["time"]
+
+    @property
+    def dissipated(self) -> float:
+        """Energy dissipated in contacts and oil over the run [J]."""
+        return float(self["energy.damping_loss"][-1] + self["energy.friction_loss"][-1])
+
+    @property
+    def energy_error(self) -> float:
+        """Largest amount by which the energy balance is not closed at any record [J]."""
+        return float(np.abs(self["energy.balance"]).max())
+
+    # --- errors; of results that were run to an accuracy ---
+
+    def estimate(self, measure: Callable[[Result], float], unit: str = "") -> Estimate:
+        """A number of one's own with its estimated error.
+
+        Arguments:
+            measure: gives the number of a result, such as `lambda r: r["tip.x"].max()`.
+            unit: of it.
+
+        Raises InputError if the run was not made to an accuracy.
+        """
+        self._check()
+        return Estimate(float(measure(self)), float(error(measure, self, self.fall)), unit)
+
+    def numbers(self, after: float = 0.0, until: float = math.inf) -> dict[str, Estimate]:
+        """The usual numbers with their estimated errors, by names such as `pin.rear_base.force.mean`.
+
+        Of the records between two times [s]: mean, spread (standard deviation) and largest magnitude of all
+        forces, with
+        `min` and `max` of those that have a sign;
+        spread of angular accelerations, mean place of traced points; and of loose pins the largest force at any
+        step (`pin.NAME.largest_force`, not only of the records) and the first three touches.
+
+        Errors are those of the steps, and of extremes also what may lie between the records; that a mean over
+        few records is not the mean over time is not among them.
+        """
+        self._check()
+        kinds = measures(self, after, until)
+        known = errors(kinds, self, self.fall)
+        return {name: Estimate(kind.measure(self), known[name], kind.unit) for name, kind in kinds.items()}
+
+    @cached_property
+    def fall(self) -> float:
+        """By what factor the distances of its numbers fell from run to run: 1/4 for second order."""
+        return fall(self)
+
+    @property
+    def worst_error(self) -> float:
+        """Estimated error of what an accuracy is of: the largest, relative.
+
+        Mean, spread and largest value of the pin forces over the run; paths of traced points, of their extent
+        (at least the clearance).
+        """
+        self._check()
+        return worst_error(self, self.fall)
+
+    @property
+    def met(self) -> bool:
+        """Whether the estimated error is as small as was asked for."""
+        return self.goal is not None and self.worst_error <= self.goal
+
+    def _check(self) -> None:
+        if self.coarser is None:
+            raise InputError(
+                "the run has nothing to estimate errors by; allowed: runs with an accuracy, "
+                "simulate(scenario, accuracy='standard'), or with errors, simulate(scenario, errors=True)"
+            )
+
+    # --- file ---
+
+    def save(self, path: str | Path) -> Path:
+        """Write everything to one HDF5 file: /channels/NAME with units, and the rest as JSON attributes.
+
+        The run by which errors are estimated stands likewise in /coarser. The file begins with a digest of all
+        that follows, so that `load` takes no damaged one for good.
+
+        Raises OSError that names the file if it cannot be written; an older one is then as it was.
+        """
+        # made in memory: on a full disk HDF5 would end the whole process
+        with h5py.File("result", "w", driver="core", backing_store=False, userblock_size=BLOCK) as file:
+            file.attrs["format"] = FORMAT
+            _write(file, self)
+            file.flush()
+            image = file.id.get_file_image()
+        with whole_file(path) as temporary:
+            temporary.write_bytes(seal(image, FORMAT))
+        return Path(path)
+
+    def save_solution(self, path: str | Path) -> Path:
+        """Have Exudyn write its own solution file of the run, for `exudyn.utilities.LoadSolutionFile`.
+
+        It is of the engine's model with rigid bodies and constraints, whatever formulation has computed the
+        run: a row for each record with time, coordinates and their rates.
+
+        path: with the ending `.sol` in the engine's binary format, with any other in its text format.
+
+        Raises InputError if the run has not recorded where its bodies are; OSError that names the file if it
+        cannot be written, and an older one is then as it was.
+        """
+        from support_exudyn.postprocessing.export.solution_file import (
+            save_solution,  # which needs the engine's models
+        )
+
+        return save_solution(self, path)
+
+    @staticmethod
+    def load(path: str | Path) -> Result:
+        """Read what `save` wrote.
+
+        Raises InputError if the file is not a whole result file, or was changed; OSError if it cannot be opened
+        at all.
+        """
+        if not Path(path).exists():
+            raise FileNotFoundError(f"{path}: no such file; allowed: files that Result.save has written")
+        if Path(path).is_dir():
+            raise IsADirectoryError(
+                errno.EISDIR, "is a directory; allowed: files that Result.save has written", str(path)
+            )
+        data = contents(path, available())
+        try:
+            check_seal(data, FORMAT)
+            with h5py.File(h5py.h5f.open_file_image(data), "r") as file:
+                return _read(Inside(file, len(data)))
+        except InputError as error:  # of a value that is not known or does not fit
+            raise InputError(f"{path}: {error}") from None
+        except DAMAGES as error:
+            raise InputError(
+                f"{path}: not a result file of this program, or damaged ({cleaned(str(error))})"
+            ) from None
+
+
+def _write(group: h5py.Group, result: Result) -> None:
+    group.attrs["scenario"] = json.dumps(result.scenario.to_data())
+    group.attrs["impulses"] = json.dumps([asdict(impulse) for impulse in result.impulses])
+    group.attrs["counts"] = json.dumps(asdict(result.counts))
+    group.attrs["wall_time_s"] = result.wall_time
+    group.attrs["provenance"] = json.dumps(dict(result.provenance))
+    group.attrs["goal"] = json.dumps(result.goal)
+    series = {
+        name: (channel.values, {"unit": channel.unit, "meaning": channel.meaning})
+        for name, channel in result.channels.items()
+    }
+    write_series(group.create_group("channels"), series)
+    for name, onsets in result.onsets.items():
+        data = group.create_dataset(f"onsets/{name}", data=np.array(onsets).reshape(-1, 4))
+        data.attrs["columns"] = "time [s], approach speed [m/s], time of parting [s], speed of parting [m/s]"
+        data.attrs["largest_force_N"] = result.largest_force[name]
+    if result.coarser is not None:
+        _write(group.create_group("coarser"), result.coarser)
+
+
+def _read(group: Inside) -> Result:
+    onsets = group.inside("onsets").series() if "onsets" in group else {}
+    channels = {
+        name: Channel(data.values, data.text("unit"), data.text("meaning"))
+        for name, data in group.inside("channels").series().items()
+    }
+    _check_channels(channels)
+    coarser = _read(group.inside("coarser")) if "coarser" in group else None
+    if coarser is not None:
+        _check_coarser(channels, coarser.channels)
+    return Result(
+        scenario=Value.from_data(group.data("scenario")),
+        channels=channels,
+        onsets={name: _onsets(name, data.values) for name, data in onsets.items()},
+        largest_force={name: float(data.attributes["largest_force_N"]) for name, data in onsets.items()},
+        impulses=tuple(Impulse(**item) for item in group.data("impulses")),
+        counts=Counts(**group.data("counts")),
+        wall_time=float(group.attributes["wall_time_s"]),
+        provenance=group.data("provenance"),
+        goal=group.data("goal"),
+        coarser=coarser,
+    )
+
+
+def _onsets(name: str, rows: np.ndarray) -> tuple[Onset, ...]:
+    """Raises ValueError if they have not all of their columns."""
+    if rows.ndim != 2 or rows.shape[1] != len(Onset._fields):
+        raise ValueError(
+            f"onsets of {name!r} are of shape {rows.shape}; allowed: {len(Onset._fields)} columns, "
+            f"{', '.join(Onset._fields)}"
+        )
+    return tuple(Onset(*row) for row in rows.tolist())
+
+
+def _check_channels(channels: Mapping[str, Channel]) -> None:
+    """Raise ValueError unless all are as long as the times, which increase."""
+    time = channels["time"].values
+    for name, channel in channels.items():
+        if channel.values.dtype != np.float64 or channel.values.shape != (time.size,):
+            raise ValueError(
+                f"channel {name!r} is of {channel.values.dtype} and shape {channel.values.shape}; allowed: one "
+                f"of float64 for each of the {time.size} times"
+            )
+    if not time.size or not np.isfinite(time).all() or not (np.diff(time) > 0.0).all():
+        raise ValueError("the times of the records do not increase")
+
+
+def _check_coarser(channels: Mapping[str, Channel], coarser: Mapping[str, Channel]) -> None:
+    """Raise ValueError unless the run by which errors are estimated has all channels of the run."""
+    missing = [name for name in channels if name not in coarser]
+    if missing:
+        raise ValueError(
+            f"the coarser run lacks {len(missing)} channels, such as {missing[0]!r}; allowed: none, for errors "
+            "are estimated by all of them"
+        )

@@ -1,0 +1,110 @@
+"""The entry: scenario in, result out."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Literal, overload
+
+from support_exudyn.formulations.contract import Failure, SimulationError, told
+from support_exudyn.formulations.progress import Progress, silent
+from support_exudyn.scenario.scenario import Accuracy, Scenario
+from support_exudyn.simulation.halved_steps import run_with_error
+from support_exudyn.simulation.result import Result
+from support_exudyn.simulation.single_run import run_once
+from support_exudyn.simulation.to_accuracy import run_to_accuracy
+from user_forces.lawful import UNLAWFUL, LawError, look_at_rest
+from user_forces.values.value import InputError, short
+
+OWN = "A law, load or machine of one's own does that; allowed: to raise an exception."
+
+
+@overload
+def simulate(
+    scenario: Scenario,
+    *,
+    accuracy: Accuracy | None = ...,
+    errors: bool = ...,
+    progress: Progress = ...,
+    solution: str | Path | None = ...,
+    throw: Literal[True] = ...,
+) -> Result: ...
+@overload
+def simulate(
+    scenario: Scenario,
+    *,
+    accuracy: Accuracy | None = ...,
+    errors: bool = ...,
+    progress: Progress = ...,
+    solution: str | Path | None = ...,
+    throw: bool,
+) -> Result | Failure: ...
+
+
+def simulate(
+    scenario: Scenario,
+    *,
+    accuracy: Accuracy | None = None,
+    errors: bool = False,
+    progress: Progress = silent,
+    solution: str | Path | None = None,
+    throw: bool = True,
+) -> Result | Failure:
+    """Run a scenario.
+
+    Arguments:
+        scenario: machine, pins, drive, start and how it is computed.
+        accuracy: in place of the scenario's own: "draft", "standard", "reference", or a number; see `Scenario`.
+            The result then carries the estimated error of every number.
+        errors: with steps that the scenario chooses itself, run it at half and at a quarter of them, too: the
+            result is that of the shortest, and carries the estimated error of every number. If these do not
+            settle, or steps are too long for a run to be finished, they are halved up to three times more
+            (`Result.scenario` has the steps that were taken); if that does not help it ends in a
+            SimulationError. With an accuracy errors are estimated anyway.
+        progress: called now and then with the share that is done, 0 to 1.
+        solution: path of Exudyn's own solution file, if it is to be kept, see `Result.save_solution`. What
+            stands against it is said before the run: InputError if `channels` lacks where the bodies are,
+            OSError if the file cannot be written.
+        throw: what to do if the run cannot be finished: raise SimulationError, or return its Failure
+            (for sweeps, where one failed run is a row and not the end).
+
+    Returns:
+        Result with all channels, onsets, counts, energy and provenance.
+    """
+    if not isinstance(scenario, Scenario):
+        raise InputError(f"scenario = {short(scenario)}: allowed: a Scenario")
+    if accuracy is not None:
+        scenario = replace(scenario, accuracy=accuracy)
+    plain = run_with_error if errors else run_once
+    run: Callable[[Scenario, Progress], Result] = plain if scenario.goal is None else run_to_accuracy
+    if solution is not None:
+        from support_exudyn.postprocessing.export.solution_file import (
+            keeping_solution,  # which needs libraries of shapes
+        )
+
+        run = keeping_solution(run, solution)
+    try:
+        return _run(run, scenario, progress)
+    except SimulationError as error:
+        if throw:
+            raise
+        return error.failure
+
+
+def _run(run: Callable[[Scenario, Progress], Result], scenario: Scenario, progress: Progress) -> Result:
+    try:
+        if scenario.solver.audit:
+            _look_at_laws(scenario)
+        return run(scenario, progress)
+    except SystemExit as error:  # it would end the program without a word, and perhaps as if all was done
+        raise SimulationError(Failure(f"the program was asked to end: {told(error)}", OWN, 0.0)) from None
+
+
+def _look_at_laws(scenario: Scenario) -> None:
+    """Raise SimulationError if the law of a pin cannot be one even at rest."""
+    try:
+        for name, pin in scenario.clearance_pins.items():
+            look_at_rest(pin.contact, name)
+    except LawError as error:
+        raise SimulationError(Failure(str(error), UNLAWFUL, 0.0)) from error

@@ -1,0 +1,48 @@
+"""One run of a scenario with the settings that it has."""
+
+from __future__ import annotations
+
+import time
+
+from support_exudyn.formulations.contract import Failure, SimulationError
+from support_exudyn.formulations.engine_errors import first_line
+from support_exudyn.formulations.progress import Progress
+from support_exudyn.formulations.registry import formulation
+from support_exudyn.scenario.recorded_channels import asked, channels
+from support_exudyn.scenario.scenario import Scenario
+from support_exudyn.simulation.audit import audit
+from support_exudyn.simulation.collector import paused_collector
+from support_exudyn.simulation.provenance import provenance
+from support_exudyn.simulation.result import Result
+from support_exudyn.simulation.room import check_room
+from user_forces.lawful import UNLAWFUL
+
+
+def run_once(scenario: Scenario, progress: Progress) -> Result:
+    """Run a scenario.
+
+    Raises InputError if its formulation does not cover it, SimulationError if it fails, or if it has finished
+    but does not stand up to its `audit`.
+    """
+    chosen = formulation(scenario.formulation)
+    chosen.check(scenario)
+    check_room(scenario)
+    began = time.perf_counter()
+    try:
+        with paused_collector():
+            outcome = chosen.run(scenario, progress)
+            found = channels(scenario, outcome.trajectory)
+    except ArithmeticError as error:  # of a law or a drive, where nothing is computed step by step
+        raise SimulationError(Failure(first_line(error), UNLAWFUL, 0.0)) from error
+    if scenario.solver.audit and (failure := audit(scenario, outcome, found)) is not None:
+        raise SimulationError(failure)
+    return Result(
+        scenario=scenario,
+        channels=asked(scenario, found),
+        onsets=outcome.onsets,
+        largest_force=outcome.largest_force,
+        impulses=outcome.impulses,
+        counts=outcome.counts,
+        wall_time=time.perf_counter() - began,
+        provenance=provenance(),
+    )

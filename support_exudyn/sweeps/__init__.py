@@ -1,0 +1,52 @@
+"""Sweeps: many runs of a scenario with some of its fields varied, in one store that can be continued.
+
+    from support_exudyn.sweeps import read_sweep, read_table, sweep
+
+    sweep(read_sweep("clearance.toml"), "clearance_sweep")
+    table = read_table("clearance_sweep")  # a pyarrow table; .to_pandas() where pandas is there
+
+A run has a key, made of its inputs and of the program; what the store holds under that key is not run again.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from support_exudyn.sweeps.file import read_sweep
+    from support_exudyn.sweeps.plan import Plan, Record
+    from support_exudyn.sweeps.points import grid, latin_hypercube, side_by_side
+    from support_exudyn.sweeps.run import Outcome, sweep
+    from support_exudyn.sweeps.table import read_table
+
+__all__ = [
+    "Outcome",
+    "Plan",
+    "Record",
+    "grid",
+    "latin_hypercube",
+    "read_sweep",
+    "read_table",
+    "side_by_side",
+    "sweep",
+]
+
+# imported when they are asked for: the processes that run have no use for tables
+_PLACES = {
+    "Outcome": "run",
+    "Plan": "plan",
+    "Record": "plan",
+    "grid": "points",
+    "latin_hypercube": "points",
+    "read_sweep": "file",
+    "read_table": "table",
+    "side_by_side": "points",
+    "sweep": "run",
+}
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _PLACES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f"{__name__}.{_PLACES[name]}"), name)

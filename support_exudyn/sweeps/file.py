@@ -1,0 +1,154 @@
+"""The file of a sweep."""
+
+from __future__ import annotations
+
+import math
+from decimal import Decimal
+from pathlib import Path
+from typing import Any
+
+from support_exudyn.files.toml.toml_reading import load_toml, text_of
+from support_exudyn.sweeps.from_tables import maker
+from support_exudyn.sweeps.plan import Plan, Record
+from support_exudyn.sweeps.points import Point, Range, Varied, grid, latin_hypercube, side_by_side
+from user_forces.values.value import InputError, short
+
+METHODS = ("grid", "list", "latin_hypercube")
+KEYS = {"scenario", "method", "vary", "record", "samples", "seed"}
+RECORD_KEYS = {"numbers", "keep_runs", "after_s", "until_s"}
+RANGE_KEYS = {"from", "to", "steps", "scale"}
+Table = dict[str, Any]
+
+
+def read_sweep(path: str | Path) -> Plan:
+    """The plan that a file describes.
+
+    Raises InputError that names file, key, value and what is allowed; OSError if there is no such file.
+    """
+    path = Path(path)
+    data = load_toml(path)
+    try:
+        _only(data, KEYS, "")
+        table, where, folder = _scenario(data, path)
+        varied = {name: _varied(item, f"vary.{name!r}") for name, item in _flat(_table(data, "vary"))}
+        told = where if isinstance(data.get("scenario"), dict) else f"{where} as {path} varies it"
+        return Plan(
+            points=_points(data, varied),
+            scenario=maker(table, told, folder, tuple(varied)),
+            record=_record(_table(data, "record")),
+            errors=table.get("errors") is True,
+            text=text_of(path),
+        )
+    except InputError as error:
+        raise InputError(str(error) if str(error).startswith(str(path)) else f"{path}: {error}") from None
+
+
+def _scenario(data: Table, path: Path) -> tuple[Table, str, Path]:
+    """Its table, what errors call it, and the folder from which its paths go on."""
+    given = data.get("scenario")
+    if isinstance(given, dict):
+        return given, f"{path}: scenario", path.parent
+    if not isinstance(given, str):
+        raise InputError(
+            f"scenario = {short(given)}: allowed: the path of a scenario file, or a table [scenario]"
+        )
+    file = path.parent / given
+    return load_toml(file, named=True), str(file), file.parent
+
+
+def _points(data: Table, varied: Varied) -> list[Point]:
+    method = data.get("method", "grid")
+    if method not in METHODS:
+        raise InputError(f"method = {short(method)}: allowed: {', '.join(map(repr, METHODS))}")
+    if method == "latin_hypercube":
+        return latin_hypercube(varied, _whole(data, "samples", 1), _whole(data, "seed", 0, 1))
+    for name in ("samples", "seed"):
+        if name in data:
+            raise InputError(f"{name}: means nothing here; allowed with method = 'latin_hypercube'")
+    for name, one in varied.items():
+        if isinstance(one, Range) and not one.steps:
+            raise InputError(f"vary.{name!r}.steps: missing; allowed with method = {method!r}: from 2 on")
+    return grid(varied) if method == "grid" else side_by_side(varied)
+
+
+def _varied(item: Any, where: str) -> Any:
+    if isinstance(item, list):
+        if not item:
+            raise InputError(f"{where} = []: allowed: at least one value")
+        return item
+    _only(item, RANGE_KEYS, f"{where}.")
+    for key in ("from", "to"):
+        if not _is_number(item.get(key)):
+            raise InputError(f"{where}.{key} = {_said(item.get(key))}: allowed: a number")
+    low, high = Decimal(item["from"]), Decimal(item["to"])
+    scale = item.get("scale", "linear")
+    if scale not in ("linear", "log"):
+        raise InputError(f"{where}.scale = {short(scale)}: allowed: 'linear', 'log'")
+    if scale == "log" and not (low > 0 and high > 0):
+        raise InputError(f"{where}: from = {low}, to = {high}: allowed with scale = 'log': > 0")
+    steps = _whole(item, "steps", 2, default=0, where=f"{where}.") if "steps" in item else 0
+    return Range(low, high, steps, scale)
+
+
+def _record(table: Table) -> Record:
+    _only(table, RECORD_KEYS, "record.")
+    numbers = table.get("numbers", [])
+    if not (isinstance(numbers, list) and all(isinstance(name, str) and name for name in numbers)):
+        raise InputError(f"record.numbers = {short(numbers)}: allowed: a list of names")
+    keep = table.get("keep_runs", True)
+    if not isinstance(keep, bool):
+        raise InputError(f"record.keep_runs = {short(keep)}: allowed: true, false")
+    times = {}
+    for key, usual in (("after_s", 0), ("until_s", math.inf)):
+        times[key] = table.get(key, usual)
+        if key in table and not (_is_number(times[key]) and times[key] >= 0):
+            raise InputError(f"record.{key} = {_said(times[key])}: allowed: a time in s, >= 0")
+    return Record(tuple(numbers), float(times["after_s"]), float(times["until_s"]), keep)
+
+
+def _flat(table: Table, before: str = "") -> list[tuple[str, Any]]:
+    """Fields by their dotted keys, whether these were quoted or not."""
+    found = []
+    for key, item in table.items():
+        name = f"{before}{key}"
+        if isinstance(item, dict) and not item.keys() & RANGE_KEYS:
+            found += _flat(item, f"{name}.")
+        elif isinstance(item, (dict, list)):
+            found.append((name, item))
+        else:
+            raise InputError(
+                f"vary.{name!r} = {_said(item)}: allowed: a list of values, or a range such as "
+                "{from = 0.0, to = 0.3, steps = 4}"
+            )
+    return found
+
+
+# --- what TOML gives ---
+
+
+def _table(data: Table, key: str) -> Table:
+    found = data.get(key, {})
+    if not isinstance(found, dict):
+        raise InputError(f"{key} = {short(found)}: allowed: a table, begun with [{key}]")
+    return found
+
+
+def _whole(data: Table, key: str, least: int, default: int | None = None, where: str = "") -> int:
+    found = data.get(key, default)
+    if not isinstance(found, int) or isinstance(found, bool) or found < least:
+        raise InputError(f"{where}{key} = {_said(found)}: allowed: a whole number from {least} on")
+    return found
+
+
+def _is_number(item: Any) -> bool:
+    return isinstance(item, (int, Decimal)) and not isinstance(item, bool) and math.isfinite(item)
+
+
+def _said(item: Any) -> str:
+    return "missing" if item is None else str(item) if isinstance(item, Decimal) else short(item)
+
+
+def _only(data: Table, known: set[str], where: str) -> None:
+    for key in data:
+        if key not in known:
+            raise InputError(f"{where}{key}: unknown key; allowed: {', '.join(sorted(known))}")

@@ -1,0 +1,77 @@
+"""The key of a run: the same for the same inputs and the same program, another for any others."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import sys
+from functools import cache
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+from support_exudyn.scenario.scenario import Scenario
+from support_exudyn.simulation.provenance import versions
+from user_forces.values.value import Value
+
+MAKES_NO_NUMBERS = (
+    "matplotlib",
+    "meshio",
+    "h5py",
+    "pydantic",
+)  # packages that a run's numbers do not depend on
+LOOKS = ("postprocessing", "commands", "sweeps")  # rooms of ours that compute no number of a run
+OURS = ("user_forces", "support_exudyn")
+LENGTH = 32  # hexadecimal digits: 128 bits, no two runs will ever share one
+
+
+@cache
+def program() -> dict[str, str]:
+    """What makes the numbers: versions of packages, and a digest of our own sources.
+
+    By the digest a change of the program is seen before it has a new version.
+    """
+    found = {name: text for name, text in versions().items() if name not in MAKES_NO_NUMBERS}
+    return found | {"sources": _sources()}
+
+
+def key(scenario: Scenario, errors: bool = False) -> str:
+    """Of a run of this scenario with this program: hexadecimal digits of a SHA-256 digest.
+
+    errors: whether it is made with estimated errors, see `simulate`.
+    """
+    data = scenario.to_data()
+    text = json.dumps([data, errors, program(), _own(data)], sort_keys=True, separators=(",", ":"))
+    return hashlib.sha256(text.encode()).hexdigest()[:LENGTH]
+
+
+def _own(data: Any) -> dict[str, str]:
+    """Digests of the modules of one's own whose classes these data are of, by name."""
+    modules = {Value.of_name(kind).__module__ for kind in _kinds(data)}
+    return {name: _source(name) for name in modules if name.partition(".")[0] not in OURS}
+
+
+def _kinds(data: Any) -> set[str]:
+    """Names of all classes in plain data."""
+    inside = data.values() if isinstance(data, dict) else data if isinstance(data, list) else ()
+    found = set().union(*map(_kinds, inside))
+    return found | {data["type"]} if isinstance(data, dict) and "type" in data else found
+
+
+@cache
+def _source(module: str) -> str:
+    """Digest of a module's file; empty if it has none, such as what is typed into a console."""
+    path = getattr(sys.modules.get(module), "__file__", None)
+    return hashlib.sha256(Path(path).read_bytes()).hexdigest()[:LENGTH] if path else ""
+
+
+def _sources() -> str:
+    digest = hashlib.sha256()
+    for package in OURS:
+        root = Path(str(resources.files(package)))
+        for path in sorted(root.rglob("*.py")):
+            inside = path.relative_to(root)
+            if inside.parts[0] not in LOOKS:
+                digest.update(inside.as_posix().encode())
+                digest.update(path.read_bytes())
+    return digest.hexdigest()[:LENGTH]

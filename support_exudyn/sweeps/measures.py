@@ -1,0 +1,116 @@
+"""The numbers of a run that a sweep notes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from fnmatch import fnmatchcase
+
+import numpy as np
+
+from support_exudyn.mechanics.extremes import largest, missed
+from support_exudyn.scenario.scenario import Scenario
+from support_exudyn.simulation.estimate import errors
+from support_exudyn.simulation.reported_numbers import Kind, measures
+from support_exudyn.simulation.result import Result
+from support_exudyn.sweeps.plan import Record
+from support_exudyn.sweeps.row import Number
+from user_forces.values.value import InputError, short
+
+STATISTICS: Mapping[str, Callable[[np.ndarray], float]] = {
+    "mean": np.mean,
+    "std": np.std,
+    "max": np.max,
+    "min": np.min,
+    "first": lambda values: float(values[0]),
+    "last": lambda values: float(values[-1]),
+    "spread": np.std,  # as `Result.numbers` calls them
+    "largest": largest,
+}
+WILD = "*?["
+
+
+def numbers(result: Result, record: Record) -> dict[str, Number]:
+    """What is to be noted of a run, as far as it has it, with errors if the run tells them.
+
+    Raises InputError if no record lies between the times.
+    """
+    usual = measures(result, record.after, record.until)
+    found: dict[str, Kind] = {}
+    if not record.numbers:
+        found.update(usual)
+    for pattern in record.numbers:
+        found |= _matching(pattern, usual, result, record)
+    known: dict[str, float] = {}
+    if result.coarser is not None:
+        known = errors(found, result, result.fall, usual)
+    return {
+        name: Number(kind.measure(result), _finite(known.get(name)), kind.unit) for name, kind in found.items()
+    }
+
+
+def check_numbers(scenario: Scenario, record: Record) -> None:
+    """Raise InputError if a number that is named, not a pattern, is none that its runs could have."""
+    for name in record.numbers:
+        channel, _, statistic = name.rpartition(".")
+        if any(letter in name for letter in WILD) or _is_of_touches(name, scenario):
+            continue
+        if statistic not in STATISTICS:
+            raise InputError(
+                f"numbers: {short(name)}: no such number; allowed: a channel and one of "
+                f"{', '.join(STATISTICS)}, such as 'pin.rear_base.force.mean', patterns of such, "
+                "pin.NAME.largest_force, pin.NAME.onset_1.time"
+            )
+        if channel not in scenario.recipes:
+            near = ", ".join(list(scenario.recipes)[:6])
+            raise InputError(
+                f"numbers: {short(name)}: runs have no channel {short(channel)}; allowed: those of the "
+                f"scenario, such as {near}; or a pattern, if only some of the runs have it"
+            )
+
+
+def _is_of_touches(name: str, scenario: Scenario) -> bool:
+    parts = name.split(".")
+    return (
+        parts[0] == "pin"
+        and ".".join(parts[1:2]) in scenario.linkage.pins
+        and (parts[2:] == ["largest_force"] or (len(parts) == 4 and parts[2].startswith("onset_")))
+    )
+
+
+def _matching(pattern: str, usual: Mapping[str, Kind], result: Result, record: Record) -> dict[str, Kind]:
+    if not any(letter in pattern for letter in WILD):
+        channel, _, statistic = pattern.rpartition(".")
+        if pattern in usual:
+            return {pattern: usual[pattern]}
+        if channel in result.channels and statistic in STATISTICS:
+            return {pattern: _kind(result, channel, statistic, record)}
+        return {}
+    found = {name: kind for name, kind in usual.items() if fnmatchcase(name, pattern)}
+    for channel in result.channels:
+        for statistic in STATISTICS:
+            name = f"{channel}.{statistic}"
+            if channel != "time" and name not in found and fnmatchcase(name, pattern):
+                found[name] = _kind(result, channel, statistic, record)
+    return found
+
+
+def _kind(result: Result, channel: str, statistic: str, record: Record) -> Kind:
+    compute = STATISTICS[statistic]
+
+    def inside(run: Result) -> np.ndarray:
+        # as of `Result.numbers`: times of records are sums of periods
+        return (run.time >= record.after - 1e-9) & (run.time <= record.until + 1e-9)
+
+    def measure(run: Result) -> float:
+        return float(compute(run[channel][inside(run)]))
+
+    def between(run: Result) -> float:
+        chosen = inside(run)
+        return missed(statistic, run[channel][chosen], run.time[chosen], run.scenario.breaks)
+
+    return Kind(result.unit(channel), measure, missed=between)
+
+
+def _finite(error: float | None) -> float | None:
+    return error if error is not None and math.isfinite(error) else None

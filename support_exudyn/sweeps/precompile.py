@@ -1,0 +1,34 @@
+"""Compiling ahead of time."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from support_exudyn.files.machines import reference_support
+from support_exudyn.formulations import reduced, tree
+from support_exudyn.formulations.progress import silent
+from support_exudyn.model.columns import OilColumn
+from support_exudyn.model.pins import ClearancePin
+from support_exudyn.scenario.scenario import Scenario
+from user_forces.contact import JournalContact
+from user_forces.journal import JournalBearing
+from user_forces.normal.hertz import Hertz
+
+
+def warm_up() -> None:
+    """Compile everything in this process and keep it on disk, so that other processes only load it.
+
+    Runs of a moment: compiled code does not depend on the numbers.
+    """
+    contact = JournalContact(
+        bearing=JournalBearing(bore_radius=0.0655, clearance=0.001), normal=Hertz(stiffness=1e10)
+    )
+    loose = Scenario(
+        machine=reference_support(),
+        pins={"rear_base": ClearancePin(contact=contact)},
+        duration=1e-3,
+    )
+    reduced.run(loose, silent)
+    reduced.run(replace(loose, pins={}), silent)
+    oil = OilColumn(bore_area=0.1, oil_length=0.5, bulk_modulus=1.5e9)
+    tree.run(replace(loose, columns=dict.fromkeys(loose.linkage.columns, oil)), silent)

@@ -1,0 +1,203 @@
+"""Doing a sweep."""
+
+from __future__ import annotations
+
+import os
+import pickle
+import time
+from collections.abc import Callable, Generator, Iterator
+from contextlib import closing
+from dataclasses import dataclass
+from pathlib import Path
+
+from support_exudyn.sweeps.key import key
+from support_exudyn.sweeps.local import in_processes
+from support_exudyn.sweeps.measures import check_numbers
+from support_exudyn.sweeps.plan import Plan
+from support_exudyn.sweeps.row import Row
+from support_exudyn.sweeps.store import Store
+from support_exudyn.sweeps.table import FILE, Table
+from support_exudyn.sweeps.work import Task, reason_of
+from user_forces.values.value import InputError
+
+SELDOM = 10.0  # the table is written every so many seconds while runs come in,
+SHARE = 0.02  # and this share of the time at most
+
+
+@dataclass
+class Outcome:
+    """How far a sweep is.
+
+    runs: of the plan. table: where it is. found: were in the store already. done, failed, killed: rows of the
+    table. unmet: done, but less accurate than asked for. pruned: runs that were removed from the store.
+    missing: numbers that were asked for and that no run has.
+    """
+
+    runs: int
+    table: Path
+    found: int = 0
+    done: int = 0
+    failed: int = 0
+    killed: int = 0
+    unmet: int = 0
+    pruned: int = 0
+    missing: tuple[str, ...] = ()
+
+    @property
+    def finished(self) -> int:
+        """Rows that are known."""
+        return self.done + self.failed + self.killed
+
+
+Told = Callable[[Outcome], None]
+
+
+def sweep(
+    plan: Plan,
+    out: str | Path,
+    *,
+    workers: int | None = None,
+    scheduler: str = "",
+    retry_failed: bool = False,
+    prune: bool = False,
+    progress: Told = lambda outcome: None,
+) -> Outcome:
+    """Run what the store does not hold yet, and write the table.
+
+    Runs that fail are rows with their reason. Interrupted or killed in mid-work, the store holds all that was
+    finished, and the same call goes on from there.
+
+    Arguments:
+        plan: what to run and what to note.
+        out: folder of the store; made if it is missing.
+        workers: number of processes on this machine, >= 1; as many as there are cores if None.
+        scheduler: address of a Dask scheduler, whose workers then run it all.
+        retry_failed: run again what has failed before; what was killed is in any case.
+        prune: remove what the store holds of other runs than those of the plan, when all is done.
+        progress: is told how far it is after every row.
+
+    Raises InputError if no run can be made of any point, for numbers that no run can have, or if the cluster
+    runs another program; OSError if the store cannot be written to, or if another process is writing there.
+    """
+    store = Store(Path(out))
+    outcome = Outcome(len(plan.points), store.folder / FILE)
+    with store.writing():
+        keeper = _Keeper(plan, store, outcome, retry_failed, progress)
+        tasks = keeper.tasks()
+        rows: Generator[Row, None, None]
+        try:
+            if scheduler:
+                from support_exudyn.sweeps.cluster import on_cluster
+
+                rows = on_cluster(tasks, store, scheduler)
+            else:
+                rows = in_processes(tasks, store, workers or os.cpu_count() or 1)
+            with closing(
+                rows
+            ):  # after an interruption, too, its processes have ended when the table is written
+                for row in rows:
+                    keeper.note(row)
+        finally:
+            keeper.look_again()
+            keeper.write()
+        if prune:
+            outcome.pruned = store.prune(keeper.table.keys)
+    outcome.missing = tuple(
+        name
+        for name in plan.record.numbers
+        if not any(c in name for c in "*?[") and name not in keeper.table.numbers
+    )
+    return outcome
+
+
+def known(plan: Plan, out: str | Path, retry_failed: bool = False) -> Outcome:
+    """How far a sweep is, without running anything."""
+    store = Store(Path(out))
+    outcome = Outcome(len(plan.points), store.folder / FILE)
+    keeper = _Keeper(plan, store, outcome, retry_failed, lambda outcome: None)
+    for _ in keeper.tasks():
+        pass
+    return outcome
+
+
+class _Keeper:
+    """What is known so far, in the table."""
+
+    def __init__(self, plan: Plan, store: Store, outcome: Outcome, retry_failed: bool, progress: Told) -> None:
+        self.table = Table(plan)
+        self._plan, self._store, self._outcome = plan, store, outcome
+        self._retry_failed, self._progress = retry_failed, progress
+        self._places: dict[str, list[int]] = {}  # of keys under way
+        self._rows: dict[str, int] = {}  # of keys that are known: where
+        self._wait, self._written = SELDOM, time.monotonic()
+
+    def tasks(self) -> Iterator[Task]:
+        """What is to be run, made while others run; all else goes straight into the table."""
+        checked, refused = False, []
+        record = self._plan.record
+        for number, point in enumerate(self._plan.points):
+            try:
+                scenario = self._plan.scenario(point)
+                record.check(scenario)
+                name = key(scenario, self._plan.errors)
+                pickle.dumps(scenario)  # as it is sent to other processes
+            except Exception as error:  # of classes of one's own any
+                refused.append(InputError(reason_of(error)) if not isinstance(error, InputError) else error)
+                self._set([number], Row("", "failed", reason_of(error)))
+                continue
+            if not checked:
+                check_numbers(scenario, record)
+                checked = True
+            places = self._places.setdefault(name, [])
+            places.append(number)
+            if len(places) > 1 and name not in self._rows:
+                continue  # it is under way
+            row = self._store.row(name)
+            whole = row is not None and row.status == "done" and self._store.has_run(row)
+            if row is not None and self._is_good(row, whole):
+                self._outcome.found += len(places) == 1
+                self._rows[name] = number
+                self._set([number], row)
+            else:
+                yield Task(name, scenario, record, self._plan.errors, again=whole)
+        if len(refused) == len(self._plan.points):
+            raise refused[0]  # that is no sweep
+
+    def _is_good(self, row: Row, whole: bool) -> bool:
+        """Whether what is known of a run is what is wanted."""
+        if row.status == "failed":
+            return not self._retry_failed
+        record = self._plan.record
+        return row.status == "done" and row.noted == record.digest and (whole or not record.keep_runs)
+
+    def note(self, row: Row) -> None:
+        """Of a run that has ended."""
+        self._rows[row.key] = self._places[row.key][0]
+        self._set(self._places[row.key], row)
+        if time.monotonic() - self._written > self._wait:
+            self.write()
+
+    def look_again(self) -> None:
+        """Note what was finished while nobody listened any more."""
+        for name, numbers in self._places.items():
+            if (
+                name not in self._rows
+                and (row := self._store.row(name)) is not None
+                and self._is_good(row, True)
+            ):
+                self._rows[name] = numbers[0]
+                self._set(numbers, row)
+
+    def _set(self, numbers: list[int], row: Row) -> None:
+        for number in numbers:
+            self.table.set(number, row)
+            setattr(self._outcome, row.status, getattr(self._outcome, row.status) + 1)
+            self._outcome.unmet += row.status == "done" and bool(row.reason)
+        self._progress(self._outcome)
+
+    def write(self) -> None:
+        """Write the table."""
+        began = time.monotonic()
+        self.table.write(self._store.folder)
+        self._written = time.monotonic()
+        self._wait = max(SELDOM, (self._written - began) / SHARE)

@@ -1,0 +1,132 @@
+"""The store of a sweep: a folder with a file for the row of every run, and one for the run itself.
+
+    STORE/rows/KEY.json     what is noted of a run, or why there is none
+    STORE/runs/KEY.h5       the run, as `Result.save` writes it
+    STORE/table.parquet     all of it in one table, and table.csv for eyes
+
+A run's file is written before its row, each whole: where there is a row, there was a run.
+"""
+
+from __future__ import annotations
+
+import errno
+import re
+from collections.abc import Collection, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from support_exudyn.files.hdf5 import check_seal
+from support_exudyn.files.temporary import remove_leftovers
+from support_exudyn.files.whole_file import contents, whole_file, writing_alone
+from support_exudyn.simulation.memory import available
+from support_exudyn.simulation.result import FORMAT
+from support_exudyn.sweeps.key import LENGTH
+from support_exudyn.sweeps.row import Row
+
+KEY = re.compile(rf"[0-9a-f]{{{LENGTH}}}")
+LARGEST_ROW = 100_000_000  # bytes
+TABLES = ("table.parquet", "table.csv")
+RUN = FORMAT.rpartition(" ")[0].encode() + b" "  # as files of runs of any version begin
+
+
+@dataclass(frozen=True)
+class Store:
+    """The folder of a sweep."""
+
+    folder: Path
+
+    @property
+    def rows(self) -> Path:
+        """Where the rows are."""
+        return self.folder / "rows"
+
+    @property
+    def runs(self) -> Path:
+        """Where the runs are."""
+        return self.folder / "runs"
+
+    def run_file(self, key: str) -> Path:
+        """Of the run of this key."""
+        return self.runs / f"{key}.h5"
+
+    @contextmanager
+    def writing(self) -> Iterator[None]:
+        """Write there alone. Raises OSError if another process does, or if it cannot be written to.
+
+        Also if a table is there without a store: it is somebody else's, and would be lost.
+        """
+        for name in TABLES:
+            if (self.folder / name).exists() and not self.rows.exists():
+                raise FileExistsError(
+                    errno.EEXIST,
+                    "is of no sweep, and would be lost; allowed: another folder",
+                    str(self.folder / name),
+                )
+        self.rows.mkdir(parents=True, exist_ok=True)
+        self.runs.mkdir(exist_ok=True)
+        with writing_alone(self.folder):
+            self._clear()
+            try:
+                yield
+            finally:
+                self._clear()
+
+    def _clear(self) -> None:
+        for folder in (self.folder, self.rows, self.runs):
+            remove_leftovers(folder)
+
+    def row(self, key: str) -> Row | None:
+        """What is known of a run; None if that is nothing, or damaged."""
+        try:
+            found = Row.from_text(contents(self.rows / f"{key}.json", LARGEST_ROW).decode("utf-8"))
+        except (FileNotFoundError, ValueError, TypeError, LookupError):
+            return None
+        return found if found.key == key else None
+
+    def put(self, row: Row) -> Row:
+        """Keep a row; the run's file, if it is to be kept, is there already."""
+        path = self.run_file(row.key)
+        if row.status == "done" and path.exists():
+            status = path.stat()
+            row = replace(row, size=status.st_size, modified=status.st_mtime_ns)
+        with whole_file(self.rows / f"{row.key}.json") as temporary:
+            temporary.write_text(row.to_text(), encoding="utf-8")
+        return row
+
+    def has_run(self, row: Row) -> bool:
+        """Whether the run of a row is there and whole.
+
+        What is as large and as old as when it was written is not read again; anything else is, and must fit its
+        digest.
+        """
+        path = self.run_file(row.key)
+        try:
+            status = path.stat()
+            if (status.st_size, status.st_mtime_ns) == (row.size, row.modified):
+                return True
+            check_seal(contents(path, available()), FORMAT)
+        except (OSError, ValueError):
+            return False
+        return True
+
+    def prune(self, keys: Collection[str]) -> int:
+        """Remove rows of all other keys, and their runs. Returns of how many.
+
+        Files that only have such names stay: what goes is a row that fits its digest, and what begins as a run.
+        """
+        wanted = set(keys)
+        gone = set()
+        for path in (*self.rows.glob("*.json"), *self.runs.glob("*.h5")):
+            if path.stem not in wanted and self._is_ours(path):
+                path.unlink()
+                gone.add(path.stem)
+        return len(gone)
+
+    def _is_ours(self, path: Path) -> bool:
+        if not (KEY.fullmatch(path.stem) and path.is_file()) or path.is_symlink():
+            return False
+        if path.suffix == ".json":
+            return self.row(path.stem) is not None
+        with path.open("rb") as file:
+            return file.read(len(RUN)) == RUN

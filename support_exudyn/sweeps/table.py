@@ -1,0 +1,188 @@
+"""The table of a sweep: a row for every run of the plan, in its order."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from decimal import Decimal
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyarrow as pa
+from pyarrow import csv, parquet
+
+from support_exudyn.files.whole_file import check_is_file, whole_file
+from support_exudyn.simulation.memory import available
+from support_exudyn.sweeps.key import program
+from support_exudyn.sweeps.plan import Plan
+from support_exudyn.sweeps.points import MOST
+from support_exudyn.sweeps.row import Row
+from user_forces.values.value import InputError, cleaned, short
+
+FORMAT = "support_exudyn sweep 1"
+FILE = "table.parquet"
+WHOLE = 2**63  # whole numbers of a column are smaller
+OWN = b"support_exudyn"  # of the schema's metadata
+UNIT_WORDS = {"^": "", "/": "_per_", " ": "_"}
+MEANINGS = {
+    "key": "name of the run's files in the store",
+    "status": "done, failed (it cannot be run, or stopped), killed (its process ended)",
+    "reason": "why there are no numbers, or why they are less accurate than asked for",
+    "wall_time_s": "time that the run took",
+}
+
+
+class _Column:
+    """Numbers by rows; NaN where there is none."""
+
+    def __init__(self, rows: int, unit: str) -> None:
+        self.unit = unit
+        self.values = np.full(rows, np.nan)
+        self.errors = np.full(rows, np.nan)
+        self.there = np.zeros(rows, dtype=bool)
+        self.rank = (rows, 0)  # first row and place in it
+
+
+class Table:
+    """All rows, as far as they are known. Of a hundred numbers ten thousand rows take 20 MB."""
+
+    def __init__(self, plan: Plan) -> None:
+        self._plan, self._size = plan, len(plan.points)
+        self.keys: list[str] = [""] * self._size
+        self.status: list[str] = ["waiting"] * self._size
+        self._reasons: list[str] = [""] * self._size
+        self._wall_times = np.full(self._size, np.nan)
+        self._columns: dict[str, _Column] = {}
+
+    def set(self, number: int, row: Row) -> None:
+        """Note a row at its place."""
+        self.keys[number], self.status[number] = row.key, row.status
+        self._reasons[number] = row.reason
+        self._wall_times[number] = np.nan if row.wall_time is None else row.wall_time
+        for place, (name, (value, error, unit)) in enumerate(row.numbers.items()):
+            column = self._columns.setdefault(name, _Column(self._size, unit))
+            column.values[number], column.there[number] = value, True
+            column.errors[number] = np.nan if error is None else error
+            column.rank = min(column.rank, (number, place))
+
+    @property
+    def numbers(self) -> list[str]:
+        """Names of the numbers that any run has."""
+        return list(self._columns)
+
+    def to_arrow(self) -> pa.Table:
+        """With units and meanings as metadata of the columns, and of the whole what it was made with."""
+        fields: list[pa.Field] = []
+        columns: list[pa.Array] = []
+
+        def add(name: str, column: pa.Array, unit: str = "", meaning: str = "") -> None:
+            about = {"unit": cleaned(unit), "meaning": cleaned(meaning)}
+            fields.append(pa.field(cleaned(name), column.type, metadata=about))
+            columns.append(column)
+
+        for name in self._plan.names:
+            add(name, _inputs([point[name] for point in self._plan.points]), meaning="varied")
+        for name, texts in (("key", self.keys), ("status", self.status), ("reason", self._reasons)):
+            add(name, pa.array(texts, pa.string()), meaning=MEANINGS[name])
+        taken = pa.array(self._wall_times, mask=np.isnan(self._wall_times))
+        add("wall_time_s", taken, "s", MEANINGS["wall_time_s"])
+        for name, column in sorted(self._columns.items(), key=lambda item: item[1].rank):
+            title = with_unit(name, column.unit)
+            add(title, pa.array(column.values, mask=~column.there), column.unit, f"{name} of the run")
+            if not np.isnan(column.errors).all():
+                errors = pa.array(column.errors, mask=np.isnan(column.errors))
+                add(f"{title}_error", errors, column.unit, f"estimated numerical error of {name}")
+        about = {"format": FORMAT, "sweep": self._plan.text, "program": program()}
+        return pa.table(columns, schema=pa.schema(fields, metadata={OWN: json.dumps(about)}))
+
+    def write(self, folder: Path) -> Path:
+        """As table.parquet and table.csv. Returns the path of the former."""
+        made = self.to_arrow()
+        with whole_file(folder / FILE) as temporary:
+            parquet.write_table(made, temporary)
+        with whole_file(folder / "table.csv") as temporary:
+            csv.write_csv(made, temporary)
+        return folder / FILE
+
+
+def with_unit(name: str, unit: str) -> str:
+    """Title of a column: `pin.rear_base.force.mean_N`."""
+    for letter, word in UNIT_WORDS.items():
+        unit = unit.replace(letter, word)
+    return f"{name}_{unit}" if unit else name
+
+
+def read_table(path: str | Path) -> pa.Table:
+    """The table of a sweep.
+
+    path: of the store, or of the table.parquet in it.
+
+    Raises OSError if there is none; InputError if it is no table of a sweep, or damaged.
+    """
+    path = Path(path)
+    path = path / FILE if path.is_dir() else path
+    if not path.exists():
+        raise FileNotFoundError(f"{path}: no such file; allowed: the folder of a sweep, or its {FILE}")
+    check_is_file(path, available())
+    try:
+        _check_table(parquet.ParquetFile(path).metadata)
+        found = parquet.read_table(path)
+        found.validate(full=True)
+        about = json.loads((found.schema.metadata or {}).get(OWN, b"{}"))
+        known = about.get("format")
+        _check_columns(found)
+    except (pa.ArrowException, OSError, ValueError, AttributeError, RecursionError, MemoryError) as error:
+        said = cleaned(" ".join(str(error).split()))
+        raise InputError(f"{path}: not a table of a sweep, or damaged ({said})") from None
+    if known != FORMAT:
+        raise InputError(f"{path}: format is {short(known)}, expected {FORMAT!r}")
+    return found
+
+
+def _check_table(about: Any) -> None:
+    """Raise ValueError of a table that no sweep makes: few bytes may stand for many numbers."""
+    rows, columns = about.num_rows, about.num_columns
+    size = sum(about.row_group(n).total_byte_size for n in range(about.num_row_groups))
+    if rows > MOST or max(size, 8 * rows * columns) > available():
+        raise ValueError(f"{rows} rows of {columns} columns are more than there is room for")
+
+
+def _check_columns(found: pa.Table) -> None:
+    """Raise ValueError unless a table has what all tables of sweeps have, once, and texts that are some."""
+    names = found.column_names
+    if len(set(names)) < len(names) or not MEANINGS.keys() <= set(names):
+        raise ValueError(f"columns are missing or there twice; allowed: {', '.join(MEANINGS)} and others, once")
+    for field in found.schema:
+        for text in (field.name, *(one.decode() for pair in (field.metadata or {}).items() for one in pair)):
+            if cleaned(text) != text:
+                raise ValueError(f"column {short(text)} is no name; allowed: letters that can be printed")
+    for name in names[names.index("wall_time_s") :]:
+        if not pa.types.is_floating(found.schema.field(name).type):
+            raise ValueError(f"column {short(name)} is of {found.schema.field(name).type}; allowed: numbers")
+
+
+def _inputs(values: Sequence[Any]) -> pa.Array:
+    """What was varied: numbers, texts, or anything else as JSON; numbers that no column holds as texts, too."""
+    if all(isinstance(one, (int, float, Decimal)) and not isinstance(one, bool) for one in values):
+        if all(isinstance(one, int) and abs(one) < WHOLE for one in values):
+            return pa.array(values, pa.int64())
+        if all(_fits(one) for one in values):
+            return pa.array([float(one) for one in values])
+    if all(isinstance(one, bool) for one in values):
+        return pa.array(values)
+    return pa.array(
+        [cleaned(one if isinstance(one, str) else json.dumps(one, default=_plain)) for one in values]
+    )
+
+
+def _fits(one: int | float | Decimal) -> bool:
+    """Whether a number is one of 64 bits: a whole one to its last digit, others rounded."""
+    try:
+        return float(one) == one or not isinstance(one, int)
+    except OverflowError:
+        return False
+
+
+def _plain(item: Any) -> Any:
+    return float(item) if isinstance(item, Decimal) else str(item)

@@ -1,0 +1,236 @@
+"""A contact's force as one flat Python function: the same numbers, several times faster.
+
+The laws are called once, with `Line`s in place of numbers; what comes back is their formulas as lines of
+source, each computed once, which Python compiles. Nothing is called then but functions of `math`.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Iterable, Mapping
+from functools import partial
+from types import SimpleNamespace
+from typing import Any, cast
+
+from user_forces.contact import ContactForce, JournalContact, SlipHistory
+from user_forces.expressions.scalar import Expression
+from user_forces.lawful import look
+from user_forces.normal.law import Touch
+
+Formulas = dict[str, str]  # formula: the name of the line that has it
+# x, y, vx, vy, bore_spin, journal_spin, in_contact, speed, mass, deflection, slip, step
+FlatForce = Callable[..., ContactForce]
+
+
+class Line(Expression):
+    """A quantity by the name of the line of source that computes it."""
+
+    __slots__ = ("formulas", "name")
+
+    def __init__(self, name: str, formulas: Formulas) -> None:
+        self.name = name
+        self.formulas = formulas
+
+    def line(self, formula: str) -> Line:
+        """The quantity that has this formula."""
+        name = self.formulas.setdefault(formula, f"_{len(self.formulas)}")
+        return Line(name, self.formulas)
+
+    def function(self, name: str) -> Line:
+        """sqrt, exp, log, tanh, cos, sin, abs or sign of it."""
+        return self.line(f"{name}({self.name})")
+
+    def hypotenuse(self, other: Expression | float) -> Line:
+        """Square root of the sum of both squares."""
+        return self.line(f"hypot({self.name}, {text(other)})")
+
+    def choose(self, yes: Expression | float, no: Expression | float) -> Line:
+        """`yes` where this condition holds, else `no`; both have been computed."""
+        return self.line(f"{text(yes)} if {self.name} else {text(no)}")
+
+    def larger(self, other: Expression | float) -> Line:
+        """The larger of both, see `scalar.maximum`."""
+        a, o = self.name, text(other)
+        return self.line(f"{a} if {a} > {o} or {a} != {a} else {o}")
+
+    def smaller(self, other: Expression | float) -> Line:
+        """The smaller of both, see `scalar.minimum`."""
+        a, o = self.name, text(other)
+        return self.line(f"{a} if {a} < {o} or {a} != {a} else {o}")
+
+    def __add__(self, other: Any) -> Line:
+        return self.line(f"{self.name} + {text(other)}")
+
+    def __radd__(self, other: Any) -> Line:
+        return self.line(f"{text(other)} + {self.name}")
+
+    def __sub__(self, other: Any) -> Line:
+        return self.line(f"{self.name} - {text(other)}")
+
+    def __rsub__(self, other: Any) -> Line:
+        return self.line(f"{text(other)} - {self.name}")
+
+    def __mul__(self, other: Any) -> Line:
+        return self.line(f"{self.name} * {text(other)}")
+
+    def __rmul__(self, other: Any) -> Line:
+        return self.line(f"{text(other)} * {self.name}")
+
+    def __truediv__(self, other: Any) -> Line:
+        return self.line(f"{self.name} / {text(other)}")
+
+    def __rtruediv__(self, other: Any) -> Line:
+        return self.line(f"{text(other)} / {self.name}")
+
+    def __pow__(self, exponent: float) -> Line:
+        return self.line(f"{self.name} ** {exponent!r}")
+
+    def __neg__(self) -> Line:
+        return self.line(f"-{self.name}")
+
+    def __lt__(self, other: Any) -> Line:
+        return self.line(f"{self.name} < {text(other)}")
+
+    def __le__(self, other: Any) -> Line:
+        return self.line(f"{self.name} <= {text(other)}")
+
+    def __gt__(self, other: Any) -> Line:
+        return self.line(f"{self.name} > {text(other)}")
+
+    def __ge__(self, other: Any) -> Line:
+        return self.line(f"{self.name} >= {text(other)}")
+
+
+ARGUMENTS = (
+    *("x", "y", "vx", "vy", "bore_spin", "journal_spin"),
+    *("in_contact", "speed", "mass", "deflection", "slip", "step"),
+)
+
+
+def lines(names: Iterable[str]) -> tuple[Formulas, list[Any]]:
+    """Where formulas will be collected, and quantities of these names to write them with."""
+    formulas: Formulas = {}
+    return formulas, [Line(name, formulas) for name in names]
+
+
+def flat_force(contact: JournalContact) -> FlatForce:
+    """`contact.force` as a flat function of floats, bit for bit the same, that raises LawError if it is none.
+
+    Its arguments, all floats: x, y, vx, vy, bore_spin, journal_spin as of `JournalContact.force`; in_contact:
+    whether there is a touch, whose speed and mass follow; deflection, slip and step of SlipHistory.
+    """
+    formulas, (x, y, vx, vy, bore_spin, journal_spin, _, speed, mass, deflection, slip, step) = lines(ARGUMENTS)
+    history = SlipHistory(deflection, slip, step)
+    touch = Touch(speed, mass)
+    found = traceable(contact).force(x, y, vx, vy, bore_spin, journal_spin, touch, history)
+    free = "depth", "rate", "slip", "journal_arm"  # which do not depend on a contact
+    texts = {name: text(value) for name, value in found._asdict().items()}
+    apart = needed(formulas, (texts[name] for name in free))
+    pressed = [line for line in needed(formulas, texts.values()) if line not in apart]
+    rate = f"hypot(vx, vy) if x == 0.0 == y else {texts['rate']}"  # from the middle every way leads outwards
+    zeros = dict.fromkeys(ContactForce._fields, "0.0") | {name: texts[name] for name in free}
+    without = _tuple(zeros | {"rate": rate, "clamped": "False"})
+    source = [
+        f"def force({', '.join(ARGUMENTS)}):",
+        *(f"    {line}" for line in apart),
+        f"    if not in_contact or {texts['depth']} <= 0.0:",
+        f"        return {without}",
+        *depth_check(contact, texts["depth"]),
+        *(f"    {line}" for line in pressed),
+        f"    if not -inf < {texts['normal_force']} + {texts['friction_force']} < inf:",
+        f"        not_finite({', '.join(texts[name] for name in ContactForce._fields[:5])})",
+        f"    return {_tuple(texts)}",
+    ]
+    return cast(FlatForce, compiled(source, contact)["force"])
+
+
+class _Called:
+    """A law whose formula cannot be written out, as a call of it."""
+
+    largest_depth = math.inf  # the law says so itself if it is pressed too deep
+
+    def __init__(self, name: str) -> None:
+        self._name = name
+
+    def __call__(self, first: Line, *others: Any) -> Line:
+        touches = [item for item in others if isinstance(item, Touch)]
+        parts = [f"Touch({text(item.speed)}, {text(item.mass)})" for item in touches]
+        numbers = [text(item) for item in (first, *others) if not isinstance(item, Touch)]
+        return first.line(f"{self._name}({', '.join(numbers + parts)})")
+
+
+class _CalledFriction(_Called):
+    """The same of a friction law."""
+
+    def __init__(self, name: str, has_state: bool) -> None:
+        super().__init__(name)
+        self.has_state = has_state
+        self.next_deflection = _Called(f"{name}.next_deflection")
+
+
+def traceable(contact: JournalContact) -> JournalContact:
+    """A contact that takes `Line`s, whatever its laws: one that branches on its arguments becomes a call."""
+    _, (one, two, three, four) = lines(["one", "two", "three", "four"])
+    normal: Any = contact.normal
+    friction: Any = contact.friction
+    try:
+        normal(one, two, Touch(three, four))
+    except TypeError:
+        normal = _Called("normal_law")
+    try:
+        friction.next_deflection(one, two, three)
+        friction(one, two, three)
+    except TypeError:
+        friction = _CalledFriction("friction_law", friction.has_state)
+    if normal is contact.normal and friction is contact.friction:
+        return contact
+    found: Any = SimpleNamespace(bearing=contact.bearing, normal=normal, friction=friction)
+    found.force = partial(JournalContact.force, found)
+    return cast(JournalContact, found)
+
+
+def depth_check(contact: JournalContact, depth: str) -> list[str]:
+    """The line that raises LoadError beyond the depth for which the law is valid; none if it always is."""
+    limit = contact.normal.largest_depth
+    return [f"    if {depth} > {limit!r}: too_deep({depth})"] if limit < math.inf else []
+
+
+def compiled(source: Iterable[str], contact: JournalContact, **known: object) -> dict[str, Any]:
+    """The names that lines of source define, and those that they may use: functions of math, what is known."""
+    space: dict[str, Any] = {
+        **{name: getattr(math, name) for name in ("sqrt", "exp", "log", "tanh", "cos", "sin", "hypot")},
+        "sign": lambda z: 1.0 if z > 0.0 else -1.0 if z < 0.0 else 0.0,
+        "inf": math.inf,
+        "nan": math.nan,
+        "make": tuple.__new__,
+        "ContactForce": ContactForce,
+        "too_deep": contact.normal.elastic_force,  # which says so
+        "Touch": Touch,
+        "normal_law": contact.normal,
+        "friction_law": contact.friction,
+        "not_finite": partial(look, contact),
+        **known,
+    }
+    exec(compile("\n".join(source), f"<{type(contact.normal).__name__}>", "exec"), space)
+    return space
+
+
+def _tuple(texts: Mapping[str, str]) -> str:
+    return f"make(ContactForce, ({', '.join(texts[name] for name in ContactForce._fields)}))"
+
+
+def text(item: Any) -> str:
+    """The name of a quantity, or a number as source."""
+    return item.name if isinstance(item, Line) else f"({float(item)!r})"
+
+
+def needed(formulas: Formulas, wanted: Iterable[str]) -> list[str]:
+    """Those lines on which what is wanted depends, in order."""
+    names = set(re.findall(r"\b_\d+\b", " ".join(wanted)))
+    kept = []
+    for formula, name in reversed(formulas.items()):
+        if name in names:
+            kept.append(f"{name} = {formula}")
+            names.update(re.findall(r"\b_\d+\b", formula))
+    return kept[::-1]
