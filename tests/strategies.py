@@ -50,7 +50,7 @@ from support_exudyn import (
     reference_support,
     two_body_columns,
 )
-from tests.unit.cases import contact
+from tests.cases.machine_cases import contact
 from user_forces import CubicCoulomb, InputError, LuGre, Value
 from user_forces.values.value import DEEPEST
 

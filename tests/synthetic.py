@@ -8,7 +8,7 @@ import numpy as np
 
 from support_exudyn import Channel, Onset, Result, Scenario
 from support_exudyn.mechanics.counts import Counts
-from tests.reference.cases import PIN
+from tests.cases.run_cases import PIN
 
 UNITS = {"depth": "m", "eccentricity_x": "m", "eccentricity_y": "m", "force": "N"}
 

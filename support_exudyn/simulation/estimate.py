@@ -24,7 +24,7 @@ the first step. Runs then agree in that touch but for rounding. Its error is wha
 by: the tolerance times the clearance over the touch's speed, and times that speed.
 
 Measured on scenes of `python -m studies.benchmarking.coverage`: of 110 by which the constants were chosen,
-against references far closer than the errors claimed, 98.5 % of 6700 numbers are covered (before these rules 97.8),
+against references far closer than the errors claimed, 98.5 % of 6700 numbers are covered (97.8 before),
 the worst true error is 4.1 times the estimated one (22), and estimates are 5 (redundant) to 17 times (tree)
 as large in the median, 7.5 in a mixture of all kinds. The command tells it of any other seed.
 """

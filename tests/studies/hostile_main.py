@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from studies.common.study import Number, Options, options, run_cases, run_main, write_summary
 from support_exudyn import Held
-from tests.reference.cases import loose_support
+from tests.cases.run_cases import loose_support
 
 LONG = 1000.0  # [s] that the machine is simulated for
 

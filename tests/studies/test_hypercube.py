@@ -28,10 +28,10 @@ from studies.claims.plausible import FACTORS, REFERENCE, Choice, samples
 from studies.claims.plausible_runs import CASES, measures
 from support_exudyn import Failure, SimulationError
 from support_exudyn.sweeps.workers import CONTEXT, Workers
+from tests.cases.evidence_cases import data, right
 from tests.hostile import left_behind, with_own_files
 from tests.processes import ROOT, environment, linux_only, session_of, wait_until
 from tests.studies import hypercube_main
-from tests.unit.evidence_cases import data, right
 from user_forces import InputError
 
 SOON = 10.0  # [s]; what ends at once has ended by then, on a busy machine too

@@ -1,0 +1,342 @@
+"""Files of somebody else's: none gives the bytes of another file, is without an end, or steers the terminal."""
+
+from __future__ import annotations
+
+import json
+import os
+import threading
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+import pyarrow as pa
+import pytest
+from pyarrow import parquet
+
+from support_exudyn import Held, Result, simulate
+from support_exudyn.__main__ import main
+from support_exudyn.files.hdf5 import BLOCK, seal
+from support_exudyn.postprocessing.export.solution_file import read_solution
+from support_exudyn.scenario.recorded_channels import Channel
+from support_exudyn.simulation.result import FORMAT
+from support_exudyn.sweeps import read_sweep, read_table
+from support_exudyn.sweeps.table import OWN
+from tests.cases.run_cases import loose_support
+from tests.cases.sweep_cases import speeds, write_sweep
+from tests.hostile import posix_only
+from user_forces import InputError
+
+SECRET = "root:hunter2:0:0:/root"
+NAME = "channels/tip.x"
+
+
+@pytest.fixture(scope="module")
+def result() -> Result:
+    return simulate(loose_support(1.5, 0.0, drive=Held(), duration=0.005))
+
+
+@pytest.fixture
+def secret(tmp_path: Path) -> Path:
+    path = tmp_path / "secret"
+    path.write_bytes(SECRET.encode() * 100)
+    return path
+
+
+# --- results ---
+
+
+def external(file: h5py.File, secret: Path) -> None:
+    shape = file[NAME].shape
+    del file[NAME]
+    data = file.create_dataset(NAME, shape, "f8", external=[(str(secret), 0, 8 * shape[0])])
+    data.attrs.update({"unit": "m", "meaning": ""})
+
+
+def soft_link(file: h5py.File, secret: Path) -> None:
+    file["elsewhere"] = file[NAME]
+    del file[NAME]
+    file[NAME] = h5py.SoftLink("/elsewhere")
+
+
+def other_file(file: h5py.File, secret: Path) -> None:
+    with h5py.File(secret.with_suffix(".h5"), "w") as other:
+        other["x"] = np.zeros(file[NAME].shape)
+        other["x"].attrs.update({"unit": "m", "meaning": ""})
+    del file[NAME]
+    file[NAME] = h5py.ExternalLink(str(secret.with_suffix(".h5")), "x")
+
+
+def other_group(file: h5py.File, secret: Path) -> None:
+    del file["onsets"]
+    file["onsets"] = h5py.SoftLink("/channels")
+
+
+def virtual(file: h5py.File, secret: Path) -> None:
+    shape = file[NAME].shape
+    del file[NAME]
+    layout = h5py.VirtualLayout(shape, "f8")
+    layout[:] = h5py.VirtualSource(str(secret), "x", shape)
+    file.create_virtual_dataset(NAME, layout).attrs.update({"unit": "m", "meaning": ""})
+
+
+def sparse(file: h5py.File, secret: Path) -> None:
+    del file[NAME]
+    file.create_dataset(NAME, (10**15,), "f8").attrs.update({"unit": "m", "meaning": ""})
+
+
+def in_pieces(file: h5py.File, secret: Path) -> None:
+    del file[NAME]
+    file.create_dataset(NAME, (10**9,), "f8", chunks=(10**6,)).attrs.update({"unit": "m", "meaning": ""})
+
+
+def bomb(file: h5py.File, secret: Path) -> None:
+    del file[NAME]
+    data = file.create_dataset(NAME, data=np.zeros(10**6), compression="gzip")
+    data.attrs.update({"unit": "m", "meaning": ""})
+
+
+def circle(file: h5py.File, secret: Path) -> None:
+    file["coarser"] = file["/"]
+
+
+def again_and_again(file: h5py.File, secret: Path) -> None:
+    data = file.create_dataset("channels/x", data=np.zeros(10**5))
+    data.attrs.update({"unit": "m", "meaning": ""})
+    for n in range(100):
+        file[f"channels/x{n}"] = data
+
+
+def texts(file: h5py.File, secret: Path) -> None:
+    del file[NAME]
+    file[NAME] = ["many"] * 3
+
+
+TRICKS = {
+    external: "kept in another file",
+    soft_link: "a link that leads elsewhere",
+    other_file: "a link that leads elsewhere",
+    other_group: "a link that leads elsewhere",
+    virtual: "kept in another file",
+    sparse: "not all are there",
+    in_pieces: "compressed, in pieces",
+    bomb: "compressed, in pieces",
+    circle: "more than the file has",
+    again_and_again: "more than the file has",
+    texts: "no numbers",
+}
+
+
+@pytest.mark.parametrize("trick", TRICKS, ids=lambda trick: trick.__name__)
+def test_a_result_gives_nothing_but_what_it_has(
+    result: Result, tmp_path: Path, secret: Path, trick: Callable[[h5py.File, Path], None]
+) -> None:
+    path = result.save(tmp_path / "run.h5")
+    with h5py.File(path, "r+") as file:
+        trick(file, secret)
+    path.write_bytes(seal(path.read_bytes()[BLOCK:], FORMAT))
+    with pytest.raises(InputError, match=f"damaged .*{TRICKS[trick]}") as caught:
+        Result.load(path)
+    assert "hunter2" not in str(caught.value)
+
+
+# --- what is printed ---
+
+STEERING = "m\x1b[2J\x1b]0;gone\x07\u202e\x9b"
+
+
+def test_a_unit_with_terminal_escapes_is_printed_as_letters(
+    result: Result, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    values = result["tip.x"]
+    more = {"tip.x": Channel(values, STEERING, STEERING), f"tip.{STEERING}": Channel(values, "m", "")}
+    path = str(replace(result, channels=dict(result.channels) | more).save(tmp_path / "run.h5"))
+    for words in (["show", path, "--all"], ["show", path, "tip*"], ["compare", path, path, "tip*"]):
+        assert main(words) == 0
+        said = capsys.readouterr()
+        assert r"\x1b[2J" in said.out
+        assert all(one.isprintable() or one == "\n" for one in said.out + said.err)
+    assert main(["show", path, "tip*", "--json"]) == 0
+    said = capsys.readouterr()
+    assert all(one.isprintable() or one == "\n" for one in said.out)
+    assert f"tip.{STEERING}" in json.loads(said.out)["channels"]
+
+
+def test_errors_print_no_letters_that_steer(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "run.toml"
+    path.write_text('machine = "reference"\nduration_s = 1\n"\\u001b[2J\\u202e" = 1\n', encoding="utf-8")
+    for words in (["run", str(path)], ["show", f"{tmp_path}/\x1b[2J.h5"], ["show", str(path), "--\x1b[2J"]):
+        try:
+            assert main(words) == 1
+        except SystemExit as stop:
+            assert stop.code == 2  # noqa: PT017
+        assert all(one.isprintable() or one == "\n" for one in capsys.readouterr().err)
+
+
+# --- without an end ---
+
+
+def scenario(folder: Path, drive: str = "", machine: str = "reference") -> Path:
+    path = folder / "run.toml"
+    path.write_text(f'machine = "{machine}"\nduration_s = 0.01\n{drive}\n', encoding="utf-8")
+    return path
+
+
+def in_sweep(folder: Path, other: str) -> Path:
+    path = folder / "sweep.toml"
+    path.write_text(f'scenario = "{other}"\n[vary]\nduration_s = [0.01]\n', encoding="utf-8")
+    return path
+
+
+READERS: dict[str, Callable[[Path], Any]] = {
+    "run": lambda path: main(["run", str(path)]),
+    "check": lambda path: main(["check", str(path)]),
+    "sweep": lambda path: main(["sweep", str(path)]),
+    "show": lambda path: main(["show", str(path)]),
+    "chart": lambda path: main(["chart", str(path), "a", "b"]),
+    "a scenario in a sweep": lambda path: main(["sweep", str(in_sweep(path.parent, str(path)))]),
+    "a table": lambda path: main(["run", str(scenario(path.parent, f'[drive]\ntable = "{path}"'))]),
+    "a machine": lambda path: main(["run", str(scenario(path.parent, machine=str(path)))]),
+}
+
+
+@posix_only
+@pytest.mark.parametrize("kind", READERS)
+@pytest.mark.parametrize("what", ["pipe", "device", "sparse"])
+def test_what_has_no_end_is_refused_wherever_it_is_read(
+    tmp_path: Path, kind: str, what: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "file.toml"
+    if what == "pipe":
+        os.mkfifo(path)
+    elif what == "device":
+        path.symlink_to("/dev/zero")
+    else:
+        with path.open("wb") as file:
+            file.truncate(10**12)
+    codes: list[int] = []
+    reading = threading.Thread(target=lambda: codes.append(READERS[kind](path)), daemon=True)
+    reading.start()
+    reading.join(60.0)
+    assert codes == [1]
+    error = capsys.readouterr().err
+    assert "no regular file" in error or "has more than" in error
+
+
+@posix_only
+def test_a_solution_file_without_an_end_is_refused(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe.sol")
+    for path in (tmp_path / "pipe.sol", Path("/dev/zero")):
+        with pytest.raises(InputError, match="no regular file"):
+            read_solution(path)
+
+
+def test_a_table_of_points_with_too_many_items_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("support_exudyn.files.scenarios.drive_table.MOST_ITEMS", 100)
+    (tmp_path / "a.csv").write_text(f"time_s,a_mm\n{'0,' * 200}\n", encoding="utf-8")
+    path = scenario(tmp_path, '[drive]\ntable = "a.csv"')
+    assert main(["run", str(path)]) == 1
+
+
+# --- files that others name ---
+
+
+@pytest.mark.parametrize(
+    "text", [f"{SECRET}\n{SECRET}\n", f"password={SECRET}\n", "hunter2", "hunter2,hunter2\n1,2\n"]
+)
+@pytest.mark.parametrize("kind", ["a scenario in a sweep", "a table", "a machine"])
+def test_lines_of_a_file_that_another_names_are_not_repeated(
+    tmp_path: Path, kind: str, text: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "foreign.toml"
+    path.write_text(text, encoding="utf-8")
+    assert READERS[kind](path) == 1
+    error = capsys.readouterr().err
+    assert "foreign.toml: line 1: " in error
+    assert "hunter2" not in error
+
+
+def test_lines_of_a_machine_whose_fields_vary_are_not_repeated(tmp_path: Path) -> None:
+    (tmp_path / "foreign.toml").write_text(SECRET, encoding="utf-8")
+    scenario(tmp_path, machine="foreign.toml")
+    path = tmp_path / "sweep.toml"
+    path.write_text('scenario = "run.toml"\n[vary]\n"machine.name" = ["a"]\n', encoding="utf-8")
+    with pytest.raises(InputError, match=r"foreign\.toml: line 1: is no TOML") as caught:
+        read_sweep(path)
+    assert "hunter2" not in str(caught.value)
+
+
+# --- tables of sweeps ---
+
+
+def damaged(table: pa.Table, how: str) -> pa.Table:
+    about = dict(table.schema.metadata)
+    names = table.column_names
+    match how:
+        case "no json":
+            return table.replace_schema_metadata(about | {OWN: b"{"})
+        case "no text":
+            return table.replace_schema_metadata(about | {OWN: b"\xff\xfe"})
+        case "no table":
+            return table.replace_schema_metadata(about | {OWN: b"[1]"})
+        case "deep":
+            return table.replace_schema_metadata(about | {OWN: b"[" * 100_000})
+        case "no column":
+            return table.drop_columns(["wall_time_s"])
+        case "twice":
+            return table.append_column("status", table.column("status"))
+        case "no numbers":
+            return table.append_column("x_N", pa.array(["a"] * len(table)))
+        case "steering":
+            return table.rename_columns([*names[:-1], "a\x1b[2J"])
+    field = table.schema.field(0).with_metadata({b"unit": b"\xff", b"meaning": b"varied"})
+    return table.set_column(0, field, table.column(0))
+
+
+DAMAGES = ["no json", "no text", "no table", "deep", "no column", "twice", "no numbers", "steering", "bytes"]
+
+
+@pytest.fixture(scope="module")
+def store(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("store")
+    main(["sweep", str(write_sweep(folder, speeds(2))), "--workers", "1"])
+    return folder / "sweep_sweep"
+
+
+@pytest.mark.parametrize("how", DAMAGES)
+def test_the_chart_of_a_damaged_table_is_a_line(
+    store: Path, tmp_path: Path, how: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "table.parquet"
+    parquet.write_table(damaged(read_table(store), how), path)
+    assert main(["chart", str(path), "machine.speed_m_per_s", "pin.pin.force.mean"]) == 1
+    error = capsys.readouterr().err
+    assert f"error: {path}: not a table of a sweep, or damaged (" in error
+    assert error.count("\n") == 1
+    assert error[:-1].isprintable()
+
+
+def test_the_chart_of_a_table_with_changed_bytes_is_a_line_or_a_chart(store: Path, tmp_path: Path) -> None:
+    whole = (store / "table.parquet").read_bytes()
+    chance = np.random.default_rng(1)
+    path = tmp_path / "table.parquet"
+    for place in chance.integers(4, len(whole), 60):
+        data = bytearray(whole)
+        data[place] ^= 1 << int(chance.integers(8))
+        path.write_bytes(bytes(data) if place % 2 else bytes(data[:place]))
+        try:
+            read_table(path).to_pydict()
+        except InputError as error:
+            assert str(path) in str(error)  # noqa: PT017
+
+
+def test_a_table_of_more_rows_than_any_sweep_is_not_read(tmp_path: Path) -> None:
+    path = tmp_path / "table.parquet"
+    zeros = pa.array(np.zeros(2_000_000, dtype=np.int8))
+    parquet.write_table(pa.table({"wall_time_s": zeros}), path)
+    with pytest.raises(InputError, match="2000000 rows of 1 columns are more than there is room for"):
+        read_table(path)

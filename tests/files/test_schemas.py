@@ -1,0 +1,160 @@
+"""The JSON Schema of scenario files takes what the reader takes, and refuses what can be seen without a run."""
+
+from __future__ import annotations
+
+import json
+from decimal import Decimal
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from jsonschema import Draft7Validator, Draft202012Validator
+
+from support_exudyn import Scenario
+from support_exudyn.__main__ import main
+from support_exudyn.files import load_toml, parsed, scenario_of, scenario_text
+from support_exudyn.files.scenarios import scenario_schema
+from tests import strategies as some
+from tests.files.test_fuzz_scenario_files import FOLDER, SHORT
+from user_forces import InputError
+from user_forces.values.value import Value
+
+some.kinds()  # imports all modules: not while something is drawn
+VALIDATOR = Draft202012Validator(scenario_schema())
+TOP = 'machine = "reference"\nduration_s = 5\n'
+LOOSE = "[pins.rear_base]\nclearance_mm = 1.5\nbore_radius_mm = 65.5\n"
+
+
+def plain(item: Any) -> Any:
+    """As JSON has it."""
+    if isinstance(item, dict):
+        return {key: plain(one) for key, one in item.items()}
+    if isinstance(item, list):
+        return [plain(one) for one in item]
+    return float(item) if isinstance(item, Decimal) else item
+
+
+def faults(text: str) -> list[str]:
+    return [error.message for error in VALIDATOR.iter_errors(plain(parsed(text, "a")))]
+
+
+def test_it_is_a_schema() -> None:
+    Draft202012Validator.check_schema(scenario_schema())
+
+
+@pytest.mark.parametrize("path", sorted(FOLDER.glob("*.toml")), ids=lambda path: path.name)
+def test_examples_are_taken(path: Path) -> None:
+    assert not list(VALIDATOR.iter_errors(plain(load_toml(path))))
+
+
+@pytest.mark.parametrize("seed", [one for one in some.seeds() if isinstance(one, Scenario)])
+def test_scenarios_in_full_are_taken(seed: Scenario) -> None:
+    assert faults(scenario_text(seed, name="a", errors=True)) == []
+
+
+@given(st.data())
+@some.tried("files of scenarios")
+def test_written_scenarios_are_taken(data: st.DataObject) -> None:
+    assert faults(scenario_text(data.draw(some.values(Scenario)))) == []
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        SHORT,
+        TOP + LOOSE + 'law = "Flores"\nstiffness = "internal"\nbore_material = "steel"',
+        TOP + LOOSE + "stiffness_N_per_m_to_n = 1e10",
+        TOP + "pins.rear_base.ideal = true",
+        TOP + '[drives]\ntable = "columns_apart.csv"\nbetween = "linear"',
+    ],
+)
+def test_short_forms_are_taken(text: str) -> None:
+    scenario_of(parsed(text, "a"), "a", FOLDER)
+    assert faults(text) == []
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        'machine = "reference"',
+        "machine = 3\nduration_s = 1",
+        'duration_s = 1\n[machine]\ntype = "Sup"',
+        'nme = "a"\n' + TOP,
+        "name = 3\n" + TOP,
+        "errors = 1\n" + TOP,
+        'type = "Held"\n' + TOP,
+        TOP + "duration_ms = 1",
+        TOP + 'accuracy = "best"',
+        TOP + "dimensions = 4",
+        TOP + "step_ms = 500",
+        TOP + "step_s = 0",
+        TOP + "step = 1e-4",
+        TOP + "gravity_m_per_s2 = [0]",
+        TOP + "solver = 3",
+        TOP + "solver.impact_steps = 1",
+        TOP + "solver.impact_steps = 16.5",
+        TOP + "solver.audit = 1",
+        TOP + LOOSE.replace("1.5", "-1"),
+        TOP + "[pins.rear_base]\nbore_radius_mm = 60",
+        TOP + LOOSE + "clearance_m = 1e-3",
+        TOP + LOOSE + "law = 'Hertzz'",
+        TOP + LOOSE + "stiffness = 1e10",
+        TOP + LOOSE + "friction = 'wet'",
+        TOP + LOOSE + "restitution = 1.5",
+        TOP + "pins.rear_base.ideal = false",
+        TOP + "pins = 3",
+        TOP + "pins.rear_base = 1.5",
+        TOP + "pins.rear_base.type = 'ClearancePin'",
+        TOP + "pins.rear_base.type = 'Held'",
+        TOP + "drive.mode = 3",
+        TOP + "drive.stroke_mm = 3",
+        TOP + "drive = {type = 'CubicStep', stroke = 3}",
+        TOP + "drive.table = 3",
+        TOP + "drives.table = 3",
+        TOP + "columns.front_column = {type = 'TwoBodyColumn', rod_mass = 3}",
+        TOP + "columns.front_column.type = 'OilColumn'",
+        TOP + "channels = 'tip.x'",
+    ],
+)
+def test_what_the_reader_refuses_is_refused(text: str) -> None:
+    with pytest.raises(InputError):
+        scenario_of(parsed(text, "a"), "a", FOLDER)
+    assert faults(text)
+    # by editors too that know the draft of 2018 only
+    assert not Draft7Validator(scenario_schema()).is_valid(plain(parsed(text, "a")))
+
+
+def test_it_says_what_fields_are() -> None:
+    schema = scenario_schema()
+    step = schema["properties"]["step_ms"]
+    assert (step["exclusiveMinimum"], step["maximum"], step["default"]) == (0, 100, 0.5)
+    assert step["description"].startswith("largest time step [s], > 0")
+    stroke = schema["$defs"]["UniformSpeed"]["properties"]["stroke_mm"]
+    assert stroke["description"].startswith("[m], 0.5 by default")
+
+
+def test_every_field_of_every_class_is_described() -> None:
+    bare = [
+        f"{name}.{key}"
+        for name, table in scenario_schema()["$defs"].items()
+        if not Value._register[name].__module__.startswith("tests")  # of other tests in this process
+        for key, one in table["properties"].items()
+        if key != "type" and not one.get("description")
+    ]
+    assert bare == []
+
+
+def test_the_command_writes_it(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["schema", "scenario", "--out", str(tmp_path / "a.json")]) == 0
+    assert main(["schema", "scenario"]) == 0
+    said = capsys.readouterr().out.partition("\n")[2]
+    assert json.loads((tmp_path / "a.json").read_text("utf-8")) == json.loads(said) == scenario_schema()
+
+
+def test_examples_come_with_the_package() -> None:
+    names = {one.name for one in resources.files("support_exudyn.files.examples").iterdir()}
+    assert {"rise.toml", "columns_apart.toml", "columns_apart.csv"} <= names

@@ -1,0 +1,282 @@
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from support_exudyn import OilColumn, RigidColumn, load_support, reference_support, two_body_columns
+from support_exudyn.model.linkage import lumped
+from tests.cases.machine_cases import PARTS, PIVOTS, PIVOTS_MM, support
+from user_forces import InputError
+
+PIVOT_LINES = "\n".join(f"{name} = [{x}, {y}]" for name, (x, y) in PIVOTS_MM.items())
+FILE = f"""
+kind = "four_column_support"
+name = "a support"
+start_hinge_height_mm = 1800
+
+[pivots_mm]
+{PIVOT_LINES}
+
+[[parts.rear_link]]
+mass_kg = 500
+between = ["rear_base", "rear_shield"]
+
+[[parts.front_link]]
+mass_kg = 400
+between = ["front_base", "front_shield"]
+
+[[parts.shield]]
+mass_kg = 1500
+between = ["rear_shield", "hinge"]
+
+[[parts.canopy]]
+mass_kg = 3000
+centre_mm = [1369, 2317]
+length_mm = 3300
+
+[[parts.canopy]]
+mass_kg = 200
+centre_mm = [899, 2252]
+"""
+
+
+def written(folder: Path, old: str = "", new: str = "") -> Path:
+    """A data file with one thing changed."""
+    assert old in FILE
+    path = folder / "machine.toml"
+    path.write_text(FILE.replace(old, new, 1) if old else FILE, encoding="utf-8")
+    return path
+
+
+def refusal(folder: Path, old: str, new: str) -> str:
+    path = written(folder, old, new)
+    with pytest.raises(InputError, match=re.escape(str(path))) as caught:
+        load_support(path)
+    return str(caught.value).removeprefix(f"{path}: ")
+
+
+# --- the reference support ---
+
+
+@pytest.mark.parametrize("name", PIVOTS)
+def test_reference_support_has_the_published_pivots(name: str) -> None:
+    # one rounding from mm to m
+    assert getattr(reference_support(), name) == pytest.approx(PIVOTS[name], abs=1e-15)
+
+
+def test_reference_support_starts_at_the_published_height() -> None:
+    assert reference_support().start_hinge_height == 1.8
+
+
+@pytest.mark.parametrize("body", PARTS)
+def test_reference_support_has_the_published_parts(body: str) -> None:
+    got, expected = lumped(reference_support().parts[body]), lumped(PARTS[body])
+    # rounding
+    assert got.mass == pytest.approx(expected.mass, rel=1e-15)
+    assert got.inertia == pytest.approx(expected.inertia, rel=1e-13)
+    assert got.centre == pytest.approx(expected.centre, abs=1e-15)
+
+
+def test_reference_support_is_the_same_every_time() -> None:
+    assert reference_support() == reference_support()
+
+
+# --- reading ---
+
+
+def test_a_file_is_read_into_metres_and_kilograms(tmp_path: Path) -> None:
+    machine = load_support(written(tmp_path))
+    # one rounding from mm to m
+    assert machine.tip == pytest.approx((3.219, 2.417), abs=1e-15)
+    assert machine.start_hinge_height == 1.8
+    assert machine.start() == support().start()
+
+
+def test_a_part_between_pivots_is_a_bar(tmp_path: Path) -> None:
+    (part,) = load_support(written(tmp_path)).parts["rear_link"]
+    # rounding
+    assert part.centre == pytest.approx((-0.287, 0.731), abs=1e-15)
+    assert part.inertia == pytest.approx(500.0 * (0.574**2 + 0.862**2) / 12.0, rel=1e-14)
+
+
+def test_a_part_with_a_length_is_a_bar_about_its_centre(tmp_path: Path) -> None:
+    part = load_support(written(tmp_path)).parts["canopy"][0]
+    assert part.centre == (1.369, 2.317)
+    # rounding
+    assert part.inertia == pytest.approx(3000.0 * 3.3**2 / 12.0, rel=1e-14)
+
+
+def test_a_part_with_a_centre_only_is_a_point_mass(tmp_path: Path) -> None:
+    part = load_support(written(tmp_path)).parts["canopy"][1]
+    assert (part.mass, part.centre, part.inertia) == (200.0, (0.899, 2.252), 0.0)
+
+
+def test_the_path_may_be_a_string(tmp_path: Path) -> None:
+    assert load_support(str(written(tmp_path))) == load_support(written(tmp_path))
+
+
+def test_a_missing_file_is_an_os_error(tmp_path: Path) -> None:
+    with pytest.raises(FileNotFoundError):
+        load_support(tmp_path / "none.toml")
+
+
+# --- refusals: each names the file and the key ---
+
+
+def test_a_file_that_is_not_toml_is_refused(tmp_path: Path) -> None:
+    assert "line" in refusal(tmp_path, "[pivots_mm]", "[pivots_mm")
+
+
+def test_an_unknown_key_is_refused(tmp_path: Path) -> None:
+    message = refusal(tmp_path, 'name = "a support"', 'title = "a support"')
+    assert message.startswith(
+        "title: unknown key; allowed: bore_radius_mm, columns, kind, masses_kg, name, parts, pivots_mm, "
+    )
+
+
+def test_a_missing_key_is_refused(tmp_path: Path) -> None:
+    message = refusal(tmp_path, "start_hinge_height_mm = 1800", "")
+    assert message.startswith("start_hinge_height_mm: missing")
+
+
+def test_an_unknown_key_of_a_part_is_refused(tmp_path: Path) -> None:
+    message = refusal(tmp_path, "mass_kg = 400", "mass_t = 0.4")
+    assert message.startswith("parts.front_link[0].mass_t: unknown key (did you mean 'mass_kg'?); allowed: ")
+
+
+def test_a_part_without_mass_is_refused(tmp_path: Path) -> None:
+    message = refusal(tmp_path, "mass_kg = 3000\n", "")
+    assert message.startswith("parts.canopy[0].mass_kg: missing")
+
+
+def test_a_part_without_a_place_is_refused(tmp_path: Path) -> None:
+    message = refusal(tmp_path, "centre_mm = [899, 2252]\n", "")
+    assert message.startswith("parts.canopy[1] = ")
+    assert "centre_mm or between: missing" in message
+
+
+def test_a_negative_mass_is_refused(tmp_path: Path) -> None:
+    message = refusal(tmp_path, "mass_kg = 1500", "mass_kg = -1500")
+    assert message.startswith("parts.shield[0].mass_kg = -1500: allowed: a number > 0 ")
+
+
+def test_a_bar_between_unknown_pivots_is_refused(tmp_path: Path) -> None:
+    message = refusal(tmp_path, '["front_base", "front_shield"]', '["front_base", "nowhere"]')
+    assert message.startswith("parts.front_link[0].between = ['front_base', 'nowhere']: allowed: two of ")
+
+
+@pytest.mark.parametrize("wrong", ["[595]", "[595, 619, 0]", '["a", "b"]', "595"])
+def test_a_pivot_that_is_not_two_numbers_is_refused(tmp_path: Path, wrong: str) -> None:
+    message = refusal(tmp_path, "front_base = [595, 619]", f"front_base = {wrong}")
+    said = wrong.replace('"', "'")
+    assert message == f"pivots_mm.front_base = {said}: allowed: two numbers [x, y] in mm"
+
+
+def test_a_pivot_that_is_not_finite_is_refused(tmp_path: Path) -> None:
+    message = refusal(tmp_path, "front_foot = [1670, 202]", "front_foot = [nan, 202]")
+    assert message == "pivots_mm.front_foot = [NaN, 202]: allowed: two numbers [x, y] in mm"
+
+
+def test_an_unknown_pivot_is_refused(tmp_path: Path) -> None:
+    message = refusal(tmp_path, "hinge = [", "knee = [1, 2]\nhinge = [")
+    assert message.startswith("pivots_mm.knee: unknown key")
+
+
+def test_a_missing_pivot_is_refused(tmp_path: Path) -> None:
+    message = refusal(tmp_path, "front_foot = [1670, 202]\n", "")
+    assert message == "pivots_mm.front_foot: missing; it has no default: front column on base"
+
+
+def test_an_unreachable_start_height_is_refused(tmp_path: Path) -> None:
+    message = refusal(tmp_path, "start_hinge_height_mm = 1800", "start_hinge_height_mm = 5000")
+    assert message.startswith("start_hinge_height_mm = 5000: ")
+    assert message.endswith(" mm")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "key"),
+    [
+        ("start_hinge_height_mm = 1800", 'start_hinge_height_mm = "high"', "start_hinge_height_mm"),
+        ("mass_kg = 500", 'mass_kg = "heavy"', "mass_kg"),
+        ("length_mm = 3300", 'length_mm = "long"', "length_mm"),
+        ('["rear_base", "rear_shield"]', '["rear_base", "rear_shield", "hinge"]', "between"),
+        ('["rear_base", "rear_shield"]', "3", "between"),
+    ],
+)
+def test_a_wrong_type_is_refused(tmp_path: Path, old: str, new: str, key: str) -> None:
+    assert key in refusal(tmp_path, old, new)
+
+
+def test_a_file_that_is_not_text_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "machine.toml"
+    path.write_bytes(b"\xff\xfe\x00")
+    with pytest.raises(InputError, match=re.escape(str(path))):
+        load_support(path)
+
+
+# --- columns with mass, and the tail beam ---
+
+COLUMN = """
+[columns.front_column]
+cylinder_mass_kg = 300
+cylinder_length_mm = 900
+rod_mass_kg = 200
+rod_length_mm = 800
+"""
+
+
+def test_columns_of_the_reference_support_are_uniform_bars() -> None:
+    columns = two_body_columns()
+    assert sorted(columns) == ["front_column", "rear_column"]
+    for column in columns.values():
+        assert (column.cylinder_mass, column.rod_mass, column.drive) == (300.0, 200.0, RigidColumn())
+        # one rounding from mm to m
+        assert (column.cylinder_centre, column.rod_centre) == pytest.approx((0.45, 0.45), rel=1e-15)
+        assert column.cylinder_inertia == pytest.approx(300.0 * 0.81 / 12.0, rel=1e-14)
+        assert column.rod_inertia == pytest.approx(200.0 * 0.81 / 12.0, rel=1e-14)
+
+
+def test_rods_have_the_mass_that_they_have_on_the_canopy() -> None:
+    canopy = {part.name: part.mass for part in reference_support().parts["canopy"]}
+    for name, column in two_body_columns().items():
+        assert canopy[f"{name}_rods"] == column.rod_mass
+
+
+def test_columns_take_the_drive_they_are_given() -> None:
+    oil = OilColumn(bore_area=0.1, oil_length=0.5, bulk_modulus=1e9)
+    assert all(column.drive == oil and column.oil == oil for column in two_body_columns(oil).values())
+
+
+def test_columns_are_read_from_a_file(tmp_path: Path) -> None:
+    path = written(tmp_path, 'name = "a support"', 'name = "a support"')
+    assert two_body_columns(path=path) == {}
+    path.write_text(FILE + COLUMN, encoding="utf-8")
+    (column,) = two_body_columns(path=path).values()
+    assert column.rod_centre == pytest.approx(0.4, rel=1e-15)
+    assert load_support(path).tail_hinge is None
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("rod_mass_kg = 200", "", "columns.front_column.rod_mass_kg: missing"),
+        ("rod_mass_kg = 200", "rod_mass_kg = 0", "columns.front_column.rod_mass_kg = 0: allowed: a number > 0"),
+        ("rod_mass_kg = 200", "rod_mass_t = 0.2", "columns.front_column.rod_mass_t: unknown key"),
+        ("[columns.front_column]", "[[columns]]", "columns = "),
+    ],
+)
+def test_columns_that_do_not_fit_are_refused(tmp_path: Path, old: str, new: str, said: str) -> None:
+    path = written(tmp_path)
+    path.write_text(FILE + COLUMN.replace(old, new), encoding="utf-8")
+    with pytest.raises(InputError, match=re.escape(said)):
+        load_support(path)
+
+
+def test_a_part_may_have_a_name(tmp_path: Path) -> None:
+    assert load_support(written(tmp_path, "mass_kg = 200", 'mass_kg = 200\nname = "rods"')).parts["canopy"][
+        1
+    ].name == ("rods")
+    message = refusal(tmp_path, "mass_kg = 200", "mass_kg = 200\nname = 3")
+    assert message.startswith("parts.canopy[1].name = 3: allowed: a text")

@@ -1,0 +1,119 @@
+"""A force of a given course: its work, and statics of the support under it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from studies.which_pin import cases as which_pin_cases
+from studies.which_pin import closed_form as slack
+from support_exudyn import (
+    AppliedForce,
+    ClearancePin,
+    Held,
+    Result,
+    Scenario,
+    SolverSettings,
+    reference_support,
+    simulate,
+)
+from support_exudyn.mechanics.kinetics import kinetics_of
+from tests.cases.run_cases import PIN, loose_support
+from tests.roof_cases import MASS, ON_OIL, OVER_THE_COLUMNS, TOP, Ram
+from user_forces import DepthSpeed
+from user_forces.values.value import InputError, Vector2
+
+MEGANEWTON = 1e6
+
+
+def pressing(full_force: Vector2 = (0.0, -MEGANEWTON), **changes: object) -> AppliedForce:
+    fields: dict[str, object] = {"body": "canopy", "point": OVER_THE_COLUMNS, "full_force": full_force}
+    return AppliedForce(**fields | {"start": 0.02, "end": 0.12} | changes)
+
+
+def pressed(load: AppliedForce, **changes: object) -> Result:
+    fields: dict[str, object] = {"machine": reference_support(), "loads": {"roof": load}, "duration": 0.3}
+    return simulate(Scenario(**fields | changes))
+
+
+def test_a_body_that_it_accelerates_gets_its_work() -> None:
+    up = AppliedForce(body="ram", point=TOP, full_force=(0.0, 5e3), start=0.1, end=0.3)
+    scene = Scenario(machine=Ram(), loads={"jack": up}, duration=0.5, gravity=(0.0, 0.0))
+    result = simulate(scene)
+    # m v = F (0.1 + 0.2), the ramp counting half; second order in the step
+    speed = 5e3 * 0.3 / MASS
+    assert result["ram.velocity_y"][-1] == pytest.approx(speed, rel=1e-5)
+    assert result["energy.work"][-1] == pytest.approx(0.5 * MASS * speed**2, rel=1e-5)
+    assert result["jack.force_y"][[0, 100, 200, 300, 500]] == pytest.approx(
+        [0.0, 0.0, 2.5e3, 5e3, 5e3], abs=1e-6
+    )
+    assert result.energy_error < 1e-4 * 0.5 * MASS * speed**2
+
+
+@pytest.mark.parametrize("columns", [{}, ON_OIL], ids=["rigid", "oil"])
+@pytest.mark.parametrize("force", [(0.0, -MEGANEWTON), (2e5, -5e5)])
+def test_columns_and_pins_carry_what_statics_say(columns: dict[str, object], force: Vector2) -> None:
+    result = pressed(pressing(force), columns=columns)
+    linkage = result.scenario.linkage
+    closed = kinetics_of(linkage)
+    position = np.concatenate(
+        [
+            [
+                result[f"{name}.{axis}"][-1] - of
+                for axis, of in zip(("x", "y", "angle"), (*body.centre, body.angle), strict=True)
+            ]
+            for name, body in linkage.bodies.items()
+        ]
+    )
+    load = (
+        closed.weight(result.scenario.gravity)
+        + np.array(force) @ closed.point(position, "canopy", OVER_THE_COLUMNS)[1]
+    )
+    found = closed.respond(position, load, 0.0)[1]
+    # on oil what the damping of 5 ms leaves of vibrations after 0.18 s
+    for n, name in enumerate(linkage.pins):
+        size = float(np.hypot(*found[2 * n : 2 * n + 2]))
+        assert result[f"pin.{name}.force"][-1] == pytest.approx(size, rel=1e-6)
+    for name, pull in zip(linkage.columns, found[closed.driven()], strict=True):
+        assert result[f"{name}.force"][-1] == pytest.approx(-pull, rel=1e-6)
+    # 1 MN over some tenths of a millimetre of oil
+    assert result.energy_error < 1e-4 * max(1.0, result["energy.work"].max())
+
+
+def test_a_support_can_start_settled_under_it() -> None:
+    base = loose_support().pins[PIN].contact
+    pin = ClearancePin(contact=replace(base, normal=replace(base.normal, damping_speed=DepthSpeed())))
+    load = pressing(start=0.0, end=0.0)
+    result = pressed(load, pins={PIN: pin}, columns=ON_OIL, start="settled", drive=Held(), duration=0.05)
+    # at rest at once: what is left of the static solver's tolerance
+    assert np.ptp(result["tip.y"]) < 1e-7
+    assert np.ptp(result["front_column.force"]) < 1e-4 * result["front_column.force"][0]
+    assert result["front_column.force"][0] > 4e5
+
+
+def test_times_in_disorder_are_refused() -> None:
+    with pytest.raises(InputError, match=r"end = 0\.1 s: allowed: > start = 0\.2 s, or both 0"):
+        pressing(start=0.2, end=0.1)
+
+
+def test_worn_pins_let_a_roof_push_the_tip_forward() -> None:
+    # all five pins slack, without friction: to the rear under the weight, forward under a roof of 1 MN
+    pins = dict.fromkeys(reference_support().linkage().pins, which_pin_cases.slack_pin(0.0))
+    stand = slack.standing(reference_support())
+    for presses, loads in (
+        ([], {}),
+        ([slack.Press("canopy", OVER_THE_COLUMNS, (0.0, -MEGANEWTON))], {"roof": pressing(start=0.0, end=0.0)}),
+    ):
+        scene = Scenario(
+            machine=reference_support(), pins=pins, loads=loads, start="settled", duration=0.002,
+            solver=SolverSettings(impact_steps=16),
+        )  # fmt: skip
+        result = simulate(scene)
+        ideal = reference_support().start().tip
+        shift = sum(slack.shifts(stand, pins, presses).values())
+        # first order in the slack: 0.5 % of 17 mm under the weight, 2.9 % under the roof
+        assert result["tip.x"][0] - ideal[0] == pytest.approx(shift[0], rel=0.035)
+        assert abs(shift[0]) > 0.015
+        assert (shift[0] > 0.0) == bool(presses)

@@ -1,0 +1,112 @@
+"""Hydraulic cylinders among loose pins, rigid columns and loads; and what runs on them must say."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from support_exudyn import (
+    Held,
+    Inlet,
+    OilColumn,
+    RampedOpening,
+    Result,
+    Roof,
+    Scenario,
+    SimulationError,
+    SuddenOpening,
+    UniformSpeed,
+    simulate,
+)
+from tests.cases.cylinder_cases import CYLINDER, Ram, lift, on_cylinders, opened
+from tests.cases.run_cases import FORCE, loose_support, support
+
+
+def test_a_machine_with_closed_valves_stays_where_it_is() -> None:
+    result = simulate(on_cylinders(False, duration=1.0))
+    for name in ("front_column", "rear_column"):
+        # rounding of a length of 1.6 m, over a second; 1e-9 m was asked for
+        assert np.ptp(result[f"{name}.length"]) < 1e-12
+        assert np.ptp(result[f"{name}.pressure"]) < 1.0  # [Pa]
+    np.testing.assert_allclose(result[FORCE], 58778.944, rtol=1e-6)  # as with rigid columns
+    settled = simulate(on_cylinders(True, start="settled", duration=0.3))
+    # the journal has sunk, and pressures have changed with the posture
+    assert np.ptp(settled["rear_column.length"]) < 1e-10
+    assert settled["rear_column.pressure"][0] != pytest.approx(result["rear_column.pressure"][0], rel=1e-6)
+
+
+def test_one_closed_chamber_is_a_column_of_oil() -> None:
+    tiny = 1e-9
+    cylinder = replace(CYLINDER, rod_side_area=tiny, hose_volume=tiny, tank_pressure=0.0)
+    oil = OilColumn(bore_area=0.098, oil_length=0.5, bulk_modulus=1.5e9, damping_time=0.0)
+    runs = [
+        simulate(
+            loose_support(
+                columns=dict.fromkeys(("front_column", "rear_column"), one), drive=Held(), duration=0.2
+            )
+        )
+        for one in (cylinder, oil)
+    ]
+    for channel in ("rear_column.force", "front_column.force"):  # the pin's own has many sharp impacts
+        one, other = (run[channel] for run in runs)
+        swing = np.ptp(other)
+        assert swing > 1e4  # the journal has fallen through its clearance
+        # the stiffness of a cylinder follows its length, by 1e-3 for half a millimetre; impacts add to that
+        assert np.abs(one - other).max() < 0.01 * swing
+
+
+@pytest.mark.parametrize(
+    "inlet", [SuddenOpening(start=0.1, end=0.3, extent=0.5), RampedOpening(start=0.1, end=0.3, ramp=0.1)]
+)
+def test_energy_adds_up_with_loose_pins_and_valves(inlet: Inlet) -> None:
+    scenario = on_cylinders(True, inlet, duration=0.35)
+    scenario = replace(scenario, solver=replace(scenario.solver, impact_steps=64))
+    coarse, fine = (simulate(scenario.refined(n)) for n in (1, 2))
+    # the valves turn 100 kJ into heat; impacts and pressures follow to second order
+    assert fine.energy_error < 1e-4 * fine["energy.damping_loss"][-1]
+    assert fine.energy_error < 0.6 * coarse.energy_error
+    assert fine["rear_column.pressure"].max() == pytest.approx(coarse["rear_column.pressure"].max(), rel=0.02)
+
+
+def test_a_ram_is_set_against_a_roof_with_the_pressure_of_the_pump() -> None:
+    # flow ends where the root is steepest: pressure drops of the open valve become zero on both sides
+    roof = Roof(body="ram", point=(0.0, 1.6), gap=0.03, stiffness=1e9, descent=Held(), damping=1e-3)
+    cylinder = opened(SuddenOpening(start=0.05, end=2.0), damping=5e4)
+    scenario = Scenario(
+        machine=Ram(), loads={"roof": roof}, columns={"jack": cylinder}, drive=Held(), duration=1.0, step=5e-4
+    )
+    result = simulate(scenario)
+    # the trapezoidal rule hops about the end by the flow of a step, some 100 Pa
+    assert result["jack.pressure"][-1] == pytest.approx(31.5e6, abs=1e3)
+    assert result["jack.rod_pressure"][-1] == pytest.approx(0.5e6, abs=1e3)
+    assert result["jack.force"][-1] == pytest.approx(31.5e6 * 0.098 - 0.5e6 * 0.03, rel=1e-4)
+    assert result.energy_error < 1e-4 * result["energy.work"][-1]
+
+
+def test_cylinders_stand_beside_rigid_columns_whose_speed_jumps() -> None:
+    columns = {"front_column": opened(SuddenOpening(start=0.1, end=0.3, extent=0.5))}
+    scenario = support(columns=columns, drive=UniformSpeed(start=0.1, end=2.1), duration=0.2)
+    coarse, fine = (simulate(replace(scenario, step=step)) for step in (5e-4, 2.5e-4))
+    assert list(fine.impulses[0].columns) == ["rear_column"]
+    assert fine.energy_error < 0.4 * coarse.energy_error  # 0.25 for second order
+    assert fine.energy_error < 1e-4 * fine["energy.work"][-1]
+
+
+def test_a_piston_at_the_end_of_its_cylinder_stops_the_run() -> None:
+    cylinder = opened(SuddenOpening(start=0.0, end=0.4), rod_side_length=0.05)
+    with pytest.raises(SimulationError, match=r"jack is extended by 0\.05.*allowed: -0\.5 to 0\.05 m"):
+        lift(cylinder, duration=0.5)
+
+
+def test_errors_are_known_and_files_keep_cylinders(tmp_path: object) -> None:
+    scenario = on_cylinders(False, SuddenOpening(start=0.01, end=0.1, extent=0.5), duration=0.05)
+    result = simulate(scenario, errors=True)
+    assert result.coarser is not None
+    again = Result.load(result.save(f"{tmp_path}/cylinders.h5"))
+    assert again.scenario == result.scenario
+    np.testing.assert_array_equal(again["rear_column.pressure"], result["rear_column.pressure"])
+    asked = replace(result.scenario, channels=("rear_column.pressure", "energy.balance"))
+    np.testing.assert_array_equal(simulate(asked)["rear_column.pressure"], result["rear_column.pressure"])
+    assert simulate(replace(scenario, accuracy=1e-2)).scenario.formulation == "redundant"

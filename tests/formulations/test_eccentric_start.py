@@ -1,0 +1,107 @@
+"""Runs that start with a journal out of the middle of its bore."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from studies.common.paper_machine import oil_columns
+from support_exudyn import ClearancePin, Held, Scenario, simulate
+from tests.cases.run_cases import FORCE, PIN, paper_contact, support
+
+CLEARANCE = 1.5e-3  # [m]
+DEPTH = f"pin.{PIN}.depth"
+
+
+def eccentric(x: float, y: float, bore: str = "first", **changes: Any) -> Scenario:
+    """The held support with its loose journal there [m] at the start."""
+    pin = ClearancePin(contact=paper_contact(1e3 * CLEARANCE, 0.0), bore=bore, eccentricity=(x, y))
+    return support(**{"pins": {PIN: pin}, "drive": Held(), "duration": 0.03} | changes)
+
+
+def sense(bore: str) -> float:
+    """Which way the journal goes in its bore as the support falls: down, or up if the bore falls."""
+    return -1.0 if bore == "first" else 1.0
+
+
+BORES = pytest.mark.parametrize("bore", ["first", "second"])
+
+
+@BORES
+def test_the_first_record_is_as_eccentric_as_asked(bore: str) -> None:
+    result = simulate(eccentric(1e-3, -5e-4, bore))
+    first = [result[f"pin.{PIN}.eccentricity_{axis}"][0] for axis in "xy"]
+    np.testing.assert_allclose(first, (1e-3, -5e-4), rtol=0, atol=1e-12)  # rounding of coordinates
+    assert result[FORCE][0] == 0.0
+    # against the pin's clearance, what is turned over falls 1 mm: 3e4 N of weight and more
+    assert result.energy_error < 0.01
+
+
+@BORES
+def test_a_journal_pressed_in_starts_with_the_force_of_its_law(bore: str) -> None:
+    deep = 1e-4
+    scenario = eccentric(0.0, sense(bore) * (CLEARANCE + deep), bore)
+    normal = scenario.clearance_pins[PIN].contact.normal
+    result = simulate(scenario)
+    assert result[DEPTH][0] == pytest.approx(deep, abs=1e-12)  # rounding of coordinates
+    # 1.5 times the rounding of the depth, relative
+    assert result[FORCE][0] == pytest.approx(normal.elastic_force(deep), rel=1e-7)
+    # 1 J of the contact is set free by steps that follow it: 7e-5 J, where the step of 0.5 ms left 0.06 J
+    assert result.energy_error < 5e-4
+    assert result["energy.elastic"][0] == pytest.approx(normal.elastic_energy(deep), rel=1e-7)
+
+
+@BORES
+@pytest.mark.parametrize("over", [0.0, 1e-4])
+def test_the_tree_and_space_start_and_go_on_alike(bore: str, over: float) -> None:
+    # pressed in on the side from which it flies across the bore, or free
+    place = (0.0, -sense(bore) * (CLEARANCE + over)) if over else (1e-3, -5e-4)
+    scenario = eccentric(*place, bore, columns=oil_columns())
+    flat = simulate(scenario)
+    tree = simulate(replace(scenario, formulation="tree"))
+    space = simulate(replace(scenario, dimensions=3))
+    assert len(flat.onsets[PIN]) >= 1
+    for other, close in ((tree, 1e-5), (space, 1e-7)):
+        assert other[FORCE][0] == pytest.approx(flat[FORCE][0], rel=1e-7, abs=1e-6)  # rounding of the depth
+        first, theirs = flat.onsets[PIN][0], other.onsets[PIN][0]
+        # 14 ms of flight by both methods; measured 7e-7 s and 5e-6 of the speed with the tree, else 1e-10
+        assert theirs.time == pytest.approx(first.time, abs=0.2 * close)
+        assert theirs.speed == pytest.approx(first.speed, rel=10.0 * close)
+        assert other.energy_error < 5e-3
+        # at rest at the start, in the same place
+        for name in ("tip.x", "tip.y", f"pin.{PIN}.eccentricity_x", f"pin.{PIN}.eccentricity_y"):
+            assert other[name][0] == pytest.approx(flat[name][0], abs=1e-11)
+
+
+@BORES
+def test_a_journal_that_touches_without_speed_has_no_impact(bore: str) -> None:
+    resting = simulate(eccentric(0.0, sense(bore) * CLEARANCE, bore, duration=0.01))
+    assert resting.onsets[PIN] == ()
+    # it sinks in under the weight, at most twice as deep as at rest; a fall through the clearance is 8 times
+    fallen = simulate(eccentric(0.0, 0.0, bore, duration=0.03))
+    assert resting.largest_force[PIN] < 0.4 * fallen.largest_force[PIN]
+    assert resting[FORCE].max() > 0.0
+
+
+def test_several_journals_start_where_they_are_asked_to() -> None:
+    contact = paper_contact(1e3 * CLEARANCE, 0.0)
+    places = {PIN: (5e-4, 1e-3), "front_shield": (-1e-3, 2e-4), "shield_canopy": (0.0, -1.2e-3)}
+    pins = {name: ClearancePin(contact=contact, eccentricity=place) for name, place in places.items()}
+    result = simulate(support(pins=pins, drive=Held(), duration=0.005))
+    for name, place in places.items():
+        first = [result[f"pin.{name}.eccentricity_{axis}"][0] for axis in "xy"]
+        np.testing.assert_allclose(first, place, rtol=0, atol=1e-12)  # rounding of coordinates
+    assert result.energy_error < 0.01  # of 20 J and more
+
+
+@pytest.mark.parametrize("place", [(1e-3, 0.0), (0.0, 1.5e-3), (1.2e-3, -1.6e-3)])
+def test_free_coordinates_start_there_too(place: tuple[float, float]) -> None:
+    theirs = simulate(eccentric(*place))
+    mine = simulate(eccentric(*place, formulation="reduced"))
+    # errors of the engine's default steps; measured up to 2e-6 of the forces and 1e-8 m
+    assert np.abs(mine["tip.x"] - theirs["tip.x"]).max() < 1e-6
+    assert mine["pin.rear_base.force"].mean() == pytest.approx(theirs["pin.rear_base.force"].mean(), rel=1e-3)
+    assert mine["rear_link.angle"][0] == pytest.approx(theirs["rear_link.angle"][0], abs=1e-12)

@@ -1,0 +1,165 @@
+"""Friction of ideal pins against closed forms, and the energy balance."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from support_exudyn import (
+    Body,
+    ClearancePin,
+    CubicStep,
+    Held,
+    IdealPin,
+    Linkage,
+    Machine,
+    Pin,
+    Scenario,
+    UniformSpeed,
+    simulate,
+    two_body_columns,
+)
+from support_exudyn.formulations.registry import formulation
+from support_exudyn.model.linkage import pinned
+from tests.cases.run_cases import loose_support, paper_contact, support
+from user_forces import Ambrosio, InputError, LuGre, value
+
+MASS, INERTIA, G, RADIUS, MU = 50.0, 2.0, 9.81, 0.05, 0.3
+RUBBING = IdealPin(friction=Ambrosio(sliding_coefficient=MU), radius=RADIUS)
+SUPPORT_PIN = IdealPin(friction=Ambrosio(sliding_coefficient=0.25), radius=0.0655)
+RISE = CubicStep(start=0.05, end=0.45, stroke=0.1)
+
+
+@value
+class Wheel(Machine):
+    """A heavy wheel that turns about its centre of mass."""
+
+    spin: float = 8.0
+    ground_first: bool = True
+
+    def linkage(self) -> Linkage:
+        ends = ("ground", "wheel") if self.ground_first else ("wheel", "ground")
+        body = Body(mass=MASS, inertia=INERTIA, centre=(0.3, 0.4), spin=self.spin)
+        return Linkage(bodies={"wheel": body}, pins={"pivot": pinned(*ends, (0.3, 0.4))})
+
+
+@value
+class Pendulum(Machine):
+    """A point-like mass on a long light rod, held out by a small angle."""
+
+    angle: float
+    length: float = 2.0
+
+    def linkage(self) -> Linkage:
+        at = (self.length * math.sin(self.angle), -self.length * math.cos(self.angle))
+        body = Body(mass=MASS, inertia=1e-3, centre=at, angle=self.angle)
+        return Linkage(bodies={"bob": body}, pins={"pivot": pinned("ground", "bob", (0.0, 0.0))})
+
+
+@pytest.mark.parametrize("ground_first", [True, False])
+@pytest.mark.parametrize("spin", [8.0, -8.0])
+def test_a_wheel_is_slowed_down_by_mu_n_r(spin: float, ground_first: bool) -> None:
+    machine = Wheel(spin=spin, ground_first=ground_first)
+    result = simulate(Scenario(machine=machine, pins={"pivot": RUBBING}, duration=1.0))
+    moment = MU * MASS * G * RADIUS
+    expected = spin - math.copysign(moment / INERTIA, spin) * result.time
+    # constant deceleration, which the integrator takes exactly; rounding of 2000 steps
+    np.testing.assert_allclose(result["wheel.angular_velocity"], expected, atol=1e-10)
+    on_second = -1.0 if ground_first else 1.0  # against the wheel's spin if that is the second body
+    np.testing.assert_allclose(
+        result["pin.pivot.friction_moment"], on_second * math.copysign(moment, spin), rtol=1e-9
+    )
+    lost = 0.5 * INERTIA * (spin**2 - expected**2)
+    np.testing.assert_allclose(result["energy.friction_loss"], lost, atol=1e-8)
+    assert result.energy_error < 1e-8
+    assert result.counts.user_function_calls > result.counts.steps
+
+
+def test_a_wheel_that_creeps_is_slowed_down_by_the_ramp_of_the_law() -> None:
+    law = Ambrosio(sliding_coefficient=MU, static_speed=0.0, dynamic_speed=1.0)
+    result = simulate(
+        Scenario(machine=Wheel(), pins={"pivot": IdealPin(friction=law, radius=RADIUS)}, duration=1.0)
+    )
+    # below 1 m/s a dashpot of mu N r^2
+    expected = 8.0 * np.exp(-MU * MASS * G * RADIUS**2 / INERTIA * result.time)
+    # second order of a step of 0.5 ms, against a decay within 5 s: 1e-9
+    np.testing.assert_allclose(result["wheel.angular_velocity"], expected, rtol=1e-8)
+
+
+def test_a_pendulum_loses_the_same_angle_every_half_swing() -> None:
+    law = Ambrosio(sliding_coefficient=MU, static_speed=0.0, dynamic_speed=1e-5)
+    machine, radius = Pendulum(angle=0.1), 0.005
+    half = math.pi * math.sqrt(machine.length / G)
+    scenario = Scenario(
+        machine=machine, pins={"pivot": IdealPin(friction=law, radius=radius)}, duration=4.0 * half, step=5e-4
+    )
+    result = simulate(scenario)
+    turned = result["bob.angle"]
+    ends = [np.abs(turned[np.abs(result.time - n * half) < 0.1 * half]).max() for n in range(1, 5)]
+    # about mu N r/(m g l) from the middle as far as before: twice that less. The force is the weight within the
+    # square of the angle, 1 %, and the ramp softens the ends
+    np.testing.assert_allclose(-np.diff([0.1, *ends]), 2.0 * MU * radius / machine.length, rtol=0.02)
+    assert result.energy_error < 1e-4 * result.dissipated  # second order; kinks where it turns
+
+
+PINS = tuple(support().linkage.pins)
+
+
+def test_energy_adds_up_with_friction_in_all_pins() -> None:
+    pins: dict[str, Pin] = dict.fromkeys(PINS, SUPPORT_PIN)
+    coarse, fine = (simulate(support(drive=RISE, duration=0.5, pins=pins, step=h)) for h in (1e-3, 5e-4))
+    assert fine["energy.friction_loss"][-1] > 100.0
+    # second order, of a work of 5 kJ; measured 2e-7
+    assert fine.energy_error < 2e-6 * fine["energy.work"].max()
+    assert fine.energy_error < 0.35 * coarse.energy_error
+    # what the drive does more is what friction takes: the support ends where it would without
+    plain = simulate(support(drive=RISE, duration=0.5))
+    more = fine["energy.work"][-1] - plain["energy.work"][-1]
+    assert more == pytest.approx(fine["energy.friction_loss"][-1], rel=1e-4)
+    np.testing.assert_allclose(fine["tip.y"], plain["tip.y"], atol=1e-10)  # the columns' lengths say where
+
+
+@pytest.mark.parametrize("sliding", [0.0, 0.25])
+def test_energy_adds_up_with_friction_beside_a_loose_pin(sliding: float) -> None:
+    pins: dict[str, Pin] = dict.fromkeys(PINS, SUPPORT_PIN)
+    pins["rear_base"] = ClearancePin(contact=paper_contact(1.0, sliding))
+    result = simulate(support(drive=Held(), duration=0.06, pins=pins))
+    assert len(result.onsets["rear_base"]) > 1
+    assert result.counts.failed_newton == 0
+    # as without friction in the ideal pins; measured 4e-5
+    assert result.energy_error < 3e-4 * result.dissipated
+
+
+def test_energy_adds_up_with_friction_in_the_pins_of_columns_and_a_sudden_start() -> None:
+    pins: dict[str, Pin] = dict.fromkeys((*PINS, "front_column_foot", "rear_column_head"), SUPPORT_PIN)
+    drive = UniformSpeed(stroke=0.05, start=0.05, end=0.25)
+    result = simulate(
+        support(drive=drive, duration=0.3, pins=pins, columns=two_body_columns(), start="settled")
+    )
+    assert len(result.impulses) == 2
+    assert result.energy_error < 1e-3 * result.dissipated  # steps after a jump are known by their ends only
+
+
+@pytest.mark.parametrize("name", ["tree", "reduced"])
+def test_friction_in_an_ideal_pin_needs_the_redundant_formulation(name: str) -> None:
+    scenario = loose_support(duration=0.1)
+    pins = {**scenario.pins, "front_base": SUPPORT_PIN}
+    with pytest.raises(InputError, match=r"pins\.front_base = IdealPin with friction.*'redundant' covers it"):
+        formulation(name).check(support(pins=pins))
+
+
+def test_friction_and_radius_go_together() -> None:
+    assert IdealPin() == IdealPin(friction=None, radius=None)
+    for given in ({"radius": 0.1}, {"friction": Ambrosio(sliding_coefficient=0.1)}):
+        with pytest.raises(InputError, match=r"IdealPin: friction = .*allowed: both, or None for both"):
+            IdealPin(**given)
+    with pytest.raises(InputError, match=r"IdealPin\.radius = -1\.0: .*greater than 0"):
+        IdealPin(friction=Ambrosio(sliding_coefficient=0.1), radius=-1.0)
+    with pytest.raises(InputError, match=r"friction = LuGre: allowed: laws without a state"):
+        IdealPin(friction=lugre(), radius=0.1)
+
+
+def lugre() -> LuGre:
+    return LuGre(static_coefficient=0.3, sliding_coefficient=0.25)

@@ -1,0 +1,411 @@
+"""The reduced formulation: what it refuses, how it fails, and its parts."""
+
+from __future__ import annotations
+
+import importlib
+import math
+import multiprocessing
+from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import replace
+from typing import Any
+
+import numba
+import numpy as np
+import pytest
+
+from support_exudyn import (
+    ClearancePin,
+    CubicStep,
+    Drive,
+    Held,
+    IdealPin,
+    ImpactStand,
+    OilColumn,
+    Scenario,
+    SimulationError,
+    Steady,
+    UniformSpeed,
+    ravn_slider_crank,
+)
+from support_exudyn.formulations.compiled import plain
+from support_exudyn.formulations.reduced import layout, support_model
+from support_exudyn.formulations.reduced.contact import contact_force
+from support_exudyn.formulations.reduced.drive import driven
+from support_exudyn.formulations.reduced.free_motion import PinState
+from support_exudyn.formulations.reduced.parameters import parameters, segments
+from support_exudyn.formulations.reduced.records import peak
+from support_exudyn.formulations.time_grid import record_times
+from support_exudyn.sweeps.precompile import warm_up
+from tests.cases.law_cases import LUGRE, cylinder_law
+from tests.cases.machine_cases import contact, support
+from tests.reduced import simulate_reduced
+from user_forces import (
+    Ambrosio,
+    CarvalhoMartins,
+    DepthSpeed,
+    Exact,
+    Flores,
+    Hertz,
+    InputError,
+    Johnson,
+    JournalBearing,
+    JournalContact,
+    LankaraniNikravesh,
+    NormalLaw,
+    Stribeck,
+    Touch,
+    TouchSpeed,
+    value,
+)
+
+PIN = support_model.PIN
+FORCE = "pin.rear_base.force"
+
+
+def scene(pin: ClearancePin | None = None, **changes: Any) -> Scenario:
+    fields = {"machine": support(), "duration": 0.05, "pins": {PIN: pin or ClearancePin(contact=contact())}}
+    return Scenario(**fields | changes)
+
+
+def hertz(stiffness: float) -> ClearancePin:
+    bearing = JournalBearing(bore_radius=0.0655, clearance=0.0015)
+    return ClearancePin(contact=JournalContact(bearing=bearing, normal=Hertz(stiffness=stiffness)))
+
+
+# --- what is covered ---
+
+
+@value
+class Softened(LankaraniNikravesh):
+    """A law whose force is no longer that of its family."""
+
+    def elastic_force(self, depth: float) -> float:
+        return 0.5 * super().elastic_force(depth)
+
+    def elastic_energy(self, depth: float) -> float:
+        return 0.5 * super().elastic_energy(depth)
+
+
+def crank(**changes: Any) -> Scenario:
+    """The slider-crank with a loose slider pin."""
+    fields = {
+        "machine": ravn_slider_crank(),
+        "duration": 0.01,
+        "pins": {"slider_pin": small()},
+        "drive": Steady(rate=500.0),
+    }
+    return Scenario(**fields | changes)
+
+
+def small() -> ClearancePin:
+    """A pin of the slider-crank's size."""
+    bearing = JournalBearing(bore_radius=0.01, clearance=0.0005)
+    return ClearancePin(contact=JournalContact(bearing=bearing, normal=Hertz(stiffness=1e10)))
+
+
+def stand() -> Scenario:
+    """Two free bodies."""
+    machine = ImpactStand(bore_mass=1.0, journal_mass=1.0, speed=0.1)
+    return Scenario(machine=machine, pins={"pin": small()}, duration=0.01)
+
+
+OIL = OilColumn(bore_area=0.1, oil_length=0.5, bulk_modulus=1.5e9)
+Case = tuple[Callable[[], Scenario], str, str]  # scenario, backend, what the message says
+REFUSED: dict[str, Case] = {
+    "machine": (stand, "auto", "machine = ImpactStand.*HydraulicSupport, SliderCrank"),
+    "jump of the crank's speed": (
+        lambda: crank(drive=UniformSpeed(stroke=1.0, start=0.0, end=1.0)),
+        "auto",
+        "drive = UniformSpeed.*Held, Steady, CubicStep",
+    ),
+    "start": (lambda: scene(start="settled"), "auto", "start = 'settled'"),
+    "oil": (lambda: scene(columns={"rear_column": OIL}), "auto", "columns.rear_column = OilColumn"),
+    "other pin": (
+        lambda: scene(pins={"front_base": hertz(1e10)}),
+        "auto",
+        "pins.front_base = ClearancePin.*rear_base only",
+    ),
+    "two pins": (
+        lambda: scene(pins={PIN: hertz(1e10), "front_base": hertz(1e10)}),
+        "auto",
+        "pins.front_base = ClearancePin",
+    ),
+    "other pin of the crank": (
+        lambda: crank(pins={"crank_pin": small()}),
+        "auto",
+        "pins.crank_pin = ClearancePin.*slider_pin only",
+    ),
+    "crank without a loose pin": (lambda: crank(pins={}), "auto", "pins.slider_pin = IdealPin"),
+    "friction with a state": (
+        lambda: scene(ClearancePin(contact=replace(contact(), friction=LUGRE))),
+        "auto",
+        "contact.friction = LuGre",
+    ),
+    "symbolic": (scene, "symbolic", "solver.backend = 'symbolic'"),
+    "compiled, another law": (
+        lambda: scene(pin_with(cylinder_law(Johnson))),
+        "compiled",
+        "'compiled' with the laws Johnson, Ambrosio",
+    ),
+    "compiled, a changed law": (
+        lambda: scene(pin_with(Softened(stiffness=1e10, restitution=0.5))),
+        "compiled",
+        "'compiled' with the laws Softened",
+    ),
+    "compiled, another friction": (
+        lambda: scene(ClearancePin(contact=replace(contact(), friction=STRIBECK))),
+        "compiled",
+        "LankaraniNikravesh, Stribeck",
+    ),
+}
+
+
+def pin_with(law: NormalLaw) -> ClearancePin:
+    return ClearancePin(contact=replace(contact(), normal=law))
+
+
+STRIBECK = Stribeck(static_coefficient=0.3, sliding_coefficient=0.2)
+
+
+@pytest.mark.parametrize("case", REFUSED)
+def test_what_is_not_covered_is_refused(case: str) -> None:
+    make, backend, what = REFUSED[case]
+    with pytest.raises(InputError, match=what) as caught:
+        simulate_reduced(make(), backend=backend)
+    assert "allowed:" in str(caught.value)
+    assert str(caught.value).endswith("formulation = 'redundant' covers it.")
+
+
+def test_a_law_that_cannot_be_compiled_runs_in_python() -> None:
+    softened = scene(pin_with(Softened(stiffness=1e10, restitution=0.5)))
+    auto, python = (simulate_reduced(softened, backend=backend) for backend in ("auto", "python"))
+    original = simulate_reduced(scene(pin_with(LankaraniNikravesh(stiffness=1e10, restitution=0.5))))
+    assert auto.counts == python.counts
+    assert auto.counts.user_function_calls > 0
+    assert original.counts.user_function_calls == 0
+    np.testing.assert_array_equal(auto[FORCE], python[FORCE])
+    assert auto.largest_force[PIN] < 0.9 * original.largest_force[PIN]  # the change has not been overlooked
+
+
+@pytest.mark.parametrize("tolerance", [0.0, -1e-7, 0.1, float("nan")])
+def test_a_tolerance_that_makes_no_sense_is_refused(tolerance: float) -> None:
+    with pytest.raises(InputError, match="tolerance"):
+        simulate_reduced(scene(), tolerance)
+
+
+def test_a_pin_may_be_said_to_be_ideal() -> None:
+    said = simulate_reduced(scene(pins={PIN: IdealPin()}))
+    unsaid = simulate_reduced(scene(pins={}))
+    np.testing.assert_array_equal(said[FORCE], unsaid[FORCE])
+    assert said.onsets == {}
+    assert said.largest_force == {}
+
+
+def test_an_unknown_channel_is_named() -> None:
+    with pytest.raises(KeyError, match="no such channel"):
+        simulate_reduced(scene(pins={}))["pin.front_base.depth"]
+
+
+# --- failures ---
+
+BACKENDS = pytest.mark.parametrize("backend", ["python", "compiled"])
+
+
+@BACKENDS
+def test_a_support_that_falls_through_its_pin_stops_at_a_dead_centre(backend: str) -> None:
+    with pytest.raises(SimulationError) as caught:
+        simulate_reduced(scene(hertz(1e3), duration=5.0), backend=backend)
+    failure = caught.value.failure
+    assert "dead centre" in failure.reason
+    assert 0.5 < failure.time < 2.0  # a fall of metres
+    assert failure.state["first_coordinate"] > 0.5
+
+
+@BACKENDS
+def test_a_run_with_too_many_steps_is_given_up(backend: str) -> None:
+    with pytest.raises(SimulationError, match="more than 10 steps") as caught:
+        simulate_reduced(scene(), backend=backend, most_steps=10)
+    assert 0.0 < caught.value.failure.time < 0.05
+
+
+@BACKENDS
+def test_a_run_with_too_many_touches_is_given_up(monkeypatch: pytest.MonkeyPatch, backend: str) -> None:
+    for name in ("run", "outline"):
+        module = importlib.import_module(f"support_exudyn.formulations.reduced.{name}")
+        monkeypatch.setattr(module, "MOST_TOUCHES", 1)
+    with pytest.raises(SimulationError, match="more than 1 touches"):
+        simulate_reduced(scene(hertz(1e10), duration=0.3), backend=backend)
+
+
+@BACKENDS
+def test_progress_rises_to_one(backend: str) -> None:
+    told: list[float] = []
+    simulate_reduced(scene(), backend=backend, progress=told.append)
+    assert told == sorted(told)
+    assert told[-1] == 1.0
+    assert all(0.0 < share <= 1.0 for share in told)
+    assert len(told) > 5 or backend == "compiled"  # which tells the end alone
+
+
+# --- parts ---
+
+
+@numba.njit(error_model="numpy")
+def _contact(p: Any, memory: Any, pin: PinState, out: Any) -> None:
+    contact_force(p, memory, pin, out)
+
+
+_plain_contact = plain(contact_force)
+
+LAWS: list[NormalLaw] = [
+    kind(stiffness=10**rng, exponent=n, restitution=e, damping_speed=speed)
+    for kind in (LankaraniNikravesh, Exact, Flores, CarvalhoMartins)
+    for rng, n, e, speed in (
+        (10.4, 1.5, 0.9, TouchSpeed(floor=1e-3)),
+        (8.5, 1.0, 0.3, DepthSpeed()),
+        (12.0, 2.2, 0.6, DepthSpeed()),
+    )
+]
+LAWS.append(Hertz(stiffness=1e10))
+
+
+@pytest.mark.parametrize("law", LAWS, ids=lambda law: f"{type(law).__name__}-{law.exponent}")
+def test_the_force_is_that_of_the_law(law: NormalLaw) -> None:
+    bearing = JournalBearing(bore_radius=0.0655, clearance=0.0015)
+    friction = Ambrosio(sliding_coefficient=0.25)
+    laws = JournalContact(bearing=bearing, normal=law, friction=friction)
+    scenario = scene(ClearancePin(contact=laws))
+    p = parameters(scenario, support_model.parameters(support()), scenario.clearance_pins[PIN])
+    rng = np.random.default_rng(1)
+    out, plainly = np.zeros(layout.CONTACT), np.zeros(layout.CONTACT)
+    for _ in range(20):
+        angle, depth = rng.uniform(0, 7), 10 ** rng.uniform(-7, -3.5)
+        x, y = (bearing.clearance + depth) * np.cos(angle), (bearing.clearance + depth) * np.sin(angle)
+        vx, vy = rng.normal(size=2) * 10 ** rng.uniform(-4, -1)
+        spins = rng.normal(size=2) * 0.1
+        speed, turn = 10 ** rng.uniform(-4, 0), rng.uniform(0, 7)
+        # 700 kg along the axes of the bore, which are turned, and 1400 across
+        along, across = math.cos(turn), math.sin(turn)
+        mass = 1.0 / ((math.cos(angle - turn) ** 2 + 0.5 * math.sin(angle - turn) ** 2) / 700.0)
+        pin = PinState(x, y, vx, vy, *spins, along, across, *np.zeros(8))
+        memory = np.array([1.0, speed, 1 / 700.0, 0.0, 1 / 1400.0])
+        _contact(p, memory, pin, out)
+        _plain_contact(p, memory, pin, plainly)
+        np.testing.assert_allclose(out, plainly, rtol=1e-13, atol=1e-18)  # rounding: compilers contract sums
+        expected = laws.force(x, y, vx, vy, *spins, Touch(speed, mass))
+        got = out[[layout.DEPTH, layout.RATE, layout.SLIP, layout.NORMAL, layout.FRICTION]]
+        # the same formula in another order; the depth is a difference of numbers 1e-3, right to 1e-12 at least
+        np.testing.assert_allclose(got, expected[:5], rtol=1e-8, atol=1e-12)
+        force = [expected.force_x, expected.force_y]
+        np.testing.assert_allclose(out[[layout.FORCE_X, layout.FORCE_Y]], force, rtol=1e-8, atol=1e-9)
+        assert out[layout.JOURNAL_ARM] == pytest.approx(expected.journal_arm, rel=1e-8)
+        lost = (expected.normal_force - law.elastic_force(expected.depth)) * expected.rate
+        assert out[layout.DAMPING] == pytest.approx(lost, rel=1e-6, abs=1e-9)
+        assert out[layout.STORED] == pytest.approx(law.elastic_energy(expected.depth), rel=1e-8)
+
+
+@numba.njit(error_model="numpy")
+def _driven(segment: Any, t: float) -> tuple[float, float, float]:
+    got = driven(segment, t)
+    return got.extension, got.speed, got.acceleration
+
+
+@pytest.mark.parametrize(
+    "drive",
+    [
+        Held(),
+        Steady(rate=-0.3),
+        CubicStep(stroke=-0.3, start=0.0, end=1.5),
+        CubicStep(stroke=0.3, start=0.5, end=3.0),
+        UniformSpeed(stroke=0.3, start=0.5, end=1.0),
+        UniformSpeed(stroke=0.3, start=3.0, end=4.0),
+    ],
+    ids=str,
+)
+def test_segments_are_the_drive(drive: Drive) -> None:
+    rows = segments(drive, 2.0)
+    assert rows[0, layout.BEGIN] == 0.0
+    assert rows[-1, layout.END] == 2.0
+    np.testing.assert_array_equal(rows[1:, layout.BEGIN], rows[:-1, layout.END])
+    for row in rows:
+        assert row[layout.JUMP] == drive.speed_jump(row[layout.BEGIN])
+        for t in np.linspace(row[layout.BEGIN], row[layout.END], 7)[1:]:  # a break belongs to what is before
+            extension, speed, acceleration = _driven(row, t)
+            # rounding; the speed's central difference over 2e-6 s is right to 1e-9
+            assert extension == pytest.approx(drive.extension(t), abs=1e-15)
+            assert speed == pytest.approx(drive.speed(t), abs=1e-14)
+            if t < row[layout.END]:
+                slope = (drive.speed(t + 1e-6) - drive.speed(t - 1e-6)) / 2e-6
+                assert acceleration == pytest.approx(slope, abs=1e-8)
+
+
+def test_records_are_multiples_of_the_period_and_the_end() -> None:
+    np.testing.assert_array_equal(record_times(1.0, 0.25), [0.0, 0.25, 0.5, 0.75, 1.0])
+    np.testing.assert_allclose(record_times(1.0, 0.3), [0.0, 0.3, 0.6, 0.9, 1.0], rtol=1e-15)
+    assert record_times(0.3, 0.1)[-1] == 0.3
+    assert record_times(5.0, 1e-3).size == 5001
+
+
+@pytest.mark.parametrize("bore", ["first", "second"])
+@pytest.mark.parametrize("law", [Hertz(stiffness=2.7e10), Exact(stiffness=2.7e10, restitution=0.6)], ids=str)
+@pytest.mark.parametrize(
+    "drive",
+    [Held(), CubicStep(stroke=0.05, start=0.05, end=0.25), UniformSpeed(stroke=0.02, start=0.05, end=0.2)],
+    ids=lambda drive: type(drive).__name__,
+)
+def test_energy_adds_up(law: Hertz | Exact, bore: str, drive: Drive) -> None:
+    pin = ClearancePin(contact=replace(contact(), normal=law), bore=bore)
+    result = simulate_reduced(scene(pin, duration=0.3, gravity=(2.0, -9.0), drive=drive), 1e-10)
+    # measured 3e-7 at this tolerance, in proportion to it; friction's kinks leave the most
+    assert result.dissipated > 1.0
+    assert result.energy_error < 1e-6 * result.dissipated
+    assert (np.abs(result["energy.work"]).max() > 100.0) == (not isinstance(drive, Held))
+
+
+# --- the largest force ---
+
+
+def bend(top: float, x: float) -> float:
+    """A force that is largest, 1 N, at a share of a step."""
+    return 1.0 - (x - top) ** 2
+
+
+@pytest.mark.parametrize("top", [0.01, 0.06, 0.0625, 0.07, 0.5, 0.93, 0.9375, 0.99])
+def test_the_largest_force_is_found_wherever_it_lies_in_a_step(top: float) -> None:
+    def look(p: Any, segment: Any, memory: Any, t: float, y: Any, out: Any) -> None:
+        out[layout.NORMAL], out[layout.FRICTION] = bend(top, t), 0.0
+
+    def nothing(path: Any, x: float, out: Any) -> None:
+        pass
+
+    found = plain(peak, observe=look, within=nothing)
+    ends = bend(top, 0.0), bend(top, 1.0)
+    none = [0.0] * layout.CONTACT
+    largest = found(None, None, None, 0.0, 1.0, None, 0.0, *ends, none, none)
+    assert largest == pytest.approx(1.0, rel=1e-12)  # a parabola by a parabola: rounding
+    # far below what has been before nothing is looked at
+    assert found(None, None, None, 0.0, 1.0, None, 10.0, *ends, none, none) == 10.0
+
+
+# --- the same numbers everywhere ---
+
+
+def _bytes() -> bytes:
+    result = simulate_reduced(scene(duration=0.2))
+    return b"".join(channel.values.tobytes() for channel in result.channels.values())
+
+
+def test_runs_are_the_same_bit_for_bit_also_in_another_process() -> None:
+    warm_up()
+    here = _bytes()
+    assert _bytes() == here
+    with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as pool:
+        assert pool.submit(_bytes).result() == here
+
+
+def test_records_do_not_change_the_run() -> None:
+    coarse = simulate_reduced(scene(duration=0.2, record_period=0.1))
+    fine = simulate_reduced(scene(duration=0.2, record_period=1e-4))
+    assert coarse.onsets == fine.onsets
+    assert coarse[FORCE][-1] == fine[FORCE][-1]

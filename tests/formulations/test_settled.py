@@ -1,0 +1,117 @@
+"""A start in static equilibrium, so that the dwell need not be simulated."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from studies.common.paper_machine import oil_columns
+from support_exudyn import (
+    AppliedForce,
+    ClearancePin,
+    CubicStep,
+    Held,
+    Load,
+    Roof,
+    Scenario,
+    SimulationError,
+    SolverSettings,
+    reference_support,
+    simulate,
+)
+from tests.cases.run_cases import FORCE, PIN, Pair, loose_support, paper_contact, support
+from tests.formulations.test_momentum import ONE, TWO
+
+
+def settled(clearance_mm: float = 1.5, friction: float = 0.0, **changes: object) -> Scenario:
+    fields = {"drive": Held(), "duration": 0.05, "start": "settled"} | changes
+    return loose_support(clearance_mm, friction, **fields)
+
+
+@pytest.mark.parametrize("backend", ["python", "symbolic"])
+def test_a_settled_support_stays_at_rest(backend: str) -> None:
+    result = simulate(settled(solver=SolverSettings(backend=backend)))
+    # a contact this stiff turns the Newton residual of 1e-8 into speeds of 1e-9 m/s
+    assert np.abs(result["rear_link.angular_velocity"]).max() < 1e-8
+    np.testing.assert_allclose(result[FORCE], result[FORCE][0], rtol=1e-7)
+    assert result.onsets[PIN] == ()
+
+
+def test_the_journal_lies_at_the_depth_of_hertz() -> None:
+    result = simulate(settled())
+    normal = result.scenario.clearance_pins[PIN].contact.normal
+    expected = (result[FORCE][0] / normal.stiffness) ** (2.0 / 3.0)  # F = K depth^1.5
+    assert result[f"pin.{PIN}.depth"][0] == pytest.approx(expected, rel=1e-9)  # rounding
+
+
+def test_the_force_tends_to_that_of_the_ideal_pin() -> None:
+    ideal = simulate(support(drive=Held(), duration=0.01, record_period=0.01))[FORCE][0]
+    excess = [simulate(settled(c))[FORCE][0] - ideal for c in (1.0, 0.5)]
+    # the posture, and with it the force, changes in proportion to the eccentricity, clearance plus
+    # depth (0.17 mm): 1.17/0.67
+    assert excess[0] / excess[1] == pytest.approx(1.17 / 0.67, rel=0.02)
+    # independent quasi-static value: about +64 N per 0.5 mm over the rise; more at its low start
+    assert 50.0 < (excess[0] - excess[1]) < 90.0
+
+
+def test_it_is_where_a_concentric_start_comes_to_rest() -> None:
+    fallen = simulate(loose_support(drive=Held(), duration=2.0, record_period=0.5))
+    result = simulate(settled())
+    # what is left of the vibration after 2 s
+    assert fallen[FORCE][-1] == pytest.approx(result[FORCE][0], rel=1e-5)
+    assert fallen["tip.x"][-1] == pytest.approx(result["tip.x"][0], abs=1e-8)
+
+
+def test_the_rise_is_the_same_after_the_dwell_or_without_it() -> None:
+    from support_exudyn import CubicStep
+
+    def mean(scenario: Scenario, start: float) -> float:
+        result = simulate(scenario)
+        rise = result.time >= start - 1e-9
+        return float(result[FORCE][rise].mean())
+
+    step = 5e-4
+    whole = mean(loose_support(1.5, step=step), 3.0)
+    quick = mean(
+        loose_support(1.5, step=step, drive=CubicStep(start=0.0, end=2.0), duration=2.0, start="settled"), 0.0
+    )
+    # 1e-4 is what is asked of means; without friction the dwell leaves no vibration
+    assert quick == pytest.approx(whole, rel=1e-4)
+
+
+def test_bodies_that_nothing_holds_have_no_equilibrium() -> None:
+    machine = Pair(one=ONE, two=TWO, one_point=(0.2, 0.25), two_point=(0.2, 0.25))
+    pin = ClearancePin(contact=paper_contact(1.5, 0.0))
+    with pytest.raises(SimulationError, match="no static equilibrium"):
+        simulate(Scenario(machine=machine, pins={"pin": pin}, duration=1.0, start="settled"))
+
+
+def test_the_force_points_along_the_eccentricity() -> None:
+    result = simulate(settled())
+    along = math.atan2(result[f"pin.{PIN}.eccentricity_y"][0], result[f"pin.{PIN}.eccentricity_x"][0])
+    force = math.atan2(-result[FORCE + "_y"][0], -result[FORCE + "_x"][0])
+    assert along == pytest.approx(force, abs=1e-9)  # rounding; the bore pushes the journal back
+
+
+@pytest.mark.parametrize("kind", ["force", "roof"])
+def test_what_presses_later_has_no_part_in_the_start(kind: str) -> None:
+    on_canopy = {"body": "canopy", "point": reference_support().linkage().points["tip"].point}
+    loads: dict[str, Load] = {
+        "force": AppliedForce(full_force=(0.0, -5e5), start=0.03, end=0.9, **on_canopy),
+        "roof": Roof(descent=CubicStep(stroke=0.05, start=0.03, end=0.9), stiffness=1e7, gap=5e-3, **on_canopy),
+    }
+    still = simulate(settled(columns=oil_columns(), duration=0.03))
+    pressed = simulate(settled(columns=oil_columns(), duration=0.03, loads={kind: loads[kind]}))
+    for name in ("tip.y", "front_column.force", FORCE):  # Newton's tolerance, as above
+        np.testing.assert_allclose(pressed[name], still[name], rtol=1e-6, err_msg=name)
+
+
+def test_what_presses_from_the_start_on_is_settled_under() -> None:
+    at = reference_support().linkage().points["tip"]
+    push = AppliedForce(body=at.body, point=at.point, full_force=(0.0, -1e4))
+    result = simulate(settled(columns=oil_columns(), duration=0.02, loads={"push": push}))
+    assert np.abs(result["canopy.angular_velocity"]).max() < 1e-8
+    light = simulate(settled(columns=oil_columns(), duration=0.02))
+    assert result["front_column.force"][0] > light["front_column.force"][0] + 1e4  # it is a lever

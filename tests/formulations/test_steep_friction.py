@@ -1,0 +1,88 @@
+"""Friction that is steeper than steps can follow: a line stands for it, or the run is refused."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from support_exudyn import ClearancePin, Failure, Held, Result, Scenario, SolverSettings, simulate
+from tests.cases.run_cases import PIN, paper_contact, support
+from user_forces import Ambrosio
+
+STEEP = 4e-6  # [m/s], ramp of friction; 40 kN on 1 t cross it in 0.1 us
+STEEPER = 1e-8
+UNSOLVABLE = 1e-12  # crossed by rounding
+
+
+def held(ramp: float) -> Scenario:
+    """The held support falls through its loose rear pin, whose friction has a ramp so wide [m/s]."""
+    contact = paper_contact(1.5, 0.0)
+    friction = Ambrosio(sliding_coefficient=1.2, static_speed=1e-4, dynamic_speed=1e-4 + ramp)
+    pin = ClearancePin(contact=replace(contact, friction=friction))
+    return support(pins={PIN: pin}, drive=Held(), duration=0.05)
+
+
+@pytest.fixture(scope="module")
+def steep() -> Result:
+    return simulate(held(STEEP))
+
+
+def test_steep_friction_costs_few_failures(steep: Result) -> None:
+    assert len(steep.onsets[PIN]) == 2  # one impact and the beginning of rest: there is something to solve
+    # measured 4 failures in 1450 steps; where every step tried its whole length again there were 219470
+    assert steep.counts.failed_newton < 40
+    assert steep.counts.steps < 5000
+
+
+def test_energy_adds_up_under_steep_friction(steep: Result) -> None:
+    assert steep["energy.friction_loss"][-1] > 1.0  # it is rubbed off, too
+    # a step may cross the ramp: measured 4e-4 of what is lost
+    assert steep.energy_error < 5e-3 * steep.dissipated
+
+
+def test_a_line_stands_for_it_in_expressions_of_the_engine(steep: Result) -> None:
+    symbolic = simulate(replace(held(STEEP), solver=SolverSettings(backend="symbolic")))
+    assert symbolic.counts.user_function_calls == 0
+    # else steps were halved where it failed: 1443 against 1412, with 4 failures against 1
+    assert symbolic.counts.steps == steep.counts.steps
+    assert symbolic.counts.failed_newton == steep.counts.failed_newton
+    assert symbolic.dissipated == pytest.approx(steep.dissipated, rel=1e-6)
+    for name in ("depth", "slip", "friction_force"):
+        channel = f"pin.{PIN}.{name}"
+        largest = np.abs(steep[channel]).max()
+        np.testing.assert_allclose(symbolic[channel], steep[channel], rtol=0.0, atol=1e-5 * largest)
+
+
+def test_the_reduced_formulation_finds_the_same(steep: Result) -> None:
+    # a ramp a hundred times as wide, which it needs fewer steps for, loses the same to 1 %
+    wide = simulate(replace(held(100.0 * STEEP), formulation="reduced"))
+    assert steep.dissipated == pytest.approx(wide.dissipated, rel=0.01)
+    first, theirs = steep.onsets[PIN][0], wide.onsets[PIN][0]
+    assert first[:2] == pytest.approx(theirs[:2], rel=1e-6)  # the fall before any contact
+    assert first.parting_speed == pytest.approx(theirs.parting_speed, rel=1e-2)
+
+
+def test_a_ramp_that_no_step_can_follow_rubs_as_a_wider_one(steep: Result) -> None:
+    steeper = simulate(held(STEEPER))
+    assert steeper.counts.failed_newton < 40  # measured: 1
+    assert steeper.counts.steps < 5000
+    assert steeper.energy_error < 5e-3 * steeper.dissipated
+    assert steeper.dissipated == pytest.approx(steep.dissipated, rel=1e-3)
+    # the pin creeps on the ramp: its friction is that of the law, and no more than holds it
+    slip, force = (steeper[f"pin.{PIN}.{name}"] for name in ("slip", "friction_force"))
+    creeping = (np.abs(slip) > 1e-4) & (np.abs(slip) < 1e-4 + STEEPER) & (steeper[f"pin.{PIN}.depth"] > 0.0)
+    assert creeping.sum() > 5
+    normal = steeper[f"pin.{PIN}.normal_force"][creeping]
+    wanted = 1.2 * (np.abs(slip[creeping]) - 1e-4) / STEEPER * normal
+    np.testing.assert_allclose(np.abs(force[creeping]), wanted, rtol=1e-6)
+
+
+@pytest.mark.slow  # it tries for long
+def test_friction_that_no_step_can_follow_is_refused_with_the_reason() -> None:
+    failure = simulate(held(UNSOLVABLE), throw=False)
+    assert isinstance(failure, Failure)
+    assert "friction" in failure.advice
+    assert "Widen the ramp" in failure.advice
+    assert 0.0174 < failure.time < 0.05  # from the first touch on

@@ -1,0 +1,121 @@
+"""Friction that sticks, at the default step: steps follow the swings of what it holds."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+
+from support_exudyn import (
+    ClearancePin,
+    CubicStep,
+    Held,
+    Result,
+    Scenario,
+    SimulationError,
+    SolverSettings,
+    simulate,
+)
+from support_exudyn.formulations.redundant.scene.scene_builder import build
+from tests.cases.run_cases import FORCE, PIN, paper_contact, support
+from user_forces import Ambrosio, DepthSpeed, FrictionLaw, LuGre
+
+LUGRE = LuGre(static_coefficient=0.3125, sliding_coefficient=0.25)
+SHAKING = ("energy.*", FORCE)
+
+
+def scene(friction: FrictionLaw = LUGRE, **changes: object) -> Scenario:
+    """A support that waits, and begins to rise: its pin sticks and slips."""
+    contact = paper_contact(1.5, 0.25)
+    normal = replace(contact.normal, damping_speed=DepthSpeed())
+    pin = ClearancePin(contact=replace(contact, normal=normal, friction=friction))
+    fields: dict[str, object] = {
+        "pins": {PIN: pin},
+        "drive": CubicStep(start=0.05, end=0.55, stroke=0.05),
+        "duration": 0.42,
+        "start": "settled",
+        "solver": SolverSettings(impact_steps=128, backend="symbolic"),
+        "channels": SHAKING,
+    }
+    return support(**fields | changes)
+
+
+@cache
+def fine() -> Result:
+    """With steps that change no number in its fourth digit any more."""
+    return simulate(scene(step=4e-5))
+
+
+@cache
+def plain() -> Result:
+    """With the step that a scenario has if nothing is said."""
+    return simulate(scene())
+
+
+@pytest.mark.parametrize("what", ["energy.friction_loss", "energy.damping_loss"])
+def test_losses_at_the_default_step_are_those_of_fine_steps(what: str) -> None:
+    found, expected = (float(run[what][-1]) for run in (plain(), fine()))
+    # measured 2e-3 and 4e-3; 4e-2 and 5e-2 where steps do not follow the bristles
+    assert found == pytest.approx(expected, rel=1e-2)
+
+
+def test_shaking_at_the_default_step_is_that_of_fine_steps() -> None:
+    found, expected = (float(np.std(run[FORCE])) for run in (plain(), fine()))
+    assert found == pytest.approx(expected, rel=1e-2)  # measured 4e-3; without, 6e-2
+
+
+def test_steps_follow_the_swing_and_halve_with_those_of_impacts() -> None:
+    numbers = (64, 128, 256)
+    counts = [
+        simulate(
+            scene(duration=0.1, solver=SolverSettings(impact_steps=number, backend="symbolic"))
+        ).counts.steps
+        for number in numbers
+    ]
+    # the pin rests on its bristles all the time; what does not double is after the break
+    assert counts[2] - counts[1] == pytest.approx(2 * (counts[1] - counts[0]), rel=0.05)
+    model = build(scene())
+    alone = model.loose_pins[PIN].find_mobilities().alone
+    model.release()
+    load = 58779.0  # of the ideal pin at rest [N]
+    lightest = 2.0 / (alone.xx + alone.yy + math.hypot(alone.xx - alone.yy, 2.0 * alone.xy))
+    longest = math.pi * math.sqrt(lightest / (LUGRE.bristle_stiffness * load)) / 4.0  # of 128 steps an impact
+    # steps are rounded down to a power of two
+    assert 0.3 * longest < 0.1 / (counts[2] - counts[1]) < 1.5 * longest
+
+
+@pytest.mark.parametrize("name", [PIN, "front_base"])
+def test_sections_in_space_are_stepped_like_the_pin_of_the_plane(name: str) -> None:
+    held = scene(duration=0.01, drive=Held())
+    held = replace(held, pins={name: held.pins[PIN]})
+    plane, space = (simulate(replace(held, dimensions=number)).counts.steps for number in (2, 3))
+    assert plane > 4 * 0.01 / 5e-4
+    # the pin's weight on the sections of a bearing, or of two; one or two steps at the start
+    assert space == pytest.approx(plane, rel=0.05)
+
+
+def test_laws_without_a_state_leave_the_step_as_it_is() -> None:
+    steep = Ambrosio(sliding_coefficient=0.25, static_speed=1e-6, dynamic_speed=1e-4)
+    result = simulate(scene(steep, duration=0.05))
+    assert result.counts.steps < 1.2 * 0.05 / 5e-4 + 64  # and those after the break
+
+
+@pytest.mark.parametrize("dynamic_speed", [1e-2, 1e-4])
+def test_steep_friction_at_the_default_step_loses_what_it_should(dynamic_speed: float) -> None:
+    steep = Ambrosio(sliding_coefficient=0.25, static_speed=1e-2 * dynamic_speed, dynamic_speed=dynamic_speed)
+    coarse, finer = (simulate(scene(steep, duration=0.2, step=step)) for step in (5e-4, 5e-5))
+    for what in ("energy.friction_loss", "energy.damping_loss"):
+        # implicit steps need not resolve the ramp: measured 4e-5 and 1.5e-2 of next to nothing
+        close = 1e-3 * float(finer["energy.friction_loss"][-1])
+        assert float(coarse[what][-1]) == pytest.approx(float(finer[what][-1]), abs=close)
+
+
+def test_too_many_steps_for_the_bristles_are_refused_with_what_to_do() -> None:
+    stiff = replace(LUGRE, bristle_stiffness=1e8)
+    few = SolverSettings(impact_steps=128, most_steps=1000)
+    with pytest.raises(SimulationError, match=r"more than 1000 steps") as told:
+        simulate(scene(stiff, solver=few, duration=0.1))
+    assert "most_steps" in str(told.value)

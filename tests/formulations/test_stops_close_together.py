@@ -1,0 +1,196 @@
+"""Two stops a rounding size apart are as one: forces are those of the run in which they coincide."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+
+from studies.common.paper_machine import hydraulic_cylinders
+from support_exudyn import (
+    AppliedForce,
+    ClosedInlet,
+    CubicStep,
+    Failure,
+    Held,
+    OilColumn,
+    Result,
+    Scenario,
+    SolverSettings,
+    TableDrive,
+    UniformSpeed,
+    bore_area,
+    simulate,
+)
+from support_exudyn.formulations.redundant.scene.scene_builder import build
+from support_exudyn.formulations.redundant.scene.velocity_jump import slide
+from tests.cases.run_cases import PIN, loose_support, support
+
+OIL = OilColumn(bore_area=bore_area(0.25, 2), oil_length=0.5, bulk_modulus=1.5e9)
+OILS = {"front_column": OIL, "rear_column": OIL}
+WEIGHT = 2e5  # [N], of what is carried
+BREAK = 0.01  # [s], a record
+SHORT: dict[str, Any] = {"duration": 0.03, "record_period": 1e-3}
+
+
+def cubic(t: float) -> CubicStep:
+    return CubicStep(start=t, end=0.025, stroke=0.001)
+
+
+def uniform(t: float) -> UniformSpeed:
+    return UniformSpeed(start=t, end=0.025, stroke=0.001)
+
+
+def table(t: float, between: Any) -> TableDrive:
+    return TableDrive(times=(t, 0.02, 0.025), extensions=(0.0, 0.001, 0.0005), between=between)
+
+
+def pressed(t: float) -> AppliedForce:
+    return AppliedForce(body="canopy", point=(0.5, 3.0), full_force=(0.0, -1e5), start=t, end=0.02)
+
+
+# each with something that breaks at a time [s]
+SCENES: dict[str, Callable[[float], Scenario]] = {
+    "smooth": lambda t: support(drive=cubic(t), **SHORT),
+    "struck": lambda t: support(drive=uniform(t), **SHORT),
+    "struck at once": lambda t: support(drive=uniform(abs(t - BREAK)), **SHORT),
+    "table": lambda t: support(drive=table(t, "smooth"), **SHORT),
+    "table of lines": lambda t: support(drive=table(t, "linear"), **SHORT),
+    "two drives": lambda t: support(drive=uniform(BREAK), drives={"front_column": uniform(t)}, **SHORT),
+    "oil": lambda t: support(drive=cubic(t), columns=OILS, **SHORT),
+    "load": lambda t: support(loads={"press": pressed(t)}, **SHORT),
+    "growing steps": lambda t: support(drive=cubic(t), solver=SolverSettings(growth=8), **SHORT),
+    "loose": lambda t: loose_support(0.5, 0.25, drive=cubic(t), start="settled", **SHORT),
+    "loose, struck": lambda t: loose_support(0.5, 0.25, drive=uniform(t), start="settled", **SHORT),
+    "loose, growing steps": lambda t: loose_support(
+        0.5, 0.25, drive=cubic(t), start="settled", solver=SolverSettings(growth=8), **SHORT
+    ),
+    "space": lambda t: support(drive=uniform(t), dimensions=3, **SHORT),
+    "loose in space": lambda t: loose_support(
+        0.5, drive=cubic(t), dimensions=3, start="settled", **SHORT | {"duration": 0.015}
+    ),
+    "tree": lambda t: loose_support(0.5, 0.25, drive=cubic(t), columns=OILS, formulation="tree", **SHORT),
+    "reduced": lambda t: loose_support(0.5, 0.25, drive=cubic(t), formulation="reduced", **SHORT),
+    "reduced, by Python": lambda t: loose_support(
+        0.5, 0.25, drive=cubic(t), formulation="reduced", solver=SolverSettings(backend="python"), **SHORT
+    ),
+}
+# of the forces: accelerations jump at smooth breaks by 10 m/s^2 and change within 10 ms, so that forces change
+# by 1e-3 of the weight if a break moves by 1e-6 s; below it is Newton's method, and rounding in steps of 15 us
+AGREE, AND_PER_SECOND = 3e-5, 2e3
+
+
+@cache
+def coinciding(scene: str) -> Result:
+    return simulate(SCENES[scene](BREAK))
+
+
+def apart(one: Result, other: Result) -> float:
+    """The largest difference of any force at any record but that of the break, of the weight."""
+    np.testing.assert_array_equal(one.time, other.time)
+    # a record at a break is of just before it, one behind it of just after
+    compared = np.abs(one.time - BREAK) > 1e-9
+    names = [name for name in one.channels if name.endswith(".force") and name.count(".") <= 2]
+    assert len(names) >= 5
+    return max(float(np.abs(one[n] - other[n])[compared].max()) for n in names) / WEIGHT
+
+
+@pytest.mark.parametrize("scene", SCENES)
+@pytest.mark.parametrize("beside", [1e-13, -1e-12, 1e-11, -1e-9, -3e-7, -1e-6])
+def test_a_break_just_beside_a_record_is_as_one_on_it(scene: str, beside: float) -> None:
+    found = simulate(SCENES[scene](BREAK + beside))
+    assert apart(found, coinciding(scene)) < AGREE + AND_PER_SECOND * abs(beside)
+    assert found.counts.steps < 1.5 * coinciding(scene).counts.steps + 40
+
+
+RISE = support(drive=CubicStep(start=0.1, end=0.9, stroke=0.05), duration=1.0)
+
+
+@pytest.mark.parametrize("formulation", ["redundant", "reduced"])
+def test_records_that_end_just_before_the_run(formulation: Any) -> None:
+    period = 0.0333333333  # as a third of a tenth is typed in ms
+    rise = replace(RISE, formulation=formulation)
+    exact, typed = (simulate(replace(rise, record_period=p)) for p in (1.0 / 30.0, period))
+    # records are what was asked for, and the last is the end
+    assert typed.time.tolist() == pytest.approx([*(n * period for n in range(31)), 1.0], rel=1e-15)
+    assert typed.time[-1] == 1.0
+    for name in ("pin.rear_base.force", "front_column.force"):
+        # 1e-9 s apart at most
+        np.testing.assert_allclose(typed[name][:-1], exact[name], rtol=1e-6)
+        assert typed[name][-1] == pytest.approx(exact[name][-1], rel=1e-6)
+
+
+def test_a_duration_of_single_precision() -> None:
+    short = replace(RISE, duration=float(np.float32(0.3)))
+    found, exact = simulate(short), simulate(replace(RISE, duration=0.3))
+    assert found.time[-1] == short.duration != 0.3
+    for name in ("front_column.force", "rear_column.force", "pin.front_base.force"):
+        assert found[name][-1] == pytest.approx(exact[name][-1], rel=1e-5)
+        assert found[name].max() == pytest.approx(exact[name].max(), rel=1e-5)
+
+
+@pytest.mark.parametrize("before", [1e-12, 1e-10, 1e-9, 1e-8, 1e-7])
+@pytest.mark.parametrize("event", ["touch", "parting"])
+def test_a_touch_or_parting_just_before_a_record(event: str, before: float) -> None:
+    # the record is laid just behind where it happens, which the period does not change
+    drop = loose_support(0.5, 0.25, duration=0.04, record_period=0.02)
+    onset = simulate(drop).onsets[PIN][0]
+    at = onset.time if event == "touch" else onset.parting_time
+    assert 1e-3 < at < 0.04
+    found = simulate(replace(drop, record_period=at + before))
+    beside = simulate(replace(drop, record_period=at + 2e-6))
+    for name in ("pin.front_base.force", "front_column.force", f"pin.{PIN}.force"):
+        # forces change within 0.1 ms at the touch, so by a fiftieth of the weight in 2 us
+        assert abs(found[name][1] - beside[name][1]) < 0.04 * WEIGHT
+    assert not isinstance(found, Failure)
+
+
+@pytest.mark.parametrize("rest", [1e-9, 1e-6, 1e-3])
+def test_a_rest_is_moved_over_by_the_rates(rest: float) -> None:
+    scene = build(loose_support(0.5, 0.25, columns=hydraulic_cylinders(ClosedInlet()), drive=Held(), **SHORT))
+    data = scene.mbs.systemData
+    numbers = np.random.default_rng(3)
+    at = data.GetODE2Coordinates() + 1e-4 * numbers.standard_normal(data.ODE2Size())
+    velocity, acceleration = (numbers.standard_normal(at.size) for _ in range(2))
+    pressures = data.GetODE1Coordinates() + 1e6
+    flows = 1e9 * numbers.standard_normal(pressures.size)
+    assert pressures.size > 0
+    data.SetODE2Coordinates(at)
+    data.SetODE2Coordinates_t(velocity)
+    data.SetODE2Coordinates_tt(acceleration)
+    data.SetODE1Coordinates(pressures)
+    data.SetODE1Coordinates_t(flows)
+    slide(scene, rest)
+    # what a constant acceleration gives; rounding
+    np.testing.assert_allclose(
+        data.GetODE2Coordinates(), at + velocity * rest + acceleration * rest**2 / 2.0, rtol=1e-14
+    )
+    np.testing.assert_allclose(data.GetODE2Coordinates_t(), velocity + acceleration * rest, rtol=1e-14)
+    np.testing.assert_allclose(data.GetODE1Coordinates(), pressures + flows * rest, rtol=1e-14)
+    # what the pin remembers is of where it is now
+    pin = scene.loose_pins[PIN]
+    (bx, by, bvx, bvy, *_), (x, y, vx, vy, *_) = pin.moving.now()
+    x, y, vx, vy = x - bx, y - by, vx - bvx, vy - bvy
+    distance = float(np.hypot(x, y))
+    assert pin.kept.depth == pytest.approx(distance - pin.contact.bearing.clearance, abs=1e-13)
+    assert pin.kept.rate == pytest.approx((x * vx + y * vy) / distance, rel=1e-9)
+
+
+@pytest.mark.parametrize("scene", ["smooth", "loose"])
+@pytest.mark.parametrize("beside", [-1e-8, 1e-8])
+def test_one_rest_is_moved_over_once(scene: str, beside: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    # and steps go on from its end, on the grid: else another would be needed to get back to it
+    rests: list[float] = []
+
+    def slid(moving: Any, rest: float) -> None:
+        rests.append(rest)
+        slide(moving, rest)
+
+    monkeypatch.setattr("support_exudyn.formulations.redundant.solver.solver.slide", slid)
+    found, without = (simulate(replace(SCENES[scene](t), duration=0.012)) for t in (BREAK + beside, BREAK))
+    assert rests == [pytest.approx(abs(beside), rel=1e-6)]
+    assert found.counts.steps == without.counts.steps

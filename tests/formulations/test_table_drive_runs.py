@@ -1,0 +1,80 @@
+"""Runs of drives through points, beside those of the drives that they stand for."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from studies.common.paper_machine import loose_pin
+from support_exudyn import TableDrive, UniformSpeed, simulate
+from tests.commands.test_scenario_commands import BASE, POINTS, SCENARIOS, STROKE, same
+
+
+def test_a_fine_table_of_a_cubic_step_drives_as_it_does() -> None:
+    times = np.linspace(0.02, 0.08, 61)
+    points = TableDrive(times=times.tolist(), extensions=[STROKE.extension(t) for t in times.tolist()])
+    scenario = replace(BASE, pins={}, step=1e-4)
+    one, other = simulate(replace(scenario, drive=points)), simulate(scenario)
+    # a smooth table is of second order near the ends, where it rests, and of third elsewhere: its rise differs
+    # by the acceleration there, 33 m/s^2, over an interval of 1 ms, squared, over 2: 17 um of 20 mm
+    difference = np.abs(one["tip.y"] - other["tip.y"]).max()
+    assert difference < 17e-6 * 4.0  # the tip goes up to four times as far as the columns
+    assert difference > 0.0
+
+
+def test_two_points_drive_as_a_cubic_step_to_the_bit() -> None:
+    points = TableDrive(times=(0.02, 0.08), extensions=(0.0, 0.02))
+    same(simulate(replace(BASE, drive=points)), simulate(BASE))
+
+
+def test_two_points_on_a_line_drive_as_uniform_speed_to_the_bit() -> None:
+    points = TableDrive(times=(0.02, 0.08), extensions=(0.0, 0.02), between="linear")
+    one = simulate(replace(BASE, drive=points))
+    other = simulate(replace(BASE, drive=UniformSpeed(stroke=0.02, start=0.02, end=0.08)))
+    assert len(one.impulses) == 2
+    same(one, other)
+
+
+def test_a_line_from_the_start_on_begins_with_an_impulse() -> None:
+    points = TableDrive(times=(0.0, 0.08), extensions=(0.0, 0.02), between="linear")
+    scenario = replace(BASE, pins={}, duration=0.05)
+    one = simulate(replace(scenario, drive=points))
+    other = simulate(replace(scenario, drive=UniformSpeed(stroke=0.02, start=0.0, end=0.08)))
+    assert [impulse.time for impulse in one.impulses] == [0.0]
+    same(one, other)
+
+
+def test_the_tree_follows_a_table() -> None:
+    scenario = replace(SCENARIOS["tree"], drive=POINTS, duration=0.06, pins={"rear_base": loose_pin(1.5, 0.0)})
+    one = simulate(scenario)
+    other = simulate(replace(scenario, formulation="redundant", step=1e-4))
+    # until the journal touches both integrate the same smooth motion: errors of second order at 0.1 ms
+    before = one.time < one.onsets["rear_base"][0].time - 1e-3
+    assert np.abs(one["tip.y"] - other["tip.y"])[before].max() < 1e-6
+
+
+def test_two_points_drive_the_reduced_support_as_a_cubic_step_to_the_bit() -> None:
+    points = TableDrive(times=(0.02, 0.08), extensions=(0.0, 0.02))
+    reduced = SCENARIOS["reduced"]
+    same(simulate(replace(reduced, drive=points)), simulate(reduced))
+
+
+def test_two_points_on_a_line_drive_the_reduced_support_as_uniform_speed_to_the_bit() -> None:
+    points = TableDrive(times=(0.02, 0.08), extensions=(0.0, 0.02), between="linear")
+    reduced = SCENARIOS["reduced"]
+    one = simulate(replace(reduced, drive=points))
+    other = simulate(replace(reduced, drive=UniformSpeed(stroke=0.02, start=0.02, end=0.08)))
+    assert len(one.impulses) == 2
+    same(one, other)
+
+
+def test_reduced_and_redundant_formulations_follow_a_table_alike() -> None:
+    ideal = replace(BASE, pins={}, drive=POINTS)
+    one = simulate(replace(ideal, formulation="reduced"))
+    other, finer = simulate(replace(ideal, step=1e-4)), simulate(replace(ideal, step=5e-5))
+    for name in ("tip.y", "pin.rear_base.force"):
+        error = np.abs(other[name] - finer[name]).max()
+        # the redundant one's own error, by halving its steps: of second order, 4/3 of what that changes; times
+        # 2 for the maximum over records, and rounding
+        assert np.abs(one[name] - other[name]).max() <= 8.0 / 3.0 * error + 1e-9 * np.abs(one[name]).max()

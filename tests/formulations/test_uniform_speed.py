@@ -1,0 +1,130 @@
+"""Drive mode 1: the columns' speed jumps, and so do all velocities, consistently."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from support_exudyn import (
+    Body,
+    Column,
+    Crank,
+    Linkage,
+    Machine,
+    Result,
+    Scenario,
+    Slide,
+    UniformSpeed,
+    ravn_slider_crank,
+    reference_support,
+    simulate,
+)
+from support_exudyn.model.linkage import GROUND, pinned
+from tests.cases.run_cases import FORCE, loose_support, slider_crank, support
+from user_forces import value
+
+
+def rise(step: float, **changes: object) -> Result:
+    return simulate(support(drive=UniformSpeed(), duration=3.5, step=step, **changes))
+
+
+def test_velocities_after_the_jump_are_the_closed_form_ones() -> None:
+    machine, speed, small = reference_support(), 0.25, 1e-5
+    result = rise(5e-4)
+    n = 3001  # 1 ms after the jump
+    at = 0.25e-3
+    lower, upper = machine.extended(at - small), machine.extended(at + small)
+    assert lower is not None
+    assert upper is not None
+    slope = (upper.rear_link - lower.rear_link) / (2 * small)
+    # central difference over 0.02 mm: 1e-9; generalised alpha at this step: 1e-6
+    assert result["rear_link.angular_velocity"][n] == pytest.approx(slope * speed, rel=3e-6)
+
+
+def test_the_impulse_gives_the_kinetic_energy() -> None:
+    result = rise(5e-4)
+    (impulse,) = result.impulses
+    assert impulse.time == 3.0
+    # the bodies were at rest: an impulse through columns that move at v does work of impulse times v/2
+    work = sum(impulse.columns.values()) * 0.25 / 2
+    assert impulse.energy == pytest.approx(work, rel=1e-9)  # rounding
+    # the support has moved by 0.25 mm of its stroke of 500 mm since
+    assert result["energy.kinetic"][3001] == pytest.approx(impulse.energy, rel=1e-3)
+    assert all(value > 0.0 for value in impulse.columns.values())
+
+
+def test_force_just_after_the_jump_does_not_grow_as_the_step_shrinks() -> None:
+    forces = [rise(step)[FORCE][3001] for step in (5e-4, 2.5e-4)]
+    # without consistent velocities it grows as 1/step; what is left is the engine's rounding
+    assert forces[1] == pytest.approx(forces[0], rel=1e-5)
+
+
+def test_energy_adds_up_over_the_jump() -> None:
+    ideal = rise(5e-4)
+    assert ideal.energy_error < 1e-6 * ideal["energy.work"][-1]  # second order in the step
+    loose = simulate(loose_support(drive=UniformSpeed(), duration=3.5))
+    assert loose.energy_error < 1e-4 * loose.dissipated  # asked of every run
+    assert len(loose.impulses) == 1
+
+
+def test_a_stroke_can_begin_and_end_within_the_run() -> None:
+    drive = UniformSpeed(stroke=0.1, start=0.0, end=0.4)
+    result = simulate(support(drive=drive, duration=0.8, step=5e-4))
+    assert [impulse.time for impulse in result.impulses] == [0.0, 0.4]
+    # it stands still again; 1e-6 is the error of the velocities before the second jump
+    np.testing.assert_allclose(result["rear_link.angular_velocity"][401:], 0.0, atol=1e-6)
+    assert result.energy_error < 1e-6 * result["energy.work"][-1]
+
+
+def test_a_crank_that_jumps_to_speed_gets_an_angular_impulse() -> None:
+    # Ravn's crank, upright after a quarter turn backwards: the rod does not turn then
+    machine = replace(ravn_slider_crank(), start_angle=-0.5 * math.pi)
+    drive = UniformSpeed(stroke=1.0, start=0.0, end=0.1)
+    result = simulate(slider_crank(1e-4, machine=machine, drive=drive))
+    (impulse,) = result.impulses
+    speed = 10.0  # [rad/s]
+    # rod and slider move along x as fast as the crank pin
+    inertia = 1e-4 + 0.3 * 0.025**2 + (0.21 + 0.14) * 0.05**2
+    # rounding
+    assert impulse.cranks == pytest.approx({"crank": inertia * speed}, rel=1e-12)
+    assert impulse.energy == pytest.approx(0.5 * inertia * speed**2, rel=1e-12)
+    assert impulse.columns == {}
+    # the crank has turned by a thousandth of a radian since, and the slider is faster by as much
+    assert result["energy.kinetic"][-1] == pytest.approx(impulse.energy, rel=1e-3)
+    # the work of the drive counts it
+    assert result["energy.work"][-1] == pytest.approx(result["energy.kinetic"][-1], rel=1e-6)
+
+
+@value
+class RamAndWheel(Machine):
+    """A ram of 3 kg lifted by a column, and beside it a wheel of 0.2 kg m^2 turned by a crank."""
+
+    def linkage(self) -> Linkage:
+        return Linkage(
+            bodies={
+                "ram": Body(mass=3.0, inertia=1.0, centre=(0.0, 1.0)),
+                "wheel": Body(mass=5.0, inertia=0.2, centre=(2.0, 0.0)),
+            },
+            pins={"axle": pinned(GROUND, "wheel", (2.0, 0.0))},
+            columns={"jack": Column(foot=GROUND, head="ram", foot_point=(0.0, 0.0), head_point=(0.0, 1.0))},
+            cranks={"motor": Crank(body="wheel")},
+            slides={"guide": Slide(body="ram", point=(0.0, 1.0), direction=0.5 * math.pi)},
+        )
+
+
+def test_columns_and_cranks_get_impulses_of_their_own() -> None:
+    drive = UniformSpeed(stroke=0.4, start=0.0, end=0.1)  # 4 m/s and 4 rad/s
+    result = simulate(Scenario(machine=RamAndWheel(), drive=drive, duration=0.01))
+    (impulse,) = result.impulses
+    # mass and inertia times speed, and half of that times the speed again; rounding
+    assert impulse.columns == pytest.approx({"jack": 12.0}, rel=1e-12)
+    assert impulse.cranks == pytest.approx({"motor": 0.8}, rel=1e-12)
+    assert impulse.energy == pytest.approx(24.0 + 1.6, rel=1e-12)
+    # after it the column carries the weight of 3 kg, and nothing turns the wheel, or the ram in its guide
+    np.testing.assert_allclose(result["jack.force"][1:], 3.0 * 9.81, rtol=1e-6)
+    for name in ("motor.moment", "guide.moment", "guide.force"):
+        np.testing.assert_allclose(result[name][1:], 0.0, atol=1e-6)
+    np.testing.assert_allclose(result["pin.axle.force_y"][1:], 5.0 * 9.81, rtol=1e-6)

@@ -1,0 +1,489 @@
+from __future__ import annotations
+
+import math
+import re
+from functools import cache
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from support_exudyn import CubicStep, HydraulicSupport, Part, reference_support
+from support_exudyn.machines.four_column_support import Posture
+from support_exudyn.model.linkage import lumped
+from tests.cases.machine_cases import PARTS, PIVOTS, PIVOTS_MM, support
+from user_forces import InputError
+
+SUPPORT = support()
+START = SUPPORT.start()
+Point = tuple[float, float]
+
+# Start posture: canopy level, hinge 1800 mm high [mm]
+START_MM = {
+    "rear_shield": (-814.877, 939.136),
+    "front_shield": (-523.214, 1156.571),
+    "hinge": (395.903, 1800.0),
+    "front_head": (1859.903, 1793.0),
+    "rear_head": (875.903, 1785.0),
+    "tip": (3195.903, 1950.0),
+}
+# Static, by stroke [mm]: tip x [mm], front and rear column [deg from +x]
+STATIC = {
+    0: (3195.9, 83.19, 91.64),
+    100: (3199.4, 83.47, 91.42),
+    250: (3207.4, 83.76, 91.07),
+    400: (3216.1, 83.98, 90.74),
+    500: (3220.0, 84.16, 90.60),
+}
+# Independent integrator, cubic STEP from 3 to 5 s: t [s], rear link [deg/s], [deg/s^2]
+RISE = {
+    3.25: (-5.752965, -20.222483),
+    3.50: (-10.156832, -15.006264),
+    4.00: (-14.754937, -2.718542),
+    4.50: (-12.049091, 14.355602),
+}
+
+
+def distance(a: Point, b: Point) -> float:
+    return math.dist(a, b)
+
+
+def degrees(a: Point, b: Point) -> float:
+    return math.degrees(math.atan2(b[1] - a[1], b[0] - a[0]))
+
+
+@cache
+def extended(extension: float) -> Posture:
+    """Posture by stroke [m], reached in steps of at most 50 mm from the start."""
+    posture = START
+    for goal in np.linspace(0.0, extension, 2 + int(abs(extension) / 0.05))[1:].tolist():
+        found = SUPPORT.extended(goal, posture)
+        assert found is not None
+        posture = found
+    return posture
+
+
+# --- start posture ---
+
+
+@pytest.mark.parametrize("name", START_MM)
+def test_start_posture_is_the_published_one(name: str) -> None:
+    # half of the last printed digit
+    assert getattr(START, name) == pytest.approx([c / 1e3 for c in START_MM[name]], abs=5e-7)
+
+
+@pytest.mark.parametrize(
+    ("body", "turn"), [("rear_link", 18.2323), ("front_link", 15.6321), ("shield", -12.6430), ("canopy", 0.0)]
+)
+def test_bodies_are_turned_at_the_start_as_published(body: str, turn: float) -> None:
+    # half of the last printed digit
+    assert math.degrees(getattr(START, body)) == pytest.approx(turn, abs=5e-5)
+
+
+def test_columns_have_the_published_lengths_at_the_start() -> None:
+    # half of the last printed digit
+    assert SUPPORT.column_lengths(START) == pytest.approx((1.602293, 1.611659), abs=5e-7)
+
+
+@pytest.mark.parametrize(
+    ("a", "b", "length"),
+    [
+        ("rear_base", "rear_shield", 1035.6),
+        ("front_base", "front_shield", 1240.7),
+        ("rear_shield", "front_shield", 363.8),
+        ("rear_shield", "hinge", 1485.6),
+        ("front_base", "rear_base", 675.1),
+    ],
+)
+def test_links_have_the_published_lengths(a: str, b: str, length: float) -> None:
+    # half of the last printed digit
+    assert 1e3 * distance(getattr(SUPPORT, a), getattr(SUPPORT, b)) == pytest.approx(length, abs=0.05)
+
+
+# --- posture ---
+
+
+def residuals(machine: HydraulicSupport, c: Point, d: Point, i: Point) -> list[float]:
+    """By how much bars are longer in a posture than in the reference posture [m]."""
+    bars = [
+        (machine.rear_base, c, machine.rear_base, machine.rear_shield),
+        (machine.front_base, d, machine.front_base, machine.front_shield),
+        (c, d, machine.rear_shield, machine.front_shield),
+        (c, i, machine.rear_shield, machine.hinge),
+        (d, i, machine.front_shield, machine.hinge),
+    ]
+    return [distance(a, b) - distance(a0, b0) for a, b, a0, b0 in bars]
+
+
+@given(turn=st.floats(-1.0, 1.0))
+def test_four_bar_closes(turn: float) -> None:
+    closed = SUPPORT.four_bar(turn)
+    assume(closed is not None)
+    assert closed is not None
+    # rounding of lengths up to 1.5 m
+    assert residuals(SUPPORT, *closed) == pytest.approx([0.0] * 5, abs=1e-14)
+
+
+def test_four_bar_of_the_reference_posture_is_where_it_was_measured() -> None:
+    # rounding of lengths up to 2.3 m
+    assert np.ravel(SUPPORT.four_bar(0.0)) == pytest.approx(
+        np.ravel([PIVOTS["rear_shield"], PIVOTS["front_shield"], PIVOTS["hinge"]]), abs=2e-15
+    )
+
+
+@given(turn=st.floats(-0.3, 0.3), canopy=st.floats(-0.3, 0.3))
+def test_canopy_is_rigid_and_turned_as_told(turn: float, canopy: float) -> None:
+    posture = SUPPORT.posture(turn, canopy)
+    assert posture is not None
+    for name in ("front_head", "rear_head", "tip"):
+        before, after = getattr(SUPPORT, name), getattr(posture, name)
+        # rounding of lengths up to 3 m
+        assert distance(posture.hinge, after) == pytest.approx(distance(SUPPORT.hinge, before), abs=2e-15)
+        turned = degrees(posture.hinge, after) - degrees(SUPPORT.hinge, before)
+        # rounding of angles up to 180 degrees
+        assert math.remainder(turned - math.degrees(canopy), 360.0) == pytest.approx(0.0, abs=1e-12)
+
+
+@given(turn=st.floats(-0.3, 0.3))
+def test_turns_in_a_posture_are_those_of_the_bars(turn: float) -> None:
+    posture = SUPPORT.posture(turn, 0.0)
+    assert posture is not None
+    front = degrees(SUPPORT.front_base, posture.front_shield) - degrees(
+        SUPPORT.front_base, SUPPORT.front_shield
+    )
+    shield = degrees(posture.rear_shield, posture.hinge) - degrees(SUPPORT.rear_shield, SUPPORT.hinge)
+    rear = degrees(SUPPORT.rear_base, posture.rear_shield) - degrees(SUPPORT.rear_base, SUPPORT.rear_shield)
+    # rounding of angles up to 180 degrees and of lengths of 0.36 m
+    for turned, told in ((front, posture.front_link), (shield, posture.shield), (rear, posture.rear_link)):
+        assert math.remainder(turned - math.degrees(told), 360.0) == pytest.approx(0.0, abs=1e-12)
+
+
+@settings(max_examples=30)
+@given(height=st.floats(1.0, 2.7))
+def test_start_is_level_at_the_height_asked_for(height: float) -> None:
+    machine = support(start_hinge_height=height)
+    start = machine.start()
+    # the root is found to 1e-15 rad, at 2 m/rad
+    assert start.hinge[1] == pytest.approx(height, abs=1e-14)
+    assert start.canopy == 0.0
+    # rounding of lengths up to 1.5 m
+    assert residuals(machine, start.rear_shield, start.front_shield, start.hinge) == pytest.approx(
+        [0.0] * 5, abs=1e-14
+    )
+
+
+def test_start_at_the_reference_height_is_the_reference_posture() -> None:
+    start = support(start_hinge_height=PIVOTS["hinge"][1]).start()
+    # the root is found to 1e-15 rad
+    assert (start.rear_link, start.front_link, start.shield) == pytest.approx((0.0, 0.0, 0.0), abs=1e-14)
+
+
+def test_start_is_the_nearer_of_two_postures_with_the_hinge_at_this_height() -> None:
+    turns = np.radians(np.linspace(-38.0, 42.0, 8001))
+    heights = np.array([closed[2][1] if (closed := SUPPORT.four_bar(t)) else math.nan for t in turns.tolist()])
+    there = turns[:-1][(heights[:-1] - 2.75) * (heights[1:] - 2.75) <= 0.0]
+    assert there.size == 2  # beyond its highest point the hinge comes down again
+    start = support(start_hinge_height=2.75).start()
+    # the scan is 0.01 deg fine
+    assert start.rear_link == pytest.approx(there[np.abs(there).argmin()], abs=math.radians(0.01))
+
+
+def changed(point: Point, dx: float, dy: float, sense: float) -> Point:
+    return sense * point[0] + dx, point[1] + dy
+
+
+@settings(max_examples=20)
+@given(dx=st.floats(-2.0, 2.0), dy=st.floats(0.0, 2.0), sense=st.sampled_from([1.0, -1.0]))
+def test_a_moved_or_mirrored_support_has_a_moved_or_mirrored_start(dx: float, dy: float, sense: float) -> None:
+    pivots = {name: changed(point, dx, dy, sense) for name, point in PIVOTS.items()}
+    start = support(**pivots, start_hinge_height=1.8 + dy).start()
+    # rounding of coordinates up to 5 m, over a link of 0.36 m
+    assert start.rear_link == pytest.approx(sense * START.rear_link, abs=1e-13)
+    for name in START_MM:
+        assert getattr(start, name) == pytest.approx(changed(getattr(START, name), dx, dy, sense), abs=1e-13)
+
+
+# --- extension ---
+
+
+@settings(max_examples=30)
+@given(extension=st.floats(-0.4, 0.7))
+def test_columns_get_longer_by_what_is_asked_for(extension: float) -> None:
+    front, rear = SUPPORT.column_lengths(extended(extension))
+    start_front, start_rear = SUPPORT.column_lengths(START)
+    # what the search accepts
+    assert front - start_front == pytest.approx(extension, abs=2e-11)
+    assert rear - start_rear == pytest.approx(extension, abs=2e-11)
+
+
+@pytest.mark.parametrize("stroke_mm", STATIC)
+def test_tip_is_where_the_static_table_says(stroke_mm: int) -> None:
+    # half of the last printed digit
+    assert 1e3 * extended(stroke_mm / 1e3).tip[0] == pytest.approx(STATIC[stroke_mm][0], abs=0.05)
+
+
+@pytest.mark.parametrize("stroke_mm", STATIC)
+def test_front_column_leans_as_the_static_table_says(stroke_mm: int) -> None:
+    posture = extended(stroke_mm / 1e3)
+    # half of the last printed digit
+    assert degrees(SUPPORT.front_foot, posture.front_head) == pytest.approx(STATIC[stroke_mm][1], abs=5e-3)
+
+
+@pytest.mark.parametrize("stroke_mm", STATIC)
+def test_rear_column_leans_as_the_static_table_says(stroke_mm: int) -> None:
+    posture = extended(stroke_mm / 1e3)
+    # half of the last printed digit
+    assert degrees(SUPPORT.rear_foot, posture.rear_head) == pytest.approx(STATIC[stroke_mm][2], abs=5e-3)
+
+
+def test_canopy_stays_as_level_as_published() -> None:
+    tilts = [abs(math.degrees(extended(mm / 1e3).canopy)) for mm in range(0, 501, 25)]
+    # within 0.022 deg, and half of the last printed digit
+    assert max(tilts) <= 0.0225
+
+
+def rear_link_rates(t: float) -> tuple[float, float]:
+    """Angular velocity and acceleration [deg/s, deg/s^2] during the rise, from postures around time t."""
+    drive, h = CubicStep(), 2e-3
+    y = [math.degrees(extended(drive.extension(t) + n * h).rear_link) for n in (-2, -1, 0, 1, 2)]
+    slope = (y[0] - 8.0 * y[1] + 8.0 * y[3] - y[4]) / (12.0 * h)
+    curvature = (-y[0] + 16.0 * y[1] - 30.0 * y[2] + 16.0 * y[3] - y[4]) / (12.0 * h**2)
+    speed, acceleration = drive.speed(t), 6.0 * 0.5 * (1.0 - 2.0 * (t - 3.0) / 2.0) / 2.0**2
+    return slope * speed, curvature * speed**2 + slope * acceleration
+
+
+@pytest.mark.parametrize("t", RISE)
+def test_rear_link_turns_as_fast_as_the_independent_integrator_says(t: float) -> None:
+    # half of the last printed digit and the error of the difference, of fourth order in 2 mm
+    assert rear_link_rates(t)[0] == pytest.approx(RISE[t][0], abs=1e-6)
+
+
+@pytest.mark.parametrize("t", RISE)
+def test_rear_link_accelerates_as_the_independent_integrator_says(t: float) -> None:
+    # half of the last printed digit, and rounding of postures, 1e-14 rad over (2 mm)^2
+    assert rear_link_rates(t)[1] == pytest.approx(RISE[t][1], abs=2e-6)
+
+
+def test_no_posture_is_found_where_there_is_none() -> None:
+    assert SUPPORT.extended(10.0) is None
+
+
+def test_the_paper_s_stroke_can_be_reached() -> None:
+    SUPPORT.check_extension(0.0, 0.5)
+
+
+@pytest.mark.parametrize(("lowest", "highest", "wrong"), [(0.0, 5.0, "5.0"), (-2.0, 0.0, "-2.0")])
+def test_an_extension_that_tears_the_linkage_is_refused(lowest: float, highest: float, wrong: str) -> None:
+    with pytest.raises(
+        InputError, match=rf"column extension = {wrong} m: .*allowed: up to -?\d\.\d+ m"
+    ) as caught:
+        SUPPORT.check_extension(lowest, highest)
+    reach = float(re.findall(r"up to (-?[\d.]+)", str(caught.value))[0])
+    # what is said to be allowed is: to the rounding of the message
+    SUPPORT.check_extension(min(0.0, reach + 1e-3), max(0.0, reach - 1e-3))
+
+
+# --- refusals ---
+
+
+@pytest.mark.parametrize("height", [0.5, 3.5])
+def test_an_unreachable_height_is_refused(height: float) -> None:
+    with pytest.raises(
+        InputError, match=rf"start_hinge_height = {height} m: .*allowed: [\d.]+ to [\d.]+ m"
+    ) as caught:
+        support(start_hinge_height=height)
+    lowest, highest = (float(n) for n in re.findall(r"allowed: ([\d.]+) to ([\d.]+)", str(caught.value))[0])
+    # what is said to be allowed is: to the rounding of the message
+    support(start_hinge_height=lowest + 1e-4)
+    support(start_hinge_height=highest - 1e-4)
+
+
+def test_negative_height_is_refused() -> None:
+    with pytest.raises(InputError, match=r"HydraulicSupport\.start_hinge_height = -1\.8: .*allowed: > 0"):
+        support(start_hinge_height=-1.8)
+
+
+def test_a_missing_pivot_is_named() -> None:
+    fields = {name: point for name, point in PIVOTS.items() if name != "hinge"}
+    with pytest.raises(InputError, match=r"HydraulicSupport\.hinge: missing"):
+        HydraulicSupport(**fields, parts=PARTS, start_hinge_height=1.8)
+
+
+def test_a_body_without_its_parts_is_refused() -> None:
+    parts = {name: items for name, items in PARTS.items() if name != "canopy"}
+    with pytest.raises(InputError, match=r"parts = .*allowed: exactly rear_link, front_link, shield, canopy"):
+        support(parts=parts)
+
+
+def test_a_body_that_is_only_a_point_is_refused() -> None:
+    with pytest.raises(InputError, match=r"parts\.rear_link: total inertia is 0 kg m\^2; allowed: > 0"):
+        support(parts={**PARTS, "rear_link": (Part(mass=500.0, centre=(0.0, 0.5)),)})
+
+
+def test_negative_mass_in_a_part_given_as_data_is_refused() -> None:
+    with pytest.raises(InputError, match=r"parts\.rear_link\.0\.mass = -1"):
+        support(parts={**PARTS, "rear_link": ({"mass": -1, "centre": (0.0, 0.0)},)})
+
+
+def test_a_body_of_no_parts_is_refused() -> None:
+    with pytest.raises(InputError, match=r"parts\.rear_link"):
+        support(parts={**PARTS, "rear_link": ()})
+
+
+# --- masses and layout ---
+
+
+@pytest.mark.parametrize(
+    ("body", "mass", "inertia"),
+    [
+        ("rear_link", 500.0, 44.688),
+        ("front_link", 400.0, 51.313),
+        ("shield", 2580.0, 1531.985),
+        ("canopy", 3400.0, 2820.816),
+    ],
+)
+def test_bodies_have_the_published_masses(body: str, mass: float, inertia: float) -> None:
+    got = SUPPORT.linkage().bodies[body]
+    # rounding
+    assert got.mass == pytest.approx(mass, rel=1e-15)
+    # half of the last printed digit
+    assert got.inertia == pytest.approx(inertia, abs=5e-4)
+
+
+@pytest.mark.parametrize(("body", "centre"), [("shield", (-489.2, 1322.9)), ("canopy", (1371.6, 2309.8))])
+def test_lumped_centres_are_the_published_ones(body: str, centre: Point) -> None:
+    # half of the last printed digit
+    assert [1e3 * c for c in lumped(SUPPORT.parts[body]).centre] == pytest.approx(centre, abs=0.05)
+
+
+def test_links_balance_in_their_middle_at_the_start() -> None:
+    bodies = SUPPORT.linkage().bodies
+    b, c = PIVOTS["rear_base"], START.rear_shield
+    a, d = PIVOTS["front_base"], START.front_shield
+    # rounding of lengths of 1 m
+    assert bodies["rear_link"].centre == pytest.approx(((b[0] + c[0]) / 2, (b[1] + c[1]) / 2), abs=1e-15)
+    assert bodies["front_link"].centre == pytest.approx(((a[0] + d[0]) / 2, (a[1] + d[1]) / 2), abs=1e-15)
+
+
+def test_shield_is_turned_with_its_centre_of_mass() -> None:
+    # by hand: the arm from C to the published centre, turned by the published -12.6430 deg
+    arm = complex(-489.2 - PIVOTS_MM["rear_shield"][0], 1322.9 - PIVOTS_MM["rear_shield"][1])
+    centre = complex(-814.877, 939.136) + arm * np.exp(1j * math.radians(-12.6430))
+    got = SUPPORT.linkage().bodies["shield"].centre
+    # half of the last printed digit of the centre, in both coordinates
+    assert (1e3 * got[0], 1e3 * got[1]) == pytest.approx((centre.real, centre.imag), abs=0.075)
+
+
+def test_canopy_is_level_with_its_centre_of_mass() -> None:
+    got = SUPPORT.linkage().bodies["canopy"].centre
+    lowered = (395.903 - 419.0, 1800.0 - 2267.0)
+    # half of the last printed digit of the centre
+    assert (1e3 * got[0], 1e3 * got[1]) == pytest.approx((1371.6 + lowered[0], 2309.8 + lowered[1]), abs=0.051)
+
+
+def test_bodies_start_at_rest() -> None:
+    for body in SUPPORT.linkage().bodies.values():
+        assert (body.velocity, body.spin) == ((0.0, 0.0), 0.0)
+
+
+@pytest.mark.parametrize(
+    ("body", "a", "b"),
+    [
+        ("rear_link", PIVOTS_MM["rear_base"], START_MM["rear_shield"]),
+        ("front_link", PIVOTS_MM["front_base"], START_MM["front_shield"]),
+        ("shield", START_MM["rear_shield"], START_MM["hinge"]),
+    ],
+)
+def test_angle_of_a_body_is_that_of_its_bar(body: str, a: Point, b: Point) -> None:
+    # half of the last printed digit, 0.5 um at both ends of a bar of 1 m
+    assert math.degrees(SUPPORT.linkage().bodies[body].angle) == pytest.approx(degrees(a, b), abs=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("pin", "first", "second", "point"),
+    [
+        ("rear_base", "ground", "rear_link", (0.0, 300.0)),
+        ("front_base", "ground", "front_link", (595.0, 619.0)),
+        ("rear_shield", "rear_link", "shield", START_MM["rear_shield"]),
+        ("front_shield", "front_link", "shield", START_MM["front_shield"]),
+        ("shield_canopy", "shield", "canopy", START_MM["hinge"]),
+    ],
+)
+def test_pins_join_the_right_bodies_at_the_right_place(pin: str, first: str, second: str, point: Point) -> None:
+    place = SUPPORT.linkage().pins[pin]
+    assert (place.first, place.second) == (first, second)
+    assert place.first_point == place.second_point
+    # half of the last printed digit
+    assert place.first_point == pytest.approx([c / 1e3 for c in point], abs=5e-7)
+
+
+@pytest.mark.parametrize(("column", "length"), [("front_column", 1602.293), ("rear_column", 1611.659)])
+def test_columns_stand_between_base_and_canopy(column: str, length: float) -> None:
+    got = SUPPORT.linkage().columns[column]
+    assert (got.foot, got.head) == ("ground", "canopy")
+    # half of the last printed digit
+    assert 1e3 * got.start_length == pytest.approx(length, abs=5e-4)
+
+
+def test_tip_of_the_canopy_is_traced() -> None:
+    trace = SUPPORT.linkage().points["tip"]
+    assert trace.body == "canopy"
+    # half of the last printed digit
+    assert trace.point == pytest.approx((3.195903, 1.95), abs=5e-7)
+
+
+# --- in more detail ---
+
+
+def test_parts_that_stand_for_columns_leave_the_canopy() -> None:
+    machine = reference_support()
+    plain, detailed = machine.linkage(), machine.detailed(("front_column",), ())
+    assert plain.bodies["canopy"].mass - detailed.bodies["canopy"].mass == 200.0
+    assert {name: plain.bodies[name] == body for name, body in detailed.bodies.items()} == {
+        "rear_link": True, "front_link": True, "shield": True, "canopy": False,
+    }  # fmt: skip
+    assert machine.detailed((), ()) == plain
+
+
+def test_the_tail_beam_leaves_the_shield_beam() -> None:
+    machine = reference_support()
+    plain, detailed = machine.linkage(), machine.detailed((), ("tail_beam",))
+    shield, tail = detailed.bodies["shield"], detailed.bodies["tail_beam"]
+    whole = plain.bodies["shield"]
+    assert (shield.mass, tail.mass) == (1500.0, 1080.0)
+    together = lumped([Part(mass=b.mass, centre=b.centre, inertia=b.inertia) for b in (shield, tail)])
+    # rounding
+    assert together.centre == pytest.approx(whole.centre, abs=1e-14)
+    assert together.inertia == pytest.approx(whole.inertia, rel=1e-13)
+    assert not detailed.columns["tail_jack"].driven
+    assert detailed.driven == plain.driven
+    # the hinge is on the beam, a bar of 1050 mm: half of that from its centre, to 1 mm of the data
+    hinge = detailed.pins["shield_tail"].first_point
+    assert math.dist(hinge, tail.centre) == pytest.approx(0.525, abs=2e-3)
+
+
+def test_a_support_without_data_of_the_tail_beam_says_what_it_lacks() -> None:
+    lacks = "tail_hinge, tail_jack_foot, tail_jack_head, a part of parts.shield named tail_beam"
+    with pytest.raises(InputError, match=rf"parts\.tail_beam: the machine lacks {lacks}; allowed: Lumped"):
+        SUPPORT.detailed((), ("tail_beam",))
+
+
+def test_a_body_of_which_nothing_would_be_left_is_refused() -> None:
+    rods = (Part(mass=200.0, centre=PIVOTS["rear_head"], inertia=1.0, name="rear_column_rods"),)
+    with pytest.raises(InputError, match=r"parts\.canopy: nothing with inertia is left without rear_column"):
+        support(parts={**PARTS, "canopy": rods}).detailed(("rear_column",), ())
+
+
+@pytest.mark.parametrize("places", [-3, -1, 0, 1, 4])
+@pytest.mark.parametrize("extension", [-3e-3, 1e-5, 5e-4, 0.2])
+def test_columns_extend_from_a_start_that_is_the_reference_posture_but_for_rounding(
+    places: int, extension: float
+) -> None:
+    height = PIVOTS["hinge"][1]
+    machine = support(start_hinge_height=height + places * math.ulp(height))
+    start, posture = machine.start(), machine.extended(extension)
+    assert abs(start.rear_link) < 1e-14
+    assert posture is not None
+    grown = np.subtract(machine.column_lengths(posture), machine.column_lengths(start))
+    np.testing.assert_allclose(grown, extension, rtol=0.0, atol=1e-11)

@@ -1,0 +1,202 @@
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from support_exudyn import ClearancePin, Crank, Scenario, Slide, SliderCrank, Steady, ravn_slider_crank
+from support_exudyn.model.linkage import GROUND
+from tests.cases.machine_cases import contact
+from user_forces import InputError, Value
+
+angles = st.floats(-10.0, 10.0)
+speeds = st.floats(-1e3, 1e3)
+H = 1e-3  # of the numerical differentiation [rad]
+
+
+def machine(crank_length: float = 0.05, ratio: float = 2.4, start_angle: float = 0.0) -> SliderCrank:
+    """A slider-crank whose rod is so many times longer than its crank."""
+    return SliderCrank(
+        crank_length=crank_length,
+        rod_length=crank_length * ratio,
+        crank_mass=0.3,
+        rod_mass=0.2,
+        slider_mass=0.1,
+        crank_inertia=1e-4,
+        rod_inertia=2e-4,
+        start_angle=start_angle,
+    )
+
+
+machines = st.builds(machine, crank_length=st.floats(0.01, 2.0), ratio=st.floats(1.2, 10.0), start_angle=angles)
+
+
+def slope(function: Callable[[float], float], x: float) -> float:
+    """Derivative by five points: its error is h^4/30 of the fifth derivative."""
+    near, far = function(x + H) - function(x - H), function(x + 2 * H) - function(x - 2 * H)
+    return (8.0 * near - far) / (12.0 * H)
+
+
+# --- closed form ---
+
+
+@given(one=machines, angle=angles)
+def test_slider_is_a_rods_length_from_the_crank_pin(one: SliderCrank, angle: float) -> None:
+    r, x = one.crank_length, one.slider_position(angle)
+    # rounding
+    assert math.hypot(x - r * math.cos(angle), r * math.sin(angle)) == pytest.approx(one.rod_length, rel=1e-14)
+    # of the two places where it could be, the one ahead of the crank pin
+    assert x > r * math.cos(angle)
+
+
+@given(one=machines, angle=angles, speed=speeds)
+def test_speed_is_the_derivative_of_the_position(one: SliderCrank, angle: float, speed: float) -> None:
+    expected = slope(one.slider_position, angle) * speed
+    # fifth derivatives up to 80 crank lengths, at rods of 1.2, and rounding of 10 of them over h: 3e-12 each
+    scale = one.crank_length * abs(speed)
+    assert one.slider_speed(angle, speed) == pytest.approx(expected, abs=1e-11 * scale + 1e-300)
+
+
+@given(one=machines, angle=angles, speed=speeds)
+def test_acceleration_is_the_derivative_of_the_speed(one: SliderCrank, angle: float, speed: float) -> None:
+    expected = slope(lambda a: one.slider_speed(a, speed), angle) * speed
+    # sixth derivatives of the position up to 600 crank lengths, at rods of 1.2: 2e-11
+    scale = one.crank_length * speed**2
+    assert one.slider_acceleration(angle, speed) == pytest.approx(expected, abs=4e-11 * scale + 1e-300)
+
+
+@given(one=machines, angle=angles, speed=speeds)
+def test_motion_is_symmetric_about_the_guide(one: SliderCrank, angle: float, speed: float) -> None:
+    assert one.slider_position(-angle) == one.slider_position(angle)
+    assert one.slider_speed(-angle, speed) == -one.slider_speed(angle, speed)
+    assert one.slider_acceleration(-angle, speed) == one.slider_acceleration(angle, speed)
+
+
+def test_dead_centres_by_hand() -> None:
+    ravn = ravn_slider_crank()
+    # 120 mm plus and minus 50 mm; rounding
+    assert ravn.slider_position(0.0) == pytest.approx(0.17, rel=1e-15)
+    assert ravn.slider_position(math.pi) == pytest.approx(0.07, rel=1e-15)
+    # it stands there; sin(pi) is 1e-16
+    assert ravn.slider_speed(0.0, 100.0) == 0.0
+    assert ravn.slider_speed(math.pi, 100.0) == pytest.approx(0.0, abs=1e-14)
+    # w^2 r (1 + r/l) and w^2 r (1 - r/l); rounding
+    assert ravn.slider_acceleration(0.0, 100.0) == pytest.approx(-1e4 * 0.05 * (1.0 + 5.0 / 12.0), rel=1e-14)
+    assert ravn.slider_acceleration(math.pi, 100.0) == pytest.approx(1e4 * 0.05 * (1.0 - 5.0 / 12.0), rel=1e-14)
+
+
+def test_upright_crank_by_hand() -> None:
+    ravn = ravn_slider_crank()
+    along = math.sqrt(0.12**2 - 0.05**2)
+    # the slider moves as fast as the crank pin; cos(pi/2) is 6e-17
+    assert ravn.slider_position(math.pi / 2) == pytest.approx(along, rel=1e-14)
+    assert ravn.slider_speed(math.pi / 2, 100.0) == pytest.approx(-5.0, rel=1e-14)
+    assert ravn.slider_acceleration(math.pi / 2, 100.0) == pytest.approx(1e4 * 0.05**2 / along, rel=1e-13)
+
+
+# --- the mechanism ---
+
+
+@given(one=machines)
+def test_pins_coincide_and_bodies_have_their_lengths(one: SliderCrank) -> None:
+    linkage = one.linkage()
+    place = {name: np.array(pin.first_point) for name, pin in linkage.pins.items()}
+    for name, pin in linkage.pins.items():
+        assert pin.second_point == pytest.approx(place[name], abs=0.0)
+    main, crank_pin, slider_pin = (place[name] for name in ("main", "crank_pin", "slider_pin"))
+    assert main == pytest.approx(np.zeros(2), abs=0.0)
+    # rounding
+    assert np.linalg.norm(crank_pin) == pytest.approx(one.crank_length, rel=1e-14)
+    assert np.linalg.norm(slider_pin - crank_pin) == pytest.approx(one.rod_length, rel=1e-14)
+    assert slider_pin == pytest.approx([one.slider_position(one.start_angle), 0.0], abs=0.0)
+    # the engine takes it with ideal pins
+    Scenario(machine=one, drive=Steady(rate=1.0), duration=1.0)
+
+
+@given(one=machines)
+def test_bodies_lie_along_crank_and_rod_with_their_centres_in_the_middle(one: SliderCrank) -> None:
+    linkage = one.linkage()
+    ends = {
+        "crank": (linkage.pins["main"].first_point, linkage.pins["crank_pin"].first_point),
+        "rod": (linkage.pins["crank_pin"].first_point, linkage.pins["slider_pin"].first_point),
+    }
+    for name, (start, end) in ends.items():
+        body, along = linkage.bodies[name], np.subtract(end, start)
+        # rounding of lengths up to 22 m
+        assert body.centre == pytest.approx(0.5 * np.add(start, end), abs=1e-14)
+        direction = np.array([math.cos(body.angle), math.sin(body.angle)])
+        assert direction == pytest.approx(along / np.linalg.norm(along), abs=1e-13)
+    slider = linkage.bodies["slider"]
+    assert (slider.centre, slider.angle) == (linkage.pins["slider_pin"].first_point, 0.0)
+
+
+def test_masses_are_those_given() -> None:
+    bodies = machine().linkage().bodies
+    assert {name: body.mass for name, body in bodies.items()} == {"crank": 0.3, "rod": 0.2, "slider": 0.1}
+    assert (bodies["crank"].inertia, bodies["rod"].inertia) == (1e-4, 2e-4)
+
+
+def test_crank_is_driven_and_slider_guided() -> None:
+    linkage = machine().linkage()
+    bodies = [(pin.first, pin.second) for pin in linkage.pins.values()]
+    assert bodies == [(GROUND, "crank"), ("crank", "rod"), ("slider", "rod")]
+    assert linkage.cranks == {"crank": Crank(body="crank")}
+    (guide,) = linkage.slides.values()
+    # through the main pin, so along x at height 0
+    assert isinstance(guide, Slide)
+    assert (guide.body, guide.point[1], guide.direction) == ("slider", 0.0, 0.0)
+
+
+def test_the_slider_is_traced() -> None:
+    linkage = machine().linkage()
+    assert linkage.points["slider"].point == linkage.bodies["slider"].centre
+
+
+@pytest.mark.parametrize("turns", [1.0, -100.0])
+def test_the_crank_turns_right_round_as_often_as_asked(turns: float) -> None:
+    drive = Steady(rate=2.0 * math.pi * turns)
+    assert Scenario(machine=machine(), drive=drive, duration=1.0).drive == drive
+
+
+@pytest.mark.parametrize("name", ["main", "crank_pin", "slider_pin"])
+def test_any_pin_may_have_clearance(name: str) -> None:
+    loose = ClearancePin(contact=contact())
+    assert Scenario(machine=machine(), duration=1.0, pins={name: loose}).clearance_pins == {name: loose}
+
+
+# --- bad input, and back from data ---
+
+
+@pytest.mark.parametrize("ratio", [1.0, 0.5])
+def test_a_rod_that_does_not_let_the_crank_round_is_refused(ratio: float) -> None:
+    length = 0.05 * ratio
+    with pytest.raises(InputError, match=rf"rod_length = {length} m: allowed: > crank_length = 0\.05 m"):
+        machine(ratio=ratio)
+
+
+@pytest.mark.parametrize(
+    "field",
+    [
+        "crank_length",
+        "rod_length",
+        "crank_mass",
+        "rod_mass",
+        "slider_mass",
+        "crank_inertia",
+        "rod_inertia",
+    ],
+)
+def test_what_must_be_positive_is_refused_at_zero(field: str) -> None:
+    fields = {name: getattr(machine(), name) for name in vars(machine())} | {field: 0.0}
+    with pytest.raises(InputError, match=rf"SliderCrank\.{field} = 0\.0: .*allowed: > 0"):
+        SliderCrank(**fields)
+
+
+def test_a_slider_crank_comes_back_from_json() -> None:
+    one = machine(start_angle=0.3)
+    assert Value.from_data(json.loads(json.dumps(one.to_data()))) == one

@@ -1,0 +1,94 @@
+"""A contact at all records at once is what it is record by record."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from support_exudyn import ClearancePin
+from support_exudyn.mechanics.contact_history import RelativeMotion, journal_arm, series
+from support_exudyn.mechanics.contact_state import PinMemory
+from tests.cases.run_cases import paper_contact
+from user_forces import Ambrosio, DepthSpeed, FrictionLaw, Frictionless, Touch, value
+from user_forces.contact import SlipHistory
+
+BASE = paper_contact(1.5, 0.0)
+NORMAL = replace(BASE.normal, restitution=0.5, damping_speed=DepthSpeed())  # asks for the mass that moves
+CLEARANCE = BASE.bearing.clearance
+
+
+@value
+class Branching(FrictionLaw):
+    """Coulomb's friction with an `if`, which takes numbers only."""
+
+    def __call__(self, slip: float, normal_force: float, deflection: float = 0.0) -> float:
+        if slip > 0.0:
+            return -0.25 * normal_force
+        return 0.25 * normal_force
+
+
+speeds = st.floats(-1.0, 1.0)
+records = st.lists(
+    st.tuples(
+        st.floats(0.0, 7.0),  # direction of the journal from the bore's centre, and of the bore's axes
+        st.floats(0.0, 7.0),
+        st.floats(-1e-4, -1e-8) | st.floats(1e-8, 1e-4),  # depth
+        speeds,
+        speeds,
+        speeds,
+        speeds,
+        st.floats(0.0, 0.05),  # speed of the touch, often less than what the depth stores
+        st.booleans(),  # in contact
+    ),
+    min_size=1,
+    max_size=6,
+)
+
+
+@pytest.mark.parametrize("friction", [Frictionless(), Ambrosio(sliding_coefficient=0.25), Branching()])
+@given(rows=records)
+def test_all_at_once_is_one_by_one(friction: FrictionLaw, rows: list[tuple[float, ...]]) -> None:
+    pin = ClearancePin(contact=replace(BASE, normal=NORMAL, friction=friction))
+    angle, axes, depth, vx, vy, bore_spin, journal_spin, touch, closed = np.array(rows, dtype=np.float64).T
+    far = CLEARANCE + depth
+    moving = RelativeMotion(
+        far * np.cos(angle),
+        far * np.sin(angle),
+        vx,
+        vy,
+        bore_spin,
+        journal_spin,
+        np.cos(axes),
+        np.sin(axes),
+    )
+    # heavy along the bore's own x, light along y: what is felt hangs on the direction
+    memories = [
+        PinMemory(bool(c), v, 0.0, 0.0, 0.0, 0.0, 1e-3, 4e-4, 1e-2) for c, v in zip(closed, touch, strict=True)
+    ]
+    found = series(pin, moving, memories)
+    for n, memory in enumerate(memories):
+        x, y = moving.x[n], moving.y[n]
+        c, s = moving.cos_bore[n], moving.sin_bore[n]
+        known = Touch(memory.approach_speed, memory.mobility.mass(c * x + s * y, c * y - s * x))
+        motion = x, y, vx[n], vy[n], bore_spin[n], journal_spin[n]
+        want = pin.contact.force(*motion, known if memory.in_contact else None, SlipHistory(0.0, 0.0, 0.0))
+        for name in ("force_x", "force_y", "normal_force", "friction_force", "depth", "slip"):
+            got = getattr(found, name)[n]
+            # a depth of 1e-8 is known to 1e-11 of itself; powers and quotients of it to a few times that
+            assert got == pytest.approx(getattr(want, name), rel=1e-9, abs=1e-9 * (1.0 + want.normal_force)), (
+                name
+            )
+        stored = pin.contact.normal.elastic_energy(depth[n]) if depth[n] > 0.0 else 0.0
+        assert found.stored[n] == pytest.approx(stored, rel=1e-9)
+        assert found.approach_speed[n] == (memory.approach_speed if memory.in_contact else 0.0)
+
+
+def test_the_contact_point_lies_midway_in_the_overlap() -> None:
+    depth = np.array([0.0, 1e-4])
+    pin = ClearancePin(contact=BASE)
+    want = BASE.bearing.journal_radius - 0.5 * depth
+    np.testing.assert_allclose(journal_arm(pin, depth), want, rtol=1e-14)

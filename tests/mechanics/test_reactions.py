@@ -1,0 +1,86 @@
+"""Joint forces and accelerations of redundant runs from their motion."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from studies.common.paper_machine import oil_columns
+from support_exudyn import (
+    CubicStep,
+    Drive,
+    Held,
+    Reciprocating,
+    Scenario,
+    SolverSettings,
+    simulate,
+    two_body_columns,
+)
+from support_exudyn.mechanics.body_motion import BodyMotion
+from support_exudyn.mechanics.kinetics import kinetics_of
+from support_exudyn.mechanics.reactions import Held as HeldParts
+from support_exudyn.mechanics.reactions import matrix, turning
+from tests.cases.run_cases import loose_support, support
+
+STROKE = CubicStep(stroke=0.05, start=0.02, end=0.2)
+
+
+def heavy() -> Scenario:
+    """With guides between bodies that turn."""
+    return support(columns=two_body_columns(), duration=0.1)
+
+
+def test_rows_are_those_of_one_instant() -> None:
+    linkage = heavy().linkage
+    random = np.random.default_rng(1)
+    position, velocity = random.normal(scale=0.3, size=(2, 4, 3 * len(linkage.bodies)))
+    motion = BodyMotion(linkage, position, velocity, velocity)
+    held = HeldParts(
+        list(linkage.pins.values()),
+        list(linkage.columns.values()),
+        list(linkage.cranks.values()),
+        list(linkage.slides.values()),
+    )
+    kinetics = kinetics_of(linkage)
+    here, h = matrix(motion, held), 1e-6
+    np.testing.assert_allclose(here, [kinetics.rows(one) for one in position], atol=1e-13)
+    later, earlier = (
+        np.array([kinetics.rows(q + s * h * v) for q, v in zip(position, velocity, strict=True)])
+        for s in (1, -1)
+    )
+    changed = np.einsum("nrk,nk->nr", later - earlier, velocity) / (2.0 * h)
+    np.testing.assert_allclose(turning(motion, held), changed, atol=1e-7)
+
+
+@pytest.mark.parametrize("speed", [0.0, 5e-324, 1e-200, 1e-7])
+def test_rows_hardly_turn_with_bodies_that_hardly_move(speed: float) -> None:
+    linkage = heavy().linkage
+    held = HeldParts(list(linkage.pins.values()), list(linkage.columns.values()), [], [])
+    still = np.zeros((1, 3 * len(linkage.bodies)))
+    found = turning(BodyMotion(linkage, still, still + speed, still), held)
+    assert np.abs(found).max() <= 100.0 * speed**2  # of rows that are some metres long
+
+
+@pytest.mark.parametrize("drive", [STROKE, Reciprocating(stroke=0.02, period=0.1)])
+def test_forces_are_those_of_free_coordinates_also_after_a_break(drive: Drive) -> None:
+    scene = support(duration=0.1, drive=drive, step=1e-3)
+    mine, other = simulate(scene), simulate(replace(scene, formulation="reduced"))
+    for name in mine.channels:
+        if name.endswith(".force"):
+            # measured: 3e-6. Multipliers overshoot in the first steps after a jump of the drive's acceleration
+            np.testing.assert_allclose(
+                mine[name], other[name], atol=1e-5 * np.abs(other[name]).max(), rtol=0.0, err_msg=name
+            )
+
+
+@pytest.mark.parametrize("columns", [{}, oil_columns(), two_body_columns()])
+def test_short_steps_show_no_rounding_in_forces(columns: dict) -> None:  # type: ignore[type-arg]
+    # the journal falls freely: nothing shakes. Multipliers scatter by 1e5 N at this step
+    scene = loose_support(duration=1e-3, drive=Held(), step=5e-7, record_period=1e-4, columns=columns)
+    result = simulate(replace(scene, solver=SolverSettings(impact_steps=64, backend="symbolic")))
+    for name in ("pin.front_base.force", "pin.shield_canopy.force", "canopy.angular_acceleration"):
+        values = result[name]
+        smooth = np.polyval(np.polyfit(result.time, values, 4), result.time)
+        assert np.abs(values - smooth).max() < 1e-5 * np.abs(values).max(), name

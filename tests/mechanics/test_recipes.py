@@ -1,0 +1,157 @@
+"""Which channels a scenario asks for, and what of a run they need."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from support_exudyn import ClearancePin, OilColumn, Scenario, SolverSettings, bore_area, ravn_slider_crank
+from support_exudyn.mechanics.channels import EVERYTHING, Part, Recipe, chosen
+from support_exudyn.mechanics.trajectory import Trajectory
+from support_exudyn.scenario.recorded_channels import channels, needs
+from tests.cases.machine_cases import contact, support
+from user_forces import InputError, Value
+
+SUPPORT = support()
+OIL = OilColumn(bore_area=bore_area(0.25, 2), oil_length=0.5, bulk_modulus=1.5e9)
+LOOSE = {"rear_base": ClearancePin(contact=contact())}
+PLAIN = Scenario(machine=SUPPORT, duration=1.0)
+NAMES = list(PLAIN.recipes)
+
+
+def scenario(*asked: str, **changes: Any) -> Scenario:
+    """Without an audit, which looks at everything."""
+    fields = {"machine": SUPPORT, "duration": 1.0, "channels": asked, "solver": SolverSettings(audit=False)}
+    return Scenario(**fields | changes)
+
+
+def names(one: Scenario) -> list[str]:
+    return chosen(one.recipes, one.channels)
+
+
+def test_an_audit_needs_everything() -> None:
+    assert needs(scenario("tip.*", solver=SolverSettings())) == EVERYTHING
+
+
+def test_all_are_asked_for_unless_said_otherwise() -> None:
+    assert PLAIN.channels == ("*",)
+    assert names(PLAIN) == NAMES
+    assert needs(PLAIN) == EVERYTHING
+    assert len(NAMES) == len(set(NAMES))
+
+
+def test_a_pattern_asks_for_what_it_matches_and_time_is_always_there() -> None:
+    assert names(scenario("tip.*")) == ["time", "tip.x", "tip.y"]
+    assert names(scenario("tip.y", "tip.?")) == ["time", "tip.x", "tip.y"]
+    assert names(scenario("pin.rear_base.force")) == ["time", "pin.rear_base.force"]
+    assert names(scenario()) == ["time"]
+    assert names(scenario("time")) == ["time"]
+    assert names(scenario("[!pe]*")) == [name for name in NAMES if name[0] not in "pe"]
+
+
+@pytest.mark.parametrize("wrong", ["pin.rear_bse.*", "Tip.*", "tip", "", "pin.rear_base.depth"])
+def test_a_pattern_that_matches_nothing_is_refused(wrong: str) -> None:
+    with pytest.raises(InputError) as caught:
+        scenario("tip.*", wrong)
+    said = str(caught.value)
+    assert said.startswith(
+        f"Scenario: channels = {wrong!r}: matches no channel; allowed: names of channels, or "
+    )
+    assert any(name in said for name in NAMES[1:])  # what is near, or the first of them
+
+
+def test_the_nearest_names_are_told() -> None:
+    with pytest.raises(InputError, match=r"among them .*pin\.rear_base\.force"):
+        scenario("pin.rear_bse.force")
+
+
+@pytest.mark.parametrize("wrong", ["tip.*", (1,), None], ids=repr)
+def test_something_else_than_names_is_refused(wrong: object) -> None:
+    with pytest.raises(InputError, match=r"Scenario\.channels"):
+        Scenario(machine=SUPPORT, duration=1.0, channels=wrong)
+
+
+@given(st.lists(st.sampled_from(NAMES), max_size=5))
+def test_they_come_back_from_json(asked: list[str]) -> None:
+    one = scenario(*asked)
+    assert Value.from_data(json.loads(json.dumps(one.to_data()))) == one
+
+
+P, V, A, J, C, O, I = (  # noqa: E741
+    Part.POSITION,
+    Part.VELOCITY,
+    Part.ACCELERATION,
+    Part.JOINTS,
+    Part.CONTACTS,
+    Part.OIL,
+    Part.INTEGRALS,
+)
+
+
+@pytest.mark.parametrize(
+    ("pattern", "ideal", "loose", "oil"),
+    [
+        ("tip.*", P, P, P),
+        ("*_column.length", P, P, P),
+        ("*.angle", P, P, P),
+        ("shield.velocity_x", V, V, V),
+        ("energy.kinetic", V, V, V),
+        ("*.angular_acceleration", A, A, A),
+        ("pin.rear_base.*", J, P | V | C, J),
+        ("pin.front_base.*", J, J, J),
+        ("*_column.force", J, J, P | V | Part.OIL),
+        ("energy.potential", P, P, P),
+        ("energy.elastic", Part.NOTHING, P | V | C, P | V | Part.OIL),
+        ("energy.*_loss", I, I, I),
+        ("energy.work", I, I, I),
+        ("energy.balance", P | V | I, P | V | I | C, P | V | I | Part.OIL),
+        ("time", Part.NOTHING, Part.NOTHING, Part.NOTHING),
+    ],
+)
+def test_what_is_needed(pattern: str, ideal: Part, loose: Part, oil: Part) -> None:
+    assert needs(scenario(pattern)) == ideal
+    assert needs(scenario(pattern, pins=LOOSE)) == loose
+    assert needs(scenario(pattern, columns=dict.fromkeys(SUPPORT.linkage().columns, OIL))) == oil
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_what_is_needed_is_enough(name: str) -> None:
+    """Every channel follows from the parts that it says, all others being without columns or entries."""
+    one = scenario(name)
+    linkage, part = one.linkage, needs(one)
+    rows = 3
+
+    def motion(which: Part) -> np.ndarray:
+        return np.ones((rows, 3 * len(linkage.bodies) if which in part else 0))
+
+    def named(known: object, shape: tuple[int, ...]) -> dict[str, np.ndarray]:
+        return {key: np.ones(shape) for key in known} if Part.JOINTS in part else {}  # type: ignore[attr-defined]
+
+    integral = np.ones(rows if Part.INTEGRALS in part else 0)
+    run = Trajectory(
+        time=np.arange(rows, dtype=float),
+        position=motion(Part.POSITION),
+        velocity=motion(Part.VELOCITY),
+        acceleration=motion(Part.ACCELERATION),
+        ideal_pins=named(linkage.pins, (rows, 2)),
+        contacts={},
+        columns=named(linkage.columns, (rows,)),
+        cranks={},
+        slides={},
+        oil_energy=np.zeros(rows),
+        work=integral,
+        damping_loss=integral,
+        friction_loss=integral,
+    )
+    assert channels(one, run)[name].values.shape == (rows,)
+
+
+def test_of_cranks_and_guides() -> None:
+    known: dict[str, Recipe] = Scenario(machine=ravn_slider_crank(), duration=1.0).recipes
+    for name in ("crank.moment", "guide.force", "guide.moment"):
+        assert known[name].needs == Part.JOINTS

@@ -1,0 +1,405 @@
+"""Motion, constraints, reactions and sections in space, against formulas of other sources."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+from scipy.integrate import quad
+from scipy.spatial.transform import Rotation
+
+from support_exudyn import ClearancePin, Scenario, reference_support
+from support_exudyn.formulations.redundant.clearance.attachment import Attachment, in_plane
+from support_exudyn.formulations.redundant.space.section_pin import SectionEnd, SectionMover
+from support_exudyn.formulations.redundant.space.section_pin import half_way as half_way_of_one
+from support_exudyn.formulations.redundant.space.sections import half_way, lobatto, section_motion, sections
+from support_exudyn.mechanics.space.constraints import End, Row, all_rows, frame_of, independent, matrix
+from support_exudyn.mechanics.space.kinetics import SpatialKinetics, tensor
+from support_exudyn.mechanics.space.motion import (
+    UNTURNED,
+    SpatialMotion,
+    motion_of,
+    parameter_rates,
+    rotation,
+    turning_matrix,
+)
+from support_exudyn.mechanics.space.reactions import inertia_forces, reactions
+from support_exudyn.model.spatial_linkage import Bearing, SpatialBody, SpatialColumn, SpatialLinkage
+from tests.cases.law_cases import NORMAL_LAWS
+from tests.cases.machine_cases import contact
+from user_forces import LankaraniNikravesh, LoadError, NormalLaw, Touch
+from user_forces.normal.part import PartOf
+
+unit = st.floats(-1.0, 1.0, allow_subnormal=False)
+vectors = st.tuples(unit, unit, unit)
+
+
+@st.composite
+def directions(draw: st.DrawFn) -> tuple[float, float, float]:
+    found = np.array(draw(vectors))
+    size = np.linalg.norm(found)
+    assume(size > 0.1)
+    x, y, z = (found / size).tolist()
+    return x, y, z
+
+
+@st.composite
+def parameters(draw: st.DrawFn) -> np.ndarray:
+    """Euler parameters of length 1."""
+    found = np.array(draw(st.tuples(unit, unit, unit, unit)))
+    size = np.linalg.norm(found)
+    assume(size > 0.1)
+    return found / size
+
+
+# --- motion ---
+
+
+@given(p=parameters(), spin=vectors)
+def test_euler_parameters_turn_as_quaternions_do(p: np.ndarray, spin: tuple[float, float, float]) -> None:
+    turn = rotation(p)
+    np.testing.assert_allclose(turn, Rotation.from_quat([*p[1:], p[0]]).as_matrix(), atol=1e-14)  # rounding
+    rates = parameter_rates(p, np.array(spin))
+    np.testing.assert_allclose(2.0 * turning_matrix(p) @ rates, spin, atol=1e-14)  # inverse; rounding
+    assert p @ rates == pytest.approx(0.0, abs=1e-15)  # the length stays 1
+    # A' = omega x A, by central differences: h^2/6 of third derivatives below 10
+    h = 1e-5
+    slope = (rotation(p + h * rates) - rotation(p - h * rates)) / (2.0 * h)
+    np.testing.assert_allclose(slope, np.cross(spin, turn, axisb=0, axisc=0), atol=1e-8)
+
+
+BODY = {"mass": 2.0, "inertia": (1.0, 1.2, 0.9, 0.1, -0.05, 0.02)}
+
+
+@st.composite
+def machines(draw: st.DrawFn) -> SpatialLinkage:
+    """Two bodies, a bearing between them and one on the ground, a column from far away."""
+    first, second = (SpatialBody(centre=draw(vectors), **BODY) for _ in range(2))
+    axis, point = draw(directions()), draw(vectors)
+    return SpatialLinkage(
+        bodies={"a": first, "b": second},
+        bearings={
+            "p": Bearing(
+                first="a",
+                second="b",
+                first_point=point,
+                second_point=draw(vectors),
+                first_axis=axis,
+                second_axis=axis,
+                pin="p",
+            ),
+            "q": Bearing(
+                first="ground", second="a", first_point=point, second_point=point, first_axis=axis, pin="q"
+            ),
+        },
+        columns={
+            "k": SpatialColumn(foot="a", head="b", foot_point=(0.0, -20.0, 3.0), head_point=point, column="k")
+        },
+    )
+
+
+@st.composite
+def states(draw: st.DrawFn) -> tuple[np.ndarray, np.ndarray]:
+    """Coordinates of two bodies and velocities v and omega of both (6 each)."""
+    position = np.concatenate([[*draw(vectors), *(draw(parameters()) - UNTURNED)] for _ in range(2)])
+    velocity = np.concatenate([[*draw(vectors), *draw(vectors)] for _ in range(2)])
+    return position, velocity
+
+
+def coordinate_rates(position: np.ndarray, velocity: np.ndarray) -> np.ndarray:
+    found = []
+    for q, v in zip(position.reshape(2, 7), velocity.reshape(2, 6), strict=True):
+        found += [*v[:3], *parameter_rates(q[3:] + UNTURNED, v[3:])]
+    return np.array(found)
+
+
+def at(linkage: SpatialLinkage, position: np.ndarray) -> SpatialMotion:
+    return motion_of(linkage, position, np.zeros_like(position))
+
+
+@given(linkage=machines(), state=states())
+def test_rows_are_the_rates_of_what_is_held(
+    linkage: SpatialLinkage, state: tuple[np.ndarray, np.ndarray]
+) -> None:
+    position, velocity = state
+    rows = all_rows(linkage, (), ("k",))
+    shifts = [row for row in rows if not row.kind.startswith("tilt")]
+
+    def held(q: np.ndarray) -> np.ndarray:
+        """Written out anew: coordinates of the second point in the first body's axes; length of the column."""
+        where = {"ground": (np.eye(3), np.zeros(3), np.zeros(3))}
+        for name, own in zip(linkage.bodies, q.reshape(2, 7), strict=True):
+            p = own[3:] + UNTURNED
+            a, b, c, d = p
+            skew = np.array([[0.0, -d, c], [d, 0.0, -b], [-c, b, 0.0]])
+            # not divided by the length, which changes in the second order only
+            turn = (a * a - p[1:] @ p[1:]) * np.eye(3) + 2.0 * np.outer(p[1:], p[1:]) + 2.0 * a * skew
+            where[name] = turn, np.array(linkage.bodies[name].centre), own[:3]
+
+        def point(body: str, start: tuple[float, float, float]) -> np.ndarray:
+            turn, centre, moved = where[body]
+            return centre + moved + turn @ (np.array(start) - centre)
+
+        found = []
+        for row in shifts:
+            if row.kind == "column":
+                column = linkage.columns[row.name]
+                apart = point(column.head, column.head_point) - point(column.foot, column.foot_point)
+                found.append(np.linalg.norm(apart))
+                continue
+            b = linkage.bearings[row.name]
+            apart = point(b.second, b.second_point) - point(b.first, b.first_point)
+            k = {"across_1": 0, "across_2": 1, "along": 2}[row.kind]
+            found.append((where[b.first][0].T @ apart) @ frame_of(b.first_axis)[:, k])
+        return np.array(found)
+
+    rate, h = coordinate_rates(position, velocity), 1e-5
+    slope = (held(position + h * rate) - held(position - h * rate)) / (2.0 * h)
+    got = matrix(at(linkage, position), shifts)[0] @ velocity
+    # central differences: h^2/6 of third derivatives up to 1e3, and rounding of 20 m over 2e-5
+    np.testing.assert_allclose(got, slope, atol=1e-7)
+
+
+@given(linkage=machines(), state=states())
+def test_tilt_rows_are_the_rates_of_one_axis_in_the_other(
+    linkage: SpatialLinkage, state: tuple[np.ndarray, np.ndarray]
+) -> None:
+    # both bodies turned alike, so that the axes coincide: the rate of the journal's axis in the bore's axes
+    position, velocity = state
+    position[10:] = position[3:7]
+    motion = at(linkage, position)
+    tilts = [Row("p", "tilt_1"), Row("p", "tilt_2")]
+    frame = motion.turn[0, 0] @ frame_of(linkage.bearings["p"].first_axis)
+    drift = np.cross(velocity[9:12] - velocity[3:6], frame[:, 2])
+    # turning about the first axis moves z against the second, about the second along the first; rounding
+    expected = [-drift @ frame[:, 1], drift @ frame[:, 0]]
+    np.testing.assert_allclose(matrix(motion, tilts)[0] @ velocity, expected, atol=1e-12)
+
+
+@given(linkage=machines(), state=states(), seed=st.integers(0, 1000))
+def test_independent_rows_are_as_many_as_the_rank(
+    linkage: SpatialLinkage, state: tuple[np.ndarray, np.ndarray], seed: int
+) -> None:
+    motion = at(linkage, state[0])
+    rows = all_rows(linkage, (), ("k",))
+    # all of them twice, in any order: half say nothing new
+    order = np.random.default_rng(seed).permutation(2 * len(rows))
+    doubled = [(rows + rows)[n] for n in order]
+    kept = independent(doubled, matrix(motion, doubled)[0])
+    values = matrix(motion, rows)[0]
+    singular = np.linalg.svd(values / np.linalg.norm(values, axis=1)[:, None], compute_uv=False)
+    assume(singular.min() > 1e-4)  # else it is a matter of taste
+    assert len(kept) == len(rows)
+    assert set(kept) == set(rows)
+
+
+@given(linkage=machines(), state=states(), forces=st.lists(unit, min_size=12, max_size=12))
+def test_reactions_are_the_smallest_that_do_it(
+    linkage: SpatialLinkage, state: tuple[np.ndarray, np.ndarray], forces: list[float]
+) -> None:
+    motion = at(linkage, state[0])
+    rows = all_rows(linkage, (), ("k",))
+    doubled = rows + rows
+    c = matrix(motion, doubled)[0]
+    assume(np.linalg.svd(c[: len(rows)], compute_uv=False).min() > 0.05)
+    found = reactions(motion, doubled, np.array(forces).reshape(1, 2, 6))[0]
+    expected = np.linalg.pinv(c.T) @ np.array(forces)
+    # rounding, which a lift of 1e-9 multiplies, of rows with arms of 20 m; measured 2e-6
+    np.testing.assert_allclose(found, expected, atol=3e-5)
+    np.testing.assert_allclose(found[: len(rows)], found[len(rows) :], atol=3e-5)  # alike what is alike
+
+
+@given(linkage=machines(), state=states(), impulse=st.lists(unit, min_size=12, max_size=12), jump=unit)
+def test_response_obeys_momentum_and_constraints(
+    linkage: SpatialLinkage, state: tuple[np.ndarray, np.ndarray], impulse: list[float], jump: float
+) -> None:
+    motion = at(linkage, state[0])
+    rows = all_rows(linkage, (), ("k",))
+    c = matrix(motion, rows)[0]
+    assume(np.linalg.svd(c, compute_uv=False).min() > 0.05)
+    system = SpatialKinetics(motion, rows)
+    change, multipliers = system.respond(np.array(impulse), jump)
+    # rounding, of conditions up to 1e5
+    np.testing.assert_allclose(system.mass() @ change + c.T @ multipliers, impulse, atol=1e-9)
+    np.testing.assert_allclose(c @ change, np.full(len(rows), jump), atol=1e-9)
+
+
+@given(p=parameters(), spin=vectors, rate=vectors)
+def test_inertia_forces_are_the_rate_of_momentum(
+    p: np.ndarray, spin: tuple[float, float, float], rate: tuple[float, float, float]
+) -> None:
+    body = SpatialBody(centre=(0.0, 0.0, 0.0), **BODY)
+    linkage = SpatialLinkage(bodies={"a": body})
+    w, alpha, turn = np.array(spin), np.array(rate), rotation(p)
+    q = np.array([0.0, 0.0, 0.0, *(p - UNTURNED)])
+    motion = motion_of(linkage, q, np.array([0.0, 0.0, 0.0, *parameter_rates(p, w)]))
+    found = inertia_forces(motion, np.array([1.0, 2.0, 3.0, *alpha]).reshape(1, 1, 6))[0, 0]
+    np.testing.assert_allclose(found[:3], [2.0, 4.0, 6.0])
+    j = tensor(body)
+    own = turn.T @ w
+    # Euler's equations in the body's axes; rounding
+    expected = turn @ (j @ (turn.T @ alpha) + np.cross(own, j @ own))
+    np.testing.assert_allclose(found[3:], expected, atol=1e-12)
+
+
+# --- sections ---
+
+
+@pytest.mark.parametrize("number", [2, 3, 4, 5, 9, 17, 64])
+def test_lobatto_is_exact_for_polynomials(number: int) -> None:
+    places, weights = lobatto(number)
+    assert places[0] == -1.0
+    assert places[-1] == 1.0
+    assert len(places) == number
+    np.testing.assert_array_equal(places, -places[::-1])
+    np.testing.assert_allclose(weights, weights[::-1], rtol=1e-12)
+    assert weights.min() > 0.0
+    assert weights.sum() == pytest.approx(1.0, rel=1e-14)
+    for degree in range(2 * number - 2):
+        mean = 1.0 / (degree + 1) if degree % 2 == 0 else 0.0
+        # roots of the derivative of a polynomial of degree 63 lose some digits
+        assert weights @ places**degree == pytest.approx(mean, abs=1e-14 if number < 20 else 1e-8)
+
+
+def test_sections_share_the_bearing() -> None:
+    place = {"first": "ground", "second": "a", "first_point": (0.0, 0.0, 0.0), "second_point": (0.0, 0.0, 0.0)}
+    whole = sections(Bearing(length=0.4, share=0.5, pin="p", **place), 5)
+    assert sum(s.share for s in whole) == pytest.approx(0.5, rel=1e-14)
+    assert (whole[0].place, whole[-1].place) == (-0.2, 0.2)
+    assert sections(Bearing(pin="p", share=0.5, **place), 5) == [(0.0, 0.5)]
+
+
+@given(depth=st.floats(1e-7, 1e-4), rate=st.floats(-0.05, 0.05), number=st.integers(2, 9))
+@pytest.mark.parametrize("law", NORMAL_LAWS, ids=lambda law: type(law).__name__)
+def test_sections_at_equal_depth_add_up_to_the_law(
+    law: NormalLaw, depth: float, rate: float, number: int
+) -> None:
+    _, weights = lobatto(number)
+    parts = [PartOf(law=law, share=share) for share in weights.tolist()]
+    touch = Touch(0.05, 100.0)
+    try:
+        whole = law(depth, rate, touch), law.elastic_force(depth), law.elastic_energy(depth)
+    except LoadError:
+        assume(False)
+    # rounding of a sum
+    assert sum(part(depth, rate, touch) for part in parts) == pytest.approx(whole[0], rel=1e-12, abs=1e-9)
+    assert sum(part.elastic_force(depth) for part in parts) == pytest.approx(whole[1], rel=1e-12)
+    assert sum(part.elastic_energy(depth) for part in parts) == pytest.approx(whole[2], rel=1e-12)
+    assert {part.forgets for part in parts} == {law.forgets}
+    assert {part.largest_depth for part in parts} == {law.largest_depth}
+
+
+@given(share=st.floats(0.01, 1.0), depth=st.floats(1e-6, 1e-3))
+def test_energy_of_a_part_is_the_integral_of_its_elastic_force(share: float, depth: float) -> None:
+    part = PartOf(law=LankaraniNikravesh(stiffness=1e9, restitution=0.9), share=share)
+    # quad's tolerance
+    assert part.elastic_energy(depth) == pytest.approx(
+        quad(part.elastic_force, 0.0, depth, epsabs=0.0, epsrel=1e-10)[0], rel=1e-8
+    )
+
+
+@given(apart=vectors, rates=vectors)
+def test_displacement_in_the_plane_has_distance_and_rate_of_that_in_space(
+    apart: tuple[float, float, float], rates: tuple[float, float, float]
+) -> None:
+    assume(math.hypot(*apart[:2]) > 1e-3)
+    x, y, vx, vy = in_plane(apart, rates)
+    distance = math.hypot(*apart)
+    assert math.hypot(x, y) == pytest.approx(distance, rel=1e-12)
+    # rounding, of a division by 1e-3
+    assert (x * vx + y * vy) / distance == pytest.approx(np.dot(apart, rates) / distance, abs=1e-11)
+    across = np.array([-apart[1], apart[0]]) / math.hypot(*apart[:2])
+    assert across @ [vx, vy] == pytest.approx(across @ rates[:2], abs=1e-11)
+
+
+@given(p=parameters(), tilt=vectors)
+def test_axes_half_way_are_turned_by_half_the_angle(p: np.ndarray, tilt: tuple[float, float, float]) -> None:
+    axes = rotation(p)
+    about = 0.5 * (tilt[0] * axes[:, 0] + tilt[1] * axes[:, 1])
+    along = Rotation.from_rotvec(about).as_matrix() @ axes[:, 2]
+    expected = Rotation.from_rotvec(0.5 * about).as_matrix() @ axes
+    np.testing.assert_allclose(half_way(axes[None], along[None])[0], expected, atol=1e-13)  # rounding
+    one = half_way_of_one(tuple(map(tuple, axes.T.tolist())), tuple(along.tolist()))
+    np.testing.assert_allclose(np.array(one).T, expected, atol=1e-13)
+
+
+@given(
+    linkage=machines(),
+    state=states(),
+    place=st.floats(-0.1, 0.1),
+    where=st.sampled_from([Attachment.LINE, Attachment.SPACE, Attachment.MIDDLE, Attachment.BORE]),
+    slides=st.booleans(),
+)
+def test_a_section_moves_alike_over_a_run_and_now(
+    linkage: SpatialLinkage,
+    state: tuple[np.ndarray, np.ndarray],
+    place: float,
+    where: Attachment,
+    slides: bool,
+) -> None:
+    position, velocity = state
+    # a small turn between both bodies, as of a journal in its bore
+    turned = Rotation.from_quat([*(position[3:7] + UNTURNED)[1:], position[3] + 1.0])
+    quat = (Rotation.from_rotvec(0.05 * velocity[:3]) * turned).as_quat()
+    position[10:] = np.array([quat[3], *quat[:3]]) - UNTURNED
+    rates = coordinate_rates(position, velocity)
+    bearing = linkage.bearings["p"]
+    ends = (
+        End("a", bearing.first_point, bearing.first_axis),
+        End("b", bearing.second_point, bearing.second_axis),
+    )
+
+    def section_end(end: End, first: int) -> SectionEnd:
+        centre = linkage.bodies[end.body].centre
+        frame = frame_of(end.axis)
+        arm = tuple(np.subtract(end.centre(place), centre).tolist())
+        first_axis, second_axis, along = (tuple(frame[:, k].tolist()) for k in range(3))
+        return SectionEnd(first, centre, arm, (first_axis, second_axis), along)
+
+    mover = SectionMover(None, section_end(ends[0], 0), section_end(ends[1], 7), where)
+    if slides:
+        mover.meet(mover.beside(position.tolist(), rates.tolist())[0])
+    (*_, bore_spin), (x, y, vx, vy, _, journal_spin) = mover.when(position.tolist(), rates.tolist())
+    seen = section_motion(motion_of(linkage, position, rates), *ends, place, where, slides)
+    found = [seen.x, seen.y, seen.vx, seen.vy, seen.bore_spin, seen.journal_spin]
+    # rounding; the shift leaves tilt^2 of itself where both axes meet half-way
+    off = 1e-9 if not slides else 2e-2
+    np.testing.assert_allclose(
+        np.ravel(found),
+        [x, y, vx, vy, bore_spin, journal_spin],
+        atol=off if where is Attachment.MIDDLE else 1e-9,
+    )
+
+
+# --- channels ---
+
+
+def test_every_channel_in_space_says_what_it_is() -> None:
+    scenario = Scenario(
+        machine=reference_support(),
+        dimensions=3,
+        duration=1.0,
+        pins={name: ClearancePin(contact=contact()) for name in ("rear_base", "front_shield")},
+    )
+    found = scenario.recipes
+    units = {"m", "s", "rad", "N", "J", "m/s", "rad/s", "rad/s^2", "N m"}
+    for name, recipe in found.items():
+        assert recipe.unit in units, name
+        assert recipe.meaning, name
+    assert {
+        "tip_left.z",
+        "canopy.roll",
+        "front_link_left.yaw",
+        "front_column.force",
+        "pin.front_shield.force",
+    } <= set(found)
+    assert {
+        f"pin.front_shield_{side}.{edge}_depth" for side in ("left", "right") for edge in ("left", "right")
+    } <= set(found)
+    assert "pin.rear_shield.depth" not in found
+    for name in Scenario(machine=reference_support(), duration=1.0).recipes:
+        head, _, tail = name.partition(".")
+        assert name in found or f"{head}_left.{tail}" in found, name

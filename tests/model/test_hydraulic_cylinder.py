@@ -1,0 +1,262 @@
+"""Inlets and the equations of a hydraulic cylinder, without the engine."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import pairwise
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from support_exudyn import (
+    ClosedInlet,
+    CubicStep,
+    Held,
+    HydraulicCylinder,
+    Inlet,
+    RampedOpening,
+    Scenario,
+    SuddenOpening,
+    reference_support,
+)
+from support_exudyn.formulations.registry import formulation
+from support_exudyn.mechanics.body_motion import BodyMotion
+from support_exudyn.mechanics.channels import Part
+from support_exudyn.mechanics.cylinder_chambers import FilledCylinder, fill_cylinders
+from support_exudyn.mechanics.trajectory import CylinderSeries
+from support_exudyn.model.linkage import GROUND, Body, Column, Linkage
+from support_exudyn.scenario.timescales import timescales
+from tests.cases.machine_cases import support
+from user_forces import InputError
+
+CYLINDER = HydraulicCylinder(
+    bore_area=0.1,
+    rod_side_area=0.02,
+    oil_length=0.5,
+    rod_side_length=1.0,
+    bulk_modulus=1.5e9,
+    system_pressure=30e6,
+    tank_pressure=0.5e6,
+    nominal_flow=6e-3,
+    damping=1e4,
+)
+COLUMN = Column(foot=GROUND, head="ram", foot_point=(0.0, 0.0), head_point=(0.0, 1.6))
+
+
+def filled(load: float = 4e4, **changes: Any) -> FilledCylinder:
+    return FilledCylinder(COLUMN, replace(CYLINDER, **changes), load)
+
+
+@pytest.mark.parametrize(
+    "inlet",
+    [
+        ClosedInlet(),
+        SuddenOpening(start=0.2, end=1.0, extent=-0.5),
+        RampedOpening(start=0.2, end=1.0, ramp=0.1, extent=0.7),
+        RampedOpening(start=0.0, end=1.0, ramp=0.5),
+    ],
+)
+def test_an_inlet_jumps_at_its_breaks_and_nowhere_else(inlet: Inlet) -> None:
+    tiny = 1e-9
+    for t in inlet.breaks:
+        before, after = inlet.opening(t - tiny), inlet.opening(t + tiny)
+        # a ramp of 0.1 s opens by 1e-8 in that time
+        assert inlet.opening(t) == pytest.approx(before, abs=1e-7)
+        assert inlet.opening(t) + inlet.opening_jump(t) == pytest.approx(after, abs=1e-7)
+    times = np.linspace(0.0, 1.2, 1201) + 0.0005
+    openings = np.array([inlet.opening(t) for t in times])
+    steep = np.abs(np.diff(openings)) > 0.011  # a ramp opens by 0.01 in a millisecond at most
+    jumps = [t for t in inlet.breaks if inlet.opening_jump(t) != 0.0]
+    assert steep.sum() == len(jumps)
+    assert inlet.opening(-1.0) == inlet.opening(2.0) == 0.0
+
+
+def test_wrong_inlets_are_refused() -> None:
+    with pytest.raises(InputError, match=r"end = 1\.0 s: allowed: > start"):
+        SuddenOpening(start=1.0, end=1.0)
+    with pytest.raises(InputError, match=r"ramp = 0\.6 s: allowed: at most half of end - start, 0\.5 s"):
+        RampedOpening(start=1.0, end=2.0, ramp=0.6)
+    with pytest.raises(InputError, match="extent"):
+        SuddenOpening(extent=1.5)
+
+
+def test_oil_flows_where_the_valve_and_the_pressures_say() -> None:
+    # 6 l/s at 1 MPa: 12 l/s at 4 MPa, half of it through a valve half open
+    assert CYLINDER.flows(26e6, 4.5e6, 0.5) == pytest.approx((6e-3, -6e-3))
+    # the other way round: piston side to the tank, pump to the rod side
+    assert CYLINDER.flows(4.5e6, 26e6, -0.5) == pytest.approx((-6e-3, 6e-3))
+    # against the valve's direction where a chamber has more pressure than the pump, less than the tank
+    assert CYLINDER.flows(34e6, 0.5e6 - 4e6, 1.0) == pytest.approx((-12e-3, 12e-3))
+    assert CYLINDER.flows(4e6, 1e6, 0.0) == (0.0, 0.0)
+
+
+@pytest.mark.parametrize("load", [4e4, -3e4, 0.0])
+def test_the_start_carries_the_load_with_one_chamber_at_tank_pressure(load: float) -> None:
+    one = filled(load)
+    piston, rod = one.start_pressures
+    assert one.model.force(piston, rod, 0.0) == pytest.approx(load, abs=1e-9)
+    assert min(piston, rod) == 0.5e6
+    assert one.closed_pressures(1.6) == (piston, rod)
+    # compressed by so little that the closed oil is a spring: its stiffness falls by 2 % a centimetre
+    softer = one.model.force(*one.closed_pressures(1.6 - 1e-6), 0.0)
+    assert (softer - load) / 1e-6 == pytest.approx(one.model.stiffness(0.0), rel=1e-4)
+
+
+@given(
+    extension=st.floats(-0.4, 0.9),
+    rate=st.floats(-0.5, 0.5),
+    pressures=st.tuples(st.floats(-5e6, 50e6), st.floats(-5e6, 50e6)),
+    opening=st.floats(-1.0, 1.0),
+)
+def test_energy_of_the_oil_changes_by_what_pumps_and_motion_do(
+    extension: float, rate: float, pressures: tuple[float, float], opening: float
+) -> None:
+    one, length, h = filled(), 1.6 + extension, 1e-7
+    rates = one.pressure_rates(length, rate, pressures, opening)
+    ends = [
+        one.energy(length + s * rate, pressures[0] + s * rates[0], pressures[1] + s * rates[1]) for s in (h, -h)
+    ]
+    change = (ends[0] - ends[1]) / (2.0 * h)
+    supply, loss = one.powers(rate, pressures, opening)
+    work = one.model.force(*pressures, rate) * rate
+    # rounding of energies of up to 1e5 J over the time between both
+    assert change == pytest.approx(supply - loss - work, rel=1e-4, abs=1e3)
+    assert loss >= 0.0
+
+
+def test_wrong_cylinders_are_refused() -> None:
+    both = {"front_column": CYLINDER, "rear_column": CYLINDER}
+    machine = support()
+
+    def scenario(**changes: Any) -> Any:
+        return Scenario(**({"machine": machine, "duration": 1.0, "drive": Held(), "columns": both} | changes))
+
+    assert scenario().driven == ()
+    assert not scenario().jumps
+    with pytest.raises(InputError, match=r"drives\.front_column: is a HydraulicCylinder.*front_column\.inlet"):
+        scenario(drives={"front_column": CubicStep()})
+    with pytest.raises(InputError, match=r"drive = CubicStep: nothing follows it.*allowed: Held\(\)"):
+        scenario(drive=CubicStep())
+    with pytest.raises(InputError, match=r"HydraulicCylinder: is planar; allowed in space: OilColumn"):
+        scenario(machine=reference_support(), dimensions=3)
+    with pytest.raises(InputError, match=r"oil_length = 5\.0 m: the column is .* long"):
+        scenario(columns={"front_column": replace(CYLINDER, oil_length=5.0)})
+    with pytest.raises(InputError, match=r"system_pressure = 1000\.0 Pa: allowed: > tank_pressure"):
+        scenario(columns={"front_column": replace(CYLINDER, system_pressure=1e3)})
+    for name in ("tree", "reduced"):
+        with pytest.raises(InputError, match="HydraulicCylinder"):
+            formulation(name).check(scenario(formulation=name))
+    # the other column follows the drive
+    mixed = scenario(columns={"front_column": CYLINDER}, drive=CubicStep())
+    assert mixed.driven == ("rear_column",)
+    assert mixed.giving == ("front_column",)
+
+
+def test_channels_and_breaks_are_those_of_the_valves() -> None:
+    inlet = SuddenOpening(start=0.2, end=0.7)
+    scenario = Scenario(
+        machine=support(), duration=1.0, columns={"front_column": replace(CYLINDER, inlet=inlet)}
+    )
+    assert {0.2, 0.7} <= set(scenario.breaks)
+    recipes = scenario.recipes
+    assert recipes["front_column.pressure"].unit == "Pa"
+    assert recipes["front_column.flow"].unit == "m^3/s"
+    assert "rear_column.pressure" not in recipes
+    assert "pumps" in recipes["energy.work"].meaning
+
+
+def test_the_static_loads_fill_them() -> None:
+    linkage = support().linkage()
+    both = dict.fromkeys(("front_column", "rear_column"), CYLINDER)
+    loads = {name: one.load for name, one in fill_cylinders(linkage, both, (0.0, -9.81)).items()}
+    assert sum(loads.values()) > 0.0
+    assert fill_cylinders(linkage, {}, (0.0, -9.81)) == {}
+
+
+def test_the_ends_of_what_is_allowed() -> None:
+    length = support().linkage().columns["front_column"].start_length
+    CYLINDER.check_length(0.51, "jack")
+    with pytest.raises(InputError, match=r"columns\.jack\.oil_length = 0\.5 m"):
+        CYLINDER.check_length(0.5, "jack")  # the oil would take all of it
+    replace(CYLINDER, oil_length=0.999 * length).check_length(length, "jack")
+    with pytest.raises(InputError, match=r"columns\.jack\.system_pressure = 500000\.0 Pa: allowed: > tank"):
+        replace(CYLINDER, system_pressure=0.5e6).check_length(length, "jack")
+    for inlet in (SuddenOpening, RampedOpening):
+        assert inlet(extent=-1.0).extent == -1.0
+        for beyond in (-1.001, 1.001):
+            with pytest.raises(InputError, match="extent"):
+                inlet(extent=beyond)
+        for end in (2.0, 1.0):
+            with pytest.raises(InputError, match=rf"end = {end} s: allowed: > start = 2\.0 s"):
+                inlet(start=2.0, end=end)
+    assert RampedOpening(start=1.0, end=2.0, ramp=0.5).opening(1.5) == 1.0  # half of the time is allowed
+
+
+def test_what_is_not_said_is_what_the_text_says() -> None:
+    plain = HydraulicCylinder(
+        bore_area=0.1, rod_side_area=0.02, oil_length=0.5, rod_side_length=1.0, bulk_modulus=1.5e9,
+        system_pressure=30e6, nominal_flow=6e-3,
+    )  # fmt: skip
+    assert (plain.nominal_drop, plain.tank_pressure, plain.damping) == (1e6, 0.0, 0.0)
+    assert (plain.hose_volume, plain.rod_side_hose_volume) == (1e-3, 1e-3)
+    assert plain.inlet == ClosedInlet()
+
+
+@given(
+    start=st.integers(0, 100),
+    open_for=st.integers(20, 200),
+    share=st.integers(5, 45),
+    extent=st.integers(-10, 10),
+)
+def test_between_its_breaks_an_inlet_is_straight(start: int, open_for: int, share: int, extent: int) -> None:
+    begins, ends = start / 100, (start + open_for) / 100
+    inlet = RampedOpening(start=begins, end=ends, ramp=share / 100 * (ends - begins), extent=extent / 10)
+    assert len(inlet.breaks) == 4
+    for begin, end in pairwise((begins - 0.1, *inlet.breaks, ends + 0.1)):
+        here, middle, there = (inlet.opening(t) for t in (begin, 0.5 * (begin + end), end))
+        assert middle == pytest.approx(0.5 * (here + there), abs=1e-12)  # rounding of a share
+
+
+def test_steps_have_to_follow_the_valve() -> None:
+    assert SuddenOpening(start=0.2, end=0.5).shortest_time == pytest.approx(0.3)
+    assert RampedOpening(start=0.2, end=0.9, ramp=0.15).shortest_time == 0.15
+    assert ClosedInlet().shortest_time == float("inf")
+    quick = replace(CYLINDER, inlet=RampedOpening(start=0.2, end=0.9, ramp=0.15))
+    slow = replace(CYLINDER, inlet=SuddenOpening(start=0.2, end=0.9))
+    scenario = Scenario(
+        machine=support(), duration=1.0, drive=Held(), columns={"front_column": slow, "rear_column": quick}
+    )
+    assert timescales(scenario).drive == pytest.approx(0.15)
+
+
+def test_flows_and_pressures_stand_under_their_names() -> None:
+    inlet = SuddenOpening(start=0.0, end=1.0, extent=0.5)
+    columns = {"front_column": replace(CYLINDER, inlet=inlet)}
+    recipes = Scenario(machine=support(), duration=1.0, columns=columns).recipes
+    series = CylinderSeries(*(np.full(1, float(n)) for n in range(7)))
+    seen = SimpleNamespace(run=SimpleNamespace(cylinders={"front_column": series}))
+    for what, field in {
+        "pressure": "pressure", "rod_pressure": "rod_pressure", "opening": "opening", "flow": "flow",
+        "rod_flow": "rod_flow",
+    }.items():  # fmt: skip
+        assert recipes[f"front_column.{what}"].values(seen) == getattr(series, field)
+    for name in ("front_column.pressure", "energy.elastic", "energy.balance"):
+        assert Part.OIL in recipes[name].needs
+
+
+@pytest.mark.parametrize("rate", [0.2, -0.3])
+def test_the_record_of_a_column_is_that_of_its_model(rate: float) -> None:
+    linkage = Linkage(bodies={"ram": Body(mass=1.0, inertia=1.0, centre=(0.0, 1.6))}, columns={"jack": COLUMN})
+    motion = BodyMotion(linkage, np.array([[0.0, 0.1, 0.0]]), np.array([[0.0, rate, 0.0]]), np.zeros((1, 3)))
+    one = filled()
+    series = one.series(motion, np.array([[3e6, 1e6]]), np.array([0.5]))
+    assert series.force == pytest.approx(3e6 * 0.1 - 1e6 * 0.02 - 1e4 * rate)  # seals hold it back
+    assert (series.pressure, series.rod_pressure, series.opening) == (3e6, 1e6, 0.5)
+    assert (series.flow, series.rod_flow) == pytest.approx(one.model.flows(3e6, 1e6, 0.5))
+    # p^2/2B in each chamber, which has become longer and shorter; B (exp(p/B) - 1 - p/B) is 1e-3 more
+    wanted = (9e12 * (0.1 * 0.6 + 1e-3) + 1e12 * (0.02 * 0.9 + 1e-3)) / 3e9
+    assert series.energy == pytest.approx(wanted, rel=2e-3)

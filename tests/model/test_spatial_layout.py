@@ -1,0 +1,392 @@
+"""From the plane and a width to a machine in space."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+from support_exudyn import (
+    Body,
+    Column,
+    Crank,
+    Held,
+    Linkage,
+    OilColumn,
+    OwnBody,
+    Part,
+    Scenario,
+    Slide,
+    TracePoint,
+    load_support,
+    ravn_slider_crank,
+    reference_support,
+    two_body_columns,
+)
+from support_exudyn.mechanics.space.constraints import frame_of
+from support_exudyn.mechanics.space.kinetics import tensor
+from support_exudyn.model.drives.drive import CubicStep, UniformSpeed
+from support_exudyn.model.lateral_dimensions import Width
+from support_exudyn.model.linkage import bar, check_moments, lumped, pinned, turned_moments
+from support_exudyn.model.spatial_linkage import Bearing, SpatialBody, SpatialLinkage
+from support_exudyn.model.to_space import lift
+from tests.cases.machine_cases import support as narrow_support
+from user_forces import InputError
+
+coordinates = st.floats(-2.0, 2.0)
+points = st.tuples(coordinates, coordinates)
+lengths = st.floats(0.05, 2.0)
+REFERENCE = reference_support()
+LINKAGE = REFERENCE.linkage()
+
+
+@st.composite
+def widths(draw: st.DrawFn) -> Width:
+    pairs = draw(st.sets(st.sampled_from(["rear_link", "front_link"])))
+    distance = draw(lengths)
+    return Width(
+        spreads={name: draw(lengths) for name in LINKAGE.bodies},
+        pairs=dict.fromkeys(pairs, distance),
+        columns={name: draw(lengths) for name in draw(st.sets(st.sampled_from(sorted(LINKAGE.columns))))},
+        lengths={name: draw(lengths) for name in draw(st.sets(st.sampled_from(sorted(LINKAGE.pins))))},
+        points={"tip": draw(lengths)} if draw(st.booleans()) else {},
+    )
+
+
+@given(width=widths())
+def test_both_sides_add_up_to_the_plane(width: Width) -> None:
+    space = lift(LINKAGE, width)
+    for name, body in LINKAGE.bodies.items():
+        sides = ("_left", "_right") if name in width.pairs else ("",)
+        parts = [space.bodies[name + side] for side in sides]
+        # rounding of sums of two
+        assert sum(part.mass for part in parts) == pytest.approx(body.mass, rel=1e-14)
+        assert sum(part.inertia[2] for part in parts) == pytest.approx(body.inertia, rel=1e-14)
+        for part in parts:
+            assert part.centre[:2] == body.centre
+            assert np.linalg.eigvalsh(tensor(part)).min() > 0.0
+        assert sum(part.centre[2] for part in parts) == 0.0
+        # the second moment across the plane is that of the spread
+        xx, yy, zz = (sum(part.inertia[k] for part in parts) for k in range(3))
+        assert 0.5 * (xx + yy - zz) == pytest.approx(body.mass * width.spreads[name] ** 2, rel=1e-9)
+    for name in LINKAGE.pins:
+        bearings = space.parts_of_pin(name)
+        assert sum(b.share for b in bearings.values()) == 1.0
+        assert {b.length for b in bearings.values()} == {width.lengths.get(name, 0.0)}
+    for name in LINKAGE.columns:
+        columns = {key: c for key, c in space.columns.items() if c.column == name}
+        assert set(columns) == ({f"{name}_left", f"{name}_right"} if name in width.columns else {name})
+        assert sum(c.share for c in columns.values()) == 1.0
+        for column in columns.values():
+            assert column.start_length == pytest.approx(LINKAGE.columns[name].start_length, rel=1e-14)
+    assert set(space.points) == {"tip"} | ({"tip_left", "tip_right"} if width.points else set())
+
+
+def test_names_and_sides_of_the_reference() -> None:
+    space = REFERENCE.in_space(LINKAGE)
+    assert set(space.bodies) == {"rear_link", "front_link_left", "front_link_right", "shield", "canopy"}
+    assert space.bodies["front_link_left"].centre[2] == -0.4
+    assert space.bodies["front_link_right"].centre[2] == 0.4
+    assert space.bearings["front_base_left"].holds == {"tilt", "along"}
+    assert space.bearings["front_shield_left"].holds == set()
+    assert space.bearings["front_shield_right"].first == "front_link_right"
+    assert space.bearings["front_shield_right"].second == "shield"
+    assert space.columns["rear_column_left"].head_point[2] == -0.31
+    assert space.points["tip_right"].point[2] == 0.57
+
+
+def test_a_plate_has_the_inertia_of_a_plate() -> None:
+    a, b, m = 0.7, 0.4, 6.0
+    plate = bar(m, (0.0, 0.0), (a, 0.0))
+    linkage = Linkage(
+        bodies={"a": Body(mass=m, inertia=plate.inertia, centre=plate.centre, moments=plate.moments)}
+    )
+    body = lift(linkage, Width(spreads={"a": b / math.sqrt(12.0)})).bodies["a"]
+    # m b^2/12 about x, m (a^2 + b^2)/12 about y, m a^2/12 about z
+    assert body.inertia[:3] == pytest.approx((m * b**2 / 12, m * (a**2 + b**2) / 12, m * a**2 / 12), rel=1e-14)
+
+
+@pytest.mark.parametrize("degrees", [20.0, 75.0, 140.0])
+def test_a_slanted_bar_resists_turning_about_its_own_line_by_its_width_alone(degrees: float) -> None:
+    angle, m, spread = math.radians(degrees), 6.0, 0.2
+    along = np.array([math.cos(angle), math.sin(angle), 0.0])
+    slanted = bar(m, (0.0, 0.0), (0.7 * along[0], 0.7 * along[1]))
+    linkage = Linkage(
+        bodies={"a": Body(mass=m, inertia=slanted.inertia, centre=slanted.centre, moments=slanted.moments)}
+    )
+    found = tensor(lift(linkage, Width(spreads={"a": spread})).bodies["a"]) @ along
+    # its line is a principal axis, whichever way it slants: rounding
+    np.testing.assert_allclose(found, m * spread**2 * along, atol=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("width", "said"),
+    [
+        (Width(), "width.spreads.rear_link: missing"),
+        (
+            Width(
+                spreads=dict.fromkeys(LINKAGE.bodies, 0.1),
+                pairs={"front_link": 0.4, "rear_link": 0.3, "shield": 0.3},
+            ),
+            "at different distances",
+        ),
+        (
+            Width(spreads=dict.fromkeys(LINKAGE.bodies, 0.1), pairs={"canopy": 0.4}),
+            "columns.front_column on canopy",
+        ),
+    ],
+)
+def test_what_cannot_be_lifted_is_said(width: Width, said: str) -> None:
+    with pytest.raises(InputError, match=said):
+        lift(LINKAGE, width)
+
+
+def test_points_on_pairs_cranks_and_slides_are_refused() -> None:
+    body = Body(mass=1.0, inertia=1.0, centre=(0.0, 0.0))
+    width = Width(spreads={"a": 0.1}, pairs={"a": 0.2})
+    pin = {"p": pinned("ground", "a", (0.0, 0.0))}
+    with pytest.raises(InputError, match=r"points\.t on a, which is a pair"):
+        lift(Linkage(bodies={"a": body}, pins=pin, points={"t": TracePoint(body="a", point=(0.0, 0.0))}), width)
+    with pytest.raises(InputError, match=r"cranks\.c: not covered in space"):
+        lift(Linkage(bodies={"a": body}, pins=pin, cranks={"c": Crank(body="a")}), width)
+    with pytest.raises(InputError, match=r"slides\.s: not covered in space"):
+        lift(Linkage(bodies={"a": body}, slides={"s": Slide(body="a", point=(0.0, 0.0))}), width)
+    column = {"k": Column(foot="ground", head="a", foot_point=(0.0, -1.0), head_point=(0.0, 0.0))}
+    with pytest.raises(InputError, match=r"columns\.k on a, which is a pair"):
+        lift(Linkage(bodies={"a": body}, columns=column), width)
+
+
+@given(factor=st.floats(0.1, 10.0))
+def test_a_larger_width_is_larger_in_all(factor: float) -> None:
+    width = REFERENCE.width
+    assert width is not None
+    larger = width.scaled(factor)
+    for kind in ("spreads", "pairs", "columns", "lengths", "points"):
+        before, after = getattr(width, kind), getattr(larger, kind)
+        assert after == {name: factor * item for name, item in before.items()}
+
+
+# --- second moments ---
+
+
+@given(
+    cloud=st.lists(points, min_size=3, max_size=8),
+    masses=st.lists(st.floats(0.1, 10.0), min_size=8, max_size=8),
+    angle=st.floats(-math.pi, math.pi),
+)
+def test_second_moments_are_those_of_a_cloud_of_points(
+    cloud: list[tuple[float, float]], masses: list[float], angle: float
+) -> None:
+    parts = [Part(mass=m, centre=p) for m, p in zip(masses, cloud, strict=False)]
+    whole = lumped(parts)
+    m, p = np.array([part.mass for part in parts]), np.array(cloud)
+    away = p - m @ p / m.sum()
+    moments = np.einsum("n,ni,nj->ij", m, away, away)
+    # rounding of coordinates up to 2 and 80 kg
+    assert whole.second_moments == pytest.approx((moments[0, 0], moments[1, 1], moments[0, 1]), abs=1e-11)
+    c, s = math.cos(angle), math.sin(angle)
+    turn = np.array([[c, -s], [s, c]])
+    expected = turn @ moments @ turn.T
+    got = turned_moments(whole.second_moments, angle)
+    assert got == pytest.approx((expected[0, 0], expected[1, 1], expected[0, 1]), abs=1e-11)
+    # what has turned is still possible
+    assume(whole.inertia > 1e-3)
+    check_moments(got, whole.inertia)
+
+
+@pytest.mark.parametrize("moments", [(1.0, 1.0, 0.0), (-1.0, 3.0, 0.0), (1.0, 1.0, 1.5), (0.5, 1.5, 0.9)])
+def test_impossible_second_moments_are_refused(moments: tuple[float, float, float]) -> None:
+    inertia = 2.0 if moments != (1.0, 1.0, 0.0) else 3.0
+    with pytest.raises(InputError, match="moments"):
+        Part(mass=1.0, centre=(0.0, 0.0), inertia=inertia, moments=moments)
+    with pytest.raises(InputError, match="moments"):
+        Body(mass=1.0, centre=(0.0, 0.0), inertia=inertia, moments=moments)
+
+
+def test_the_smallest_inertia_has_second_moments() -> None:
+    assert lumped([Part(mass=1.0, centre=(0.0, 0.0), inertia=5e-324)]).inertia == 5e-324
+
+
+def test_the_tail_beam_keeps_its_second_moments() -> None:
+    # lumped or a body of its own: the same mass is spread over the same places
+    def moments(bodies: dict[str, Body]) -> np.ndarray:
+        found = np.zeros(3)
+        for name in ("shield", "tail_beam"):
+            if name in bodies:
+                body = bodies[name]
+                x, y = body.centre
+                assert body.moments is not None
+                found += np.array(body.moments) + body.mass * np.array([x * x, y * y, x * y])
+        return found
+
+    own = REFERENCE.detailed((), ("tail_beam",))
+    # Steiner's theorem; rounding
+    np.testing.assert_allclose(moments(dict(own.bodies)), moments(dict(LINKAGE.bodies)), rtol=1e-12)
+
+
+# --- values ---
+
+
+@given(v=st.tuples(*[st.floats(-1.0, 1.0)] * 3))
+def test_axes_of_a_bearing_are_orthonormal(v: tuple[float, float, float]) -> None:
+    size = math.hypot(*v)
+    assume(size > 1e-3)
+    frame = frame_of(tuple((np.array(v) / size).tolist()))
+    np.testing.assert_allclose(frame.T @ frame, np.eye(3), atol=1e-14)  # rounding
+    assert np.linalg.det(frame) == pytest.approx(1.0)
+    np.testing.assert_allclose(frame[:, 2], np.array(v) / size)
+    np.testing.assert_array_equal(frame_of((0.0, 0.0, 1.0)), np.eye(3))
+
+
+def test_impossible_bodies_and_bearings_are_refused() -> None:
+    with pytest.raises(InputError, match="positive definite"):
+        SpatialBody(mass=1.0, inertia=(1.0, 1.0, 1.0, 0.0, 0.0, 2.0), centre=(0.0, 0.0, 0.0))
+    place = {"first_point": (0.0, 0.0, 0.0), "second_point": (0.0, 0.0, 0.0), "pin": "p"}
+    with pytest.raises(InputError, match="length 1"):
+        Bearing(first="ground", second="a", first_axis=(0.0, 1.0, 1.0), **place)
+    with pytest.raises(InputError, match="twice"):
+        Bearing(first="a", second="a", **place)
+    with pytest.raises(InputError, match="no such body"):
+        SpatialLinkage(bodies={}, bearings={"p": Bearing(first="ground", second="a", **place)})
+
+
+# --- machine data files ---
+
+
+def reference_file() -> str:
+    from importlib import resources
+
+    return (resources.files("support_exudyn.files.machines") / "reference.toml").read_text(encoding="utf-8")
+
+
+def test_the_reference_has_the_widths_of_its_file() -> None:
+    width = REFERENCE.width
+    assert width is not None
+    assert width.spreads["rear_link"] == pytest.approx(0.7 / math.sqrt(12.0), rel=1e-15)
+    assert width.pairs == {"front_link": 0.4}
+    assert width.columns == {"front_column": 0.31, "rear_column": 0.31}
+    assert width.lengths["rear_base"] == 0.7
+    assert width.points == {"tip": 0.57}
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("tip = 1140", 'tip = "wide"', "width_mm.points.tip = 'wide': allowed: a number"),
+        ("tip = 1140", "tip = -1140", "points"),
+        ("[width_mm.points]", "[width_mm.heights]", "width_mm.heights: unknown key"),
+        ("tip = 1140", "nose = 1140", "width_mm.points.nose: unknown key; allowed: tip"),
+        ("canopy = 1140", "roof = 1140", "width_mm.bodies.roof: unknown key"),
+    ],
+)
+def test_what_does_not_fit_in_a_file_is_said(tmp_path: Path, old: str, new: str, said: str) -> None:
+    text = reference_file()
+    assert old in text
+    path = tmp_path / "machine.toml"
+    path.write_text(text.replace(old, new), encoding="utf-8")
+    with pytest.raises(InputError, match=said.replace(".", r"\.")) as caught:
+        load_support(path)
+    assert str(path) in str(caught.value)
+
+
+def test_a_width_that_is_no_table_is_said(tmp_path: Path) -> None:
+    path = tmp_path / "machine.toml"
+    text = reference_file().split("[width_mm.bodies]")[0]
+    path.write_text("width_mm = 3\n" + text, encoding="utf-8")
+    with pytest.raises(InputError, match="width_mm = 3: allowed: a table"):
+        load_support(path)
+    path.write_text(text, encoding="utf-8")
+    assert load_support(path).width is None
+
+
+# --- scenarios in space ---
+
+
+def scenario(**changes: object) -> Scenario:
+    fields: dict[str, object] = {"machine": REFERENCE, "duration": 1.0, "dimensions": 3}
+    return Scenario(**fields | changes)
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"machine": narrow_support()}, "dimensions = 3: HydraulicSupport: knows no lateral dimensions"),
+        ({"machine": ravn_slider_crank()}, "dimensions = 3: SliderCrank: knows no lateral dimensions"),
+        ({"formulation": "tree"}, "formulation = 'tree': is planar"),
+        ({"formulation": "reduced"}, "formulation = 'reduced': is planar"),
+        (
+            {"drives": {"front_column_left": CubicStep(start=0.1, end=0.5, stroke=0.01)}},
+            "drives.front_column_left: is not the drive of front_column_right, .*allowed for a pair of rigid",
+        ),
+        ({"drives": {"front_column_middle": Held()}}, "no such driven part; allowed: .*front_column_left"),
+        ({"columns": {"front_column_left": two_body_columns()["front_column"]}}, "no such column"),
+        ({"dimensions": 4}, "dimensions"),
+        ({"channels": ("tip_middle.z",)}, "tip_middle"),
+    ],
+)
+def test_what_is_not_covered_in_space_is_said(changes: dict[str, object], said: str) -> None:
+    with pytest.raises(InputError, match=said):
+        scenario(**changes)
+
+
+def test_columns_of_a_pair_are_driven_by_their_own_names_only_in_space() -> None:
+    drive = UniformSpeed(start=0.1, end=0.5, stroke=0.01)
+    both = {"front_column": drive}
+    assert scenario(drives=both).drive_of("front_column_left") == drive
+    with pytest.raises(InputError, match=r"drives\.front_column_left: the machine has no such driven part"):
+        scenario(dimensions=2, drives={"front_column_left": drive})
+
+
+def test_refined_keeps_what_is_in_space() -> None:
+    finer = scenario().refined()
+    assert finer.dimensions == 3
+    assert finer.step == 0.5 * scenario().step
+
+
+def test_a_jack_keeps_its_length_in_space() -> None:
+    own = scenario(parts={"tail_beam": OwnBody()})
+    assert own.drive_of("tail_jack") == Held()
+    assert "tail_beam" in own.space.bodies
+    assert replace(own, parts={}).space == scenario().space
+
+
+def test_ideal_bearings_have_to_fit_at_the_start() -> None:
+    from tests.cases.spatial_cases import InSpace
+
+    body = SpatialBody(mass=1.0, inertia=(1.0, 1.0, 1.0, 0.0, 0.0, 0.0), centre=(0.0, 0.0, 0.0))
+    for changes, said in (
+        ({"second_point": (0.0, 0.0, 0.1)}, "0.1 m apart"),
+        ({"second_axis": (0.0, 0.6, 0.8)}, "tilted by"),
+    ):
+        place = {"first_point": (0.0, 0.0, 0.0), "second_point": (0.0, 0.0, 0.0)} | changes
+        bearing = Bearing(first="ground", second="a", pin="p", **place)
+        with pytest.raises(InputError, match=said):
+            scenario(machine=InSpace(space=SpatialLinkage(bodies={"a": body}, bearings={"p": bearing})))
+
+
+def test_refining_in_space_refines_sections_too() -> None:
+    one = scenario()
+    assert one.refined().solver.sections == 9  # half as far apart: 4 gaps become 8
+    assert one.refined(4).solver.sections == 17
+    assert one.refined(19).solver.sections == 64  # the most there can be
+    assert one.refined(0.1).solver.sections == 2
+    assert scenario(dimensions=2).refined().solver.sections == one.solver.sections
+
+
+def test_rigid_columns_of_a_pair_may_have_a_drive_of_their_own_if_it_is_one() -> None:
+    drive = CubicStep(start=0.1, end=0.5, stroke=0.01)
+    both = scenario(drives={"front_column_left": drive, "front_column_right": drive})
+    assert both.drive_of("front_column_left") == drive
+    assert both.drive_of("rear_column_left") == Held()
+
+
+def test_oil_of_each_column_of_a_pair_has_to_reach() -> None:
+    oil = OilColumn(bore_area=0.1, oil_length=0.02, bulk_modulus=1.5e9)
+    lowered = {"front_column_right": CubicStep(start=0.1, end=0.5, stroke=-0.03)}
+    with pytest.raises(InputError, match=r"columns\.front_column_right\.oil_length = 0\.02 m"):
+        scenario(columns={"front_column": oil}, drives=lowered)

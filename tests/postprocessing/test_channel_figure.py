@@ -1,0 +1,164 @@
+"""Channels over time: panels, units, names and errors."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from support_exudyn import Onset, Result
+from support_exudyn.postprocessing.figures import style, units
+from support_exudyn.postprocessing.figures.channels import error_over_time, over_time
+from support_exudyn.postprocessing.figures.names import matching
+from support_exudyn.postprocessing.figures.units import readable
+from tests import figure_checks, synthetic
+from tests.cases.run_cases import loose_support
+from user_forces import InputError
+
+TIME = np.linspace(0.0, 5.0, 501)
+WAVE = np.sin(2.0 * np.pi * TIME)
+SCENARIO = loose_support(1.5, formulation="reduced")
+
+
+def run(error: float = 0.0) -> Result:
+    """A loose pin whose force is off by a share."""
+    return synthetic.journal(
+        SCENARIO, TIME, 1.6e-3 + 0.0 * TIME, 0.0 * TIME, [Onset(1.0, 0.1)],
+        tip__x=(3.0 + 0.1 * WAVE, "m"), tip__y=(2.0 + 0.1 * WAVE, "m"), canopy__angle=(0.1 * WAVE, "rad"),
+        canopy__angular_acceleration=(WAVE, "rad/s^2"), rear_column__force=(4e4 * WAVE * (1.0 + error), "N"),
+        front_column__force=(2e4 * WAVE, "N"), slide__nothing=(0.0 * WAVE, "J"),
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("unit", "size", "expected"),
+    [
+        ("N", 5e4, ("kN", 1e-3)),
+        ("N", 20.0, ("N", 1.0)),
+        ("Pa", 3e7, ("MPa", 1e-6)),
+        ("m^3/s", 0.02, ("l/min", 6e4)),
+        ("m", 1.5e-3, ("mm", 1e3)),
+        ("m", 3.0, ("m", 1.0)),
+        ("m", 2e-5, ("µm", 1e6)),
+        ("rad", 1.0, ("deg", 180.0 / np.pi)),
+        ("rad/s^2", 0.0, ("deg/s²", 180.0 / np.pi)),
+        ("s", 1e-3, ("ms", 1e3)),
+        ("s", 1e-3 - 1e-15, ("ms", 1e3)),
+        ("J", 0.0, ("J", 1.0)),
+        ("1", 5.0, ("1", 1.0)),
+    ],
+)
+def test_units_are_those_that_are_read_best(unit: str, size: float, expected: tuple[str, float]) -> None:
+    assert readable(unit, size) == (expected[0], pytest.approx(expected[1]))
+
+
+PREFIXES = {"": 1.0, "M": 1e-6, "k": 1e-3, "m": 1e3, "\u00b5": 1e6}
+
+
+@pytest.mark.parametrize("unit", units.SIZES)
+@pytest.mark.parametrize("exponent", range(-8, 9))
+def test_a_prefix_means_what_it_means_everywhere(unit: str, exponent: int) -> None:
+    size = 2.0 * 10.0**exponent
+    shown = readable(unit, size)
+    assert shown.name.endswith(unit)
+    assert shown.scale == PREFIXES[shown.name.removesuffix(unit)]
+    # and never smaller than a unit without a prefix that would do
+    assert not (shown.scale > 1.0 and shown.scale * size >= 1e4)
+
+
+@pytest.mark.parametrize("unit", units.ANGLES)
+def test_angles_are_shown_in_degrees(unit: str) -> None:
+    shown = readable(unit, 1.0)
+    assert shown.name.startswith("deg")
+    assert shown.scale == pytest.approx(180.0 / np.pi)
+
+
+def test_quantities_are_said_with_their_units() -> None:
+    assert units.said(2.6e-4, "s") == "260 µs"
+    assert units.said(-51234.0, "N", 4) == "-51.23 kN"
+
+
+def test_patterns_are_those_of_a_shell() -> None:
+    names = ["time", "pin.a.force", "pin.b.force", "tip.x"]
+    assert matching(names, ["tip.*", "pin.?.force", "pin.a.*"]) == ["tip.x", "pin.a.force", "pin.b.force"]
+    assert matching(names, ["*"]) == names[1:]
+    with pytest.raises(InputError, match=r"'pin.c.force': no such channel.*pin.a.force"):
+        matching(names, ["pin.c.force"])
+
+
+def test_channels_of_a_unit_share_a_panel_and_are_shown_in_it() -> None:
+    drawing = over_time(run(), ["*_column.force", "tip.*", "canopy.*"])
+    forces, places, angles, accelerations = drawing.axes
+    assert [axes.get_ylabel() for axes in (forces, places, angles)] == [
+        "force [kN]",
+        "length [m]",
+        "angle [deg]",
+    ]
+    assert accelerations.get_ylabel().split() == ["angular", "acceleration", "[deg/s²]"]
+    assert forces.lines[0].get_ydata() == pytest.approx(40.0 * WAVE)
+    assert angles.lines[0].get_ydata() == pytest.approx(np.degrees(0.1 * WAVE))
+    assert [line.get_label() for line in places.lines[:2]] == [
+        "tip.x: meaning of tip.x",
+        "tip.y: meaning of tip.y",
+    ]
+    assert accelerations.get_xlabel() == "time [s]"
+
+
+def test_curves_of_a_panel_differ_in_colour_and_in_dashes() -> None:
+    curves = over_time(run(), ["*_column.force", "pin.*.force"]).axes[0].lines[:3]
+    assert len({line.get_color() for line in curves}) == 3
+    assert len({line.get_linestyle() for line in curves}) > 1
+    assert curves[2].get_color() == style.CONTACT
+
+
+def test_a_depth_is_not_drawn_beside_metres() -> None:
+    drawing = over_time(run(), ["pin.*.depth", "tip.x"])
+    assert [axes.get_ylabel() for axes in drawing.axes] == ["length [mm]", "length [m]"]
+
+
+def test_a_piece_is_chosen_and_touches_are_marked() -> None:
+    drawing = over_time(run(), ["tip.x"], start=0.98, until=1.04)
+    (axes,) = drawing.axes
+    assert axes.get_xlabel() == "time [ms]"
+    assert axes.get_xlim() == pytest.approx((980.0, 1040.0))
+    assert axes.lines[0].get_xdata() == pytest.approx([980.0, 990.0, 1000.0, 1010.0, 1020.0, 1030.0, 1040.0])
+    assert axes.lines[1].get_xdata() == pytest.approx([1000.0])  # the touch
+
+
+def test_errors_are_those_of_the_estimate() -> None:
+    """At every record what `Result.estimate` says of the value there."""
+    found = replace(run(), goal=1e-3, coarser=replace(run(0.01), coarser=run(0.03)))
+    errors = error_over_time(found, "rear_column.force")
+    assert errors is not None
+    for n in (20, 130, 333):
+        estimate = found.estimate(lambda r, n=n: r["rear_column.force"][n])
+        # rounding is that of the channel's largest value, not of each
+        assert errors[n] == pytest.approx(estimate.error, rel=1e-6)
+    drawing = over_time(found, ["rear_column.force"])
+    (band,) = drawing.axes[0].collections
+    around = band.get_paths()[0].vertices
+    at = around[np.isclose(around[:, 0], TIME[130])][:, 1]  # below and above
+    value = 1e-3 * found["rear_column.force"][130]
+    assert [at.min(), at.max()] == pytest.approx([value - 1e-3 * errors[130], value + 1e-3 * errors[130]])
+    assert "rear_column.force" in figure_checks.words_below(drawing)
+
+
+def test_runs_without_an_accuracy_say_that_nothing_is_known() -> None:
+    assert error_over_time(run(), "tip.x") is None
+    assert "nothing tells its numerical error" in figure_checks.words_below(over_time(run(), ["tip.x"]))
+
+
+def test_what_cannot_be_drawn_is_refused() -> None:
+    many = synthetic.result(SCENARIO, TIME, {f"c{n}": (TIME, "m") for n in range(40)})
+    with pytest.raises(InputError, match="40 channels match; allowed in a figure: 32"):
+        over_time(many, ["*"])
+    with pytest.raises(InputError, match="0 records lie between"):
+        over_time(run(), ["tip.x"], start=7.0)
+
+
+@pytest.mark.parametrize("names", [["*"], ["tip.x"], ["*.force", "slide.nothing"]])
+@pytest.mark.parametrize("window", [{}, {"start": 1.0, "until": 1.05}])
+def test_nothing_is_cut_off_or_overlaps(names: list[str], window: dict[str, float]) -> None:
+    with style.look():
+        figure_checks.check(over_time(run(), names, **window))

@@ -1,0 +1,465 @@
+"""What is exported is what was computed, read back by programs that know nothing of this one."""
+
+from __future__ import annotations
+
+import csv
+import dataclasses
+from pathlib import Path
+
+import meshio
+import numpy as np
+import pytest
+from meshio.xdmf import TimeSeriesReader
+
+from support_exudyn import Result, simulate
+from support_exudyn.postprocessing.export import machine_mesh
+from support_exudyn.postprocessing.export.export import Sampling, to_csv, to_hdf5, to_vtu, to_xdmf
+from support_exudyn.postprocessing.export.pin_points import PinPoints
+from support_exudyn.postprocessing.look.solid import Role
+from support_exudyn.postprocessing.render.pin_view import pin_view
+from tests.cases.export_cases import (
+    Read,
+    by_vtk,
+    look_of,
+    moving_bodies,
+    points_of,
+    rigid,
+    run,
+    start_points,
+)
+from tests.cases.run_cases import PIN, loose_support, support
+from tests.roof_cases import thrown
+from user_forces import InputError
+
+# rounding of a rotation and a shift of points up to 5 m from the origin, and of the fit to them
+ROUNDING = 1e-12
+KINDS = ("plane", "space", "tilted", "slider-crank")
+EVERY = {"plane": 20, "space": 10, "tilted": 15, "slider-crank": 40}
+
+
+class Exported:
+    """A run and its files."""
+
+    def __init__(self, kind: str, folder: Path) -> None:
+        self.kind, self.result = kind, run(kind)
+        self.sampling = Sampling(every=EVERY[kind])
+        self.records = self.sampling.records(self.result.time)
+        self.xdmf = to_xdmf(self.result, folder / "run.xdmf", self.sampling)
+        self.vtu = to_vtu(self.result, folder / "vtu", self.sampling)
+
+    def names(self, field: str) -> list[str]:
+        """Of the numbers of a field, from the table beside the files."""
+        with self.xdmf[-1].open(newline="", encoding="utf-8") as file:
+            rows = [row for row in csv.DictReader(file) if row["field"] == field]
+        assert [int(row["id"]) for row in rows] == list(range(len(rows)))
+        return [row["name"] for row in rows]
+
+    def indexes(self, form: str) -> tuple[Path, Path]:
+        """Of machine and pins."""
+        return self.xdmf[:2] if form == "xdmf" else self.vtu[:2]
+
+
+@pytest.fixture(scope="module", params=KINDS)
+def exported(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Exported:
+    return Exported(request.param, tmp_path_factory.mktemp(request.param))
+
+
+@pytest.fixture(scope="module", params=["xdmf", "pvd"])
+def machine(exported: Exported, request: pytest.FixtureRequest) -> list[Read]:
+    return by_vtk(exported.indexes(request.param)[0])
+
+
+@pytest.fixture(scope="module", params=["xdmf", "pvd"])
+def pins(exported: Exported, request: pytest.FixtureRequest) -> list[Read]:
+    return by_vtk(exported.indexes(request.param)[1])
+
+
+# --- VTK's readers, and the channels ---
+
+
+def test_steps_are_records_with_their_times(exported: Exported, machine: list[Read], pins: list[Read]) -> None:
+    times = exported.result.time[exported.records].tolist()
+    assert len(times) >= 3
+    assert [step.time for step in machine] == times
+    assert [step.time for step in pins] == times
+
+
+def test_bodies_are_where_the_channels_say(exported: Exported, machine: list[Read]) -> None:
+    result, names = exported.result, exported.names("body")
+    scenario = result.scenario
+    known = scenario.space.bodies if scenario.dimensions == 3 else scenario.linkage.bodies
+    for step, record in zip(machine, exported.records, strict=True):
+        for body in moving_bodies(exported.kind):
+            start = start_points(exported.kind, body)
+            now = step.points[points_of(step, names.index(body))]
+            turn, shift = rigid(start, now)
+            assert now == pytest.approx(start @ turn.T + shift, abs=ROUNDING)  # it stays rigid
+            centre = turn @ [*known[body].centre, 0.0][:3] + shift
+            for axis, value in zip("xyz"[: scenario.dimensions], centre, strict=False):
+                assert value == pytest.approx(result[f"{body}.{axis}"][record], abs=ROUNDING)
+            turned = np.arctan2(turn[1, 0], turn[0, 0])
+            assert turned == pytest.approx(result[f"{body}.angle"][record] - known[body].angle, abs=ROUNDING)
+            if scenario.dimensions == 3:
+                roll, yaw = np.arctan2(turn[2, 1], turn[1, 1]), np.arctan2(turn[0, 2], turn[2, 2])
+                assert roll == pytest.approx(result[f"{body}.roll"][record], abs=ROUNDING)
+                assert yaw == pytest.approx(result[f"{body}.yaw"][record], abs=ROUNDING)
+
+
+def test_traced_points_move_with_their_bodies(exported: Exported, machine: list[Read]) -> None:
+    result, names = exported.result, exported.names("body")
+    space = result.scenario.dimensions == 3
+    points = result.scenario.space.points if space else result.scenario.linkage.points
+    for step, record in zip(machine, exported.records, strict=True):
+        for name, point in points.items():
+            now = step.points[points_of(step, names.index(point.body))]
+            turn, shift = rigid(start_points(exported.kind, point.body), now)
+            place = turn @ [*point.point, 0.0][:3] + shift
+            for axis, value in zip("xyz"[: len(point.point)], place, strict=False):
+                assert value == pytest.approx(result[f"{name}.{axis}"][record], abs=ROUNDING)
+
+
+def test_velocities_are_those_of_the_channels(exported: Exported, machine: list[Read]) -> None:
+    result, names = exported.result, exported.names("body")
+    for step, record in zip(machine, exported.records, strict=True):
+        for body in moving_bodies(exported.kind):
+            at = points_of(step, names.index(body))
+            axes = "xyz" if result.scenario.dimensions == 3 else "xy"
+            centre = np.zeros(3)
+            centre[: len(axes)] = [result[f"{body}.{axis}"][record] for axis in axes]
+            centre_velocity = np.zeros(3)
+            centre_velocity[: len(axes)] = [result[f"{body}.velocity_{axis}"][record] for axis in axes]
+            spin = np.array([0.0, 0.0, result[f"{body}.angular_velocity"][record]])
+            if result.scenario.dimensions == 3:
+                spin[:2] = [result[f"{body}.angular_velocity_{axis}"][record] for axis in "xy"]
+            expected = centre_velocity + np.cross(spin, step.points[at] - centre)
+            # rounding of arms times up to 600 rad/s of the crank
+            assert step.point_data["velocity_m_s"][at] == pytest.approx(expected, abs=600 * ROUNDING)
+
+
+def test_the_ground_stands_still(exported: Exported, machine: list[Read]) -> None:
+    assert exported.names("body")[0] == "ground"
+    at = points_of(machine[0], 0)
+    assert at.size == len(start_points(exported.kind, "ground")) > 0
+    for step in machine:
+        assert (step.points[at] == machine[0].points[at]).all()
+        assert not step.point_data["velocity_m_s"][at].any()
+
+
+def test_displacements_add_up_from_the_first_step(machine: list[Read]) -> None:
+    assert np.abs(machine[-1].point_data["displacement_m"]).max() > 1e-4
+    for step in machine:
+        assert step.point_data["displacement_m"] == pytest.approx(step.points - machine[0].points, abs=ROUNDING)
+
+
+def test_every_triangle_has_a_body_and_a_role(exported: Exported, machine: list[Read]) -> None:
+    look = look_of(exported.kind)
+    parts = machine_mesh.parts_of(look)
+    expected = [(part.body, part.role.value) for part in parts for _ in part.mesh.faces]
+    bodies, roles = exported.names("body"), exported.names("role")
+    for step in machine:
+        data = zip(step.cell_data["body"].tolist(), step.cell_data["role"].tolist(), strict=True)
+        assert [(bodies[body], roles[role]) for body, role in data] == expected
+        # the triangles themselves stay
+        assert (step.cells == machine[0].cells).all()
+
+
+def test_columns_reach_from_foot_to_head(exported: Exported, machine: list[Read]) -> None:
+    result, names = exported.result, exported.names("body")
+    for strut in look_of(exported.kind).struts:
+        # in the plane a pair is drawn twice and has the channels of one
+        channel = strut.name if f"{strut.name}.length" in result.channels else strut.name.rpartition("_")[0]
+        for step, record in zip(machine, exported.records, strict=True):
+            ends = []
+            for part, mesh in (("cylinder", strut.cylinder), ("rod", strut.rod)):
+                now = step.points[points_of(step, names.index(f"{strut.name} {part}"))]
+                turn, shift = rigid(np.asarray(mesh.vertices), now)
+                assert now == pytest.approx(mesh.vertices @ turn.T + shift, abs=ROUNDING)
+                ends.append(shift)
+            way = ends[1] - ends[0]
+            assert np.linalg.norm(way) == pytest.approx(result[f"{channel}.length"][record], abs=ROUNDING)
+            assert turn[:, 0] == pytest.approx(way / np.linalg.norm(way), abs=ROUNDING)
+            angle = np.arctan2(way[1], way[0])
+            assert angle == pytest.approx(result[f"{channel}.angle"][record], abs=ROUNDING)
+
+
+def test_pins_have_the_force_depth_and_slip_of_the_channels(exported: Exported, pins: list[Read]) -> None:
+    result, names = exported.result, exported.names("pin")
+    space = result.scenario.dimensions == 3
+    expected_names = {name.split(".")[1] for name in result.channels if name.startswith("pin.")}
+    if space:  # of pairs there are the force of both under one name, too
+        expected_names = {n for n, b in result.scenario.space.bearings.items() if not b.is_guide}
+    assert set(names) == expected_names
+    for step, record in zip(pins, exported.records, strict=True):
+        data = step.point_data
+        assert data["pin"].tolist() == list(range(len(names)))
+        assert step.cells.tolist() == [[number] for number in data["pin"]]
+        for number, name in enumerate(names):
+            for k, axis in enumerate("xyz" if space else "xy"):
+                assert data["force_N"][number, k] == result[f"pin.{name}.force_{axis}"][record]
+            size = result[f"pin.{name}.force"][record]
+            # rounding of a root
+            assert data["force_magnitude_N"][number] == pytest.approx(size, rel=1e-14)
+            loose = f"pin.{name}.depth" in result.channels
+            assert data["loose"][number] == loose
+            if loose:
+                assert data["depth_m"][number] == result[f"pin.{name}.depth"][record]
+                assert data["slip_m_s"][number] == result[f"pin.{name}.slip"][record]
+            else:
+                assert np.isnan(data["depth_m"][number])
+                assert np.isnan(data["slip_m_s"][number])
+    assert sum(pins[0].point_data["loose"]) >= 1
+
+
+def test_pins_are_on_their_bodies(exported: Exported) -> None:
+    result, bodies = exported.result, exported.names("body")
+    scenario = result.scenario
+    space = scenario.dimensions == 3
+    places = scenario.space.bearings if space else scenario.linkage.pins
+    machine, pins = (by_vtk(path) for path in exported.indexes("xdmf"))  # which hold the same as the others
+
+    def place_of(step: Read, body: str, point: tuple[float, ...]) -> tuple[np.ndarray, np.ndarray]:
+        """Where a point of the start posture is, and where the body's z shows, by the body's surface."""
+        start = start_points(exported.kind, body)
+        turn, shift = rigid(start, step.points[points_of(step, bodies.index(body))])
+        return turn @ [*point, 0.0][:3] + shift, turn[:, 2]
+
+    for of_machine, step, record in zip(machine, pins, exported.records, strict=True):
+        for name, point in zip(exported.names("pin"), step.points, strict=True):
+            place = places[name]
+            first, along = place_of(of_machine, place.first, place.first_point)
+            second, _ = place_of(of_machine, place.second, place.second_point)
+            pin = scenario.clearance_pins.get(place.pin if space else name)
+            if pin is None:
+                assert point == pytest.approx(first, abs=ROUNDING)
+                apart = second - first
+                if space and "along" not in place.holds:
+                    apart -= (apart @ along) * along
+                # ideal pins are closed to Newton's tolerance of positions
+                assert apart == pytest.approx(np.zeros(3), abs=1e-9)
+                continue
+            bore, journal = (first, second) if pin.bore == "first" else (second, first)
+            assert point == pytest.approx(journal, abs=ROUNDING)
+            # in the plane along x and y; in space in axes across the bore, which lean by up to 1e-2 rad: a part
+            # 1e-4 of 1.6 mm
+            eccentricity = np.hypot(*(result[f"pin.{name}.eccentricity_{axis}"][record] for axis in "xy"))
+            tolerance = 2e-7 if space else ROUNDING
+            assert np.hypot(*(journal - bore)[:2]) == pytest.approx(eccentricity, abs=tolerance)
+
+
+def test_both_formats_hold_the_same(exported: Exported) -> None:
+    for one, other in zip(exported.indexes("xdmf"), exported.indexes("pvd"), strict=True):
+        for here, there in zip(by_vtk(one), by_vtk(other), strict=True):
+            np.testing.assert_array_equal(here.points, there.points)
+            assert set(here.point_data) == set(there.point_data)
+            for name, values in here.point_data.items():
+                np.testing.assert_array_equal(values, there.point_data[name])
+
+
+def test_displacements_are_since_the_first_record_that_is_written(tmp_path: Path) -> None:
+    after = Sampling(after=0.05, every=25)
+    steps = by_vtk(to_vtu(run("plane"), tmp_path, after)[0])
+    assert not steps[0].point_data["displacement_m"].any()
+    moved = steps[-1].points - steps[0].points
+    assert np.abs(moved).max() > 1e-3
+    assert steps[-1].point_data["displacement_m"] == pytest.approx(moved, abs=ROUNDING)
+
+
+def test_roles_of_columns_are_those_of_their_parts() -> None:
+    found = {part.body: part.role for part in machine_mesh.parts_of(look_of("plane"))}
+    assert found["front_column_left cylinder"] is Role.CYLINDER
+    assert found["front_column_left rod"] is Role.ROD
+
+
+@pytest.mark.parametrize("bore", ["first", "second"])
+def test_a_loose_pin_is_at_its_journal_and_pressed_back_into_its_bore(bore: str) -> None:
+    """Whichever body has the bore: the eccentricity that was recorded lies between both bodies' points."""
+    scenario = loose_support(1.5, 0.0, duration=0.06)
+    pin = dataclasses.replace(scenario.clearance_pins[PIN], bore=bore)
+    result = simulate(dataclasses.replace(scenario, pins={PIN: pin}))
+    points, view = PinPoints(result), pin_view(result, PIN)
+    assert view is not None
+    assert view.bore is not None
+    number = [name.name for name in points.names].index(PIN)
+    pressed = 0
+    for record in range(result.time.size):
+        apart = points.frame(record).points[number] - view.path[record]
+        assert apart[:2] == pytest.approx(view.bore.eccentricity[record], abs=ROUNDING)
+        if view.bore.touching[record]:
+            pressed += 1
+            # without friction the force on the journal is along the line of centres, into the bore
+            size = view.size[record] * np.linalg.norm(apart)
+            assert view.force[record] @ apart[:2] == pytest.approx(-size, rel=1e-9)
+    assert pressed > 3
+    # the ground stands still: the journal on it, or the bore in it
+    still = view.path if bore == "first" else np.array([points.frame(k).points[number] for k in (0, 20, 60)])
+    assert np.ptp(still, axis=0) == pytest.approx([0.0, 0.0, 0.0], abs=ROUNDING)
+
+
+# --- velocities, and differences of positions ---
+
+
+def test_velocities_are_the_differences_of_positions(tmp_path: Path) -> None:
+    """Of all points, columns too, while the ideal machine moves on smoothly."""
+    result = run("ideal")
+    index, *_ = to_xdmf(result, tmp_path / "run.xdmf", Sampling(after=0.02, until=0.04))
+    steps = by_vtk(index)
+    for k in range(1, len(steps) - 1):
+        before, now, after = steps[k - 1 : k + 2]
+        difference = (after.points - before.points) / (after.time - before.time)
+        # the error is h^2 / 6 times the third derivative, (1e-3 s)^2 / 6 times 0.08 m/s^3 by third differences
+        assert now.point_data["velocity_m_s"] == pytest.approx(difference, abs=5e-8)
+    assert np.abs(steps[5].point_data["velocity_m_s"]).max() > 0.5
+
+
+# --- meshio ---
+
+
+def test_meshio_reads_xdmf_back(exported: Exported) -> None:
+    for index in exported.indexes("xdmf"):
+        steps = by_vtk(index)
+        with TimeSeriesReader(index) as reader:
+            points, (cells,) = reader.read_points_cells()
+            assert cells.type == ("triangle" if index == exported.xdmf[0] else "vertex")
+            assert (cells.data.reshape(steps[0].cells.shape) == steps[0].cells).all()
+            assert reader.num_steps == len(steps)
+            for k, step in enumerate(steps):
+                time, point_data, cell_data = reader.read_data(k)
+                assert time == step.time
+                assert set(point_data) == set(step.point_data)
+                for name, values in point_data.items():
+                    np.testing.assert_array_equal(values, step.point_data[name])
+                for name, (values,) in cell_data.items():
+                    np.testing.assert_array_equal(values, step.cell_data[name])
+                if "displacement_m" in point_data:
+                    moved = points + point_data["displacement_m"]
+                    assert moved == pytest.approx(step.points, abs=ROUNDING)
+
+
+def test_meshio_reads_vtu_back(exported: Exported) -> None:
+    for index in exported.indexes("pvd"):
+        files = sorted(index.parent.glob(f"{index.stem}_*.vtu"))
+        for file, step in zip(files, by_vtk(index), strict=True):
+            mesh = meshio.read(file)
+            np.testing.assert_array_equal(mesh.points, step.points)
+            np.testing.assert_array_equal(mesh.cells[0].data, step.cells)
+            for name, values in mesh.point_data.items():
+                np.testing.assert_array_equal(values, step.point_data[name])
+            assert set(mesh.point_data) == set(step.point_data)
+            assert set(mesh.cell_data) == set(step.cell_data)
+
+
+# --- files ---
+
+
+def test_xdmf_can_be_moved_with_its_numbers(exported: Exported, tmp_path: Path) -> None:
+    for file in exported.xdmf:
+        (tmp_path / file.name).write_bytes(file.read_bytes())
+    assert str(exported.xdmf[0].parent) not in exported.xdmf[0].read_text(encoding="utf-8")
+    here, there = by_vtk(tmp_path / exported.xdmf[0].name), by_vtk(exported.xdmf[0])
+    np.testing.assert_array_equal(here[-1].points, there[-1].points)
+
+
+def test_a_shorter_export_leaves_no_step_of_a_longer_one(tmp_path: Path) -> None:
+    to_vtu(run("plane"), tmp_path, Sampling(every=20))
+    (tmp_path / "mine.vtu").write_text("mine", encoding="utf-8")
+    files = to_vtu(run("plane"), tmp_path, Sampling(every=50))
+    assert set(tmp_path.iterdir()) == {*files, tmp_path / "mine.vtu"}
+    assert len(by_vtk(files[0])) == 3
+
+
+@pytest.mark.parametrize("kind", ["xdmf", "vtu"])
+def test_an_interruption_leaves_what_was_there(kind: str, tmp_path: Path) -> None:
+    result = run("plane")
+
+    def interrupted(share: float) -> None:
+        if share > 0.5:
+            raise KeyboardInterrupt
+
+    def write(every: int, **progress: object) -> None:
+        if kind == "xdmf":
+            to_xdmf(result, tmp_path / "out" / "run.xdmf", Sampling(every=every), **progress)  # type: ignore[arg-type]
+        else:
+            to_vtu(result, tmp_path / "out", Sampling(every=every), **progress)  # type: ignore[arg-type]
+
+    with pytest.raises(KeyboardInterrupt):
+        write(20, progress=interrupted)
+    assert list(tmp_path.iterdir()) == []
+    write(20)
+    before = {path: path.read_bytes() for path in (tmp_path / "out").iterdir()}
+    with pytest.raises(KeyboardInterrupt):
+        write(10, progress=interrupted)
+    assert {path: path.read_bytes() for path in (tmp_path / "out").iterdir()} == before
+
+
+def test_an_unwritable_place_is_named(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("here", encoding="utf-8")
+    result, below = run("plane"), tmp_path / "file" / "x"
+    for write, path in (
+        (to_xdmf, below / "run.xdmf"),
+        (to_vtu, below),
+        (to_csv, below / "run.csv"),
+        (to_hdf5, below / "run.h5"),
+    ):
+        with pytest.raises(OSError, match="it cannot be written") as caught:
+            write(result, path)
+        assert caught.value.filename == str(below if write in (to_xdmf, to_vtu) else path)
+
+
+def test_a_run_is_not_overwritten_by_its_export(tmp_path: Path) -> None:
+    path = run("plane").save(tmp_path / "run.h5")
+    before = path.read_bytes()
+    for write in (to_csv, to_hdf5):
+        with pytest.raises(InputError, match=r"run\.h5: is a run, which would be lost; allowed: another name"):
+            write(run("plane"), path)
+    assert path.read_bytes() == before
+
+
+# --- what is refused ---
+
+
+def with_channels(*channels: str) -> Result:
+    return simulate(
+        support(drive=dataclasses.replace(run("plane").scenario.drive), duration=0.01, channels=channels)
+    )
+
+
+def test_a_run_without_the_motion_of_its_bodies_is_refused(tmp_path: Path) -> None:
+    result = with_channels("tip.*", "pin.*")
+    with pytest.raises(InputError, match="was not recorded, and without it nobody knows where the body is"):
+        to_xdmf(result, tmp_path / "run.xdmf")
+    result = with_channels("tip.*", "*.x", "*.y", "*angle", "*velocity*")
+    with pytest.raises(
+        InputError, match=r"'pin\.\w+\.force_x': was not recorded, and pins are written with it"
+    ):
+        to_vtu(result, tmp_path)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_name_that_readers_of_xdmf_cannot_follow_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"12:30\.xdmf'.*: allowed: names without ':'"):
+        to_xdmf(run("plane"), tmp_path / "12:30.xdmf")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_other_endings_than_xdmf_are_refused(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"run\.xmf'.*: allowed: names that end in \.xdmf"):
+        to_xdmf(run("plane"), tmp_path / "run.xmf")
+
+
+def test_an_export_of_a_machine_without_pins_leaves_no_pins_of_another(tmp_path: Path) -> None:
+    few = Sampling(every=50)
+    to_xdmf(run("plane"), tmp_path / "run.xdmf", few)
+    to_vtu(run("plane"), tmp_path / "vtu", few)
+    alone = simulate(thrown(0.01, 1e-3))
+    files = to_xdmf(alone, tmp_path / "run.xdmf", few) + to_vtu(alone, tmp_path / "vtu", few)
+    assert set(tmp_path.rglob("*")) == {*files, tmp_path / "vtu"}
+    assert len(by_vtk(files[0])) == len(alone.time[::50])
+
+
+def test_too_many_steps_for_the_memory_are_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("support_exudyn.postprocessing.export.export.MOST_VALUES", 100_000)
+    with pytest.raises(
+        InputError, match=r"101 steps of \d+ numbers each: allowed .* here \d steps; choose fewer"
+    ):
+        to_xdmf(run("plane"), tmp_path / "run.xdmf", Sampling())
+    assert list(tmp_path.iterdir()) == []

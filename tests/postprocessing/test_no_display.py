@@ -1,0 +1,92 @@
+"""Where no window can be opened, `view` says so in a sentence, whatever is missing."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from support_exudyn import Held, simulate
+from support_exudyn.postprocessing.viewer.display import NoDisplayError, check_display
+from tests import screen
+from tests.cases.run_cases import support
+from tests.processes import environment
+
+if sys.platform != "linux":
+    pytest.skip("the displays are of X11", allow_module_level=True)
+
+PATIENCE = 240.0  # [s], on a machine that does much else
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    result = simulate(support(drive=Held(), duration=0.01))
+    return result.save(tmp_path_factory.mktemp("run") / "held.h5")
+
+
+def refused(run: Path, env: dict[str, str], folder: Path) -> str:
+    command = [sys.executable, "-m", "support_exudyn", "view", str(run)]
+    done = subprocess.run(command, env=env, cwd=folder, capture_output=True, text=True, timeout=PATIENCE)
+    assert done.returncode == 1
+    assert done.stderr.startswith("error: ")
+    assert "Traceback" not in done.stderr
+    assert list(folder.iterdir()) == []
+    return done.stderr
+
+
+def test_without_a_display_it_says_what_to_do(run: Path, tmp_path: Path) -> None:
+    env = {name: value for name, value in environment().items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
+    said = refused(run, env, tmp_path)
+    assert "no display" in said
+    assert "render RUN" in said
+    assert "xvfb-run" in said
+
+
+def test_a_display_that_is_not_there_is_refused(run: Path, tmp_path: Path) -> None:
+    assert "no display" in refused(run, environment() | {"DISPLAY": ":7654"}, tmp_path)
+
+
+def test_a_display_without_opengl_is_refused(run: Path, tmp_path: Path) -> None:
+    screen.needed()
+    with screen.display("-extension", "GLX") as name:
+        assert "GLX" in refused(run, environment() | {"DISPLAY": name}, tmp_path)
+
+
+def test_without_tkinter_it_says_so(run: Path, tmp_path: Path) -> None:
+    folder = tmp_path / "empty"
+    folder.mkdir()
+    (tmp_path / "tkinter.py").write_text("raise ImportError('No module named _tkinter')")
+    env = environment()
+    env["PYTHONPATH"] = f"{tmp_path}:{env['PYTHONPATH']}"
+    assert "python3-tk" in refused(run, env, folder)
+
+
+def test_windows_that_are_not_to_open_do_not(run: Path, tmp_path: Path) -> None:
+    env = environment() | {"EXUDYN_SUPPRESS_UI_WINDOW_OPEN": "1"}
+    assert "EXUDYN_SUPPRESS_UI_WINDOW_OPEN" in refused(run, env, tmp_path)
+
+
+def test_a_display_that_never_answers_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("support_exudyn.postprocessing.viewer.display.TRY", "import time; time.sleep(600)")
+    monkeypatch.setattr("support_exudyn.postprocessing.viewer.display.LONGEST", 0.2)
+    monkeypatch.delenv("EXUDYN_SUPPRESS_UI_WINDOW_OPEN", raising=False)
+    with pytest.raises(NoDisplayError, match=r"more than 0\.2 s"):
+        check_display()
+
+
+# --- the tests' own display ---
+
+
+@pytest.mark.parametrize("ci", [True, False])
+def test_without_xvfb_tests_are_skipped_but_where_all_is_to_be_checked(
+    ci: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("PATH", str(tmp_path))
+    monkeypatch.delenv("CI", raising=False)
+    monkeypatch.delenv("WITHOUT_XVFB", raising=False)
+    if ci:
+        monkeypatch.setenv("CI", "true")
+    with pytest.raises(pytest.fail.Exception if ci else pytest.skip.Exception, match="apt-get install xvfb"):
+        screen.needed()

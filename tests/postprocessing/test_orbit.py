@@ -1,0 +1,172 @@
+"""Journal orbit of runs that are known."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from matplotlib.axes import Axes
+
+from support_exudyn import Onset
+from support_exudyn.postprocessing.figures import style
+from support_exudyn.postprocessing.figures.journal import journal, loose_pins
+from support_exudyn.postprocessing.figures.orbit import orbit
+from tests import figure_checks, synthetic
+from tests.cases.run_cases import loose_support, support
+from user_forces import InputError
+
+CLEARANCE = 1.5e-3  # [m]
+SCENARIO = loose_support(1.5)
+# a journal that falls at 0.1 m/s, touches at 15 ms, is pressed in 0.3 mm deep at 20 ms and parts at 25 ms
+TIME = np.arange(0.0, 40.0) * 1e-3
+BOUNCE = Onset(15e-3, 0.1, 25e-3, 0.08)
+DOWN = np.where(
+    TIME < 15e-3,
+    -0.1 * TIME,
+    np.where(
+        TIME < 25e-3,
+        -CLEARANCE - 0.3e-3 * np.sin(np.pi * (TIME - 15e-3) / 10e-3),
+        -CLEARANCE + 0.08 * (TIME - 25e-3),
+    ),
+)
+
+
+def bouncing() -> synthetic.Result:
+    return synthetic.journal(SCENARIO, TIME, np.zeros_like(TIME), DOWN, [BOUNCE])
+
+
+def lines(axes: Axes) -> dict[str, np.ndarray]:
+    return {line.get_label(): np.array(line.get_data()) for line in axes.lines}
+
+
+def test_flight_and_contact_are_parted_at_the_touches() -> None:
+    path = orbit(bouncing()).axes[0]
+    flight, contact = lines(path)["free flight"], lines(path)["contact"]
+    # in millimetres; the touch lies on the circle though no record does
+    assert np.nanmin(contact[1]) == pytest.approx(-1.8)
+    assert np.nanmax(contact[1]) == pytest.approx(-1.5)
+    assert np.nanmin(flight[1]) == pytest.approx(-1.5)
+    assert np.nanmax(flight[1]) == pytest.approx(0.0)
+    colours = {line.get_label(): line.get_color() for line in path.lines}
+    assert (colours["free flight"], colours["contact"]) == (style.FLIGHT, style.CONTACT)
+
+
+def test_a_short_path_is_shown_in_the_unit_of_the_clearance() -> None:
+    run = synthetic.journal(SCENARIO, TIME, np.zeros_like(TIME), -1e-6 * np.arange(TIME.size) / TIME.size)
+    assert orbit(run).axes[0].get_xlabel() == "eccentricity x [mm]"
+
+
+def test_the_two_flights_are_not_joined_through_the_contact() -> None:
+    flight = lines(orbit(bouncing()).axes[0])["free flight"]
+    assert np.isnan(flight[1]).any()
+
+
+def test_an_impact_between_two_records_is_drawn_as_contact() -> None:
+    y = np.where(TIME < 15.2e-3, -0.1 * TIME, -CLEARANCE + 0.05 * (TIME - 15.6e-3))
+    run = synthetic.journal(SCENARIO, TIME, np.zeros_like(TIME), y, [Onset(15.2e-3, 0.1, 15.6e-3, 0.05)])
+    drawing = orbit(run)
+    contact = lines(drawing.axes[0])["contact"]
+    # both ends of it lie on the circle; hypot rounds in the last digit
+    assert np.nanmin(contact[1]) == pytest.approx(-1.5, rel=1e-12)
+    assert "400 µs" in figure_checks.words_below(drawing)
+
+
+def test_the_circle_is_that_of_the_clearance_and_axes_are_equal() -> None:
+    path = orbit(bouncing()).axes[0]
+    assert np.hypot(*lines(path)["clearance circle"]) == pytest.approx(1.5)
+    assert path.get_aspect() == 1.0
+    assert path.get_xlim() == pytest.approx(path.get_ylim())
+    assert path.get_xlabel() == "eccentricity x [mm]"
+
+
+def test_touches_lie_on_the_circle_in_the_direction_of_the_flight() -> None:
+    angle = math.radians(-30.0)
+    away = np.minimum(0.1 * TIME, CLEARANCE + 1e-4)
+    run = synthetic.journal(SCENARIO, TIME, away * math.cos(angle), away * math.sin(angle), [Onset(15e-3, 0.1)])
+    assert journal(run).directions == pytest.approx([angle])
+    x, y = lines(orbit(run).axes[0])["touch"]
+    assert (x, y) == (pytest.approx([1.5 * math.cos(angle)]), pytest.approx([1.5 * math.sin(angle)]))
+
+
+def test_the_direction_of_a_touch_is_that_of_the_flight_carried_on() -> None:
+    # along a straight line that misses the middle by 1 mm; it meets the circle of 1.5 mm between two records
+    reached = math.sqrt(1.25) * 1e-3
+    time = (reached + 0.75e-3) / 0.1
+    assert 18e-3 < time < 19e-3
+    x = 0.1 * TIME - 0.75e-3
+    x[19:] = 1.5e-3  # it is hit aside afterwards
+    run = synthetic.journal(SCENARIO, TIME, x, np.full_like(TIME, -1e-3), [Onset(time, 0.1)])
+    assert journal(run).directions == pytest.approx([math.atan2(-1e-3, reached)], abs=1e-9)  # rounding of times
+
+
+def test_a_parting_is_where_the_records_around_it_are() -> None:
+    # pressed in at the back, where the angle jumps from pi to -pi, it slides down and parts between two records
+    y = 4e-6 * (24.5 - TIME * 1e3)
+    x = np.where(TIME < 24.5e-3, -1.55e-3, -1.45e-3)
+    run = synthetic.journal(SCENARIO, TIME, x, y, [Onset(0.5e-3, 0.1, 24.5e-3, 0.1)])
+    here, there, _ = journal(run).path()
+    assert here.max() < -1.4e-3
+    parting = np.flatnonzero(np.isclose(np.hypot(here, there), CLEARANCE, rtol=1e-12))[-1]
+    # between y of 2 and -2 um
+    assert there[parting] == pytest.approx(0.0, abs=5e-6)
+    assert here[parting] == pytest.approx(-CLEARANCE, rel=1e-4)
+
+
+def test_a_parting_after_the_piece_is_not_drawn() -> None:
+    shown = journal(bouncing(), until=20e-3)
+    assert len(shown.path()[0]) == shown.time.size + 1  # the touch
+    assert len(journal(bouncing()).path()[0]) == TIME.size + 2
+
+
+def test_contact_is_deep_and_said_so() -> None:
+    drawing = orbit(bouncing())
+    depths = {line.get_color(): np.array(line.get_ydata()) for line in drawing.axes[1].lines}
+    assert np.nanmin(depths[style.CONTACT]) > -1e-9
+    assert np.nanmax(depths[style.CONTACT]) == pytest.approx(0.3)
+    assert "Deepest record: 0.3 mm" in figure_checks.words_below(drawing)
+    marks = {line.get_label(): line.get_markerfacecolor() for line in drawing.axes[0].lines}
+    assert (marks["start"], marks["end"]) == ("white", style.IDEAL)
+
+
+def test_start_and_end_are_marked() -> None:
+    drawn = lines(orbit(bouncing(), start=2e-3, until=30e-3).axes[0])
+    assert drawn["start"][1] == pytest.approx(-0.2)
+    assert drawn["end"][1] == pytest.approx(-1.5 + 0.08 * 5.0)
+
+
+def test_depth_and_speeds_have_units() -> None:
+    _, depth, speeds, _ = orbit(bouncing()).axes
+    assert (depth.get_xlabel(), depth.get_ylabel()) == ("time [ms]", "depth [mm]")
+    assert speeds.get_ylabel() == "speed [mm/s]"
+    assert lines(speeds)["touching"].ravel() == pytest.approx([15.0, 100.0])
+    assert lines(speeds)["parting"].ravel() == pytest.approx([25.0, 80.0])
+
+
+@pytest.mark.parametrize(
+    ("away", "words"),
+    [(0.5e-3, "no touch"), (CLEARANCE + 1e-5, "in contact throughout")],
+    ids=["flight", "contact"],
+)
+def test_runs_without_a_touch_say_so(away: float, words: str) -> None:
+    drawing = orbit(synthetic.journal(SCENARIO, TIME, np.full_like(TIME, away), 1e-4 * TIME))
+    assert words in [text.get_text() for text in drawing.axes[2].texts]
+    names = lines(drawing.axes[0])
+    assert ("contact" in names, "free flight" in names) == (away > CLEARANCE, away < CLEARANCE)
+
+
+@pytest.mark.parametrize("window", [{}, {"start": 10e-3}, {"until": 12e-3}, {"start": 16e-3, "until": 24e-3}])
+def test_nothing_is_cut_off_or_overlaps(window: dict[str, float]) -> None:
+    with style.look():
+        figure_checks.check(orbit(bouncing(), **window))
+
+
+def test_what_cannot_be_drawn_is_refused() -> None:
+    ideal = synthetic.result(support(), TIME, {"pin.rear_base.force": (TIME, "N")})
+    assert loose_pins(ideal) == ()
+    with pytest.raises(InputError, match="no loose pin"):
+        orbit(ideal)
+    with pytest.raises(InputError, match="rear_base"):
+        orbit(bouncing(), "rear_bsae")
+    with pytest.raises(InputError, match="0 records lie between"):
+        orbit(bouncing(), start=1.0)

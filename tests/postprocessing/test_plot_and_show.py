@@ -1,0 +1,295 @@
+"""`plot` and `show` of runs: files, tables, exit codes, and what is refused."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from support_exudyn import Result, simulate
+from support_exudyn.__main__ import main
+from tests.cases.run_cases import loose_slider_crank, loose_support, support
+from user_forces.values.value import Value
+
+
+@pytest.fixture(scope="module")
+def runs(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder of four short runs: a loose pin with an accuracy, ideal pins, space, and a slider-crank."""
+    folder = tmp_path_factory.mktemp("runs")
+    fall = loose_support(1.5, 0.25, duration=0.2)
+    simulate(fall, accuracy="draft").save(folder / "loose.h5")
+    simulate(support(duration=0.2)).save(folder / "ideal.h5")
+    simulate(replace(fall, dimensions=3, duration=0.02)).save(folder / "space.h5")
+    crank = loose_slider_crank(0.05, formulation="reduced", record_period=5e-5)
+    simulate(crank).save(folder / "crank.h5")
+    return folder
+
+
+@pytest.fixture(autouse=True)
+def _no_display(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("DISPLAY", raising=False)
+    monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
+
+
+def names(folder: Path) -> set[str]:
+    return {path.name for path in folder.iterdir()}
+
+
+def both(*stems: str) -> set[str]:
+    return {f"{stem}.{kind}" for stem in stems for kind in ("png", "pdf")}
+
+
+def test_without_a_wish_an_overview_is_drawn(runs: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["plot", str(runs / "loose.h5")]) == 0
+    out = runs / "loose_figures"
+    expected = both("overview", "orbit_rear_base", "poincare_rear_base", "spectrum_rear_base")
+    assert names(out) == expected
+    assert {Path(line).name for line in capsys.readouterr().out.splitlines()} == expected
+    assert (out / "overview.png").read_bytes().startswith(b"\x89PNG")
+    assert (out / "overview.pdf").read_bytes().startswith(b"%PDF")
+
+
+def test_a_run_with_ideal_pins_has_forces_and_motion(runs: Path, tmp_path: Path) -> None:
+    assert main(["plot", str(runs / "ideal.h5"), "--out", str(tmp_path)]) == 0
+    assert names(tmp_path) == both("overview")
+
+
+def test_what_a_run_has_none_of_is_left_out_of_the_overview_in_a_sentence(
+    runs: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["plot", str(runs / "space.h5"), "--out", str(tmp_path)]) == 0
+    assert names(tmp_path) == both("overview", "orbit_rear_base")
+    said = capsys.readouterr().err
+    assert "poincare_rear_base: left out" in said
+    assert "spectrum_rear_base: left out" in said
+
+
+def test_one_kind_of_one_pin_is_drawn(runs: Path, tmp_path: Path) -> None:
+    args = ["plot", str(runs / "crank.h5"), "--spectrum", "--pin", "main", "--from", "0.01"]
+    assert main([*args, "--out", str(tmp_path)]) == 0
+    assert names(tmp_path) == both("spectrum_main")
+
+
+def test_sections_take_channels_and_a_phase(runs: Path, tmp_path: Path) -> None:
+    args = ["plot", str(runs / "crank.h5"), "--section", "slider.x", "slider.velocity_x", "--phase", "0.25"]
+    assert main([*args, "--out", str(tmp_path)]) == 0
+    assert names(tmp_path) == both("poincare")
+
+
+def test_channels_are_drawn_by_pattern(runs: Path, tmp_path: Path) -> None:
+    assert main(["plot", str(runs / "loose.h5"), "pin.*.force", "tip.?", "--out", str(tmp_path)]) == 0
+    assert names(tmp_path) == both("channels")
+
+
+def test_without_a_display_a_sentence_says_so(
+    runs: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    if os.name != "posix" or os.uname().sysname != "Linux":
+        pytest.skip("other systems do not tell by their environment")
+    assert main(["plot", str(runs / "ideal.h5"), "tip.x", "--show", "--out", str(tmp_path)]) == 0
+    assert "there is no display here" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("run", "args", "message"),
+    [
+        ("loose", ["pin.rear_base.forse"], "pin.rear_base.force"),
+        ("loose", ["--orbit", "--pin", "front_base"], "no loose pin"),
+        ("loose", ["--spectrum", "--pin", "rear_bas"], "rear_base"),
+        ("ideal", ["--orbit"], "no loose pin"),
+        ("loose", ["tip.x", "--from", "7"], "0 records lie between"),
+        ("loose", ["--section", "tip.x", "tip.y"], "periods of the drive"),
+        ("loose", ["--section", "tip.x", "tip.q"], "no such channel"),
+        ("nothing", [], "no such file"),
+    ],
+)
+def test_what_cannot_be_drawn_is_said_in_a_sentence(
+    runs: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], run: str, args: list[str], message: str
+) -> None:
+    assert main(["plot", str(runs / f"{run}.h5"), *args, "--out", str(tmp_path / "new")]) == 1
+    said = capsys.readouterr().err
+    assert said.startswith("error: ")
+    assert message in said
+    assert not (tmp_path / "new").exists()
+
+
+@pytest.mark.parametrize(
+    "args", [["--from", "nan"], ["--until", "x"], ["--phase", "2"], ["--section", "tip.x"]]
+)
+def test_wrong_words_are_refused(runs: Path, capsys: pytest.CaptureFixture[str], args: list[str]) -> None:
+    with pytest.raises(SystemExit) as stop:
+        main(["plot", str(runs / "loose.h5"), *args])
+    assert stop.value.code == 2
+    assert "usage: " in capsys.readouterr().err
+
+
+# --- show ---
+
+
+def shown(path: Path, capsys: pytest.CaptureFixture[str], *args: str) -> str:
+    assert main(["show", str(path), *args]) == 0
+    return capsys.readouterr().out
+
+
+def test_show_tells_what_was_run_how_and_what_came_out(runs: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    said = shown(runs / "loose.h5", capsys)
+    result = Result.load(runs / "loose.h5")
+    for words in (
+        "HydraulicSupport",
+        "1.5 mm clearance",
+        "restitution 0.9",
+        "coefficient 0.25",
+        "0.01 asked for",
+    ):
+        assert words in said
+    first = result.onsets["rear_base"][0]
+    assert f"{1e3 * first.time:.6g} ms" in said
+    assert f"1 of {len(result.onsets['rear_base'])}" in said
+    force = result.numbers()["pin.rear_base.force.mean"]
+    (row,) = [line.split() for line in said.splitlines() if line.strip().startswith("pin.rear_base.force.mean")]
+    # the value to the digits that its error leaves, which is shown to two
+    assert float(row[1]) == pytest.approx(force.value / 1e3, abs=force.error / 1e3)
+    assert float(row[2]) == pytest.approx(force.error / 1e3, rel=0.05)
+    assert row[3] == "kN"
+
+
+def test_show_of_a_run_without_an_accuracy_says_so(runs: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert "numerical errors not known" in shown(runs / "ideal.h5", capsys)
+
+
+@pytest.mark.parametrize("run", ["loose", "ideal", "space", "crank"])
+def test_all_channels_are_shown_with_their_whole_names(
+    runs: Path, capsys: pytest.CaptureFixture[str], run: str
+) -> None:
+    said = shown(runs / f"{run}.h5", capsys, "--all")
+    first = {line.split()[0] for line in said.splitlines() if line.strip()}
+    assert set(Result.load(runs / f"{run}.h5").channels) - {"time"} <= first
+    assert "…" not in said
+    assert "\x1b" not in said  # plain where it is not a terminal
+    assert max(map(len, said.splitlines())) <= 150
+
+
+def test_some_channels_are_shown_by_pattern(runs: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    said = shown(runs / "crank.h5", capsys, "slider.*x", "pin.slider_pin.depth")
+    rows = [line.split() for line in said.splitlines() if "." in line]
+    assert [row[0] for row in rows] == ["slider.velocity_x", "slider.x", "pin.slider_pin.depth"]
+    x = Result.load(runs / "crank.h5")["slider.x"]
+    # six digits are shown
+    assert [float(cell) for cell in rows[1][2:5]] == pytest.approx(
+        [1e3 * x.min(), 1e3 * x.mean(), 1e3 * x.max()], rel=1e-5
+    )
+
+
+def test_narrow_terminals_keep_the_numbers(
+    runs: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("support_exudyn.commands.tables.PIPED", 80)
+    said = shown(runs / "space.h5", capsys)
+    result = Result.load(runs / "space.h5")
+    assert max(map(len, said.splitlines())) <= 80
+    assert f"{result['pin.rear_base.depth'].min() * 1e3:.6g}" in said
+    assert "…" not in said
+
+
+def test_show_ends_quietly_when_nobody_reads_on(runs: Path) -> None:
+    command = [sys.executable, "-m", "support_exudyn", "show", str(runs / "space.h5"), "--all"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        assert process.stdout is not None
+        process.stdout.close()
+        assert process.stderr is not None
+        assert process.stderr.read() == b""
+        assert process.wait() == 0
+
+
+@pytest.mark.parametrize("words", [[], ["tip.*"], ["--all"]])
+def test_the_narrowest_terminals_cut_no_number(
+    runs: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, words: list[str]
+) -> None:
+    wide = shown(runs / "loose.h5", capsys, *words)
+    monkeypatch.setattr("support_exudyn.commands.tables.PIPED", 30)
+    narrow = shown(runs / "loose.h5", capsys, *words)
+
+    def rows(said: str) -> list[list[str]]:
+        found = [line.split() for line in said.splitlines()]
+        return [row[:5] for row in found if row and row[0].startswith(("tip.", "pin.", "energy."))]
+
+    assert rows(narrow) == rows(wide)
+
+
+def test_a_run_of_nothing_but_its_time(runs: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    simulate(support(duration=0.01, channels=())).save(tmp_path / "time.h5")
+    assert "what was run" in shown(tmp_path / "time.h5", capsys, "--all")
+    assert main(["plot", str(tmp_path / "time.h5")]) == 1
+    assert "none to draw" in capsys.readouterr().err
+
+
+def test_show_says_nothing_where_there_is_no_output(runs: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "stdout", None)  # as after `>&-`
+    assert main(["show", str(runs / "loose.h5")]) == 0
+
+
+def test_all_figures_are_drawn_though_nobody_reads_their_names(runs: Path, tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "support_exudyn", "plot", str(runs / "crank.h5"), "--out", str(tmp_path)]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        assert process.stdout is not None
+        process.stdout.close()
+        assert process.stderr is not None
+        assert process.stderr.read() == b""
+        assert process.wait() == 0
+    pin = "slider_pin"
+    assert names(tmp_path) == both("overview", f"orbit_{pin}", f"poincare_{pin}", f"spectrum_{pin}")
+
+
+def test_an_interruption_while_libraries_load_is_said_in_a_line(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def interrupted() -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("support_exudyn.commands.parser", interrupted)
+    assert main(["show", "run.h5"]) == 130
+    assert capsys.readouterr().err.startswith("interrupted")
+
+
+def test_show_refuses_unknown_channels(runs: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["show", str(runs / "loose.h5"), "tip.w"]) == 1
+    assert "tip.x" in capsys.readouterr().err
+
+
+def test_show_for_scripts_has_what_the_tables_have(runs: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["show", str(runs / "loose.h5"), "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    result = Result.load(runs / "loose.h5")
+    assert Value.from_data(told["scenario"]) == result.scenario
+    numbers = {name: tuple(number.values()) for name, number in told["numbers"].items()}
+    assert {name: numbers[name] for name in result.numbers()} == dict(result.numbers())
+    assert told["channels"]["tip.x"]["max"] == result["tip.x"].max()
+    assert set(told["channels"]) == set(result.channels) - {"time"}
+    assert [one["time_s"] for one in told["touches"]["rear_base"]] == [
+        o.time for o in result.onsets["rear_base"]
+    ]
+
+
+def test_show_for_scripts_says_null_where_errors_are_not_known(
+    runs: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["show", str(runs / "ideal.h5"), "tip.*", "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert {number["error"] for number in told["numbers"].values()} == {None}
+    assert all(name.startswith("tip.") for name in told["channels"])
+
+
+def test_plot_and_export_name_their_files_for_scripts(
+    runs: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["plot", str(runs / "ideal.h5"), "tip.x", "--out", str(tmp_path), "--json"]) == 0
+    figures = json.loads(capsys.readouterr().out)["figures"]
+    assert {Path(path) for path in figures["channels"]} == set(tmp_path.iterdir())
+    assert main(["export", str(runs / "ideal.h5"), "--to", "csv", "--out", str(tmp_path), "--json"]) == 0
+    written = json.loads(capsys.readouterr().out)
+    assert written == {"written": {"csv": [str(tmp_path / "ideal.csv")]}, "left_out": {}}

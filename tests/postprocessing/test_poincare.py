@@ -1,0 +1,146 @@
+"""Poincare sections of motions that are known."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from support_exudyn import CubicStep, Held, Onset, Reciprocating, Result
+from support_exudyn.postprocessing.figures import style
+from support_exudyn.postprocessing.figures.poincare import period, periodic_times, poincare, stroboscopic
+from tests import figure_checks, synthetic
+from tests.cases.run_cases import CRANK_SPEED, loose_slider_crank, loose_support
+from user_forces import InputError
+
+PERIOD = 0.5  # [s]
+SCENARIO = loose_support(1.5, drive=Reciprocating(stroke=0.2, period=PERIOD), duration=5.0)
+TIME = np.linspace(0.0, 5.0, 5001)
+
+
+def swinging(share: float) -> Result:
+    """A journal that goes round in its bore so many times in a period of the drive, on the whole 1 mm out."""
+    angle = 2.0 * np.pi * share * TIME / PERIOD
+    x, y = 1e-3 * np.cos(angle), 1e-3 * np.sin(angle)
+    speed = (np.gradient(x, TIME), "rad/s")
+    return synthetic.journal(
+        SCENARIO, TIME, x, y, rear_link__angle=(x, "rad"), rear_link__angular_velocity=speed
+    )
+
+
+def test_periods_are_those_of_the_drives() -> None:
+    assert period(SCENARIO) == PERIOD
+    assert period(loose_slider_crank(0.02)) == pytest.approx(2.0 * math.pi / CRANK_SPEED)
+    assert period(loose_support(1.5)) is None  # a rise
+    apart = {"rear_column": Held()}
+    assert period(replace(SCENARIO, drives=apart)) == PERIOD
+    assert period(replace(SCENARIO, drives={"rear_column": Reciprocating(stroke=0.2, period=0.7)})) is None
+    assert period(replace(SCENARIO, drives={"rear_column": CubicStep()})) is None
+
+
+@pytest.mark.parametrize(("share", "points"), [(1.0, 1), (2.0, 1), (0.5, 2), (1.0 / 3.0, 3)])
+def test_a_motion_of_n_periods_is_n_points(share: float, points: int) -> None:
+    section = stroboscopic(
+        swinging(share), "pin.rear_base.eccentricity_x", "pin.rear_base.eccentricity_y", 0.25
+    )
+    # the times fall on records; 1e-9 m is far below the distance of the points and far above rounding
+    seen = {(round(x, 9) + 0.0, round(y, 9) + 0.0) for x, y in zip(section.first, section.second, strict=True)}
+    assert len(seen) == points
+    assert section.time == pytest.approx(np.arange(10) * PERIOD + 0.25 * PERIOD)
+
+
+def test_a_piece_of_the_run_keeps_the_phase() -> None:
+    run = swinging(1.0)
+    assert periodic_times(run, 0.5, start=1.1, until=2.3) == pytest.approx([1.25, 1.75, 2.25])
+    assert periodic_times(run, 0.0, start=1.0, until=2.0) == pytest.approx([1.0, 1.5, 2.0])
+
+
+def test_the_section_is_drawn_in_the_bore_and_of_two_channels() -> None:
+    drawing = poincare(swinging(1.0 / 3.0))
+    bore, pair = drawing.axes[:2]
+    angle = 2.0 * np.pi * np.arange(11) / 3.0
+    (points,) = [line for line in bore.lines if line.get_label() == "free flight"]
+    assert points.get_color() == style.FLIGHT  # 1 mm of 1.5: it never touches
+    assert points.get_xdata() == pytest.approx(np.cos(angle), abs=1e-9)
+    assert bore.get_xlabel() == "eccentricity x [mm]"
+    assert pair.get_xlabel() == "rear_link.angle [deg]"
+    assert "once in a period" in drawing.get_suptitle()
+    assert "(0.5 s)" in figure_checks.words_below(drawing)
+
+
+def test_channels_can_be_chosen() -> None:
+    names = ("pin.rear_base.depth", "pin.rear_base.eccentricity_x")
+    assert poincare(swinging(0.4), channels=names).axes[1].get_ylabel() == "pin.rear_base.eccentricity_x [mm]"
+    with pytest.raises(InputError, match="two names"):
+        poincare(swinging(0.4), channels=names[:1])
+    with pytest.raises(InputError, match="2 periods"):
+        poincare(swinging(0.4), channels=names, start=4.2)
+
+
+def touching(speeds: list[float]) -> Result:
+    """A rise, which has no period, with a touch every 0.1 s."""
+    onsets = [Onset(0.1 * (n + 1), speed, 0.1 * (n + 1) + 0.01, 0.5 * speed) for n, speed in enumerate(speeds)]
+    away = np.minimum(1.4e-3, TIME)
+    return synthetic.journal(loose_support(1.5), TIME, away, 0.0 * TIME, onsets)
+
+
+def test_without_a_period_touches_make_the_section() -> None:
+    speeds = [0.2, 0.1, 0.15, 0.05]
+    drawing = poincare(touching(speeds))
+    places, returns = drawing.axes
+    (points,) = [line for line in returns.lines if line.get_label() == "touches"]
+    assert points.get_xdata() == pytest.approx([200.0, 100.0, 150.0])
+    assert points.get_ydata() == pytest.approx([100.0, 150.0, 50.0])
+    assert places.lines[1].get_xdata() == pytest.approx([0.0] * 4)  # deg
+    assert returns.get_xlabel() == "approach speed of a touch [mm/s]"
+    assert "by touches" in drawing.get_suptitle()
+
+
+def test_directions_are_in_degrees_side_by_side() -> None:
+    time = np.arange(400) * 1e-3
+    turn = np.radians(np.where(time < 0.2, 170.0, -170.0))
+    away = np.minimum(1.4e-3 + 0.0 * time, 1.4e-3)
+    run = synthetic.journal(
+        loose_support(1.5), time, away * np.cos(turn), away * np.sin(turn),
+        [Onset(0.1005, 0.2, 0.101, 0.1), Onset(0.3005, 0.1, 0.301, 0.1)],
+    )  # fmt: skip
+    places = poincare(run).axes[0]
+    assert places.lines[1].get_xdata() == pytest.approx([170.0, 190.0])
+
+
+def test_a_channel_that_hardly_changes_is_shown_from_its_middle() -> None:
+    wave = np.sin(2.0 * np.pi * 0.25 * TIME / PERIOD + 0.3)
+    run = synthetic.journal(
+        SCENARIO, TIME, 1e-3 + 0.0 * TIME, 0.0 * TIME, tip__x=(3.0 + 2e-3 * wave, "m"), tip__y=(wave, "m")
+    )
+    axes = poincare(run, channels=("tip.x", "tip.y")).axes[1]
+    (points,) = [line for line in axes.lines if line.get_label() == "free flight"]
+    x, y = np.array(points.get_xdata()), np.array(points.get_ydata())
+    assert x.max() == pytest.approx(-x.min())
+    # both channels are the same wave, of 2 mm and of 1000 mm
+    assert np.ptp(x) == pytest.approx(2e-3 * np.ptp(y))
+    assert "[mm]" in axes.get_xlabel()
+    assert axes.get_xlabel().startswith("tip.x,\nfrom 3")
+
+
+def test_one_touch_is_no_section() -> None:
+    with pytest.raises(InputError, match="touches 1 times"):
+        poincare(touching([0.2]))
+
+
+def test_phases_beyond_the_period_are_refused() -> None:
+    with pytest.raises(InputError, match="phase"):
+        poincare(swinging(1.0), phase=1.5)
+
+
+@pytest.mark.parametrize("share", [1.0, 0.5, 0.37, 1e-4])
+def test_nothing_is_cut_off_or_overlaps(share: float) -> None:
+    with style.look():
+        figure_checks.check(poincare(swinging(share)))
+
+
+def test_nothing_of_touches_is_cut_off_or_overlaps() -> None:
+    with style.look():
+        figure_checks.check(poincare(touching([0.2, 0.1, 0.15, 0.05])))

@@ -1,0 +1,415 @@
+"""Exudyn's own solution file of a run: the engine's, of every formulation, whole or not at all."""
+
+from __future__ import annotations
+
+import dataclasses
+import errno
+import gc
+import re
+import subprocess
+import sys
+import weakref
+from pathlib import Path
+from typing import Any
+
+import exudyn
+import numpy as np
+import pytest
+from exudyn.utilities import LoadSolutionFile, SetSolutionState
+
+from support_exudyn import (
+    CubicStep,
+    Failure,
+    OilColumn,
+    Result,
+    Scenario,
+    SimulationError,
+    SolverSettings,
+    bore_area,
+    simulate,
+)
+from support_exudyn.__main__ import main
+from support_exudyn.formulations.redundant.model import model
+from support_exudyn.formulations.redundant.solver import solver
+from support_exudyn.postprocessing.export.solution_file import read_solution, rows
+from support_exudyn.postprocessing.look.poses import Poses
+from support_exudyn.postprocessing.look.solid import solids_of
+from support_exudyn.postprocessing.look.strut_pose import strut_pose
+from support_exudyn.postprocessing.viewer import viewer_model
+from support_exudyn.postprocessing.viewer.view import open_viewer
+from support_exudyn.postprocessing.viewer.viewer_model import POSITION, SHOWN, dressed
+from tests.cases.run_cases import PIN, loose_slider_crank, loose_support, support
+from tests.processes import environment
+from user_forces import InputError
+
+STROKE, TIME = 0.02, 0.05  # [m], [s]
+RISE: dict[str, Any] = {"drive": CubicStep(stroke=STROKE, start=0.0, end=TIME), "duration": TIME}
+
+
+def load(path: Path) -> Any:
+    return LoadSolutionFile(str(path), verbose=False)
+
+
+@pytest.fixture(scope="module")
+def run() -> Result:
+    return simulate(loose_support(1.5, 0.25, **RISE))
+
+
+# --- against what the engine writes while it integrates ---
+
+
+@pytest.mark.parametrize(
+    "scenario", [support(**RISE), loose_support(1.5, 0.25, **RISE)], ids=["ideal", "loose"]
+)
+def test_it_is_what_the_engine_writes_of_its_own_run(
+    scenario: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    chosen = solver.engine_settings
+
+    def writing(*arguments: Any) -> Any:
+        settings = chosen(*arguments)
+        settings.solution.precision = 17
+        file = settings.solution.file
+        file.write, file.name, file.writePeriod = True, str(tmp_path / "engine.txt"), scenario.record_period
+        file.export.accelerations = file.export.algebraicCoordinates = file.export.dataCoordinates = False
+        return settings
+
+    monkeypatch.setattr(solver, "engine_settings", writing)
+    simulate(scenario, solution=tmp_path / "ours.txt")
+    engine, ours = load(tmp_path / "engine.txt"), load(tmp_path / "ours.txt")
+    assert ours["columnsExported"] == engine["columnsExported"]
+    size = ours["columnsExported"][0]
+    assert np.array_equal(ours["data"][:, 0], engine["data"][:, 0])
+    moved = np.s_[:, 1 : 1 + size]
+    assert np.abs(engine["data"][moved]).max() > 1e-3  # it moves
+    # rounding: displacements are the channels' places, some metres, less those of the start
+    assert ours["data"][moved] == pytest.approx(engine["data"][moved], rel=0.0, abs=4e-15)
+    # before much shorter steps velocities are aligned with the constraints, after the record and before the
+    # engine writes; that moves them by what the steps had left them off
+    off = np.abs(ours["data"] - engine["data"])[:, 1 + size :].max(axis=1)
+    assert np.median(off) == 0.0
+    speed = np.abs(ours["data"][:, 1 + size :]).max()
+    assert off.max() < (1e-3 * speed if scenario.pins else 1e-15)
+
+
+def test_its_header_is_the_engines(run: Result, tmp_path: Path) -> None:
+    run.save_solution(tmp_path / "run.txt")
+    header = (tmp_path / "run.txt").read_text().splitlines()[:10]
+    assert header[0] == "#Exudyn implicit second order time integration solver solution file"
+    assert header[2] == "#columns contain: time, ODE2 displacements, ODE2 velocities"
+    assert header[4].endswith("= [12,12,0,0,0,0,0]")
+    assert "HydraulicSupport" in header[9]
+
+
+# --- of every formulation ---
+
+
+def places(scenario: Scenario, solution: Any, body: str, point: tuple[float, ...], row: int) -> np.ndarray:
+    """Where the engine has a point of the start posture in a row of a solution file."""
+    scene = model(scenario)
+    try:
+        SetSolutionState(scene.mbs, solution, row)
+        item = scene.bodies[body]
+        centre = item.body.centre
+        angle = -item.body.angle if len(centre) == 2 else 0.0
+        arm = np.zeros(3)
+        arm[: len(point)] = np.array(point) - centre
+        c, s = np.cos(angle), np.sin(angle)
+        local = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]) @ arm
+        return np.array(scene.mbs.GetObjectOutputBody(item.object, exudyn.OutputVariableType.Position, local))
+    finally:
+        scene.release()
+
+
+OIL = OilColumn(bore_area=bore_area(0.25, number=2), oil_length=0.5, bulk_modulus=1.5e9)
+COLUMNS = ("front_column", "rear_column")
+RISES = {
+    "redundant": loose_support(1.5, 0.25, **RISE),
+    "reduced": loose_support(1.5, 0.25, formulation="reduced", solver=SolverSettings(backend="python"), **RISE),
+    "tree": loose_support(1.5, 0.25, formulation="tree", columns=dict.fromkeys(COLUMNS, OIL), **RISE),
+    "crank": loose_slider_crank(2e-3, formulation="reduced", solver=SolverSettings(backend="python")),
+    "space": loose_support(1.5, 0.25, dimensions=3, **RISE),
+}
+
+
+@pytest.mark.parametrize("name", RISES)
+def test_the_engines_model_is_where_the_run_was(name: str, tmp_path: Path) -> None:
+    result = simulate(RISES[name], solution=tmp_path / "run.txt")
+    solution = load(tmp_path / "run.txt")
+    assert np.array_equal(solution["data"][:, 0], result.time)
+    scenario = result.scenario
+    points = scenario.space.points if scenario.dimensions == 3 else scenario.linkage.points
+    assert points
+    for row in (1, solution["nRows"] - 1):
+        for point, traced in points.items():
+            there = places(scenario, solution, traced.body, traced.point, row)
+            # rounding of places of some metres; in space also of the rotation found from angles, 1e-14
+            assert there[0] == pytest.approx(result[f"{point}.x"][row], rel=0.0, abs=1e-13)
+            assert there[1] == pytest.approx(result[f"{point}.y"][row], rel=0.0, abs=1e-13)
+
+
+@pytest.mark.parametrize("name", ["redundant", "space"])
+def test_rates_are_those_of_the_coordinates(name: str) -> None:
+    result = simulate(dataclasses.replace(RISES[name], pins={}, record_period=2.5e-4, step=2.5e-4))
+    scene = model(result.scenario)
+    try:
+        data = rows(result, scene)["data"]
+    finally:
+        scene.release()
+    size = (data.shape[1] - 1) // 2
+    place, rate = data[:, 1 : 1 + size], data[:, 1 + size :]
+    differences = (place[2:] - place[:-2]) / (data[2:, :1] - data[:-2, :1])
+    # central differences of second order: the third derivative of the cubic stroke times the square of the step
+    # over 6 is 2e-5 m/s for columns; bodies, also their angles, are levered by less than 10
+    off = 12.0 * STROKE / TIME**3 * 2.5e-4**2 / 6.0
+    assert differences[1:-1] == pytest.approx(rate[2:-2], rel=0.0, abs=10.0 * off)
+    assert np.abs(rate).max() > 0.5
+
+
+# --- formats ---
+
+
+def test_the_binary_format_holds_the_same(run: Result, tmp_path: Path) -> None:
+    run.save_solution(tmp_path / "run.txt")
+    run.save_solution(tmp_path / "run.sol")
+    text, binary = load(tmp_path / "run.txt"), load(tmp_path / "run.sol")
+    assert np.array_equal(text["data"], binary["data"])
+    assert (tmp_path / "run.sol").read_bytes().startswith(b"EXUBIN")
+    assert read_solution(tmp_path / "run.sol")["nRows"] == run.time.size
+
+
+@pytest.mark.parametrize("ending", ["", ".dat", ".ünï"])
+def test_any_name_will_do(run: Result, ending: str, tmp_path: Path) -> None:
+    path = tmp_path / "a folder" / f"solution{ending}"
+    assert run.save_solution(path) == path
+    assert load(path)["nRows"] == run.time.size
+    assert [entry.name for entry in path.parent.iterdir()] == [path.name]
+
+
+# --- whole or not at all ---
+
+
+def test_channels_that_it_needs_are_asked_for_before_the_run(tmp_path: Path) -> None:
+    scenario = loose_support(1.5, 0.25, duration=1e5, channels=("tip.*", "canopy.*"))
+    with pytest.raises(InputError, match=r"'rear_link\.x'"):
+        simulate(scenario, solution=tmp_path / "run.txt")  # at once, not after a day
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_run_without_them_says_so(tmp_path: Path) -> None:
+    result = simulate(loose_support(1.5, 0.25, duration=0.002, channels=("tip.*",)))
+    with pytest.raises(InputError, match="was not recorded"):
+        result.save_solution(tmp_path / "run.txt")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_path_that_cannot_be_written_is_refused_before_the_run(tmp_path: Path) -> None:
+    with pytest.raises(OSError, match="cannot be written"):
+        simulate(loose_support(1.5, 0.25, duration=1e5), solution=tmp_path)
+
+
+@pytest.mark.parametrize("throw", [True, False])
+def test_a_run_that_fails_leaves_an_older_file(throw: bool, tmp_path: Path) -> None:
+    path = tmp_path / "run.txt"
+    path.write_text("older")
+    scenario = loose_support(1.5, 0.25, duration=1.0)
+    scenario = dataclasses.replace(scenario, solver=dataclasses.replace(scenario.solver, most_steps=100))
+    if throw:
+        with pytest.raises(SimulationError, match="more than 100 steps"):
+            simulate(scenario, solution=path)
+    else:
+        assert isinstance(simulate(scenario, solution=path, throw=False), Failure)
+    assert path.read_text() == "older"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+FULL = """
+import resource, signal, sys
+from support_exudyn import Result
+result = Result.load(sys.argv[1])
+signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
+try:
+    result.save_solution(sys.argv[2])
+except OSError as error:
+    raise SystemExit("refused: " + str(error))
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="has no limit of files' sizes")
+@pytest.mark.parametrize("ending", ["txt", "sol"])
+def test_a_full_disk_leaves_an_older_file(run: Result, ending: str, tmp_path: Path) -> None:
+    path = tmp_path / f"solution.{ending}"
+    path.write_text("older")
+    run.save(tmp_path / "run.h5")
+    script = [sys.executable, "-c", FULL, str(tmp_path / "run.h5"), str(path)]
+    done = subprocess.run(script, env=environment(), capture_output=True, text=True, timeout=300)
+    assert done.returncode == 1
+    assert "the engine could not write all of it" in done.stderr
+    assert f"refused: [Errno {errno.EIO}]" in done.stderr
+    assert f"{str(path)!r}" in done.stderr
+    assert path.read_text() == "older"
+    assert sorted(entry.name for entry in tmp_path.iterdir()) == ["run.h5", path.name]
+
+
+# --- reading ---
+
+
+EVIL = "#\n#\n#\n#\n#number of written coordinates [n] = [print('evil'),0,0,0,0,0,0]\n0,0\n"
+
+
+@pytest.mark.parametrize("text", ["", "not a file of numbers\n", EVIL, "#\n" * 9, "EXUBIN", "\0" * 300])
+def test_what_is_not_a_solution_file_is_refused(
+    text: str, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "no.txt"
+    path.write_text(text)
+    with pytest.raises(InputError, match="not a solution file"):
+        read_solution(path)
+    assert "evil" not in capfd.readouterr().out  # the engine's reader would evaluate it
+
+
+def test_a_solution_file_of_another_model_is_not_shown(run: Result, tmp_path: Path) -> None:
+    other = simulate(RISES["crank"], solution=tmp_path / "crank.txt")
+    assert isinstance(other, Result)
+    with pytest.raises(InputError, match=r"crank\.txt.* 9 coordinates; allowed: of the run's, with 12"):
+        open_viewer(run, solution=tmp_path / "crank.txt")
+
+
+def test_a_run_to_an_accuracy_keeps_it_too(tmp_path: Path) -> None:
+    scenario = loose_support(1.5, 0.0, formulation="redundant", **RISE)
+    result = simulate(scenario, accuracy="draft", solution=tmp_path / "run.txt")
+    kept = load(tmp_path / "run.txt")["data"]
+    assert np.array_equal(kept[:, 0], result.time)
+
+
+def test_a_model_is_let_go_of(run: Result, tmp_path: Path) -> None:
+    looking = dressed(run.scenario)
+    known = weakref.ref(looking), weakref.ref(looking.scene)
+    looking.scene.release()
+    del looking
+    gc.collect()
+    assert [of() for of in known] == [None, None]
+
+
+# --- what is drawn changes nothing of the model ---
+
+
+@pytest.mark.parametrize("name", ["redundant", "space", "crank"])
+def test_the_look_of_a_machine_changes_no_equation(name: str) -> None:
+    plain, looking = model(RISES[name]), dressed(RISES[name])
+    try:
+        assert equations(looking.scene.mbs) == equations(plain.mbs)
+        assert looking.scene.mbs.systemData.NumberOfObjects() > plain.mbs.systemData.NumberOfObjects()
+    finally:
+        plain.release()
+        looking.scene.release()
+
+
+def plainly(value: Any) -> str:
+    """What an item holds, functions without the places that they have in memory."""
+    return re.sub(r" at 0x\w+", "", repr(value))
+
+
+def equations(mbs: Any) -> dict[str, Any]:
+    """Objects without their look, where coordinates stand, the initial state, and the start's accelerations."""
+    data = mbs.systemData
+    settings = exudyn.SimulationSettings()
+    settings.solution.file.write = False
+    settings.timeIntegration.verboseMode = 0
+    integrator: Any = exudyn.MainSolverImplicitSecondOrder()
+    integrator.InitializeSolver(mbs, settings)
+    start = data.GetODE2Coordinates_tt().tolist()
+    integrator.FinalizeSolver(mbs, settings)
+    items = [mbs.GetObject(n) for n in range(data.NumberOfObjects())]
+    physical = [
+        {key: plainly(value) for key, value in item.items() if not key.startswith("V") and key != "name"}
+        for item in items
+        if item["objectType"] != "Ground"
+    ]
+    return {
+        "objects": physical,
+        "sizes": (data.ODE2Size(), data.AEsize(), data.ODE1Size(), data.DataSize()),
+        "initial": [
+            np.asarray(part).tolist() for part in data.GetSystemState(exudyn.ConfigurationType.Initial)[:-1]
+        ],
+        "accelerations": start,
+    }
+
+
+def test_it_can_be_exported(run: Result, tmp_path: Path) -> None:
+    run.save(tmp_path / "rise.h5")
+    assert main(["export", str(tmp_path / "rise.h5"), "--to", "solution"]) == 0
+    read = LoadSolutionFile(str(tmp_path / "rise_export" / "rise_solution.txt"), verbose=False)
+    assert read["data"][:, 0] == pytest.approx(run.time, abs=0.0)
+
+
+# --- what is drawn is where the run was ---
+
+
+@pytest.mark.parametrize("name", ["redundant", "space", "crank"])
+def test_surfaces_and_columns_are_where_the_run_was(name: str) -> None:
+    result = simulate(RISES[name])
+    shown, poses = dressed(result.scenario), Poses(result)
+    record = result.time.size - 1
+    try:
+        SetSolutionState(shown.scene.mbs, rows(result, shown.scene), record, SHOWN)
+        for body, item in shown.scene.bodies.items():
+            for solid in solids_of(shown.look, body):
+                drawn = viewer_model._of_solid(solid, viewer_model._axes(shown.scene, body))
+                points = np.reshape(drawn["points"], (-1, 3))
+                ends = np.array([np.argmin(points, axis=0), np.argmax(points, axis=0)]).ravel()
+                there = [
+                    shown.scene.mbs.GetObjectOutputBody(item.object, POSITION, points[k], SHOWN) for k in ends
+                ]
+                where = poses.of(body).points(np.asarray(solid.mesh.vertices), record)
+                # each is a corner of the solid, where its body was; rounding of places of some metres
+                apart = np.linalg.norm(np.array(there)[:, None] - where[None], axis=-1).min(axis=1)
+                assert apart.max() < 1e-12, solid.name
+        for strut in shown.look.struts:
+            cylinder, rod = (
+                np.reshape(part()["points"], (-1, 3)) for part in viewer_model._parts(shown, strut)
+            )
+            expected = strut_pose(strut, poses, record)
+            for points, where in (
+                (cylinder, expected.cylinder(np.asarray(strut.cylinder.vertices))[0]),
+                (rod, expected.rod(np.asarray(strut.rod.vertices))[0]),
+            ):
+                for end in (np.min, np.max):
+                    assert end(points, axis=0) == pytest.approx(end(where, axis=0), abs=1e-12)
+    finally:
+        shown.scene.release()
+
+
+@pytest.mark.parametrize("bore", ["first", "second"])
+def test_journal_and_rim_of_a_loose_pin_are_on_their_bodies(bore: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    scenario = RISES["redundant"]
+    loose = dataclasses.replace(scenario.clearance_pins[PIN], bore=bore, eccentricity=(0.0, -0.0015))
+    scenario = dataclasses.replace(scenario, pins={PIN: loose})
+    place, bearing = scenario.linkage.pins[PIN], loose.contact.bearing
+    rims: list[tuple[np.ndarray, Any]] = []
+    drawn = viewer_model._of_rim
+
+    def of_rim(points: np.ndarray, axes: Any = viewer_model.STILL) -> dict[str, Any]:
+        rims.append((points, axes))
+        return drawn(points, axes)
+
+    monkeypatch.setattr(viewer_model, "_of_rim", of_rim)
+    shown = dressed(scenario)
+    try:
+        (journal,) = [solid for solid in shown.look.solids if solid.name == f"journal of {PIN}"]
+        on_second = bore == "first"
+        assert journal.body == (place.second if on_second else place.first)
+        centre = place.second_point if on_second else place.first_point
+        low, high = journal.mesh.bounds
+        # a polygon of 32 corners that touches its circle
+        assert 0.5 * (low + high)[:2] == pytest.approx(centre, abs=1e-12)
+        assert (high - low)[0] == pytest.approx(2.0 * bearing.journal_radius, rel=1e-9)
+        ((points, axes),) = rims  # of which body: its axes, or those of the ground
+        assert (axes is viewer_model.STILL) == on_second
+        away = points[:, :2] - np.array(place.first_point if on_second else place.second_point)
+        assert np.hypot(*away.T) == pytest.approx(bearing.bore_radius, abs=1e-12)
+        if not on_second:
+            assert axes.origin[:2] == pytest.approx(scenario.linkage.bodies[place.second].centre)
+    finally:
+        shown.scene.release()

@@ -1,0 +1,177 @@
+"""Spectra of signals whose amplitudes and frequencies are known, and against scipy's."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy import fft
+
+from support_exudyn import Onset, Result
+from support_exudyn.postprocessing.figures import style
+from support_exudyn.postprocessing.figures.spectrum import equally_spaced, force_spectrum, spectrum
+from tests import figure_checks, synthetic
+from tests.cases.run_cases import FORCE, support
+from user_forces import InputError
+
+SPACING = 1e-3  # [s]
+TIME = np.arange(4000) * SPACING
+
+
+def tone(frequency: float, amplitude: float) -> np.ndarray:
+    return amplitude * np.sin(2.0 * np.pi * frequency * TIME + 0.3)
+
+
+def run(values: np.ndarray, time: np.ndarray = TIME) -> Result:
+    return synthetic.result(support(), time, {FORCE: (values, "N")})
+
+
+@given(frequency=st.integers(5, 490), amplitude=st.floats(1e-3, 1e6))
+def test_a_tone_has_its_amplitude_at_its_frequency(frequency: int, amplitude: float) -> None:
+    found = spectrum(TIME, tone(float(frequency), amplitude))
+    highest = int(np.argmax(found.amplitude))
+    assert found.frequency[highest] == pytest.approx(frequency)
+    # frequencies of whole numbers lie on a bin; the trend of a piece is up to half a percent of it
+    assert found.amplitude[highest] == pytest.approx(amplitude, rel=5e-3)
+
+
+def test_a_tone_between_two_bins_loses_at_most_what_hanns_window_loses() -> None:
+    found = spectrum(TIME, tone(100.5, 1.0))
+    # 1.42 dB is the window's scalloping loss; halfway between two bins it is all of it
+    assert found.amplitude.max() == pytest.approx(10 ** (-1.42 / 20.0), rel=5e-3)
+
+
+def test_the_density_adds_up_to_the_variance() -> None:
+    """Parseval: of noise, over all frequencies."""
+    noise = np.random.default_rng(1).normal(0.0, 3.0, 200_000)
+    found = spectrum(np.arange(noise.size) * SPACING, noise, segments=200)
+    # 200 pieces: the variance of a spectrum's sum is about that of the sample, 2 / sqrt(200000) = 0.4 %
+    assert np.sum(found.density) * found.resolution == pytest.approx(noise.var(), rel=1e-2)
+
+
+def test_one_piece_is_the_fourier_transform_of_what_the_window_leaves() -> None:
+    values = tone(40.0, 2.0) + np.random.default_rng(2).normal(size=TIME.size)
+    found = spectrum(TIME, values, segments=1)
+    slope, level = np.polyfit(TIME, values, 1)
+    window = 0.5 - 0.5 * np.cos(2.0 * np.pi * np.arange(TIME.size) / TIME.size)
+    transformed = fft.rfft(window * (values - slope * TIME - level))
+    expected = 2.0 * np.abs(transformed) / window.sum()
+    # two ways to fit a straight line and to sum; the ends of the range, which have no mirror, are not compared
+    assert found.amplitude[1:-1] == pytest.approx(expected[1:-1], rel=1e-6, abs=1e-9)
+    assert found.averaged == 1
+
+
+def test_resolution_and_highest_frequency_are_told() -> None:
+    found = spectrum(TIME, tone(50.0, 1.0), segments=4)
+    assert (found.resolution, found.nyquist) == (pytest.approx(1.0), pytest.approx(500.0))
+    assert found.averaged == 7
+
+
+def test_straight_trends_do_not_show() -> None:
+    # a ramp of 1e5 leaves rounding, 1e5 * 1e-16, times the number of samples
+    assert spectrum(TIME, 1e5 * TIME).amplitude.max() < 1e-6
+
+
+def test_what_is_too_fast_for_the_records_appears_folded() -> None:
+    found = spectrum(TIME, tone(930.0, 1.0))
+    assert found.peaks(1)[0][0] == pytest.approx(1000.0 - 930.0)
+
+
+def test_peaks_are_the_highest_that_stand_out() -> None:
+    found = spectrum(TIME, tone(20.0, 5.0) + tone(64.0, 9.0) + tone(200.0, 1.0) + 1e-3 * tone(400.0, 1.0))
+    assert [round(frequency) for frequency, _ in found.peaks()] == [64, 20, 200]
+    assert spectrum(TIME, np.zeros_like(TIME)).peaks() == []
+
+
+def test_ripple_far_below_the_largest_amplitude_is_no_peak() -> None:
+    found = spectrum(TIME, tone(64.0, 9.0) + 1e-4 * tone(400.0, 9.0))
+    peaks = [round(frequency) for frequency, _ in found.peaks()]
+    assert peaks[0] == 64
+    assert 400 not in peaks
+
+
+def test_peaks_are_told_in_the_unit_of_the_axis() -> None:
+    drawing = force_spectrum(run(5e3 + tone(64.0, 3e3), TIME / 100.0), over_time=False)
+    (axes,) = drawing.axes
+    legend = axes.get_legend()
+    assert legend is not None
+    assert axes.get_xlabel() == "frequency [kHz]"
+    assert legend.get_texts()[0].get_text().startswith("A: 6.4 ± 0.05 kHz, 3")
+
+
+def test_records_off_the_grid_are_interpolated_and_a_last_one_left_out() -> None:
+    values, spacing, resampled = equally_spaced(np.append(TIME, TIME[-1] + 0.3e-3), np.append(TIME, 7.0))
+    assert (spacing, resampled) == (pytest.approx(SPACING), False)
+    assert values == pytest.approx(TIME)
+    uneven = np.sort(np.append(TIME, 1.2345))  # a record at a break
+    values, spacing, resampled = equally_spaced(uneven, 3.0 * uneven)
+    assert resampled
+    assert values == pytest.approx(3.0 * (np.arange(values.size) * spacing))
+
+
+def test_the_figure_shows_amplitudes_with_units_and_the_highest_peak() -> None:
+    drawing = force_spectrum(run(5e3 + tone(64.0, 3e3)), over_time=False)
+    (axes,) = drawing.axes
+    curve = axes.lines[0]
+    n = int(np.argmax(curve.get_ydata()))
+    assert curve.get_xdata()[n] == pytest.approx(64.0)
+    assert curve.get_ydata()[n] == pytest.approx(3.0, rel=5e-3)  # as above
+    assert curve.get_color() == style.IDEAL
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("frequency [Hz]", "amplitude [kN]")
+    legend = axes.get_legend()
+    assert legend is not None
+    assert legend.get_texts()[0].get_text().startswith("A: 64 ± 0.5 Hz, 3")
+    assert "aliasing" in figure_checks.words_below(drawing)
+    assert "500 Hz" in figure_checks.words_below(drawing)
+
+
+def test_over_time_a_tone_of_half_the_amplitude_is_six_decibels_lower() -> None:
+    values = tone(125.0, 1.0) * np.where(TIME < 3.0, 1.0, 0.5)
+    drawing = force_spectrum(run(values), start=2.0)
+    (mesh,) = drawing.axes[1].collections
+    assert mesh.get_cmap()(1.0)[0] < 0.2 < mesh.get_cmap()(0.0)[0]  # dark where it is large
+    levels = np.asarray(mesh.get_array()).reshape(mesh.get_coordinates().shape[0] - 1, -1)
+    corners = mesh.get_coordinates()
+    times = 0.5 * (corners[0, :-1, 0] + corners[0, 1:, 0])
+    frequencies = 0.5 * (corners[:-1, 0, 1] + corners[1:, 0, 1])
+    assert levels.max() == 0.0
+    # bins of 1000 Hz / 125
+    row = levels[np.argmax(levels[:, 0])]
+    assert frequencies[np.argmax(levels[:, 0])] == pytest.approx(125.0, abs=8.0)
+    # times are those of the run; pieces of 0.125 s that lie on one side, whose trends take up to a percent
+    assert 2.0 < times[0] < 2.1
+    assert row[times < 2.9] == pytest.approx(0.0, abs=0.1)
+    assert row[times > 3.1] == pytest.approx(20.0 * np.log10(0.5), abs=0.1)
+
+
+def test_the_record_period_that_would_follow_the_shortest_touch_is_told() -> None:
+    values = np.abs(tone(20.0, 1e3))
+    touches = [Onset(1.0, 0.1, 1.004, 0.1), Onset(2.0, 0.1, 2.002, 0.1), Onset(3.5, 0.1, 3.501, 0.1)]
+    made = synthetic.result(support(), TIME, {FORCE: (values, "N")}, {"rear_base": touches})
+    drawing = force_spectrum(made, until=3.0, over_time=False)
+    assert "shortest touch lasts 2 ms: a record_period of 200 \u00b5s" in figure_checks.words_below(drawing)
+    assert drawing.axes[0].lines[0].get_color() == style.CONTACT
+
+
+def test_the_piece_of_the_run_is_chosen() -> None:
+    values = np.where(TIME < 2.0, tone(30.0, 1.0), tone(80.0, 1.0))
+    for window, expected in (({"until": 1.999}, 30.0), ({"start": 2.0}, 80.0)):
+        curve = force_spectrum(run(values), over_time=False, **window).axes[0].lines[0]
+        # 500 records to a piece: bins of 2 Hz
+        assert curve.get_xdata()[np.argmax(curve.get_ydata())] == pytest.approx(expected, abs=1.01)
+
+
+def test_too_few_records_and_unknown_pins_are_refused() -> None:
+    with pytest.raises(InputError, match="at least 64 records"):
+        force_spectrum(run(TIME), until=0.03)
+    with pytest.raises(InputError, match="allowed: rear_base"):
+        force_spectrum(run(TIME), "rear_bas")
+    with pytest.raises(InputError, match="segments = 0"):
+        spectrum(TIME, TIME, 0)
+
+
+@pytest.mark.parametrize("values", [tone(64.0, 3e3), np.zeros_like(TIME), tone(8.0, 1.0) + tone(11.0, 0.9)])
+def test_nothing_is_cut_off_or_overlaps(values: np.ndarray) -> None:
+    with style.look():
+        figure_checks.check(force_spectrum(run(values)))

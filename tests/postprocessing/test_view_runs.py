@@ -1,0 +1,139 @@
+"""The run in Exudyn's solution viewer, on a display in memory: start, step through frames, close."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from support_exudyn import CubicStep, Result, simulate
+from tests import screen
+from tests.cases.run_cases import loose_support
+from tests.processes import wait_until
+
+if sys.platform != "linux":
+    pytest.skip("the display in memory is of X11", allow_module_level=True)
+
+PATIENCE = 240.0  # [s], on a machine that does much else
+VIEWER, ENGINE = "solution viewer", "Exudyn OpenGL"
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    result = simulate(loose_support(1.5, 0.25, drive=CubicStep(start=0.0, end=0.3, stroke=0.2), duration=0.3))
+    return result.save(tmp_path_factory.mktemp("run") / "rise.h5")
+
+
+@pytest.fixture(scope="module")
+def display() -> Iterator[str]:
+    screen.needed()
+    with screen.display() as name:
+        yield name
+
+
+@contextmanager
+def viewing(run: Path, display: str, home: Path, *options: str) -> Iterator[subprocess.Popen[str]]:
+    """`python -m support_exudyn view RUN`, ended if it does not end by itself."""
+    program = subprocess.Popen(
+        [sys.executable, "-m", "support_exudyn", "view", str(run), *options],
+        env=screen.environment_on(display, home),
+        cwd=home,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    try:
+        yield program
+    finally:
+        if program.poll() is None:
+            program.kill()
+        program.communicate()
+
+
+@pytest.mark.parametrize("shown", ["records", "solution file"])
+def test_it_starts_steps_through_frames_and_closes(run: Path, shown: str, display: str, tmp_path: Path) -> None:
+    options = []
+    if shown == "solution file":
+        options = ["--solution", str(Result.load(run).save_solution(tmp_path / "rise.sol")), "--every", "3"]
+    x = screen.Screen(display)
+    with viewing(run, display, tmp_path, *options) as program:
+
+        def window(named: str) -> int | None:
+            assert program.poll() is None, program.stderr.read()
+            return next((number for title, number in x.windows().items() if named in title), None)
+
+        assert wait_until(lambda: None not in (window(VIEWER), window(ENGINE)), PATIENCE)
+        # it plays by itself: below the dialog, which covers a corner of it, the engine's window shows ever
+        # other pictures, far more than it does while it opens
+        seen: set[bytes] = set()
+
+        def plays() -> bool:
+            assert program.poll() is None, program.stderr.read()
+            seen.add(screen.picture(display)[300:700, :1100].tobytes())
+            return len(seen) >= 12
+
+        assert wait_until(plays, PATIENCE)
+        assert painted(screen.picture(display)[:750, :1200])[300:].any()
+        dialog = window(VIEWER)
+        assert dialog is not None
+        x.ask_to_close(dialog)
+        _, told = program.communicate(timeout=PATIENCE)
+    x.close()
+    assert program.returncode == 0
+    assert "Traceback" not in told
+    # nothing is left behind but what libraries keep in a home
+    assert {entry.name for entry in tmp_path.iterdir() if not entry.name.startswith(".")} <= {"rise.sol"}
+
+
+STEP = """
+import sys
+import numpy as np
+from support_exudyn import Result
+from support_exudyn.postprocessing.viewer.view import window
+result = Result.load(sys.argv[1])
+with window(result, size=(900, 600)) as shown:
+    found = {}
+    for row in (0, 150, 300):
+        shown.show(row)
+        found[f"time{row}"] = shown.time
+        found[f"picture{row}"] = shown.picture()
+np.savez(sys.argv[2], **found)
+"""
+
+
+def test_a_script_steps_through_frames_without_the_dialog(run: Path, display: str, tmp_path: Path) -> None:
+    script = [sys.executable, "-c", STEP, str(run), str(tmp_path / "seen.npz")]
+    env = screen.environment_on(display, tmp_path)
+    subprocess.run(script, env=env, check=True, timeout=PATIENCE)
+    seen = np.load(tmp_path / "seen.npz")
+    result = Result.load(run)
+    for row in (0, 150, 300):
+        assert seen[f"time{row}"] == result.time[row]
+        assert seen[f"picture{row}"].shape == (600, 900, 3)
+    first, middle, last = (painted(seen[f"picture{row}"]) for row in (0, 150, 300))
+    # upright and the goaf, where the links are, on the right: forward, the canopy, is on the left and on top
+    above, below = first[150:300].any(axis=0), first[400:].any(axis=0)
+    assert np.flatnonzero(above).min() < np.flatnonzero(below).min()
+    # nothing is cut off, and the machine fills the window
+    for shown in (first, middle, last):
+        columns, lines = np.flatnonzero(shown.any(axis=0)), np.flatnonzero(shown.any(axis=1))
+        assert 0 < columns.min() < columns.max() < 899
+        assert lines.max() < 599
+        assert columns.max() - columns.min() > 600
+    # it rises
+    tops = [np.flatnonzero(shown.any(axis=1)).min() for shown in (first, middle, last)]
+    assert tops[0] > tops[1] > tops[2]
+
+
+def painted(picture: np.ndarray) -> np.ndarray:
+    """Where a machine is in a picture: neither white, nor the black of words, nor the axes in the corner."""
+    colours = picture.astype(int)
+    inside = (colours.min(axis=2) < 225) & (colours.max(axis=2) > 60)
+    inside[:100, :500] = inside[400:, :150] = False
+    inside[570:] = False
+    return inside

@@ -1,0 +1,520 @@
+from __future__ import annotations
+
+import dataclasses
+import json
+import math
+import re
+from collections.abc import Collection
+from typing import Any
+
+import pytest
+
+from support_exudyn import (
+    ClearancePin,
+    CubicStep,
+    Held,
+    HydraulicSupport,
+    IdealPin,
+    Linkage,
+    Machine,
+    OilColumn,
+    OwnBody,
+    PinPlace,
+    Scenario,
+    SolverSettings,
+    Steady,
+    UniformSpeed,
+    reference_support,
+    two_body_columns,
+)
+from support_exudyn.formulations.reduced import coverage as reduced_coverage
+from support_exudyn.formulations.tree import coverage as tree_coverage
+from support_exudyn.model.linkage import Body, Part
+from tests.cases.machine_cases import contact, support
+from user_forces import InputError, JournalBearing, Value, value
+
+SUPPORT = support()
+
+
+def scenario(**changes: object) -> Scenario:
+    fields: dict[str, object] = {"machine": SUPPORT, "duration": 5.0}
+    return Scenario(**fields | changes)
+
+
+# --- bad input is refused when it is made ---
+
+
+def test_negative_mass_is_refused() -> None:
+    with pytest.raises(InputError, match=r"Part\.mass = -500\.0: .*allowed: > 0"):
+        Part(mass=-500.0, centre=(0.0, 0.0))
+    with pytest.raises(InputError, match=r"Body\.mass = -500\.0: .*allowed: > 0"):
+        Body(mass=-500.0, inertia=1.0, centre=(0.0, 0.0))
+
+
+def test_clearance_larger_than_the_bore_is_refused() -> None:
+    with pytest.raises(InputError, match=r"clearance = 1\.5 m: .*allowed: > 0 and < 0\.0655"):
+        JournalBearing(bore_radius=0.0655, clearance=1.5)
+
+
+@pytest.mark.parametrize("kind", [CubicStep, UniformSpeed])
+@pytest.mark.parametrize("stroke", [5.0, -2.0])
+def test_columns_that_cannot_close_the_linkage_are_refused(
+    kind: type[CubicStep] | type[UniformSpeed], stroke: float
+) -> None:
+    with pytest.raises(InputError, match=rf"column extension = {stroke} m: .*allowed: up to "):
+        scenario(drive=kind(stroke=stroke))
+
+
+def test_step_of_zero_is_refused() -> None:
+    with pytest.raises(InputError, match=r"Scenario\.step = 0\.0: .*allowed: > 0 and <= 0\.1"):
+        scenario(step=0.0)
+
+
+def test_negative_step_is_refused() -> None:
+    with pytest.raises(InputError, match=r"Scenario\.step = -0\.001: .*allowed: > 0 and <= 0\.1"):
+        scenario(step=-0.001)
+
+
+def test_unknown_field_is_refused() -> None:
+    with pytest.raises(
+        InputError,
+        match=r"Scenario\.speed = 3: unknown field; the fields are machine, pins, columns, parts, drive",
+    ):
+        scenario(speed=3)
+
+
+def test_unknown_pin_name_is_refused() -> None:
+    names = "rear_base, front_base, rear_shield, front_shield, shield_canopy"
+    with pytest.raises(InputError, match=rf"pins\.rear: the machine has no such pin; allowed: {names}"):
+        scenario(pins={"rear": IdealPin()})
+
+
+def test_record_period_longer_than_the_run_is_refused() -> None:
+    with pytest.raises(InputError, match=r"record_period = 6\.0 s: allowed: at most the duration, 5\.0 s"):
+        scenario(record_period=6.0)
+
+
+@pytest.mark.parametrize("duration", [-5.0, 0.0, math.nan, math.inf])
+def test_duration_of_no_length_is_refused(duration: float) -> None:
+    with pytest.raises(InputError, match=rf"Scenario\.duration = {duration}: .*allowed: > 0"):
+        scenario(duration=duration)
+
+
+def test_missing_duration_is_refused() -> None:
+    with pytest.raises(InputError, match=r"Scenario\.duration: missing"):
+        Scenario(machine=SUPPORT)
+
+
+def test_record_period_of_zero_is_refused() -> None:
+    with pytest.raises(InputError, match=r"Scenario\.record_period = 0\.0: .*allowed: > 0"):
+        scenario(record_period=0.0)
+
+
+def test_something_else_in_place_of_a_pin_is_refused() -> None:
+    with pytest.raises(InputError, match=r"Scenario\.pins\.rear_base = JournalContact\(.*Pin"):
+        scenario(pins={"rear_base": contact()})
+
+
+def test_something_else_in_place_of_a_machine_is_refused() -> None:
+    with pytest.raises(InputError, match=r"Scenario\.machine = 'support': .*Machine"):
+        scenario(machine="support")
+
+
+def test_unknown_start_is_refused() -> None:
+    with pytest.raises(InputError, match=r"Scenario\.start = 'resting': .*'concentric' or 'settled'"):
+        scenario(start="resting")
+
+
+def test_gravity_that_is_not_finite_is_refused() -> None:
+    with pytest.raises(InputError, match=r"Scenario\.gravity\.1 = nan: "):
+        scenario(gravity=(0.0, math.nan))
+
+
+@pytest.mark.parametrize(
+    ("field", "wrong", "allowed"),
+    [
+        ("spectral_radius", 1.1, ">= 0 and <= 1"),
+        ("spectral_radius", -0.1, ">= 0 and <= 1"),
+        ("newton_tolerance", 0.0, "> 0 and <= 0.001"),
+        ("newton_tolerance", 0.1, "> 0 and <= 0.001"),
+        ("impact_steps", 15, ">= 16 and <= 10000"),
+        ("impact_steps", 10001, ">= 16 and <= 10000"),
+        ("growth", 0.5, ">= 1 and <= 64"),
+        ("growth", 65.0, ">= 1 and <= 64"),
+        ("tolerance", 1e-14, ">= 1e-13 and <= 0.01"),
+        ("tolerance", 0.1, ">= 1e-13 and <= 0.01"),
+    ],
+)
+def test_solver_setting_out_of_range_is_refused(field: str, wrong: float, allowed: str) -> None:
+    with pytest.raises(InputError, match=rf"SolverSettings\.{field} = {wrong}: .*allowed: {allowed}"):
+        SolverSettings(**{field: wrong})
+
+
+def test_unknown_backend_is_refused() -> None:
+    with pytest.raises(
+        InputError, match=r"SolverSettings\.backend = 'fortran': .*'auto', 'python', 'symbolic' or"
+    ):
+        SolverSettings(backend="fortran")
+
+
+@pytest.mark.parametrize(
+    ("field", "wrong", "allowed"),
+    [
+        ("integrator", "euler", "'generalised_alpha' or 'trapezoidal'"),
+        ("newton", "none", "'modified' or 'full'"),
+        ("constraint_index", 1, "2 or 3"),
+    ],
+)
+def test_unknown_choice_of_the_solver_is_refused(field: str, wrong: object, allowed: str) -> None:
+    with pytest.raises(InputError, match=rf"SolverSettings\.{field} = {wrong!r}: .*{allowed}"):
+        SolverSettings(**{field: wrong})
+
+
+def test_the_trapezoidal_rule_is_refused_with_constraints_of_positions() -> None:
+    with pytest.raises(
+        InputError, match=r"'trapezoidal', constraint_index = 3: allowed: 2 with this integrator"
+    ):
+        SolverSettings(integrator="trapezoidal")
+    assert SolverSettings(integrator="trapezoidal", constraint_index=2).constraint_index == 2
+
+
+# --- accuracy ---
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        "fast",
+        "",
+        "1e-3",
+        1.0,
+        0.11,
+        0,
+        0.0,
+        9e-9,
+        -1e-3,
+        math.nan,
+        math.inf,
+        True,
+        False,
+        [1e-3],
+        {"goal": 1e-3},
+    ],
+    ids=repr,
+)
+def test_an_accuracy_that_is_none_is_refused_with_what_is_allowed(wrong: object) -> None:
+    words = re.escape(f"Scenario.accuracy = {wrong!r}: ")
+    allowed = r"allowed: 'draft', 'standard', 'reference', None, or a relative error from 1e-08 to 0\.1$"
+    with pytest.raises(InputError, match=f"^{words}.*{allowed}"):
+        scenario(accuracy=wrong)
+
+
+@pytest.mark.parametrize(
+    ("accuracy", "goal"),
+    [
+        (None, None),
+        ("draft", 1e-2),
+        ("standard", 1e-3),
+        ("reference", 1e-5),
+        (0.1, 0.1),
+        (1e-8, 1e-8),
+        (3e-4, 3e-4),
+    ],
+)
+def test_an_accuracy_is_a_word_or_a_number(accuracy: str | float | None, goal: float | None) -> None:
+    one = scenario(accuracy=accuracy)
+    assert one.goal == goal
+    assert Value.from_data(json.loads(json.dumps(one.to_data()))) == one
+
+
+def test_of_a_scenario_with_an_accuracy_that_is_refined() -> None:
+    # errors are of second order in the steps; settings are chosen anew, so they stay
+    coarse = scenario(accuracy="draft", solver=SolverSettings(impact_steps=9000))
+    for formulation in ("auto", "redundant", "tree", "reduced"):
+        one = dataclasses.replace(coarse, formulation=formulation)
+        assert one.refined() == dataclasses.replace(one, accuracy=2.5e-3)
+    assert scenario(accuracy=2e-8).refined().accuracy == 1e-8
+
+
+def test_a_tolerance_is_refined_where_it_decides() -> None:
+    for formulation in ("tree", "reduced"):
+        one = scenario(formulation=formulation, solver=SolverSettings(tolerance=8e-7))
+        assert one.refined().solver.tolerance == pytest.approx(1e-7, rel=1e-12)
+        assert dataclasses.replace(one.refined(), solver=one.solver) == one
+        finest = dataclasses.replace(one, solver=SolverSettings(tolerance=2e-13)).refined()
+        assert finest.solver.tolerance == 1e-13
+        assert finest.refined() == finest
+
+
+def test_a_drive_is_refused_if_it_leaves_the_reach_only_late_in_the_run() -> None:
+    assert scenario(drive=Steady(rate=0.1)).drive.span(5.0) == (0.0, 0.5)
+    with pytest.raises(InputError, match=r"column extension = 5\.0 m: .*allowed: up to "):
+        scenario(drive=Steady(rate=0.1), duration=50.0)
+
+
+def test_bore_on_neither_body_is_refused() -> None:
+    with pytest.raises(InputError, match=r"ClearancePin\.bore = 'third': .*'first' or 'second'"):
+        ClearancePin(contact=contact(), bore="third")
+
+
+def test_a_changed_copy_is_checked_too() -> None:
+    with pytest.raises(InputError, match=r"record_period = 6\.0 s"):
+        dataclasses.replace(scenario(), record_period=6.0)
+
+
+# --- good input ---
+
+
+@pytest.mark.parametrize("stroke", [0.5, -0.3, 0.0])
+def test_a_stroke_within_reach_is_taken(stroke: float) -> None:
+    assert scenario(drive=CubicStep(stroke=stroke)).drive.span(5.0) == (min(0.0, stroke), max(0.0, stroke))
+
+
+def test_a_single_record_is_taken() -> None:
+    assert scenario(record_period=5.0).record_period == 5.0
+
+
+def test_columns_are_held_and_pins_ideal_unless_said_otherwise() -> None:
+    plain = scenario()
+    assert plain.drive == Held()
+    assert plain.clearance_pins == {}
+    assert plain.gravity == (0.0, -9.81)
+
+
+def test_only_pins_with_clearance_are_listed_as_such() -> None:
+    loose = ClearancePin(contact=contact())
+    mixed = scenario(pins={"front_base": IdealPin(), "rear_base": loose})
+    assert mixed.clearance_pins == {"rear_base": loose}
+
+
+def test_a_scenario_cannot_be_changed() -> None:
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        scenario().duration = 1.0  # type: ignore[misc]
+
+
+@pytest.mark.parametrize("impact_steps", [16, 10000])
+def test_few_and_many_steps_per_impact_are_taken(impact_steps: int) -> None:
+    assert SolverSettings(impact_steps=impact_steps).impact_steps == impact_steps
+
+
+def test_settings_are_those_documented_unless_said_otherwise() -> None:
+    plain = SolverSettings()
+    assert (plain.spectral_radius, plain.newton_tolerance) == (0.5, 1e-8)
+    assert (plain.impact_steps, plain.backend) == (512, "auto")
+    assert (plain.integrator, plain.constraint_index, plain.newton) == ("generalised_alpha", 3, "modified")
+    assert (plain.locate, plain.growth, plain.tolerance) == (True, 1.0, 1e-7)
+    assert (scenario().accuracy, scenario().goal, scenario().formulation) == (None, None, "auto")
+
+
+# --- the same run with all steps shorter ---
+
+
+def test_a_refined_run_has_half_the_step_and_twice_the_steps_in_an_impact() -> None:
+    finer = scenario(step=1e-3, solver=SolverSettings(impact_steps=100)).refined()
+    assert finer.step == 5e-4
+    assert finer.solver.impact_steps == 200
+
+
+def test_a_step_that_records_cut_short_is_refined_from_what_it_really_is() -> None:
+    # steps end at records, so one of 5 ms is one of 1 ms here: half of that, else nothing would be refined
+    assert scenario(step=5e-3, record_period=1e-3).refined().step == 5e-4
+
+
+def test_nothing_else_of_a_refined_run_differs() -> None:
+    one = scenario(
+        drive=CubicStep(stroke=-0.2),
+        pins={"rear_base": ClearancePin(contact=contact(), bore="second")},
+        start="settled",
+        gravity=(0.1, -9.7),
+        record_period=2e-3,
+        solver=SolverSettings(spectral_radius=0.9, newton_tolerance=1e-9, backend="symbolic"),
+    )
+    finer = one.refined()
+    back = dataclasses.replace(finer.solver, impact_steps=one.solver.impact_steps)
+    assert finer != one
+    assert dataclasses.replace(finer, step=one.step, solver=back) == one
+
+
+def test_refined_twice_is_refined_by_four() -> None:
+    # halves of a binary fraction: exact
+    assert scenario(step=2.0**-10).refined().refined() == scenario(step=2.0**-10).refined(4)
+
+
+def test_a_run_too_fine_to_be_refined_is_refused() -> None:
+    finest = scenario(solver=SolverSettings(impact_steps=6000))
+    with pytest.raises(
+        InputError, match=r"SolverSettings\.impact_steps = 12000: .*allowed: >= 16 and <= 10000"
+    ):
+        finest.refined()
+
+
+@pytest.mark.parametrize("drive", [Held(), CubicStep(stroke=-0.2), UniformSpeed(end=4.5), Steady(rate=0.02)])
+def test_a_scenario_comes_back_from_json(drive: Held | CubicStep | UniformSpeed | Steady) -> None:
+    one = scenario(
+        drive=drive,
+        pins={"rear_base": ClearancePin(contact=contact(), bore="second"), "front_base": IdealPin()},
+        start="concentric" if isinstance(drive, Steady) else "settled",
+        gravity=(0.1, -9.7),
+        solver=SolverSettings(spectral_radius=0.9, impact_steps=64, backend="symbolic"),
+    )
+    assert Value.from_data(json.loads(json.dumps(one.to_data()))) == one
+
+
+def test_an_ideal_pin_must_be_closed_at_the_start() -> None:
+    one = Body(mass=1.0, inertia=1.0, centre=(0.0, 0.0))
+    apart = PinPlace(first="ground", second="one", first_point=(0.0, 0.0), second_point=(0.001, 0.0))
+
+    @value
+    class Open(Machine):
+        def linkage(self) -> Linkage:
+            return Linkage(bodies={"one": one}, pins={"pin": apart})
+
+    with pytest.raises(InputError, match=r"pins\.pin: .* 0\.001 m apart .* allowed for an ideal pin: 0"):
+        Scenario(machine=Open(), duration=1.0)
+    Scenario(machine=Open(), duration=1.0, pins={"pin": ClearancePin(contact=contact())})
+
+
+def test_a_moving_drive_cannot_start_settled() -> None:
+    with pytest.raises(InputError, match="start = 'settled': is at rest, but the drive moves"):
+        scenario(drive=Steady(rate=0.02), start="settled")
+
+
+# --- drives of single parts ---
+
+
+def test_a_drive_of_an_unknown_part_is_refused() -> None:
+    with pytest.raises(
+        InputError,
+        match=r"drives\.jack: the machine has no such driven part; allowed: front_column, rear_column",
+    ):
+        scenario(drives={"jack": Held()})
+
+
+def test_every_part_follows_the_drive_unless_said_otherwise() -> None:
+    front, rear = CubicStep(stroke=0.1), CubicStep(stroke=0.2, start=1.0)
+    plain = scenario(drive=front)
+    assert plain.drives == {}
+    assert plain.breaks == front.breaks
+    apart = scenario(drive=front, drives={"rear_column": rear})
+    assert (apart.drive_of("front_column"), apart.drive_of("rear_column")) == (front, rear)
+    assert apart.breaks == (1.0, 3.0, 5.0)
+
+
+def test_each_drive_must_stay_within_reach() -> None:
+    with pytest.raises(InputError, match=r"drives\.rear_column: rear_column cannot follow beyond 3\.4"):
+        scenario(drives={"rear_column": CubicStep(stroke=5.0)})
+
+
+def test_no_drive_may_move_from_a_settled_start() -> None:
+    with pytest.raises(InputError, match=r"start = 'settled'.*0\.01 per s"):
+        scenario(drives={"rear_column": Steady(rate=0.01)}, start="settled")
+
+
+def test_oil_is_checked_against_the_drive_of_its_own_column() -> None:
+    oil = OilColumn(bore_area=0.1, oil_length=0.1, bulk_modulus=1e9)
+    lowers = {"rear_column": CubicStep(stroke=-0.2)}
+    assert scenario(columns={"front_column": oil}, drives=lowers).drives == lowers
+    with pytest.raises(InputError, match=r"columns\.rear_column\.oil_length = 0\.1 m"):
+        scenario(columns={"rear_column": oil}, drives=lowers)
+
+
+def test_the_reduced_formulation_takes_one_drive() -> None:
+    one = CubicStep()
+    reduced_coverage.check(scenario(drive=one, drives={"rear_column": one}))
+    with pytest.raises(InputError, match=r"drives\.rear_column = Held: not covered by .*'reduced'"):
+        reduced_coverage.check(scenario(drive=one, drives={"rear_column": Held()}))
+
+
+# --- levels of detail ---
+
+HEAVY = two_body_columns()
+
+
+def test_columns_of_two_bodies_bring_bodies_pins_and_a_guide() -> None:
+    plain, detailed = scenario().linkage, scenario(columns={"front_column": HEAVY["front_column"]}).linkage
+    assert set(detailed.bodies) - set(plain.bodies) == {"front_column_cylinder", "front_column_rod"}
+    assert set(detailed.pins) - set(plain.pins) == {"front_column_foot", "front_column_head"}
+    assert set(detailed.slides) == {"front_column_guide"}
+    column = detailed.columns["front_column"]
+    assert (column.foot, column.head) == ("front_column_cylinder", "front_column_rod")
+    assert column.start_length == plain.columns["front_column"].start_length
+    assert detailed.columns["rear_column"] == plain.columns["rear_column"]
+
+
+def test_a_detailed_scenario_comes_back_from_json() -> None:
+    one = Scenario(
+        machine=reference_support(),
+        columns=HEAVY,
+        parts={"tail_beam": OwnBody(jack=OilColumn(bore_area=0.01, oil_length=0.3, bulk_modulus=1e9))},
+        drives={"rear_column": CubicStep(stroke=0.2)},
+        duration=5.0,
+    )
+    assert Value.from_data(json.loads(json.dumps(one.to_data()))) == one
+    assert sorted(one.oil_columns) == ["tail_jack"]
+    assert one.drive_of("tail_jack") == Held()
+
+
+def test_oil_in_a_column_of_two_bodies_is_oil() -> None:
+    oil = OilColumn(bore_area=0.1, oil_length=0.1, bulk_modulus=1e9)
+    columns = two_body_columns(oil)
+    assert scenario(columns=columns).oil_columns == {"front_column": oil, "rear_column": oil}
+    with pytest.raises(InputError, match=r"columns\.front_column\.drive\.oil_length = 0\.1 m"):
+        scenario(columns=columns, drive=CubicStep(stroke=-0.2))
+
+
+def test_a_part_that_the_machine_does_not_have_is_refused() -> None:
+    with pytest.raises(InputError, match=r"parts\.side_shield: .*no such part on a jack; allowed: tail_beam"):
+        scenario(parts={"side_shield": OwnBody()})
+
+
+def test_a_part_that_the_machine_has_no_data_of_is_refused() -> None:
+    with pytest.raises(InputError, match=r"parts\.tail_beam: the machine lacks tail_hinge"):
+        scenario(parts={"tail_beam": OwnBody()})
+
+
+@pytest.mark.parametrize("name", ["jack", "tail_jack"])
+def test_only_driven_columns_are_columns_of_the_scenario(name: str) -> None:
+    said = rf"columns\.{name}: the machine has no such column; allowed: front_column, rear_column"
+    for column in (OilColumn(bore_area=0.1, oil_length=0.1, bulk_modulus=1e9), HEAVY["front_column"]):
+        with pytest.raises(InputError, match=said):
+            Scenario(
+                machine=reference_support(),
+                columns={name: column},
+                parts={"tail_beam": OwnBody()},
+                duration=1.0,
+            )
+
+
+def test_a_jack_follows_no_drive() -> None:
+    with pytest.raises(InputError, match=r"drives\.tail_jack: .*allowed: front_column, rear_column"):
+        Scenario(
+            machine=reference_support(),
+            parts={"tail_beam": OwnBody()},
+            drives={"tail_jack": Held()},
+            duration=1.0,
+        )
+
+
+def test_a_name_that_is_taken_is_refused() -> None:
+    @value
+    class Taken(HydraulicSupport):
+        def detailed(self, columns: Collection[str], parts: Collection[str]) -> Linkage:
+            linkage = super().detailed(columns, parts)
+            return dataclasses.replace(
+                linkage, bodies={**linkage.bodies, "rear_column_rod": linkage.bodies["shield"]}
+            )
+
+    fields = {f.name: getattr(SUPPORT, f.name) for f in dataclasses.fields(SUPPORT)}
+    with pytest.raises(InputError, match=r"columns\.rear_column: rear_column_rod is a name of the machine"):
+        scenario(machine=Taken(**fields), columns=HEAVY)
+
+
+@pytest.mark.parametrize("formulation", [tree_coverage, reduced_coverage])
+def test_columns_of_two_bodies_and_rigid_jacks_need_the_redundant_formulation(formulation: Any) -> None:
+    with pytest.raises(InputError, match=r"columns\.front_column = TwoBodyColumn.*'redundant' covers it"):
+        formulation.check(scenario(columns=HEAVY))
+    oil = OilColumn(bore_area=0.1, oil_length=0.5, bulk_modulus=1e9)
+    columns = dict.fromkeys(HEAVY, oil) if formulation is tree_coverage else {}
+    own = Scenario(machine=reference_support(), columns=columns, parts={"tail_beam": OwnBody()}, duration=1.0)
+    with pytest.raises(InputError, match=r"parts\.tail_beam.*'redundant' covers it"):
+        formulation.check(own)

@@ -1,0 +1,421 @@
+"""Runs that are asked for an accuracy: what they choose, when they stop, and whether their errors are true."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+from itertools import product
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+
+from studies.benchmarking.estimates import numbers_of_records
+from support_exudyn import (
+    ClearancePin,
+    CubicStep,
+    Drive,
+    Failure,
+    Held,
+    Result,
+    Scenario,
+    SimulationError,
+    SolverSettings,
+)
+from support_exudyn.formulations.progress import Progress
+from support_exudyn.simulation import simulate, to_accuracy
+from support_exudyn.simulation.reported_numbers import measures
+from support_exudyn.simulation.to_accuracy import FACTOR, FEWEST_RUNS, MOST_RUNS, PATIENCE
+from support_exudyn.sweeps.parallel_runs import run_all
+from tests.cases.run_cases import (
+    FORCE,
+    PIN,
+    SLIDER_PIN,
+    loose_slider_crank,
+    loose_support,
+    paper_contact,
+    slider_crank_contact,
+    support,
+)
+from user_forces import (
+    Ambrosio,
+    DepthSpeed,
+    FrictionLaw,
+    Frictionless,
+    Hertz,
+    JournalContact,
+    LankaraniNikravesh,
+    TouchSpeed,
+    value,
+)
+from user_forces.expressions.scalar import where
+
+DROP = loose_support(drive=Held(), duration=0.05)
+
+# --- what is chosen, and what comes back ---
+
+
+@pytest.fixture(scope="module")
+def drop() -> Result:
+    return simulate(DROP, accuracy="standard")
+
+
+def test_the_result_has_the_settings_that_were_chosen(drop: Result) -> None:
+    assert drop.goal == 1e-3
+    assert drop.scenario.accuracy is None
+    assert drop.scenario.formulation == "reduced"
+    # each run has half the steps' length of the one before, which is an eighth of the tolerance
+    middle = drop.coarser
+    assert middle is not None
+    assert middle.coarser is not None
+    tolerances = [run.scenario.solver.tolerance for run in (middle.coarser, middle, drop)]
+    assert tolerances[:2] == pytest.approx([FACTOR**3 * t for t in tolerances[1:]])
+    assert middle.coarser.coarser is None
+    assert drop.met
+
+
+def test_an_accuracy_can_stand_in_the_scenario_or_beside_it() -> None:
+    beside = simulate(replace(DROP, accuracy="draft"), accuracy=1e-3)
+    inside = simulate(replace(DROP, accuracy=1e-3))
+    assert beside.goal == inside.goal == 1e-3
+    np.testing.assert_array_equal(beside[FORCE], inside[FORCE])
+
+
+@pytest.mark.parametrize(("accuracy", "goal"), [("draft", 1e-2), ("standard", 1e-3), ("reference", 1e-5)])
+def test_the_words_for_an_accuracy(accuracy: str, goal: float) -> None:
+    assert simulate(DROP, accuracy=accuracy).goal == goal  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("formulation", ["reduced", "redundant"])
+def test_the_settings_that_were_chosen_give_the_same_run_again(formulation: str) -> None:
+    result = simulate(replace(DROP, formulation=formulation, duration=0.03), accuracy="draft")
+    assert result.scenario.formulation == formulation
+    again = simulate(result.scenario)
+    assert list(again.channels) == list(result.channels)
+    for name in result.channels:
+        np.testing.assert_array_equal(again[name], result[name])  # same settings, same versions: to the bit
+    assert again.onsets == result.onsets
+    assert again.largest_force == result.largest_force
+    assert (again.goal, again.coarser) == (None, None)
+
+
+def test_without_an_accuracy_the_settings_stand() -> None:
+    result = simulate(DROP)
+    assert result.scenario == DROP
+    assert (result.goal, result.coarser, result.met) == (None, None, False)
+
+
+def test_the_time_is_that_of_all_runs(drop: Result) -> None:
+    alone: list[float] = []
+    part = drop
+    while part.coarser is not None:
+        part = part.coarser
+        alone.append(part.wall_time)
+    # each coarser one has its own
+    assert min(alone) > 0.0
+    assert drop.wall_time > sum(alone)
+
+
+@pytest.mark.parametrize("scene", ["compiled", "python", "ideal", "redundant"])
+def test_progress_only_rises_and_ends_at_one(scene: str) -> None:
+    short = replace(DROP, duration=0.03)
+    scenario = {
+        "compiled": short,
+        "python": replace(short, solver=SolverSettings(backend="python")),
+        "ideal": support(duration=0.05),
+        "redundant": replace(short, formulation="redundant"),
+    }[scene]
+    shares: list[float] = []
+    result = simulate(scenario, accuracy="draft", progress=shares.append)
+    assert result.met
+    assert shares == sorted(shares)
+    assert shares[-1] == 1.0
+    assert 0.0 <= shares[0] < 1.0
+    # each run takes half of what is left
+    assert {0.5, 0.75, 0.875} <= set(shares)
+
+
+# --- ideal machines ---
+
+
+@pytest.mark.parametrize("formulation", ["auto", "redundant"])
+def test_a_machine_with_ideal_pins_has_errors_too(formulation: str) -> None:
+    drive = CubicStep(stroke=0.05, start=0.02, end=0.2)
+    result = simulate(support(drive=drive, duration=0.25, formulation=formulation), accuracy="standard")
+    exact = simulate(support(drive=drive, duration=0.25, formulation="reduced"))
+    assert result.met
+    assert result.onsets == {}
+    if formulation == "auto":  # known in closed form: nothing but rounding
+        assert result.worst_error < 1e-9
+    else:
+        assert 1e-9 < result.worst_error <= 1e-3
+    known = {name: kind.measure(exact) for name, kind in measures(exact, 0.0, math.inf).items()}
+    covered = []
+    for name, number in result.numbers().items():
+        true = abs(number.value - known[name])
+        covered.append(true <= number.error)
+        # measured 9e-5, in the front column's largest force
+        assert true <= 1e-3 * abs(known[name]), name
+    # an estimate covers 95 of 100
+    assert np.mean(covered) >= 0.9
+
+
+# --- goals that cannot be met ---
+
+
+def runs_of(monkeypatch: pytest.MonkeyPatch) -> list[Scenario]:
+    """Scenarios of the runs that are made from now on."""
+    made: list[Scenario] = []
+    once = to_accuracy.run_once
+    monkeypatch.setattr(
+        to_accuracy, "run_once", lambda scenario, progress: (made.append(scenario), once(scenario, progress))[1]
+    )
+    return made
+
+
+def bouncing(duration: float) -> Scenario:
+    """A journal that loses nothing when it strikes, so that errors grow from touch to touch."""
+    contact = replace(paper_contact(1.5, 0.0), normal=Hertz(stiffness=paper_contact(1.5, 0.0).normal.stiffness))
+    return replace(DROP, pins={PIN: ClearancePin(contact=contact)}, duration=duration)
+
+
+def test_a_scene_that_forgets_its_start_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
+    made = runs_of(monkeypatch)
+    result = simulate(bouncing(2.0), accuracy="standard")
+    assert len(result.onsets[PIN]) > 50
+    assert not result.met
+    assert result.worst_error > result.goal  # type: ignore[operator]
+    assert FEWEST_RUNS + PATIENCE <= len(made) <= MOST_RUNS
+    # but what comes first is known all the same
+    first = result.numbers()[f"pin.{PIN}.onset_1.speed"]
+    assert first.error < 1e-5 * first.value
+
+
+def test_a_goal_beyond_the_finest_steps_gives_what_can_be_had(monkeypatch: pytest.MonkeyPatch) -> None:
+    made = runs_of(monkeypatch)
+    result = simulate(replace(DROP, duration=0.02, formulation="redundant", record_period=1e-4), accuracy=1e-7)
+    assert len(made) == FEWEST_RUNS  # 2500, 5000, 10000 steps an impact; there are no finer ones
+    assert made[-1].solver.impact_steps == 10000
+    assert result.goal == 1e-7
+    assert not result.met
+    # in steps of 4 us rounding shows in the forces of columns; that is told too
+    assert 1e-7 < result.worst_error < math.inf
+    assert all(math.isfinite(number.error) for number in result.numbers().values())
+
+
+def test_a_goal_that_is_met_costs_no_more_than_three_runs(monkeypatch: pytest.MonkeyPatch) -> None:
+    made = runs_of(monkeypatch)
+    assert simulate(DROP, accuracy="draft").met
+    assert len(made) == FEWEST_RUNS
+
+
+@pytest.mark.parametrize("tilted", [False, True])
+def test_sections_become_more_only_as_long_as_they_tell_anything(
+    tilted: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    once = to_accuracy.run_once
+
+    def tilting(scenario: Scenario, progress: Progress) -> Result:
+        """A run whose forces depend on the number of sections, as those of a tilted pin do."""
+        run = once(scenario, progress)
+        channel = run.channels[FORCE]
+        channel = replace(channel, values=(1.0 + 1e-3 / scenario.solver.sections) * channel.values)
+        return replace(run, channels={**run.channels, FORCE: channel})
+
+    monkeypatch.setattr(to_accuracy, "run_once", tilting if tilted else once)
+    made = runs_of(monkeypatch)
+    monkeypatch.setattr(Result, "worst_error", property(lambda run: 0.5 ** len(made)))
+    # beyond the first touch
+    result = simulate(replace(DROP, duration=0.03, record_period=3e-3, dimensions=3), accuracy=0.02)
+    assert f"pin.{PIN}.left.onset_1.speed" in result.numbers()
+    # a section's share of the force depends on how many there are
+    assert f"pin.{PIN}.left.largest_force" not in result.numbers()
+    sections = [run.solver.sections for run in made]
+    # the fourth is the first again, with as many sections as the third
+    assert sections[:4] == [5, 9, 17, 17]
+    assert made[3].step == made[0].step
+    assert sections[4:] == ([33, 64] if tilted else [5, 5])
+
+
+# --- failures ---
+
+
+@value
+class Breaking(FrictionLaw):
+    """Works until the slip exceeds 1 mm/s."""
+
+    def __call__(self, slip: float, normal_force: float, deflection: float = 0.0) -> float:
+        return where(slip * slip > 1e-6, math.nan, 0.0)
+
+
+def breaking() -> Scenario:
+    contact = replace(paper_contact(1.5, 0.0), friction=Breaking())
+    return replace(DROP, pins={PIN: ClearancePin(contact=contact)}, formulation="redundant")
+
+
+def test_a_run_that_fails_is_had_as_a_value_or_raised() -> None:
+    failure = simulate(breaking(), accuracy="draft", throw=False)
+    assert isinstance(failure, Failure)
+    assert 0.017 < failure.time < 0.05  # the first touch is at 17.4 ms
+    with pytest.raises(SimulationError) as caught:
+        simulate(breaking(), accuracy="draft")
+    assert caught.value.failure == failure
+
+
+def test_sweeps_take_scenarios_with_an_accuracy(drop: Result) -> None:
+    scenarios = {
+        "good": replace(DROP, accuracy="standard"),
+        "plain": DROP,
+        "bad": replace(breaking(), accuracy="draft"),
+    }
+    found = run_all(scenarios, workers=1)
+    good, plain, bad = found.values()
+    assert isinstance(good, Result)
+    assert good.met
+    assert good.scenario == drop.scenario
+    # another process, the same machine and versions: to the bit
+    assert {name: str(n) for name, n in good.numbers().items()} == {
+        name: str(n) for name, n in drop.numbers().items()
+    }
+    assert isinstance(plain, Result)
+    assert plain.coarser is None
+    assert isinstance(bad, Failure)
+
+
+# --- are the estimated errors the true ones? ---
+
+GOALS = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)
+TIGHT = SolverSettings(tolerance=1e-12)
+
+
+class Case(NamedTuple):
+    """What a run says and what is true.
+
+    goal: asked for. met: what it says of that. off: the worst true error of what an accuracy is of. true, said:
+    errors of all numbers.
+    """
+
+    kind: str
+    goal: float
+    met: bool
+    off: float
+    true: np.ndarray
+    said: np.ndarray
+
+
+def dropping(c_mm: float, restitution: float, mu: float, bore: str, speed: object, drive: Drive) -> Scenario:
+    base = paper_contact(c_mm, mu)
+    law = LankaraniNikravesh(stiffness=base.normal.stiffness, restitution=restitution, damping_speed=speed)
+    pin = ClearancePin(contact=replace(base, normal=law), bore=bore)
+    return support(pins={PIN: pin}, drive=drive, duration=0.3)
+
+
+def turning(c_mm: float, restitution: float, mu: float, gravity: float, speed: object) -> Scenario:
+    base = slider_crank_contact(mu)
+    law = LankaraniNikravesh(stiffness=base.normal.stiffness, restitution=restitution, damping_speed=speed)
+    contact = JournalContact(
+        bearing=replace(base.bearing, clearance=c_mm / 1e3),
+        normal=law,
+        friction=Ambrosio(sliding_coefficient=mu) if mu else Frictionless(),
+    )
+    return replace(
+        loose_slider_crank(6e-3, gravity=(0.0, -gravity)), pins={SLIDER_PIN: ClearancePin(contact=contact)}
+    )
+
+
+SPEEDS = (TouchSpeed(floor=1e-3), DepthSpeed())
+RISE = CubicStep(stroke=0.06, start=0.05, end=0.25)
+
+
+def cases() -> dict[str, list[Scenario]]:
+    """Half of all combinations; constants were chosen by these too, so fresh ones judge them."""
+    bores = ("first", "second")
+    supports = list(product((0.5, 1.0, 2.0), (0.5, 0.9), (0.0, 0.25), bores, SPEEDS))
+    return {
+        # every other combination, so that both bores and both speeds go with all else
+        "drop": [dropping(*scene, Held()) for n, scene in enumerate(supports) if (n + n // 2 + n // 4) % 2],
+        "rise": [dropping(*scene, RISE) for n, scene in enumerate(supports) if (n + n // 2 + n // 4) % 2 == 0],
+        "slider-crank": [turning(*x) for x in product((0.2, 0.5), (0.5, 0.9), (0.0, 0.1), (0.0, 9.81), SPEEDS)],
+    }
+
+
+def off(run: Result, tight: Result) -> float:
+    """The worst true error of what an accuracy is of."""
+    wrong = [0.0]
+    for pin in run.scenario.machine.linkage().pins:
+        one, other = run[f"pin.{pin}.force"], tight[f"pin.{pin}.force"]
+        wrong += [abs(f(one) / f(other) - 1.0) for f in (np.mean, np.std, np.max)]
+    for point in run.scenario.machine.linkage().points:
+        path, true = (np.array([r[f"{point}.x"], r[f"{point}.y"]]) for r in (run, tight))
+        clearance = max(pin.contact.bearing.clearance for pin in run.scenario.clearance_pins.values())
+        extent = max(float(np.hypot(*np.ptp(true, axis=1))), clearance)
+        wrong.append(float(np.hypot(*(path - true)).max()) / extent)
+    return max(wrong)
+
+
+@pytest.fixture(scope="module")
+def checked() -> list[Case]:
+    """All scenes run to all goals, compared with a tolerance of 1e-12."""
+    found = []
+    for kind, scenes in cases().items():
+        for scene in scenes:
+            tight = simulate(replace(scene, formulation="reduced", solver=TIGHT))
+            known = {n: kind_.measure(tight) for n, kind_ in measures(tight, 0.0, math.inf).items()}
+            for goal in GOALS:
+                run = simulate(scene, accuracy=goal)
+                assert run.scenario.formulation == "reduced"
+                numbers = {n: number for n, number in numbers_of_records(run).items() if n in known}
+                true = np.array([abs(number.value - known[n]) for n, number in numbers.items()])
+                said = np.array([number.error for number in numbers.values()])
+                found.append(Case(kind, goal, run.met, off(run, tight), true, said))
+    return found
+
+
+def figures(chosen: list[Case]) -> Mapping[str, float]:
+    true = np.concatenate([case.true for case in chosen])
+    said = np.concatenate([case.said for case in chosen])
+    some = true > 0.0
+    return {
+        "numbers": true.size,
+        "covered": float(np.mean(true <= said)),
+        "worst": float((true[some] / said[some]).max()),
+        "overstated": float(np.median(said[some] / true[some])),
+    }
+
+
+def test_estimates_cover_the_true_errors_without_much_overstatement(checked: list[Case]) -> None:
+    for kind in cases():
+        print(kind, figures([case for case in checked if case.kind == kind]))
+    for goal in GOALS:
+        print(goal, figures([case for case in checked if case.goal == goal]))
+    everything = figures(checked)
+    print("all", everything)
+    assert everything["numbers"] > 10_000
+    # what is promised
+    assert everything["covered"] >= 0.98
+    assert everything["worst"] < 5.0  # measured: 3.1
+    # as far as runs are not as close as rounding, which is added to every estimate; measured: 9.8
+    assert figures([case for case in checked if case.goal > GOALS[-1]])["overstated"] <= 10.0
+    assert everything["overstated"] <= 12.0  # measured: 11.5
+
+
+def test_no_kind_of_scene_and_no_goal_is_much_worse_than_all(checked: list[Case]) -> None:
+    chosen = [[case for case in checked if case.kind == kind] for kind in cases()]
+    chosen += [[case for case in checked if case.goal == goal] for goal in GOALS]
+    for some in chosen:
+        # some thousand numbers of a few dozen scenes hang together
+        assert figures(some)["covered"] >= 0.97  # measured: 0.973 and more
+        # measured: 20.5, of a goal of 1e-6, where rounding counts, of least values as a share of the largest
+        assert figures(some)["overstated"] <= 21.0
+
+
+def test_a_goal_that_is_said_to_be_met_is_met(checked: list[Case]) -> None:
+    said = [case for case in checked if case.met]
+    print("worst share of the goal", max(case.off / case.goal for case in said))
+    # none of these scenes goes on so long that it cannot be met
+    assert len(said) == len(checked)
+    # each could fail by the five in a hundred that an estimate does not cover; settings are chosen so
+    # cautiously that the worst was 0.57 of its goal
+    for case in said:
+        assert case.off <= case.goal

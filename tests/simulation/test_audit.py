@@ -1,0 +1,232 @@
+"""What a finished run is looked at for: each fault planted in a good one, and what is still let pass."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from support_exudyn import (
+    ClearancePin,
+    Failure,
+    Held,
+    OilColumn,
+    Scenario,
+    SimulationError,
+    SolverSettings,
+    Steady,
+    simulate,
+)
+from support_exudyn.formulations.limits import DEEPEST
+from support_exudyn.formulations.redundant.run import run
+from support_exudyn.mechanics.trajectory import Outcome, Trajectory
+from support_exudyn.scenario.recorded_channels import Channel, channels
+from support_exudyn.simulation.audit import (
+    APART,
+    GIVEN_BACK,
+    OPEN,
+    audit,
+    energy_open,
+    joints_apart,
+    rounding_of_energy,
+    turned_over,
+)
+from tests.cases.run_cases import PIN, loose_support
+from user_forces import LuGre
+
+SCENARIO = loose_support(1.5, 0.25, drive=Held(), duration=0.05)
+DEPTH = f"pin.{PIN}.depth"
+Found = Mapping[str, Channel]
+
+
+@pytest.fixture(scope="module")
+def outcome() -> Outcome:
+    return run(SCENARIO, lambda share: None)
+
+
+@pytest.fixture(scope="module")
+def found(outcome: Outcome) -> Found:
+    return channels(SCENARIO, outcome.trajectory)
+
+
+def changed(found: Found, name: str, place: int, value: float) -> Found:
+    """The channels with one number of one of them replaced."""
+    values = found[name].values.copy()
+    values[place] = value
+    return {**found, name: replace(found[name], values=values)}
+
+
+def opened(found: Found, by: float) -> Found:
+    """The channels with an energy balance that is open by so much [J] from the 30th record on."""
+    values = found["energy.balance"].values.copy()
+    values[30:] += by
+    return {**found, "energy.balance": replace(found["energy.balance"], values=values)}
+
+
+def moved(outcome: Outcome, place: int, by: float) -> Outcome:
+    """The same with the first body moved by so much [m] at one record."""
+    assert isinstance(outcome.trajectory, Trajectory)
+    position = outcome.trajectory.position.copy()
+    position[place, 0] += by
+    return replace(outcome, trajectory=replace(outcome.trajectory, position=position))
+
+
+def refused(failure: Failure | None, reason: str, record: int) -> None:
+    """The failure says this, and when."""
+    assert failure is not None
+    assert reason in failure.reason
+    assert failure.time == pytest.approx(1e-3 * record, rel=1e-12)  # rounding of the records' times
+    assert failure.advice
+
+
+def test_a_good_run_passes(outcome: Outcome, found: Found) -> None:
+    assert audit(SCENARIO, outcome, found) is None
+    open_by, allowed = energy_open(SCENARIO, found)
+    assert open_by.max() < 0.01 * allowed  # else the tests below would say little
+    apart = joints_apart(SCENARIO, outcome)
+    assert apart is not None
+    assert apart.max() < 1e-3 * APART
+
+
+@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
+def test_a_number_that_is_none_is_refused(outcome: Outcome, found: Found, value: float) -> None:
+    spoilt = changed(found, "tip.x", 7, value)
+    refused(audit(SCENARIO, outcome, spoilt), "tip.x is no longer a finite number", 7)
+
+
+def test_a_journal_that_is_too_deep_is_refused(outcome: Outcome, found: Found) -> None:
+    radius = SCENARIO.clearance_pins[PIN].contact.bearing.bore_radius
+    deep = changed(found, DEPTH, 20, 1.01 * DEEPEST * radius)
+    refused(audit(SCENARIO, outcome, deep), f"the journal of {PIN} is 13.2 mm deep in a bore of 65.5 mm", 20)
+    assert audit(SCENARIO, outcome, changed(found, DEPTH, 20, 0.99 * DEEPEST * radius)) is None
+
+
+def test_energy_that_does_not_add_up_is_refused(outcome: Outcome, found: Found) -> None:
+    _, allowed = energy_open(SCENARIO, found)
+    for sign in (-1.0, 1.0):
+        failure = audit(SCENARIO, outcome, opened(found, sign * 1.01 * allowed))
+        refused(failure, "energy does not add up: it is open by", 30)
+        assert audit(SCENARIO, outcome, opened(found, sign * 0.98 * allowed)) is None
+
+
+def test_what_is_allowed_is_a_share_of_what_was_turned_over(found: Found) -> None:
+    _, allowed = energy_open(SCENARIO, found)
+    fall = np.ptp(found["energy.potential"].values)
+    # what falls goes into other kinds, so that everything turned over is more than the fall, and a few of it
+    assert OPEN * fall < allowed < 4.0 * OPEN * fall
+
+
+@pytest.mark.parametrize("name", ["damping_loss", "friction_loss"])
+def test_a_loss_that_becomes_less_is_refused(outcome: Outcome, found: Found, name: str) -> None:
+    allowed = GIVEN_BACK * turned_over(found) + rounding_of_energy(SCENARIO)
+    for share, wrong in ((1.05, True), (0.95, False)):
+        less = found[f"energy.{name}"].values.copy()
+        less[20:] += 1.0 - less[20]  # else a loss of nothing could not become less
+        less[30:] -= share * allowed - (less[30:] - less[20:29].max())
+        failure = audit(SCENARIO, outcome, {**found, f"energy.{name}": replace(found["time"], values=less)})
+        if wrong:
+            refused(failure, f"energy.{name} becomes less by", 30)
+            assert failure is not None
+            law = "LankaraniNikravesh" if name == "damping_loss" else "Ambrosio"
+            assert f"pins.{PIN} = {law}" in failure.reason
+        else:
+            assert failure is None
+
+
+def test_what_bristles_have_stored_may_be_given_back(outcome: Outcome, found: Found) -> None:
+    contact = SCENARIO.clearance_pins[PIN].contact
+    bristles = replace(contact, friction=LuGre(static_coefficient=0.3, sliding_coefficient=0.2))
+    sticking = replace(SCENARIO, pins={PIN: ClearancePin(contact=bristles)})
+    assert isinstance(outcome.trajectory, Trajectory)
+    bent = replace(outcome.trajectory.contacts[PIN], deflection=np.linspace(0.0, -1e-3, 51))
+    run_with = replace(outcome, trajectory=replace(outcome.trajectory, contacts={PIN: bent}))
+    # as much as their largest deflection under the largest force; damping has stored nothing
+    stored = 1e-3 * outcome.largest_force[PIN]
+    allowed = GIVEN_BACK * turned_over(found) + rounding_of_energy(SCENARIO)
+    assert stored > 2.0 * allowed
+    for name, share, wrong in (
+        ("friction_loss", 0.95, False),
+        ("friction_loss", 1.05, True),
+        ("damping_loss", 0.95, True),
+    ):
+        less = np.full(51, 1e4)
+        less[30:] -= share * (stored + allowed)
+        failure = audit(sticking, run_with, {**found, f"energy.{name}": replace(found["time"], values=less)})
+        assert (failure is not None) == wrong
+
+
+def test_a_machine_at_rest_may_be_off_by_rounding() -> None:
+    still = replace(loose_support(drive=Held(), duration=0.05, start="settled"), record_period=0.01)
+    assert not isinstance(simulate(still, throw=False), Failure)
+
+
+def test_an_ideal_pin_that_comes_apart_is_refused(outcome: Outcome, found: Found) -> None:
+    failure = audit(SCENARIO, moved(outcome, 12, 1.5 * APART), found)
+    refused(failure, "what is joined is 0.15 mm apart; allowed: 0.1 mm", 12)
+    assert audit(SCENARIO, moved(outcome, 12, 0.9 * APART), found) is None
+
+
+def test_a_rigid_column_of_another_length_is_refused(outcome: Outcome, found: Found) -> None:
+    # as if the columns had not followed their drive; at the end they would be longer by so much
+    for share, wrong in ((1.5, True), (0.9, False)):
+        driven = replace(SCENARIO, drive=Steady(rate=share * APART / SCENARIO.duration))
+        failure = audit(driven, outcome, found)
+        assert (failure is not None) == wrong
+        if failure is not None:
+            assert "what is joined is 0.15 mm apart" in failure.reason
+
+
+def test_a_loose_pin_and_columns_of_oil_may_come_apart(outcome: Outcome, found: Found) -> None:
+    oil = OilColumn(bore_area=0.1, oil_length=0.5, bulk_modulus=1.5e9)
+    names = [name for name, column in SCENARIO.linkage.columns.items() if column.driven]
+    giving = replace(SCENARIO, columns=dict.fromkeys(names, oil), drive=Steady(rate=0.1))
+    assert audit(giving, outcome, found) is None
+    with_gap = joints_apart(replace(SCENARIO, pins={}), outcome)  # as if the loose pin were ideal
+    assert with_gap is not None
+    assert with_gap.max() > 1e-3  # it falls through its clearance of 1.5 mm
+    assert audit(SCENARIO, outcome, found) is None
+
+
+# --- in a run ---
+
+
+def wrong_by(change: str) -> Any:
+    """A formulation whose trajectory is wrong."""
+
+    def run_wrongly(scenario: Scenario, progress: Any) -> Outcome:
+        made = run(scenario, progress)
+        assert isinstance(made.trajectory, Trajectory)
+        if change == "apart":
+            return moved(made, 5, 0.01)
+        series = getattr(made.trajectory, change).copy()
+        series[5] = math.nan if change == "acceleration" else series[5] + 1e4
+        return replace(made, trajectory=replace(made.trajectory, **{change: series}))
+
+    return SimpleNamespace(check=lambda scenario: None, run=run_wrongly)
+
+
+WRONG = {
+    "apart": "what is joined is 10 mm apart",
+    "friction_loss": "energy does not add up",
+    "acceleration": "is no longer a finite number",
+}
+
+
+@pytest.mark.parametrize("change", WRONG)
+def test_a_run_that_comes_out_wrong_is_refused_unless_asked_for(
+    change: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("support_exudyn.simulation.single_run.formulation", lambda name: wrong_by(change))
+    scenario = replace(SCENARIO, duration=0.01)
+    # whatever is recorded
+    scenario = replace(scenario, channels=("tip.x",))
+    with pytest.raises(SimulationError, match=WRONG[change]) as caught:
+        simulate(scenario)
+    assert caught.value.failure.time == pytest.approx(5e-3, rel=1e-12)  # rounding
+    unseen = simulate(replace(scenario, solver=SolverSettings(audit=False)))
+    assert unseen.time.size == 11

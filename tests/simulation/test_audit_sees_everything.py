@@ -1,0 +1,90 @@
+"""Whether a run is believed does not depend on what it records."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import cache
+from typing import Any
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from support_exudyn import ClearancePin, Failure, Held, OilColumn, Scenario, SolverSettings, bore_area, simulate
+from support_exudyn.simulation import audit as looking
+from tests.cases.run_cases import PIN, loose_support, support
+from user_forces import JournalBearing, JournalContact, LankaraniNikravesh
+
+OIL = OilColumn(bore_area=bore_area(0.25, 2), oil_length=0.5, bulk_modulus=1.5e9)
+OILS = {"front_column": OIL, "rear_column": OIL}
+BEARING = JournalBearing(bore_radius=0.0655, clearance=0.0005)
+
+
+def soft(**changes: Any) -> Scenario:
+    """A contact so soft that the journal goes through its bore."""
+    contact = JournalContact(bearing=BEARING, normal=LankaraniNikravesh(stiffness=1e6, restitution=0.5))
+    return support(pins={PIN: ClearancePin(contact=contact)}, drive=Held(), duration=0.2, **changes)
+
+
+# each with why it is refused
+WRONG: dict[str, tuple[Scenario, str]] = {
+    "redundant, deep": (soft(), "mm deep in a bore of 65.5 mm radius"),
+    "tree, deep": (soft(formulation="tree", columns=OILS), "mm deep in a bore of 65.5 mm radius"),
+    "reduced, deep": (soft(formulation="reduced"), "mm deep in a bore of 65.5 mm radius"),
+    "space, deep": (soft(dimensions=3), "mm deep in a bore of 65.5 mm radius"),
+    "open": (
+        replace(
+            loose_support(0.5, 0.0, drive=Held(), duration=0.06, step=5e-3, record_period=5e-3),
+            solver=SolverSettings(locate=False),
+        ),
+        "energy does not add up",
+    ),
+}
+
+
+@cache
+def verdict(scene: str) -> Failure:
+    found = simulate(WRONG[scene][0], throw=False)
+    assert isinstance(found, Failure)
+    return found
+
+
+@pytest.mark.parametrize("scene", WRONG)
+@settings(max_examples=6, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@given(data=st.data())
+def test_a_refusal_is_the_same_whatever_is_recorded(scene: str, data: st.DataObject) -> None:
+    scenario, reason = WRONG[scene]
+    assert reason in verdict(scene).reason
+    names = st.lists(st.sampled_from(list(scenario.recipes)), max_size=3, unique=True)
+    found = simulate(replace(scenario, channels=tuple(data.draw(names))), throw=False)
+    assert found == verdict(scene)
+
+
+def test_a_point_alone_does_not_hide_a_journal_far_outside_its_bore() -> None:
+    found = simulate(replace(soft(formulation="reduced"), channels=("tip.x",)), throw=False)
+    assert isinstance(found, Failure)
+    assert f"the journal of {PIN} is" in found.reason
+
+
+PLANTED: dict[str, Callable[[Any], Any]] = {
+    "energy_open": lambda real: lambda *a: (real(*a)[0] + 2.0 * real(*a)[1], real(*a)[1]),
+    "joints_apart": lambda real: lambda *a: real(*a) + 2.0 * looking.APART,
+}
+
+
+@pytest.mark.parametrize("formulation", ["redundant", "reduced"])
+@pytest.mark.parametrize("asked", [("*",), ("tip.x",), ()])
+@pytest.mark.parametrize("what", ["energy_open", "joints_apart"])
+def test_every_look_is_taken_whatever_is_recorded(
+    what: str, asked: tuple[str, ...], formulation: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    scenario = loose_support(0.5, 0.25, drive=Held(), duration=0.01, formulation=formulation, channels=asked)
+    assert not isinstance(simulate(scenario, throw=False), Failure)
+    monkeypatch.setattr(looking, what, PLANTED[what](getattr(looking, what)))
+    assert isinstance(simulate(scenario, throw=False), Failure)
+
+
+def test_without_an_audit_only_what_is_asked_is_recorded() -> None:
+    scenario = replace(soft(), channels=("tip.x",), solver=SolverSettings(audit=False), duration=0.02)
+    assert set(simulate(scenario).channels) == {"time", "tip.x"}

@@ -1,0 +1,289 @@
+"""What a run records is what was asked for, with the numbers of a run that records everything."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from support_exudyn import (
+    ClearancePin,
+    CubicStep,
+    Failure,
+    Held,
+    OilColumn,
+    Result,
+    Scenario,
+    SolverSettings,
+    Steady,
+    UniformSpeed,
+    bore_area,
+    ravn_slider_crank,
+    simulate,
+)
+from support_exudyn.formulations.engine_settings import engine_settings
+from support_exudyn.formulations.redundant.redundant_forces import with_causes
+from support_exudyn.formulations.redundant.run import build
+from support_exudyn.formulations.redundant.solver.recorder import History, Recorder
+from support_exudyn.formulations.redundant.solver.solver import Run
+from support_exudyn.mechanics.contact_state import PinMemory
+from support_exudyn.scenario.recorded_channels import needs
+from tests.cases.run_cases import FORCE, PIN, loose_support, support
+from user_forces import JournalBearing, JournalContact, LankaraniNikravesh, LuGre
+
+OIL = OilColumn(bore_area=bore_area(0.25, 2), oil_length=0.5, bulk_modulus=1.5e9)
+OILS = {"front_column": OIL, "rear_column": OIL}
+BEARING = JournalBearing(bore_radius=0.0655, clearance=0.0005)
+BRISTLES = JournalContact(
+    bearing=BEARING,
+    normal=LankaraniNikravesh(stiffness=1e9, restitution=0.5),
+    friction=LuGre(static_coefficient=0.3, sliding_coefficient=0.2),
+)
+GENTLE = CubicStep(stroke=0.002, start=0.01, end=0.04)
+SHORT: dict[str, Any] = {"duration": 0.05, "drive": GENTLE, "record_period": 5e-3}
+SCENES = {
+    "ideal, held": support(**SHORT | {"drive": Held()}),
+    "ideal, driven": support(**SHORT),
+    "ideal, struck": support(**SHORT | {"drive": UniformSpeed(stroke=0.002, start=0.011, end=0.04)}),
+    "ideal, struck at once": support(**SHORT | {"drive": UniformSpeed(stroke=0.002, start=0.0, end=0.04)}),
+    "ideal, growing steps": support(**SHORT, solver=SolverSettings(growth=8)),
+    "oil": support(**SHORT, columns=OILS),
+    "one column of oil": support(**SHORT, columns={"rear_column": OIL}),
+    "loose": loose_support(0.5, 0.25, **SHORT),
+    "loose, growing steps": loose_support(0.5, 0.25, **SHORT, solver=SolverSettings(growth=8), start="settled"),
+    "loose, friction with a state": support(**SHORT, pins={PIN: ClearancePin(contact=BRISTLES)}),
+    "slider-crank": Scenario(
+        machine=ravn_slider_crank(), drive=Steady(rate=500.0), duration=0.005, step=1e-5, record_period=1e-4
+    ),
+    "tree": loose_support(0.5, 0.25, **SHORT, columns=OILS, formulation="tree"),
+    "reduced": loose_support(0.5, 0.25, **SHORT, formulation="reduced"),
+    "reduced, ideal": support(**SHORT, formulation="reduced"),
+}
+
+
+@cache
+def whole(scene: str) -> Result:
+    return simulate(SCENES[scene])
+
+
+@pytest.mark.parametrize("scene", SCENES)
+@settings(max_examples=8, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@given(data=st.data())
+def test_any_choice_has_the_numbers_of_all(scene: str, data: st.DataObject) -> None:
+    full = whole(scene)
+    asked = tuple(data.draw(st.lists(st.sampled_from(list(full.channels)), max_size=4, unique=True)))
+    found = simulate(replace(SCENES[scene], channels=asked))
+    assert set(found.channels) == {"time", *asked}
+    for name, channel in found.channels.items():
+        # the same steps and the same formulas: to the last bit
+        np.testing.assert_array_equal(channel.values, full[name])
+        assert (channel.unit, channel.meaning) == (full.channels[name].unit, full.channels[name].meaning)
+    assert found.counts == full.counts
+    assert (found.onsets, found.largest_force) == (full.onsets, full.largest_force)
+    assert found.impulses == full.impulses
+
+
+def unaudited(scenario: Scenario) -> Scenario:
+    return replace(scenario, solver=replace(scenario.solver, audit=False))
+
+
+def history(scenario: Scenario) -> History:
+    scene = build(scenario)
+    recorder = Recorder(scene, with_causes(needs(scenario)))
+    Run(scene, recorder, lambda share: None).go()
+    scene.release()
+    return recorder.history()
+
+
+@pytest.mark.parametrize("scene", ["ideal, driven", "ideal, growing steps", "loose", "loose, growing steps"])
+def test_nothing_is_kept_that_nobody_asked_for(scene: str) -> None:
+    one = unaudited(SCENES[scene])  # an audit looks at everything
+    places = history(replace(one, channels=("tip.*",)))
+    assert places.position.shape == (places.time.size, 12)
+    assert places.velocity.shape == (places.time.size, 0)
+    assert places.memory.shape[1] == 0
+    # what follows from the motion and the forces in contacts
+    loose = len(one.clearance_pins) * len(PinMemory._fields)
+    for asked in ("pin.front_base.force", "*.angular_acceleration"):
+        found = history(replace(one, channels=(asked,)))
+        assert found.position.shape[1] == found.velocity.shape[1] == 12
+        assert found.memory.shape[1] * found.memory.shape[2] == loose
+
+
+@pytest.mark.parametrize(
+    ("scene", "asked", "computed"),
+    [
+        ("loose", ("tip.*", "pin.*"), False),
+        ("loose", ("energy.kinetic", "energy.potential", "energy.elastic"), False),
+        ("loose", ("energy.friction_loss",), True),
+        ("oil", ("*_column.force",), False),
+        ("oil", ("energy.balance",), True),
+        ("ideal, driven", ("tip.*",), False),
+        ("ideal, driven", ("energy.work",), True),
+        ("ideal, held", ("*",), False),  # held and ideal, nothing works or loses anything
+    ],
+)
+def test_energies_are_followed_only_if_asked(
+    monkeypatch: pytest.MonkeyPatch, scene: str, asked: tuple[str, ...], computed: bool
+) -> None:
+    calls = []
+    followed = Recorder._powers
+
+    def counted(self: Recorder, t: float) -> tuple[float, float, float]:
+        calls.append(t)
+        return followed(self, t)
+
+    monkeypatch.setattr(Recorder, "_powers", counted)
+    result = simulate(unaudited(replace(SCENES[scene], channels=asked)))
+    # at the start and at the end of every step, or never
+    assert len(calls) == (result.counts.steps + 1 if computed else 0)
+    calls.clear()
+    audited = simulate(replace(SCENES[scene], channels=asked))
+    assert len(calls) == (audited.counts.steps + 1 if scene != "ideal, held" else 0)
+
+
+def test_a_channel_that_was_not_recorded_is_told_from_one_that_does_not_exist() -> None:
+    result = simulate(replace(SCENES["ideal, held"], channels=("tip.*",)))
+    with pytest.raises(KeyError, match=r"'energy.balance': was not recorded, .* channels = \('tip\.\*',\)"):
+        _ = result.energy_error
+    with pytest.raises(KeyError, match=r"'energy.damping_loss': was not recorded"):
+        _ = result.dissipated
+    with pytest.raises(KeyError, match=r"'tip.z': no such channel"):
+        _ = result["tip.z"]
+
+
+@pytest.mark.parametrize("asked", [(), ("tip.x", "energy.work"), ("pin.*",)])
+def test_the_file_keeps_what_was_recorded(tmp_path: Path, asked: tuple[str, ...]) -> None:
+    result = simulate(replace(SCENES["loose"], channels=asked))
+    back = Result.load(result.save(tmp_path / "run.h5"))
+    assert back.scenario == result.scenario
+    assert set(back.channels) == set(result.channels)
+    for name in result.channels:
+        np.testing.assert_array_equal(back[name], result[name])
+    assert back.onsets == result.onsets
+
+
+def test_estimates_do_not_depend_on_what_is_asked(tmp_path: Path) -> None:
+    scenario = replace(SCENES["reduced"], accuracy=1e-3)
+    full, few = simulate(scenario), simulate(replace(scenario, channels=("tip.x", "shield.velocity_x")))
+    assert few.numbers() == full.numbers()
+    assert (few.worst_error, few.fall, few.met) == (full.worst_error, full.fall, full.met)
+    assert "shield.velocity_x" in few.channels
+    assert "energy.balance" not in few.channels
+    assert math.isfinite(few.estimate(lambda run: run["shield.velocity_x"].max()).error)
+    back = Result.load(few.save(tmp_path / "run.h5"))
+    assert (back.numbers(), back.met) == (few.numbers(), few.met)
+    np.testing.assert_array_equal(few[FORCE], full[FORCE])
+
+
+# --- the engine's own loop ---
+
+# Newton's method ends at 1e-8 of the first residual, here and there with another Jacobian. Positions keep that
+# times the step squared; in accelerations and forces it shows, most in the short steps after a break.
+# By unit: the share, and what it is of
+AGREE = {
+    "s": (1e-9, 1.0),
+    "m": (1e-11, 1.0),
+    "rad": (1e-11, 1.0),
+    "m/s": (1e-8, 1.0),
+    "rad/s": (1e-8, 1.0),
+    "rad/s^2": (1e-5, 100.0),
+    "N": (1e-5, 1e5),
+    "N m": (1e-5, 1e3),
+    "J": (1e-7, 1e3),
+}
+
+
+def watched(scenario: Scenario, monkeypatch: pytest.MonkeyPatch) -> Result:
+    """The same with a look at every step, as with loose pins."""
+    started = Run.__init__
+
+    def looking(self: Run, *arguments: Any) -> None:
+        started(self, *arguments)
+        self.watches = True
+
+    with monkeypatch.context() as patch:
+        patch.setattr(Run, "__init__", looking)
+        return simulate(scenario)
+
+
+@pytest.mark.parametrize(
+    "scene",
+    [
+        "ideal, held",
+        "ideal, driven",
+        "ideal, struck",
+        "ideal, struck at once",
+        "oil",
+        "one column of oil",
+        "slider-crank",
+    ],
+)
+def test_the_engine_alone_makes_the_steps_of_one_that_is_watched(
+    scene: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    alone, looked_at = whole(scene), watched(SCENES[scene], monkeypatch)
+    assert alone.counts.steps == looked_at.counts.steps
+    assert alone.counts.failed_newton == looked_at.counts.failed_newton == 0
+    for ours, theirs in zip(alone.impulses, looked_at.impulses, strict=True):
+        # positions and velocities agree as below
+        assert ours.columns == pytest.approx(theirs.columns, rel=1e-7)
+    np.testing.assert_array_equal(alone.time, looked_at.time)
+    for name in alone.channels:
+        a, b = alone[name], looked_at[name]
+        share, size = AGREE[alone.unit(name)]
+        np.testing.assert_allclose(a, b, rtol=0.0, atol=share * size, err_msg=name)
+
+
+def test_the_progress_is_told_at_every_record() -> None:
+    told: list[float] = []
+    result = simulate(SCENES["ideal, held"], progress=told.append)
+    assert told == pytest.approx(result.time / result.time[-1], abs=1e-12)
+
+
+def test_a_run_of_the_engine_alone_can_be_interrupted() -> None:
+    def stop(share: float) -> None:
+        if share > 0.5:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        simulate(SCENES["ideal, held"], progress=stop)
+
+
+def with_iterations(most: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let Newton's method try so often only, so that it fails."""
+
+    def fewer(*arguments: Any) -> Any:
+        made = engine_settings(*arguments)
+        made.timeIntegration.newton.maxIterations = most
+        return made
+
+    monkeypatch.setattr("support_exudyn.formulations.redundant.solver.solver.engine_settings", fewer)
+
+
+HASTY = support(drive=CubicStep(stroke=0.4, start=0.0, end=0.02), duration=0.05, step=0.01, record_period=0.01)
+
+
+def test_repeated_steps_are_counted_and_the_run_goes_on(monkeypatch: pytest.MonkeyPatch) -> None:
+    with_iterations(6, monkeypatch)
+    result = simulate(HASTY)
+    assert result.counts.failed_newton > 0
+    # without any: five of 10 ms, of which those after both breaks are made in 32 parts
+    assert result.counts.steps > 3 + 2 * 32
+    np.testing.assert_array_equal(result.time, 0.01 * np.arange(6))
+    assert result["front_column.length"][-1] - result["front_column.length"][0] == pytest.approx(0.4, abs=1e-9)
+
+
+def test_a_run_that_cannot_go_on_tells_when(monkeypatch: pytest.MonkeyPatch) -> None:
+    with_iterations(4, monkeypatch)
+    failure = simulate(HASTY, throw=False)
+    assert isinstance(failure, Failure)
+    assert failure.reason == "the solver gave up"
+    assert 0.0 < failure.time < 0.01  # within the first stretch, not at its start

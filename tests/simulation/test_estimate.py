@@ -1,0 +1,483 @@
+"""Errors from the distances of three runs, on results whose numbers follow a known law."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from support_exudyn import (
+    ClearancePin,
+    Estimate,
+    Held,
+    Onset,
+    Result,
+    Scenario,
+    SolverSettings,
+    ravn_slider_crank,
+    simulate,
+)
+from support_exudyn.simulation.estimate import (
+    ALIKE,
+    CHOSEN,
+    FASTEST,
+    FIRST_ORDER,
+    OWN,
+    SAFETY_OF_WORST,
+    SLOWEST,
+    SLOWEST_OWN,
+    disagreement,
+)
+from support_exudyn.simulation.estimate import SAFETY as SAFETY_OF
+from support_exudyn.simulation.reported_numbers import ONSETS, ROUNDING, measures
+from tests.cases.run_cases import FORCE, PIN, loose_support
+from tests.reduced import simulate_reduced
+from user_forces import Exact, InputError, JournalBearing, JournalContact
+
+SAFETY = SAFETY_OF["reduced"]  # which is what runs here
+CLEARANCE = 1.5e-3  # [m], of the loose pin
+ROUND_OFF = 1e-15  # of a number; distances of two lose as much in the absolute
+rates = st.floats(FASTEST, SLOWEST)
+shares = st.floats(-6.0, -1.0).map(lambda x: 10.0**x)
+signs = st.sampled_from([-1.0, 1.0])
+
+
+@cache
+def exact() -> Result:
+    """A short fall with three touches; it stands for the exact one, which it says by its tolerance."""
+    return with_tolerance(simulate_reduced(loose_support(drive=Held(), duration=0.08), 1e-6), 1e-13)
+
+
+def with_tolerance(run: Result, tolerance: float) -> Result:
+    """The same that says that its steps were chosen by another tolerance."""
+    scenario = replace(run.scenario, solver=replace(run.scenario.solver, tolerance=tolerance))
+    return replace(run, scenario=scenario)
+
+
+def scaled(factor: float) -> Result:
+    """The same with every number so many times as large, but time."""
+    run = exact()
+    channels = {
+        name: channel if name == "time" else replace(channel, values=factor * channel.values)
+        for name, channel in run.channels.items()
+    }
+    onsets = {
+        pin: tuple(Onset(*(factor * number for number in onset)) for onset in row)
+        for pin, row in run.onsets.items()
+    }
+    largest = {pin: factor * force for pin, force in run.largest_force.items()}
+    return replace(run, channels=channels, onsets=onsets, largest_force=largest)
+
+
+def three(a: Result, b: Result, c: Result, goal: float = 1e-3) -> Result:
+    """Three runs as a run to an accuracy leaves them: c the finest."""
+    return replace(c, coarser=replace(b, coarser=a), goal=goal)
+
+
+def falling(share: float, r: float) -> Result:
+    """Numbers off by a share of what they tend to, and r times that, and r times that."""
+    return three(*(scaled(1.0 + share * r**n) for n in range(3)))
+
+
+def without(run: Result, number: int) -> Result:
+    """With only so many touches."""
+    return replace(run, onsets={PIN: run.onsets[PIN][:number]})
+
+
+def with_force(run: Result, factor: float) -> Result:
+    """With the loose pin's force alone so many times as large."""
+    channel = run.channels[FORCE]
+    return replace(run, channels={**run.channels, FORCE: replace(channel, values=factor * channel.values)})
+
+
+def between_records(run: Result, name: str) -> float:
+    """What an extreme may miss, which is part of its error whatever the steps."""
+    return measures(run, 0.0, math.inf)[name].missed(run)
+
+
+# --- numbers that fall as they should ---
+
+
+@given(share=shares, sign=signs, r=rates)
+def test_the_fall_is_that_of_the_numbers(share: float, sign: float, r: float) -> None:
+    # two distances, each with the rounding of numbers that are so many times larger
+    assert falling(sign * share, r).fall == pytest.approx(r, rel=20.0 * ROUND_OFF / (share * r) + 1e-12)
+
+
+@given(share=shares, sign=signs, r=rates)
+def test_an_estimate_is_so_many_times_the_true_error(share: float, sign: float, r: float) -> None:
+    run = falling(sign * share, r)
+    wrong = share * r**2
+    lost = 100.0 * ROUND_OFF / (share * r**2 * (1.0 - r)) + 1e-12
+    for name, number in run.numbers().items():
+        largest = known_size(name)
+        true = wrong * abs(known_value(name))
+        # what no estimate is below is added
+        floor = ROUNDING * max(abs(number.value), largest * abs(1.0 + sign * wrong))
+        found = number.error - between_records(run, name)
+        rounding = 1e-12 * number.error
+        # small ones are not believed to be far better than their kind
+        most = max(true, ALIKE * wrong * middle(name) * (1.0 + 2.0 * wrong))
+        assert SAFETY * true * (1.0 - lost) - rounding <= found, name
+        assert found <= SAFETY * most * (1.0 + lost) + 1.01 * floor + rounding, name
+
+
+@cache
+def values() -> dict[str, float]:
+    return {name: number.value for name, number in three(exact(), exact(), exact()).numbers().items()}
+
+
+def known_value(name: str) -> float:
+    return values()[name]
+
+
+def middle(name: str) -> float:
+    """Of the numbers of a kind that has a largest size, the middle one; 0 for all others, which have shares."""
+    sizes = [abs(known_value(n)) for n in values() if kind_of(n) == kind_of(name) != ""]
+    return float(np.median(sizes)) if sizes else 0.0
+
+
+def kind_of(name: str) -> str:
+    """Whether a number is of turning bodies, of places, or of what has no largest size."""
+    return next((kind for kind in (".angular_acceleration.spread", "tip.") if kind in name), "")
+
+
+def known_size(name: str) -> float:
+    """The largest number of the kind, or value of the channel: turning bodies, places of points, forces."""
+    if name.endswith(".angular_acceleration.spread"):
+        return max(np.abs(exact()[n]).max() for n in exact().channels if n.endswith(".angular_acceleration"))
+    if name.startswith("tip."):
+        return float(np.abs([exact()["tip.x"], exact()["tip.y"]]).max())
+    channel, _, word = name.rpartition(".")
+    if not channel.endswith(".force"):
+        return 0.0
+    largest = float(np.abs(exact()[channel]).max())
+    if word == "spread":  # to which rounding adds as scatter
+        spread = float(exact()[channel].std())
+        return spread + (math.hypot(spread, ROUNDING * largest) - spread) / ROUNDING
+    return largest
+
+
+@pytest.mark.parametrize(("r", "taken"), [(1e-3, FASTEST), (0.99, SLOWEST), (3.0, SLOWEST)])
+def test_a_fall_that_three_runs_cannot_tell_is_not_believed(r: float, taken: float) -> None:
+    assert falling(1e-3, r).fall == taken
+
+
+def test_two_runs_alone_are_taken_to_be_of_first_order() -> None:
+    run = replace(scaled(1.0), coarser=scaled(1.01), goal=1e-3)
+    assert run.fall == FIRST_ORDER
+    distance = 0.01 * run[FORCE].mean()
+    # 1e-10 of it is added
+    assert run.numbers()[f"{FORCE}.mean"].error == pytest.approx(SAFETY * distance, rel=1e-6)
+
+
+@given(r=rates)
+def test_a_number_of_ones_own_is_estimated_by_the_fall_of_all(r: float) -> None:
+    run = falling(1e-2, r)
+
+    def median(result: Result) -> float:
+        return float(np.median(result["tip.y"]))
+
+    found = run.estimate(median, "m")
+    assert (found.value, found.unit) == (median(run), "m")
+    # 1e-10 of it is added, to an error of 1e-4 at least
+    assert found.error == pytest.approx(SAFETY * 1e-2 * r**2 * median(exact()), rel=1e-5)
+    assert run.estimate(median).unit == ""
+
+
+# --- numbers that do not ---
+
+
+def test_two_runs_that_agree_by_chance_are_not_taken_as_exact() -> None:
+    r = 0.4
+    last = falling(1e-2, r)
+    middle, first = last.coarser, last.coarser.coarser  # type: ignore[union-attr]
+    assert middle is not None
+    assert first is not None
+    middle = with_force(middle, (1.0 + 1e-2 * r**2) / (1.0 + 1e-2 * r))
+    run = three(first, middle, last)
+    # one number of many: the median of all knows better
+    assert run.fall == pytest.approx(r, rel=1e-9)
+    before = 1e-2 * (1.0 - r**2) * exact()[FORCE].mean()
+    # 1e-10 of it is added; steps are chosen by a tolerance here
+    expected = SAFETY * CHOSEN * before * r / (1.0 - r)
+    assert run.numbers()[f"{FORCE}.mean"].error == pytest.approx(expected, rel=1e-5)
+
+
+def test_a_number_on_which_all_runs_agree_by_chance_is_as_wrong_as_its_family_is_mostly() -> None:
+    r, share = 0.25, 1e-2
+    last = falling(share, r)
+    runs = [with_force(scaled(1.0 + share * r**n), 1.0 / (1.0 + share * r**n)) for n in range(3)]
+    run, name = three(*runs), f"{FORCE}.mean"
+    assert run.numbers()[name].value == pytest.approx(exact()[FORCE].mean(), rel=1e-12)
+    distance = ALIKE * share * r * (1.0 - r) * exact()[FORCE].mean()
+    # shares are of a run's own forces, off by up to 1e-3; rounding is added
+    assert run.numbers()[name].error == pytest.approx(SAFETY * distance * r / (1.0 - r), rel=2e-3)
+    # a number of one's own has no family
+    assert run.estimate(measures(run, 0.0, math.inf)[name].measure).error < 1e-8 * run.numbers()[name].value
+    # and those of the others are what they were
+    other = "front_column.force.mean"
+    assert run.numbers()[other].error == pytest.approx(last.numbers()[other].error, rel=1e-9)
+
+
+def test_a_mean_is_as_wrong_as_the_spread_of_its_force() -> None:
+    r, share, mean = 0.25, 1e-2, float(exact()[FORCE].mean())
+    around = exact()[FORCE] - mean
+    run = three(*(with_channel(exact(), FORCE, mean + (1.0 + share * r**n) * around) for n in range(3)))
+    distance = ALIKE * share * r * (1.0 - r) * float(np.std(around))
+    told = run.numbers()[f"{FORCE}.mean"]
+    assert told.error == pytest.approx(SAFETY * distance * r / (1.0 - r), rel=2e-3)
+    # of other forces nothing is known by it
+    other = run.numbers()["front_column.force.mean"]
+    assert other.error < 1e-8 * other.value
+
+
+def test_the_spread_of_a_force_that_hardly_varies_says_little_of_its_mean() -> None:
+    mean = float(exact()[FORCE].mean())
+    noise = 1e-8 * mean * (-1.0) ** np.arange(exact()[FORCE].size)
+    # the spread falls by a quarter from run to run, and is nearly all wrong; the mean is right to 1e-8
+    run = three(*(with_channel(exact(), FORCE, mean + 0.25**n * noise) for n in range(3)))
+    told = run.numbers()
+    assert told[f"{FORCE}.spread"].error > told[f"{FORCE}.spread"].value
+    assert told[f"{FORCE}.mean"].error < 1e-8 * mean
+
+
+@pytest.mark.parametrize("own", [0.05, 0.4, 0.9])
+def test_a_number_that_falls_slower_than_others_has_a_larger_error(own: float) -> None:
+    r, share = 0.25, 1e-3
+    forces = (1.0 + share, 1.0 + share * own, 1.0 + share * own**2)
+    runs = [with_force(scaled(1.0 + share * r**n), k / (1.0 + share * r**n)) for n, k in enumerate(forces)]
+    run = three(*runs)
+    assert run.fall == pytest.approx(r, rel=1e-9)  # of most
+    # rates are believed in part and to a limit; faster ones than most are not
+    taken = max(r, min(OWN * own, SLOWEST_OWN))
+    distance = share * (1.0 - own) * max(own, CHOSEN) * float(exact()[FORCE].max())
+    least = ALIKE * share * r * (1.0 - r) * float(exact()[FORCE].max())
+    name = f"{FORCE}.largest"
+    told = run.numbers()[name].error - between_records(run, name)
+    assert told == pytest.approx(SAFETY * max(distance, least) * taken / (1.0 - taken), rel=5e-3)
+
+
+def test_a_touch_is_not_known_better_than_a_step_may_be() -> None:
+    run = with_tolerance(exact(), 1e-5)
+    for n, touch in enumerate(run.onsets[PIN][:ONSETS]):
+        found, name = three(run, run, run).numbers(), f"pin.{PIN}.onset_{n + 1}"
+        assert found[f"{name}.time"].error == pytest.approx(1e-5 * CLEARANCE / touch.speed)
+        assert found[f"{name}.speed"].error == pytest.approx(1e-5 * touch.speed)
+    # steps that are given follow nothing else
+    given = replace(run, scenario=replace(run.scenario, formulation="redundant"))
+    assert three(given, given, given).numbers()[f"pin.{PIN}.onset_1.speed"].error < 1e-6 * touch.speed
+
+
+def test_runs_that_are_all_the_same_are_right_to_rounding() -> None:
+    run = three(exact(), exact(), exact())
+    assert run.fall == FASTEST
+    for name, number in run.numbers().items():
+        expected = ROUNDING * max(abs(number.value), known_size(name)) + between_records(run, name)
+        assert number.error == pytest.approx(expected), name
+    # of a spread that means something; ten thousand times the rounding of forces that hardly vary
+    assert run.worst_error < 1e-6
+    assert run.met
+
+
+@pytest.mark.parametrize("fewer", [0, 1])
+def test_a_touch_that_a_coarser_run_misses_has_no_error_that_is_known(fewer: int) -> None:
+    runs = [exact(), exact(), exact()]
+    runs[fewer] = without(runs[fewer], 1)
+    found = three(*runs).numbers()
+    assert math.isfinite(found[f"pin.{PIN}.onset_1.speed"].error)
+    for field in ("time", "speed"):
+        assert found[f"pin.{PIN}.onset_2.{field}"].error == math.inf
+        assert math.isfinite(found[f"pin.{PIN}.onset_2.{field}"].value)
+    # it does not disturb what is known of the others
+    assert math.isfinite(three(*runs).worst_error)
+
+
+def test_only_the_touches_of_the_run_itself_are_numbers() -> None:
+    assert len(exact().onsets[PIN]) >= ONSETS
+    run = three(exact(), exact(), without(exact(), 1))
+    assert f"pin.{PIN}.onset_1.time" in run.numbers()
+    assert f"pin.{PIN}.onset_2.time" not in run.numbers()
+    assert f"pin.{PIN}.onset_{ONSETS + 1}.time" not in three(exact(), exact(), exact()).numbers()
+
+
+def test_a_number_that_is_none_has_an_infinite_error() -> None:
+    run = falling(1e-3, 0.25)
+    assert run.estimate(lambda result: math.nan).error == math.inf
+    assert run.estimate(lambda result: math.nan if result is run else 1.0).error == math.inf
+
+
+# --- what an accuracy is of ---
+
+
+@pytest.mark.parametrize("r", [0.25, 0.5])
+def test_the_worst_error_is_that_of_forces_and_paths(r: float) -> None:
+    share = 1e-4
+    run = falling(share, r)
+    path = np.array([exact()["tip.x"], exact()["tip.y"]])
+    extent = max(float(np.hypot(*np.ptp(path, axis=1))), 1.5e-3)
+    # the tip is 4 m from the origin and moves by millimetres, so that a share of its place is the worst
+    # its distance from the run before, which is not believed to fall faster than by half
+    last = share * (1.0 - r) * max(r, FIRST_ORDER) * np.hypot(*path).max() / extent
+    # extent and clearance are those of the finest run, off by that share itself
+    assert run.worst_error == pytest.approx(SAFETY_OF_WORST * last, rel=1e-3)
+    goal = run.worst_error
+    assert replace(run, goal=goal).met
+    assert not replace(run, goal=0.99 * goal).met
+
+
+def test_the_worst_error_of_a_force_is_relative() -> None:
+    r, runs = 0.25, [with_force(exact(), 1.0 + 1e-2 * 0.25**n) for n in range(3)]
+    run = three(*runs)
+    # all others are constants: the median of those that are none is theirs
+    assert run.fall == pytest.approx(r, rel=1e-9)
+    # distances are believed to fall by half at most; they are shares of a run's own force, off by up to 1e-2
+    last = 1e-2 * (1.0 - r) * FIRST_ORDER
+    assert run.worst_error == pytest.approx(SAFETY_OF_WORST * last, rel=2e-2)
+
+
+# --- which numbers there are ---
+
+
+def test_names_and_units() -> None:
+    found = falling(1e-3, 0.25).numbers()
+    units = {name: number.unit for name, number in found.items()}
+    assert units[f"{FORCE}.mean"] == units[f"{FORCE}.spread"] == units[f"{FORCE}.largest"] == "N"
+    assert units["front_column.force.mean"] == "N"
+    assert units["rear_link.angular_acceleration.spread"] == "rad/s^2"
+    assert units["tip.x.mean"] == units["tip.y.mean"] == "m"
+    assert units[f"pin.{PIN}.largest_force"] == "N"
+    assert units[f"pin.{PIN}.onset_1.time"] == "s"
+    assert units[f"pin.{PIN}.onset_3.speed"] == "m/s"
+    assert all(number.error >= 0.0 for number in found.values())
+
+
+Statistic = Callable[[np.ndarray], float]
+
+
+@pytest.mark.parametrize(("word", "statistic"), [("mean", np.mean), ("spread", np.std), ("largest", np.max)])
+@pytest.mark.parametrize(("after", "until"), [(0.0, math.inf), (0.02, math.inf), (0.0, 0.05), (0.02, 0.05)])
+def test_statistics_are_those_of_the_records_asked_for(
+    word: str, statistic: Statistic, after: float, until: float
+) -> None:
+    run = falling(1e-3, 0.25)
+    # records at both ends count, whatever their rounding
+    inside = [round(t / 1e-3) * 1e-3 for t in run.time]
+    chosen = np.array([after - 1e-12 <= t <= until + 1e-12 for t in inside])
+    number = run.numbers(after, until)[f"{FORCE}.{word}"]
+    assert number.value == statistic(run[FORCE][chosen])
+
+
+def test_touches_and_the_largest_force_are_those_of_the_whole_run() -> None:
+    run = falling(1e-3, 0.25)
+    whole, late = run.numbers(), run.numbers(after=0.06)
+    for name in whole:
+        if "onset" in name or "largest_force" in name:
+            assert late[name] == whole[name]
+
+
+@pytest.mark.parametrize("window", [(1.0, math.inf), (0.05, 0.02), (0.0101, 0.0109), (math.nan, math.inf)])
+def test_times_without_a_record_are_refused(window: tuple[float, float]) -> None:
+    with pytest.raises(InputError, match=r"after = .* s, until = .* s: .*allowed: .* from 0 to 0\.08 s"):
+        falling(1e-3, 0.25).numbers(*window)
+
+
+def test_a_run_without_an_accuracy_says_what_to_do() -> None:
+    run = exact()
+    advice = r"nothing to estimate errors by; allowed: runs with an accuracy, .*accuracy='standard'"
+    for ask in (
+        run.numbers,
+        lambda: run.estimate(lambda r: 1.0),
+        lambda: run.worst_error,
+    ):
+        with pytest.raises(InputError, match=advice):
+            ask()
+    assert not run.met
+
+
+@pytest.mark.parametrize(
+    ("number", "text"),
+    [
+        (Estimate(51503.8323, 0.0088, "N"), "51503.8323 ± 0.009 N"),
+        (Estimate(0.0174475432, 2e-9, "s"), "0.0174475432 ± 2e-09 s"),
+        (Estimate(1.0, math.inf, "m/s"), "1 ± inf m/s"),
+    ],
+)
+def test_an_estimate_reads_as_a_number_with_its_error(number: Estimate, text: str) -> None:
+    assert str(number) == text
+
+
+# --- numbers that are next to nothing ---
+
+
+def with_channel(run: Result, name: str, values: np.ndarray) -> Result:
+    """The same with other values of a channel."""
+    return replace(run, channels={**run.channels, name: replace(run.channels[name], values=values)})
+
+
+def test_rounding_beside_far_larger_numbers_tells_no_fall() -> None:
+    still = np.ones_like(exact().time)
+    runs = [with_channel(exact(), "tip.x", x * still) for x in (0.0, 1e-12, 4e-12)]
+    assert three(*runs).fall == FASTEST
+
+
+def test_a_force_that_hardly_varies_has_no_spread_to_be_wrong() -> None:
+    noise = np.random.default_rng(1).normal(size=(3, exact().time.size))
+    runs = [with_channel(exact(), FORCE, 5e4 + 1e-6 * row) for row in noise]
+    assert three(*runs).worst_error < 1e-5
+
+
+def test_a_spread_and_a_least_value_near_zero_are_as_uncertain_as_the_values_they_are_of() -> None:
+    def off(size: float) -> Result:
+        values = np.full(exact().time.size, 1e5)
+        values[::2] += size
+        return with_channel(exact(), FORCE, values)
+
+    found = three(off(3e-8), off(2e-8), off(1e-8)).numbers()
+    spread, mean = found[f"{FORCE}.spread"], found[f"{FORCE}.mean"]
+    assert spread.value < 1e-7
+    assert spread.error >= ROUNDING * mean.value
+    column = "front_column.force"
+    least = np.linspace(1e-4, 1e5, exact().time.size)
+    run = with_channel(exact(), column, least)
+    found = three(run, run, run).numbers()
+    assert found[f"{column}.min"].error - between_records(run, f"{column}.min") >= ROUNDING * 1e5
+
+
+def test_a_path_that_goes_nowhere_is_measured_by_the_clearance() -> None:
+    along = np.arange(exact().time.size) / exact().time.size
+    still = with_channel(exact(), "tip.x", np.ones_like(along))
+    runs = [with_channel(still, "tip.y", 2.0 + x * along) for x in (1.75e-9, 1.25e-9, 1e-9)]
+    # 0.5 nm apart, of a clearance of 1.5 mm
+    assert three(*runs).worst_error < 1e-5
+
+
+def test_what_newton_leaves_of_a_force_is_more_of_its_spread_where_it_hardly_varies() -> None:
+    # the pins of a rod that falls for 5 ms carry the same force within 0.2 %. Newton's method leaves a share of
+    # it, which is far more of the spread, and runs with steps halved do not tell
+    contact = JournalContact(
+        bearing=JournalBearing(bore_radius=0.01, clearance=4.5e-4), normal=Exact(restitution=0.9, stiffness=2e8)
+    )
+    scene = Scenario(
+        machine=replace(ravn_slider_crank(), start_angle=5.130105552753518),
+        pins={"slider_pin": ClearancePin(contact=contact, bore="second", eccentricity=(1.8e-4, 0.0))},
+        drive=Held(),
+        duration=0.005,
+        step=5e-5,
+        formulation="redundant",
+    )
+    result = simulate(scene, errors=True)
+    fine = replace(scene, formulation="reduced", solver=SolverSettings(tolerance=1e-11))
+    right = simulate(fine)
+    known = measures(right, 0.0, math.inf)
+    for pin in ("main", "crank_pin"):
+        name = f"pin.{pin}.force.spread"
+        found = result.numbers()[name]
+        assert abs(found.value - known[name].measure(right)) < found.error < 1e-5 * found.value
+    assert disagreement(result, right) < result.worst_error < 1e-5

@@ -1,0 +1,172 @@
+"""Failures are clear, and can be had as a value."""
+
+from __future__ import annotations
+
+import pickle
+from dataclasses import replace
+
+import pytest
+
+from support_exudyn import (
+    Body,
+    ClearancePin,
+    Failure,
+    Held,
+    Linkage,
+    Machine,
+    PinPlace,
+    Scenario,
+    SimulationError,
+    simulate,
+)
+from support_exudyn.formulations.engine_errors import explained
+from support_exudyn.sweeps.parallel_runs import run_all
+from tests.cases.run_cases import Pair, loose_support, paper_contact
+from tests.formulations.test_momentum import ONE, TWO
+from user_forces import FrictionLaw, LankaraniNikravesh, LoadError, Touch, value
+from user_forces.lawful import UNLAWFUL
+
+
+@value
+class Breaking(FrictionLaw):
+    """Works until the slip exceeds 1 mm/s."""
+
+    kind: str
+
+    def __call__(self, slip: float, normal_force: float, deflection: float = 0.0) -> float:
+        if abs(slip) < 1e-3:
+            return 0.0
+        if self.kind == "nan":
+            return float("nan")
+        if self.kind == "overflow":
+            raise OverflowError("force out of range")
+        raise LookupError("a bug in the law")
+
+
+@value
+class Thin(LankaraniNikravesh):
+    """Is not valid below 10 micrometres."""
+
+    def __call__(self, depth: float, rate: float, touch: Touch) -> float:
+        if depth > 1e-5:
+            raise LoadError(f"Thin: depth = {depth} m: allowed: up to 1e-05 m")
+        return super().__call__(depth, rate, touch)
+
+
+def breaking(kind: str) -> Scenario:
+    good = paper_contact(1.5, 0.0)
+    contact = type(good)(bearing=good.bearing, normal=good.normal, friction=Breaking(kind=kind))
+    return _with(contact)
+
+
+def _with(contact: object) -> Scenario:
+    scenario = loose_support(drive=Held(), duration=0.05)
+    return replace(scenario, pins={"rear_base": ClearancePin(contact=contact)})
+
+
+@pytest.mark.parametrize(
+    ("kind", "words"),
+    [
+        ("nan", "rear_base: Breaking gives a force of nan N at a slip of "),  # no step mends it
+        ("overflow", "Try a smaller step"),
+    ],
+)
+def test_a_failure_says_when_and_in_what_state(kind: str, words: str) -> None:
+    with pytest.raises(SimulationError) as caught:
+        simulate(breaking(kind))
+    failure = caught.value.failure
+    assert 0.017 < failure.time < 0.05  # the first touch is at 17.4 ms
+    assert failure.state["pin.rear_base.approach_speed"] == pytest.approx(0.17, abs=0.01)
+    assert "step" in failure.state
+    assert words in str(caught.value)
+    assert (UNLAWFUL in str(caught.value)) == (kind == "nan")
+
+
+def test_a_failure_can_be_had_as_a_value() -> None:
+    failure = simulate(breaking("overflow"), throw=False)
+    assert isinstance(failure, Failure)
+    assert "force out of range" in failure.reason
+
+
+def test_a_contact_that_is_overloaded_says_what_the_law_takes() -> None:
+    good = paper_contact(1.5, 0.0)
+    thin = Thin(stiffness=good.normal.stiffness, restitution=0.9)
+    failure = simulate(_with(type(good)(bearing=good.bearing, normal=thin)), throw=False)
+    assert isinstance(failure, Failure)
+    assert failure.reason == "a contact is overloaded"
+    # the law's own words in place of advice on steps
+    assert "allowed: up to 1e-05 m" in failure.advice
+    assert "step" not in failure.advice
+    assert 0.017 < failure.time < 0.02  # the first touch is at 17.4 ms
+
+
+@value
+class Doubled(Machine):
+    """Two bodies on two pins at the same place, one of them too many."""
+
+    def linkage(self) -> Linkage:
+        place = PinPlace(first="one", second="two", first_point=(0.2, 0.25), second_point=(0.2, 0.25))
+        return Linkage(bodies={"one": ONE, "two": TWO}, pins={"pin": place, "again": place})
+
+
+@value
+class Toggle(Machine):
+    """Two bars in one line between two pins on the ground: at their dead centre."""
+
+    def linkage(self) -> Linkage:
+        bars = {
+            name: Body(mass=1.0, inertia=0.1, centre=(x, 0.0)) for name, x in (("left", 0.5), ("right", 1.5))
+        }
+        pins = {
+            name: PinPlace(first=first, second=second, first_point=(x, 0.0), second_point=(x, 0.0))
+            for name, first, second, x in (
+                ("start", "ground", "left", 0.0),
+                ("middle", "left", "right", 1.0),
+                ("end", "right", "ground", 2.0),
+            )
+        }
+        return Linkage(bodies=bars, pins=pins)
+
+
+@pytest.mark.parametrize("machine", [Doubled(), Toggle()], ids=["held twice", "dead centre"])
+def test_equations_without_a_solution_are_explained(machine: Machine) -> None:
+    failure = simulate(Scenario(machine=machine, duration=0.01), throw=False)
+    assert isinstance(failure, Failure)
+    assert failure.reason.startswith(
+        "the equations of a step could not be solved: the linkage may be at a dead"
+    )
+    assert failure.reason.endswith("(engine: GeneralMatrixEXUdense::Solve(...): matrix is not factorized!)")
+    assert "two pins, columns or guides hold the same bodies" in failure.advice
+
+
+def test_other_words_of_the_engine_follow_ours() -> None:
+    said = "=====\nCSystem::Assemble: no such node [file 'a.cpp', line 3]\nmore"
+    assert explained(RuntimeError(said)) == "the engine gave up (engine: CSystem::Assemble: no such node)"
+    assert explained(RuntimeError("")) == "the engine gave up (engine: RuntimeError)"
+
+
+def test_a_bug_in_a_law_is_not_taken_for_a_failed_run() -> None:
+    with pytest.raises(LookupError, match="a bug in the law"):
+        simulate(breaking("bug"), throw=False)
+
+
+def test_a_failure_comes_back_whole_from_another_process() -> None:
+    error = SimulationError(Failure("reason", "advice.", 1.5, {"x": 2.0}))
+    assert pickle.loads(pickle.dumps(error)).failure == error.failure
+
+
+def test_a_sweep_goes_on_after_a_failure() -> None:
+    machine = Pair(one=ONE, two=TWO, one_point=(0.2, 0.25), two_point=(0.2, 0.25))
+    pins = {"pin": ClearancePin(contact=paper_contact(1.5, 0.0))}
+    scenarios = {
+        "bad": Scenario(machine=machine, pins=pins, duration=0.01, start="settled"),
+        "good": Scenario(machine=machine, pins=pins, duration=0.01),
+    }
+    seen: list[dict[str, float]] = []
+    results = run_all(scenarios, workers=2, progress=lambda shares: seen.append(dict(shares)))
+    assert isinstance(results["bad"], Failure)
+    assert not isinstance(results["good"], Failure)
+    assert seen[-1]["good"] == 1.0
+    # the same as in this process, to the bit
+    here = simulate(scenarios["good"])
+    assert (here["one.x"] == results["good"]["one.x"]).all()

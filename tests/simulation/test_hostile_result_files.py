@@ -1,0 +1,135 @@
+"""Result files that are cut, changed, written to a full disk, or by several processes at once."""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import random
+import signal
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+
+from support_exudyn import Held, Result, simulate
+from support_exudyn.files.hdf5 import BLOCK
+from support_exudyn.scenario.recorded_channels import Channel
+from tests.cases.run_cases import loose_support
+from tests.hostile import DISKS, little_room, posix_only
+from user_forces import InputError
+
+FLIPS, CUTS = 400, 100
+
+
+@pytest.fixture(scope="module")
+def result() -> Result:
+    return simulate(loose_support(1.5, 0.25, drive=Held(), duration=0.02))
+
+
+@pytest.fixture(scope="module")
+def whole(result: Result, tmp_path_factory: pytest.TempPathFactory) -> bytes:
+    return result.save(tmp_path_factory.mktemp("whole") / "run.h5").read_bytes()
+
+
+def is_refused(path: Path, data: bytes) -> bool:
+    path.write_bytes(data)
+    try:
+        Result.load(path)
+    except InputError as error:
+        return str(error).startswith(f"{path}: not a result file of this program, or damaged (")
+    return False
+
+
+def test_a_changed_byte_is_found_wherever_it_is(whole: bytes, tmp_path: Path) -> None:
+    chance = random.Random(1)
+    places = [*range(0, BLOCK, 37), *chance.sample(range(BLOCK, len(whole)), FLIPS), len(whole) - 1]
+    for place in places:
+        data = bytearray(whole)
+        data[place] ^= 1 << chance.randrange(8)
+        assert is_refused(tmp_path / "run.h5", bytes(data)), place
+
+
+def test_a_file_that_was_cut_off_is_refused_at_any_length(whole: bytes, tmp_path: Path) -> None:
+    chance = random.Random(2)
+    for length in [*range(4), BLOCK - 1, BLOCK, len(whole) - 1, *chance.sample(range(len(whole)), CUTS)]:
+        assert is_refused(tmp_path / "run.h5", whole[:length]), length
+
+
+def test_what_follows_the_end_or_stands_before_it_is_refused(whole: bytes, tmp_path: Path) -> None:
+    for data in (whole + b"x", whole[1:], b"\n" + whole, whole[BLOCK:], bytes(len(whole)), whole + whole):
+        assert is_refused(tmp_path / "run.h5", data)
+
+
+def test_a_value_that_was_changed_by_hand_is_refused(result: Result, tmp_path: Path) -> None:
+    path = result.save(tmp_path / "run.h5")
+    with h5py.File(path, "r+") as file:
+        file["channels/tip.x"][3] = np.nan
+    with pytest.raises(InputError, match=r"run\.h5: .* does not fit its digest: it was cut off or changed"):
+        Result.load(path)
+
+
+def test_every_reader_of_hdf5_reads_the_file(result: Result, tmp_path: Path) -> None:
+    with h5py.File(result.save(tmp_path / "run.h5"), "r") as file:
+        np.testing.assert_array_equal(file["channels/tip.x"], result["tip.x"])
+
+
+def test_a_folder_is_not_said_to_be_damaged(tmp_path: Path) -> None:
+    with pytest.raises(OSError, match=r"directory|denied"):
+        Result.load(tmp_path)
+
+
+@pytest.mark.parametrize("kind", DISKS)
+def test_on_a_full_disk_the_old_result_stays(
+    result: Result, tmp_path: Path, kind: str, capfd: pytest.CaptureFixture[str]
+) -> None:
+    more = {f"x{n}": Channel(np.random.default_rng(n).random(result.time.size), "m", "") for n in range(800)}
+    large = replace(result, channels=dict(result.channels) | more)
+    with little_room(tmp_path, 256 * 1024, kind) as folder:
+        path = result.save(folder / "run.h5")
+        for _ in range(2):
+            with pytest.raises(OSError, match="it cannot be written") as caught:
+                large.save(path)
+            assert caught.value.filename == str(path)
+        assert [item.name for item in folder.iterdir()] == ["run.h5"]
+        np.testing.assert_array_equal(Result.load(path)["tip.x"], result["tip.x"])
+    assert capfd.readouterr().err == ""  # HDF5 says nothing of its own
+
+
+# --- several processes at once ---
+
+
+def write_again_and_again(path: Path, number: int, first: Path) -> None:
+    """In a process of its own: a result whose every channel says who wrote it."""
+    result = Result.load(first)
+    channels = {name: replace(c, values=np.full_like(c.values, number)) for name, c in result.channels.items()}
+    mine = replace(result, channels=channels | {"time": result.channels["time"]}, wall_time=float(number))
+    while True:
+        mine.save(path)
+
+
+@posix_only
+def test_of_several_writers_the_last_has_written_a_whole_file(result: Result, tmp_path: Path) -> None:
+    path, first = tmp_path / "shared" / "run.h5", result.save(tmp_path / "first.h5")
+    context = multiprocessing.get_context("spawn")
+    writers = [context.Process(target=write_again_and_again, args=(path, n, first)) for n in (1, 2)]
+    for writer in writers:
+        writer.start()
+    read = []
+    try:
+        end = time.monotonic() + 30.0
+        while (len(read) < 40 or len(set(read)) < 2) and time.monotonic() < end:
+            if not path.exists():
+                continue
+            back = Result.load(path)
+            assert all((back[name] == back.wall_time).all() for name in back.channels if name != "time")
+            read.append(back.wall_time)
+    finally:
+        for writer in writers:
+            if writer.pid is not None:
+                os.kill(writer.pid, signal.SIGKILL)
+            writer.join()
+    assert set(read) == {1.0, 2.0}
+    Result.load(path)  # killed in mid-work

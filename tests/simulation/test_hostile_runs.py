@@ -1,0 +1,234 @@
+"""Runs that are interrupted, and sweeps in which a process is killed."""
+
+from __future__ import annotations
+
+import gc
+import importlib
+import os
+import signal
+import time
+from collections.abc import Callable
+from dataclasses import replace
+
+import exudyn
+import numpy as np
+import pytest
+
+from support_exudyn import (
+    ClearancePin,
+    Failure,
+    Held,
+    OilColumn,
+    Result,
+    Scenario,
+    SolverSettings,
+    UniformSpeed,
+    simulate,
+)
+from support_exudyn.formulations.redundant.scene.engine_scene import InEngine
+from support_exudyn.formulations.registry import formulation
+from support_exudyn.formulations.tree.engine import Engine
+from support_exudyn.sweeps.parallel_runs import run_all
+from tests.cases.run_cases import FORCE, PIN, loose_slider_crank, loose_support, paper_contact
+from tests.hostile import Interruption, posix_only
+from user_forces import LankaraniNikravesh, Touch, value
+
+PROMPT = 1.0  # [s] within which an interruption is asked to come out
+LONG = 1000.0  # [s] that the machine is simulated for: minutes of work
+
+OIL = OilColumn(bore_area=0.1, oil_length=0.5, bulk_modulus=1.5e9)
+PLANE = loose_support(1.5, 0.1, drive=Held(), duration=0.04)
+COLUMNS = dict.fromkeys(PLANE.linkage.columns, OIL)
+PLAIN = SolverSettings(backend="python")
+RUNS = {
+    "plane": PLANE,
+    "plane, ideal pins": replace(PLANE, pins={}),
+    "plane, symbolic": replace(PLANE, solver=SolverSettings(backend="symbolic")),
+    "space": replace(PLANE, dimensions=3),
+    "space, ideal pins, one channel": replace(PLANE, dimensions=3, pins={}, channels=("tip.x",)),
+    "tree": replace(PLANE, formulation="tree", columns=COLUMNS),
+    "reduced, plain": replace(PLANE, formulation="reduced", solver=PLAIN),
+    "with an accuracy": replace(PLANE, accuracy="draft", formulation="redundant"),
+}
+
+
+def long(scenario: Scenario) -> Scenario:
+    """The same for minutes; without a loose pin it is in one stretch, in which the engine tells nothing."""
+    return replace(scenario, duration=LONG, record_period=LONG / 10.0)
+
+
+@pytest.fixture
+def released(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """Models of the engine that have been let go of."""
+    found: list[str] = []
+    for kind in (InEngine, Engine):
+
+        def release(model: object, before: Callable[[object], None] = kind.release) -> None:
+            found.append(type(model).__name__)
+            before(model)
+
+        monkeypatch.setattr(kind, "release", release)
+    return found
+
+
+def same(one: Result, other: Result) -> bool:
+    return all(np.array_equal(one[name], other[name]) for name in one.channels) and one.onsets == other.onsets
+
+
+@posix_only
+@pytest.mark.parametrize("name", RUNS)
+def test_an_interruption_comes_out_at_once_and_leaves_nothing_behind(name: str, released: list[str]) -> None:
+    scenario = RUNS[name]
+    before = simulate(scenario)
+    released.clear()
+    with pytest.raises(KeyboardInterrupt), Interruption(0.15) as sent:
+        simulate(long(scenario), throw=False)
+    assert 0.0 < time.perf_counter() - sent.sent < PROMPT
+    assert exudyn.config.printToConsole
+    assert gc.isenabled()
+    assert len(released) == (0 if name == "reduced, plain" else 1)  # that one is without the engine
+    assert same(simulate(scenario), before)
+
+
+@posix_only
+def test_a_compiled_run_is_interrupted_between_its_pauses() -> None:
+    # it strikes for ever: some 200 000 steps a second of the machine's, that is a second of work
+    scenario = loose_slider_crank(1e-3, formulation="reduced", solver=SolverSettings(tolerance=1e-8))
+    before = simulate(scenario)
+    told: list[float] = []
+    with pytest.raises(KeyboardInterrupt), Interruption(0.15) as sent:
+        simulate(replace(scenario, duration=20.0, record_period=0.1), progress=told.append)
+    assert 0.0 < time.perf_counter() - sent.sent < PROMPT
+    assert told == sorted(told)
+    assert same(simulate(scenario), before)
+
+
+@pytest.mark.parametrize("at_once", [1, 37])
+def test_pauses_of_a_compiled_run_change_nothing(monkeypatch: pytest.MonkeyPatch, at_once: int) -> None:
+    drive = UniformSpeed(stroke=0.01, start=0.02, end=0.06)  # whose speed jumps twice
+    scenario = replace(PLANE, formulation="reduced", drive=drive, duration=0.1)
+    before = simulate(scenario)
+    assert len(before.impulses) == 2
+    assert len(before.onsets[PIN]) > 2
+    monkeypatch.setattr(importlib.import_module("support_exudyn.formulations.reduced.run"), "AT_ONCE", at_once)
+    told: list[float] = []
+    paused = simulate(scenario, progress=told.append)
+    assert same(paused, before)
+    assert (paused.counts, paused.impulses, paused.largest_force) == (
+        before.counts,
+        before.impulses,
+        before.largest_force,
+    )
+    assert len(told) > before.counts.steps / at_once / 2
+    assert told == sorted(told)
+    assert told[-1] == 1.0
+
+
+class Calls:
+    """Interrupts when it is called for the nth time."""
+
+    left = 0
+
+    @classmethod
+    def count(cls) -> None:
+        cls.left -= 1
+        if cls.left == 0:
+            signal.raise_signal(signal.SIGINT)
+
+
+@value
+class Interrupting(LankaraniNikravesh):
+    """Is interrupted while it is asked for its force."""
+
+    def __call__(self, depth: float, rate: float, touch: Touch) -> float:
+        Calls.count()
+        return super().__call__(depth, rate, touch)
+
+    def elastic_force(self, depth: float) -> float:
+        Calls.count()
+        return super().elastic_force(depth)
+
+
+def interrupting(scenario: Scenario) -> Scenario:
+    good = paper_contact(1.5, 0.0)
+    law = Interrupting(stiffness=good.normal.stiffness, restitution=0.9)
+    contact = type(good)(bearing=good.bearing, normal=law)
+    return replace(scenario, pins={PIN: ClearancePin(contact=contact)})
+
+
+@pytest.mark.parametrize("start", ["concentric", "settled"])
+@pytest.mark.parametrize("call", [1, 3])
+@pytest.mark.parametrize("name", ["plane", "space", "tree", "reduced, plain"])
+def test_an_interruption_in_a_law_is_not_taken_for_a_failed_run(name: str, call: int, start: str) -> None:
+    if start == "settled" and name.startswith("reduced"):
+        pytest.skip("is not covered")
+    Calls.left = call
+    with pytest.raises(KeyboardInterrupt):
+        simulate(interrupting(replace(RUNS[name], start=start)), throw=False)
+    assert Calls.left == 0
+    assert exudyn.config.printToConsole
+
+
+@value
+class Buggy(LankaraniNikravesh):
+    """Has a bug in its elastic part."""
+
+    def elastic_force(self, depth: float) -> float:
+        raise LookupError("a bug in the law")
+
+
+def test_a_bug_is_not_taken_for_a_missing_equilibrium() -> None:
+    good = paper_contact(1.5, 0.0)
+    contact = type(good)(bearing=good.bearing, normal=Buggy(stiffness=good.normal.stiffness, restitution=0.9))
+    scenario = replace(PLANE, pins={PIN: ClearancePin(contact=contact)}, start="settled")
+    with pytest.raises(LookupError, match="a bug in the law"):
+        simulate(scenario, throw=False)
+
+
+def test_an_interruption_waits_for_an_import_to_end(monkeypatch: pytest.MonkeyPatch) -> None:
+    done: list[str] = []
+
+    def slow(name: str) -> str:
+        signal.raise_signal(signal.SIGINT)
+        done.append(name)
+        return name
+
+    monkeypatch.setattr("support_exudyn.formulations.registry.import_module", slow)
+    handler = signal.getsignal(signal.SIGINT)
+    with pytest.raises(KeyboardInterrupt):
+        formulation("reduced")
+    assert done == ["support_exudyn.formulations.reduced"]
+    assert signal.getsignal(signal.SIGINT) is handler
+
+
+# --- sweeps ---
+
+
+@value
+class Killing(LankaraniNikravesh):
+    """Has its process killed once the journal is deep in an impact; laws are looked at before at rest."""
+
+    def __call__(self, depth: float, rate: float, touch: Touch) -> float:
+        if depth > 1e-5 and rate > 0.0:
+            os.kill(os.getpid(), signal.SIGKILL)
+        return super().__call__(depth, rate, touch)
+
+
+@posix_only
+def test_a_run_whose_process_is_killed_is_a_row_and_the_sweep_goes_on() -> None:
+    good = paper_contact(1.5, 0.0)
+    law = Killing(stiffness=good.normal.stiffness, restitution=0.9)
+    killing = replace(PLANE, pins={PIN: ClearancePin(contact=type(good)(bearing=good.bearing, normal=law))})
+    scenarios = {"one": PLANE, "killing": killing, "other": replace(PLANE, duration=0.03)}
+    told: list[dict[str, float]] = []
+    results = run_all(scenarios, workers=1, progress=lambda shares: told.append(dict(shares)))
+    failure = results["killing"]
+    assert isinstance(failure, Failure)
+    assert "signal 9 (SIGKILL, out of memory?)" in failure.reason
+    assert "memory" in failure.advice
+    assert 0.0 < failure.time < 0.04  # what was told last: the first touch is at 17.4 ms
+    for name in ("one", "other"):
+        result = results[name]
+        assert isinstance(result, Result)
+        np.testing.assert_array_equal(result[FORCE], simulate(scenarios[name])[FORCE])
+    assert set(told[-1].values()) == {1.0}

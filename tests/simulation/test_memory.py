@@ -1,0 +1,60 @@
+"""What a run takes does not grow with what it does not record, and nothing of it stays behind."""
+
+from __future__ import annotations
+
+import gc
+import tracemalloc
+from dataclasses import replace
+
+import pytest
+
+from support_exudyn import Drive, Held, Scenario, SolverSettings, simulate
+from support_exudyn.formulations.redundant.clearance.clearance_pin import LoosePin
+from support_exudyn.formulations.redundant.scene.load_item import LoadItem
+from support_exudyn.formulations.redundant.scene.scene import Scene
+from tests.cases.run_cases import loose_support
+from tests.roof_cases import Branching, over_the_canopy
+
+
+def held(formulation: str, duration: float) -> Scenario:
+    """A support whose pin rattles and swings for long; few records."""
+    return loose_support(
+        drive=Held(),
+        duration=duration,
+        record_period=duration / 4,
+        step=2e-3,
+        formulation=formulation,
+        solver=SolverSettings(impact_steps=64, tolerance=1e-4),
+    )
+
+
+def peak(scenario: Scenario) -> int:
+    """Most memory that Python held during a run [bytes]."""
+    tracemalloc.start()
+    try:
+        simulate(scenario)
+        return tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+
+
+@pytest.mark.parametrize("formulation", ["redundant", "reduced"])
+def test_memory_is_flat_in_simulated_time(formulation: str) -> None:
+    simulate(held(formulation, 0.2))  # what is made once
+    short, long = peak(held(formulation, 0.5)), peak(held(formulation, 4.0))
+    # eight times the time; touches are recorded, a hundred bytes each. With what scipy's root finder leaves
+    # behind, once asked in every step of a contact, it grew by 300 bytes a step
+    assert long - short < 60_000
+
+
+@pytest.mark.parametrize("descent", [None, Held(), Branching(speed_down=0.1)], ids=type)
+def test_nothing_of_a_run_stays_behind(descent: Drive | None) -> None:
+    def alive() -> int:
+        gc.collect()
+        return sum(isinstance(item, (Scene, LoosePin, LoadItem)) for item in gc.get_objects())
+
+    before = alive()  # of other tests
+    loads = {"roof": over_the_canopy(0.1, descent=descent)} if descent else {}
+    simulate(replace(held("redundant", 0.1), loads=loads))
+    # the engine would keep its user functions alive, and they all that they know
+    assert alive() <= before

@@ -1,0 +1,72 @@
+"""A run is given up after as many steps as its settings say, in every formulation."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from studies.common.paper_machine import oil_columns
+from support_exudyn import Failure, Held, Result, Scenario, SolverSettings, simulate
+from tests.cases.run_cases import Pair, loose_support, support
+from tests.formulations.test_momentum import ONE, TWO
+from user_forces import InputError
+
+
+def held(formulation: str) -> Scenario:
+    """The drop of the support, as the formulation covers it."""
+    columns = oil_columns() if formulation == "tree" else {}
+    return loose_support(
+        1.5, 0.25, drive=Held(), duration=0.03, step=1e-4, formulation=formulation, columns=columns
+    )
+
+
+def limited(scenario: Scenario, steps: int) -> Result | Failure:
+    """The run, with so many steps allowed."""
+    return simulate(replace(scenario, solver=replace(scenario.solver, most_steps=steps)), throw=False)
+
+
+CASES = {
+    "redundant": held("redundant"),
+    "tree": held("tree"),
+    "reduced, compiled": held("reduced"),
+    "reduced, python": replace(held("reduced"), solver=SolverSettings(backend="python")),
+    "space": replace(held("redundant"), dimensions=3),
+    "growing": replace(held("redundant"), solver=SolverSettings(growth=4.0)),
+}
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_a_run_is_given_up_after_so_many_steps(case: str) -> None:
+    scenario = CASES[case]
+    whole = simulate(scenario)
+    # what counts: steps, and those that were repeated; of the reduced formulation's the latter are not told
+    most = whole.counts.steps + whole.counts.cut_steps + whole.counts.failed_newton
+    half = whole.counts.steps // 2
+    failure = limited(scenario, half)
+    assert isinstance(failure, Failure)
+    assert failure.reason == f"more than {half} steps"
+    assert "solver.most_steps" in failure.advice
+    assert 0.0 < failure.time < scenario.duration
+    assert isinstance(limited(scenario, 2 * most), Result)
+
+
+def test_steps_without_a_loose_pin_are_limited_too() -> None:
+    failure = limited(support(duration=0.1, step=1e-3), 20)
+    assert isinstance(failure, Failure)
+    assert failure.reason == "more than 20 steps"
+
+
+@pytest.mark.parametrize("steps", [0, -1, 10**13, 1.5])
+def test_limits_that_make_no_sense_are_refused(steps: float) -> None:
+    with pytest.raises(InputError, match="most_steps"):
+        SolverSettings(most_steps=steps)
+
+
+def test_steps_that_the_engine_makes_by_itself_are_limited_too() -> None:
+    machine = Pair(one=ONE, two=TWO, one_point=(0.2, 0.25), two_point=(0.2, 0.25))
+    swinging = Scenario(machine=machine, duration=0.1, step=1e-3)
+    failure = limited(swinging, 20)
+    assert isinstance(failure, Failure)
+    assert failure.reason == "more than 20 steps"
+    assert isinstance(limited(swinging, 200), Result)

@@ -1,0 +1,281 @@
+"""A result is saved to one file and read back whole."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+
+from support_exudyn import Held, Result, UniformSpeed, simulate
+from support_exudyn.files.hdf5 import BLOCK, seal
+from support_exudyn.simulation.result import FORMAT
+from tests.cases.run_cases import SLIDER_PIN, loose_slider_crank, loose_support
+from user_forces import InputError, LuGre
+
+
+@contextmanager
+def changed(path: Path) -> Iterator[h5py.File]:
+    """A file to change by hand; its digest is then made anew."""
+    with h5py.File(path, "r+") as file:
+        yield file
+    path.write_bytes(seal(path.read_bytes()[BLOCK:], FORMAT))
+
+
+@pytest.fixture(scope="module")
+def result() -> Result:
+    return simulate(loose_support(1.5, 0.25, drive=Held(), duration=0.06))
+
+
+@pytest.fixture(scope="module")
+def crank() -> Result:
+    """A crank, a slide, an impulse, and friction with a state."""
+    scenario = loose_slider_crank(3e-4, drive=UniformSpeed(stroke=52.4, start=0.0, end=0.1))
+    pin = scenario.clearance_pins[SLIDER_PIN]
+    friction = LuGre(static_coefficient=0.1, sliding_coefficient=0.05)
+    contact = dataclasses.replace(pin.contact, friction=friction)
+    pins = {SLIDER_PIN: dataclasses.replace(pin, contact=contact)}
+    return simulate(dataclasses.replace(scenario, pins=pins))
+
+
+@pytest.mark.parametrize("kind", ["result", "crank"])
+def test_it_reads_back_as_it_was(kind: str, request: pytest.FixtureRequest, tmp_path: Path) -> None:
+    result: Result = request.getfixturevalue(kind)
+    back = Result.load(result.save(tmp_path / "deep" / "run.h5"))
+    assert back.scenario == result.scenario
+    assert back.onsets == result.onsets
+    assert back.impulses == result.impulses
+    assert back.counts == result.counts
+    assert back.largest_force == result.largest_force
+    assert back.wall_time == result.wall_time
+    assert back.provenance == result.provenance
+    assert set(back.channels) == set(result.channels)
+    for name, channel in result.channels.items():
+        np.testing.assert_array_equal(back[name], channel.values)
+        assert back.unit(name) == channel.unit
+        assert back.channels[name].meaning == channel.meaning
+
+
+def test_the_saved_scenario_gives_the_same_run_again(result: Result, tmp_path: Path) -> None:
+    again = simulate(Result.load(result.save(tmp_path / "run.h5")).scenario)
+    for name in result.channels:
+        np.testing.assert_array_equal(again[name], result[name])  # same machine, same versions: to the bit
+
+
+def test_provenance_names_versions_and_settings(result: Result) -> None:
+    assert {"python", "exudyn", "numpy", "support-exudyn", "platform", "made_at"} <= set(result.provenance)
+    data = result.scenario.to_data()
+    assert data["step"] == result.scenario.step
+    assert data["solver"]["spectral_radius"] == 0.5
+
+
+@pytest.mark.parametrize("damage", ["cut", "text", "empty"])
+def test_a_damaged_file_is_refused(result: Result, tmp_path: Path, damage: str) -> None:
+    path = result.save(tmp_path / "run.h5")
+    whole = path.read_bytes()
+    path.write_bytes({"cut": whole[: len(whole) // 2], "text": b"not a result", "empty": b""}[damage])
+    with pytest.raises(InputError, match="damaged"):
+        Result.load(path)
+
+
+# --- runs by which errors are estimated ---
+
+
+@pytest.fixture(scope="module")
+def estimated() -> Result:
+    return simulate(loose_support(1.5, 0.25, drive=Held(), duration=0.06), accuracy="draft")
+
+
+def test_the_runs_by_which_errors_are_estimated_come_back(estimated: Result, tmp_path: Path) -> None:
+    back = Result.load(estimated.save(tmp_path / "run.h5"))
+    one, other, depth = estimated, back, 0
+    while one.coarser is not None:
+        assert other.coarser is not None
+        assert (other.goal, other.scenario, other.onsets) == (one.goal, one.scenario, one.onsets)
+        assert (other.counts, other.wall_time) == (one.counts, one.wall_time)
+        one, other, depth = one.coarser, other.coarser, depth + 1
+        for name in one.channels:
+            np.testing.assert_array_equal(other[name], one[name])
+    assert other.coarser is None
+    assert depth == 2
+    # what is made of them, to the bit
+    assert back.numbers() == estimated.numbers()
+    assert back.numbers(0.02, 0.05) == estimated.numbers(0.02, 0.05)
+    assert (back.fall, back.worst_error, back.met) == (estimated.fall, estimated.worst_error, True)
+
+
+def test_without_an_accuracy_the_file_has_no_other_runs(result: Result, tmp_path: Path) -> None:
+    path = result.save(tmp_path / "run.h5")
+    with h5py.File(path) as file:
+        assert "coarser" not in file
+    assert (Result.load(path).coarser, Result.load(path).goal) == (None, None)
+
+
+def drop_channels(group: h5py.Group) -> None:
+    del group["channels"]
+
+
+def drop_scenario(group: h5py.Group) -> None:
+    del group.attrs["scenario"]
+
+
+def spoil_text(group: h5py.Group) -> None:
+    group.attrs["counts"] = "{"
+
+
+def add_a_count(group: h5py.Group) -> None:
+    group.attrs["counts"] = '{"steps": 1, "leaps": 2}'
+
+
+def spoil_scenario(group: h5py.Group) -> None:
+    group.attrs["scenario"] = '{"type": "Scenario", "duration": -1.0}'
+
+
+def drop_unit(group: h5py.Group) -> None:
+    del group["channels/time"].attrs["unit"]
+
+
+def widen_onsets(group: h5py.Group) -> None:
+    del group["onsets/rear_base"]
+    group.create_dataset("onsets/rear_base", data=np.zeros((2, 3))).attrs["largest_force_N"] = 1.0
+
+
+def replace_channel(name: str, values: object) -> Callable[[h5py.Group], None]:
+    def replace(group: h5py.Group) -> None:
+        attributes = dict(group[f"channels/{name}"].attrs)
+        del group[f"channels/{name}"]
+        group.create_dataset(f"channels/{name}", data=values).attrs.update(attributes)
+
+    return replace
+
+
+def turn_time_back(group: h5py.Group) -> None:
+    group["channels/time"][3] = group["channels/time"][1]
+
+
+def lose_a_time(group: h5py.Group) -> None:
+    group["channels/time"][3] = np.nan
+
+
+DAMAGES = [
+    *(drop_channels, drop_scenario, spoil_text, add_a_count, drop_unit, widen_onsets),
+    *(turn_time_back, lose_a_time),
+    replace_channel("tip.x", np.zeros(3)),
+    replace_channel("tip.x", np.zeros((61, 2))),
+    replace_channel("tip.x", np.float64(1.0)),
+    replace_channel("tip.x", "words"),
+    replace_channel("time", np.zeros(0)),
+    replace_channel("tip.x", np.zeros(61, dtype=np.int64)),
+]
+
+
+@pytest.mark.parametrize("group", ["/", "coarser", "coarser/coarser"])
+@pytest.mark.parametrize("damage", DAMAGES)
+def test_a_file_with_a_damaged_group_is_refused(
+    estimated: Result, tmp_path: Path, group: str, damage: Callable[[h5py.Group], None]
+) -> None:
+    path = estimated.save(tmp_path / "run.h5")
+    with changed(path) as file:
+        damage(file[group])
+    with pytest.raises(InputError, match=r"run\.h5: not a result file of this program, or damaged"):
+        Result.load(path)
+
+
+@pytest.mark.parametrize("group", ["/", "coarser"])
+def test_a_file_with_a_value_that_does_not_fit_says_which(
+    estimated: Result, tmp_path: Path, group: str
+) -> None:
+    path = estimated.save(tmp_path / "run.h5")
+    with changed(path) as file:
+        spoil_scenario(file[group])
+    with pytest.raises(InputError, match=r"run\.h5: Scenario\."):
+        Result.load(path)
+
+
+def test_a_coarser_run_that_is_no_group_is_refused(estimated: Result, tmp_path: Path) -> None:
+    path = estimated.save(tmp_path / "run.h5")
+    with changed(path) as file:
+        del file["coarser"]
+        file["coarser"] = np.zeros(3)
+    with pytest.raises(InputError, match="damaged"):
+        Result.load(path)
+
+
+@pytest.mark.parametrize("group", ["coarser", "coarser/coarser"])
+def test_a_coarser_run_without_a_channel_is_refused(estimated: Result, tmp_path: Path, group: str) -> None:
+    path = estimated.save(tmp_path / "run.h5")
+    with changed(path) as file:
+        del file[f"{group}/channels/pin.rear_base.force"]
+    with pytest.raises(
+        InputError, match=r"run\.h5: .*damaged \(the coarser run lacks .*'pin\.rear_base\.force'"
+    ):
+        Result.load(path)
+
+
+def test_a_file_of_another_version_says_so(result: Result, tmp_path: Path) -> None:
+    path = result.save(tmp_path / "run.h5")
+    image = path.read_bytes()[BLOCK:]
+    path.write_bytes(seal(image, "support_exudyn result 5"))
+    with pytest.raises(InputError, match=r"format is '.* result 5', expected '.* result 4'"):
+        Result.load(path)
+    path.write_bytes(image)  # versions before had no digest
+    with pytest.raises(InputError, match=r"an HDF5 file without a digest, as no version from '.* result 4' on"):
+        Result.load(path)
+
+
+def test_a_missing_file_is_said_to_be_missing(tmp_path: Path) -> None:
+    with pytest.raises(FileNotFoundError, match="no such file"):
+        Result.load(tmp_path / "nowhere.h5")
+
+
+def test_an_unknown_channel_lists_those_there_are(result: Result) -> None:
+    with pytest.raises(KeyError, match=r"tip\.x"):
+        result["tip.z"]
+
+
+@pytest.mark.parametrize("kind", ["result", "crank"])
+def test_every_channel_has_a_unit_and_the_length_of_time(kind: str, request: pytest.FixtureRequest) -> None:
+    result: Result = request.getfixturevalue(kind)
+    for channel in result.channels.values():
+        assert channel.values.shape == result.time.shape
+        assert channel.unit in {"s", "m", "m/s", "rad", "rad/s", "rad/s^2", "N", "N m", "J"}
+        assert channel.meaning
+
+
+def test_cranks_slides_and_states_of_friction_have_channels(crank: Result) -> None:
+    units = {name: channel.unit for name, channel in crank.channels.items()}
+    new = {"crank.moment": "N m", "guide.force": "N", "guide.moment": "N m"}
+    new[f"pin.{SLIDER_PIN}.deflection"] = "m"
+    assert new.items() <= units.items()
+    (impulse,) = crank.impulses
+    assert set(impulse.cranks) == {"crank"}
+    assert len(crank.onsets[SLIDER_PIN]) >= 1
+    assert np.abs(crank[f"pin.{SLIDER_PIN}.deflection"]).max() > 0.0
+
+
+def test_friction_without_a_state_has_no_channel_of_it(result: Result) -> None:
+    assert "pin.rear_base.friction_force" in result.channels
+    assert "pin.rear_base.deflection" not in result.channels
+
+
+def test_a_failed_save_leaves_the_old_file(result: Result, tmp_path: Path) -> None:
+    path = result.save(tmp_path / "run.h5")
+    before = path.read_bytes()
+    broken = dataclasses.replace(result, provenance={"versions": object()})  # type: ignore[dict-item]
+    with pytest.raises(TypeError):
+        broken.save(path)
+    assert path.read_bytes() == before
+    assert [p.name for p in tmp_path.iterdir()] == ["run.h5"]
+
+
+def test_a_folder_and_a_name_of_nothing_are_refused_with_what_is_allowed(tmp_path: Path) -> None:
+    with pytest.raises(
+        IsADirectoryError, match=r"is a directory; allowed: files that Result\.save has written"
+    ):
+        Result.load(tmp_path)
+    with pytest.raises(FileNotFoundError, match=r"no such file; allowed: files that Result\.save has written"):
+        Result.load(tmp_path / "none.h5")

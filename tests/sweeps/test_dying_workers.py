@@ -1,0 +1,238 @@
+"""Processes that end in mid-work: which job it was, and that nothing else is lost."""
+
+from __future__ import annotations
+
+import faulthandler
+import multiprocessing
+import os
+import pickle
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from support_exudyn.sweeps import workers
+from support_exudyn.sweeps.workers import ProcessEndedError, Workers, worker_pool
+from tests.hostile import posix_only
+from tests.processes import ROOT, environment, linux_only, session_of, wait_until
+
+pytestmark = posix_only
+
+# --- jobs; processes of their own import them from here ---
+
+
+def end(place: int, way: str, folder: Path) -> int:
+    """Mark that the job was begun, and end as asked."""
+    with (folder / str(place)).open("a") as marks:
+        marks.write("x")
+    again = (folder / str(place)).stat().st_size > 1
+    if way == "killed":
+        os.kill(os.getpid(), signal.SIGKILL)
+    elif way == "crashed":
+        faulthandler.disable()  # what it writes is not looked at
+        os.abort()
+    elif way == "left":
+        os._exit(3)
+    elif way == "killed once" and not again:
+        os.kill(os.getpid(), signal.SIGKILL)
+    elif way == "at work" and not again:
+        time.sleep(30.0)  # ends with the process that is killed beside it
+    elif way == "refused":
+        raise LookupError("a bug")
+    return place
+
+
+def times_begun(folder: Path) -> dict[int, int]:
+    return {int(path.name): path.stat().st_size for path in folder.iterdir()}
+
+
+@pytest.fixture(scope="module", autouse=True)
+def soon_started() -> Iterator[None]:
+    """Processes come from one that has imported everything; spawned ones are in test_workers.py and below."""
+    if os.name == "nt":
+        yield
+        return
+    context = multiprocessing.get_context("forkserver")
+    context.set_forkserver_preload([__name__])
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(workers, "CONTEXT", context)
+        yield
+
+
+@pytest.fixture(scope="module")
+def pool() -> Iterator[Workers]:
+    with worker_pool(2) as pool:
+        yield pool
+
+
+def silent(shares: list[float]) -> None:
+    del shares
+
+
+# --- one that ends ---
+
+
+def test_the_job_whose_process_ends_is_told_and_all_others_are_done(pool: Workers, tmp_path: Path) -> None:
+    ways = ["at work", "killed", *["good"] * 4, "crashed", "left", "good"]
+    told: list[ProcessEndedError] = []
+    shares: list[list[float]] = []
+
+    def ended(error: ProcessEndedError) -> int:
+        told.append(error)
+        return -error.place
+
+    found = pool.run([(way, tmp_path) for way in ways], end, shares.append, ended)
+    assert found == [0, -1, 2, 3, 4, 5, -6, -7, 8]
+    assert [(error.place, error.code) for error in told] == [(1, -9), (6, -6), (7, 3)]
+    assert [error.reason for error in told] == [
+        "the process that computed it ended: signal 9 (SIGKILL, out of memory?)",
+        "the process that computed it ended: signal 6 (SIGABRT)",
+        "the process that computed it ended: exit code 3",
+    ]
+    assert shares[-1] == [1.0] * 9
+    begun = times_begun(tmp_path)
+    assert begun[0] == begun[1] == 2
+    assert {begun[n] for n in (2, 3, 4, 5, 8)} <= {1, 2}  # again if they stood beside one that ended
+
+
+def test_a_job_whose_process_ends_once_is_done_after_all(pool: Workers, tmp_path: Path) -> None:
+    found = pool.run([("killed once", tmp_path), ("good", tmp_path)], end, silent)
+    assert found == [0, 1]
+
+
+def test_if_nobody_asks_for_it_the_error_comes_when_all_others_are_done(pool: Workers, tmp_path: Path) -> None:
+    ways = ["killed", *["good"] * 6]
+    with pytest.raises(
+        ProcessEndedError, match=r"^job 1: the process that computed it ended: signal 9"
+    ) as caught:
+        pool.run([(way, tmp_path) for way in ways], end, silent)
+    assert set(times_begun(tmp_path)) == set(range(7))
+    again = pickle.loads(pickle.dumps(caught.value))
+    assert (again.place, again.code, str(again)) == (0, -9, str(caught.value))
+
+
+def test_the_pool_is_as_large_as_before(pool: Workers, tmp_path: Path) -> None:
+    # the first waits for a process beside it
+    assert pool.run([(tmp_path,), (tmp_path,)], meet, silent) == [True, True]
+
+
+def meet(place: int, folder: Path) -> bool:
+    (folder / f"here {place}").touch()
+    return wait_until((folder / f"here {1 - place}").exists, 30.0)
+
+
+def test_a_bug_beside_one_that_ended_is_still_a_bug(tmp_path: Path) -> None:
+    with worker_pool(1) as single, pytest.raises(LookupError, match="a bug"):
+        single.run([("killed", tmp_path), ("refused", tmp_path)], end, silent)
+
+
+def test_one_that_is_killed_between_sweeps_is_replaced(pool: Workers, tmp_path: Path) -> None:
+    mine = {process.pid for process in multiprocessing.active_children()}
+    pool.run([("good", tmp_path)] * 4, end, silent)
+    for pid in {process.pid for process in multiprocessing.active_children()} | mine:
+        assert pid is not None
+        os.kill(pid, signal.SIGKILL)
+    assert pool.run([("good", tmp_path)] * 4, end, silent) == [0, 1, 2, 3]
+
+
+UNGUARDED = """
+from support_exudyn.sweeps.workers import worker_pool
+from tests.sweeps.test_dying_workers import meet, silent
+with worker_pool(1) as pool:
+    pool.run([(None,)], meet, silent)
+"""
+
+
+def test_a_script_that_starts_itself_again_is_told_what_is_missing(tmp_path: Path) -> None:
+    script = tmp_path / "unguarded.py"
+    script.write_text(UNGUARDED, encoding="utf-8")
+    done = subprocess.run(
+        [sys.executable, str(script)], cwd=ROOT, env=environment(), capture_output=True, text=True, timeout=60
+    )
+    assert done.returncode == 1
+    last = done.stderr.strip().splitlines()[-1]
+    name = "support_exudyn.sweeps.workers.NoProcessError"
+    assert last.startswith(f"{name}: processes end before they begin their work")
+    assert "if __name__ == '__main__'" in last
+
+
+# --- streams ---
+
+
+def test_a_stream_tells_of_every_job_once_whatever_ends(pool: Workers, tmp_path: Path) -> None:
+    ways = ["at work", "killed", *["good"] * 12, "crashed", "killed once", *["good"] * 6]
+    taken: list[int] = []
+
+    def jobs() -> Iterator[tuple[str, Path]]:
+        for number, way in enumerate(ways):
+            taken.append(number)
+            folder = tmp_path / str(number)  # places are used again
+            folder.mkdir()
+            yield way, folder
+
+    found: dict[int, object] = {}
+    for number, one in pool.stream(jobs(), end):
+        assert number not in found
+        assert len(taken) - len(found) <= workers.AHEAD * 2  # no more than that many ahead
+        found[number] = one
+    assert set(found) == set(range(len(ways)))
+    lost = {number: one for number, one in found.items() if isinstance(one, ProcessEndedError)}
+    assert {number: (one.place, one.code) for number, one in lost.items()} == {1: (1, -9), 14: (14, -6)}
+
+
+def test_a_bug_ends_a_stream_and_the_pool_lives_on(pool: Workers, tmp_path: Path) -> None:
+    with pytest.raises(LookupError, match="a bug"):
+        list(pool.stream([("good", tmp_path), ("refused", tmp_path), ("good", tmp_path)], end))
+    assert len(list(pool.stream([("good", tmp_path)] * 9, end))) == 9
+    assert list(pool.stream([], end)) == []
+
+
+# --- interruptions ---
+
+INTERRUPTED = """
+import sys, time
+from pathlib import Path
+from support_exudyn.sweeps.workers import worker_pool
+from tests.sweeps.test_dying_workers import end, silent
+if __name__ == "__main__":
+    try:
+        with worker_pool(2) as pool:
+            pool.run([("at work", Path(sys.argv[1]))] * 2, end, silent)
+    except KeyboardInterrupt:
+        print("interrupted")
+"""
+
+
+@linux_only
+@pytest.mark.parametrize("when", ["at work", "starting"])
+def test_workers_say_nothing_when_the_console_interrupts_all(tmp_path: Path, when: str) -> None:
+    script, marks = tmp_path / "script.py", tmp_path / "marks"
+    script.write_text(INTERRUPTED, encoding="utf-8")
+    marks.mkdir()
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+    with subprocess.Popen(
+        [sys.executable, str(script), str(marks)],
+        cwd=ROOT,
+        env=environment(),
+        text=True,
+        start_new_session=True,
+        **pipes,  # type: ignore[call-overload]
+    ) as process:
+        try:
+            if when == "at work":
+                assert wait_until(lambda: len(list(marks.iterdir())) == 2, 30.0)
+            else:  # the script, two of its workers, which import, and the tracker of what they share
+                assert wait_until(lambda: len(session_of(process.pid)) >= 3, 30.0)
+            os.killpg(process.pid, signal.SIGINT)
+            sent = time.perf_counter()
+            out, errors = process.communicate(timeout=30)
+            assert (out, errors, process.returncode) == ("interrupted\n", "", 0)
+            assert time.perf_counter() - sent < 10.0  # a third of what they would work
+            assert wait_until(lambda: not session_of(process.pid), 10.0)
+        finally:
+            for pid in session_of(process.pid):
+                os.kill(pid, signal.SIGKILL)

@@ -1,0 +1,166 @@
+"""A sweep on a Dask cluster: a real scheduler and workers, one of which is killed."""
+
+from __future__ import annotations
+
+import importlib.util
+import json
+import signal
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+from support_exudyn.__main__ import main
+from support_exudyn.sweeps import read_sweep, sweep, work
+from support_exudyn.sweeps.cluster import _remote
+from support_exudyn.sweeps.key import program
+from support_exudyn.sweeps.plan import Record
+from support_exudyn.sweeps.store import Store
+from support_exudyn.sweeps.work import Task
+from tests.cases.sweep_cases import columns, rows, speeds, start, write_sweep
+from tests.processes import ROOT, environment, linux_only, wait_until
+from user_forces.values.value import InputError
+
+SOON = 90.0  # [s]; what comes at all has come by then, on a busy machine too
+RUNS = 20
+SOON_GIVEN_UP = """
+import sys
+from support_exudyn.__main__ import main
+from support_exudyn.sweeps import cluster
+cluster.REACHED = 0.5
+sys.exit(main())
+"""
+Started = Callable[..., subprocess.Popen[bytes]]
+
+needs_dask = pytest.mark.skipif(
+    importlib.util.find_spec("distributed") is None, reason="needs the extra [cluster]"
+)
+
+
+@pytest.fixture
+def started(tmp_path: Path) -> Iterator[Started]:
+    """Starts programs of Dask, and ends them after the test."""
+    processes: list[subprocess.Popen[bytes]] = []
+
+    def begin(program: str, *options: str) -> subprocess.Popen[bytes]:
+        with (tmp_path / f"{program}_{len(processes)}.log").open("wb") as log:
+            processes.append(
+                subprocess.Popen(
+                    [sys.executable, "-m", f"distributed.cli.dask_{program}", "--no-dashboard", *options],
+                    cwd=ROOT,
+                    env=environment(),
+                    stdout=log,
+                    stderr=log,
+                )
+            )
+        return processes[-1]
+
+    try:
+        yield begin
+    finally:
+        for process in processes:
+            process.kill()
+            process.wait()
+
+
+@needs_dask
+@linux_only
+def test_with_a_worker_killed_midway_it_gives_the_same_table_as_here(
+    tmp_path: Path, started: Started, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = write_sweep(tmp_path, speeds(RUNS), duration=0.04)
+    file, store = tmp_path / "scheduler.json", tmp_path / "store"
+    started("scheduler", "--port", "0", "--host", "127.0.0.1", "--scheduler-file", str(file))
+    assert wait_until(file.exists, SOON)
+    options = "--scheduler-file", str(file), "--nthreads", "1", "--no-nanny"
+    workers = [started("worker", *options) for _ in range(2)]
+    address = json.loads(file.read_text(encoding="utf-8"))["address"]
+    process = start(path, "--scheduler", address, "--out", str(store))
+    try:
+        assert wait_until(lambda: len(rows(store)) >= 4, SOON)
+        workers[0].send_signal(signal.SIGKILL)
+        assert len(rows(store)) < RUNS
+        out, errors = process.communicate(timeout=SOON)
+    finally:
+        process.kill()
+    assert process.returncode == 0, errors
+    assert out.splitlines()[0] == f"{RUNS} runs: {RUNS} done"
+    assert workers[0].wait() == -signal.SIGKILL
+    whole = Store(tmp_path / "whole")
+    monkeypatch.setattr(
+        "support_exudyn.sweeps.run.in_processes",
+        lambda tasks, *_: (work.run_into(whole, task) for task in tasks),  # here, one after the other
+    )
+    sweep(read_sweep(path), whole.folder)
+    assert columns(store) == columns(whole.folder)
+    for one in columns(store)["key"]:
+        assert Store(store).has_run(Store(store).row(one))  # type: ignore[arg-type]
+
+
+@needs_dask
+def test_a_scheduler_that_is_not_there_is_told(tmp_path: Path) -> None:
+    # in a process of its own: what Dask leaves behind in this one would be warned of
+    path = write_sweep(tmp_path, speeds(2))
+    done = subprocess.run(
+        [sys.executable, "-c", SOON_GIVEN_UP, "sweep", str(path), "--scheduler", "tcp://127.0.0.1:1"],
+        cwd=ROOT,
+        env=environment(),
+        capture_output=True,
+        text=True,
+        timeout=SOON,
+    )
+    assert done.returncode == 1
+    assert done.stderr.splitlines()[-1].startswith("error: scheduler = 'tcp://127.0.0.1:1': cannot be reached")
+
+
+@needs_dask
+@linux_only
+def test_a_scheduler_that_is_lost_midway_is_told_in_a_line(tmp_path: Path, started: Started) -> None:
+    path = write_sweep(tmp_path, speeds(500), duration=0.04)
+    file, store = tmp_path / "scheduler.json", tmp_path / "store"
+    scheduler = started("scheduler", "--port", "0", "--host", "127.0.0.1", "--scheduler-file", str(file))
+    assert wait_until(file.exists, SOON)
+    started("worker", "--scheduler-file", str(file), "--nthreads", "1", "--no-nanny")
+    address = json.loads(file.read_text(encoding="utf-8"))["address"]
+    process = start(path, "--scheduler", address, "--out", str(store))
+    try:
+        assert wait_until(lambda: len(rows(store)) >= 2, SOON)
+        scheduler.kill()
+        _, errors = process.communicate(timeout=SOON)
+    finally:
+        process.kill()
+    assert process.returncode == 1
+    lines = [
+        line for line in errors.splitlines() if not line.endswith("waiting")
+    ]  # that no worker was there yet
+    assert lines == [f"error: scheduler = {address!r}: was lost; the same command goes on from here"]
+    assert columns(store)["status"].count("done") == len(rows(store))
+
+
+@needs_dask
+def test_what_is_no_address_is_refused_at_once(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = write_sweep(tmp_path, speeds(2))
+    assert main(["sweep", str(path), "--scheduler", "nonsense"]) == 1
+    assert "allowed: an address such as tcp://10.0.0.5:8786" in capsys.readouterr().err
+
+
+def test_without_dask_it_is_told_what_to_install(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    path = write_sweep(tmp_path, speeds(2))
+    assert main(["sweep", str(path), "--scheduler", "tcp://127.0.0.1:1"]) == 1
+    assert "pip install 'support-exudyn[cluster]'" in capsys.readouterr().err
+
+
+def test_a_worker_with_another_program_refuses(tmp_path: Path) -> None:
+    plan = read_sweep(write_sweep(tmp_path, speeds(2)))
+    task = Task("key", plan.scenario(plan.points[0]), Record())
+    with pytest.raises(InputError, match=r"another program \(exudyn: .* there, 9.9 here\)"):
+        _remote(task, program() | {"exudyn": "9.9"})
+    row, image = _remote(task, program())
+    assert row.status == "done"
+    assert image is not None
+    assert [one.name for one in tmp_path.iterdir()] == ["sweep.toml"]

@@ -1,0 +1,160 @@
+"""Processes side by side: what comes back, what is told of them, and that none is left over."""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from itertools import pairwise
+
+import pytest
+
+from support_exudyn.sweeps import workers
+from support_exudyn.sweeps.workers import Workers, report, worker_pool
+from tests.processes import ROOT, alive, environment, linux_only, wait_until
+
+SOON = 10.0  # [s]; what ends at once has ended by then, on a busy machine too
+LONG = 120.0  # [s]; work that nobody waits for
+
+
+# --- jobs; processes of their own import them from here ---
+
+
+def squared(place: int, number: int) -> tuple[int, int, int]:
+    return place, number**2, os.getpid()
+
+
+def stay(place: int, seconds: float) -> None:
+    report(place, 0.5)
+    time.sleep(seconds)
+
+
+def refuse(place: int, wrong: int) -> int:
+    if place == wrong:
+        raise LookupError(f"no {place}")
+    time.sleep(0.01)
+    return place
+
+
+def show_processes(shares: list[float]) -> None:
+    """For the script that is killed: one process idles, one works."""
+    if shares == [1.0, 0.5]:
+        print(*(process.pid for process in multiprocessing.active_children()), flush=True)
+
+
+@pytest.fixture(scope="module")
+def pool() -> Iterator[Workers]:
+    with worker_pool(2) as pool:
+        yield pool
+
+
+def children() -> set[int]:
+    """Processes of all pools."""
+    return {process.pid or 0 for process in multiprocessing.active_children()}
+
+
+def silent(shares: list[float]) -> None:
+    del shares
+
+
+# --- work ---
+
+
+def test_results_come_back_in_the_order_of_the_jobs(pool: Workers) -> None:
+    found = pool.run([(n,) for n in range(20)], squared, silent)
+    assert [(place, square) for place, square, _ in found] == [(n, n * n) for n in range(20)]
+    processes = {process for *_, process in found}
+    assert os.getpid() not in processes
+    assert len(processes) <= 2
+
+
+def test_a_pool_that_is_there_is_used_and_left_running(pool: Workers) -> None:
+    with worker_pool(pool) as same:
+        assert same is pool
+        before = {process for *_, process in same.run([(n,) for n in range(8)], squared, silent)}
+    after = {process for *_, process in pool.run([(n,) for n in range(8)], squared, silent)}
+    assert len(before | after) <= 2
+
+
+def test_shares_are_told_while_a_job_works_and_end_at_one(pool: Workers) -> None:
+    told: list[list[float]] = []
+    pool.run([(0.4,), (0.4,)], stay, lambda shares: told.append(list(shares)))
+    assert any(0.5 in shares for shares in told)  # 0.4 s are four times as long as between two tellings
+    assert told[-1] == [1.0, 1.0]
+    assert all(a <= b for one, other in pairwise(told) for a, b in zip(one, other, strict=True))
+    # the next sweep starts from zero
+    told.clear()
+    pool.run([(0.0,)] * 3, stay, lambda shares: told.append(list(shares)))
+    assert all(set(shares) <= {0.0, 0.5, 1.0} for shares in told)
+    assert told[-1] == [1.0, 1.0, 1.0]
+
+
+def test_more_jobs_than_places_are_done_too(pool: Workers, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(workers, "PLACES", 1)  # here alone: the processes report what is not looked at
+    told: list[list[float]] = []
+    pool.run([(0.25,)] * 3, stay, lambda shares: told.append(list(shares)))
+    assert any(shares[0] == 0.5 for shares in told)
+    assert {share for shares in told for share in shares[1:]} == {0.0, 1.0}
+    assert told[-1] == [1.0] * 3
+
+
+def test_an_exception_of_a_job_is_raised_here_and_the_rest_is_dropped(pool: Workers) -> None:
+    started = time.perf_counter()
+    with pytest.raises(LookupError, match="no 3"):
+        pool.run([(3,)] * 2000, refuse, silent)
+    assert len(pool.run([(n,) for n in range(4)], squared, silent)) == 4  # the pool lives on
+    assert time.perf_counter() - started < 5.0  # all 2000 would take 10 s
+
+
+# --- ends ---
+
+
+@linux_only
+def test_a_block_that_raises_ends_its_processes_in_mid_work(pool: Workers) -> None:
+    pool.run([(n,) for n in range(8)], squared, silent)
+    others = children()
+    mine: set[int] = set()
+
+    def interrupt(shares: list[float]) -> None:
+        if shares[0] == 0.5:
+            mine.update(children() - others)
+            raise KeyboardInterrupt
+
+    started = time.perf_counter()
+    with pytest.raises(KeyboardInterrupt), worker_pool(1) as short:
+        short.run([(LONG,), (LONG,)], stay, interrupt)
+    assert len(mine) == 1
+    assert wait_until(lambda: not alive(mine), SOON)
+    assert time.perf_counter() - started < LONG / 2
+    # those of another pool go on
+    assert others <= alive(others)
+    assert {process for *_, process in pool.run([(n,) for n in range(8)], squared, silent)} <= others
+
+
+@linux_only
+def test_processes_end_with_a_parent_that_is_killed() -> None:
+    script = (
+        "from support_exudyn.sweeps.workers import worker_pool\n"
+        "from tests.sweeps.test_workers import LONG, show_processes, stay\n"
+        "with worker_pool(2) as pool:\n"
+        "    pool.run([(0.0,), (LONG,)], stay, show_processes)\n"
+    )
+    with subprocess.Popen(
+        [sys.executable, "-c", script], cwd=ROOT, env=environment(), stdout=subprocess.PIPE, text=True
+    ) as parent:
+        assert parent.stdout is not None
+        processes = {int(pid) for pid in parent.stdout.readline().split()}
+        try:
+            assert len(processes) == 2
+            assert alive(processes) == processes
+            parent.kill()
+            parent.wait()
+            assert wait_until(lambda: not alive(processes), SOON)
+        finally:
+            parent.kill()
+            for process in alive(processes):
+                os.kill(process, signal.SIGKILL)
