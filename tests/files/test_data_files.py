@@ -12,8 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from support_exudyn import ClearancePin, Drive, Part, Scenario, TwoBodyColumn, Width
-from support_exudyn.files import parsed, read_value, table_of
-from support_exudyn.files.toml import toml_text
+from support_exudyn.files import parsed, read_value, table_of, toml_text
 from tests import strategies as some
 from user_forces import InputError, JournalBearing, JournalContact, LuGre, NormalLaw, Value
 from user_forces.values.units import Metres, Seconds

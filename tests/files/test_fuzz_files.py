@@ -13,8 +13,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from support_exudyn import Recommendation, Result, load_support, two_body_columns
-from support_exudyn.simulation import recommend, simulate
+from support_exudyn import Recommendation, Result, load_support, recommend, simulate, two_body_columns
 from support_exudyn.simulation.evidence.table import Table
 from support_exudyn.simulation.recommend import QUESTIONS
 from tests import strategies as some

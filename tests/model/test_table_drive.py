@@ -13,8 +13,7 @@ from hypothesis import strategies as st
 from scipy.interpolate import PchipInterpolator
 
 from support_exudyn import CubicStep, Scenario, TableDrive, UniformSpeed, ravn_slider_crank, simulate
-from support_exudyn.files import parsed, read_value, table_of
-from support_exudyn.files.toml import toml_text
+from support_exudyn.files import parsed, read_value, table_of, toml_text
 from user_forces import InputError
 
 lengths = st.lists(st.floats(1e-3, 3.0), min_size=1, max_size=8)

@@ -22,9 +22,10 @@ from support_exudyn import (
     Scenario,
     SimulationError,
     SolverSettings,
+    simulate,
 )
 from support_exudyn.formulations.progress import Progress
-from support_exudyn.simulation import simulate, to_accuracy
+from support_exudyn.simulation import to_accuracy
 from support_exudyn.simulation.reported_numbers import measures
 from support_exudyn.simulation.to_accuracy import FACTOR, FEWEST_RUNS, MOST_RUNS, PATIENCE
 from support_exudyn.sweeps.parallel_runs import run_all

@@ -21,10 +21,11 @@ from support_exudyn import (
     SimulationError,
     SolverSettings,
     UniformSpeed,
+    simulate,
 )
 from support_exudyn.formulations.progress import Progress
 from support_exudyn.scenario.solver_settings import MOST_IMPACT_STEPS, SMALLEST_TOLERANCE
-from support_exudyn.simulation import halved_steps, simulate
+from support_exudyn.simulation import halved_steps
 from support_exudyn.simulation.estimate import disagreement
 from support_exudyn.simulation.halved_steps import LARGEST_ERROR, MOST_RUNS
 from support_exudyn.simulation.reported_numbers import measures

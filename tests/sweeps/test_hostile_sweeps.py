@@ -10,9 +10,9 @@ from typing import Any
 
 import pytest
 
-from support_exudyn import ClearancePin, Held, Scenario, SimulationError
+from support_exudyn import ClearancePin, Held, Scenario, SimulationError, simulate
 from support_exudyn.__main__ import main
-from support_exudyn.simulation import memory, room, simulate
+from support_exudyn.simulation import memory, room
 from support_exudyn.sweeps import Plan, Record, read_table, sweep
 from tests.cases.run_cases import loose_support, paper_contact
 from tests.cases.sweep_cases import write_sweep
