@@ -28,7 +28,7 @@ from studies.benchmarking.fresh_scenes import Fresh
 from studies.extremes.runs import HangError, patience
 from support_exudyn import Failure, Result, Scenario, SimulationError, simulate
 from support_exudyn.formulations.registry import covers
-from support_exudyn.scenario.scenario import ACCURACIES, Accuracy
+from support_exudyn.scenario.scenario_data import ACCURACIES, Accuracy
 from support_exudyn.scenario.solver_settings import ERROR_CONTROLLED, MOST_IMPACT_STEPS
 from support_exudyn.simulation.automatic_settings import FormulationName, settings_for
 

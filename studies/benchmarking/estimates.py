@@ -12,7 +12,7 @@ from studies.benchmarking.references import tight_runs
 from studies.benchmarking.scenes import SCENES, Scene
 from support_exudyn import Estimate, Result, Scenario, SolverSettings, simulate
 from support_exudyn.formulations.compiled import is_compiling
-from support_exudyn.scenario.scenario import Accuracy
+from support_exudyn.scenario.scenario_data import Accuracy
 from support_exudyn.simulation.reported_numbers import measures
 
 PRESETS: tuple[Accuracy, ...] = ("draft", "standard", "reference")

@@ -36,7 +36,7 @@ from support_exudyn import (
     ravn_slider_crank,
     reference_support,
 )
-from support_exudyn.scenario.scenario import Accuracy
+from support_exudyn.scenario.scenario_data import Accuracy
 from user_forces import (
     Ambrosio,
     BengisuAkay,

@@ -12,7 +12,7 @@ from studies.extremes import scenes
 from studies.extremes.judge import Case
 from studies.extremes.ranges import SPANS, Point, drawn
 from support_exudyn import Held, Scenario
-from support_exudyn.scenario.scenario import Accuracy
+from support_exudyn.scenario.scenario_data import Accuracy
 
 SEED = 20261122
 ACCURACIES: tuple[Accuracy, ...] = ("draft", "standard", "reference")

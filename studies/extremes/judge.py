@@ -23,7 +23,7 @@ import numpy as np
 from support_exudyn import Result, Scenario, SimulationError, SolverSettings, simulate
 from support_exudyn.formulations.limits import DEEPEST
 from support_exudyn.formulations.registry import covers
-from support_exudyn.scenario.scenario import LARGEST_STEP
+from support_exudyn.scenario.scenario_data import LARGEST_STEP
 from support_exudyn.scenario.timescales import timescales
 from support_exudyn.simulation.audit import OPEN, energy_open
 from support_exudyn.simulation.contact_ringing import ringing_step

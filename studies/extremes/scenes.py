@@ -32,7 +32,7 @@ from support_exudyn import (
 )
 from support_exudyn.machines.free_impact import ImpactStand
 from support_exudyn.model.linkage import Part
-from support_exudyn.scenario.scenario import Accuracy
+from support_exudyn.scenario.scenario_data import Accuracy
 from support_exudyn.simulation.automatic_settings import settings_for
 
 PIN = paper_machine.LOOSE_PIN

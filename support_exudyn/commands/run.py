@@ -15,7 +15,7 @@ from support_exudyn.commands.tables import printed, show_table
 from support_exudyn.files import ScenarioFile, read_scenario_file
 from support_exudyn.files.whole_file import check_may_be_replaced, real_path
 from support_exudyn.postprocessing import summary as account
-from support_exudyn.scenario.scenario import ACCURACIES, LARGEST_GOAL, SMALLEST_GOAL
+from support_exudyn.scenario.scenario_data import ACCURACIES, LARGEST_GOAL, SMALLEST_GOAL
 from support_exudyn.simulation.result import Result
 from support_exudyn.simulation.simulate import simulate
 from user_forces.values.value import InputError, short

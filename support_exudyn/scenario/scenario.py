@@ -2,97 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
-from dataclasses import field, replace
-from functools import cached_property
-from typing import Annotated, Literal
+from dataclasses import replace
 
-from pydantic import Field, field_validator, model_validator
+from pydantic import field_validator, model_validator
 
-from support_exudyn.mechanics.channels import ALL_CHANNELS, Recipe, recipes
-from support_exudyn.mechanics.initial_eccentricity import eccentric
-from support_exudyn.mechanics.space.channels import recipes as spatial_recipes
-from support_exudyn.model.columns import ColumnModel, OilColumn, TwoBodyColumn
-from support_exudyn.model.cylinder_and_rod import with_two_bodies
-from support_exudyn.model.drives.drive import Drive, Held
-from support_exudyn.model.hydraulic_cylinder import HydraulicCylinder
-from support_exudyn.model.linkage import Linkage
-from support_exudyn.model.loads.load import Load
-from support_exudyn.model.machine import Machine
-from support_exudyn.model.parts import OwnBody, PartModel
-from support_exudyn.model.pins import ClearancePin, IdealPin, Pin
-from support_exudyn.model.spatial_linkage import SpatialLinkage
-from support_exudyn.scenario.solver_settings import ERROR_CONTROLLED, SolverSettings
+from support_exudyn.scenario.scenario_data import ACCURACIES, LARGEST_GOAL, SMALLEST_GOAL, ScenarioData
+from support_exudyn.scenario.solver_settings import ERROR_CONTROLLED
 from support_exudyn.scenario.validation import check
-from user_forces.values.units import MetresPerSecondSquared, Seconds
-from user_forces.values.value import InputError, Positive, Real, Value, Vector2, short, value
+from user_forces.values.value import InputError, short, value
 
-ACCURACIES = {"draft": 1e-2, "standard": 1e-3, "reference": 1e-5}
-Accuracy = Literal["draft", "standard", "reference"] | Real
-SMALLEST_GOAL, LARGEST_GOAL = 1e-8, 0.1
-LARGEST_STEP = 0.1  # [s]
 MOST_REFINED = 1e6  # by what factor a run can be refined
 
 
 @value
-class Scenario(Value):
+class Scenario(ScenarioData):
     """One run: a machine, its pins, how it starts and is driven, and how finely it is computed.
 
-    Arguments:
-        machine: what is simulated.
-        pins: for each pin that is not ideal (or to say so), what it is, by name.
-        columns: for each column that is not rigid and massless (or to say so), what it is, by name.
-        parts: for each part that is not fixed to its body (or to say so), what it is, by name.
-        drive: how all driven parts move: columns extend [m], cranks turn [rad]. Into an oil column it lets oil.
-            A `HydraulicCylinder` follows none, it has an inlet of its own.
-        drives: for each driven part, a column or crank, that moves otherwise, how it does, by name. A part that
-            follows another by the machine's making, such as the ram of a two-leg shield, does so unless it is
-            named here.
-        loads: what presses on the machine besides its weight, by name; in the plane, redundant formulation.
-        duration: end time [s], > 0; the run starts at 0.
-        dimensions: 2: in the plane, both sides of a machine lumped; 3: in space, for machines that know their
-            lateral dimensions. Parts that there are two of are then driven by names such as `front_column_left`
-            if not both alike.
-        start: "concentric": every journal in the middle of its bore, velocities as the machine says and as
-            the drive has them with ideal pins; "settled": at rest in static equilibrium under gravity.
-        gravity: acceleration [m/s^2].
-        accuracy: what is asked for instead of settings: the relative error of mean, spread and largest value
-            of the pin forces and of the paths of traced points, from 1e-8 to 0.1, or "draft" (1e-2), "standard"
-            (1e-3), "reference" (1e-5). `step` and `solver` are then chosen by the program, as is the
-            formulation if it is "auto"; it estimates its errors and refines until they are as asked.
-            None: the settings stand as they are.
-        formulation: "redundant": the engine's rigid bodies with constraints, generalised alpha; runs every
-            scene. "tree": the engine's minimal coordinates under an explicit method with error control; for
-            linkages that have no closed loop but through loose pins and oil columns. "reduced": the free
-            coordinates alone, without the engine; for machines whose posture is known in closed form. "auto":
-            redundant; with an accuracy the cheapest that covers the scene.
-        step: largest time step [s], > 0, of the redundant formulation. Steps are equal parts of the time
-            between two records; they are cut at impacts.
-        record_period: time between records [s], > 0.
-        channels: what is recorded: names of channels, or patterns of them as in a shell, case-sensitive,
-            such as "tip.*"; all by default. `time` always is. The audit looks at all of them; without it
-            (`SolverSettings.audit`) what nothing asks for is neither kept nor computed. A run to an accuracy
-            also records what its errors are estimated by: all forces, angular accelerations and traced points.
-        solver: settings of the time integration.
+    The arguments are those of `ScenarioData`; they are checked against the machine and each other when a
+    scenario is made. Raises InputError that names the field, its value and what is allowed.
     """
-
-    machine: Machine
-    pins: Mapping[str, Pin] = field(default_factory=dict)
-    columns: Mapping[str, ColumnModel] = field(default_factory=dict)
-    parts: Mapping[str, PartModel] = field(default_factory=dict)
-    drive: Drive = field(default_factory=Held)
-    drives: Mapping[str, Drive] = field(default_factory=dict)
-    loads: Mapping[str, Load] = field(default_factory=dict)
-    duration: Seconds[Positive]
-    dimensions: Literal[2, 3] = 2
-    start: Literal["concentric", "settled"] = "concentric"
-    gravity: MetresPerSecondSquared[Vector2] = (0.0, -9.81)
-    accuracy: Accuracy | None = None
-    formulation: Literal["auto", "redundant", "tree", "reduced"] = "auto"
-    step: Seconds[Annotated[Real, Field(gt=0, le=LARGEST_STEP)]] = 5e-4
-    record_period: Seconds[Positive] = 1e-3
-    channels: tuple[str, ...] = ALL_CHANNELS
-    solver: SolverSettings = field(default_factory=SolverSettings)
 
     @field_validator("accuracy", mode="before")
     @classmethod
@@ -109,11 +37,6 @@ class Scenario(Value):
     def _fits_the_machine(self) -> Scenario:
         check(self)
         return self
-
-    @property
-    def jumps(self) -> bool:
-        """Whether the speed of any drive jumps anywhere."""
-        return any(drive.speed_jump(t) != 0.0 for drive in self.drives_in_use for t in drive.breaks)
 
     def refined(self, factor: float = 2) -> Scenario:
         """The same run with all steps, also those of impacts, so many times shorter.
@@ -141,147 +64,3 @@ class Scenario(Value):
         # steps never reach over a record
         step = min(self.step, self.record_period) / factor
         return replace(self, step=step, solver=finer)
-
-    @cached_property
-    def linkage(self) -> Linkage:
-        """The mechanism in its start posture, as far as it is modelled, with what loads bring along."""
-        linkage = self.unloaded
-        for name, load in self.loads.items():
-            linkage = load.joined(linkage, name)
-        return linkage
-
-    @cached_property
-    def unloaded(self) -> Linkage:
-        """The machine's mechanism, as far as it is modelled.
-
-        Raises InputError if its loose pins cannot start with the eccentricities that are asked for.
-        """
-        modelled = self._modelled()
-        offsets = {name: pin.offset for name, pin in self.clearance_pins.items() if name in modelled.pins}
-        return eccentric(modelled, offsets)
-
-    def _modelled(self) -> Linkage:
-        """The same with all journals where the machine has them."""
-        heavy = {name: column for name, column in self.columns.items() if isinstance(column, TwoBodyColumn)}
-        if not heavy and not self.own_bodies:
-            return self.machine.linkage()
-        linkage = self.machine.detailed(tuple(heavy), tuple(self.own_bodies))
-        for name, model in heavy.items():
-            if name in linkage.columns and linkage.columns[name].driven:
-                linkage = with_two_bodies(linkage, name, model)
-        return linkage
-
-    @cached_property
-    def space(self) -> SpatialLinkage:
-        """The machine's mechanism in space. Raises InputError if it is known in its plane only."""
-        return self.machine.in_space(self.linkage)
-
-    def drive_of(self, name: str) -> Drive:
-        """The drive that a column or crank follows; `Held` for a column that is not driven or is a cylinder."""
-        whole = name
-        if self.dimensions == 3 and name in self.space.columns:  # one of a pair
-            whole = self.space.columns[name].column
-        columns = self.linkage.columns
-        if whole in self.cylinders or (whole in columns and not columns[whole].driven):
-            return Held()
-        said = self.drives.get(name, self.drives.get(whole))
-        if said is not None:
-            return said
-        return self._followers.get(whole, self.drive)
-
-    @cached_property
-    def _followers(self) -> dict[str, Drive]:
-        """Drives of the parts that follow others because nothing is said of them, by name."""
-        leaders = self.machine.leaders.items()
-        return {name: self._follower(name, leader) for name, leader in leaders if name not in self.drives}
-
-    def _follower(self, name: str, leader: str) -> Drive:
-        try:
-            return self.machine.follower(name, self.drives.get(leader, self.drive), self.duration)
-        except InputError as error:
-            raise InputError(self.of_drives((leader,), error)) from None
-
-    def of_drives(self, names: Collection[str], error: InputError) -> str:
-        """What is said of the drives of these parts, with the fields that say them."""
-        said = str(error)
-        fields = [f"drives.{name}" for name in names if name in self.drives] or ["drive"]
-        return said if said.startswith(("drive", "drives.")) else f"{' and '.join(fields)}: {said}"
-
-    @property
-    def drives_in_plane(self) -> tuple[dict[str, Drive], ...]:
-        """The drives of all driven parts of the plane, by name; in space once for either side."""
-        if self.dimensions == 2:
-            return ({name: self.drive_of(name) for name in self.driven},)
-        parts = {name: self.space.parts_of_column(name) for name in self.linkage.driven}
-        sides = ({name: self.drive_of(part[n % len(part)]) for name, part in parts.items()} for n in (0, 1))
-        return tuple(sides)
-
-    @property
-    def driven(self) -> tuple[str, ...]:
-        """Names of all parts that follow a drive: columns, then cranks."""
-        if self.dimensions == 2:
-            return tuple(name for name in self.linkage.driven if name not in self.cylinders)
-        columns = self.space.columns.items()
-        return tuple(name for name, column in columns if self.linkage.columns[column.column].driven)
-
-    @cached_property
-    def drives_in_use(self) -> tuple[Drive, ...]:
-        """All different drives of driven parts; `drive` if the machine has none."""
-        found: list[Drive] = []
-        for name in self.driven:
-            if (drive := self.drive_of(name)) not in found:
-                found.append(drive)
-        return tuple(found) or (self.drive,)
-
-    @property
-    def breaks(self) -> tuple[float, ...]:
-        """Breaks of all drives in use, of loads and of valves [s], sorted."""
-        of_drives = {t for drive in self.drives_in_use for t in drive.breaks}
-        of_valves = (cylinder.inlet.breaks for cylinder in self.cylinders.values())
-        return tuple(sorted(of_drives.union(*(load.breaks for load in self.loads.values()), *of_valves)))
-
-    @property
-    def recipes(self) -> dict[str, Recipe]:
-        """All channels that could be asked for, by name."""
-        if self.dimensions == 3:
-            return spatial_recipes(self.space, self.clearance_pins, self.oil_columns)
-        return recipes(
-            self.linkage, self.clearance_pins, self.giving, self.friction_pins, self.loads, self.cylinders
-        )
-
-    @property
-    def goal(self) -> float | None:
-        """The accuracy that is asked for, as a number; None if none is."""
-        return ACCURACIES[self.accuracy] if isinstance(self.accuracy, str) else self.accuracy
-
-    @property
-    def clearance_pins(self) -> dict[str, ClearancePin]:
-        """The pins that have clearance, by name."""
-        return {name: pin for name, pin in self.pins.items() if isinstance(pin, ClearancePin)}
-
-    @property
-    def friction_pins(self) -> dict[str, IdealPin]:
-        """The ideal pins that have friction, by name."""
-        ideal = {name: pin for name, pin in self.pins.items() if isinstance(pin, IdealPin)}
-        return {name: pin for name, pin in ideal.items() if pin.friction is not None}
-
-    @property
-    def oil_columns(self) -> dict[str, OilColumn]:
-        """The columns that give, and jacks that do, by name."""
-        jacks = {self.machine.jacks[name]: part.jack for name, part in self.own_bodies.items()}
-        return {name: oil for name, column in {**self.columns, **jacks}.items() if (oil := column.oil)}
-
-    @property
-    def cylinders(self) -> dict[str, HydraulicCylinder]:
-        """The columns that are hydraulic cylinders, by name."""
-        return {name: one for name, one in self.columns.items() if isinstance(one, HydraulicCylinder)}
-
-    @property
-    def giving(self) -> tuple[str, ...]:
-        """Names of the columns whose length no constraint holds: those of oil and cylinders."""
-        return *self.oil_columns, *self.cylinders
-
-    @property
-    def own_bodies(self) -> dict[str, OwnBody]:
-        """The parts that are bodies of their own, by name."""
-        return {name: part for name, part in self.parts.items() if isinstance(part, OwnBody)}

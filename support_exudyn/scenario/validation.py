@@ -4,21 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
 
 from support_exudyn.mechanics.channels import ALL_CHANNELS, check_patterns
 from support_exudyn.model.drives.drive import Drive, Held
 from support_exudyn.model.hydraulic_cylinder import HydraulicCylinder
 from support_exudyn.model.linkage import Linkage
 from support_exudyn.model.spatial_linkage import SpatialLinkage
+from support_exudyn.scenario.scenario_data import ScenarioData
 from support_exudyn.scenario.solver_settings import ERROR_CONTROLLED
 from user_forces.values.value import InputError
 
-if TYPE_CHECKING:
-    from support_exudyn.scenario.scenario import Scenario
 
-
-def check(scenario: Scenario) -> None:
+def check(scenario: ScenarioData) -> None:
     """Raise ValueError that says what of a scenario does not fit its machine, or the rest of it."""
     for name in scenario.parts:
         if name not in scenario.machine.jacks:
@@ -57,7 +54,7 @@ def check(scenario: Scenario) -> None:
         check_patterns(scenario.recipes, scenario.channels)
 
 
-def _check_space(scenario: Scenario) -> None:
+def _check_space(scenario: ScenarioData) -> None:
     try:
         space = scenario.space
     except InputError as error:
@@ -79,7 +76,7 @@ def _check_space(scenario: Scenario) -> None:
     _check_pairs(scenario, space)
 
 
-def _check_pairs(scenario: Scenario, space: SpatialLinkage) -> None:
+def _check_pairs(scenario: ScenarioData, space: SpatialLinkage) -> None:
     """Rigid columns of a pair cannot be driven apart: what they stand under is rigid, too."""
     for name, column in space.columns.items():
         if column.column in scenario.oil_columns:
@@ -92,7 +89,7 @@ def _check_pairs(scenario: Scenario, space: SpatialLinkage) -> None:
                 )
 
 
-def _check_columns(scenario: Scenario, linkage: Linkage) -> None:
+def _check_columns(scenario: ScenarioData, linkage: Linkage) -> None:
     driven = [name for name, column in linkage.columns.items() if column.driven]
     for name, column in scenario.columns.items():
         if name not in driven:
@@ -115,7 +112,7 @@ def _check_columns(scenario: Scenario, linkage: Linkage) -> None:
         )
 
 
-def _check_drives(scenario: Scenario, linkage: Linkage) -> None:
+def _check_drives(scenario: ScenarioData, linkage: Linkage) -> None:
     allowed = tuple(dict.fromkeys((*linkage.driven, *scenario.driven)))
     for name in scenario.drives:
         if name not in allowed:
@@ -132,14 +129,14 @@ def _check_drives(scenario: Scenario, linkage: Linkage) -> None:
         _check_motion(scenario, drives)
 
 
-def _check_motion(scenario: Scenario, drives: Mapping[str, Drive]) -> None:
+def _check_motion(scenario: ScenarioData, drives: Mapping[str, Drive]) -> None:
     try:
         scenario.machine.check_motion(drives, scenario.duration)
     except InputError as error:
         raise ValueError(scenario.of_drives(drives, error)) from None
 
 
-def _check_loads(scenario: Scenario) -> None:
+def _check_loads(scenario: ScenarioData) -> None:
     linkage = scenario.unloaded
     taken = {"pin", "energy", "time", *linkage.bodies, *linkage.points, *linkage.driven, *linkage.columns}
     taken |= {*linkage.pins, *linkage.slides}

@@ -7,7 +7,8 @@ from dataclasses import replace
 from typing import Literal
 
 from support_exudyn.formulations.registry import covers, formulation
-from support_exudyn.scenario.scenario import LARGEST_STEP, Scenario
+from support_exudyn.scenario.scenario import Scenario
+from support_exudyn.scenario.scenario_data import LARGEST_STEP
 from support_exudyn.scenario.solver_settings import ERROR_CONTROLLED, MOST_IMPACT_STEPS, SMALLEST_TOLERANCE
 from support_exudyn.scenario.timescales import timescales
 from support_exudyn.simulation.contact_ringing import ringing_step

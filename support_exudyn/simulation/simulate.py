@@ -9,7 +9,8 @@ from typing import Literal, overload
 
 from support_exudyn.formulations.contract import Failure, SimulationError, told
 from support_exudyn.formulations.progress import Progress, silent
-from support_exudyn.scenario.scenario import Accuracy, Scenario
+from support_exudyn.scenario.scenario import Scenario
+from support_exudyn.scenario.scenario_data import Accuracy
 from support_exudyn.simulation.halved_steps import run_with_error
 from support_exudyn.simulation.result import Result
 from support_exudyn.simulation.single_run import run_once

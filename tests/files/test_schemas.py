@@ -15,8 +15,7 @@ from jsonschema import Draft7Validator, Draft202012Validator
 
 from support_exudyn import Scenario
 from support_exudyn.__main__ import main
-from support_exudyn.files import load_toml, parsed, scenario_of, scenario_text
-from support_exudyn.files.scenarios import scenario_schema
+from support_exudyn.files import load_toml, parsed, scenario_of, scenario_schema, scenario_text
 from tests import strategies as some
 from tests.files.test_fuzz_scenario_files import FOLDER, SHORT
 from user_forces import InputError

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from support_exudyn import Held, Scenario, SolverSettings, simulate
-from support_exudyn.scenario.scenario import LARGEST_GOAL, LARGEST_STEP, SMALLEST_GOAL
+from support_exudyn.scenario.scenario_data import LARGEST_GOAL, LARGEST_STEP, SMALLEST_GOAL
 from support_exudyn.scenario.solver_settings import MOST_IMPACT_STEPS, SMALLEST_TOLERANCE
 from support_exudyn.scenario.timescales import timescales
 from support_exudyn.simulation import automatic_settings
