@@ -2,7 +2,14 @@
 
 from __future__ import annotations
 
+import math
+import sys
+from typing import TYPE_CHECKING
+
 from user_forces.journal import JournalBearing
+
+if TYPE_CHECKING:
+    from support_exudyn.scenario.scenario import Scenario
 
 # Depth of a journal as a share of the bore's radius. Laws and geometry are those of small depths; the reference
 # support meets 1 % of it.
@@ -21,3 +28,12 @@ def too_deep(pin: str, depth: float, bearing: JournalBearing) -> str:
         f"the journal of {pin} is {1e3 * depth:.3g} mm deep in a bore of {1e3 * bearing.bore_radius:.4g} mm "
         f"radius; allowed: up to {DEEPEST:.0%} of it"
     )
+
+
+ROUNDINGS = 20.0  # of the largest coordinate, that forces of the support show below steps of 2e-5 s
+
+
+def rounding_of_positions(scenario: Scenario) -> float:
+    """What rounding leaves in the positions that constraints hold [m], as forces show it: R size epsilon."""
+    size = max(math.hypot(*body.centre) for body in scenario.linkage.bodies.values())
+    return ROUNDINGS * size * sys.float_info.epsilon

@@ -32,7 +32,6 @@ as large in the median, 7.5 in a mixture of all kinds. The command tells it of a
 from __future__ import annotations
 
 import math
-import sys
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -53,7 +52,8 @@ from support_exudyn.simulation.reported_numbers import (
 
 if TYPE_CHECKING:
     from support_exudyn.scenario.scenario import Scenario
-    from support_exudyn.simulation.result import Result
+    from support_exudyn.simulation.recorded_run import RecordedRun
+from support_exudyn.formulations.limits import rounding_of_positions
 
 Values = npt.NDArray[np.float64]  # of any shape
 SAFETY = {"auto": 3.0, "redundant": 3.0, "tree": 3.5, "reduced": 2.5}  # by formulation
@@ -67,7 +67,6 @@ SAFETY_OF_WORST = 6.0  # covers all of two thousand runs at the extremes (`studi
 IRREGULAR = 4.0  # times that, where Newton's method failed: steps then are not those that were asked for
 FASTEST, SLOWEST = 0.25, 0.8  # r: three runs tell nothing beyond
 FIRST_ORDER = 0.5  # r where there are two runs only
-ROUNDINGS = 20.0  # of the largest coordinate, that forces of the support show below steps of 2e-5 s
 SMALLEST_SPREAD = 1e-3  # of the mean
 SMALLEST_EXTENT = (
     1e-8  # of a path, of its distance from the machine's pins: below, a machine is at rest but for rounding
@@ -85,7 +84,7 @@ class Estimate(NamedTuple):
         return f"{self.value:.9g} ± {self.error:.1g} {self.unit}"
 
 
-def fall(result: Result) -> float:
+def fall(result: RecordedRun) -> float:
     """r: by what factor the distances of a scene's numbers fall from run to run; FIRST_ORDER if two are all."""
     coarser = result.coarser
     coarsest = coarser.coarser if coarser else None
@@ -101,7 +100,7 @@ def fall(result: Result) -> float:
 
 
 def errors(
-    kinds: Mapping[str, Kind], result: Result, r: float, among: Mapping[str, Kind] | None = None
+    kinds: Mapping[str, Kind], result: RecordedRun, r: float, among: Mapping[str, Kind] | None = None
 ) -> dict[str, float]:
     """Estimated errors of numbers, by their names; infinite if one is not a number in every run.
 
@@ -138,7 +137,7 @@ def errors(
     return found
 
 
-def error(measure: Measure, result: Result, r: float, size: float = 0.0, least: float = 0.0) -> float:
+def error(measure: Measure, result: RecordedRun, r: float, size: float = 0.0, least: float = 0.0) -> float:
     """Estimated error of a number by itself; infinite if it is not a number in every run.
 
     Arguments:
@@ -154,7 +153,7 @@ def error(measure: Measure, result: Result, r: float, size: float = 0.0, least: 
     return found if math.isfinite(found) else math.inf
 
 
-def multiple(result: Result, r: float, last: Values, before: Values) -> Values:
+def multiple(result: RecordedRun, r: float, last: Values, before: Values) -> Values:
     """Of the last distance of two runs, that the error of a number is taken to be; r: see `fall`.
 
     last, before: distances of the number, from run to run, or of many; of two runs alone before is 0.
@@ -166,18 +165,18 @@ def multiple(result: Result, r: float, last: Values, before: Values) -> Values:
     return SAFETY[result.scenario.formulation] * falls / (1.0 - falls)
 
 
-def believed(result: Result, r: float, last: Values, before: Values) -> Values:
+def believed(result: RecordedRun, r: float, last: Values, before: Values) -> Values:
     """The last distance as far as it is believed to have fallen, see `multiple`; keeps what is no number."""
     share = min(r, CHOSEN) if result.scenario.formulation in ERROR_CONTROLLED else r
     return np.maximum(last, share * before)
 
 
-def _distance(measure: Measure, result: Result, r: float) -> float:
+def _distance(measure: Measure, result: RecordedRun, r: float) -> float:
     """Of a number from that of the coarser run, as far as it is believed; nan if it is none in one of them."""
     return float(believed(result, r, *_distances(measure, result)))
 
 
-def _distances(measure: Measure, result: Result) -> tuple[Values, Values]:
+def _distances(measure: Measure, result: RecordedRun) -> tuple[Values, Values]:
     """Of a number from run to run, the last first; 0 before that if there are two runs."""
     if result.coarser is None:
         raise ValueError("no coarser run to compare with")
@@ -186,11 +185,11 @@ def _distances(measure: Measure, result: Result) -> tuple[Values, Values]:
     return np.asarray(abs(measure(result) - other)), np.asarray(before)
 
 
-def _size(kind: Kind, result: Result) -> float:
+def _size(kind: Kind, result: RecordedRun) -> float:
     return max(abs(kind.measure(result)), kind.size)
 
 
-def worst_error(result: Result, r: float) -> float:
+def worst_error(result: RecordedRun, r: float) -> float:
     """See `Result.worst_error`; r: see `fall`.
 
     Of three runs, also by the worst distances themselves: those of a few numbers may fall slower than most do.
@@ -209,7 +208,7 @@ def worst_error(result: Result, r: float) -> float:
     return max(found, irregular * SAFETY_OF_WORST * max(last, FIRST_ORDER * before) * r / (1.0 - r))
 
 
-def disagreement(result: Result, other: Result) -> float:
+def disagreement(result: RecordedRun, other: RecordedRun) -> float:
     """How far another run of the same scene is away, in the measure of `worst_error`."""
     return _worst(result, lambda measure: abs(measure(result) - measure(other)))
 
@@ -230,19 +229,13 @@ def rounding_of_forces(scenario: Scenario) -> float:
     return heaviest * rounding_of_positions(scenario) / step**2
 
 
-def rounding_of_positions(scenario: Scenario) -> float:
-    """What rounding leaves in the positions that constraints hold [m], as forces show it: R size epsilon."""
-    size = max(math.hypot(*body.centre) for body in scenario.linkage.bodies.values())
-    return ROUNDINGS * size * sys.float_info.epsilon
-
-
-def rounding_share(result: Result) -> float:
+def rounding_share(result: RecordedRun) -> float:
     """The same, of the force that it is the largest share of."""
     return _worst(result, lambda measure: 0.0, rounding_of_forces(result.scenario))
 
 
 def _worst(
-    result: Result, off_by: Callable[[Measure], float], rounding: float = 0.0, left: float = 0.0
+    result: RecordedRun, off_by: Callable[[Measure], float], rounding: float = 0.0, left: float = 0.0
 ) -> float:
     """The largest, relative, of what the numbers are off by that an accuracy is of.
 
@@ -268,7 +261,7 @@ def _worst(
         path = path_of(result, point)
         extent = float(np.hypot(*np.ptp(path, axis=1)))
 
-        def wandering(run: Result, path: Values = path, point: str = point) -> float:
+        def wandering(run: RecordedRun, path: Values = path, point: str = point) -> float:
             return float(np.hypot(*(path_of(run, point) - path)).max())
 
         ends = [np.reshape(place.first_point, (2, 1)) for place in scenario.linkage.pins.values()]

@@ -17,7 +17,7 @@ from user_forces.values.value import InputError, short
 if TYPE_CHECKING:
     from support_exudyn.mechanics.contact_state import Onset
     from support_exudyn.scenario.scenario import Scenario
-    from support_exudyn.simulation.result import Result
+    from support_exudyn.simulation.recorded_run import RecordedRun
 
 Series = npt.NDArray[np.float64]
 NEWTON = 5.0  # tolerances of Newton's method that are left of a number at any step; 1.6 of a touch's speed
@@ -43,10 +43,10 @@ def measured(scenario: Scenario) -> tuple[str, ...]:
     )
 
 
-Measure = Callable[["Result"], float]
+Measure = Callable[["RecordedRun"], float]
 
 
-def _nothing(run: Result) -> float:
+def _nothing(run: RecordedRun) -> float:
     del run
     return 0.0
 
@@ -73,7 +73,7 @@ class Kind(NamedTuple):
     step: float = 0.0
 
 
-def measures(result: Result, after: float, until: float) -> Mapping[str, Kind]:
+def measures(result: RecordedRun, after: float, until: float) -> Mapping[str, Kind]:
     """The numbers that every result reports: name, unit and how it is measured, see `Result.numbers`.
 
     Raises InputError if no record lies between the times.
@@ -161,7 +161,7 @@ def _time(item: Any, name: str) -> float:
     raise InputError(f"{name} = {short(item)}: allowed: a time in s")
 
 
-def _inside(run: Result, after: float, until: float) -> npt.NDArray[np.bool_]:
+def _inside(run: RecordedRun, after: float, until: float) -> npt.NDArray[np.bool_]:
     """Which records lie between two times [s]."""
     return (run.time >= after - 1e-9) & (run.time <= until + 1e-9)
 
@@ -169,14 +169,14 @@ def _inside(run: Result, after: float, until: float) -> npt.NDArray[np.bool_]:
 def over(name: str, statistic: Callable[[np.ndarray], float], after: float, until: float) -> Measure:
     """A statistic of a channel's records between two times [s], in its unit."""
 
-    def measure(run: Result) -> float:
+    def measure(run: RecordedRun) -> float:
         return float(statistic(run[name][_inside(run, after, until)]))
 
     return measure
 
 
 def _missed(word: str, name: str, after: float, until: float) -> Measure:
-    def measure(run: Result) -> float:
+    def measure(run: RecordedRun) -> float:
         inside = _inside(run, after, until)
         return missed(word, run[name][inside], run.time[inside], run.scenario.breaks)
 
@@ -188,13 +188,13 @@ def _largest(pin: str) -> Measure:
 
 
 def _onset(pin: str, n: int, field: str) -> Measure:
-    def measure(run: Result) -> float:
+    def measure(run: RecordedRun) -> float:
         onsets = run.onsets[pin]
         return float(getattr(onsets[n], field)) if n < len(onsets) else float("nan")
 
     return measure
 
 
-def path_of(result: Result, point: str) -> Series:
+def path_of(result: RecordedRun, point: str) -> Series:
     """Where a traced point was [m], shape (2, n)."""
     return np.array([result[f"{point}.x"], result[f"{point}.y"]])

@@ -7,9 +7,9 @@ import json
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
-from difflib import get_close_matches
 from functools import cached_property
 from pathlib import Path
+from typing import cast
 
 import h5py
 import numpy as np
@@ -22,85 +22,24 @@ from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.mechanics.counts import Counts
 from support_exudyn.mechanics.impulse import Impulse
 from support_exudyn.scenario.recorded_channels import Channel
-from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.estimate import Estimate, error, errors, fall, worst_error
 from support_exudyn.simulation.memory import available
+from support_exudyn.simulation.recorded_run import RecordedRun
 from support_exudyn.simulation.reported_numbers import measures
-from user_forces.values.value import InputError, Value, cleaned, short
+from user_forces.values.value import InputError, Value, cleaned
 
 FORMAT = "support_exudyn result 4"
 DAMAGES = (OSError, LookupError, AttributeError, TypeError, ValueError, RuntimeError, MemoryError)
 
 
-@dataclass(frozen=True)
-class Result:
-    """A finished run.
+@dataclass(frozen=True, repr=False)
+class Result(RecordedRun):
+    """A finished run: what it has recorded, the estimated errors of its numbers, and its file.
 
-    scenario: what was run. channels: quantities over time by name, see `result["tip.x"]`.
-    onsets: for each clearance pin the beginnings of contact. largest_force: for each clearance pin the
-    largest force [N] at any time, also inside steps. impulses: where the speed of
-    rigid columns or cranks jumped. counts: what the solver did.
-    wall_time: [s], of building, settling and integrating, of all runs that an accuracy took.
-    provenance: versions and platform.
-    goal: the accuracy that was asked for, None if none was; `scenario` then has the settings that were chosen.
-    coarser: the same run with longer steps, which has one of its own; from their distances errors are
-    estimated.
+    The arguments are those of `RecordedRun`.
     """
 
-    scenario: Scenario
-    channels: Mapping[str, Channel]
-    onsets: Mapping[str, tuple[Onset, ...]]
-    largest_force: Mapping[str, float]
-    impulses: tuple[Impulse, ...]
-    counts: Counts
-    wall_time: float
-    provenance: Mapping[str, str]
-    goal: float | None = None
     coarser: Result | None = None
-
-    def __repr__(self) -> str:
-        """In a line; all else is asked for by name."""
-        said = f"{len(self.channels)} channels, {self.time.size} records from 0 to {self.time[-1]:g} s"
-        return f"<Result of {type(self.scenario.machine).__name__}, {self.scenario.formulation}: {said}>"
-
-    def __getitem__(self, name: str) -> np.ndarray:
-        """Values of a channel, shape (n,), in SI."""
-        return self._channel(name).values
-
-    def unit(self, name: str) -> str:
-        """Unit of a channel."""
-        return self._channel(name).unit
-
-    def _channel(self, name: str) -> Channel:
-        if not isinstance(name, str):
-            raise KeyError(f"{short(name)}: no such channel; allowed: names, see `channels`")
-        if name not in self.channels and name in self.scenario.recipes:
-            raise KeyError(
-                f"{name!r}: was not recorded, for the scenario asks for channels = {self.scenario.channels}; "
-                "allowed: runs of a scenario that asks for it too"
-            )
-        if name not in self.channels:
-            near = get_close_matches(name, self.channels, 3, 0.4) or list(self.channels)[:3]
-            raise KeyError(
-                f"{short(name)}: no such channel; there are {len(self.channels)}, see `channels`, among them "
-                f"{', '.join(near)}"
-            )
-        return self.channels[name]
-
-    @property
-    def time(self) -> np.ndarray:
-        """Times of the records [s], shape (n,)."""
-        return self["time"]
-
-    @property
-    def dissipated(self) -> float:
-        """Energy dissipated in contacts and oil over the run [J]."""
-        return float(self["energy.damping_loss"][-1] + self["energy.friction_loss"][-1])
-
-    @property
-    def energy_error(self) -> float:
-        """Largest amount by which the energy balance is not closed at any record [J]."""
-        return float(np.abs(self["energy.balance"]).max())
 
     # --- errors; of results that were run to an accuracy ---
 
@@ -114,7 +53,11 @@ class Result:
         Raises InputError if the run was not made to an accuracy.
         """
         self._check()
-        return Estimate(float(measure(self)), float(error(measure, self, self.fall)), unit)
+
+        def measured(run: RecordedRun) -> float:
+            return measure(cast(Result, run))  # all runs that a result is estimated by are results
+
+        return Estimate(float(measure(self)), float(error(measured, self, self.fall)), unit)
 
     def numbers(self, after: float = 0.0, until: float = math.inf) -> dict[str, Estimate]:
         """The usual numbers with their estimated errors, by names such as `pin.rear_base.force.mean`.

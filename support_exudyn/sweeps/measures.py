@@ -11,6 +11,7 @@ import numpy as np
 from support_exudyn.mechanics.extremes import largest, missed
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.estimate import errors
+from support_exudyn.simulation.recorded_run import RecordedRun
 from support_exudyn.simulation.reported_numbers import Kind, measures
 from support_exudyn.simulation.result import Result
 from support_exudyn.sweeps.plan import Record
@@ -98,14 +99,14 @@ def _matching(pattern: str, usual: Mapping[str, Kind], result: Result, record: R
 def _kind(result: Result, channel: str, statistic: str, record: Record) -> Kind:
     compute = STATISTICS[statistic]
 
-    def inside(run: Result) -> np.ndarray:
+    def inside(run: RecordedRun) -> np.ndarray:
         # as of `Result.numbers`: times of records are sums of periods
         return (run.time >= record.after - 1e-9) & (run.time <= record.until + 1e-9)
 
-    def measure(run: Result) -> float:
+    def measure(run: RecordedRun) -> float:
         return float(compute(run[channel][inside(run)]))
 
-    def between(run: Result) -> float:
+    def between(run: RecordedRun) -> float:
         chosen = inside(run)
         return missed(statistic, run[channel][chosen], run.time[chosen], run.scenario.breaks)
 

@@ -10,7 +10,6 @@ from support_exudyn.mechanics.space.motion import UNTURNED, parameter_rates
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.postprocessing.look.poses import WHY, Poses
 from support_exudyn.scenario.scenario import Scenario
-from support_exudyn.simulation.recorded import recorded
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
 
@@ -54,7 +53,7 @@ def coordinates(result: Result) -> dict[str, tuple[Series, Series]]:
 
 def _in_plane(result: Result, name: str) -> tuple[Series, Series]:
     body = result.scenario.linkage.bodies[name]
-    columns = [recorded(result, f"{name}.{what}", WHY) for what in IN_PLANE]
+    columns = [result.recorded(f"{name}.{what}", WHY) for what in IN_PLANE]
     return np.column_stack(columns[:3]) - [*body.centre, body.angle], np.column_stack(columns[3:])
 
 

@@ -9,7 +9,6 @@ from support_exudyn.postprocessing.export.mesh_series import Frame, MeshSeries
 from support_exudyn.postprocessing.export.names import Named, numbered
 from support_exudyn.postprocessing.look.placed_pins import End, PlacedPin, placed_pins
 from support_exudyn.postprocessing.look.poses import Poses
-from support_exudyn.simulation.recorded import recorded
 from support_exudyn.simulation.result import Result
 
 
@@ -83,7 +82,7 @@ class PinPoints:
         return self._channel(f"pin.{pin.name}.{what}")
 
     def _channel(self, name: str) -> Series:
-        return recorded(self._result, name, "pins are written with it")
+        return self._result.recorded(name, "pins are written with it")
 
 
 def _stacked(of_pins: list[Series], shape: tuple[int, ...]) -> Series:

@@ -11,7 +11,6 @@ from scipy.spatial.transform import Rotation
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.scenario.scenario import Scenario
-from support_exudyn.simulation.recorded import recorded
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import Vector3
 
@@ -110,7 +109,7 @@ class Poses:
         )
 
     def _channel(self, name: str) -> Series:
-        return recorded(self._result, name, WHY)
+        return self._result.recorded(name, WHY)
 
 
 def _about_z(angle: Series) -> Series:

@@ -11,7 +11,6 @@ from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.pins import ClearancePin
 from support_exudyn.postprocessing.look.placed_pins import placed_pins
 from support_exudyn.postprocessing.look.poses import Poses
-from support_exudyn.simulation.recorded import recorded
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError, short
 
@@ -82,7 +81,7 @@ def pin_view(result: Result, name: str | None = None) -> PinView | None:
     name = name or names[0]
     pin = next(pin for pin in placed_pins(result.scenario) if pin.name == name)
     sign = -1.0 if pin.bore_is_second else 1.0
-    force = sign * np.column_stack([recorded(result, f"pin.{name}.force_{axis}", WHY) for axis in "xy"])
+    force = sign * np.column_stack([result.recorded(f"pin.{name}.force_{axis}", WHY) for axis in "xy"])
     path = Poses(result).of(pin.bore.body).path(pin.bore.point)
     if pin.loose is None:
         return PinView(name, pin.second.body.replace("_", " "), force, path, None)
@@ -99,7 +98,7 @@ def pin_view(result: Result, name: str | None = None) -> PinView | None:
 def _eccentricity(result: Result, name: str) -> Series:
     sides = ("left_", "right_") if result.scenario.dimensions == 3 else ("",)
     ends = [
-        np.column_stack([recorded(result, f"pin.{name}.{side}eccentricity_{axis}", WHY) for axis in "xy"])
+        np.column_stack([result.recorded(f"pin.{name}.{side}eccentricity_{axis}", WHY) for axis in "xy"])
         for side in sides
     ]
     middle: Series = np.mean(ends, axis=0)

@@ -20,7 +20,7 @@ import exudyn
 from support_exudyn.formulations.contact_events import SHARE
 from support_exudyn.formulations.contract import Failure, SimulationError
 from support_exudyn.formulations.engine_settings import SMALLEST_STEP, engine_settings, quiet_engine
-from support_exudyn.formulations.limits import DEEPEST, SOFT, too_deep
+from support_exudyn.formulations.limits import DEEPEST, SOFT, rounding_of_positions, too_deep
 from support_exudyn.formulations.progress import Progress
 from support_exudyn.formulations.redundant.scene.engine_scene import EngineScene
 from support_exudyn.formulations.redundant.scene.velocity_jump import slide
@@ -34,7 +34,6 @@ from support_exudyn.formulations.time_grid import StepPlan
 from support_exudyn.mechanics.counts import Counts
 from support_exudyn.mechanics.impulse import Impulse
 from support_exudyn.mechanics.oil_column import force_rounding
-from support_exudyn.simulation.estimate import rounding_of_positions
 from user_forces import Frictionless
 from user_forces.lawful import UNLAWFUL, LawError
 

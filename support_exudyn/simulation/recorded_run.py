@@ -1,0 +1,101 @@
+"""What a run records: channels over time, contacts, impulses, counts."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from difflib import get_close_matches
+
+import numpy as np
+
+from support_exudyn.mechanics.contact_state import Onset
+from support_exudyn.mechanics.counts import Counts
+from support_exudyn.mechanics.impulse import Impulse
+from support_exudyn.mechanics.trajectory import Series
+from support_exudyn.scenario.recorded_channels import Channel
+from support_exudyn.scenario.scenario import Scenario
+from user_forces.values.value import InputError, short
+
+
+@dataclass(frozen=True)
+class RecordedRun:
+    """What a finished run has recorded, without its errors and its file.
+
+    scenario: what was run. channels: quantities over time by name, see `result["tip.x"]`.
+    onsets: for each clearance pin the beginnings of contact. largest_force: for each clearance pin the
+    largest force [N] at any time, also inside steps. impulses: where the speed of
+    rigid columns or cranks jumped. counts: what the solver did.
+    wall_time: [s], of building, settling and integrating, of all runs that an accuracy took.
+    provenance: versions and platform.
+    goal: the accuracy that was asked for, None if none was; `scenario` then has the settings that were chosen.
+    coarser: the same run with longer steps, which has one of its own; from their distances errors are
+    estimated.
+    """
+
+    scenario: Scenario
+    channels: Mapping[str, Channel]
+    onsets: Mapping[str, tuple[Onset, ...]]
+    largest_force: Mapping[str, float]
+    impulses: tuple[Impulse, ...]
+    counts: Counts
+    wall_time: float
+    provenance: Mapping[str, str]
+    goal: float | None = None
+    coarser: RecordedRun | None = None
+
+    def __repr__(self) -> str:
+        """In a line; all else is asked for by name."""
+        what = f"{type(self).__name__} of {type(self.scenario.machine).__name__}, {self.scenario.formulation}"
+        said = f"{len(self.channels)} channels, {self.time.size} records from 0 to {self.time[-1]:g} s"
+        return f"<{what}: {said}>"
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        """Values of a channel, shape (n,), in SI."""
+        return self._channel(name).values
+
+    def unit(self, name: str) -> str:
+        """Unit of a channel."""
+        return self._channel(name).unit
+
+    def _channel(self, name: str) -> Channel:
+        if not isinstance(name, str):
+            raise KeyError(f"{short(name)}: no such channel; allowed: names, see `channels`")
+        if name not in self.channels and name in self.scenario.recipes:
+            raise KeyError(
+                f"{name!r}: was not recorded, for the scenario asks for channels = {self.scenario.channels}; "
+                "allowed: runs of a scenario that asks for it too"
+            )
+        if name not in self.channels:
+            near = get_close_matches(name, self.channels, 3, 0.4) or list(self.channels)[:3]
+            raise KeyError(
+                f"{short(name)}: no such channel; there are {len(self.channels)}, see `channels`, among them "
+                f"{', '.join(near)}"
+            )
+        return self.channels[name]
+
+    @property
+    def time(self) -> np.ndarray:
+        """Times of the records [s], shape (n,)."""
+        return self["time"]
+
+    @property
+    def dissipated(self) -> float:
+        """Energy dissipated in contacts and oil over the run [J]."""
+        return float(self["energy.damping_loss"][-1] + self["energy.friction_loss"][-1])
+
+    @property
+    def energy_error(self) -> float:
+        """Largest amount by which the energy balance is not closed at any record [J]."""
+        return float(np.abs(self["energy.balance"]).max())
+
+    def recorded(self, name: str, why: str) -> Series:
+        """Values of a channel, shape (n,), in SI, which something cannot do without.
+
+        why: what it is needed for, a sentence's end such as "pictures show it".
+
+        Raises InputError if the run has not recorded it.
+        """
+        if name not in self.channels:
+            allowed = "runs of a scenario with channels = ('*',)"
+            raise InputError(f"channel {name!r}: was not recorded, and {why}; allowed: {allowed}")
+        return self[name]
