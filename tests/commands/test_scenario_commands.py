@@ -31,7 +31,7 @@ from support_exudyn.__main__ import main
 from support_exudyn.files import read_scenario
 from user_forces import CubicCoulomb
 
-EXAMPLES = Path(__file__).parents[2] / "support_exudyn" / "examples"
+EXAMPLES = Path(__file__).parents[2] / "support_exudyn" / "files" / "examples"
 STROKE = CubicStep(stroke=0.02, start=0.02, end=0.08)
 BASE = Scenario(
     machine=reference_support(), drive=STROKE, duration=0.1, pins={"rear_base": loose_pin(1.5, 0.25)}

@@ -39,7 +39,7 @@ point_mm = [0, 0]
 stiffness_kN_per_mm = 10
 descent = {mode = 2, stroke_mm = 5, start_s = 0, end_s = 1}
 """
-FOLDER = Path(__file__).parents[2] / "support_exudyn" / "examples"
+FOLDER = Path(__file__).parents[2] / "support_exudyn" / "files" / "examples"
 LONG = tuple(scenario_text(one) for one in some.seeds() if isinstance(one, Scenario))
 TREES = (parsed(SHORT, "a"), *(parsed(text, "a") for text in LONG))
 
