@@ -1,4 +1,4 @@
-"""`python -m support_exudyn COMMAND ...`, see `support_exudyn.commands`."""
+"""`python -m support_exudyn COMMAND ...`, see `support_exudyn.commands.parser`."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _asked(argv: Sequence[str] | None) -> None:
-    from support_exudyn.commands import command, parser  # and libraries: long enough to be interrupted
+    from support_exudyn.commands.parser import command, parser  # and libraries: long enough to be interrupted
     from support_exudyn.commands.user_modules import at_work, import_modules
 
     given = parser().parse_args(argv)

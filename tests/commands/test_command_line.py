@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 
 from support_exudyn.__main__ import main
-from support_exudyn.commands import NAMES, command
 from support_exudyn.commands.command_line import answer
+from support_exudyn.commands.parser import NAMES, command
 
 
 def test_help_tells_of_every_command_and_exit_code(capsys: pytest.CaptureFixture[str]) -> None:

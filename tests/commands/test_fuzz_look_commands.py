@@ -7,7 +7,7 @@ import argparse
 from hypothesis import given
 from hypothesis import strategies as st
 
-from support_exudyn.commands import NAMES, parser
+from support_exudyn.commands.parser import NAMES, parser
 from tests import strategies as some
 from tests.commands.test_fuzz_commands import outcome, words
 

@@ -1,0 +1,104 @@
+"""The commands of `python -m support_exudyn`, one per file.
+
+A command is a module with HELP, a line of what it does; `add_arguments(parser)`; and `run(given)`, which does
+it with the arguments that were given and raises InputError, OSError or SimulationError. Its name is the
+module's. A further one is a file here and its name in NAMES.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from importlib import import_module
+from pathlib import Path
+from typing import Protocol, cast
+
+from support_exudyn.commands.command_line import Parser, say
+from support_exudyn.simulation.provenance import versions
+
+NAMES: tuple[str, ...] = (
+    "check",
+    "run",
+    "sweep",
+    "chart",
+    "show",
+    "compare",
+    "plot",
+    "render",
+    "view",
+    "export",
+    "scenario",
+    "schema",
+)
+
+INSTALLED = "support-exudyn"
+EPILOG = """\
+COMMAND --help tells what a command takes. Results go to standard output, progress and warnings to
+standard error; with --json the result is one JSON object in SI units. Files are written whole or not at
+all.
+
+exit codes:
+  0    done
+  1    not done, for a reason that is said in one line: an input, a file, a run that cannot be finished
+  2    the command line cannot be read
+  3    a sweep is done, but some of its runs failed
+  130  interrupted
+"""
+
+
+class Command(Protocol):
+    """What a module of a command offers."""
+
+    HELP: str
+
+    def add_arguments(self, parser: argparse.ArgumentParser) -> None:
+        """Tell the parser what the command takes."""
+
+    def run(self, given: argparse.Namespace) -> None:
+        """Do it."""
+
+
+def command(name: str) -> Command:
+    """The command of this name."""
+    return cast(Command, import_module(f"{__package__}.{name}"))
+
+
+def parser() -> Parser:
+    """Of the whole command line."""
+    whole = Parser(
+        prog=_called(),
+        description="Dynamics of linkages with clearance in their joints.",
+        epilog=EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    whole.add_argument("--version", action=_Versions, nargs=0, help="versions of all that makes the numbers")
+    whole.add_argument(
+        "--import",
+        dest="imports",
+        action="append",
+        default=[],
+        metavar="MODULE",
+        help="import this module first: files may then hold its machines, laws, drives, loads; repeatable",
+    )
+    several = whole.add_subparsers(
+        dest="command", required=True, metavar="COMMAND", parser_class=Parser, title="commands"
+    )
+    for name in NAMES:
+        one = command(name)
+        one.add_arguments(
+            several.add_parser(name, help=one.HELP, description=f"{one.HELP[:1].upper()}{one.HELP[1:]}.")
+        )
+    return whole
+
+
+def _called() -> str:
+    """By what name the program was started."""
+    return INSTALLED if Path(sys.argv[0]).stem == INSTALLED else "python -m support_exudyn"
+
+
+class _Versions(argparse.Action):
+    """Print the versions, asking for them only now, and end."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *others: object) -> None:
+        say("\n".join(f"{name} {number}" for name, number in versions().items()))
+        parser.exit()
