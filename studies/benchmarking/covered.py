@@ -27,10 +27,10 @@ from studies.benchmarking.estimates import numbers_of_records, tight_numbers
 from studies.benchmarking.fresh_scenes import Fresh
 from studies.extremes.runs import HangError, patience
 from support_exudyn import Failure, Result, Scenario, SimulationError, simulate
-from support_exudyn.formulations.registry import covers
+from support_exudyn.formulations.registry import FormulationName, formulation
 from support_exudyn.scenario.scenario_data import ACCURACIES, Accuracy
 from support_exudyn.scenario.solver_settings import ERROR_CONTROLLED, MOST_IMPACT_STEPS
-from support_exudyn.simulation.automatic_settings import FormulationName, settings_for
+from support_exudyn.simulation.automatic_settings import settings_for
 
 # tolerances of a reference, and of its own error
 TIGHT: Mapping[FormulationName, tuple[float, float, float]] = {
@@ -201,7 +201,7 @@ def references(scene: Fresh, runs: Sequence[Result]) -> Iterator[Reference]:
     plain = replace(scene.scenario, accuracy=None)
     sharp = False
     for name, tolerances in TIGHT.items():
-        if covers(name, plain):
+        if formulation(name).covers(plain):
             made = [
                 replace(plain, formulation=name, solver=replace(plain.solver, tolerance=tolerance))
                 for tolerance in tolerances

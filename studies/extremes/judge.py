@@ -22,7 +22,7 @@ import numpy as np
 
 from support_exudyn import Result, Scenario, SimulationError, SolverSettings, simulate
 from support_exudyn.formulations.limits import DEEPEST
-from support_exudyn.formulations.registry import covers
+from support_exudyn.formulations.registry import formulation
 from support_exudyn.scenario.scenario_data import LARGEST_STEP
 from support_exudyn.scenario.timescales import timescales
 from support_exudyn.simulation.audit import OPEN, energy_open
@@ -248,13 +248,13 @@ def independent(scenario: Scenario) -> Result | None:
     if scenario.dimensions == 3:
         return None
     patient = _patient(scenario)
-    if scenario.formulation in ("reduced", "tree"):
+    if scenario.chooses_steps:
         others = _by_steps(patient)
     else:
         solver = SolverSettings(tolerance=TOLERANCE, most_steps=MOST_STEPS)
         others = [replace(patient, formulation=name, solver=solver) for name in ("reduced", "tree")]
     for other in others:
-        if covers(other.formulation, other):
+        if formulation(other.formulation).covers(other):
             try:
                 result = simulate(other, errors=True)
             except SimulationError:

@@ -1,4 +1,4 @@
-"""The formulations by name. A new one is a module with `check` and `run`, and a line here.
+"""The formulations, one value each. A new one is a folder with `check` and `run`, and a value here.
 
 `check(scenario)` raises InputError, with what to do instead, if the formulation does not cover the scenario.
 `run(scenario, progress)` gives its Outcome; it raises SimulationError if the run cannot be finished.
@@ -6,8 +6,9 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from importlib import import_module
-from typing import Protocol, cast
+from typing import Literal, Protocol, cast
 
 from support_exudyn.formulations.interruption import put_off
 from support_exudyn.formulations.progress import Progress
@@ -15,16 +16,11 @@ from support_exudyn.mechanics.trajectory import Outcome
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.values.value import InputError
 
-MODULES = {
-    "auto": "support_exudyn.formulations.redundant.run",
-    "redundant": "support_exudyn.formulations.redundant.run",
-    "tree": "support_exudyn.formulations.tree",
-    "reduced": "support_exudyn.formulations.reduced",
-}
+FormulationName = Literal["redundant", "tree", "reduced"]
 
 
-class Formulation(Protocol):
-    """What a module of a formulation offers."""
+class Program(Protocol):
+    """What the module of a formulation offers."""
 
     def check(self, scenario: Scenario) -> None:
         """Raise InputError if the scenario is not covered."""
@@ -33,16 +29,57 @@ class Formulation(Protocol):
         """Run the scenario."""
 
 
+@dataclass(frozen=True)
+class Formulation:
+    """A formulation of the equations of motion.
+
+    Arguments:
+        name: by which scenarios ask for it.
+        module: that has its `check` and `run`; it is imported at the first use.
+        cost: rank among those that cover a scene, the cheapest first.
+        safety: factor on the errors that are estimated of its runs, see `simulation.estimate`.
+    """
+
+    name: FormulationName
+    module: str
+    cost: int
+    safety: float
+
+    @property
+    def program(self) -> Program:
+        """The module of the formulation."""
+        with put_off():
+            return cast(Program, import_module(self.module))
+
+    def check(self, scenario: Scenario) -> None:
+        """Raise InputError if the scenario is not covered."""
+        self.program.check(scenario)
+
+    def covers(self, scenario: Scenario) -> bool:
+        """Whether the formulation covers a scenario, whatever formulation that asks for."""
+        try:
+            self.check(scenario)
+        except InputError:
+            return False
+        return True
+
+    def run(self, scenario: Scenario, progress: Progress) -> Outcome:
+        """Run the scenario; raises SimulationError if the run cannot be finished."""
+        return self.program.run(scenario, progress)
+
+
+HERE = __name__.rpartition(".")[0]
+FORMULATIONS = {
+    one.name: one
+    for one in (
+        Formulation("redundant", f"{HERE}.redundant.run", cost=3, safety=3.0),
+        Formulation("tree", f"{HERE}.tree", cost=2, safety=3.5),
+        Formulation("reduced", f"{HERE}.reduced", cost=1, safety=2.5),
+    )
+}
+CHEAPEST_FIRST = sorted(FORMULATIONS.values(), key=lambda one: one.cost)
+
+
 def formulation(name: str) -> Formulation:
-    """The formulation of this name; its module is imported at the first use."""
-    with put_off():
-        return cast(Formulation, import_module(MODULES[name]))
-
-
-def covers(name: str, scenario: Scenario) -> bool:
-    """Whether a formulation covers a scenario, whatever formulation that asks for."""
-    try:
-        formulation(name).check(scenario)
-    except InputError:
-        return False
-    return True
+    """The formulation of this name; "auto" is the redundant one, which runs every scene."""
+    return FORMULATIONS["redundant" if name == "auto" else cast(FormulationName, name)]

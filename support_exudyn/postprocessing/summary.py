@@ -56,7 +56,7 @@ def how(result: Result) -> list[Row]:
     made = dataclasses.asdict(counts).items()
     versions = [f"{name} {result.provenance[name]}" for name in VERSIONS if name in result.provenance]
     steps = f"tolerance {scenario.solver.tolerance:g}"
-    if scenario.formulation not in ("tree", "reduced"):
+    if not scenario.chooses_steps:
         steps = f"steps of {said(scenario.step, 's')} and less, {scenario.solver.impact_steps} to an impact"
     return [
         ("formulation", f"{scenario.formulation}, {steps}"),

@@ -7,7 +7,6 @@ from dataclasses import replace
 from pydantic import field_validator, model_validator
 
 from support_exudyn.scenario.scenario_data import ACCURACIES, LARGEST_GOAL, SMALLEST_GOAL, ScenarioData
-from support_exudyn.scenario.solver_settings import ERROR_CONTROLLED
 from support_exudyn.scenario.validation import check
 from user_forces.values.value import InputError, short, value
 
@@ -56,7 +55,7 @@ class Scenario(ScenarioData):
             )
         if self.goal is not None:
             return replace(self, accuracy=max(SMALLEST_GOAL, self.goal / factor**2))
-        if self.formulation in ERROR_CONTROLLED:
+        if self.chooses_steps:
             return replace(self, solver=self.solver.with_smaller_tolerance(factor))
         finer = replace(self.solver, impact_steps=round(factor * self.solver.impact_steps))
         if self.dimensions == 3:

@@ -23,7 +23,7 @@ from support_exudyn.model.machine import Machine
 from support_exudyn.model.parts import OwnBody, PartModel
 from support_exudyn.model.pins import ClearancePin, IdealPin, Pin
 from support_exudyn.model.spatial_linkage import SpatialLinkage
-from support_exudyn.scenario.solver_settings import SolverSettings
+from support_exudyn.scenario.solver_settings import ERROR_CONTROLLED, SolverSettings
 from user_forces.values.units import MetresPerSecondSquared, Seconds
 from user_forces.values.value import InputError, Positive, Real, Value, Vector2, value
 
@@ -96,6 +96,11 @@ class ScenarioData(Value, ABC):
     @abstractmethod
     def refined(self, factor: float = 2) -> ScenarioData:
         """A scenario with steps so many times shorter, see `Scenario.refined`."""
+
+    @property
+    def chooses_steps(self) -> bool:
+        """Whether the formulation chooses its steps by a tolerance."""
+        return self.formulation in ERROR_CONTROLLED
 
     @property
     def jumps(self) -> bool:

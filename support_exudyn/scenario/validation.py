@@ -11,7 +11,6 @@ from support_exudyn.model.hydraulic_cylinder import HydraulicCylinder
 from support_exudyn.model.linkage import Linkage
 from support_exudyn.model.spatial_linkage import SpatialLinkage
 from support_exudyn.scenario.scenario_data import ScenarioData
-from support_exudyn.scenario.solver_settings import ERROR_CONTROLLED
 from user_forces.values.value import InputError
 
 
@@ -59,7 +58,7 @@ def _check_space(scenario: ScenarioData) -> None:
         space = scenario.space
     except InputError as error:
         raise ValueError(f"dimensions = 3: {error}") from None
-    if scenario.formulation in ERROR_CONTROLLED:
+    if scenario.chooses_steps:
         raise ValueError(
             f"formulation = {scenario.formulation!r}: is planar; allowed in space: 'auto', 'redundant'"
         )

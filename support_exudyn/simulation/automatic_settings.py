@@ -4,17 +4,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import Literal
 
-from support_exudyn.formulations.registry import covers, formulation
+from support_exudyn.formulations.registry import CHEAPEST_FIRST, FormulationName, formulation
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scenario.scenario_data import LARGEST_STEP
 from support_exudyn.scenario.solver_settings import ERROR_CONTROLLED, MOST_IMPACT_STEPS, SMALLEST_TOLERANCE
 from support_exudyn.scenario.timescales import timescales
 from support_exudyn.simulation.contact_ringing import ringing_step
 
-FormulationName = Literal["redundant", "tree", "reduced"]
-FASTEST_FIRST: tuple[FormulationName, ...] = ("reduced", "tree", "redundant")
 # Errors of the redundant formulation are of second order in its steps. At these shares of a scene's times, and
 # with so many steps an impact, statistics of the reference support are right to 1e-4
 # (`studies/speed_accuracy/run.py`).
@@ -60,7 +57,7 @@ def _cheapest(scenario: Scenario) -> FormulationName:
 
     Explicit methods have to follow friction's ramp, however steep it is: not where that takes too many steps.
     """
-    found: FormulationName = next((name for name in FASTEST_FIRST if covers(name, scenario)), "redundant")
+    found: FormulationName = next((one.name for one in CHEAPEST_FIRST if one.covers(scenario)), "redundant")
     if found in ERROR_CONTROLLED and scenario.duration > MOST_RUBBING * timescales(scenario).rubbing:
         return "redundant"
     return found

@@ -5,9 +5,9 @@ How fast its distances d2 = |b - a| and d1 = |c - b| fall is more or less the sa
 
     r = d1 / d2, the median of all numbers
 
-If they go on to fall so, the distance of c from what it tends to is d1 r / (1 - r). The estimate is SAFETY
-times that, with an r of its own for a number that falls slower than others. Two runs can agree by chance,
-so d1 is not believed below
+If they go on to fall so, the distance of c from what it tends to is d1 r / (1 - r). The estimate is a
+factor of the formulation (`Formulation.safety`) times that, with an r of its own for a number that falls
+slower than others. Two runs can agree by chance, so d1 is not believed below
 
 - a share of d2: r, or where steps are chosen by a tolerance CHOSEN. Distances fall by eight there, but
   irregularly: the errors of two runs can be alike, and so can be those of all of their numbers;
@@ -38,7 +38,6 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from support_exudyn.scenario.solver_settings import ERROR_CONTROLLED
 from support_exudyn.simulation.reported_numbers import (
     ROUNDING,
     Kind,
@@ -54,9 +53,9 @@ if TYPE_CHECKING:
     from support_exudyn.scenario.scenario import Scenario
     from support_exudyn.simulation.recorded_run import RecordedRun
 from support_exudyn.formulations.limits import rounding_of_positions
+from support_exudyn.formulations.registry import formulation
 
 Values = npt.NDArray[np.float64]  # of any shape
-SAFETY = {"auto": 3.0, "redundant": 3.0, "tree": 3.5, "reduced": 2.5}  # by formulation
 # share of a number's own d1 / d2 that its r is at least, and the most of that: where steps are chosen by a
 # tolerance, and where they are halved, which some numbers answer by half only (means with friction)
 OWN, SLOWEST_OWN = 0.7, 0.35
@@ -158,16 +157,16 @@ def multiple(result: RecordedRun, r: float, last: Values, before: Values) -> Val
 
     last, before: distances of the number, from run to run, or of many; of two runs alone before is 0.
     """
-    chosen = result.scenario.formulation in ERROR_CONTROLLED
+    chosen = result.scenario.chooses_steps
     share, slowest = (OWN, SLOWEST_OWN) if chosen else (OWN_OF_STEPS, SLOWEST_OF_STEPS)
     own = share * np.divide(last, before, out=np.zeros_like(last), where=before > 0.0)
     falls: Values = np.maximum(np.full_like(last, r), np.minimum(own, slowest))
-    return SAFETY[result.scenario.formulation] * falls / (1.0 - falls)
+    return formulation(result.scenario.formulation).safety * falls / (1.0 - falls)
 
 
 def believed(result: RecordedRun, r: float, last: Values, before: Values) -> Values:
     """The last distance as far as it is believed to have fallen, see `multiple`; keeps what is no number."""
-    share = min(r, CHOSEN) if result.scenario.formulation in ERROR_CONTROLLED else r
+    share = min(r, CHOSEN) if result.scenario.chooses_steps else r
     return np.maximum(last, share * before)
 
 
@@ -222,7 +221,7 @@ def rounding_of_forces(scenario: Scenario) -> float:
     are their differences over the step's square. Other formulations do not divide by steps, nor does what
     joints of the plane carry, see `reactions`.
     """
-    if scenario.formulation in ERROR_CONTROLLED or scenario.dimensions == 2:
+    if scenario.chooses_steps or scenario.dimensions == 2:
         return 0.0
     step = min(scenario.step, scenario.record_period)
     heaviest = max(body.mass for body in scenario.linkage.bodies.values())

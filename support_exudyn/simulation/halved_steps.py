@@ -12,7 +12,7 @@ from dataclasses import replace
 from support_exudyn.formulations.contract import Failure, SimulationError
 from support_exudyn.formulations.progress import Progress
 from support_exudyn.scenario.scenario import Scenario
-from support_exudyn.scenario.solver_settings import ERROR_CONTROLLED, REFINED_TOLERANCE, SMALLEST_TOLERANCE
+from support_exudyn.scenario.solver_settings import REFINED_TOLERANCE, SMALLEST_TOLERANCE
 from support_exudyn.simulation.estimate import disagreement, rounding_share
 from support_exudyn.simulation.result import Result
 from support_exudyn.simulation.single_run import run_once
@@ -101,7 +101,7 @@ def _coarsest(scenario: Scenario) -> Scenario:
     """The scenario as it is run first. Raises InputError, before anything is run, if two finer ones are not."""
     coarse = with_measured(scenario)
     least = SMALLEST_TOLERANCE * 2.0 ** (2 * REFINED_TOLERANCE)
-    if coarse.formulation in ERROR_CONTROLLED and coarse.solver.tolerance < least:
+    if coarse.chooses_steps and coarse.solver.tolerance < least:
         raise InputError(
             f"solver.tolerance = {coarse.solver.tolerance:g}: cannot be made finer twice; allowed with errors: "
             f"from {least:g} on"

@@ -11,7 +11,6 @@ import numpy as np
 import numpy.typing as npt
 
 from support_exudyn.mechanics.extremes import largest, missed
-from support_exudyn.scenario.solver_settings import ERROR_CONTROLLED
 from user_forces.values.value import InputError, short
 
 if TYPE_CHECKING:
@@ -87,7 +86,7 @@ def measures(result: RecordedRun, after: float, until: float) -> Mapping[str, Ki
         )
     found: dict[str, Kind] = {}
     left = left_by_newton(result.scenario)
-    steps_chosen = result.scenario.formulation in ERROR_CONTROLLED
+    steps_chosen = result.scenario.chooses_steps
     turning = [name for name in result.channels if name.endswith(ANGULAR_ACCELERATION)]
     fastest = max((float(np.abs(result[name]).max()) for name in turning), default=0.0)
     for name, channel in result.channels.items():
@@ -131,7 +130,7 @@ def measures(result: RecordedRun, after: float, until: float) -> Mapping[str, Ki
 
 def left_by_newton(scenario: Scenario) -> float:
     """Share of a number that Newton's method leaves, whatever the steps."""
-    return 0.0 if scenario.formulation in ERROR_CONTROLLED else NEWTON * scenario.solver.newton_tolerance
+    return 0.0 if scenario.chooses_steps else NEWTON * scenario.solver.newton_tolerance
 
 
 def left_of_spread(left: float, spread: float, mean: float) -> float:

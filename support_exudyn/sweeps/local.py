@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Generator, Iterable, Iterator
 
 from support_exudyn.scenario.scenario import Scenario
-from support_exudyn.scenario.solver_settings import ERROR_CONTROLLED
 from support_exudyn.sweeps.row import Row
 from support_exudyn.sweeps.store import Store
 from support_exudyn.sweeps.work import Task, run_into
@@ -41,9 +40,7 @@ def in_processes(tasks: Iterable[Task], store: Store, workers: int) -> Generator
 
 def _is_compiled(scenario: Scenario) -> bool:
     """Whether its formulation is, or may be, one that is compiled."""
-    return scenario.formulation in ERROR_CONTROLLED or (
-        scenario.formulation == "auto" and scenario.goal is not None
-    )
+    return scenario.chooses_steps or (scenario.formulation == "auto" and scenario.goal is not None)
 
 
 def _do(place: int, store: Store, task: Task) -> Row:

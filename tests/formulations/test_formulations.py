@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 from types import ModuleType
+from typing import get_args, get_type_hints
 
 import pytest
 
 from support_exudyn import Held, OilColumn, Scenario, SolverSettings, bore_area, simulate
-from support_exudyn.formulations.registry import MODULES, covers, formulation
+from support_exudyn.formulations.registry import FORMULATIONS, Formulation, formulation
 from support_exudyn.scenario.solver_settings import ERROR_CONTROLLED
 from tests.cases.run_cases import PIN, loose_slider_crank, loose_support, slider_crank, support
 from user_forces import InputError, LuGre
@@ -43,21 +44,22 @@ COVERED = {
 
 
 def test_every_formulation_offers_a_check_and_a_run() -> None:
-    for name in MODULES:
-        module = formulation(name)
-        assert isinstance(module, ModuleType)
-        assert callable(module.check)
-        assert callable(module.run)
-    assert set(ERROR_CONTROLLED) < set(MODULES)
+    for one in FORMULATIONS.values():
+        assert isinstance(one.program, ModuleType)
+        assert callable(one.program.check)
+        assert callable(one.program.run)
+    names = set(FORMULATIONS)
+    assert set(ERROR_CONTROLLED) < names
+    assert {"auto", *names} == set(get_args(get_type_hints(Scenario)["formulation"]))
     assert formulation("auto") is formulation("redundant")
 
 
 @pytest.mark.parametrize("scene", SCENES)
 @pytest.mark.parametrize("name", COVERED)
 def test_a_formulation_covers_what_it_says(name: str, scene: str) -> None:
-    assert covers(name, SCENES[scene]) == (scene in COVERED[name])
+    assert formulation(name).covers(SCENES[scene]) == (scene in COVERED[name])
     # whatever the scenario asks for
-    assert covers(name, replace(SCENES[scene], formulation="redundant")) == (scene in COVERED[name])
+    assert formulation(name).covers(replace(SCENES[scene], formulation="redundant")) == (scene in COVERED[name])
 
 
 @pytest.mark.parametrize(
@@ -79,7 +81,7 @@ def test_what_is_not_covered_is_refused_before_anything_runs(
 @pytest.mark.parametrize("accuracy", [None, "draft"])
 def test_settings_that_no_formulation_takes_are_refused_with_the_reason(accuracy: str | None) -> None:
     scene = replace(SCENES["settled support"], solver=SolverSettings(backend="compiled"))
-    assert not any(covers(name, scene) for name in COVERED)
+    assert not any(formulation(name).covers(scene) for name in COVERED)
     with pytest.raises(InputError, match=r"solver\.backend = 'compiled': .*reduced.*allowed: .*'python'"):
         simulate(scene, accuracy=accuracy)
 
@@ -89,7 +91,7 @@ def test_an_unknown_formulation_is_refused() -> None:
         support(formulation="fastest")
 
 
-def test_what_cannot_be_imported_is_no_matter_of_coverage(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(MODULES, "broken", "support_exudyn.there_is_none")
+def test_what_cannot_be_imported_is_no_matter_of_coverage() -> None:
+    broken = Formulation("tree", "support_exudyn.there_is_none", cost=1, safety=1.0)
     with pytest.raises(ModuleNotFoundError, match="there_is_none"):
-        covers("broken", SCENES["loose support"])
+        broken.covers(SCENES["loose support"])

@@ -10,10 +10,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from support_exudyn import Held, Scenario, SolverSettings, simulate
+from support_exudyn.formulations.registry import Formulation
 from support_exudyn.scenario.scenario_data import LARGEST_GOAL, LARGEST_STEP, SMALLEST_GOAL
 from support_exudyn.scenario.solver_settings import MOST_IMPACT_STEPS, SMALLEST_TOLERANCE
 from support_exudyn.scenario.timescales import timescales
-from support_exudyn.simulation import automatic_settings
 from support_exudyn.simulation.automatic_settings import (
     DRIVE,
     FEWEST_IMPACT_STEPS,
@@ -160,11 +160,11 @@ def test_a_scene_in_which_nothing_happens_has_a_step_all_the_same() -> None:
 def test_only_the_formulations_that_come_first_are_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:
     asked: list[str] = []
 
-    def covers(name: str, scenario: Scenario) -> bool:
-        asked.append(name)
-        return name == "tree"
+    def covers(self: Formulation, scenario: Scenario) -> bool:
+        asked.append(self.name)
+        return self.name == "tree"
 
-    monkeypatch.setattr(automatic_settings, "covers", covers)
+    monkeypatch.setattr(Formulation, "covers", covers)
     scene = replace(SCENES["loose support on oil"], accuracy=1e-3)
     assert settings_for(scene, 1e-3).formulation == "tree"
     assert asked == ["reduced", "tree"]

@@ -23,6 +23,7 @@ from support_exudyn import (
     ravn_slider_crank,
     simulate,
 )
+from support_exudyn.formulations.registry import FORMULATIONS
 from support_exudyn.simulation.estimate import (
     ALIKE,
     CHOSEN,
@@ -34,13 +35,12 @@ from support_exudyn.simulation.estimate import (
     SLOWEST_OWN,
     disagreement,
 )
-from support_exudyn.simulation.estimate import SAFETY as SAFETY_OF
 from support_exudyn.simulation.reported_numbers import ONSETS, ROUNDING, measures
 from tests.cases.run_cases import FORCE, PIN, loose_support
 from tests.reduced import simulate_reduced
 from user_forces import Exact, InputError, JournalBearing, JournalContact
 
-SAFETY = SAFETY_OF["reduced"]  # which is what runs here
+SAFETY = FORMULATIONS["reduced"].safety  # which is what runs here
 CLEARANCE = 1.5e-3  # [m], of the loose pin
 ROUND_OFF = 1e-15  # of a number; distances of two lose as much in the absolute
 rates = st.floats(FASTEST, SLOWEST)

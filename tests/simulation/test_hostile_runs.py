@@ -196,7 +196,7 @@ def test_an_interruption_waits_for_an_import_to_end(monkeypatch: pytest.MonkeyPa
     monkeypatch.setattr("support_exudyn.formulations.registry.import_module", slow)
     handler = signal.getsignal(signal.SIGINT)
     with pytest.raises(KeyboardInterrupt):
-        formulation("reduced")
+        _ = formulation("reduced").program
     assert done == ["support_exudyn.formulations.reduced"]
     assert signal.getsignal(signal.SIGINT) is handler
 
