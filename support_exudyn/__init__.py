@@ -8,7 +8,10 @@
 One entry, `simulate`; everything else is a value that is handed in. SI units and radians.
 """
 
-from support_exudyn.commands import at_start as at_start
+from support_exudyn.simulation import at_start as at_start
+
+# isort: split
+
 from support_exudyn.files.machines import load_support, reference_support, two_body_columns
 from support_exudyn.formulations.contract import Failure, SimulationError
 from support_exudyn.machines.four_column_support import HydraulicSupport

@@ -109,8 +109,7 @@ def test_what_is_left_out_of_the_program_is_not_asked_by_a_run() -> None:
     )
     loaded = set(done.stdout.split())
     assert {"files", "formulations", "machines"} <= loaded
-    # the room of commands is there for what comes before all imports, which makes no number
-    assert not loaded & {*keys.LOOKS} - {"commands"}
+    assert not loaded & set(keys.LOOKS)
 
 
 # --- a machine is read once ---

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from studies.catalogue import STUDIES
-from support_exudyn.commands.at_start import DEGRADED, _is_command, be_readable
+from support_exudyn.simulation.at_start import DEGRADED, _is_command, be_readable
 from tests.hostile import posix_only
 from tests.processes import ROOT, environment
 
