@@ -34,7 +34,7 @@ from support_exudyn.formulations.registry import formulation
 from support_exudyn.mechanics.trajectory import Outcome
 from support_exudyn.scenario.recorded_channels import Channel, channels
 from support_exudyn.simulation.audit import audit, energy_open, joints_apart, turned_over
-from support_exudyn.simulation.collector import paused_collector
+from support_exudyn.simulation.single_run import paused_collector
 
 Series = npt.NDArray[np.float64]
 FULL, QUICK = 1000.0, 20.0  # [s]

@@ -12,7 +12,7 @@ import pytest
 
 from support_exudyn import ClearancePin, Held, Scenario, SimulationError, simulate
 from support_exudyn.__main__ import main
-from support_exudyn.simulation import memory, room
+from support_exudyn.simulation import memory
 from support_exudyn.sweeps import Plan, Record, read_table, sweep
 from tests.cases.run_cases import loose_support, paper_contact
 from tests.cases.sweep_cases import write_sweep
@@ -145,17 +145,17 @@ def test_a_run_that_does_not_fit_into_memory_is_refused_before_it_begins() -> No
     ) as caught:
         simulate(replace(scene(), duration=1e10))
     period = float(str(caught.value).rpartition("at least ")[2].removesuffix(" s apart"))
-    room.check_room(replace(scene(), duration=1e10, record_period=period))
-    room.check_room(replace(scene(), duration=1e10, record_period=1e2 * period))
+    memory.check_room(replace(scene(), duration=1e10, record_period=period))
+    memory.check_room(replace(scene(), duration=1e10, record_period=1e2 * period))
 
 
 def test_what_a_run_takes_follows_from_records_and_channels(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(room, "available", lambda: 10**6)
+    monkeypatch.setattr(memory, "available", lambda: 10**6)
     long = replace(scene(), duration=5.0)
     with pytest.raises(InputError, match="5e"):
-        room.check_room(long)
-    room.check_room(replace(long, channels=("tip.x",)))
-    room.check_room(replace(long, record_period=0.01))
+        memory.check_room(long)
+    memory.check_room(replace(long, channels=("tip.x",)))
+    memory.check_room(replace(long, record_period=0.01))
 
 
 def test_the_memory_that_is_free_is_known() -> None:

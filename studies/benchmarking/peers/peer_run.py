@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from support_exudyn.formulations.engine_settings import quiet_engine
 from support_exudyn.mechanics.contact_state import Onset
-from support_exudyn.simulation.collector import paused_collector
+from support_exudyn.simulation.single_run import paused_collector
 
 Series = npt.NDArray[np.float64]
 
