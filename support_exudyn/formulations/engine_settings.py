@@ -8,10 +8,10 @@ from typing import Any
 
 import exudyn
 
-from support_exudyn.formulations.redundant.clearance.friction_line import TRIES
 from support_exudyn.scenario.solver_settings import SolverSettings
 
 SMALLEST_STEP = 1e-13  # [s]
+TRIES = 30  # lines that may stand for steep friction in a step, one after another
 # Beyond so many unknowns the sparse solver is faster: an ideal rise in space (some 70) takes half as long,
 # in the plane (some 24) it makes no difference.
 MANY = 40

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from support_exudyn import CubicStep
+from support_exudyn.formulations.redundant.scene.engine_scene import slide
 from support_exudyn.formulations.redundant.scene.scene_builder import build
-from support_exudyn.formulations.redundant.scene.velocity_jump import slide
 from tests.cases.run_cases import PIN, loose_support
 
 REST = 1e-4  # [s], far longer than any, so that all terms show

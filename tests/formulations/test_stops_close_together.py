@@ -26,8 +26,8 @@ from support_exudyn import (
     bore_area,
     simulate,
 )
+from support_exudyn.formulations.redundant.scene.engine_scene import slide
 from support_exudyn.formulations.redundant.scene.scene_builder import build
-from support_exudyn.formulations.redundant.scene.velocity_jump import slide
 from tests.cases.run_cases import PIN, loose_support, support
 
 OIL = OilColumn(bore_area=bore_area(0.25, 2), oil_length=0.5, bulk_modulus=1.5e9)

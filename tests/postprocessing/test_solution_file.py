@@ -29,7 +29,7 @@ from support_exudyn import (
     simulate,
 )
 from support_exudyn.__main__ import main
-from support_exudyn.formulations.redundant.model import model
+from support_exudyn.formulations.redundant.run import model
 from support_exudyn.formulations.redundant.solver import solver
 from support_exudyn.postprocessing.export.solution_file import read_solution, rows
 from support_exudyn.postprocessing.look.poses import Poses

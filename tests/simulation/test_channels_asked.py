@@ -29,8 +29,8 @@ from support_exudyn import (
     simulate,
 )
 from support_exudyn.formulations.engine_settings import engine_settings
-from support_exudyn.formulations.redundant.redundant_forces import with_causes
 from support_exudyn.formulations.redundant.run import build
+from support_exudyn.formulations.redundant.scene.record_forces import with_causes
 from support_exudyn.formulations.redundant.solver.recorder import History, Recorder
 from support_exudyn.formulations.redundant.solver.solver import Run
 from support_exudyn.mechanics.contact_state import PinMemory

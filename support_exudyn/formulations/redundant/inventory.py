@@ -6,11 +6,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from support_exudyn.formulations.progress import silent
-from support_exudyn.formulations.redundant.run import check
-from support_exudyn.formulations.redundant.scene.scene_builder import build
+from support_exudyn.formulations.redundant.run import check, model
 from support_exudyn.formulations.redundant.solver.recorder import Recorder
 from support_exudyn.formulations.redundant.solver.solver import Run
-from support_exudyn.formulations.redundant.space.scene_builder import build as build_in_space
 from support_exudyn.scenario.recorded_channels import needs
 from support_exudyn.scenario.scenario import Scenario
 
@@ -47,7 +45,7 @@ class Inventory:
 def inventory(scenario: Scenario) -> Inventory:
     """Build a scenario's model, ready to run, and count. Raises InputError if its settings do not fit."""
     check(scenario)
-    scene = build(scenario) if scenario.dimensions == 2 else build_in_space(scenario)
+    scene = model(scenario)
     try:
         Run(scene, Recorder(scene, needs(scenario)), silent).connect()
         return _count(scene.mbs)

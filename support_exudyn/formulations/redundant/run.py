@@ -11,22 +11,23 @@ from typing import TypeVar
 import numpy as np
 
 from support_exudyn.formulations.progress import Progress
-from support_exudyn.formulations.redundant.redundant_forces import (
+from support_exudyn.formulations.redundant.scene.cylinder_item import UNIT, CylinderItem
+from support_exudyn.formulations.redundant.scene.engine_scene import EngineScene
+from support_exudyn.formulations.redundant.scene.load_item import load_series
+from support_exudyn.formulations.redundant.scene.record_forces import (
     FOLLOWING,
     Applied,
     Following,
     following,
     with_causes,
 )
-from support_exudyn.formulations.redundant.scene.cylinder_item import UNIT, CylinderItem
-from support_exudyn.formulations.redundant.scene.engine_scene import EngineScene
-from support_exudyn.formulations.redundant.scene.load_item import load_series
 from support_exudyn.formulations.redundant.scene.scene import Scene
 from support_exudyn.formulations.redundant.scene.scene_builder import build
 from support_exudyn.formulations.redundant.scene.static_equilibrium import settle
 from support_exudyn.formulations.redundant.solver.recorder import History, Recorder
 from support_exudyn.formulations.redundant.solver.solver import Run
 from support_exudyn.formulations.redundant.space.outcome import outcome as outcome_in_space
+from support_exudyn.formulations.redundant.space.scene import SpatialScene
 from support_exudyn.formulations.redundant.space.scene_builder import build as build_in_space
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.channels import Part
@@ -39,6 +40,15 @@ from support_exudyn.scenario.scenario import Scenario
 from user_forces.values.value import InputError
 
 AnyScene = TypeVar("AnyScene", bound=EngineScene)
+Model = Scene | SpatialScene
+
+
+def model(scenario: Scenario) -> Model:
+    """The engine's model of a scenario at its start, before any settling, whatever its formulation is.
+
+    Who asks for it releases it, see `InEngine.release`.
+    """
+    return build_in_space(scenario) if scenario.dimensions == 3 else build(scenario)
 
 
 def check(scenario: Scenario) -> None:

@@ -6,23 +6,59 @@ each, and under the planar name the force of both, and the mean of lengths and a
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 import numpy as np
 
 from support_exudyn.mechanics.channels import CONTACT, MOTION, OIL, Part, Recipe, Recipes
 from support_exudyn.mechanics.space.determined import UNDETERMINED, Loads
-from support_exudyn.mechanics.trajectory import Series
+from support_exudyn.mechanics.space.motion import SpatialMotion
+from support_exudyn.mechanics.trajectory import ContactSeries, Series
 from support_exudyn.model.spatial_linkage import SpatialBody, SpatialLinkage
-
-if TYPE_CHECKING:
-    from support_exudyn.formulations.redundant.space.observation import Observation, SectionSeries
 
 REACTION = CONTACT | OIL  # they and accelerations follow from the motion and what is applied
 AXES = ("x", "y", "z")
 TOWARDS = ("forward", "up", "to the right")
+
+
+class SectionSeries(Protocol):
+    """A section of a clearance bearing over time."""
+
+    @property
+    def eccentricity(self) -> tuple[Series, Series]:
+        """The journal's centre from the bore's, along both axes across (n,) [m]."""
+
+    @property
+    def contact(self) -> ContactSeries:
+        """Depths and forces of its contact."""
+
+
+class Observation(Protocol):
+    """A run in space at its records, shape (n, ...), from which channels are computed."""
+
+    @property
+    def motion(self) -> SpatialMotion:
+        """The motion of all bodies."""
+
+    @property
+    def accelerations(self) -> Series:
+        """Accelerations of the centres and rates of the spins of all bodies (n, b, 6) [m/s^2], [rad/s^2]."""
+
+    @property
+    def sections(self) -> Mapping[str, Sequence[SectionSeries]]:
+        """The sections of every clearance bearing."""
+
+    @property
+    def loads(self) -> Mapping[str, tuple[Series, Series]]:
+        """Force and moment in every bearing, of the first body on the second (n, 3) [N], [N m]."""
+
+    def column_force(self, name: str) -> Series:
+        """The force that pushes a column's ends apart (n,) [N]."""
+
+    def span(self, column: str) -> tuple[Series, Series]:
+        """From foot to head of a column (n, 3) [m], and its rate."""
 
 
 def recipes(linkage: SpatialLinkage, loose: Collection[str], oil: Collection[str]) -> Recipes:
@@ -118,7 +154,7 @@ def _turn(seen: Observation, n: int, row: int, column: int) -> Series:
 def _of_point(name: str) -> Recipes:
     def path(k: int) -> Callable[[Observation], Series]:
         def place(seen: Observation) -> Series:
-            point = seen.scene.linkage.points[name]
+            point = seen.motion.linkage.points[name]
             return seen.motion.point(point.body, point.point).position[:, k]
 
         return place
@@ -227,7 +263,7 @@ def _of_loose(name: str) -> Recipes:
         what: str,
         unit: str,
         meaning: str,
-        values: Callable[[list[SectionSeries]], Series],
+        values: Callable[[Sequence[SectionSeries]], Series],
         needs: Part = CONTACT,
     ) -> Recipes:
         return {f"{prefix}.{what}": _recipe(unit, meaning, needs, lambda seen: values(seen.sections[name]))}
@@ -258,37 +294,37 @@ def _of_loose(name: str) -> Recipes:
     return found
 
 
-def _sum(what: str) -> Callable[[list[SectionSeries]], Series]:
+def _sum(what: str) -> Callable[[Sequence[SectionSeries]], Series]:
     return lambda sections: np.asarray(np.sum([getattr(s.contact, what) for s in sections], axis=0))
 
 
-def _mean_slip(sections: list[SectionSeries]) -> Series:
+def _mean_slip(sections: Sequence[SectionSeries]) -> Series:
     return np.asarray(np.mean([s.contact.slip for s in sections], axis=0))
 
 
-def _speed(sections: list[SectionSeries]) -> Series:
+def _speed(sections: Sequence[SectionSeries]) -> Series:
     return np.asarray(np.max([s.contact.approach_speed for s in sections], axis=0))
 
 
-def _deepest(sections: list[SectionSeries]) -> Series:
+def _deepest(sections: Sequence[SectionSeries]) -> Series:
     return np.asarray(np.max([s.contact.depth for s in sections], axis=0))
 
 
-def _of_section(what: str, place: int) -> Callable[[list[SectionSeries]], Series]:
+def _of_section(what: str, place: int) -> Callable[[Sequence[SectionSeries]], Series]:
     return lambda sections: np.asarray(getattr(sections[place].contact, what))
 
 
-def _x(place: int) -> Callable[[list[SectionSeries]], Series]:
-    return lambda sections: sections[place].motion.x
+def _x(place: int) -> Callable[[Sequence[SectionSeries]], Series]:
+    return lambda sections: sections[place].eccentricity[0]
 
 
-def _y(place: int) -> Callable[[list[SectionSeries]], Series]:
-    return lambda sections: sections[place].motion.y
+def _y(place: int) -> Callable[[Sequence[SectionSeries]], Series]:
+    return lambda sections: sections[place].eccentricity[1]
 
 
 def _middle(
-    axis: Callable[[int], Callable[[list[SectionSeries]], Series]],
-) -> Callable[[list[SectionSeries]], Series]:
+    axis: Callable[[int], Callable[[Sequence[SectionSeries]], Series]],
+) -> Callable[[Sequence[SectionSeries]], Series]:
     """The journal is straight: its middle is between its edges."""
     return lambda sections: 0.5 * (axis(0)(sections) + axis(-1)(sections))
 
@@ -297,9 +333,6 @@ def _of_energy() -> Recipes:
     integrals = Part.INTEGRALS
     stored = CONTACT | OIL
 
-    def kept(what: str) -> Callable[[Observation], Series]:
-        return lambda seen: np.asarray(getattr(seen.history, what))
-
     def known(what: str) -> Callable[[Observation], Series]:
         return lambda seen: np.asarray(getattr(seen, what))
 
@@ -307,9 +340,9 @@ def _of_energy() -> Recipes:
         "kinetic": ("kinetic energy of all bodies", MOTION, known("kinetic")),
         "potential": ("of weight, zero in the machine's start posture", Part.POSITION, known("potential")),
         "elastic": ("stored in contacts and oil", stored, known("stored")),
-        "damping_loss": ("dissipated by damping in contacts and oil so far", integrals, kept("damping_loss")),
-        "friction_loss": ("dissipated by friction so far", integrals, kept("friction_loss")),
-        "work": ("work of the drive so far", integrals, kept("work")),
+        "damping_loss": ("dissipated by damping in contacts and oil so far", integrals, known("damping_loss")),
+        "friction_loss": ("dissipated by friction so far", integrals, known("friction_loss")),
+        "work": ("work of the drive so far", integrals, known("work")),
         "balance": (
             "gain minus work plus loss; zero if computed exactly",
             stored | integrals,

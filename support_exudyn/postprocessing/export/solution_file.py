@@ -22,7 +22,7 @@ from exudyn.basicUtilities import LoadSolutionFile
 from support_exudyn.files.whole_file import check_is_file, whole_file
 from support_exudyn.formulations.engine_settings import quiet_engine
 from support_exudyn.formulations.progress import Progress
-from support_exudyn.formulations.redundant.model import Model, model
+from support_exudyn.formulations.redundant.run import Model, model
 from support_exudyn.postprocessing.export.coordinates import check_recorded, coordinates
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.memory import available

@@ -14,7 +14,7 @@ import exudyn
 import numpy as np
 from exudyn.itemInterface import ObjectGround, VObjectGround
 
-from support_exudyn.formulations.redundant.model import Model, model
+from support_exudyn.formulations.redundant.run import Model, model
 from support_exudyn.formulations.redundant.scene.engine_scene import INITIAL
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.linkage import GROUND

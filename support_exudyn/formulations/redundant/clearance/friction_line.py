@@ -18,12 +18,12 @@ from functools import partial
 from types import SimpleNamespace
 from typing import Any, cast
 
+from support_exudyn.formulations.engine_settings import TRIES
 from user_forces.contact import JournalContact
 from user_forces.friction.law import FrictionLaw
 
 MEETS = 1e-6  # share of the largest friction so far, by which line and law may differ
 LITTLE = 1e-3  # friction over normal force that is counted as the largest at least
-TRIES = 30  # lines in a step
 # the tangent is taken over shorter and shorter parts of the law, until it changes no more
 WIDEST, NARROWER, PARTS, SAME = 0.1, 0.1, 12, 1e-3
 SLOWEST = 1e-9  # [m/s] that parts are shares of at least

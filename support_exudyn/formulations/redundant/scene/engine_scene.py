@@ -140,3 +140,18 @@ class EngineScene(Protocol):
     def coordinate_masses(self) -> Series:
         """A mass for each of the engine's coordinates [kg], [kg m^2]."""
         ...
+
+
+def slide(scene: EngineScene, rest: float) -> None:
+    """Move on by a time [s] that is not worth a step, by the rates that the last one has ended with.
+
+    Positions are then off by third order in it, and velocities and pressures by second. See
+    `time_grid`.
+    """
+    data = scene.mbs.systemData
+    velocity, acceleration = data.GetODE2Coordinates_t(), data.GetODE2Coordinates_tt()
+    data.SetODE2Coordinates(data.GetODE2Coordinates() + rest * (velocity + 0.5 * rest * acceleration))
+    data.SetODE2Coordinates_t(velocity + rest * acceleration)
+    if scene.cylinders:
+        data.SetODE1Coordinates(data.GetODE1Coordinates() + rest * data.GetODE1Coordinates_t())
+    scene.refresh_memory()

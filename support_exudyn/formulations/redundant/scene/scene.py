@@ -17,7 +17,6 @@ from support_exudyn.formulations.redundant.scene.driven_parts import DrivenParts
 from support_exudyn.formulations.redundant.scene.engine_scene import CURRENT, INITIAL, InEngine
 from support_exudyn.formulations.redundant.scene.load_item import LoadItem
 from support_exudyn.formulations.redundant.scene.pin_friction import PinFriction
-from support_exudyn.formulations.redundant.scene.velocity_jump import align_velocities, jump_velocities
 from support_exudyn.mechanics.body_coordinates import BodyItem, ColumnItem, CrankItem, IdealItem, SlideItem
 from support_exudyn.mechanics.contact_state import PinMemory
 from support_exudyn.mechanics.impulse import Impulse
@@ -109,12 +108,42 @@ class Scene(InEngine):
         data.SetODE2Coordinates_t(velocity + change, INITIAL)
 
     def jump(self, time: float) -> Impulse | None:
-        """See `velocity_jump`."""
-        return jump_velocities(self, time)
+        """Give the bodies the velocities that belong to drives whose speed has jumped at a break [s].
+
+        With rigid columns the bodies' velocities jump too, see `kinetics`. Clearance pins and oil columns
+        transmit no impulse: their force is finite. None if all that jumps is compliant.
+        """
+        data, kinetics = self.mbs.systemData, self.kinetics
+        jump = kinetics.rates(lambda name: self.scenario.drive_of(name).speed_jump(time))
+        if not jump.any():
+            return None
+        position, before = data.GetODE2Coordinates(), data.GetODE2Coordinates_t()
+        mass = kinetics.mass()
+        change, impulses = kinetics.respond(position, np.zeros_like(before), jump)
+        after = before + change
+        data.SetODE2Coordinates_t(after)
+        driven = (-impulses[kinetics.driven()]).tolist()
+        return Impulse(
+            time,
+            dict(zip(self.rigid_columns, driven, strict=False)),
+            float(0.5 * (mass * after) @ after - 0.5 * (mass * before) @ before),
+            dict(zip(self.cranks, driven[len(self.rigid_columns) :], strict=True)),
+        )
 
     def align(self, time: float) -> float:
-        """See `velocity_jump`."""
-        return align_velocities(self, time)
+        """Give the bodies velocities that the constraints have at a time [s]; work of the drives in it [J].
+
+        Constraints of index 3 hold positions: velocities at the end of a long step are off by second order in
+        it. A short step that follows would make up for it within itself, by accelerations a thousand times too
+        large.
+        """
+        data, kinetics = self.mbs.systemData, self.kinetics
+        position, before = data.GetODE2Coordinates(), data.GetODE2Coordinates_t()
+        rates = kinetics.rates(lambda name: self.scenario.drive_of(name).speed(time))
+        missing = rates - kinetics.rows(position) @ before
+        change, impulses = kinetics.respond(position, np.zeros_like(before), missing)
+        data.SetODE2Coordinates_t(before + change)
+        return -float(impulses @ rates)
 
     def spins(self) -> dict[str, float]:
         """Angular velocity of every body [rad/s]."""

@@ -22,8 +22,7 @@ from support_exudyn.formulations.contract import Failure, SimulationError
 from support_exudyn.formulations.engine_settings import SMALLEST_STEP, engine_settings, quiet_engine
 from support_exudyn.formulations.limits import DEEPEST, SOFT, rounding_of_positions, too_deep
 from support_exudyn.formulations.progress import Progress
-from support_exudyn.formulations.redundant.scene.engine_scene import EngineScene
-from support_exudyn.formulations.redundant.scene.velocity_jump import slide
+from support_exudyn.formulations.redundant.scene.engine_scene import EngineScene, slide
 from support_exudyn.formulations.redundant.solver.newton_method import NewtonMethod
 from support_exudyn.formulations.redundant.solver.recorder import Recorder
 from support_exudyn.formulations.redundant.solver.refusals import ADVICE, FEWER_STEPS, STEEP, unlawful, why
@@ -46,7 +45,7 @@ BREAK_REFINEMENT = 32
 # The engine computes a new Jacobian at the start of every stretch of steps. Where Python is called in each of
 # them for columns and energies, stretches are worth that if they are longer than so many.
 FEW_STEPS = 5
-# Before steps that are so many times shorter than the last, velocities are aligned, see `velocity_jump`.
+# Before steps that are so many times shorter than the last, velocities are aligned, see `Scene.align`.
 MUCH_SHORTER = 8.0
 
 

@@ -38,6 +38,11 @@ class SectionSeries:
     force: Series
     point: Series
 
+    @property
+    def eccentricity(self) -> tuple[Series, Series]:
+        """The journal's centre from the bore's, along both axes across (n,) [m]."""
+        return self.motion.x, self.motion.y
+
 
 @dataclass(frozen=True)
 class Observation:
@@ -220,10 +225,24 @@ class Observation:
                 found = found + section.contact.stored
         return found
 
+    @property
+    def damping_loss(self) -> Series:
+        """Energy dissipated by damping so far (n,) [J]."""
+        return self.history.damping_loss
+
+    @property
+    def friction_loss(self) -> Series:
+        """Energy dissipated by friction so far (n,) [J]."""
+        return self.history.friction_loss
+
+    @property
+    def work(self) -> Series:
+        """Work of the drives so far (n,) [J]."""
+        return self.history.work
+
     @cached_property
     def balance(self) -> Series:
-        """Gain minus work plus loss [J]."""
+        """Gain minus work plus loss (n,) [J]."""
         total = self.kinetic + self.potential + self.stored
-        history = self.history
-        found: Series = total - total[0] + (history.damping_loss + history.friction_loss) - history.work
+        found: Series = total - total[0] + (self.damping_loss + self.friction_loss) - self.work
         return found
