@@ -20,6 +20,7 @@ from support_exudyn.machines.slider_crank import SliderCrank, ravn_slider_crank
 from support_exudyn.machines.two_leg_shield import TwoLegShield
 from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.mechanics.impulse import Impulse
+from support_exudyn.model.bushing_pin import BushingPin
 from support_exudyn.model.columns import ColumnModel, OilColumn, RigidColumn, TwoBodyColumn, bore_area
 from support_exudyn.model.drives.drive import (
     CubicStep,
@@ -50,6 +51,7 @@ from support_exudyn.simulation.simulate import simulate
 __all__ = [
     "AppliedForce",
     "Body",
+    "BushingPin",
     "Channel",
     "ClearancePin",
     "ClosedInlet",

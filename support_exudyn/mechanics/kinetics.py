@@ -72,7 +72,7 @@ class Kinetics:
             head, head_rate = self.point(position, column.head, column.head_point)
             along = (head - foot) / np.linalg.norm(head - foot)
             rows.append(along @ (head_rate - foot_rate))
-        rows += [self._turning(position.size, crank.body) for crank in self.linkage.cranks.values()]
+        rows += [self.turning(position.size, crank.body) for crank in self.linkage.cranks.values()]
         for slide in self.linkage.slides.values():
             rows += self._guided(position, slide)
         return np.array(rows).reshape(-1, position.size)
@@ -81,15 +81,15 @@ class Kinetics:
         """Rows of a slide: rate of the point's distance from the line, which may turn, and of the angle."""
         point, rate = self.point(position, slide.body, slide.point)
         origin, origin_rate = self.point(position, slide.against, slide.point)
-        carrier = self._turning(position.size, slide.against)
+        carrier = self.turning(position.size, slide.against)
         turn = 0.0 if slide.against == GROUND else position[self.bodies[slide.against].first + 2]
         angle = slide.direction + turn
         along, across = np.array([np.cos(angle), np.sin(angle)]), np.array([-np.sin(angle), np.cos(angle)])
         # as the line turns, what is along it comes to lie across it
         distance = across @ (rate - origin_rate) - (along @ (point - origin)) * carrier
-        return [distance, self._turning(position.size, slide.body) - carrier]
+        return [distance, self.turning(position.size, slide.body) - carrier]
 
-    def _turning(self, size: int, body: str) -> Matrix:
+    def turning(self, size: int, body: str) -> Matrix:
         """The row that gives a body's angular velocity; that of the ground is none."""
         row = np.zeros(size)
         if body != GROUND:
@@ -126,6 +126,11 @@ class Kinetics:
         first, first_rate = self.point(position, place.first, place.first_point)
         second, second_rate = self.point(position, place.second, place.second_point)
         return second - first, second_rate - first_rate
+
+    def pin_rate(self, position: Matrix, place: PinPlace) -> Matrix:
+        """The matrix that turns all velocities into the rates of a pin's deflection and of its turn (3, n)."""
+        turning = [self.turning(position.size, body) for body in (place.first, place.second)]
+        return np.vstack([self.relative(position, place)[1], turning[1] - turning[0]])
 
     def respond(self, position: Matrix, impulse: Matrix, jump: Matrix | float) -> tuple[Matrix, Matrix]:
         """Change of velocities dv (n,) and impulses L (m,) under impulses b (n,) and a jump c (m,).

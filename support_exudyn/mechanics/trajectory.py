@@ -38,6 +38,21 @@ class ContactSeries:
     deflection: Series | None = None
 
 
+class CompliantSeries(NamedTuple):
+    """A pin whose force follows from its deflection, at the records, ground's axes.
+
+    force (n, 2) [N], moment (n,) [N m]: of the first body on the second, at its point. deflection (n, 2) [m]:
+    the second body's point minus the first's. angle (n,) [rad]: turn of the second body against the first.
+    stored (n,) [J]: elastic energy.
+    """
+
+    force: Series
+    moment: Series
+    deflection: Series
+    angle: Series
+    stored: Series
+
+
 @dataclass(frozen=True)
 class LoadSeries:
     """A load at the records, shape (n,) each.
@@ -76,7 +91,7 @@ class Trajectory:
     contacts: loose pins by name. columns: force (n,) [N] that pushes the ends apart.
     cranks: moment of the drive on the crank (n,) [N m]. slides: magnitude of force across and of moment (n, 2).
     oil_energy: stored in all columns (n,) [J]. work: of the drive so far, damping_loss, friction_loss: so far
-    (n,) [J]. loads: by name. cylinders: of columns, by name.
+    (n,) [J]. loads: by name. cylinders: of columns, by name. compliant_pins: by name.
     """
 
     time: Series
@@ -95,6 +110,7 @@ class Trajectory:
     friction_moments: Mapping[str, Series] = field(default_factory=dict)
     loads: Mapping[str, LoadSeries] = field(default_factory=dict)
     cylinders: Mapping[str, CylinderSeries] = field(default_factory=dict)
+    compliant_pins: Mapping[str, CompliantSeries] = field(default_factory=dict)
 
     def contacts_of(self, pin: str) -> list[ContactSeries]:
         """Where a loose pin touches: in the plane in one place."""

@@ -10,8 +10,9 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from support_exudyn.mechanics.channels import ALL_CHANNELS, Recipe, recipes
+from support_exudyn.mechanics.channels import ALL_CHANNELS, Recipe
 from support_exudyn.mechanics.initial_eccentricity import eccentric
+from support_exudyn.mechanics.plane_channels import recipes
 from support_exudyn.mechanics.space.channels import recipes as spatial_recipes
 from support_exudyn.model.columns import ColumnModel, OilColumn, TwoBodyColumn
 from support_exudyn.model.cylinder_and_rod import with_two_bodies
@@ -122,7 +123,7 @@ class ScenarioData(Value, ABC):
         Raises InputError if its loose pins cannot start with the eccentricities that are asked for.
         """
         modelled = self._modelled()
-        offsets = {name: pin.offset for name, pin in self.clearance_pins.items() if name in modelled.pins}
+        offsets = {name: pin.offset for name, pin in self.pins.items() if name in modelled.pins}
         return eccentric(modelled, offsets)
 
     def _modelled(self) -> Linkage:
@@ -210,14 +211,21 @@ class ScenarioData(Value, ABC):
         """All channels that could be asked for, by name."""
         if self.dimensions == 3:
             return spatial_recipes(self.space, self.clearance_pins, self.oil_columns)
-        return recipes(
-            self.linkage, self.clearance_pins, self.giving, self.friction_pins, self.loads, self.cylinders
-        )
+        return recipes(self.linkage, self.pins, self.giving, self.loads, self.cylinders)
 
     @property
     def goal(self) -> float | None:
         """The accuracy that is asked for, as a number; None if none is."""
         return ACCURACIES[self.accuracy] if isinstance(self.accuracy, str) else self.accuracy
+
+    def pin(self, name: str) -> Pin:
+        """The pin of this name, ideal if nothing is said of it."""
+        return self.pins.get(name, IdealPin())
+
+    @property
+    def held_pins(self) -> tuple[str, ...]:
+        """Names of the pins that two constraints hold, in the order of the linkage."""
+        return tuple(name for name in self.linkage.pins if self.pin(name).holds)
 
     @property
     def clearance_pins(self) -> dict[str, ClearancePin]:

@@ -35,9 +35,9 @@ class Timescales:
     """Shortest times of a scene [s]; infinite where there is no such motion.
 
     flight: of a journal across its clearance. resting: of the vibration of a loaded contact, of what friction
-    holds in it, or of what a load presses on, one over its angular frequency. drive: of the drive, its stroke,
-    a valve's ramp, or one over a crank's speed, or one over the angular frequency of what rises and falls.
-    rubbing: in which friction, where it is steepest, stops what slides under the load.
+    holds in it, of a compliant pin, or of what a load presses on, one over its angular frequency. drive: of the
+    drive, its stroke, a valve's ramp, or one over a crank's speed, or one over the angular frequency of what
+    rises and falls. rubbing: in which friction, where it is steepest, stops what slides under the load.
     """
 
     flight: float
@@ -83,7 +83,7 @@ def timescales(scenario: Scenario) -> Timescales:
     pull = _pull(scenario, kinetics_of(linkage))
     clearances = [pin.contact.bearing.clearance for pin in scenario.clearance_pins.values()]
     flight = math.sqrt(2.0 * min(clearances, default=math.inf) / max(pull, SLOWEST_FALL))
-    rests, rubs = [math.inf, *_under_loads(scenario)], [math.inf]
+    rests, rubs = [math.inf, *_compliant(scenario)], [math.inf]
     for loaded in loaded_contacts(scenario):
         friction = loaded.contact.friction
         rests += [loaded.time, friction.swing_time(loaded.lightest, loaded.load)]
@@ -172,20 +172,25 @@ def _loaded_rate(system: Kinetics, name: str, load: Load) -> Matrix:
     return point - origin
 
 
-def _under_loads(scenario: Scenario) -> list[float]:
-    """One over the angular frequency of what stiff loads press on, in the start posture [s]."""
-    linkage, found = scenario.linkage, []
-    ideal = tuple(pin for pin in linkage.pins if pin not in scenario.clearance_pins)
+def _compliant(scenario: Scenario) -> list[float]:
+    """One over the angular frequency of what stiff loads and compliant pins hold, in the start posture [s]."""
+    linkage = scenario.linkage
     rigid = tuple(column for column in linkage.columns if column not in scenario.giving)
-    for name, load in scenario.loads.items():
-        free = kinetics_of(linkage, ideal, rigid)
-        still = np.zeros(3 * len(linkage.bodies))
-        rate = _loaded_rate(free, name, load)
+    free = kinetics_of(linkage, scenario.held_pins, rigid)
+    still, found = np.zeros(3 * len(linkage.bodies)), []
+    springs: list[tuple[tuple[float, ...], Matrix]]
+    springs = [(load.steepness, _loaded_rate(free, name, load)) for name, load in scenario.loads.items()]
+    springs += [
+        (pin.steepness, free.pin_rate(still, linkage.pins[name]))
+        for name, pin in scenario.pins.items()
+        if any(pin.steepness)
+    ]
+    for steepness, rate in springs:
         mobility = np.diag(rate @ free.respond(still, rate.T, 0.0)[0])
         # what nothing but rounding lets move does not vibrate
         found += [
             math.sqrt(1.0 / (steep * mobile))
-            for steep, mobile in zip(load.steepness, mobility.tolist(), strict=True)
+            for steep, mobile in zip(steepness, mobility.tolist(), strict=True)
             if steep > 0.0 and mobile > SMALLEST_MOBILITY
         ]
     return found
@@ -206,9 +211,8 @@ def _running(scenario: Scenario, closed: Kinetics) -> float:
 def _mobility(scenario: Scenario, name: str) -> Matrix:
     """Mobility of a journal in the start posture, ground's axes (2, 2) [1/kg]."""
     linkage = scenario.linkage
-    ideal = tuple(pin for pin in linkage.pins if pin not in scenario.clearance_pins)
     size = 3 * len(linkage.bodies)
-    return kinetics_of(linkage, ideal).pin_mobility(np.zeros(size), name)
+    return kinetics_of(linkage, scenario.held_pins).pin_mobility(np.zeros(size), name)
 
 
 def _drive_time(scenario: Scenario, linkage: Linkage) -> float:

@@ -38,7 +38,7 @@ def check(scenario: ScenarioData) -> None:
             )
     for name, place in places.items():
         apart = math.dist(place.first_point, place.second_point)
-        if apart > 1e-9 and name not in scenario.clearance_pins:
+        if apart > 1e-9 and scenario.pin(name).holds:
             raise ValueError(
                 f"pins.{name}: its points on both bodies are {apart:.3g} m apart at the start; "
                 "allowed for an ideal pin: 0, for a clearance pin: any"
@@ -64,10 +64,12 @@ def _check_space(scenario: ScenarioData) -> None:
         )
     for name in scenario.cylinders:
         raise ValueError(f"columns.{name} = HydraulicCylinder: is planar; allowed in space: OilColumn")
-    for name in scenario.friction_pins:
-        raise ValueError(f"pins.{name}.friction: is planar; allowed in space: friction of clearance pins")
+    for name, pin in scenario.pins.items():
+        if refused := pin.refused_by("space"):
+            part, what, allowed = refused
+            raise ValueError(f"pins.{name}{part} = {what}: is planar; allowed in space: {allowed}")
     for name, bearing in space.bearings.items():
-        if bearing.pin not in scenario.clearance_pins and bearing.misfit:
+        if scenario.pin(bearing.pin).holds and bearing.misfit:
             raise ValueError(
                 f"bearings.{name}: {bearing.misfit} at the start; allowed for an ideal pin: none, for a "
                 "clearance pin: any"

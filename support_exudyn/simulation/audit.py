@@ -98,14 +98,8 @@ def _losses(scenario: Scenario, outcome: Outcome, channels: Mapping[str, Channel
 
 def _who_loses(scenario: Scenario, kind: str) -> str:
     """What of a scenario may lose energy in this way, with its laws."""
-    pins = scenario.clearance_pins.items()
-    laws: list[tuple[str, object]]
-    if kind == "friction_loss":
-        laws = [(f"pins.{name}", pin.contact.friction) for name, pin in pins]
-        laws += [(f"pins.{name}", pin.friction) for name, pin in scenario.friction_pins.items() if pin.friction]
-    else:
-        laws = [(f"pins.{name}", pin.contact.normal) for name, pin in pins]
-    found = [f"{name} = {type(law).__name__}" for name, law in laws]
+    laws = {name: pin.losses()[kind] for name, pin in scenario.pins.items() if kind in pin.losses()}
+    found = [f"pins.{name} = {type(law).__name__}" for name, law in laws.items()]
     if kind == "damping_loss":
         found += [f"loads.{name} = {type(load).__name__}" for name, load in scenario.loads.items()]
         found += [f"columns.{name}" for name in scenario.giving]
@@ -165,7 +159,7 @@ def joints_apart(scenario: Scenario, outcome: Outcome) -> Series | None:
     motion = BodyMotion(linkage, run.position, run.velocity, run.acceleration)
     gaps = np.zeros_like(time)
     for name, pin in linkage.pins.items():
-        if name not in scenario.clearance_pins:
+        if scenario.pin(name).holds:
             apart = motion.place(pin.first, pin.first_point) - motion.place(pin.second, pin.second_point)
             gaps = np.maximum(gaps, np.hypot(*apart.T))
     for name, column in linkage.columns.items():

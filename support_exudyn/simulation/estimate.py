@@ -248,7 +248,7 @@ def _worst(
         scale = float(np.abs(result[name]).mean())
         for statistic in (np.mean, np.std, np.max):
             measure = over(name, statistic, 0.0, math.inf)
-            value, scatter = measure(result), 0.0 if pin in scenario.clearance_pins else rounding
+            value, scatter = measure(result), rounding if scenario.pin(pin).holds else 0.0
             if statistic is np.std:
                 scatter = math.hypot(value, scatter) - value + left_of_spread(left, value, scale)
             else:

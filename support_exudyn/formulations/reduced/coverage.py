@@ -46,16 +46,14 @@ def check(scenario: Scenario) -> None:
             _refuse(f"columns.{name}", type(column).__name__, "RigidColumn, whose length is no free coordinate")
     for name, load in scenario.loads.items():
         _refuse(f"loads.{name}", type(load).__name__, "no loads")
-    for name in scenario.friction_pins:
-        _refuse(f"pins.{name}", "IdealPin with friction", "IdealPin without, or ClearancePin")
+    for name, pin in scenario.pins.items():
+        if refused := pin.refused_by("reduced"):
+            _refuse(f"pins.{name}{refused.part}", refused.what, refused.allowed)
     for name, part in scenario.own_bodies.items():
         _refuse(f"parts.{name}", type(part).__name__, "Lumped")
-    for name, pin in scenario.clearance_pins.items():
+    for name in scenario.clearance_pins:
         if name != model.PIN:
-            _refuse(f"pins.{name}", type(pin).__name__, f"clearance in {model.PIN} only")
-        if pin.contact.friction.has_state:
-            friction = type(pin.contact.friction).__name__
-            _refuse(f"pins.{name}.contact.friction", friction, "laws without a state of their own")
+            _refuse(f"pins.{name}", "ClearancePin", f"clearance in {model.PIN} only")
     _check_backend(scenario, model)
     if scenario.linkage.cranks and model.PIN not in scenario.clearance_pins:
         _refuse(f"pins.{model.PIN}", "IdealPin", "a loose pin: otherwise nothing is free to move")

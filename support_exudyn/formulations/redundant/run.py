@@ -132,6 +132,9 @@ def trajectory(scene: Scene, history: History, needed: Part) -> Trajectory:
         for n, name in enumerate(scene.loose_pins)
         if Part.CONTACTS in needed
     }
+    compliant = {
+        name: item.series(motion) for name, item in scene.compliant_pins.items() if Part.CONTACTS in needed
+    }
     loads = {
         name: load_series(name, load, motion, history.time)
         for name, load in scene.scenario.loads.items()
@@ -139,7 +142,7 @@ def trajectory(scene: Scene, history: History, needed: Part) -> Trajectory:
     }
     found = Following(velocity[:, :0], JointForces(), {}, {})
     if needed & FOLLOWING:
-        found = following(scene, motion, history.time, Applied(contacts, giving, loads))
+        found = following(scene, motion, history.time, Applied(contacts, compliant, giving, loads))
     return Trajectory(
         time=history.time,
         position=position,
@@ -157,6 +160,7 @@ def trajectory(scene: Scene, history: History, needed: Part) -> Trajectory:
         friction_loss=history.friction_loss,
         loads=loads,
         cylinders=cylinders,
+        compliant_pins=compliant,
     )
 
 

@@ -27,8 +27,9 @@ def check(scenario: Scenario) -> None:
             _refuse(f"columns.{name}", "TwoBodyColumn, whose slide closes a loop", "OilColumn")
     for name, load in scenario.loads.items():
         _refuse(f"loads.{name}", type(load).__name__, "no loads")
-    for name in scenario.friction_pins:
-        _refuse(f"pins.{name}", "IdealPin with friction", "IdealPin without, or ClearancePin")
+    for name, pin in scenario.pins.items():
+        if refused := pin.refused_by("tree"):
+            _refuse(f"pins.{name}{refused.part}", refused.what, refused.allowed)
     for name, part in scenario.own_bodies.items():
         if part.jack.oil is None:
             _refuse(f"parts.{name}.jack", "rigid, a constraint that closes a loop", "OilColumn")
@@ -39,10 +40,6 @@ def check(scenario: Scenario) -> None:
     for name in linkage.columns:
         if name not in scenario.oil_columns:
             _refuse(f"columns.{name}", "rigid, a constraint that closes a loop", "OilColumn")
-    for name, pin in scenario.clearance_pins.items():
-        if pin.contact.friction.has_state:
-            law = type(pin.contact.friction).__name__
-            _refuse(f"pins.{name}.contact.friction", law, "laws without a state")
     try:
         branches(linkage, scenario.clearance_pins)
     except LoopError as loop:

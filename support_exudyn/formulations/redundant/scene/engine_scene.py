@@ -12,8 +12,10 @@ from support_exudyn.formulations.redundant.scene.cylinder_item import CylinderIt
 from support_exudyn.formulations.redundant.scene.driven_parts import DrivenParts
 from support_exudyn.formulations.redundant.scene.load_item import LoadItem
 from support_exudyn.formulations.redundant.scene.pin_friction import PinFriction
+from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.impulse import Impulse
-from support_exudyn.mechanics.trajectory import Series
+from support_exudyn.mechanics.trajectory import CompliantSeries, Series
+from support_exudyn.model.linkage import PinPlace
 from support_exudyn.scenario.scenario import Scenario
 
 INITIAL = exudyn.ConfigurationType.Initial
@@ -66,6 +68,28 @@ class MassiveItem(Protocol):
         ...
 
 
+class CompliantItem(Protocol):
+    """A pin in the engine whose force follows from its deflection without contact."""
+
+    @property
+    def rounding(self) -> float:
+        """The force by which rounding of positions lets it scatter [N]."""
+        ...
+
+    @property
+    def place(self) -> PinPlace:
+        """Where it is in the linkage."""
+        ...
+
+    def loss(self) -> float:
+        """The power that is dissipated now [W]."""
+        ...
+
+    def series(self, motion: BodyMotion) -> CompliantSeries:
+        """Force, moment and deflection at the records, from the motion of all bodies."""
+        ...
+
+
 class EngineScene(Protocol):
     """The model of one scenario, assembled and ready for the solver."""
 
@@ -87,6 +111,11 @@ class EngineScene(Protocol):
     @property
     def loose_pins(self) -> Mapping[str, LoosePin]:
         """Everything that may touch and part, by name."""
+        ...
+
+    @property
+    def compliant_pins(self) -> Mapping[str, CompliantItem]:
+        """Pins whose force follows from their deflection, by name."""
         ...
 
     @property

@@ -41,7 +41,7 @@ class PinFriction:
         self._kept = 0.0  # that force [N]
         self._multiplier = 0  # the first of the pin's two
         self._coordinates: tuple[int | None, int | None] = None, None  # turns of first and second
-        markers = [mbs.AddMarker(_rotation(mbs, node)) for node in (first, second)]
+        markers = rotations(mbs, first, second)
         mbs.AddObject(
             ObjectConnectorCoordinateSpringDamper(
                 markerNumbers=markers, springForceUserFunction=self._resistance
@@ -116,8 +116,12 @@ class PinFriction:
         return -self.moment(self._force(), spin)
 
 
-def _rotation(mbs: Any, node: Any) -> Any:
-    """A marker of a body's rotation."""
-    if node is None:
-        return MarkerNodeCoordinate(nodeNumber=mbs.AddNode(NodePointGround()), coordinate=0)
-    return MarkerNodeCoordinate(nodeNumber=node, coordinate=2)
+def rotations(mbs: Any, first: Any, second: Any) -> list[Any]:
+    """Markers of the rotations of two bodies, given by the engine's nodes; None for the ground."""
+
+    def marker(node: Any) -> Any:
+        if node is None:
+            return MarkerNodeCoordinate(nodeNumber=mbs.AddNode(NodePointGround()), coordinate=0)
+        return MarkerNodeCoordinate(nodeNumber=node, coordinate=2)
+
+    return [mbs.AddMarker(marker(node)) for node in (first, second)]

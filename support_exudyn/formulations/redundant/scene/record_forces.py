@@ -14,7 +14,7 @@ from support_exudyn.mechanics.contact_history import acting
 from support_exudyn.mechanics.drive_acceleration import accelerations
 from support_exudyn.mechanics.joint_forces import JointForces
 from support_exudyn.mechanics.reactions import Held, direction, equations, push, twist, weight_of
-from support_exudyn.mechanics.trajectory import ContactSeries, LoadSeries, Series
+from support_exudyn.mechanics.trajectory import CompliantSeries, ContactSeries, LoadSeries, Series
 
 FOLLOWING = Part.ACCELERATION | Part.JOINTS
 APPLIED = Part.CONTACTS | Part.OIL | Part.LOADS
@@ -31,10 +31,12 @@ def with_causes(needed: Part) -> Part:
 class Applied:
     """Forces that follow from the motion by themselves, by the names of what gives them.
 
-    contacts: of loose pins. columns: that push their ends apart (n,) [N]. loads: on their points.
+    contacts: of clearance pins. pins: of compliant ones. columns: that push their ends apart (n,) [N]. loads:
+    on their points.
     """
 
     contacts: Mapping[str, ContactSeries]
+    pins: Mapping[str, CompliantSeries]
     columns: Mapping[str, Series]
     loads: Mapping[str, LoadSeries]
 
@@ -94,6 +96,14 @@ def _applied_forces(scene: Scene, motion: BodyMotion, applied: Applied) -> Serie
         known = acting(motion, place, scenario.clearance_pins[name], contact)
         push(forces, motion, place.second, known.force, known.point)
         push(forces, motion, place.first, -known.force, known.point)
+    for name, pin in applied.pins.items():
+        place = linkage.pins[name]
+        for body, point, sign in (
+            (place.second, place.second_point, 1.0),
+            (place.first, place.first_point, -1.0),
+        ):
+            push(forces, motion, body, sign * pin.force, motion.place(body, point))
+            twist(forces, motion, body, sign * pin.moment)
     for name, force in applied.columns.items():
         column = linkage.columns[name]
         apart = force[:, None] * direction(motion, column)

@@ -14,7 +14,7 @@ from support_exudyn.formulations.redundant.clearance.clearance_pin import LooseP
 from support_exudyn.formulations.redundant.clearance.pin_motion import PinEnd, PinMotion
 from support_exudyn.formulations.redundant.scene.cylinder_item import CylinderItem
 from support_exudyn.formulations.redundant.scene.driven_parts import DrivenParts, OilColumnItem
-from support_exudyn.formulations.redundant.scene.engine_scene import CURRENT, INITIAL, InEngine
+from support_exudyn.formulations.redundant.scene.engine_scene import CURRENT, INITIAL, CompliantItem, InEngine
 from support_exudyn.formulations.redundant.scene.load_item import LoadItem
 from support_exudyn.formulations.redundant.scene.pin_friction import PinFriction
 from support_exudyn.mechanics.body_coordinates import BodyItem, ColumnItem, CrankItem, IdealItem, SlideItem
@@ -41,6 +41,7 @@ class Scene(InEngine):
     ideal_pins: dict[str, IdealItem]
     frictions: dict[str, PinFriction]  # of ideal pins
     loose_pins: dict[str, LoosePin]
+    compliant_pins: dict[str, CompliantItem]
     rigid_columns: dict[str, ColumnItem]
     oil_columns: dict[str, OilColumnItem]
     cylinders: dict[str, CylinderItem]

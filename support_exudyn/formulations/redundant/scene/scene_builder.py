@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from functools import cached_property, partial
+from functools import cached_property, partial, singledispatchmethod
 from typing import Any
 
 import exudyn
@@ -24,16 +24,19 @@ from exudyn.itemInterface import (
 
 from support_exudyn.formulations.redundant.clearance.clearance_pin import LoosePin
 from support_exudyn.formulations.redundant.clearance.connector import frame
+from support_exudyn.formulations.redundant.scene.bushing import BushingItem
 from support_exudyn.formulations.redundant.scene.cylinder_item import CylinderItem
 from support_exudyn.formulations.redundant.scene.driven_parts import OilColumnItem, by_drive
+from support_exudyn.formulations.redundant.scene.engine_scene import CompliantItem
 from support_exudyn.formulations.redundant.scene.load_item import add_load
-from support_exudyn.formulations.redundant.scene.pin_friction import PinFriction
+from support_exudyn.formulations.redundant.scene.pin_friction import PinFriction, rotations
 from support_exudyn.formulations.redundant.scene.scene import Scene
 from support_exudyn.mechanics.body_coordinates import BodyItem, ColumnItem, CrankItem, IdealItem, SlideItem
 from support_exudyn.mechanics.cylinder_chambers import FilledCylinder, fill_cylinders
 from support_exudyn.mechanics.oil_column import fill
-from support_exudyn.model.linkage import GROUND, Body, Column, Crank, PinPlace, Slide
-from support_exudyn.model.pins import ClearancePin, IdealPin
+from support_exudyn.model.bushing_pin import BushingPin
+from support_exudyn.model.linkage import GROUND, Body, Column, Crank, Slide
+from support_exudyn.model.pins import ClearancePin, IdealPin, Pin
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.values.value import Vector2
 
@@ -45,6 +48,9 @@ class _Builder:
         self.container = exudyn.SystemContainer()
         self.mbs = self.container.AddSystem()
         self._markers: dict[tuple[str, Vector2], Any] = {}  # by body and point of the start posture
+        self.ideal: dict[str, Any] = {}  # joints by name
+        self.loose: dict[str, LoosePin] = {}
+        self.compliant: dict[str, CompliantItem] = {}
         self.bodies = {name: self.add_body(body) for name, body in self.linkage.bodies.items()}
 
     @cached_property
@@ -74,6 +80,15 @@ class _Builder:
         weight = [body.mass * gx, body.mass * gy, 0.0]
         return self.mbs.AddLoad(LoadForceVector(markerNumber=self.marker(name, body.centre), loadVector=weight))
 
+    def node(self, body: str) -> Any:
+        """The engine's node of a body; None for the ground."""
+        return None if body == GROUND else self.bodies[body].node
+
+    def pin_markers(self, name: str) -> list[Any]:
+        """The markers of a pin's points on its first and its second body."""
+        place = self.linkage.pins[name]
+        return [self.marker(place.first, place.first_point), self.marker(place.second, place.second_point)]
+
     def marker(self, body: str, point: Vector2) -> Any:
         """The marker on a body at a point of the start posture; parts that meet there share it."""
         if (body, point) not in self._markers:
@@ -84,19 +99,25 @@ class _Builder:
             self._markers[body, point] = self.mbs.AddMarker(marker)
         return self._markers[body, point]
 
-    def add_ideal(self, place: PinPlace) -> Any:
-        markers = [self.marker(place.first, place.first_point), self.marker(place.second, place.second_point)]
-        return self.mbs.AddObject(ObjectJointRevolute2D(markerNumbers=markers))
+    @singledispatchmethod
+    def add_pin(self, pin: Pin, name: str) -> None:
+        """Add what stands in the engine for a pin of this name. A new kind of pin is registered below."""
+        raise TypeError(f"pins.{name} = {type(pin).__name__}: has nothing that stands for it in the engine")
 
-    def add_friction(self, place: PinPlace, pin: IdealPin) -> PinFriction:
-        assert pin.friction is not None  # the pins without are left out
-        assert pin.radius is not None  # goes with it
-        first, second = (
-            self.bodies[name].node if name != GROUND else None for name in (place.first, place.second)
-        )
-        return PinFriction(self.mbs, pin.friction, pin.radius, first, second)
+    @add_pin.register
+    def _add_ideal(self, pin: IdealPin, name: str) -> None:
+        joint = ObjectJointRevolute2D(markerNumbers=self.pin_markers(name))
+        self.ideal[name] = self.mbs.AddObject(joint)
 
-    def add_loose(self, place: PinPlace, pin: ClearancePin) -> LoosePin:
+    @add_pin.register
+    def _add_bushing(self, pin: BushingPin, name: str) -> None:
+        place = self.linkage.pins[name]
+        turns = rotations(self.mbs, self.node(place.first), self.node(place.second))
+        self.compliant[name] = BushingItem(self.mbs, pin, place, self.pin_markers(name), turns)
+
+    @add_pin.register
+    def _add_loose(self, pin: ClearancePin, name: str) -> None:
+        place = self.linkage.pins[name]
         ends = [(place.first, place.first_point), (place.second, place.second_point)]
         if pin.bore == "second":
             ends.reverse()
@@ -111,20 +132,24 @@ class _Builder:
         def angle(body: str) -> float:
             return 0.0 if body == GROUND else self.bodies[body].body.angle
 
-        def node(body: str) -> Any:
-            return None if body == GROUND else self.bodies[body].node
-
-        return LoosePin(
+        self.loose[name] = LoosePin(
             self.mbs,
             pin.contact,
             bore=(item(bore), frame(local(bore, bore_point))),
             journal=(item(journal), frame(local(journal, journal_point))),
             turn=angle(journal) - angle(bore),
-            bore_node=node(bore),
-            journal_node=node(journal),
+            bore_node=self.node(bore),
+            journal_node=self.node(journal),
             symbolic=self.scenario.solver.backend == "symbolic",
             impact_steps=self.scenario.solver.impact_steps,
         )
+
+    def add_friction(self, pin: IdealPin, name: str) -> PinFriction:
+        assert pin.friction is not None  # the pins without are left out
+        assert pin.radius is not None  # goes with it
+        place = self.linkage.pins[name]
+        ends = self.node(place.first), self.node(place.second)
+        return PinFriction(self.mbs, pin.friction, pin.radius, *ends)
 
     def add_rigid_column(self, column: Column) -> Any:
         return self.mbs.AddObject(
@@ -171,15 +196,10 @@ class _Builder:
         )
 
     def build(self) -> Scene:
-        loose = {
-            name: self.add_loose(self.linkage.pins[name], pin)
-            for name, pin in self.scenario.clearance_pins.items()
-        }
-        ideal = {name: self.add_ideal(place) for name, place in self.linkage.pins.items() if name not in loose}
-        frictions = {
-            name: self.add_friction(self.linkage.pins[name], pin)
-            for name, pin in self.scenario.friction_pins.items()
-        }
+        given = self.scenario.pins.items()
+        for name in (*(name for name, pin in given if not pin.holds), *self.scenario.held_pins):
+            self.add_pin(self.scenario.pin(name), name)
+        frictions = {name: self.add_friction(pin, name) for name, pin in self.scenario.friction_pins.items()}
         oil = {name: self.add_oil_column(self.linkage.columns[name]) for name in self.scenario.oil_columns}
         rigid = {
             name: self.add_rigid_column(column)
@@ -222,9 +242,10 @@ class _Builder:
             container=self.container,
             mbs=self.mbs,
             bodies=bodies,
-            ideal_pins={name: IdealItem(o, int(data.GetObjectLTGAE(o)[0])) for name, o in ideal.items()},
+            ideal_pins={name: IdealItem(o, int(data.GetObjectLTGAE(o)[0])) for name, o in self.ideal.items()},
             frictions=frictions,
-            loose_pins=loose,
+            loose_pins=self.loose,
+            compliant_pins=self.compliant,
             rigid_columns=rigid_columns,
             oil_columns=oil_columns,
             cylinders=cylinders,
@@ -238,8 +259,8 @@ class _Builder:
             place = self.linkage.pins[name]
             turns = (bodies[end].first + 2 if end != GROUND else None for end in (place.first, place.second))
             friction.assembled(scene.ideal_pins[name].first, *turns)
-            friction.lagged = bool(loose) or self.scenario.jumps
-        for name, pin in loose.items():
+            friction.lagged = bool(self.loose) or self.scenario.jumps
+        for name, pin in self.loose.items():
             pin.find_mobilities = partial(scene.mobilities, name)
             pin.motion = scene.pin_motion(name)
         scene.drive_to(0.0)

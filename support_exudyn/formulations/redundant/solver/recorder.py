@@ -54,12 +54,18 @@ class Recorder:
         # rigid columns that are held and ideal pins neither work nor lose anything
         works = any(parts.oil or (parts.multipliers and parts.moves(duration)) for parts in scene.driven)
         self.integrates = Part.INTEGRALS in needs and bool(
-            works or scene.loose_pins or scene.frictions or scene.loads or scene.cylinders
+            works
+            or scene.loose_pins
+            or scene.compliant_pins
+            or scene.frictions
+            or scene.loads
+            or scene.cylinders
         )
         self._kept = tuple(part in needs for part in STATE)
         self.energies = RunningIntegrals(3)  # work of the drive, losses by damping and by friction
         self._data = scene.mbs.systemData
         self._pins = tuple(scene.loose_pins.items())
+        self._compliant = tuple(scene.compliant_pins.values())
         self._looks = scene.scenario.solver.audit  # whether what is lost is
         self._driven = tuple((parts.drive, parts.multipliers, parts.oil) for parts in scene.driven)
         self._frictions = tuple(scene.frictions.items())
@@ -190,6 +196,7 @@ class Recorder:
             work, loss = cylinder.powers()
             columns += work
             damping += loss
+        damping += sum(pin.loss() for pin in self._compliant)
         for name, rubbing in self._frictions:
             lost = rubbing.power()
             if self._looks and not lost >= 0.0:

@@ -77,7 +77,8 @@ class Run:
             scenario.solver,
             scenario.duration,
             unknowns,
-            force_rounding([item.filled for parts in scene.driven for item in parts.oil]),
+            force_rounding([item.filled for parts in scene.driven for item in parts.oil])
+            + sum(pin.rounding for pin in scene.compliant_pins.values()),
             bool(self.cylinders),
         )
         self.locates = scenario.solver.locate

@@ -11,7 +11,7 @@ import numpy as np
 
 from support_exudyn.formulations.redundant.scene.cylinder_item import CylinderItem
 from support_exudyn.formulations.redundant.scene.driven_parts import DrivenParts, OilColumnItem
-from support_exudyn.formulations.redundant.scene.engine_scene import CURRENT, INITIAL, InEngine
+from support_exudyn.formulations.redundant.scene.engine_scene import CURRENT, INITIAL, CompliantItem, InEngine
 from support_exudyn.formulations.redundant.scene.load_item import LoadItem
 from support_exudyn.formulations.redundant.scene.pin_friction import PinFriction
 from support_exudyn.formulations.redundant.space.section_pin import SectionPin
@@ -59,7 +59,8 @@ class SpatialScene(InEngine):
     rigid_columns: dict[str, ColumnItem]
     oil_columns: dict[str, OilColumnItem]
     driven: tuple[DrivenParts, ...]  # all columns, by the drive that they follow
-    frictions: dict[str, PinFriction] = field(default_factory=dict)  # of ideal pins: not covered
+    compliant_pins: dict[str, CompliantItem] = field(default_factory=dict)  # not covered
+    frictions: dict[str, PinFriction] = field(default_factory=dict)  # of ideal pins: nor these
     loads: dict[str, LoadItem] = field(default_factory=dict)  # nor are they
     weights: dict[str, Any] = field(default_factory=dict)  # are asked for where loads bring bodies along
     cylinders: dict[str, CylinderItem] = field(default_factory=dict)  # nor these
