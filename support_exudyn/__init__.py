@@ -8,6 +8,10 @@
 One entry, `simulate`; everything else is a value that is handed in. SI units and radians.
 """
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
 from support_exudyn.simulation import at_start as at_start
 
 # isort: split
@@ -47,6 +51,9 @@ from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.recommend import Recommendation, recommend
 from support_exudyn.simulation.result import Result
 from support_exudyn.simulation.simulate import simulate
+
+if TYPE_CHECKING:
+    from support_exudyn.postprocessing.export.solution_file import save_solution
 
 __all__ = [
     "AppliedForce",
@@ -107,6 +114,16 @@ __all__ = [
     "ravn_slider_crank",
     "recommend",
     "reference_support",
+    "save_solution",
     "simulate",
     "two_body_columns",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """What needs the engine, which a program that only reads runs should not wait for."""
+    if name == "save_solution":
+        from support_exudyn.postprocessing.export.solution_file import save_solution
+
+        return save_solution
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

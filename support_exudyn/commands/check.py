@@ -39,6 +39,7 @@ def run(given: argparse.Namespace) -> None:
     """Print what was found, and write the figure."""
     from support_exudyn.machines.check import check_machine  # and numpy's linear algebra
     from support_exudyn.postprocessing.figures import style
+    from support_exudyn.postprocessing.figures.checks import check_figure
 
     data = read_machine(given.machine)
     try:
@@ -50,7 +51,7 @@ def run(given: argparse.Namespace) -> None:
     own = path.suffix.lower() == ".toml"
     out = given.out or (path.parent if own else Path())
     with style.look():
-        written = style.save(report.draw(), out, f"{path.stem if own else given.machine}_check")
+        written = style.save(check_figure(report), out, f"{path.stem if own else given.machine}_check")
     if given.json:
         say(json.dumps(report.data() | {"figures": [str(one) for one in written]}, indent=2))
         return

@@ -75,6 +75,7 @@ def run(given: argparse.Namespace) -> None:
         to_vtu,
         to_xdmf,
     )
+    from support_exudyn.postprocessing.export.solution_file import save_solution
 
     if given.end is not None and given.end < given.start:
         raise InputError(f"--from {given.start:g} --until {given.end:g}: allowed: --until not before --from")
@@ -95,7 +96,7 @@ def run(given: argparse.Namespace) -> None:
         "vtu": lambda progress: to_vtu(result, out / f"{name}_vtu", sampling(MESHES), progress),
         "csv": lambda progress: to_csv(result, out / f"{name}.csv", sampling(TABLES), progress),
         "hdf5": lambda progress: to_hdf5(result, out / f"{name}_channels.h5", sampling(TABLES)),
-        "solution": lambda progress: (result.save_solution(out / f"{name}_solution.txt"),),
+        "solution": lambda progress: (save_solution(result, out / f"{name}_solution.txt"),),
     }
     refused: dict[str, InputError] = {}
     written: dict[str, tuple[Path, ...]] = {}

@@ -13,7 +13,7 @@ from rich.console import Console
 from support_exudyn.commands.command_line import add_json, answer, folder, shown_progress
 from support_exudyn.commands.tables import printed, show_table
 from support_exudyn.files import ScenarioFile, read_scenario_file
-from support_exudyn.files.whole_file import check_may_be_replaced, real_path
+from support_exudyn.files.whole_file import check_may_be_replaced, named, real_path
 from support_exudyn.postprocessing import summary as account
 from support_exudyn.scenario.scenario_data import ACCURACIES, LARGEST_GOAL, SMALLEST_GOAL
 from support_exudyn.simulation.result import Result
@@ -37,6 +37,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help=f"in place of the file's: {', '.join(ACCURACIES)}, or a relative error from {SMALLEST_GOAL:g} to "
         f"{LARGEST_GOAL:g}",
     )
+    parser.add_argument(
+        "--solution",
+        type=folder,
+        metavar="FILE",
+        help="also write Exudyn's own solution file of the run, with the ending .sol in its binary format",
+    )
     add_json(parser)
 
 
@@ -59,16 +65,30 @@ def run(given: argparse.Namespace) -> None:
     """Simulate it, save the run, and tell what came out."""
     file = read_scenario_file(given.file)
     out: Path = given.out or given.file.with_suffix(".h5")
-    if real_path(out) == real_path(given.file):
-        raise InputError(f"--out {out}: is the scenario itself; allowed: another file")
-    check_may_be_replaced(real_path(out))  # now, and not when all is computed
+    solution: Path | None = given.solution
+    files = {"--out": out} | ({} if solution is None else {"--solution": solution})
+    for option, path in files.items():  # now, and not when all is computed
+        if real_path(path) == real_path(given.file):
+            raise InputError(f"{option} {path}: is the scenario itself; allowed: another file")
+        try:
+            check_may_be_replaced(real_path(path))
+        except OSError as error:
+            raise named(error, path) from None
+    if solution is not None:
+        if real_path(solution) == real_path(out):
+            raise InputError(f"--solution {solution}: is the file of the run; allowed: another file")
+        from support_exudyn.postprocessing.export import solution_file  # and the engine
+
+        solution_file.check_recorded(file.scenario)
     with shown_progress(given.file.stem) as progress:
         result = simulate(file.scenario, accuracy=given.accuracy, errors=file.errors, progress=progress)
     result.save(out)
+    if solution is not None:
+        solution_file.save_solution(result, solution)
     if given.json:
-        answer(_object(result, out))
+        answer(_object(result, out) | ({} if solution is None else {"solution": solution}))
     else:
-        printed(lambda console: _tell(console, result, file, out))
+        printed(lambda console: _tell(console, result, file, list(files.values())))
     if result.goal is not None and not result.met:
         print(
             f"accuracy {result.goal:g}: NOT met, {result.worst_error:.1g} is estimated; refining did not help",
@@ -76,7 +96,7 @@ def run(given: argparse.Namespace) -> None:
         )
 
 
-def _tell(console: Console, result: Result, file: ScenarioFile, out: Path) -> None:
+def _tell(console: Console, result: Result, file: ScenarioFile, written: list[Path]) -> None:
     """A short account."""
     title = file.name or "what came out"
     known = "± estimated numerical error" if result.coarser else "numerical errors not known: errors = true"
@@ -92,7 +112,8 @@ def _tell(console: Console, result: Result, file: ScenarioFile, out: Path) -> No
         show_table(console, "touches, and speeds of approach and parting", header, touched)
     assumed = [("assumed", sentence) for sentence in file.assumed]
     show_table(console, "how", (), [*account.how(result)[:-1], *assumed])
-    print(out)
+    for path in written:
+        print(path)
 
 
 def _object(result: Result, out: Path) -> dict[str, Any]:

@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, ClassVar, NamedTuple
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 from pydantic import model_validator
@@ -29,10 +29,6 @@ from support_exudyn.model.linkage import GROUND, Part
 from support_exudyn.model.plane_geometry import direction, moved
 from user_forces.values.units import Metres
 from user_forces.values.value import Positive, Vector2, value
-
-if TYPE_CHECKING:
-    from support_exudyn.postprocessing.look.solid import Look
-    from support_exudyn.scenario.scenario import Scenario
 
 __all__ = ["BODIES", "PIVOTS", "TAIL", "HydraulicSupport", "Posture"]
 
@@ -151,14 +147,6 @@ class HydraulicSupport(FourBarShield[Posture]):
         if not np.all(np.abs(misfit(found.x)) < PRECISE):
             return None
         return turned(found.x)
-
-    def look(self, scenario: Scenario) -> Look:
-        """A shield support: base, links, shield and tail beam, canopy, columns and pins."""
-        from support_exudyn.postprocessing.look.shield_support import (
-            look,
-        )  # libraries of shapes, which a run has no use for
-
-        return look(scenario)
 
 
 PIVOTS = HydraulicSupport.pivots()

@@ -18,7 +18,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from functools import cached_property
-from typing import TYPE_CHECKING, ClassVar, NamedTuple
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 from pydantic import model_validator
@@ -38,10 +38,6 @@ from support_exudyn.model.linkage import GROUND, Part
 from support_exudyn.model.plane_geometry import direction, moved
 from user_forces.values.units import Metres
 from user_forces.values.value import InputError, Positive, Vector2, value
-
-if TYPE_CHECKING:
-    from support_exudyn.postprocessing.look.solid import Look
-    from support_exudyn.scenario.scenario import Scenario
 
 MOST_CORRECTIONS = 50  # of Newton's method; five do
 STRIDE = 0.02  # [m] from one level posture to the next
@@ -202,11 +198,3 @@ class TwoLegShield(FourBarShield[LegPosture]):
                     reached, posture = float(stop), following
                 found[n] = self.column_lengths(posture)[1] - at_start
         return found
-
-    def look(self, scenario: Scenario) -> Look:
-        """A shield support: base, links, shield and tail beam, canopy, legs, ram and pins."""
-        from support_exudyn.postprocessing.look.shield_support import (
-            look,
-        )  # libraries of shapes, which a run has no use for
-
-        return look(scenario)

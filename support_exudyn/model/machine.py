@@ -12,8 +12,6 @@ from user_forces.values.value import InputError, Value
 if TYPE_CHECKING:
     from support_exudyn.model.drives.drive import Drive
     from support_exudyn.model.spatial_linkage import SpatialLinkage
-    from support_exudyn.postprocessing.look.solid import Look
-    from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.model.linkage import Linkage
 
 
@@ -88,11 +86,3 @@ class Machine(Value, ABC):
         spans = [drive.span(duration) for drive in drives.values()]
         if spans:
             self.check_extension(min(low for low, _ in spans), max(high for _, high in spans))
-
-    def look(self, scenario: Scenario) -> Look:
-        """What pictures of a scenario of this machine show, by default plates around what is joined."""
-        from support_exudyn.postprocessing.look.plain import (
-            look,  # libraries of shapes, which a run has no use for
-        )
-
-        return look(scenario)

@@ -123,23 +123,6 @@ class Result(RecordedRun):
             temporary.write_bytes(seal(image, FORMAT))
         return Path(path)
 
-    def save_solution(self, path: str | Path) -> Path:
-        """Have Exudyn write its own solution file of the run, for `exudyn.utilities.LoadSolutionFile`.
-
-        It is of the engine's model with rigid bodies and constraints, whatever formulation has computed the
-        run: a row for each record with time, coordinates and their rates.
-
-        path: with the ending `.sol` in the engine's binary format, with any other in its text format.
-
-        Raises InputError if the run has not recorded where its bodies are; OSError that names the file if it
-        cannot be written, and an older one is then as it was.
-        """
-        from support_exudyn.postprocessing.export.solution_file import (
-            save_solution,  # which needs the engine's models
-        )
-
-        return save_solution(self, path)
-
     @staticmethod
     def load(path: str | Path) -> Result:
         """Read what `save` wrote.

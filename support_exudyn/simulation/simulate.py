@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
 from typing import Literal, overload
 
 from support_exudyn.formulations.contract import Failure, SimulationError, told
@@ -28,7 +27,6 @@ def simulate(
     accuracy: Accuracy | None = ...,
     errors: bool = ...,
     progress: Progress = ...,
-    solution: str | Path | None = ...,
     throw: Literal[True] = ...,
 ) -> Result: ...
 @overload
@@ -38,7 +36,6 @@ def simulate(
     accuracy: Accuracy | None = ...,
     errors: bool = ...,
     progress: Progress = ...,
-    solution: str | Path | None = ...,
     throw: bool,
 ) -> Result | Failure: ...
 
@@ -49,7 +46,6 @@ def simulate(
     accuracy: Accuracy | None = None,
     errors: bool = False,
     progress: Progress = silent,
-    solution: str | Path | None = None,
     throw: bool = True,
 ) -> Result | Failure:
     """Run a scenario.
@@ -64,9 +60,6 @@ def simulate(
             (`Result.scenario` has the steps that were taken); if that does not help it ends in a
             SimulationError. With an accuracy errors are estimated anyway.
         progress: called now and then with the share that is done, 0 to 1.
-        solution: path of Exudyn's own solution file, if it is to be kept, see `Result.save_solution`. What
-            stands against it is said before the run: InputError if `channels` lacks where the bodies are,
-            OSError if the file cannot be written.
         throw: what to do if the run cannot be finished: raise SimulationError, or return its Failure
             (for sweeps, where one failed run is a row and not the end).
 
@@ -79,12 +72,6 @@ def simulate(
         scenario = replace(scenario, accuracy=accuracy)
     plain = run_with_error if errors else run_once
     run: Callable[[Scenario, Progress], Result] = plain if scenario.goal is None else run_to_accuracy
-    if solution is not None:
-        from support_exudyn.postprocessing.export.solution_file import (
-            keeping_solution,  # which needs libraries of shapes
-        )
-
-        run = keeping_solution(run, solution)
     try:
         return _run(run, scenario, progress)
     except SimulationError as error:

@@ -15,6 +15,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from studies.common.paper_machine import oil_columns
 from support_exudyn import CubicStep, Held, Result, Scenario, SolverSettings, UniformSpeed, simulate
 from support_exudyn.model.linkage import GROUND
+from support_exudyn.postprocessing.look.looks import look
 from support_exudyn.postprocessing.look.solid import Look
 from tests.cases.run_cases import loose_slider_crank, loose_support, support
 
@@ -117,8 +118,7 @@ def rigid(start: np.ndarray, now: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 @cache
 def look_of(kind: str) -> Look:
     """What is drawn of a run's machine."""
-    scenario = run(kind).scenario
-    return scenario.machine.look(scenario)
+    return look(run(kind).scenario)
 
 
 @cache

@@ -14,7 +14,7 @@ from support_exudyn import CubicStep, Held, OilColumn, Result, Scenario, Uniform
 from support_exudyn.files.machines import load_machine
 from support_exudyn.machines.check.shield_stroke import stations
 from support_exudyn.machines.machine_data import read_machine
-from support_exudyn.postprocessing.look.solid import Look
+from support_exudyn.postprocessing.look.looks import look
 from tests.machine_files import written
 from user_forces import InputError
 
@@ -101,10 +101,9 @@ def test_it_runs_in_space() -> None:
 
 @pytest.mark.parametrize("dimensions", [2, 3])
 def test_it_has_a_look_with_closed_surfaces(dimensions: Any) -> None:
-    look = MACHINE.look(replace(RISE, dimensions=dimensions))
-    assert isinstance(look, Look)
-    assert all(solid.mesh.is_watertight for solid in look.solids)
-    assert sorted(strut.name for strut in look.struts) == ["leg_left", "leg_right", "ram_left", "ram_right"]
+    shown = look(replace(RISE, dimensions=dimensions))
+    assert all(solid.mesh.is_watertight for solid in shown.solids)
+    assert sorted(strut.name for strut in shown.struts) == ["leg_left", "leg_right", "ram_left", "ram_right"]
 
 
 def test_a_support_that_is_not_in_the_package_runs(tmp_path: Path) -> None:
@@ -117,4 +116,4 @@ def test_a_support_that_is_not_in_the_package_runs(tmp_path: Path) -> None:
     # joints closed within some 1e-12 m
     assert result["tip.x"][-1] == pytest.approx(last.posture.tip[0], abs=1e-9)
     assert result["front_column.force"][-1] == pytest.approx(last.forces.columns["front_column"], abs=1.0)
-    assert all(solid.mesh.is_watertight for solid in machine.look(result.scenario).solids)
+    assert all(solid.mesh.is_watertight for solid in look(result.scenario).solids)

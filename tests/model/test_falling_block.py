@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 
 from support_exudyn import AppliedForce, FallingBlock, Load, LoadedPoint, Scenario, reference_support
 from support_exudyn.formulations.redundant.scene.load_item import _pull
-from support_exudyn.postprocessing.look.blocks import blocks
-from support_exudyn.postprocessing.look.plain import look
+from support_exudyn.postprocessing.look import looks
+from support_exudyn.postprocessing.look.plain import blocks, look
 from support_exudyn.postprocessing.look.solid import Role
 from tests.roof_cases import TOP, Ram
 from user_forces import InputError, delivered_restitution
@@ -95,7 +95,7 @@ def test_pictures_have_a_cube_of_its_mass() -> None:
     assert (cube.role, cube.body) == (Role.ROCK, "rock")
     assert cube.mesh.volume == pytest.approx(1.0)
     assert cube.mesh.bounds[0][1] == pytest.approx(tip[1] + 0.5)
-    assert cube.name in {solid.name for solid in reference_support().look(scene).solids}
+    assert cube.name in {solid.name for solid in looks.look(scene).solids}
 
 
 @pytest.mark.parametrize("load", [ROCK, FORCE])

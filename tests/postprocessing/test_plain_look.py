@@ -12,6 +12,7 @@ from studies.slider_crank.run import scenarios
 from support_exudyn import ClearancePin, Scenario
 from support_exudyn.machines.free_impact import ImpactStand
 from support_exudyn.model.linkage import GROUND
+from support_exudyn.postprocessing.look.looks import look
 from support_exudyn.postprocessing.look.placed_pins import planar_pins
 from support_exudyn.postprocessing.look.solid import Role
 from user_forces import Frictionless, JournalBearing, JournalContact, LankaraniNikravesh
@@ -29,7 +30,7 @@ SCENES = {**scenarios(True), "stand": STAND}
 @pytest.mark.parametrize("name", SCENES)
 def test_every_body_and_the_ground_are_closed_surfaces(name: str) -> None:
     scenario = SCENES[name]
-    shown = scenario.machine.look(scenario)
+    shown = look(scenario)
     bodies = set(scenario.linkage.bodies)
     assert bodies <= {solid.body for solid in shown.solids} <= {*bodies, GROUND}
     for solid in shown.solids:
@@ -39,7 +40,7 @@ def test_every_body_and_the_ground_are_closed_surfaces(name: str) -> None:
 
 def test_the_slider_is_a_block_on_a_rail_longer_than_it() -> None:
     scenario = SCENES["ideal"]
-    solids = {solid.name: solid for solid in scenario.machine.look(scenario).solids}
+    solids = {solid.name: solid for solid in look(scenario).solids}
     block, rail = (solids[name].mesh.bounds for name in ("slider", GROUND))
     assert block[1, 0] - block[0, 0] > block[1, 1] - block[0, 1]
     assert rail[0, 0] < block[0, 0]
@@ -48,14 +49,14 @@ def test_the_slider_is_a_block_on_a_rail_longer_than_it() -> None:
 
 def test_bodies_lie_one_behind_the_other() -> None:
     scenario = SCENES["ideal"]
-    solids = [s for s in scenario.machine.look(scenario).solids if s.role is not Role.PIN]
+    solids = [s for s in look(scenario).solids if s.role is not Role.PIN]
     spans = sorted((s.mesh.bounds[0, 2], s.mesh.bounds[1, 2]) for s in solids)
     for (_, far), (near, _) in itertools.pairwise(spans):
         assert far < near
 
 
 def test_a_journal_fits_its_bore() -> None:
-    solids = {solid.name: solid for solid in STAND.machine.look(STAND).solids}
+    solids = {solid.name: solid for solid in look(STAND).solids}
     pin = solids["pin_pin"]
     assert pin.body == "journal"
     # a polygon of 32 corners that touches its circle
@@ -66,4 +67,4 @@ def test_a_journal_fits_its_bore() -> None:
     assert planar_pins(STAND)["pin"].bore.body == "bore"
     other = replace(STAND, pins={"pin": replace(STAND.clearance_pins["pin"], bore="second")})
     assert planar_pins(other)["pin"].bore.body == "journal"
-    assert {s.name: s for s in other.machine.look(other).solids}["pin_pin"].body == "bore"
+    assert {s.name: s for s in look(other).solids}["pin_pin"].body == "bore"

@@ -17,7 +17,8 @@ from studies.common.paper_machine import loose_rise
 from support_exudyn import CubicStep, OwnBody, Scenario, TwoBodyColumn, reference_support
 from support_exudyn.machines.four_column_support import PIVOTS, HydraulicSupport
 from support_exudyn.model.linkage import GROUND
-from support_exudyn.postprocessing.look.cylinders import cylinder_and_rod, lengths
+from support_exudyn.postprocessing.look.looks import look
+from support_exudyn.postprocessing.look.shapes import cylinder_and_rod, lengths
 from support_exudyn.postprocessing.look.shield_support import canopy_top
 from support_exudyn.postprocessing.look.solid import Look, Role
 from user_forces import InputError
@@ -43,10 +44,6 @@ SCENES = {
     "tail beam of its own": replace(PLAIN, parts={"tail_beam": OwnBody()}),
     "tail beam of its own, in space": replace(PLAIN, parts={"tail_beam": OwnBody()}, dimensions=3),
 }
-
-
-def look(scenario: Scenario) -> Look:
-    return scenario.machine.look(scenario)
 
 
 def surfaces(shown: Look) -> Iterator[tuple[str, Trimesh]]:

@@ -19,22 +19,21 @@ from exudyn.utilities import LoadSolutionFile, SetSolutionState
 
 from support_exudyn import (
     CubicStep,
-    Failure,
     OilColumn,
     Result,
     Scenario,
-    SimulationError,
     SolverSettings,
     bore_area,
+    save_solution,
     simulate,
 )
 from support_exudyn.__main__ import main
+from support_exudyn.files import save_scenario
 from support_exudyn.formulations.redundant.run import model
 from support_exudyn.formulations.redundant.solver import solver
 from support_exudyn.postprocessing.export.solution_file import read_solution, rows
-from support_exudyn.postprocessing.look.poses import Poses
+from support_exudyn.postprocessing.look.poses import Poses, strut_pose
 from support_exudyn.postprocessing.look.solid import solids_of
-from support_exudyn.postprocessing.look.strut_pose import strut_pose
 from support_exudyn.postprocessing.viewer import viewer_model
 from support_exudyn.postprocessing.viewer.view import open_viewer
 from support_exudyn.postprocessing.viewer.viewer_model import POSITION, SHOWN, dressed
@@ -75,7 +74,7 @@ def test_it_is_what_the_engine_writes_of_its_own_run(
         return settings
 
     monkeypatch.setattr(solver, "engine_settings", writing)
-    simulate(scenario, solution=tmp_path / "ours.txt")
+    save_solution(simulate(scenario), tmp_path / "ours.txt")
     engine, ours = load(tmp_path / "engine.txt"), load(tmp_path / "ours.txt")
     assert ours["columnsExported"] == engine["columnsExported"]
     size = ours["columnsExported"][0]
@@ -93,7 +92,7 @@ def test_it_is_what_the_engine_writes_of_its_own_run(
 
 
 def test_its_header_is_the_engines(run: Result, tmp_path: Path) -> None:
-    run.save_solution(tmp_path / "run.txt")
+    save_solution(run, tmp_path / "run.txt")
     header = (tmp_path / "run.txt").read_text().splitlines()[:10]
     assert header[0] == "#Exudyn implicit second order time integration solver solution file"
     assert header[2] == "#columns contain: time, ODE2 displacements, ODE2 velocities"
@@ -134,7 +133,8 @@ RISES = {
 
 @pytest.mark.parametrize("name", RISES)
 def test_the_engines_model_is_where_the_run_was(name: str, tmp_path: Path) -> None:
-    result = simulate(RISES[name], solution=tmp_path / "run.txt")
+    result = simulate(RISES[name])
+    save_solution(result, tmp_path / "run.txt")
     solution = load(tmp_path / "run.txt")
     assert np.array_equal(solution["data"][:, 0], result.time)
     scenario = result.scenario
@@ -170,8 +170,8 @@ def test_rates_are_those_of_the_coordinates(name: str) -> None:
 
 
 def test_the_binary_format_holds_the_same(run: Result, tmp_path: Path) -> None:
-    run.save_solution(tmp_path / "run.txt")
-    run.save_solution(tmp_path / "run.sol")
+    save_solution(run, tmp_path / "run.txt")
+    save_solution(run, tmp_path / "run.sol")
     text, binary = load(tmp_path / "run.txt"), load(tmp_path / "run.sol")
     assert np.array_equal(text["data"], binary["data"])
     assert (tmp_path / "run.sol").read_bytes().startswith(b"EXUBIN")
@@ -181,7 +181,7 @@ def test_the_binary_format_holds_the_same(run: Result, tmp_path: Path) -> None:
 @pytest.mark.parametrize("ending", ["", ".dat", ".ünï"])
 def test_any_name_will_do(run: Result, ending: str, tmp_path: Path) -> None:
     path = tmp_path / "a folder" / f"solution{ending}"
-    assert run.save_solution(path) == path
+    assert save_solution(run, path) == path
     assert load(path)["nRows"] == run.time.size
     assert [entry.name for entry in path.parent.iterdir()] == [path.name]
 
@@ -189,48 +189,62 @@ def test_any_name_will_do(run: Result, ending: str, tmp_path: Path) -> None:
 # --- whole or not at all ---
 
 
-def test_channels_that_it_needs_are_asked_for_before_the_run(tmp_path: Path) -> None:
+def run_command(scenario: Scenario, folder: Path, solution: Path) -> int:
+    """What `run` ends with for a scenario of which a solution file is to be kept."""
+    save_scenario(scenario, folder / "a.toml")
+    return main(["run", str(folder / "a.toml"), "--solution", str(solution)])
+
+
+def test_channels_that_it_needs_are_asked_for_before_the_run(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     scenario = loose_support(1.5, 0.25, duration=1e5, channels=("tip.*", "canopy.*"))
-    with pytest.raises(InputError, match=r"'rear_link\.x'"):
-        simulate(scenario, solution=tmp_path / "run.txt")  # at once, not after a day
-    assert list(tmp_path.iterdir()) == []
+    assert run_command(scenario, tmp_path, tmp_path / "run.txt") == 1  # at once, not after a day
+    assert "'rear_link.x'" in capsys.readouterr().err
+    assert [one.name for one in tmp_path.iterdir()] == ["a.toml"]
+
+
+def test_the_command_keeps_it_beside_the_run(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run_command(loose_support(1.5, 0.25, duration=0.002), tmp_path, tmp_path / "run.sol") == 0
+    assert capsys.readouterr().out.splitlines()[-2:] == [str(tmp_path / "a.h5"), str(tmp_path / "run.sol")]
+    assert np.array_equal(load(tmp_path / "run.sol")["data"][:, 0], Result.load(tmp_path / "a.h5").time)
+    assert main(["run", str(tmp_path / "a.toml"), "--solution", str(tmp_path / "a.h5")]) == 1
+    assert "is the file of the run" in capsys.readouterr().err
 
 
 def test_a_run_without_them_says_so(tmp_path: Path) -> None:
     result = simulate(loose_support(1.5, 0.25, duration=0.002, channels=("tip.*",)))
     with pytest.raises(InputError, match="was not recorded"):
-        result.save_solution(tmp_path / "run.txt")
+        save_solution(result, tmp_path / "run.txt")
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_path_that_cannot_be_written_is_refused_before_the_run(tmp_path: Path) -> None:
-    with pytest.raises(OSError, match="cannot be written"):
-        simulate(loose_support(1.5, 0.25, duration=1e5), solution=tmp_path)
+def test_a_path_that_cannot_be_written_is_refused_before_the_run(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run_command(loose_support(1.5, 0.25, duration=1e5), tmp_path, tmp_path) == 1
+    assert "cannot be written" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("throw", [True, False])
-def test_a_run_that_fails_leaves_an_older_file(throw: bool, tmp_path: Path) -> None:
+def test_a_run_that_fails_leaves_an_older_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "run.txt"
     path.write_text("older")
     scenario = loose_support(1.5, 0.25, duration=1.0)
     scenario = dataclasses.replace(scenario, solver=dataclasses.replace(scenario.solver, most_steps=100))
-    if throw:
-        with pytest.raises(SimulationError, match="more than 100 steps"):
-            simulate(scenario, solution=path)
-    else:
-        assert isinstance(simulate(scenario, solution=path, throw=False), Failure)
+    assert run_command(scenario, tmp_path, path) == 1
+    assert "more than 100 steps" in capsys.readouterr().err
     assert path.read_text() == "older"
-    assert list(tmp_path.iterdir()) == [path]
+    assert sorted(one.name for one in tmp_path.iterdir()) == ["a.toml", "run.txt"]
 
 
 FULL = """
 import resource, signal, sys
-from support_exudyn import Result
+from support_exudyn import Result, save_solution
 result = Result.load(sys.argv[1])
 signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
 resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
 try:
-    result.save_solution(sys.argv[2])
+    save_solution(result, sys.argv[2])
 except OSError as error:
     raise SystemExit("refused: " + str(error))
 """
@@ -270,15 +284,15 @@ def test_what_is_not_a_solution_file_is_refused(
 
 
 def test_a_solution_file_of_another_model_is_not_shown(run: Result, tmp_path: Path) -> None:
-    other = simulate(RISES["crank"], solution=tmp_path / "crank.txt")
-    assert isinstance(other, Result)
+    save_solution(simulate(RISES["crank"]), tmp_path / "crank.txt")
     with pytest.raises(InputError, match=r"crank\.txt.* 9 coordinates; allowed: of the run's, with 12"):
         open_viewer(run, solution=tmp_path / "crank.txt")
 
 
 def test_a_run_to_an_accuracy_keeps_it_too(tmp_path: Path) -> None:
     scenario = loose_support(1.5, 0.0, formulation="redundant", **RISE)
-    result = simulate(scenario, accuracy="draft", solution=tmp_path / "run.txt")
+    result = simulate(scenario, accuracy="draft")
+    save_solution(result, tmp_path / "run.txt")
     kept = load(tmp_path / "run.txt")["data"]
     assert np.array_equal(kept[:, 0], result.time)
 

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from support_exudyn.postprocessing.look.strut_pose import ALONG_Z, axes_along
+from support_exudyn.postprocessing.look.poses import ALONG_Z, axes_along
 
 number = st.floats(-2.0, 2.0)
 vector = st.tuples(number, number, number).map(np.array)

@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from support_exudyn.mechanics.space.motion import rotation
-from support_exudyn.postprocessing.export.coordinates import euler_parameters
-from support_exudyn.postprocessing.look.strut_pose import strut_axes as along
+from support_exudyn.postprocessing.export.solution_file import euler_parameters
+from support_exudyn.postprocessing.look.poses import strut_axes as along
 from support_exudyn.postprocessing.viewer.view import checked_every, differing_versions, every_row
 from support_exudyn.simulation.provenance import provenance
 from user_forces import InputError

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from support_exudyn import CubicStep, Result, simulate
+from support_exudyn import CubicStep, Result, save_solution, simulate
 from tests import screen
 from tests.cases.run_cases import loose_support
 from tests.processes import wait_until
@@ -59,7 +59,7 @@ def viewing(run: Path, display: str, home: Path, *options: str) -> Iterator[subp
 def test_it_starts_steps_through_frames_and_closes(run: Path, shown: str, display: str, tmp_path: Path) -> None:
     options = []
     if shown == "solution file":
-        options = ["--solution", str(Result.load(run).save_solution(tmp_path / "rise.sol")), "--every", "3"]
+        options = ["--solution", str(save_solution(Result.load(run), tmp_path / "rise.sol")), "--every", "3"]
     x = screen.Screen(display)
     with viewing(run, display, tmp_path, *options) as program:
 

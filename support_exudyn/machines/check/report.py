@@ -1,13 +1,10 @@
-"""What a check came to: tables in mm, degrees and kN, warnings, numbers in SI, and how it is drawn."""
+"""What a check came to: tables in mm, degrees and kN, warnings, and numbers in SI."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from typing import Any
 
 
 @dataclass(frozen=True)
@@ -19,7 +16,7 @@ class Sheet:
     rows: Sequence[Sequence[str]]
 
     def lines(self) -> Iterator[str]:
-        """As text: the first column to the left, numbers to the right."""
+        """The table as text: the first column to the left, numbers to the right."""
         table = [self.header, *self.rows]
         widths = [max(len(row[n]) for row in table) for n in range(len(self.header))]
         yield self.title
@@ -33,7 +30,7 @@ class Sheet:
 
 @dataclass(frozen=True)
 class Report:
-    """A check of a machine.
+    """A check of a machine; its subclasses keep what a figure of it is drawn from.
 
     Arguments:
         name, kind: of the machine.
@@ -42,7 +39,6 @@ class Report:
         warnings: what a colleague would point at, in sentences.
         notes: what was assumed, what cannot be done for want of data, and where the data come from.
         numbers: plain data, SI and radians, with the unit in the key.
-        draw: makes its figure.
     """
 
     name: str
@@ -52,10 +48,9 @@ class Report:
     warnings: Sequence[str]
     notes: Sequence[str]
     numbers: dict[str, Any] = field(repr=False)
-    draw: Callable[[], Figure] = field(repr=False)
 
     def lines(self) -> Iterator[str]:
-        """All of it as text."""
+        """The whole report as text."""
         yield f"{self.name or 'machine'} ({self.kind})"
         yield ""
         yield from self.facts
@@ -68,7 +63,7 @@ class Report:
             yield from (f"  - {one}" for one in said)
 
     def data(self) -> dict[str, Any]:
-        """All of it as plain data."""
+        """The numbers, warnings and notes as plain data."""
         return {
             "name": self.name,
             "kind": self.kind,
@@ -76,6 +71,3 @@ class Report:
             "warnings": list(self.warnings),
             "notes": list(self.notes),
         }
-
-
-WANDER = 0.080  # [m] that MT/T 556-1996, 4.6.4 allows the tip

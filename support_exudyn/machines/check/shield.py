@@ -3,15 +3,24 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
-from support_exudyn.machines.check.mobility import mobility
 from support_exudyn.machines.check.plausibility import missing, suspicions
-from support_exudyn.machines.check.report import WANDER, Report, Sheet
-from support_exudyn.machines.check.shield_stroke import Limit, Shield, Station, limit, stations, usual_stroke
+from support_exudyn.machines.check.report import Report, Sheet
+from support_exudyn.machines.check.shield_stroke import (
+    WANDER,
+    Limit,
+    Shield,
+    Station,
+    limit,
+    stations,
+    usual_stroke,
+)
+from support_exudyn.machines.check.statics import mobility
 from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.model.linkage import GROUND
 
@@ -25,8 +34,23 @@ HELD = 0.05  # of the machine's weight: a pull below that is nothing to speak of
 FINE = 101  # postures for the smallest and the largest
 
 
-def check_shield(data: MachineData, machine: Shield, stroke: float | None) -> Report:
-    """All that can be said of a support before it is run; stroke: see `check_machine`."""
+@dataclass(frozen=True)
+class ShieldReport(Report):
+    """A check of a shield support.
+
+    Arguments:
+        machine: the support.
+        fine: postures over the stroke, from the start on.
+        limits: where its way ends "above" and "below" the used range; None: not near.
+    """
+
+    machine: Shield = field(repr=False)
+    fine: Sequence[Station] = field(repr=False)
+    limits: Mapping[str, Limit | None] = field(repr=False)
+
+
+def check_shield(data: MachineData, machine: Shield, stroke: float | None) -> ShieldReport:
+    """The report of a support before it is run; stroke: see `check_machine`."""
     used = stroke if stroke is not None else data.stroke if data.stroke is not None else usual_stroke(machine)
     fine = stations(machine, used, FINE)
     told = fine[:: (FINE - 1) // 10]
@@ -50,7 +74,7 @@ def check_shield(data: MachineData, machine: Shield, stroke: float | None) -> Re
     ]
     warnings = [*_warnings(machine, fine, used, wander, limits), *suspicions(data, machine)]
     sources = [f"source of {name}: {said}" for name, said in data.sources.items()]
-    return Report(
+    return ShieldReport(
         name=data.name,
         kind=data.kind,
         facts=facts,
@@ -58,12 +82,7 @@ def check_shield(data: MachineData, machine: Shield, stroke: float | None) -> Re
         warnings=warnings,
         notes=[*missing(data, machine), *sources],
         numbers={
-            "degrees_of_freedom": {
-                "counted": free.counted,
-                "free": free.free,
-                "driven": free.driven,
-                "left": free.left,
-            },
+            "degrees_of_freedom": free.data(),
             "stroke_m": used,
             "tip_x_least_m": min(tips),
             "tip_x_largest_m": max(tips),
@@ -74,19 +93,10 @@ def check_shield(data: MachineData, machine: Shield, stroke: float | None) -> Re
             "dead_centres": {where: _limit_data(found) for where, found in limits.items()},
             "stations": [_station_data(station) for station in told],
         },
-        draw=_drawing(data, machine, fine, limits),
+        machine=machine,
+        fine=fine,
+        limits=limits,
     )
-
-
-def _drawing(
-    data: MachineData, machine: Shield, fine: Sequence[Station], limits: dict[str, Limit | None]
-) -> Callable[[], Any]:
-    def draw() -> Any:
-        from support_exudyn.postprocessing.figures.shield_check import shield_figure  # and matplotlib
-
-        return shield_figure(data.name, machine, fine, limits)
-
-    return draw
 
 
 # --- tables ---

@@ -16,6 +16,7 @@ from support_exudyn.model.plane_geometry import direction, distance, minus, move
 from user_forces.values.value import InputError, Vector2
 
 Shield = FourBarShield[Any]
+WANDER = 0.080  # [m] that MT/T 556-1996, 4.6.4 allows the tip
 STATIONS = 11  # postures that are told
 SHARE = 0.3  # of the shortest column: the stroke if nobody says one
 STRIDE = 0.005  # of the shortest column: step to where it locks

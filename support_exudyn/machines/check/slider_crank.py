@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
-from support_exudyn.machines.check.mobility import mobility
 from support_exudyn.machines.check.report import Report, Sheet
-from support_exudyn.machines.check.statics import Statics, statics
+from support_exudyn.machines.check.statics import Statics, mobility, statics
 from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.machines.slider_crank import SliderCrank
 
@@ -29,8 +29,16 @@ class Turn:
     forces: Statics
 
 
-def check_crank(data: MachineData, machine: SliderCrank) -> Report:
-    """All that can be said of a slider-crank before it is run, over one revolution of the crank."""
+@dataclass(frozen=True)
+class CrankReport(Report):
+    """A check of a slider-crank; fine: postures over one revolution."""
+
+    machine: SliderCrank = field(repr=False)
+    fine: Sequence[Turn] = field(repr=False)
+
+
+def check_crank(data: MachineData, machine: SliderCrank) -> CrankReport:
+    """The report of a slider-crank before it is run, over one revolution of the crank."""
     fine = [_turn(machine, 2.0 * math.pi * n / (FINE - 1)) for n in range(FINE)]
     told = fine[:: (FINE - 1) // (STATIONS - 1)]
     free = mobility(machine.linkage())
@@ -65,7 +73,7 @@ def check_crank(data: MachineData, machine: SliderCrank) -> Report:
         )
     notes.append("it is known in its plane only")
     notes += [f"source of {name}: {said}" for name, said in data.sources.items()]
-    return Report(
+    return CrankReport(
         name=data.name,
         kind=data.kind,
         facts=facts,
@@ -73,12 +81,7 @@ def check_crank(data: MachineData, machine: SliderCrank) -> Report:
         warnings=warnings,
         notes=notes,
         numbers={
-            "degrees_of_freedom": {
-                "counted": free.counted,
-                "free": free.free,
-                "driven": free.driven,
-                "left": free.left,
-            },
+            "degrees_of_freedom": free.data(),
             "slider_least_m": min(travel),
             "slider_largest_m": max(travel),
             "closure_residual_m": residual,
@@ -86,14 +89,9 @@ def check_crank(data: MachineData, machine: SliderCrank) -> Report:
             "dead_centres_rad": [0.0, math.pi],
             "stations": [_data(one) for one in told],
         },
-        draw=lambda: _draw(data, machine, fine),
+        machine=machine,
+        fine=fine,
     )
-
-
-def _draw(data: MachineData, machine: SliderCrank, fine: list[Turn]) -> Any:
-    from support_exudyn.postprocessing.figures.slider_crank_check import crank_figure  # and matplotlib
-
-    return crank_figure(data.name, machine, fine)
 
 
 def _turn(machine: SliderCrank, angle: float) -> Turn:

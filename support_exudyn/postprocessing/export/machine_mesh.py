@@ -12,9 +12,9 @@ from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.postprocessing.export.mesh_series import Frame, MeshSeries
 from support_exudyn.postprocessing.export.names import ROLES, Named, numbered, role_names
-from support_exudyn.postprocessing.look.poses import Poses
+from support_exudyn.postprocessing.look.looks import look
+from support_exudyn.postprocessing.look.poses import Poses, strut_pose
 from support_exudyn.postprocessing.look.solid import Look, Role, Solid, Strut
-from support_exudyn.postprocessing.look.strut_pose import strut_pose
 from support_exudyn.simulation.result import Result
 
 
@@ -46,7 +46,7 @@ class MachineMesh:
     """
 
     def __init__(self, result: Result, first: int = 0) -> None:
-        self._look = result.scenario.machine.look(result.scenario)
+        self._look = look(result.scenario)
         self._poses = Poses(result)
         self._parts = parts_of(self._look)
         self._bodies = list(dict.fromkeys([GROUND, *(part.body for part in self._parts)]))

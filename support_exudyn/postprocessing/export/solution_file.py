@@ -11,19 +11,21 @@ from __future__ import annotations
 import ast
 import errno
 import re
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import exudyn
 import numpy as np
 from exudyn.basicUtilities import LoadSolutionFile
+from scipy.spatial.transform import Rotation
 
 from support_exudyn.files.whole_file import check_is_file, whole_file
 from support_exudyn.formulations.engine_settings import quiet_engine
-from support_exudyn.formulations.progress import Progress
 from support_exudyn.formulations.redundant.run import Model, model
-from support_exudyn.postprocessing.export.coordinates import check_recorded, coordinates
+from support_exudyn.mechanics.channels import chosen
+from support_exudyn.mechanics.space.motion import UNTURNED, parameter_rates
+from support_exudyn.mechanics.trajectory import Series
+from support_exudyn.postprocessing.look.poses import WHY, Poses
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.memory import available
 from support_exudyn.simulation.result import Result
@@ -36,10 +38,15 @@ BINARY_START = b"EXUBIN"
 TIMES = 8  # as much memory as its length reading a file may take
 HEADER = 5  # lines of the text format, the last of which says what the columns are
 COLUMNS = re.compile(r"#number of written coordinates \[[\w, ]+\] = (\[\d+(?:,\d+){6}\])")
+IN_PLANE = ("x", "y", "angle", "velocity_x", "velocity_y", "angular_velocity")
+IN_SPACE = (
+    *("x", "y", "z", "angle", "roll", "yaw", "velocity_x", "velocity_y", "velocity_z"),
+    *("angular_velocity", "angular_velocity_x", "angular_velocity_y"),
+)
 
 
 def rows(result: Result, of: Model) -> Solution:
-    """A run as the engine's viewer takes it.
+    """The records of a run as the engine's viewer takes them.
 
     Arguments:
         result: the run.
@@ -69,9 +76,16 @@ def rows(result: Result, of: Model) -> Solution:
 
 
 def save_solution(result: Result, path: str | Path) -> Path:
-    """Have the engine write the solution file of a run.
+    """Have Exudyn write its own solution file of a run, for `exudyn.utilities.LoadSolutionFile`.
 
-    path: with the ending `.sol` in the engine's binary format, with any other in its text format.
+    It is of the engine's model with rigid bodies and constraints, whatever formulation has computed the run:
+    a row for each record with time, coordinates and their rates.
+
+    Arguments:
+        result: the run.
+        path: with the ending `.sol` in the engine's binary format, with any other in its text format.
+
+    Returns the path.
 
     Raises InputError if the run has not recorded where its bodies are; OSError that names the file if it cannot
     be written, and an older one is then as it was.
@@ -79,25 +93,6 @@ def save_solution(result: Result, path: str | Path) -> Path:
     with whole_file(path) as temporary:
         _write(result, temporary)
     return Path(path)
-
-
-def keeping_solution(
-    run: Callable[[Scenario, Progress], Result], path: str | Path
-) -> Callable[[Scenario, Progress], Result]:
-    """The same way to run a scenario, which also has the engine write the solution file.
-
-    Before the run InputError is raised if it will not record where its bodies are, and OSError that names the
-    file if it cannot be written. If the run fails, an older file is as it was.
-    """
-
-    def kept(scenario: Scenario, progress: Progress) -> Result:
-        check_recorded(scenario)
-        with whole_file(path) as temporary:
-            result = run(scenario, progress)
-            _write(result, temporary)
-        return result
-
-    return kept
 
 
 def _write(result: Result, path: Path) -> None:
@@ -179,8 +174,7 @@ def _check_header(path: str | Path) -> None:
     found = COLUMNS.fullmatch(start[-1].decode("utf-8", "replace").strip())
     if found is None or not any(ast.literal_eval(found.group(1))):
         raise InputError(
-            f"{path}: not a solution file of Exudyn; allowed: what Result.save_solution or the "
-            "engine has written"
+            f"{path}: not a solution file of Exudyn; allowed: what `save_solution` or the engine has written"
         )
 
 
@@ -189,3 +183,60 @@ def check_fits(solution: Solution, of: Model, path: str | Path) -> None:
     wanted, found = int(of.mbs.systemData.ODE2Size()), int(solution["columnsExported"][0])
     if found != wanted:
         raise InputError(f"{path}: of a model with {found} coordinates; allowed: of the run's, with {wanted}")
+
+
+# --- coordinates ---
+
+
+def channels_of_bodies(scenario: Scenario) -> list[str]:
+    """Names of the channels from which the coordinates follow."""
+    if scenario.dimensions == 3:
+        return [f"{body}.{what}" for body in scenario.space.bodies for what in IN_SPACE]
+    return [f"{body}.{what}" for body in scenario.linkage.bodies for what in IN_PLANE]
+
+
+def check_recorded(scenario: Scenario) -> None:
+    """Raise InputError if a run of the scenario will lack a channel from which the coordinates follow."""
+    recorded = set(chosen(scenario.recipes, scenario.channels))
+    missing = [name for name in channels_of_bodies(scenario) if name not in recorded]
+    if missing:
+        raise InputError(
+            f"channels = {scenario.channels}: lacks {len(missing)} by which a solution file says where the "
+            f"bodies are, such as {missing[0]!r}; allowed with a solution file: patterns that match all of "
+            "them, or ('*',)"
+        )
+
+
+def coordinates(result: Result) -> dict[str, tuple[Series, Series]]:
+    """Coordinates of every body in the engine and their rates, shapes (n, 3) in the plane, (n, 7) in space.
+
+    They are what has changed since the start posture: place of the centre of mass [m], then the angle [rad],
+    or the four Euler parameters. Raises InputError if a channel that this needs was not recorded.
+    """
+    if result.scenario.dimensions == 3:
+        poses = Poses(result)
+        return {body: _in_space(poses, body) for body in result.scenario.space.bodies}
+    return {body: _in_plane(result, body) for body in result.scenario.linkage.bodies}
+
+
+def _in_plane(result: Result, name: str) -> tuple[Series, Series]:
+    body = result.scenario.linkage.bodies[name]
+    columns = [result.recorded(f"{name}.{what}", WHY) for what in IN_PLANE]
+    return np.column_stack(columns[:3]) - [*body.centre, body.angle], np.column_stack(columns[3:])
+
+
+def _in_space(poses: Poses, name: str) -> tuple[Series, Series]:
+    pose = poses.of(name)
+    parameters = euler_parameters(pose.turn)
+    place = np.hstack([pose.place - np.array(pose.start), parameters - UNTURNED])
+    return place, np.hstack([pose.velocity, parameter_rates(parameters, pose.spin)])
+
+
+def euler_parameters(turn: Series) -> Series:
+    """Of rotations (n, 3, 3) that follow each other: (n, 4), without jumps of sign, the first positive."""
+    found = Rotation.from_matrix(turn).as_quat()[:, [3, 0, 1, 2]]
+    follows = np.sum(found[1:] * found[:-1], axis=1) >= 0.0
+    first = 1.0 if found[0, 0] >= 0.0 else -1.0
+    signs = first * np.cumprod([1.0, *np.where(follows, 1.0, -1.0)])
+    steady: Series = signs[:, None] * found
+    return steady

@@ -22,6 +22,15 @@ FLIGHT = "#56B4E9"
 # what the paper prints, as crosses
 PAPER = "#882255"
 
+Dashes = str | tuple[int, tuple[float, ...]]
+# curves of a panel: colours that are told apart by all readers, dashes for grey prints
+CURVES: tuple[tuple[str, Dashes], ...] = (
+    (LOOSE, "-"),
+    (SMOOTH, (0, (6, 1.5))),
+    (THIRD, (0, (3, 1, 1, 1))),
+    (IDEAL, (0, (1, 1))),
+    (PAPER, (0, (8, 1, 1, 1, 1, 1))),
+)
 STYLE: dict[Any, Any] = {
     "font.family": "sans-serif",
     "font.size": 9,

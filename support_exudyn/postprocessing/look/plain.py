@@ -7,10 +7,11 @@ from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
-from shapely.geometry import Polygon
+from shapely.geometry import Polygon, box
 from shapely.ops import unary_union
 
 from support_exudyn.model.linkage import GROUND, Column, Linkage, Slide
+from support_exudyn.model.loads.falling_block import FallingBlock
 from support_exudyn.model.to_space import at, copies
 from support_exudyn.postprocessing.look.placed_pins import planar_pins
 from support_exudyn.postprocessing.look.shapes import bar, bored, hull, plate, together, tube
@@ -190,3 +191,15 @@ def _struts(scenario: Scenario, name: str, radius: float) -> Iterator[Strut]:
             cylinder,
             rod,
         )
+
+
+def blocks(scenario: Scenario) -> list[Solid]:
+    """A cube for each falling block, of its mass and density, where it starts."""
+    found = []
+    for name, load in scenario.loads.items():
+        if isinstance(load, FallingBlock):
+            x, y = scenario.linkage.bodies[name].centre
+            half = 0.5 * load.side
+            mesh = plate(box(x - half, y - half, x + half, y + half), 0.0, load.side)
+            found.append(Solid(name, name, Role.ROCK, mesh))
+    return found

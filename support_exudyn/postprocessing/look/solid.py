@@ -1,4 +1,4 @@
-"""What is drawn: solids that move with a body, and struts that reach from one body to another."""
+"""What is drawn: solids that move with a body, struts from one body to another, and their colours."""
 
 from __future__ import annotations
 
@@ -82,3 +82,21 @@ class Look:
 def solids_of(look: Look, body: str) -> tuple[Solid, ...]:
     """Those that move with a body."""
     return tuple(solid for solid in look.solids if solid.body == body)
+
+
+Colour = tuple[float, float, float]
+
+COLOURS: dict[Role, Colour] = {
+    Role.GROUND: (0.55, 0.52, 0.48),
+    Role.BASE: (0.40, 0.44, 0.49),
+    Role.LINK: (0.29, 0.47, 0.58),
+    Role.SHIELD: (0.83, 0.74, 0.50),
+    Role.TAIL: (0.68, 0.58, 0.38),
+    Role.CANOPY: (0.92, 0.86, 0.66),
+    Role.CYLINDER: (0.36, 0.38, 0.41),
+    Role.ROD: (0.84, 0.86, 0.88),
+    Role.PIN: (0.13, 0.13, 0.14),
+    Role.ROCK: (0.48, 0.45, 0.42),
+    Role.BODY: (0.45, 0.58, 0.70),
+}
+EDGE: Colour = (0.16, 0.16, 0.17)

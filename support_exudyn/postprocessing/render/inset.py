@@ -11,8 +11,7 @@ from PIL import Image
 
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.postprocessing.figures.style import CONTACT, FLIGHT
-from support_exudyn.postprocessing.look.palette import COLOURS
-from support_exudyn.postprocessing.look.solid import Role
+from support_exudyn.postprocessing.look.solid import COLOURS, Role
 from support_exudyn.postprocessing.render.ink import FAINT, Point, Sheet, write
 from support_exudyn.postprocessing.render.layout import Box
 from support_exudyn.postprocessing.render.pin_view import Bore

@@ -9,10 +9,9 @@ import numpy as np
 
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.loads.roof import Roof
-from support_exudyn.postprocessing.look.palette import COLOURS
-from support_exudyn.postprocessing.look.poses import Poses
-from support_exudyn.postprocessing.look.solid import Look, Role, Strut
-from support_exudyn.postprocessing.look.strut_pose import strut_pose
+from support_exudyn.postprocessing.look.looks import look
+from support_exudyn.postprocessing.look.poses import Poses, strut_pose
+from support_exudyn.postprocessing.look.solid import COLOURS, Look, Role, Strut
 from support_exudyn.postprocessing.render.camera import Camera, fitted
 from support_exudyn.postprocessing.render.pin_view import PinView
 from support_exudyn.postprocessing.render.scenery import GAP, Label, Surroundings, surroundings
@@ -33,7 +32,7 @@ class Scene:
 
     def __init__(self, result: Result) -> None:
         self.result = result
-        self.look: Look = result.scenario.machine.look(result.scenario)
+        self.look: Look = look(result.scenario)
         self.poses = Poses(result)
         self.records = np.unique(np.linspace(0, self.poses.time.size - 1, LOOKED_AT).astype(int))
 

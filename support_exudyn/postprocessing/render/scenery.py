@@ -14,8 +14,8 @@ from trimesh import Trimesh
 from trimesh.convex import convex_hull
 
 from support_exudyn.mechanics.trajectory import Series
-from support_exudyn.postprocessing.look.palette import Colour
 from support_exudyn.postprocessing.look.shapes import plate, together
+from support_exudyn.postprocessing.look.solid import Colour
 from support_exudyn.postprocessing.render.stage import Prop
 from user_forces.values.value import Vector3
 

@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation
 from trimesh import Trimesh
 
 from support_exudyn.mechanics.trajectory import Series
-from support_exudyn.postprocessing.look.palette import Colour
+from support_exudyn.postprocessing.look.solid import Colour
 from support_exudyn.postprocessing.render.camera import Camera
 from support_exudyn.postprocessing.viewer.engine_graphics import engine_surface
 

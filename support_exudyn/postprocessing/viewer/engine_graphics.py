@@ -10,7 +10,7 @@ from trimesh import Trimesh
 from trimesh.graph import smooth_shade
 
 from support_exudyn.mechanics.trajectory import Series
-from support_exudyn.postprocessing.look.palette import EDGE, Colour
+from support_exudyn.postprocessing.look.solid import EDGE, Colour
 
 SHARP = 0.5  # [rad] between two faces, from which on an edge is seen; a round one of 32 sections turns by 0.2
 UNTURNED = np.eye(3)

@@ -56,7 +56,7 @@ def open_viewer(
     Arguments:
         result: the run.
         solution: path of a solution file of it that is shown in place of its records, see
-            `Result.save_solution`.
+            `save_solution`.
         every: rows from frame to frame, 1 to 200, 25 frames a second; by default the run takes about 10 s.
         name: of the run, shown in the window.
 

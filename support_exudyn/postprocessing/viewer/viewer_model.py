@@ -18,11 +18,11 @@ from support_exudyn.formulations.redundant.run import Model, model
 from support_exudyn.formulations.redundant.scene.engine_scene import INITIAL
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.linkage import GROUND
-from support_exudyn.postprocessing.look.palette import COLOURS, Colour
+from support_exudyn.postprocessing.look import looks
 from support_exudyn.postprocessing.look.placed_pins import PlacedPin, placed_pins
+from support_exudyn.postprocessing.look.poses import strut_axes
 from support_exudyn.postprocessing.look.shapes import tube
-from support_exudyn.postprocessing.look.solid import Look, Role, Solid, Strut, solids_of
-from support_exudyn.postprocessing.look.strut_pose import strut_axes
+from support_exudyn.postprocessing.look.solid import COLOURS, Colour, Look, Role, Solid, Strut, solids_of
 from support_exudyn.postprocessing.viewer.engine_graphics import engine_surface
 from support_exudyn.scenario.scenario import Scenario
 from user_forces import JournalBearing
@@ -57,7 +57,7 @@ class DressedModel:
 
 def dressed(scenario: Scenario) -> DressedModel:
     """The model of a scenario, as `model` makes it, with the look of its machine."""
-    scene, look = model(scenario), scenario.machine.look(scenario)
+    scene, look = model(scenario), looks.look(scenario)
     loose = [(pin, pin.loose.contact.bearing) for pin in placed_pins(scenario) if pin.loose is not None]
     rims = [_rim(pin, bearing, look) for pin, bearing in loose]
     journals = [_journal(pin, bearing, look) for pin, bearing in loose]

@@ -1,68 +1,113 @@
-"""Figure of a checked support: three postures, tip path, angles in pins, static forces."""
+"""Figures of checked machines: postures, paths and static forces over the stroke or a revolution."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
+from functools import singledispatch
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from support_exudyn.machines.check.report import WANDER
-from support_exudyn.machines.check.shield_stroke import Limit, Shield, Station
+from support_exudyn.machines.check.report import Report
+from support_exudyn.machines.check.shield import ShieldReport
+from support_exudyn.machines.check.shield_stroke import WANDER, Limit, Shield, Station
+from support_exudyn.machines.check.slider_crank import CrankReport
+from support_exudyn.machines.slider_crank import SliderCrank
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.postprocessing.figures import style
+from support_exudyn.postprocessing.figures.style import CURVES, Dashes
 from user_forces.values.value import Vector2
 
-Dashes = str | tuple[int, tuple[float, ...]]
 LETTERS = {
-    "rear_base": "B",
-    "front_base": "A",
-    "rear_shield": "C",
-    "front_shield": "D",
-    "hinge": "I",
-    "front_foot": "F",
-    "front_head": "E",
-    "rear_foot": "H",
-    "rear_head": "G",
-    "leg_foot": "F",
-    "leg_head": "L",
-    "ram_foot": "P",
-    "ram_head": "Q",
-    "tip": "T",
-}
+    "rear_base": "B", "front_base": "A", "rear_shield": "C", "front_shield": "D", "hinge": "I",
+    "front_foot": "F", "front_head": "E", "rear_foot": "H", "rear_head": "G", "leg_foot": "F", "leg_head": "L",
+    "ram_foot": "P", "ram_head": "Q", "tip": "T",
+}  # fmt: skip
+# where the letter of a pivot stands beside it [points]
+ASIDE = {
+    "hinge": (0.0, 9.0), "front_head": (0.0, 9.0), "rear_head": (0.0, 9.0), "leg_head": (0.0, 9.0),
+    "tip": (0.0, 9.0), "rear_shield": (-9.0, 2.0), "rear_base": (-9.0, 2.0), "front_shield": (-2.0, 9.0),
+    "front_foot": (9.0, -2.0), "rear_foot": (9.0, -2.0), "leg_foot": (9.0, -2.0),
+}  # fmt: skip
+ELSEWHERE = (9.0, -4.0)  # ... of the others
+LENGTHS = (
+    ("rear_base", "rear_shield"), ("front_base", "front_shield"), ("rear_shield", "front_shield"),
+    ("rear_shield", "hinge"), ("hinge", "tip"),
+)  # fmt: skip
 # of lowest, middle and highest posture
 POSTURES: tuple[tuple[str, Dashes], ...] = (
     (style.LOOSE, (0, (4, 1.5))),
     (style.IDEAL, "-"),
     (style.THIRD, (0, (3, 1, 1, 1))),
 )
-CURVES: tuple[tuple[str, Dashes], ...] = (
-    (style.LOOSE, "-"),
-    (style.SMOOTH, (0, (6, 1.5))),
-    (style.THIRD, (0, (3, 1, 1, 1))),
-    (style.IDEAL, (0, (1, 1))),
-    (style.PAPER, (0, (8, 1, 1, 1, 1, 1))),
-)
+CRANKS = ((45.0, style.IDEAL, "-"), (135.0, style.LOOSE, "--"), (270.0, style.THIRD, "-."))
 GREY = "#777777"
 
 
-def shield_figure(
-    name: str, machine: Shield, fine: Sequence[Station], limits: Mapping[str, Limit | None]
-) -> Figure:
-    """Drawing and curves of a support over its stroke; fine: postures, from the start on."""
+@singledispatch
+def check_figure(report: Report) -> Figure:
+    """The figure of a check: drawing of the machine, and curves of what was found."""
+    raise TypeError(f"{type(report).__name__}: has no figure; allowed: reports of `check_machine`")
+
+
+@check_figure.register
+def _(report: ShieldReport) -> Figure:
+    """A support in three postures, and curves over its stroke."""
+    machine, fine = report.machine, report.fine
     drawing = Figure(figsize=style.size(180, 205))
     grid = drawing.add_gridspec(3, 2, height_ratios=(1.75, 1.0, 1.0))
     upper = grid[0, :].subgridspec(1, 2, width_ratios=(2.7, 1.0))
     _machine(drawing.add_subplot(upper[0]), machine, fine)
     _pivots(drawing.add_subplot(upper[1]), machine, fine)
     _tip_path(drawing.add_subplot(grid[1, 0]), fine)
-    _angles(drawing.add_subplot(grid[1, 1]), fine, limits)
-    _forces(drawing.add_subplot(grid[2, 0]), fine, _pin_forces(fine), "static force in pins [kN]")
-    _forces(drawing.add_subplot(grid[2, 1]), fine, _pushes(fine), "push of columns, under weight [kN]")
-    drawing.suptitle(name, x=0.01, ha="left")
+    _angles(drawing.add_subplot(grid[1, 1]), fine, report.limits)
+    stroke, pins, columns = [1e3 * one.stroke for one in fine], fine[0].forces.pins, fine[0].forces.columns
+    for place, title, forces in (
+        (grid[2, 0], "static force in pins [kN]",
+         {name: [1e-3 * float(np.hypot(*one.forces.pins[name])) for one in fine] for name in pins}),
+        (grid[2, 1], "push of columns, under weight [kN]",
+         {name: [1e-3 * one.forces.columns[name] for one in fine] for name in columns}),
+    ):  # fmt: skip
+        axes = drawing.add_subplot(place)
+        axes.axhline(0.0, color=GREY, lw=0.6)
+        axes.set(xlabel="stroke [mm]", title=title, ylabel="force [kN]")
+        _forces(axes, stroke, forces, room=0.45)
+    drawing.suptitle(report.name, x=0.01, ha="left")
     return drawing
+
+
+@check_figure.register
+def _(report: CrankReport) -> Figure:
+    """A slider-crank at three angles, and curves over one revolution."""
+    drawing, fine = Figure(figsize=style.size(170, 150)), report.fine
+    grid = drawing.add_gridspec(2, 2, height_ratios=(1.2, 1.0))
+    _crank(drawing.add_subplot(grid[0, :]), report.machine)
+    degrees = [math.degrees(one.angle) for one in fine]
+    left, right = drawing.add_subplot(grid[1, 0]), drawing.add_subplot(grid[1, 1])
+    left.plot(degrees, [1e3 * one.slider for one in fine], color=style.IDEAL, lw=1.4)
+    left.set(title="slider; dead centres at 0 and 180 degrees", ylabel="x of the slider [mm]")
+    for dead in (0.0, 180.0, 360.0):
+        left.axvline(dead, color=GREY, ls=":", lw=0.8)
+    forces = {pin: [float(np.hypot(*one.forces.pins[pin])) for one in fine] for pin in fine[0].forces.pins}
+    guide = [abs(one.forces.slides["guide"]) for one in fine]
+    right.set(title="static forces under weight", ylabel="force [N]")
+    _forces(right, degrees, {**forces, "guide": guide}, room=0.4)
+    for axes in (left, right):
+        axes.set(xlim=(0.0, 360.0), xticks=range(0, 361, 90), xlabel="crank from +x [degrees]")
+    drawing.suptitle(report.name, x=0.01, ha="left")
+    return drawing
+
+
+def _forces(axes: Axes, x: Sequence[float], forces: Mapping[str, Sequence[float]], room: float) -> None:
+    """Forces by name over x; room: what is left for the names above, of the height."""
+    for (name, values), (colour, dashes) in zip(forces.items(), CURVES, strict=False):
+        axes.plot(x, values, color=colour, ls=dashes, lw=1.2, label=name)
+    low, high = axes.get_ylim()
+    axes.set_ylim(low, high + room * (high - low))
+    axes.legend(loc="upper left", ncols=2, fontsize=7)
 
 
 def places(machine: Shield, posture: Any) -> dict[str, Vector2]:
@@ -95,7 +140,7 @@ def _machine(axes: Axes, machine: Shield, fine: Sequence[Station]) -> None:
     size = max(np.ptp([p[0] for p in at.values()]), np.ptp([p[1] for p in at.values()]))
     for pivot, (x, y) in at.items():
         axes.annotate(
-            LETTERS[pivot], (1e3 * x, 1e3 * y), xytext=_aside(pivot), textcoords="offset points",
+            LETTERS[pivot], (1e3 * x, 1e3 * y), xytext=ASIDE.get(pivot, ELSEWHERE), textcoords="offset points",
             fontsize=8, ha="center", va="center",
             bbox={"boxstyle": "round,pad=0.1", "fc": "white", "ec": "none", "alpha": 0.8},
             zorder=6,
@@ -120,19 +165,6 @@ def _machine(axes: Axes, machine: Shield, fine: Sequence[Station]) -> None:
     )  # fmt: skip
     axes.plot(1e3 * (right + 0.24 * size), 0.0)  # room for the dimensions
     axes.grid(False)
-
-
-def _aside(pivot: str) -> tuple[float, float]:
-    """Where the letter of a pivot stands beside it [points]."""
-    if pivot in ("hinge", "front_head", "rear_head", "leg_head", "tip"):
-        return 0.0, 9.0
-    if pivot in ("rear_shield", "rear_base"):
-        return -9.0, 2.0
-    if pivot in ("front_shield",):
-        return -2.0, 9.0
-    if pivot.endswith("_foot") and pivot != "ram_foot":
-        return 9.0, -2.0
-    return 9.0, -4.0
 
 
 def _posture(
@@ -187,13 +219,7 @@ def _pivots(axes: Axes, machine: Shield, fine: Sequence[Station]) -> None:
     lines = [("", "at the start", "x", "y")]
     lines += [(LETTERS[name], name, f"{1e3 * x:.0f}", f"{1e3 * y:.0f}") for name, (x, y) in at.items()]
     lines += [("", "", "", ""), ("", "lengths", "", "mm")]
-    for first, second in (
-        ("rear_base", "rear_shield"),
-        ("front_base", "front_shield"),
-        ("rear_shield", "front_shield"),
-        ("rear_shield", "hinge"),
-        ("hinge", "tip"),
-    ):
+    for first, second in LENGTHS:
         apart = float(np.hypot(*np.subtract(at[second], at[first])))
         lines.append(("", f"{LETTERS[first]}-{LETTERS[second]}", "", f"{1e3 * apart:.0f}"))
     for name in machine.STRUTS:
@@ -203,15 +229,9 @@ def _pivots(axes: Axes, machine: Shield, fine: Sequence[Station]) -> None:
         heavy = "bold" if line[1] in ("at the start", "lengths") else "normal"
         for x, text, side in zip((0.0, 0.1, 0.74, 1.0), line, ("left", "left", "right", "right"), strict=True):
             axes.text(
-                x,
-                1.0 - 0.05 * n,
-                text,
-                ha=side,
-                va="top",
-                fontsize=7.5,
-                weight=heavy,
+                x, 1.0 - 0.05 * n, text, ha=side, va="top", fontsize=7.5, weight=heavy,
                 transform=axes.transAxes,
-            )
+            )  # fmt: skip
 
 
 def _tip_path(axes: Axes, fine: Sequence[Station]) -> None:
@@ -239,22 +259,37 @@ def _angles(axes: Axes, fine: Sequence[Station], limits: Mapping[str, Limit | No
     axes.legend(loc="best", fontsize=7)
 
 
-def _pin_forces(fine: Sequence[Station]) -> dict[str, list[float]]:
-    names = fine[0].forces.pins
-    return {name: [1e-3 * float(np.hypot(*one.forces.pins[name])) for one in fine] for name in names}
-
-
-def _pushes(fine: Sequence[Station]) -> dict[str, list[float]]:
-    names = fine[0].forces.columns
-    return {name: [1e-3 * one.forces.columns[name] for one in fine] for name in names}
-
-
-def _forces(axes: Axes, fine: Sequence[Station], series: Mapping[str, Sequence[float]], title: str) -> None:
-    stroke = [1e3 * one.stroke for one in fine]
-    for (name, values), (colour, dashes) in zip(series.items(), CURVES, strict=False):
-        axes.plot(stroke, values, color=colour, ls=dashes, lw=1.2, label=name)
+def _crank(axes: Axes, machine: SliderCrank) -> None:
+    r, mm = machine.crank_length, 1e3
+    turn = np.linspace(0.0, 2.0 * np.pi, 181)
+    axes.plot(mm * r * np.cos(turn), mm * r * np.sin(turn), color=GREY, lw=0.6, ls=":")
     axes.axhline(0.0, color=GREY, lw=0.6)
-    axes.set(xlabel="stroke [mm]", title=title, ylabel="force [kN]")
-    low, high = axes.get_ylim()
-    axes.set_ylim(low, high + 0.45 * (high - low))  # room for the names
-    axes.legend(loc="upper left", ncols=2, fontsize=7)
+    side = 0.12 * r * mm
+    for degrees, colour, dashes in CRANKS:
+        angle = math.radians(degrees)
+        pin = mm * r * math.cos(angle), mm * r * math.sin(angle)
+        slider = mm * machine.slider_position(angle)
+        axes.plot([0.0, pin[0]], [0.0, pin[1]], color=colour, ls=dashes, lw=3.0)
+        axes.plot(
+            [pin[0], slider], [pin[1], 0.0], color=colour, ls=dashes, lw=1.6, label=f"{degrees:.0f} degrees"
+        )
+        corners = (
+            [slider - 2 * side, slider + 2 * side, slider + 2 * side, slider - 2 * side],
+            [-side, -side, side, side],
+        )
+        axes.fill(*corners, fc="white", ec=colour, lw=1.2, zorder=3)
+        axes.plot([0.0, pin[0], slider], [0.0, pin[1], 0.0], "o", ms=4, mfc="white", mec=colour, zorder=4)
+    axes.annotate("main", (0.0, 0.0), xytext=(-7, -12), textcoords="offset points", ha="right", fontsize=8)
+    first = math.radians(CRANKS[0][0])
+    axes.annotate(
+        "crank_pin", (mm * r * math.cos(first), mm * r * math.sin(first)), xytext=(6, 6),
+        textcoords="offset points", fontsize=8,
+    )  # fmt: skip
+    axes.annotate(
+        "slider_pin", (mm * machine.slider_position(first), side), xytext=(0, 6), textcoords="offset points",
+        fontsize=8, ha="center",
+    )  # fmt: skip
+    axes.set(aspect="equal", xlabel="x, along the guide [mm]", ylabel="y [mm]")
+    axes.set_title(f"crank {mm * r:g} mm, rod {mm * machine.rod_length:g} mm, at three angles of the crank")
+    axes.legend(loc="lower right", fontsize=8)
+    axes.grid(False)
