@@ -22,16 +22,16 @@ from support_exudyn.__main__ import main
 from support_exudyn.model.loads.roof import Roof
 from support_exudyn.postprocessing.export.machine_mesh import MachineMesh
 from support_exudyn.postprocessing.figures.style import CONTACT, FLIGHT
-from support_exudyn.postprocessing.render import painter, render, still
+from support_exudyn.postprocessing.render import render, still
 from support_exudyn.postprocessing.render.camera import Camera, direction_of_view
-from support_exudyn.postprocessing.render.ink import Sheet
-from support_exudyn.postprocessing.render.inset import Inset
-from support_exudyn.postprocessing.render.layout import Layout
+from support_exudyn.postprocessing.render.frame import Layout
 from support_exudyn.postprocessing.render.moments import moment
 from support_exudyn.postprocessing.render.movie import durations
+from support_exudyn.postprocessing.render.panels import Inset
 from support_exudyn.postprocessing.render.pin_view import pin_view
 from support_exudyn.postprocessing.render.scene import Scene
-from support_exudyn.postprocessing.render.stage import Image as Picture
+from support_exudyn.postprocessing.render.sheet import Image as Picture
+from support_exudyn.postprocessing.render.sheet import Sheet
 from support_exudyn.postprocessing.render.stage import Prop, Stage
 from tests.hostile import DISKS, left_behind, little_room, with_own_files
 from user_forces import InputError
@@ -205,18 +205,18 @@ def painted(
     """Arrows and words of a still: the scale's arrow, the one in the machine, the one in the bore."""
     arrows: list[Arrow] = []
     words: list[str] = []
-    drawn, written = Sheet.arrow, painter.write
+    drawn, written = Sheet.arrow, Sheet.write
 
     def arrow(sheet: Sheet, tail: Any, tip: Any, colour: str, thick: float, cut: bool = False) -> None:
         arrows.append(Arrow(np.array(tail), np.array(tip), cut))
         drawn(sheet, tail, tip, colour, thick, cut)
 
-    def write(picture: Any, place: Any, text: str, *rest: Any, **others: Any) -> None:
+    def write(sheet: Sheet, place: Any, text: str, *rest: Any, **others: Any) -> Any:
         words.append(text)
-        written(picture, place, text, *rest, **others)
+        return written(sheet, place, text, *rest, **others)
 
     monkeypatch.setattr(Sheet, "arrow", arrow)
-    monkeypatch.setattr(painter, "write", write)
+    monkeypatch.setattr(Sheet, "write", write)
     still(run, time, size=size)
     return arrows, words
 
@@ -292,9 +292,10 @@ def test_no_place_on_the_wall_is_marked_where_the_middle_of_the_journal_is_away_
     inset = Inset((0, 0, 286, 286), tilted, 1.0)
     seen = []
     for record in (0, 1):
-        picture = Image.new("RGB", (286, 286))
-        inset.draw(picture, record, record, (0.0, 0.0), False)
-        seen.append(pixels_of(np.asarray(picture)[30:250], CONTACT))  # without the words
+        sheet = Sheet(286, 286)
+        sheet.hold()
+        inset.draw(sheet, record, record, (0.0, 0.0), False)
+        seen.append(pixels_of(sheet.frame()[30:250], CONTACT))  # without the words
     wall = inset.centre[0] - 80.0  # pixels; the journal's middle is never so far from the bore's
     assert (seen[0][:, 1] > wall).all()
     assert (seen[1][:, 1] < wall).any()
@@ -458,15 +459,15 @@ def test_a_run_that_has_not_recorded_its_bodies_is_refused(tmp_path: Path) -> No
 
 def test_a_file_in_place_of_the_folder_is_refused(bouncing: Result, tmp_path: Path) -> None:
     (tmp_path / "f").write_text("mine")
-    with pytest.raises(NotADirectoryError, match="folder of frames"):
+    with pytest.raises(NotADirectoryError, match="a folder should be"):
         render(bouncing, tmp_path / "f", end=0.04, size=SIZE)
     assert [path.name for path in tmp_path.iterdir()] == ["f"]
 
 
 def test_leftovers_of_killed_processes_go_and_files_of_others_stay(bouncing: Result, tmp_path: Path) -> None:
-    left, own = left_behind(tmp_path), with_own_files(tmp_path)
-    made = {tmp_path / "f" / f"frame_{n:04d}.png" for n in (900, 901)}
     (tmp_path / "f").mkdir()
+    left, own = left_behind(tmp_path / "f"), with_own_files(tmp_path)
+    made = {tmp_path / "f" / f"frame_{n:04d}.png" for n in (900, 901)}
     (tmp_path / "f" / "frame_0900.png").write_text("of the user", encoding="utf-8")
     Image.new("RGB", (4, 4)).save(tmp_path / "f" / "frame_0901.png")
     render(bouncing, tmp_path / "f", end=0.04, size=SIZE, movie="none")

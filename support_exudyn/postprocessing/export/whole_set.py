@@ -44,7 +44,7 @@ def whole_set(
             if made:
                 held.callback(_remove_if_empty, folder)
             temporary = held.enter_context(workshop(folder))
-        except FileExistsError:
+        except (FileExistsError, NotADirectoryError):
             raise named(
                 NotADirectoryError(errno.ENOTDIR, "A file stands where a folder should be"), asked
             ) from None

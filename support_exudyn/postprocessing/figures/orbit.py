@@ -6,13 +6,12 @@ import math
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from support_exudyn.postprocessing.figures import style, units
 from support_exudyn.postprocessing.figures.caption import caption
-from support_exudyn.postprocessing.figures.journal import Journal, Series, journal, shortest_touch
+from support_exudyn.postprocessing.figures.journal import Journal, journal, pieces, shortest_touch
 from support_exudyn.postprocessing.figures.units import Unit, readable
 from support_exudyn.postprocessing.figures.windows import said
 from support_exudyn.simulation.result import Result
@@ -72,13 +71,13 @@ def draw_path(axes: Axes, shown: Journal, unit: Unit) -> None:
     x, y, contact = shown.path()
     radius = unit.scale * shown.clearance
     draw_circle(axes, radius)
-    for pieces, colour, width, label in (
+    for chosen, colour, width, label in (
         (~contact, style.FLIGHT, FLIGHT_WIDTH, "free flight"),
         (contact, style.CONTACT, CONTACT_WIDTH, "contact"),
     ):
-        if pieces.any():
+        if chosen.any():
             axes.plot(
-                *_pieces(unit.scale * x, unit.scale * y, pieces), color=colour, lw=width, label=label,
+                *pieces(unit.scale * x, unit.scale * y, chosen), color=colour, lw=width, label=label,
                 rasterized=x.size > MANY, zorder=3,
             )  # fmt: skip
     if shown.touches:
@@ -94,29 +93,18 @@ def draw_path(axes: Axes, shown: Journal, unit: Unit) -> None:
     axes.set(xlabel=f"eccentricity x [{unit.name}]", ylabel=f"eccentricity y [{unit.name}]")
 
 
-def _pieces(x: Series, y: Series, chosen: npt.NDArray[np.bool_]) -> tuple[Series, Series]:
-    """One line of the chosen pieces of a path, broken where others lie between."""
-    drawn = np.zeros(x.size, dtype=bool)
-    drawn[:-1] |= chosen
-    drawn[1:] |= chosen
-    # where two chosen pieces are parted by one that is not, both of its ends are drawn: a gap goes in between
-    gaps = np.flatnonzero(~chosen & drawn[:-1] & drawn[1:]) + 1
-    broken_x, broken_y = (np.insert(np.where(drawn, values, np.nan), gaps, np.nan) for values in (x, y))
-    return broken_x, broken_y
-
-
 def _draw_depth(axes: Axes, shown: Journal, over_time: Unit) -> None:
     unit = readable("m", float(np.abs(shown.depth).max()))
     time, depth = over_time.scale * shown.time, unit.scale * shown.depth
     axes.axhline(0.0, color=style.IDEAL, lw=0.6)
     contact = shown.in_contact[:-1] & shown.in_contact[1:]
-    for pieces, colour, width in (
+    for chosen, colour, width in (
         (~contact, style.FLIGHT, FLIGHT_WIDTH),
         (contact, style.CONTACT, CONTACT_WIDTH),
     ):
-        if pieces.any():
+        if chosen.any():
             axes.plot(
-                *_pieces(time, depth, pieces), color=colour, lw=width, rasterized=time.size > MANY, zorder=3
+                *pieces(time, depth, chosen), color=colour, lw=width, rasterized=time.size > MANY, zorder=3
             )
     if shown.touches:
         times = over_time.scale * np.array([touch.time for touch in shown.touches])

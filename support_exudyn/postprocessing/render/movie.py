@@ -12,7 +12,7 @@ from PIL.ImageColor import getrgb
 
 from support_exudyn.formulations.progress import Progress
 from support_exudyn.postprocessing.figures.style import CONTACT, FLIGHT
-from support_exudyn.postprocessing.render.ink import INK
+from support_exudyn.postprocessing.render.sheet import INK
 from user_forces.values.value import InputError
 
 KINDS = ("gif", "mp4", "none")

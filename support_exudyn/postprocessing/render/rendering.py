@@ -2,28 +2,23 @@
 
 from __future__ import annotations
 
-import errno
 import os
-from collections.abc import Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
-from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
 from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
-from support_exudyn.files.temporary import remove_leftovers, workshop
-from support_exudyn.files.whole_file import named, whole_file
+from support_exudyn.files.whole_file import whole_file
 from support_exudyn.formulations.progress import Progress, silent
+from support_exudyn.postprocessing.export.whole_set import whole_set
 from support_exudyn.postprocessing.render import movie as movies
-from support_exudyn.postprocessing.render.layout import Layout
+from support_exudyn.postprocessing.render.frame import Layout, Painter
 from support_exudyn.postprocessing.render.moments import Moments, moment, moments
-from support_exudyn.postprocessing.render.painter import Painter
 from support_exudyn.postprocessing.render.pin_view import pin_view
 from support_exudyn.postprocessing.render.scene import Scene
-from support_exudyn.postprocessing.render.stage import Image as Picture
+from support_exudyn.postprocessing.render.sheet import Image as Picture
 from support_exudyn.postprocessing.render.stage import Stage
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
@@ -90,10 +85,11 @@ def render(
     movies.check(movie, frames_per_second, shown.times.size)
     target = _movie_path(folder, movie, movie_path)
     show = _Show(result, size, pin, shown)
-    number = shown.times.size
-    with _folder_for(folder) as made:
-        paths = [made / NAME.format(n) for n in range(number)]
-        share = FRAMES_SHARE if target else 1.0
+    names = [NAME.format(n) for n in range(shown.times.size)]
+    earlier = {old.name for old in folder.glob(FRAME) if old.stem[len("frame_") :].isdigit() and _is_ours(old)}
+    share = FRAMES_SHARE if target else 1.0
+    with whole_set(folder, names, (), earlier) as made:
+        paths = [made / name for name in names]
         with ThreadPoolExecutor(1) as painters:  # paints and writes while the next one is traced
             painted: Future[None] | None = None
             for n, path in enumerate(paths):
@@ -101,18 +97,15 @@ def render(
                 if painted is not None:
                     painted.result()
                 painted = painters.submit(show.save, machine, n, path)
-                progress(share * (n + 1) / number)
+                progress(share * (n + 1) / len(paths))
             assert painted is not None  # there is a frame
             painted.result()
-        if target is None:
-            _replace_frames(paths, folder)
-        else:
+        if target is not None:
             with whole_file(target) as temporary:
                 movies.write(
                     movie, temporary, paths, frames_per_second, lambda s: progress(share + (1.0 - share) * s)
                 )
-            _replace_frames(paths, folder)
-    return Rendered(tuple(folder / path.name for path in paths), target)
+    return Rendered(tuple(folder / name for name in names), target)
 
 
 def still(result: Result, time: float, *, size: tuple[int, int] = SIZE, pin: str | None = None) -> Picture:
@@ -126,7 +119,7 @@ def still(result: Result, time: float, *, size: tuple[int, int] = SIZE, pin: str
     Raises InputError if the run does not reach the time, or as `render` does.
     """
     show = _Show(result, size, pin, moment(result.time, time))
-    return np.asarray(show.frame(show.machine(0), 0))
+    return show.frame(show.machine(0), 0)
 
 
 class _Show:
@@ -147,13 +140,16 @@ class _Show:
         """The machine alone, of a frame."""
         return self._stage.image(self._scene.places(int(self._shown.records[number])))
 
-    def frame(self, machine: Picture, number: int) -> Image.Image:
+    def frame(self, machine: Picture, number: int) -> Picture:
         """The whole frame."""
         return self._painter.frame(machine, number)
 
     def save(self, machine: Picture, number: int, path: Path) -> None:
         """Write it."""
-        self.frame(machine, number).save(path, format="PNG", compress_level=QUICKLY, pnginfo=_signed())
+        said = PngInfo()
+        said.add_text("Software", MAKER)
+        frame = Image.fromarray(self.frame(machine, number))
+        frame.save(path, format="PNG", compress_level=QUICKLY, pnginfo=said)
 
 
 def _processors() -> int:
@@ -177,39 +173,6 @@ def _movie_path(folder: Path, kind: str, path: str | Path | None) -> Path | None
     return folder.with_name(f"{folder.name.removesuffix('_frames') or folder.name}.{kind}")
 
 
-@contextmanager
-def _folder_for(folder: Path) -> Iterator[Path]:
-    """A temporary folder beside the one that is asked for; it is gone afterwards."""
-    if folder.exists() and not folder.is_dir():
-        raise NotADirectoryError(
-            errno.ENOTDIR, "a file stands where the folder of frames should be", str(folder)
-        )
-    with ExitStack() as held:
-        try:
-            folder.parent.mkdir(parents=True, exist_ok=True)
-            remove_leftovers(folder.parent)
-            made = held.enter_context(workshop(folder.parent))
-        except FileExistsError:
-            raise named(
-                NotADirectoryError(errno.ENOTDIR, "A file stands where a folder should be"), folder
-            ) from None
-        except OSError as error:  # of a name that nobody has given
-            raise named(error, folder) from None
-        try:
-            yield made
-        except OSError as error:
-            if error.errno is None or (error.filename and Path(str(error.filename)).parent != made):
-                raise  # of something else
-            raise named(error, folder) from error
-
-
-def _signed() -> PngInfo:
-    """What a frame says of itself: who has made it."""
-    said = PngInfo()
-    said.add_text("Software", MAKER)
-    return said
-
-
 def _is_ours(path: Path) -> bool:
     """Whether a frame says that this program has made it."""
     try:
@@ -217,14 +180,3 @@ def _is_ours(path: Path) -> bool:
             return opened.info.get("Software") == MAKER
     except (OSError, ValueError, SyntaxError):
         return False
-
-
-def _replace_frames(paths: list[Path], folder: Path) -> None:
-    """Move frames to their folder; those of an earlier movie go."""
-    folder.mkdir(exist_ok=True)
-    new = {path.name for path in paths}
-    for path in paths:
-        path.replace(folder / path.name)
-    for old in folder.glob(FRAME):
-        if old.name not in new and old.stem.removeprefix("frame_").isdigit() and _is_ours(old):
-            old.unlink()

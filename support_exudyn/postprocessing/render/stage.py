@@ -8,7 +8,6 @@ from typing import Any
 
 import exudyn as exu
 import numpy as np
-import numpy.typing as npt
 from exudyn.utilities import NodeRigidBodyEP, ObjectRigidBody, VObjectRigidBody
 from scipy.spatial.transform import Rotation
 from trimesh import Trimesh
@@ -16,9 +15,9 @@ from trimesh import Trimesh
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.postprocessing.look.solid import Colour
 from support_exudyn.postprocessing.render.camera import Camera
+from support_exudyn.postprocessing.render.sheet import Image
 from support_exudyn.postprocessing.viewer.engine_graphics import engine_surface
 
-Image = npt.NDArray[np.uint8]  # height, width, 3
 AMBIENT = 0.46  # light that comes from everywhere
 SAMPLES = 2  # squared: rays to a pixel
 LIGHT_FROM = (-0.45, 0.8, 0.9, 0.0)  # right, up, towards the eye

@@ -1,0 +1,197 @@
+"""A frame: the machine as the ray tracer sees it, and what is written and drawn on and beside it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from support_exudyn.model.pins import ClearancePin
+from support_exudyn.postprocessing.figures.style import CONTACT, FLIGHT, IDEAL
+from support_exudyn.postprocessing.render.camera import Camera
+from support_exudyn.postprocessing.render.moments import Moments
+from support_exudyn.postprocessing.render.panels import TRAIL, Inset, Strip, round_down, said, usual
+from support_exudyn.postprocessing.render.pin_view import PinView
+from support_exudyn.postprocessing.render.scene import Scene
+from support_exudyn.postprocessing.render.sheet import FAINT, INK, Box, Image, Sheet
+from support_exudyn.scenario.scenario import Scenario
+
+ARROW = 0.24  # length of the usual force's arrow, of the height of a machine's picture that is as wide as usual
+LONGEST = 0.42  # of an arrow in it
+
+
+@dataclass(frozen=True)
+class Layout:
+    """Places on a frame: a line on top, the machine, a panel on the right of it, and force over time below.
+
+    Arguments:
+        width, height: of the frame [pixels].
+        has_panel: whether there is a pin to show.
+    """
+
+    width: int
+    height: int
+    has_panel: bool
+
+    @property
+    def unit(self) -> float:
+        """By what lengths of a frame of 1280 x 720 are multiplied."""
+        return min(self.width / 1280, self.height / 720)
+
+    @property
+    def margin(self) -> int:
+        """What is left free around everything."""
+        return max(2, round(14 * self.unit))
+
+    @property
+    def line(self) -> Box:
+        """The box on top: what is shown, and when."""
+        return self.margin, 0, self.width - self.margin, round(48 * self.unit)
+
+    @property
+    def panel(self) -> Box:
+        """The box on the right."""
+        left = self.width - self.margin - (round(286 * self.unit) if self.has_panel else 0)
+        return left, self.line[3], self.width - self.margin, self.picture[3]
+
+    @property
+    def picture(self) -> Box:
+        """The box of the machine."""
+        right = self.width - (round(286 * self.unit) + 2 * self.margin if self.has_panel else 0)
+        bottom = self.height - (round(142 * self.unit) if self.has_panel else 0)
+        return 0, self.line[3], right, bottom
+
+    @property
+    def strip(self) -> Box:
+        """The box of the axes of force over time."""
+        top = self.picture[3] + round(28 * self.unit)
+        left = self.margin + round(58 * self.unit)
+        return left, top, self.width - 2 * self.margin, self.height - round(30 * self.unit)
+
+
+class Painter:
+    """Paints all frames of a run; what does not change is drawn once.
+
+    Arguments:
+        scene: the run.
+        layout, camera: of the frames.
+        pin: whose force is shown; None: nothing is.
+        moments: of the frames.
+    """
+
+    def __init__(
+        self, scene: Scene, layout: Layout, camera: Camera, pin: PinView | None, moments: Moments
+    ) -> None:
+        self._scene, self._layout, self._camera, self._pin = scene, layout, camera, pin
+        self._moments, self._time = moments, scene.poses.time
+        self._sheet = Sheet(layout.width, layout.height)
+        self._inset: Inset | None = None
+        u, (left, _, right, bottom) = layout.unit, layout.line
+        text = title(scene.result.scenario, pin)
+        self._sheet.write((left, 0.66 * bottom), text, 17 * u, room=right - left - 360 * u)
+        if pin is not None:
+            inside = (self._time >= moments.shown[0]) & (self._time <= moments.shown[1])
+            self._usual = usual(pin.size[moments.records] if moments.times.size > 1 else pin.size[inside])
+            wide, high = layout.picture[2] - layout.picture[0], layout.picture[3] - layout.picture[1]
+            self._scale = ARROW * min(high, 0.55 * wide) / self._usual  # pixels to a newton
+            self._colour = IDEAL if pin.bore is None else CONTACT
+            self._panel(pin)
+            self._strip = Strip(layout.strip, self._time, pin, *moments.shown, u)
+            self._strip.draw_still(self._sheet)
+        self._sheet.hold()
+
+    def _panel(self, pin: PinView) -> None:
+        """Draw what of the panel does not change: the bore, and the scale of the arrow."""
+        u, sheet, (left, top, right, _) = self._layout.unit, self._sheet, self._layout.panel
+        if pin.bore is not None:
+            self._inset = Inset((left, top, right, top + right - left), pin.bore, u)
+            self._inset.draw_still(sheet)
+        x, y = self._words
+        sheet.write((x, y), f"force in {pin.name.replace('_', ' ')}", 14 * u, anchor="left top")
+        sheet.write((x, y + 76 * u), f"on the {pin.on}", 14 * u, anchor="left top")
+        bar = round_down(self._usual / 1e3)
+        long = bar * 1e3 * self._scale
+        sheet.arrow((x, y + 110 * u), (x + long, y + 110 * u), self._colour, 5.5 * u)
+        sheet.write((x + long + 14 * u, y + 110 * u), f"{said(bar)} kN", 14 * u, anchor="left center")
+
+    @property
+    def _words(self) -> tuple[float, float]:
+        """The corner of what of the panel is below the inset."""
+        left, top, right, _ = self._layout.panel
+        return left, top + (right - left if self._inset else 0) + round(18 * self._layout.unit)
+
+    def frame(self, machine: Image, number: int) -> Image:
+        """The frame of a number, around the picture of the machine."""
+        layout, u, sheet = self._layout, self._layout.unit, self._sheet
+        record = int(self._moments.records[number])
+        left, top, *_ = layout.picture
+        sheet.paste(machine, (left, top))
+        for label in self._scene.labels(record):
+            x, y = self._camera.pixels(np.array([label.place]))[0]
+            colour = "#ffffff" if label.light else INK
+            sheet.write((left + float(x), top + float(y)), label.text, 15 * u, colour, "center center")
+        _, _, right, bottom = layout.line
+        text = f"t = {self._time[record]:.{self._moments.decimals}f} s"
+        clock = sheet.write((right, 0.66 * bottom), text, 22 * u, anchor="right baseline", bold=True)
+        before = right - sheet.width(clock) - 16 * u
+        sheet.write((before, 0.66 * bottom), self._moments.pace, 14 * u, FAINT, "right baseline")
+        if self._pin is not None:
+            self._force(self._pin, record, number)
+        return sheet.frame()
+
+    def _force(self, pin: PinView, record: int, number: int) -> None:
+        """Draw arrows, numbers, journal and cursor."""
+        u, sheet, (left, top) = self._layout.unit, self._sheet, self._words
+        size, largest = float(pin.size[record]), LONGEST / ARROW * self._usual
+        cut, force = size > largest, pin.force[record] * (min(1.0, largest / size) if size > 0.0 else 0.0)
+        self._arrow(pin, record, force, cut)
+        colour = INK if size > 0.0 else FAINT
+        sheet.write((left, top + 28 * u), f"{size / 1e3:.1f} kN", 30 * u, colour, "left top", bold=True)
+        if cut:
+            sheet.write((left, top + 126 * u), "the arrow is cut short", 13 * u, FAINT, "left top")
+        if self._inset is not None:
+            arrow = -self._scale * float(force[0]), -self._scale * float(force[1])
+            self._inset.draw(sheet, record, self._moments.back(number, TRAIL), arrow, cut)
+        self._strip.cursor(sheet, float(self._time[record]), size)
+
+    def _arrow(self, pin: PinView, record: int, force: np.ndarray, cut: bool) -> None:
+        """Draw the arrow of the force in the machine's picture, and a mark on the pin."""
+        u, (left, top, *_) = self._layout.unit, self._layout.picture
+        x, y = self._camera.pixels(np.array([self._scene.seen(pin, record)]))[0]
+        place = (left + float(x), top + float(y))
+        along = self._camera.arrow(np.array([*force, 0.0])) / self._camera.scale * self._scale
+        mark = IDEAL if pin.bore is None else CONTACT if pin.bore.touching[record] else FLIGHT
+        self._sheet.disc(place, 8.0 * u, mark, 1.5 * u)
+        tip = (place[0] + float(along[0]), place[1] + float(along[1]))
+        self._sheet.arrow(place, tip, self._colour, 8.0 * u, cut)
+
+
+def title(scenario: Scenario, pin: PinView | None) -> str:
+    """A run in a line."""
+    words = [_spaced(type(scenario.machine).__name__)]
+    if scenario.dimensions == 3:
+        words[0] += " in space"
+    if pin is not None and pin.bore is not None:
+        words.append(f"{pin.name.replace('_', ' ')}: {_of_loose(pin.bore.pin)}")
+    elif not scenario.clearance_pins:
+        words.append("ideal pins")
+    more = len(scenario.clearance_pins) - (pin is not None and pin.bore is not None)
+    if more > 0:
+        words.append(f"{more} more loose pin{'s' * (more > 1)}")
+    return "  \u00b7  ".join(words)
+
+
+def _of_loose(pin: ClearancePin) -> str:
+    """Clearance and friction in words."""
+    clearance = f"radial clearance {1e3 * pin.contact.bearing.clearance:.4g} mm"
+    friction = pin.contact.friction
+    coefficient = getattr(friction, "sliding_coefficient", None)
+    if coefficient is None:
+        name = _spaced(type(friction).__name__)
+        return f"{clearance}, {'no friction' if name == 'frictionless' else name + ' friction'}"
+    return f"{clearance}, friction {coefficient:g}"
+
+
+def _spaced(name: str) -> str:
+    """A class's name as words."""
+    return "".join(f" {letter.lower()}" if letter.isupper() else letter for letter in name).strip()

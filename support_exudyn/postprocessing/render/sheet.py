@@ -1,0 +1,153 @@
+"""A picture on which matplotlib draws in pixels: what stands still once, what moves anew on every frame."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Circle, FancyArrow, FancyBboxPatch
+from matplotlib.patheffects import withStroke
+from matplotlib.text import Text
+
+from support_exudyn.mechanics.trajectory import Series
+
+Image = npt.NDArray[np.uint8]  # height, width, 3
+Point = tuple[float, float]
+Box = tuple[int, int, int, int]  # left, top, right, bottom [pixels]
+POINTS = 72  # pixels to an inch: sizes of letters and lines, in points, are pixels
+SMALLEST_FONT = 6.0  # [pixels]
+SHORTEST = 1.8  # length of an arrow that is drawn, of its shaft's thickness
+HEAD = 0.42  # half width of an arrow's head, of its length
+INK = "#1a1a1a"
+FAINT = "#6b6b6b"
+RULE = "#c9c9c9"
+
+
+class Sheet:
+    """A picture of a size [pixels]; places on it count to the right and down from its upper left corner."""
+
+    def __init__(self, width: int, height: int) -> None:
+        self._height = height
+        # a hundredth of a pixel more: sizes are cut to whole pixels
+        inches = ((width + 0.01) / POINTS, (height + 0.01) / POINTS)
+        self._figure = Figure(inches, dpi=POINTS, facecolor="white")
+        self._figure.set_layout_engine("none")
+        self._canvas: Any = FigureCanvasAgg(self._figure)  # matplotlib has no types of it
+        self.axes = self._figure.add_axes((0.0, 0.0, 1.0, 1.0), zorder=1)
+        self.axes.set(xlim=(0.0, width + 0.01), ylim=(height + 0.01, 0.0))
+        self.axes.set_axis_off()
+        self._moving: list[Artist] = []
+
+    def axes_in(self, box: Box) -> Axes:
+        """Axes of a diagram that fill a box."""
+        left, top, right, bottom = box
+        wide, high = self._figure.bbox.size
+        return self._figure.add_axes(
+            (left / wide, 1.0 - bottom / high, (right - left) / wide, (bottom - top) / high)
+        )
+
+    def hold(self) -> None:
+        """Let all that has been drawn stand still; what is drawn from now on is only of the next frame."""
+        self._canvas.draw()
+        self._still = self._canvas.copy_from_bbox(self._figure.bbox)
+        self._moving.clear()
+
+    def frame(self) -> Image:
+        """The picture; what has moved is gone from the next one."""
+        self._canvas.restore_region(self._still)
+        for artist in self._moving:
+            artist.draw(self._canvas.get_renderer())
+            artist.remove()
+        self._moving.clear()
+        return np.array(self._canvas.buffer_rgba())[:, :, :3]
+
+    def paste(self, picture: Image, place: tuple[int, int]) -> None:
+        """Put a picture with its upper left corner at a place."""
+        down = self._height - place[1] - len(picture)
+        self._moving.append(self._figure.figimage(picture, place[0], down, origin="upper"))
+
+    def write(
+        self,
+        place: Point,
+        text: str,
+        size: float,
+        colour: str = INK,
+        anchor: str = "left baseline",
+        *,
+        bold: bool = False,
+        room: float = math.inf,
+    ) -> Text:
+        """Write a text.
+
+        Arguments:
+            place: of its anchor.
+            size: of the letters [pixels]; they become smaller where the text is wider than there is room.
+            anchor: which point of the text is there, as matplotlib calls it: horizontal, then vertical.
+            room: [pixels].
+        """
+        ha, va = anchor.split()
+        size = max(SMALLEST_FONT, size)
+        written = self.axes.text(
+            *place, text, color=colour, size=size, ha=ha, va=va, weight="bold" if bold else "normal"
+        )
+        if (wide := self.width(written)) > room:
+            written.set_fontsize(max(SMALLEST_FONT, size * room / wide))
+        self._moving.append(written)
+        return written
+
+    def width(self, written: Text) -> float:
+        """How wide a text is [pixels]."""
+        return float(written.get_window_extent(self._canvas.get_renderer()).width)
+
+    def line(self, x: Series, y: Series, colour: str, thick: float) -> None:
+        """Draw a line through points; NaN breaks it."""
+        self._add(Line2D(x, y, color=colour, lw=thick, solid_capstyle="butt", solid_joinstyle="round"))
+
+    def disc(self, centre: Point, radius: float, colour: str, rim: float = 0.0) -> None:
+        """Draw a disc, with a white rim of a thickness inside of its radius."""
+        self._add(Circle(centre, radius - 0.5 * rim, fc=colour, ec="white", lw=rim))
+
+    def circle(self, centre: Point, radius: float, colour: str, thick: float) -> None:
+        """Draw a dashed circle."""
+        self._add(Circle(centre, radius, fill=False, ec=colour, lw=thick, ls=(0, (3.0, 2.5))))
+
+    def box(self, box: Box, colour: str, radius: float) -> None:
+        """Fill a rectangle with round corners."""
+        left, top, right, bottom = box
+        style = f"round,pad=0,rounding_size={radius}"
+        self._add(FancyBboxPatch((left, top), right - left, bottom - top, style, fc=colour, lw=0.0))
+
+    def arrow(self, tail: Point, tip: Point, colour: str, thick: float, cut: bool = False) -> None:
+        """Draw an arrow with a white edge, so that it is seen on anything; cut: its shaft is broken.
+
+        One that is hardly longer than thick is not drawn.
+        """
+        way = np.subtract(tip, tail)
+        length = math.hypot(*way)
+        if length < SHORTEST * thick:
+            return
+        head = min(4.2 * thick, 0.7 * length)
+        self._add(
+            FancyArrow(
+                *tail, *way, width=thick, head_length=head, head_width=2.0 * HEAD * head, color=colour, lw=0.0,
+                length_includes_head=True, path_effects=[withStroke(linewidth=0.7 * thick, foreground="white")],
+            )
+        )  # fmt: skip
+        if cut:
+            along = thick * way / length
+            aside = np.array([-along[1], along[0]])
+            middle = np.add(tail, 0.5 * (length - head) / length * way)
+            for off in (-0.7, 0.7):
+                ends = [middle + (off + side * 0.5) * along + side * aside for side in (-1.0, 1.0)]
+                x, y = np.transpose(ends)
+                self.line(x, y, "#ffffff", 0.45 * thick)
+
+    def _add(self, artist: Any) -> None:
+        self._moving.append(self.axes.add_artist(artist))
