@@ -56,7 +56,7 @@ class Chosen:
 
 def judged_scene(place: int, seed: int, number: int) -> list[Row]:
     """Make and judge all runs of a scene; one that fails unexplained is a row with its reason."""
-    report(place, 0.0)
+    report(0.0)
     scene = fresh(seed, number)
     try:
         return list(covered.rows(scene))

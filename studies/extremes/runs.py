@@ -50,7 +50,7 @@ def _cases(quick: bool) -> list[Case]:
 
 def judged(place: int, quick: bool, number: int) -> Verdict:
     """Judge a case, in a worker."""
-    report(place, 0.0)
+    report(0.0)
     try:
         with patience(PATIENCE):
             return judge(_cases(quick)[number].scenario)
@@ -61,7 +61,7 @@ def judged(place: int, quick: bool, number: int) -> Verdict:
 def lasted(place: int, name: str, duration: float) -> LongRun | str:
     """Make a long run, in a worker; return why there is none if it fails."""
     try:
-        return long_runs.run(long_runs.scene(name, duration), name, lambda share: report(place, share))
+        return long_runs.run(long_runs.scene(name, duration), name, report)
     except SimulationError as error:
         return str(error)
 

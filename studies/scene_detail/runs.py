@@ -45,7 +45,7 @@ def run_timed(cases: Mapping[str, Scenario], workers: int | Workers) -> dict[str
 def _run(place: int, name: str, scenario: Scenario) -> tuple[Result | Failure, float]:
     del name
     begun = time.process_time()
-    result = simulate(scenario, progress=lambda share: report(place, share), throw=False)
+    result = simulate(scenario, progress=report, throw=False)
     return result, time.process_time() - begun
 
 

@@ -15,8 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from support_exudyn.sweeps.file import read_sweep
-    from support_exudyn.sweeps.plan import Plan, Record
-    from support_exudyn.sweeps.points import grid, latin_hypercube, side_by_side
+    from support_exudyn.sweeps.plan import Plan, Record, grid, latin_hypercube, side_by_side
     from support_exudyn.sweeps.run import Outcome, sweep
     from support_exudyn.sweeps.table import read_table
 
@@ -37,11 +36,11 @@ _PLACES = {
     "Outcome": "run",
     "Plan": "plan",
     "Record": "plan",
-    "grid": "points",
-    "latin_hypercube": "points",
+    "grid": "plan",
+    "latin_hypercube": "plan",
     "read_sweep": "file",
     "read_table": "table",
-    "side_by_side": "points",
+    "side_by_side": "plan",
     "sweep": "run",
 }
 

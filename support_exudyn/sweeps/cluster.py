@@ -13,8 +13,7 @@ from typing import Any
 from support_exudyn.files.whole_file import whole_file
 from support_exudyn.simulation.result import Result
 from support_exudyn.sweeps.key import program
-from support_exudyn.sweeps.row import Row
-from support_exudyn.sweeps.store import Store
+from support_exudyn.sweeps.store import Row, Store
 from support_exudyn.sweeps.work import Task, computed, run_into
 from user_forces.values.value import InputError
 

@@ -1,22 +1,43 @@
-"""The file of a sweep."""
+"""The file of a sweep, and the scenarios that its points give.
+
+A scenario is made of the table of a scenario file, with fields of it and of its machine's file replaced.
+"""
 
 from __future__ import annotations
 
+import copy
 import math
+import tempfile
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from decimal import Decimal
 from pathlib import Path
 from typing import Any
 
-from support_exudyn.files.toml.toml_reading import load_toml, text_of
-from support_exudyn.sweeps.from_tables import maker
-from support_exudyn.sweeps.plan import Plan, Record
-from support_exudyn.sweeps.points import Point, Range, Varied, grid, latin_hypercube, side_by_side
+from support_exudyn.files import machines
+from support_exudyn.files.machines.read import shipped
+from support_exudyn.files.scenarios.scenario_file import scenario_of
+from support_exudyn.files.toml.toml_reading import load_toml, parsed, text_of
+from support_exudyn.files.toml.toml_text import toml_text
+from support_exudyn.scenario.scenario import Scenario
+from support_exudyn.sweeps.plan import (
+    Inputs,
+    Plan,
+    Point,
+    Range,
+    Record,
+    Varied,
+    grid,
+    latin_hypercube,
+    side_by_side,
+)
 from user_forces.values.value import InputError, short
 
 METHODS = ("grid", "list", "latin_hypercube")
 KEYS = {"scenario", "method", "vary", "record", "samples", "seed"}
 RECORD_KEYS = {"numbers", "keep_runs", "after_s", "until_s"}
 RANGE_KEYS = {"from", "to", "steps", "scale"}
+MACHINE = "machine"
 Table = dict[str, Any]
 
 
@@ -152,3 +173,112 @@ def _only(data: Table, known: set[str], where: str) -> None:
     for key in data:
         if key not in known:
             raise InputError(f"{where}{key}: unknown key; allowed: {', '.join(sorted(known))}")
+
+
+# --- fields by their dotted keys ---
+
+
+def replaced(table: Table, inputs: Mapping[str, Any]) -> Table:
+    """A copy of a table with some fields replaced or added.
+
+    inputs: values by their keys, joined by dots; of a list by its number from 0, such as
+    "machine.parts.shield.0.mass_kg".
+
+    Raises InputError if a key leads into something that is no table.
+    """
+    whole = copy.deepcopy(table)
+    for name, item in inputs.items():
+        *above, last = keys_of(name)
+        inner: Any = whole
+        for n, key in enumerate(above):
+            here = _at(inner, key, name)
+            inner = inner.setdefault(key, {}) if isinstance(inner, dict) else inner[here]
+            if not isinstance(inner, (dict, list)):
+                said = ".".join(above[: n + 1])
+                raise InputError(
+                    f"vary.{name!r}: {said} = {short(inner)} is no table; allowed: a field of a table"
+                )
+        inner[_at(inner, last, name)] = item
+    return whole
+
+
+def _at(inner: Any, key: str, name: str) -> Any:
+    """How a table or list is asked for a key."""
+    if isinstance(inner, dict):
+        return key
+    if not (key.isdecimal() and int(key) < len(inner)):
+        raise InputError(f"vary.{name!r}: {key!r} of a list; allowed: its items, from 0 to {len(inner) - 1}")
+    return int(key)
+
+
+def keys_of(name: str) -> list[str]:
+    """The keys that a dotted one is made of, by TOML's own rules. Raises InputError if it is none."""
+    try:
+        inner: Any = parsed(f"{name} = 0", "vary")
+    except InputError:
+        raise InputError(f"vary: {short(name)}: allowed: keys of a scenario file, joined by dots") from None
+    keys = []
+    while isinstance(inner, dict):
+        ((key, inner),) = inner.items()
+        keys.append(key)
+    return keys
+
+
+# --- scenarios ---
+
+
+@dataclass(frozen=True)
+class FromTables:
+    """Scenarios from the table of a scenario file, with fields of it replaced, and of its machine's file.
+
+    table: of the scenario file. where: what errors call it. folder: from which paths in it go on. file,
+    machine: the machine's file and its table, if fields of that vary; keys: of these fields, by how the sweep
+    calls them.
+    """
+
+    table: Table
+    where: str
+    folder: Path
+    file: Path = Path()
+    machine: Table = field(default_factory=dict)
+    keys: Mapping[str, str] = field(default_factory=dict)
+
+    def __call__(self, inputs: Inputs) -> Scenario:
+        """The scenario of a point; raises InputError."""
+        if not self.keys:
+            return scenario_of(replaced(self.table, inputs), self.where, self.folder)
+        changed = replaced(self.machine, {self.keys[name]: inputs[name] for name in self.keys})
+        rest = {name: item for name, item in inputs.items() if name not in self.keys}
+        with tempfile.TemporaryDirectory(prefix="support-exudyn-") as folder:
+            file = Path(folder) / self.file.name  # machines are read from files
+            file.write_text(toml_text(changed), encoding="utf-8")
+            try:
+                varied = replaced(self.table, {**rest, MACHINE: str(file)})
+                return scenario_of(varied, self.where, self.folder)
+            except InputError as error:
+                raise InputError(str(error).replace(str(file), str(self.file))) from None
+
+
+def maker(table: Table, where: str, folder: Path, names: tuple[str, ...]) -> FromTables:
+    """What makes a scenario of a point.
+
+    names: dotted keys of what is varied; those that begin with "machine." are of the machine's file, unless the
+    machine is a table in the scenario file itself. For the others see `FromTables`.
+
+    Raises InputError if a key cannot be one, or if fields of a machine are varied that is not known; OSError if
+    its file cannot be read.
+    """
+    of_machine = [name for name in names if keys_of(name)[0] == MACHINE and len(keys_of(name)) > 1]
+    given = table.get(MACHINE)
+    if not of_machine or isinstance(given, dict):
+        return FromTables(table, where, folder)
+    if not isinstance(given, str):
+        raise InputError(
+            f"{where}: machine = {short(given)}: allowed where fields of it vary: a machine, by its file"
+        )
+    file = folder / given
+    if not given.endswith(".toml"):
+        shipped(given)  # refuses what there is none of
+        file = Path(machines.__path__[0]) / f"{given}.toml"
+    keys = {name: name.partition(".")[2] for name in of_machine}
+    return FromTables(table, where, folder, file, load_toml(file, named=True), keys)

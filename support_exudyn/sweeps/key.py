@@ -14,12 +14,7 @@ from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.provenance import versions
 from user_forces.values.value import Value
 
-MAKES_NO_NUMBERS = (
-    "matplotlib",
-    "meshio",
-    "h5py",
-    "pydantic",
-)  # packages that a run's numbers do not depend on
+MAKES_NO_NUMBERS = ("matplotlib", "meshio", "h5py", "pydantic")  # a run's numbers do not depend on these
 LOOKS = ("postprocessing", "commands", "sweeps")  # rooms of ours that compute no number of a run
 OURS = ("user_forces", "support_exudyn")
 LENGTH = 32  # hexadecimal digits: 128 bits, no two runs will ever share one
@@ -36,7 +31,7 @@ def program() -> dict[str, str]:
 
 
 def key(scenario: Scenario, errors: bool = False) -> str:
-    """Of a run of this scenario with this program: hexadecimal digits of a SHA-256 digest.
+    """The key of a run of this scenario with this program: hexadecimal digits of a SHA-256 digest.
 
     errors: whether it is made with estimated errors, see `simulate`.
     """

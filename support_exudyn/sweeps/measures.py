@@ -15,7 +15,7 @@ from support_exudyn.simulation.recorded_run import RecordedRun
 from support_exudyn.simulation.reported_numbers import Kind, measures
 from support_exudyn.simulation.result import Result
 from support_exudyn.sweeps.plan import Record
-from support_exudyn.sweeps.row import Number
+from support_exudyn.sweeps.store import Number
 from user_forces.values.value import InputError, short
 
 STATISTICS: Mapping[str, Callable[[np.ndarray], float]] = {

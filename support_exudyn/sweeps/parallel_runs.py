@@ -19,7 +19,7 @@ ADVICE = (
 
 
 def _run(place: int, scenario: Scenario) -> Result | Failure:
-    return simulate(scenario, progress=lambda share: report(place, share), throw=False)
+    return simulate(scenario, progress=report, throw=False)
 
 
 def _ignore(shares: Mapping[str, float]) -> None:

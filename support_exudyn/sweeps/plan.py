@@ -1,17 +1,117 @@
-"""What a sweep runs, and what it notes of every run."""
+"""What a sweep runs, and what it notes of every run.
+
+The points of a plan are all combinations of some values, lists side by side, or a Latin hypercube.
+"""
 
 from __future__ import annotations
 
+import itertools
 import json
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from decimal import Context, Decimal
+from typing import Any, Literal
 
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.values.value import InputError
 
-Inputs = Mapping[str, Any]  # what is varied, as the sweep's file writes it
+MOST = 1_000_000  # runs of a sweep
+DIGITS = Context(prec=12)  # of numbers that are spread over a range: far finer than they are known
+Point = dict[str, Any]  # what is varied, as the sweep's file writes it
+Inputs = Mapping[str, Any]  # the same, to be read
+Choices = Sequence[Any]
+
+
+@dataclass(frozen=True)
+class Range:
+    """Numbers from one to another, evenly spread, or evenly in their logarithm.
+
+    steps: how many in a grid or list.
+    """
+
+    low: Decimal
+    high: Decimal
+    steps: int = 0
+    scale: Literal["linear", "log"] = "linear"
+
+    def at(self, share: float) -> Decimal:
+        """The number at a share of the way, 0 to 1, in twelve digits; the ends are exact."""
+        if share in (0.0, 1.0):
+            return self.high if share else self.low
+        if self.scale == "log":
+            low, high = math.log(self.low), math.log(self.high)
+            return DIGITS.create_decimal_from_float(math.exp(low + share * (high - low))).normalize()
+        return DIGITS.add(self.low, DIGITS.multiply(self.high - self.low, Decimal(share))).normalize()
+
+    @property
+    def values(self) -> list[Decimal]:
+        """The numbers of the range, as many as there are steps."""
+        return [self.at(n / (self.steps - 1)) for n in range(self.steps)]
+
+
+Varied = Mapping[str, Range | Choices]
+
+
+def grid(varied: Varied) -> list[Point]:
+    """All combinations; the last named varies fastest. Raises InputError if they are too many."""
+    choices = {name: _listed(one) for name, one in varied.items()}
+    _check_number(math.prod(len(one) for one in choices.values()))
+    return [dict(zip(choices, point, strict=True)) for point in itertools.product(*choices.values())]
+
+
+def side_by_side(varied: Varied) -> list[Point]:
+    """The first of all lists, the second of all, and so on. Raises InputError if they differ in length."""
+    choices = {name: _listed(one) for name, one in varied.items()}
+    lengths = {name: len(one) for name, one in choices.items()}
+    if len(set(lengths.values())) > 1:
+        said = ", ".join(f"{name} has {length}" for name, length in lengths.items())
+        raise InputError(f"vary: {said} values; allowed with method = 'list': as many in all")
+    _check_number(max(lengths.values(), default=0))
+    return [dict(zip(choices, point, strict=True)) for point in zip(*choices.values(), strict=True)]
+
+
+def latin_hypercube(varied: Varied, samples: int, seed: int) -> list[Point]:
+    """Points drawn so that each range, cut into as many equal parts as there are points, has one in each.
+
+    Of a list of choices each is drawn equally often, to within one. The same seed gives the same points.
+
+    Arguments:
+        varied: ranges or lists of choices, by name.
+        samples: how many points, >= 1.
+        seed: of the random numbers, >= 0.
+    """
+    _check_number(samples)
+    if not varied:
+        raise InputError("vary: is empty; allowed: at least one field to vary")
+    from scipy.stats import qmc  # takes a second, and a grid has no use for it
+
+    drawn = qmc.LatinHypercube(len(varied), seed=seed).random(samples)
+    return [
+        {
+            name: _drawn(one, float(share), samples)
+            for (name, one), share in zip(varied.items(), row, strict=True)
+        }
+        for row in drawn
+    ]
+
+
+def _drawn(one: Range | Choices, share: float, samples: int) -> Any:
+    if isinstance(one, Range):
+        return one.at(share)
+    return one[int(share * samples) * len(one) // samples]  # by its part, so that all come up equally often
+
+
+def _listed(one: Range | Choices) -> list[Any]:
+    return one.values if isinstance(one, Range) else list(one)
+
+
+def _check_number(runs: int) -> None:
+    if not 1 <= runs <= MOST:
+        raise InputError(f"{runs} runs: allowed in a sweep: from 1 to {MOST}")
+
+
+# --- the plan ---
 
 
 @dataclass(frozen=True)
@@ -60,5 +160,5 @@ class Plan:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Of what is varied."""
+        """Names of what is varied."""
         return tuple(self.points[0]) if self.points else ()

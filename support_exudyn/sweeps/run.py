@@ -1,4 +1,4 @@
-"""Doing a sweep."""
+"""A sweep: what the store does not hold is run, and the table is written."""
 
 from __future__ import annotations
 
@@ -11,13 +11,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from support_exudyn.sweeps.key import key
-from support_exudyn.sweeps.local import in_processes
 from support_exudyn.sweeps.measures import check_numbers
 from support_exudyn.sweeps.plan import Plan
-from support_exudyn.sweeps.row import Row
-from support_exudyn.sweeps.store import Store
+from support_exudyn.sweeps.store import Row, Store
 from support_exudyn.sweeps.table import FILE, Table
-from support_exudyn.sweeps.work import Task, reason_of
+from support_exudyn.sweeps.work import Task, in_processes, reason_of
 from user_forces.values.value import InputError
 
 SELDOM = 10.0  # the table is written every so many seconds while runs come in,
@@ -171,7 +169,7 @@ class _Keeper:
         return row.status == "done" and row.noted == record.digest and (whole or not record.keep_runs)
 
     def note(self, row: Row) -> None:
-        """Of a run that has ended."""
+        """Note a run that has ended."""
         self._rows[row.key] = self._places[row.key][0]
         self._set(self._places[row.key], row)
         if time.monotonic() - self._written > self._wait:

@@ -10,11 +10,14 @@ A run's file is written before its row, each whole: where there is a row, there 
 from __future__ import annotations
 
 import errno
+import hashlib
+import json
 import re
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
+from typing import Literal, NamedTuple
 
 from support_exudyn.files.hdf5 import check_seal
 from support_exudyn.files.temporary import remove_leftovers
@@ -22,12 +25,59 @@ from support_exudyn.files.whole_file import contents, whole_file, writing_alone
 from support_exudyn.simulation.memory import available
 from support_exudyn.simulation.result import FORMAT
 from support_exudyn.sweeps.key import LENGTH
-from support_exudyn.sweeps.row import Row
 
 KEY = re.compile(rf"[0-9a-f]{{{LENGTH}}}")
 LARGEST_ROW = 100_000_000  # bytes
 TABLES = ("table.parquet", "table.csv")
 RUN = FORMAT.rpartition(" ")[0].encode() + b" "  # as files of runs of any version begin
+Status = Literal["done", "failed", "killed"]
+
+
+class Number(NamedTuple):
+    """A number of a run: value, estimated numerical error if it is known, and unit."""
+
+    value: float
+    error: float | None
+    unit: str
+
+
+@dataclass(frozen=True)
+class Row:
+    """A run, or why there is none.
+
+    status: "done"; "failed": it cannot be run, or could not be finished, and would not be if it were tried
+    again; "killed": its process ended. reason: why, or of a run that is done how far it is from its accuracy.
+    wall_time: of the run [s]. noted: what was to be noted, see `Record.digest`. size, modified: of the run's
+    file [bytes; ns], when it was known to be whole.
+    """
+
+    key: str
+    status: Status
+    reason: str = ""
+    wall_time: float | None = None
+    numbers: Mapping[str, Number] = field(default_factory=dict)
+    noted: str = ""
+    size: int | None = None
+    modified: int | None = None
+
+    def to_text(self) -> str:
+        """The text of the row's file: a digest of what follows, and that."""
+        text = json.dumps({one.name: getattr(self, one.name) for one in fields(self)})
+        return f"{_digest(text)}\n{text}\n"
+
+    @staticmethod
+    def from_text(text: str) -> Row:
+        """What `to_text` wrote. Raises ValueError if it is not that, to the letter."""
+        digest, _, rest = text.partition("\n")
+        if not rest.endswith("\n") or digest != _digest(rest[:-1]):
+            raise ValueError("does not fit its digest: it was cut off or changed")
+        data = json.loads(rest)
+        data["numbers"] = {name: Number(*number) for name, number in data["numbers"].items()}
+        return Row(**data)
+
+
+def _digest(text: str) -> str:
+    return hashlib.sha256(text.encode()).hexdigest()
 
 
 @dataclass(frozen=True)
@@ -38,16 +88,16 @@ class Store:
 
     @property
     def rows(self) -> Path:
-        """Where the rows are."""
+        """The folder of the rows."""
         return self.folder / "rows"
 
     @property
     def runs(self) -> Path:
-        """Where the runs are."""
+        """The folder of the runs."""
         return self.folder / "runs"
 
     def run_file(self, key: str) -> Path:
-        """Of the run of this key."""
+        """The file of the run of this key."""
         return self.runs / f"{key}.h5"
 
     @contextmanager

@@ -15,9 +15,8 @@ from pyarrow import csv, parquet
 from support_exudyn.files.whole_file import check_is_file, whole_file
 from support_exudyn.simulation.memory import available
 from support_exudyn.sweeps.key import program
-from support_exudyn.sweeps.plan import Plan
-from support_exudyn.sweeps.points import MOST
-from support_exudyn.sweeps.row import Row
+from support_exudyn.sweeps.plan import MOST, Plan
+from support_exudyn.sweeps.store import Row
 from user_forces.values.value import InputError, cleaned, short
 
 FORMAT = "support_exudyn sweep 1"
@@ -72,7 +71,7 @@ class Table:
         return list(self._columns)
 
     def to_arrow(self) -> pa.Table:
-        """With units and meanings as metadata of the columns, and of the whole what it was made with."""
+        """The table; units and meanings are metadata of its columns, what it was made with is its own."""
         fields: list[pa.Field] = []
         columns: list[pa.Array] = []
 
@@ -97,7 +96,7 @@ class Table:
         return pa.table(columns, schema=pa.schema(fields, metadata={OWN: json.dumps(about)}))
 
     def write(self, folder: Path) -> Path:
-        """As table.parquet and table.csv. Returns the path of the former."""
+        """Write table.parquet and table.csv; return the path of the former."""
         made = self.to_arrow()
         with whole_file(folder / FILE) as temporary:
             parquet.write_table(made, temporary)

@@ -1,8 +1,9 @@
-"""What is done for a run of a sweep, wherever that is."""
+"""What is done for a run of a sweep, and the runs in processes on this machine."""
 
 from __future__ import annotations
 
 import time
+from collections.abc import Generator, Iterable, Iterator
 from dataclasses import dataclass
 
 from support_exudyn.formulations.contract import SimulationError, told
@@ -11,8 +12,8 @@ from support_exudyn.simulation.result import Result
 from support_exudyn.simulation.simulate import simulate
 from support_exudyn.sweeps.measures import numbers
 from support_exudyn.sweeps.plan import Record
-from support_exudyn.sweeps.row import Row
-from support_exudyn.sweeps.store import Store
+from support_exudyn.sweeps.store import Row, Store
+from support_exudyn.sweeps.workers import ProcessEndedError, worker_pool
 from user_forces.values.value import InputError, cleaned
 
 
@@ -50,7 +51,7 @@ def reason_of(error: BaseException) -> str:
 
 
 def row_of(task: Task, result: Result) -> Row:
-    """Of a run that was finished."""
+    """The row of a run that was finished."""
     found = numbers(result, task.record)
     met = result.goal is None or result.met
     reason = "" if met else f"accuracy {result.goal:g}: NOT met, {result.worst_error:.1g} is estimated"
@@ -68,3 +69,43 @@ def run_into(store: Store, task: Task) -> Row:
     if result is not None and task.record.keep_runs:
         result.save(store.run_file(task.key))
     return store.put(row)
+
+
+# --- in processes ---
+
+
+def in_processes(tasks: Iterable[Task], store: Store, workers: int) -> Generator[Row, None, None]:
+    """Rows as they come; each process puts its runs into the store by itself.
+
+    A run whose process ends is tried once more by itself; if that ends too its row is "killed".
+
+    workers: number of processes, >= 1.
+    """
+    keys: dict[int, str] = {}  # of those under way
+    compiled = False
+
+    def jobs() -> Iterator[tuple[Store, Task]]:
+        nonlocal compiled
+        for number, task in enumerate(tasks):
+            if not (compiled or task.again) and _is_compiled(task.scenario):
+                from support_exudyn.sweeps.precompile import warm_up  # and numba
+
+                warm_up()  # once, for all processes
+                compiled = True
+            keys[number] = task.key
+            yield store, task
+
+    with worker_pool(workers) as pool:
+        for number, found in pool.stream(jobs(), _do):
+            key = keys.pop(number)
+            yield Row(key, "killed", found.reason) if isinstance(found, ProcessEndedError) else found
+
+
+def _is_compiled(scenario: Scenario) -> bool:
+    """Whether its formulation is, or may be, one that is compiled."""
+    return scenario.chooses_steps or (scenario.formulation == "auto" and scenario.goal is not None)
+
+
+def _do(place: int, store: Store, task: Task) -> Row:
+    del place
+    return run_into(store, task)

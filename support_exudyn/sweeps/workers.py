@@ -1,6 +1,12 @@
 """Processes that work side by side, and end with the one that started them.
 
 If one of them ends in mid-work, killed or by a crash, the job that it worked on is found and the others go on.
+
+The pool of `concurrent.futures` is broken as a whole when a process ends; what is here makes it whole again.
+Other pools do less of this. loky 3.7.0 is broken in the same way and does not tell whose process ended. pebble
+5.2.3 tells it, but waits for ever for a job that leaves with exit code 0, and for all jobs if a process is
+killed while it sends its result, with the lock of the pool in its hands. tests/sweeps/test_dying_workers.py has
+all these cases.
 """
 
 from __future__ import annotations
@@ -11,32 +17,25 @@ import signal
 import threading
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from concurrent.futures import (
-    FIRST_COMPLETED,
-    FIRST_EXCEPTION,
-    Executor,
-    Future,
-    ProcessPoolExecutor,
-    wait,
-)
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
-from functools import partial
-from typing import Any, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 from support_exudyn.formulations.interruption import kept_from_children
 
 T = TypeVar("T")
 
 CONTEXT = multiprocessing.get_context("spawn")  # the engine does not survive a fork
-PLACES = 4096  # jobs at once whose progress can be watched
-AHEAD = 2  # jobs of a stream for each process, one of them waiting
+AHEAD = 2  # jobs for each process, one of them waiting
 POLL = 0.1  # how often progress is told [s]
 NOT_BEGUN = -1.0  # in place of the share of a job that waits
 TRIES = 2  # pools in a row whose processes may end before any work has begun
 SOON = 5.0  # a process that has ended is known to within [s]
 
-_shares: Any = None  # in a worker: the shared array of shares done
+# in a worker: the shared array of shares done, and the place in it of the job at work
+_shares: Any = None
+_slot = 0
 
 
 class ProcessEndedError(RuntimeError):
@@ -69,14 +68,28 @@ class NoProcessError(RuntimeError):
         )
 
 
+class _Job(NamedTuple):
+    """A job under way: its number, its arguments, and where its share is told."""
+
+    number: int
+    given: tuple[Any, ...]
+    slot: int
+
+
 class Workers:
-    """A pool of processes. Starting them takes seconds, so several sweeps share one."""
+    """A pool of processes. Starting them takes seconds, so several sweeps share one.
+
+    The function that does a job is one of a module, and is called with the job's number, from 0, and its
+    arguments, which must be picklable; it may call `report`. A job that raises ends all, those that wait are
+    dropped, and its exception is raised here. After the end of a process the jobs that were begun are done once
+    more, one at a time; a job whose process ends again has a ProcessEndedError. NoProcessError is raised if
+    processes end before they begin any job.
+    """
 
     def __init__(self, pool: Executor, shares: Any, size: int = 1) -> None:
         self._pool = pool
         self._shares = shares
         self._size = size
-        self._code: Callable[[], int | None] = lambda: None  # with which the processes have ended
 
     def run(
         self,
@@ -85,162 +98,129 @@ class Workers:
         progress: Callable[[list[float]], None],
         ended: Callable[[ProcessEndedError], T] | None = None,
     ) -> list[T]:
-        """What `work(place, *job)` returns for every job, in their order; they are started in that order too.
+        """What `work` returns for every job, in their order; they are started in that order too.
 
-        Arguments:
-            jobs: arguments for work, which like them must be picklable.
-            work: a function of a module; it may call `report`.
-            progress: is told the share done of every job ten times a second.
-            ended: gives what to return for a job whose process ended.
-
-        If a job raises, those that wait are dropped and the exception is raised here. If a process ends, the
-        jobs that were begun are done once more, one at a time; of the one whose process ends again `ended` is
-        told, or its ProcessEndedError is raised when all others are done. Raises NoProcessError if processes
-        end before they begin any.
+        progress: is told the share done of every job ten times a second. ended: gives what to return for a job
+        whose process ended; without it the first such error is raised when all others are done.
         """
-        done: dict[int, T] = {}
-        lost: dict[int, ProcessEndedError] = {}
+        found: dict[int, T | ProcessEndedError] = {}
 
-        def go(places: Sequence[int]) -> bool:
-            def tell(shares: Mapping[int, float]) -> None:
-                progress([1.0 if n in done or n in lost else shares.get(n, 0.0) for n in range(len(jobs))])
+        def tell(shares: Mapping[int, float]) -> None:
+            progress([1.0 if n in found else shares.get(n, 0.0) for n in range(len(jobs))])
 
-            return self._go({place: jobs[place] for place in places}, work, tell, done)
-
-        tries = TRIES
-        while (left := [n for n in range(len(jobs)) if n not in done and n not in lost]) and not go(left):
-            begun = [n for n in left if n not in done and n < PLACES and self._shares[n] != NOT_BEGUN]
-            tries = TRIES if begun else tries - 1
-            if not tries:
-                raise NoProcessError
-            try:
-                for place in begun:
-                    self._renew(1)
-                    if not go([place]):
-                        lost[place] = ProcessEndedError(place, max(0.0, self._shares[place]), self._code())
-            finally:
-                self._renew(self._size)
-        if lost:
-            progress([1.0] * len(jobs))  # since they were last told
+        def result(one: T | ProcessEndedError) -> T:
+            if not isinstance(one, ProcessEndedError):
+                return one
             if ended is None:
-                raise lost[min(lost)]
-        return [done[n] if n in done or ended is None else ended(lost[n]) for n in range(len(jobs))]
+                raise one
+            return ended(one)
+
+        found.update(self.stream(jobs, work, tell))
+        if jobs:
+            tell({})
+        return [result(found[n]) for n in range(len(jobs))]
 
     def stream(
-        self, jobs: Iterable[tuple[Any, ...]], work: Callable[..., T]
+        self,
+        jobs: Iterable[tuple[Any, ...]],
+        work: Callable[..., T],
+        tell: Callable[[Mapping[int, float]], None] | None = None,
     ) -> Iterator[tuple[int, T | ProcessEndedError]]:
-        """Number of a job and what `work(place, *job)` returns, as each ends; for any number of jobs.
+        """Number of a job and what `work` returns, as each ends; for any number of jobs.
 
-        Jobs are taken as there is room for them, and nothing is held of those that have ended. As with `run`, a
-        job that raises ends all, and after the end of a process the jobs that were begun are done once more,
-        one at a time; in place of what one returns whose process ends again stands its ProcessEndedError.
+        Jobs are taken as there is room for them, and nothing is held of those that have ended.
+
+        tell: is told the shares done of the jobs under way, by number, ten times a second.
         """
         source = enumerate(jobs)
-        free = list(range(min(PLACES, AHEAD * self._size)))
+        free = list(range(AHEAD * self._size))
         again: deque[tuple[int, tuple[Any, ...]]] = deque()
-        held: dict[Future[T], tuple[int, int, tuple[Any, ...]]] = {}  # place, number, job
+        held: dict[Future[T], _Job] = {}
         tries = TRIES
         try:
             while True:
-                whole = True
-                while whole and free and (item := again.popleft() if again else next(source, None)):
-                    place = free.pop()
-                    self._shares[place] = NOT_BEGUN
+                broken = False
+                while not broken and free and (item := again.popleft() if again else next(source, None)):
+                    job = _Job(*item, free.pop())
                     try:
-                        with kept_from_children():
-                            held[self._pool.submit(_do, place, work, item[1])] = (place, *item)
+                        held[self._submit(job, work)] = job
                     except BrokenProcessPool:
-                        free.append(place)
+                        free.append(job.slot)
                         again.appendleft(item)
-                        whole = False
-                if not held and whole:
+                        broken = True
+                if not held and not broken:
                     return
-                finished, _ = wait(held, return_when=FIRST_COMPLETED if whole else "ALL_COMPLETED")
+                finished = self._ended(held, tell, whole=broken)
                 if any(isinstance(future.exception(), BrokenProcessPool) for future in finished):
-                    whole = False
-                    finished, _ = wait(held)
+                    broken = True
+                    finished = self._ended(held, None, whole=True)
                 lost = []
                 for future in finished:
-                    place, number, job = held.pop(future)
-                    free.append(place)
+                    job = held.pop(future)
+                    free.append(job.slot)
                     if isinstance(future.exception(), BrokenProcessPool):
-                        lost.append((number, place, job))
+                        lost.append(job)
                     else:
                         tries = TRIES
-                        yield number, future.result()
-                if whole:
+                        yield job.number, future.result()
+                if not broken:
                     continue
-                begun = [item for item in sorted(lost) if self._shares[item[1]] != NOT_BEGUN]
-                again.extend(
-                    (number, job) for number, place, job in sorted(lost) if (number, place, job) not in begun
-                )
+                begun = [job for job in sorted(lost) if self._shares[job.slot] != NOT_BEGUN]
+                again.extend((job.number, job.given) for job in sorted(lost) if job not in begun)
                 tries = TRIES if begun else tries - 1
                 if not tries:
                     raise NoProcessError
-                yield from self._once_more(begun, work)
+                try:
+                    for job in begun:
+                        yield job.number, self._alone(job, work, tell)
+                finally:
+                    self._renew(self._size)
         finally:
-            _cancel(dict(enumerate(held)))
+            for future in held:
+                future.cancel()
 
-    def _once_more(
-        self, begun: Sequence[tuple[int, int, tuple[Any, ...]]], work: Callable[..., T]
-    ) -> Iterator[tuple[int, T | ProcessEndedError]]:
-        """Jobs beside which a process has ended, by number and place: each by itself, then a new pool."""
-        try:
-            for number, place, job in begun:
-                self._renew(1)
-                done: dict[int, T] = {}
-                if self._go({place: job}, work, lambda shares: None, done):
-                    yield number, done[place]
-                else:
-                    yield number, ProcessEndedError(number, max(0.0, self._shares[place]), self._code())
-        finally:
-            self._renew(self._size)
+    def _submit(self, job: _Job, work: Callable[..., T]) -> Future[T]:
+        self._shares[job.slot] = NOT_BEGUN
+        with kept_from_children():  # they are started here
+            return self._pool.submit(_do, job.slot, work, job.number, job.given)
 
-    def _go(
+    def _ended(
         self,
-        jobs: Mapping[int, tuple[Any, ...]],
-        work: Callable[..., T],
-        tell: Callable[[Mapping[int, float]], None],
-        done: dict[int, T],
-    ) -> bool:
-        """Do jobs, by their place; what they return goes into `done`. Whether no process has ended."""
-        futures: dict[int, Future[T]] = {}
-        whole = True
-        others = set(multiprocessing.active_children())
-        try:
-            with kept_from_children():  # they are started here
-                for place, job in jobs.items():
-                    if place < PLACES:
-                        self._shares[place] = NOT_BEGUN
-                    futures[place] = self._pool.submit(_do, place, work, job)
-                started = set(multiprocessing.active_children()) - others
-                self._code = partial(_exit_code, self._pool, started)
-        except BrokenProcessPool:
-            whole = False
-        except BaseException:
-            _cancel(futures)
-            raise
-        try:
-            waiting = set(futures.values())
-            while waiting:
-                finished, waiting = wait(waiting, timeout=POLL, return_when=FIRST_EXCEPTION)
-                for future in finished:
-                    error = future.exception()
-                    if isinstance(error, BrokenProcessPool):
-                        whole = False
-                    elif error is not None:
-                        raise error
-                tell({place: self._share(place, future) for place, future in futures.items()})
-        except BaseException:
-            _cancel(futures)
-            raise
-        done.update({n: future.result() for n, future in futures.items() if future.exception() is None})
-        return whole
+        held: Mapping[Future[T], _Job],
+        tell: Callable[[Mapping[int, float]], None] | None,
+        whole: bool,
+    ) -> set[Future[T]]:
+        """Wait until any of the jobs has ended, or all of them, and tell meanwhile how far they are."""
+        waiting: set[Future[T]] = set(held)
+        while waiting:
+            _, waiting = wait(waiting, None if tell is None else POLL, FIRST_COMPLETED)
+            if tell is not None:
+                tell({job.number: max(0.0, float(self._shares[job.slot])) for job in held.values()})
+            if not whole and len(waiting) < len(held):
+                break
+        return set(held) - waiting
 
-    def _share(self, place: int, future: Future[T]) -> float:
-        if future.done() and future.exception() is None:
-            return 1.0
-        return max(0.0, float(self._shares[place])) if place < PLACES else 0.0
+    def _alone(
+        self, job: _Job, work: Callable[..., T], tell: Callable[[Mapping[int, float]], None] | None
+    ) -> T | ProcessEndedError:
+        """Do a job beside which a process has ended once more, by itself."""
+        self._renew(1)
+        others = set(multiprocessing.active_children())
+        with kept_from_children():
+            self._pool.submit(int)  # starts the process, which is known before the job can end it
+        started = set(multiprocessing.active_children()) - others
+        try:
+            future = self._submit(job, work)
+            self._ended({future: job}, tell, whole=True)
+            return future.result()
+        except BrokenProcessPool:
+            pass
+        self._pool.shutdown(cancel_futures=True)  # its thread asks for the code, too; it is not told twice
+        code = None
+        for process in started:
+            process.join(SOON)
+            code = process.exitcode
+        return ProcessEndedError(job.number, max(0.0, self._shares[job.slot]), code)
 
     def _renew(self, size: int) -> None:
         """Go on with so many new processes."""
@@ -250,12 +230,6 @@ class Workers:
     def close(self) -> None:
         """Drop what waits, and wait for the processes to end."""
         self._pool.shutdown(cancel_futures=True)
-
-
-def report(place: int, share: float) -> None:
-    """In a worker: so much of a job is done, 0 to 1."""
-    if _shares is not None and place < PLACES:
-        _shares[place] = share
 
 
 @contextmanager
@@ -268,8 +242,8 @@ def worker_pool(workers: int | Workers) -> Iterator[Workers]:
         yield workers
         return
     strangers = set(multiprocessing.active_children())
-    shares = CONTEXT.Array("d", PLACES, lock=False)
     size = max(1, workers)
+    shares = CONTEXT.Array("d", AHEAD * size, lock=False)
     pool = Workers(_pool(size, shares), shares, size)
     try:
         yield pool
@@ -285,22 +259,6 @@ def _pool(size: int, shares: Any) -> Executor:
     return ProcessPoolExecutor(size, CONTEXT, _start, (shares,))
 
 
-def _cancel(futures: Mapping[int, Future[T]]) -> None:
-    for future in futures.values():
-        future.cancel()
-
-
-def _exit_code(pool: Executor, processes: set[Any]) -> int | None:
-    """Of the process that there was; None if that is not known."""
-    pool.shutdown(
-        cancel_futures=True
-    )  # its thread asks for the code, too; not all kinds of processes tell it twice
-    for process in processes:
-        process.join(SOON)
-        return process.exitcode  # type: ignore[no-any-return]
-    return None
-
-
 def _told(code: int | None) -> str:
     """What an exit code means."""
     if code is None:
@@ -314,6 +272,12 @@ def _told(code: int | None) -> str:
 # --- in a worker ---
 
 
+def report(share: float) -> None:
+    """Tell that so much of the job at work is done, 0 to 1; elsewhere than in a worker nobody is told."""
+    if _shares is not None:
+        _shares[_slot] = share
+
+
 def _start(shares: Any) -> None:
     global _shares
     _shares = shares
@@ -321,9 +285,11 @@ def _start(shares: Any) -> None:
     threading.Thread(target=_end_with_parent, daemon=True).start()
 
 
-def _do(place: int, work: Callable[..., T], job: tuple[Any, ...]) -> T:
-    report(place, 0.0)  # it has begun
-    return work(place, *job)
+def _do(slot: int, work: Callable[..., T], number: int, given: tuple[Any, ...]) -> T:
+    global _slot
+    _slot = slot
+    report(0.0)  # it has begun
+    return work(number, *given)
 
 
 def _end_with_parent() -> None:

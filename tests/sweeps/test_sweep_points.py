@@ -11,9 +11,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from support_exudyn.sweeps import Record, grid, latin_hypercube, read_sweep, side_by_side
-from support_exudyn.sweeps.fields import keys_of, replaced
-from support_exudyn.sweeps.points import Range
-from support_exudyn.sweeps.row import Number, Row
+from support_exudyn.sweeps.file import keys_of, replaced
+from support_exudyn.sweeps.plan import Range
+from support_exudyn.sweeps.store import Number, Row
 from user_forces.values.value import InputError
 
 SCENARIO = """

@@ -8,9 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from support_exudyn.sweeps import local, read_sweep, sweep, work
-from support_exudyn.sweeps.row import Row
-from support_exudyn.sweeps.store import Store
+from support_exudyn.sweeps import read_sweep, sweep, work
+from support_exudyn.sweeps.store import Row, Store
 from support_exudyn.sweeps.work import Task
 from support_exudyn.sweeps.workers import ProcessEndedError
 from tests.cases.sweep_cases import columns, rows, speeds, start, write_sweep
@@ -33,7 +32,7 @@ def test_a_run_whose_process_is_killed_is_a_row_and_is_tried_again(
 ) -> None:
     path = write_sweep(tmp_path, '"machine.speed_m_per_s" = [0.1, 0.2, 0.3]')
     with monkeypatch.context() as patch:
-        patch.setattr(local, "_do", killed_at)
+        patch.setattr(work, "_do", killed_at)
         outcome = sweep(read_sweep(path), tmp_path / "store", workers=1)
     assert (outcome.done, outcome.killed) == (2, 1)
     table = columns(tmp_path / "store")

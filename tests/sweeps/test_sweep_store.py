@@ -25,8 +25,7 @@ from support_exudyn.simulation.result import FORMAT
 from support_exudyn.sweeps import key as keys
 from support_exudyn.sweeps.key import LENGTH
 from support_exudyn.sweeps.plan import Plan, Record
-from support_exudyn.sweeps.row import Number, Row
-from support_exudyn.sweeps.store import Store
+from support_exudyn.sweeps.store import Number, Row, Store
 from support_exudyn.sweeps.table import Table, read_table
 from tests.hostile import left_behind, posix_only, with_own_files
 from tests.processes import ROOT, environment

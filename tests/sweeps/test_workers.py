@@ -13,7 +13,6 @@ from itertools import pairwise
 
 import pytest
 
-from support_exudyn.sweeps import workers
 from support_exudyn.sweeps.workers import Workers, report, worker_pool
 from tests.processes import ROOT, alive, environment, linux_only, wait_until
 
@@ -29,7 +28,7 @@ def squared(place: int, number: int) -> tuple[int, int, int]:
 
 
 def stay(place: int, seconds: float) -> None:
-    report(place, 0.5)
+    report(0.5)
     time.sleep(seconds)
 
 
@@ -93,13 +92,11 @@ def test_shares_are_told_while_a_job_works_and_end_at_one(pool: Workers) -> None
     assert told[-1] == [1.0, 1.0, 1.0]
 
 
-def test_more_jobs_than_places_are_done_too(pool: Workers, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(workers, "PLACES", 1)  # here alone: the processes report what is not looked at
+def test_more_jobs_than_are_under_way_at_once_are_told_of_too(pool: Workers) -> None:
     told: list[list[float]] = []
-    pool.run([(0.25,)] * 3, stay, lambda shares: told.append(list(shares)))
-    assert any(shares[0] == 0.5 for shares in told)
-    assert {share for shares in told for share in shares[1:]} == {0.0, 1.0}
-    assert told[-1] == [1.0] * 3
+    pool.run([(0.25,)] * 9, stay, lambda shares: told.append(list(shares)))
+    assert all(any(shares[n] == 0.5 for shares in told) for n in range(9))
+    assert told[-1] == [1.0] * 9
 
 
 def test_an_exception_of_a_job_is_raised_here_and_the_rest_is_dropped(pool: Workers) -> None:
