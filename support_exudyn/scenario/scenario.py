@@ -38,7 +38,7 @@ class Scenario(ScenarioData):
         return self
 
     def refined(self, factor: float = 2) -> Scenario:
-        """The same run with all steps, also those of impacts, so many times shorter.
+        """The run with all steps, also those of impacts, so many times shorter.
 
         In space, sections of loose pins are so many times shorter, too.
 

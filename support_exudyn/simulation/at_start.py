@@ -56,7 +56,7 @@ def _end(number: int, frame: FrameType | None) -> None:
 
 
 def be_interruptible() -> None:
-    """From here on an interruption is a KeyboardInterrupt again: there is work that has to be ended."""
+    """An interruption is a KeyboardInterrupt again from here on: there is work that has to be ended."""
     if signal.getsignal(signal.SIGINT) is _end:
         signal.signal(signal.SIGINT, signal.default_int_handler)
 

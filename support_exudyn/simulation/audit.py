@@ -130,13 +130,13 @@ def _pistons_at_ends(scenario: Scenario, outcome: Outcome) -> Iterator[Failure]:
 
 
 def energy_open(scenario: Scenario, channels: Mapping[str, Channel]) -> tuple[Series, float]:
-    """By how much the energy balance is open at the records (n,) [J], and what is allowed."""
+    """The gap of the energy balance at the records (n,) [J], and the largest that is allowed [J]."""
     allowed = OPEN * turned_over(channels) + rounding_of_energy(scenario)
     return np.abs(channels[ENERGY + "balance"].values), allowed
 
 
 def rounding_of_energy(scenario: Scenario) -> float:
-    """By how much rounding may leave an energy open [J]."""
+    """The gap of the energy balance that rounding may leave [J]."""
     mass = sum(body.mass for body in scenario.linkage.bodies.values())
     return (ROUNDING * float(np.hypot(*scenario.gravity)) + ROUNDING_AT_REST) * mass
 

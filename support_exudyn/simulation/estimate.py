@@ -153,7 +153,7 @@ def error(measure: Measure, result: RecordedRun, r: float, size: float = 0.0, le
 
 
 def multiple(result: RecordedRun, r: float, last: Values, before: Values) -> Values:
-    """Of the last distance of two runs, that the error of a number is taken to be; r: see `fall`.
+    """The factor by which a number's error is estimated from its last distance; r: see `fall`.
 
     last, before: distances of the number, from run to run, or of many; of two runs alone before is 0.
     """
@@ -229,7 +229,7 @@ def rounding_of_forces(scenario: Scenario) -> float:
 
 
 def rounding_share(result: RecordedRun) -> float:
-    """The same, of the force that it is the largest share of."""
+    """The largest share of a force that rounding leaves, see `rounding_of_forces`."""
     return _worst(result, lambda measure: 0.0, rounding_of_forces(result.scenario))
 
 

@@ -16,7 +16,7 @@ from support_exudyn.scenario.solver_settings import REFINED_TOLERANCE, SMALLEST_
 from support_exudyn.simulation.estimate import disagreement, rounding_share
 from support_exudyn.simulation.result import Result
 from support_exudyn.simulation.single_run import run_once
-from support_exudyn.simulation.to_accuracy import is_the_same, with_measured
+from support_exudyn.simulation.to_accuracy import finer_than, is_the_same, with_measured
 from user_forces.values.value import InputError
 
 SHARES = (1.0 / 7.0, 2.0 / 7.0, 4.0 / 7.0)  # of the work, run by run, if these will do
@@ -64,7 +64,7 @@ def run_with_error(scenario: Scenario, progress: Progress) -> Result:
                     return replace(result, wall_time=wall_time)
                 doubt = doubt or found
         done += share
-        if (chosen := _finer(chosen)) is None:
+        if (chosen := finer_than(chosen)) is None:
             break
     assert doubt is not None  # else one of them would do
     raise SimulationError(doubt)
@@ -108,15 +108,6 @@ def _coarsest(scenario: Scenario) -> Scenario:
         )
     coarse.refined().refined()
     return coarse
-
-
-def _finer(scenario: Scenario) -> Scenario | None:
-    """The same with steps half as long; None if there are no finer settings."""
-    try:
-        finer = scenario.refined()
-    except InputError:
-        return None
-    return None if finer == scenario else finer
 
 
 def _part(progress: Progress, done: float, share: float) -> Progress:

@@ -195,5 +195,5 @@ def _onset(pin: str, n: int, field: str) -> Measure:
 
 
 def path_of(result: RecordedRun, point: str) -> Series:
-    """Where a traced point was [m], shape (2, n)."""
+    """The path of a traced point [m], shape (2, n)."""
     return np.array([result[f"{point}.x"], result[f"{point}.y"]])

@@ -78,7 +78,7 @@ class Result(RecordedRun):
 
     @cached_property
     def fall(self) -> float:
-        """By what factor the distances of its numbers fell from run to run: 1/4 for second order."""
+        """The factor by which the distances of numbers fell from run to run: 1/4 for second order."""
         return fall(self)
 
     @property

@@ -18,7 +18,6 @@ from support_exudyn.simulation.result import Result
 from support_exudyn.simulation.single_run import run_once
 from user_forces.values.value import InputError
 
-FACTOR = 2.0  # by which steps are shorter from run to run
 FEWEST_RUNS, MOST_RUNS = 3, 8
 # If errors do not fall at least so much when a scene is refined, so often in a row, no step makes its numbers
 # certain: each touch multiplies what the steps before it left.
@@ -78,7 +77,7 @@ def run_to_accuracy(scenario: Scenario, progress: Progress) -> Result:
         if sections is None and best is not None and first is not None and scenario.dimensions == 3:
             sections, taken = _sections_enough(first, chosen.solver.sections)
             wall_time += taken
-        if (chosen := _finer(chosen)) is None:
+        if (chosen := finer_than(chosen)) is None:
             break
         if sections is not None:
             chosen = _with_sections(chosen, min(sections, chosen.solver.sections))
@@ -92,7 +91,7 @@ def run_to_accuracy(scenario: Scenario, progress: Progress) -> Result:
 
 
 def with_measured(scenario: Scenario) -> Scenario:
-    """The same that also records what errors are estimated by: they then do not depend on what is asked."""
+    """A scenario that also records what errors are estimated by: they then do not depend on what is asked."""
     if scenario.channels == ALL_CHANNELS:
         return scenario
     missing = [name for name in measured(scenario) if name not in scenario.channels]
@@ -141,10 +140,10 @@ def _without_oldest(result: Result | None) -> Result | None:
     return replace(result, coarser=replace(result.coarser, coarser=None))
 
 
-def _finer(scenario: Scenario) -> Scenario | None:
-    """The same with finer settings; None if there are none."""
+def finer_than(scenario: Scenario) -> Scenario | None:
+    """The scenario with steps half as long; None if there are no finer settings."""
     try:
-        finer = scenario.refined(FACTOR)
+        finer = scenario.refined()
     except InputError:
         return None
     return None if finer == scenario else finer

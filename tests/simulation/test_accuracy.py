@@ -27,7 +27,7 @@ from support_exudyn import (
 from support_exudyn.formulations.progress import Progress
 from support_exudyn.simulation import to_accuracy
 from support_exudyn.simulation.reported_numbers import measures
-from support_exudyn.simulation.to_accuracy import FACTOR, FEWEST_RUNS, MOST_RUNS, PATIENCE
+from support_exudyn.simulation.to_accuracy import FEWEST_RUNS, MOST_RUNS, PATIENCE
 from support_exudyn.sweeps.parallel_runs import run_all
 from tests.cases.run_cases import (
     FORCE,
@@ -71,7 +71,7 @@ def test_the_result_has_the_settings_that_were_chosen(drop: Result) -> None:
     assert middle is not None
     assert middle.coarser is not None
     tolerances = [run.scenario.solver.tolerance for run in (middle.coarser, middle, drop)]
-    assert tolerances[:2] == pytest.approx([FACTOR**3 * t for t in tolerances[1:]])
+    assert tolerances[:2] == pytest.approx([2.0**3 * t for t in tolerances[1:]])
     assert middle.coarser.coarser is None
     assert drop.met
 
