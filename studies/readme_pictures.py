@@ -18,7 +18,8 @@ from PIL import Image
 
 from studies.clearance_influence import run as clearance_influence
 from studies.common import paper_machine
-from studies.common.study import add_options, output_folder, run_cases
+from studies.common.runs import run_cases
+from studies.common.study import add_options, output_folder
 from studies.extremes import figures as extremes_figures
 from studies.extremes.cases import STEP_STIFFNESS, cases
 from studies.extremes.runs import run_cases as judged

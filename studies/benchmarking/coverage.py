@@ -27,7 +27,9 @@ from studies.benchmarking import covered
 from studies.benchmarking.covered import Judged, Row
 from studies.benchmarking.fresh_scenes import KINDS, fresh
 from studies.common.chapter import Sheet
-from studies.common.study import MOST_WORKERS, Number, bar, output_folder, show_table, write_summary
+from studies.common.numbers import Number, write_summary
+from studies.common.runs import bar
+from studies.common.study import MOST_WORKERS, output_folder, show_table
 from support_exudyn.commands.command_line import Parser, answered, count, folder
 from support_exudyn.files.whole_file import whole_file
 from support_exudyn.sweeps.key import key

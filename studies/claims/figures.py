@@ -14,7 +14,6 @@ from studies.claims.plausible import REFERENCE, Sample
 from studies.claims.plausible_runs import LOOSE
 from studies.claims.verdicts import NEARLY_ALL, Ruling
 from studies.common import paper_machine
-from studies.common.chapter import Picture
 from studies.common.paper_machine import SIZES_MM
 from support_exudyn.postprocessing.figures import style
 
@@ -32,22 +31,6 @@ def figures(rulings: Sequence[Ruling], reference: Evidence, machines: Machines) 
         drawn["force_over_clearance"] = force_figure(reference, machines)
         drawn["ripple_and_friction"] = ripple_figure(reference, machines)
     return drawn
-
-
-def pictures() -> tuple[Picture, ...]:
-    """The figures with what they show."""
-    return (
-        Picture("claims_shares", "Share of the plausible machines for which each claim holds, with 95 % "
-            "confidence; squares: on the reference support it holds (filled) or fails (open). Claims that are "
-            "judged on the reference support alone, or not at all, have no bar."),
-        Picture("force_over_clearance", "Change of mean (a) and of standard deviation (b) of the pin force "
-            "against 0.5 mm, one line a plausible machine; averaged over the rise alone (grey) or over rise "
-            "and dwell (light blue; for the standard deviation mostly out of scale, because the fall into the "
-            "bore is in it). Black: reference support, crosses: the paper."),
-        Picture("ripple_and_friction", "Ripple of the pin force at 1.5 mm over the friction coefficient (a) "
-            "and over v_d (b), one point a plausible machine, by which body carries the bore. Square: "
-            "reference support."),
-    )  # fmt: skip
 
 
 def share_figure(rulings: Sequence[Ruling]) -> Figure:

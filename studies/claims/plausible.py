@@ -1,13 +1,13 @@
 """Plausible machines: a Latin hypercube over everything that the paper leaves open.
 
-Each factor is a range or a list of choices with the reason for it. A sample names a value of every factor;
-machine, pin and drive follow from it.
+Each factor is a range or a list of choices with the reason for it, see factors.toml. A sample names a value of
+every factor; machine, pin and drive follow from it.
 """
 
 from __future__ import annotations
 
 import inspect
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -15,6 +15,7 @@ import numpy as np
 from scipy.stats import qmc
 
 from studies.common import paper_machine
+from studies.common.data import rows
 from studies.contact_laws.catalogue import POWER_LAWS
 from support_exudyn import ClearancePin, HydraulicSupport, Part, reference_support
 from user_forces import (
@@ -48,7 +49,7 @@ class Factor:
     low: float = 0.0
     high: float = 0.0
     powers: bool = False
-    choices: tuple[str, ...] = ()
+    choices: Sequence[str] = ()
     unit: str = ""
     phrase: str = ""
 
@@ -82,8 +83,6 @@ class Factor:
 
 
 SYMBOLS = {"sliding_coefficient": "mu_d", "static_speed": "v_s", "dynamic_speed": "v_d"}
-MASS_REASON = "published supports of this size differ by about as much in the weight of their parts"
-CENTRE_REASON = "plate thickness and jacks are unknown; a tenth of the length either way"
 BODIES = {  # what a mass factor multiplies: body and which of its parts
     "rear_link": ("rear_link", (0,)),
     "front_link": ("front_link", (0,)),
@@ -98,108 +97,13 @@ MEMBERS = {  # by whose direction a centre of mass is shifted
     "canopy": ("hinge", "tip"),
 }
 
-FACTORS: tuple[Factor, ...] = (
-    Factor(
-        "scale",
-        "of a ZF18000's pivots; masses with its cube",
-        "0.65 assumed; 500 mm of stroke fit from 0.6 on",
-        0.6,
-        1.0,
-    ),
-    *(
-        Factor(
-            f"mass_{name}", f"mass of the {name.replace('_', ' ')}, times assumed", MASS_REASON, 0.6, 1.7, True
-        )
-        for name in BODIES
-    ),
-    *(
-        Factor(
-            f"centre_along_{name}",
-            f"centre of mass of the {name.replace('_', ' ')}, along it, of its length",
-            CENTRE_REASON,
-            -0.1,
-            0.1,
-        )
-        for name in MEMBERS
-    ),
-    *(
-        Factor(
-            f"centre_across_{name}",
-            f"centre of mass of the {name}, across it, of its length",
-            CENTRE_REASON,
-            -0.1,
-            0.1,
-        )
-        for name in ("shield", "canopy")
-    ),
-    Factor("start_height", "height of the hinge at the start, times assumed", "not given", 0.88, 1.08),
-    Factor(
-        "restitution", "asked of the law", "not given; from a damped to a nearly elastic steel pin", 0.3, 0.95
-    ),
-    Factor(
-        "law",
-        "of damping",
-        "the name Lankarani-Nikravesh is printed, its factor is not",
-        choices=tuple(POWER_LAWS),
-        phrase="the law {}",
-    ),
-    Factor(
-        "damping_speed",
-        "of a contact that does not part",
-        "not given",
-        choices=("last touch", "depth"),
-        phrase="damping by the {}",
-    ),
-    Factor(
-        "stiffness",
-        "of the contact",
-        "Eq. 5 is for spheres side by side; the pin is inside",
-        choices=("external", "internal"),
-        phrase="the {} stiffness",
-    ),
-    Factor("sliding_coefficient", "of friction [-]", "not given; greased to dry steel", 0.0, 0.4),
-    Factor("static_speed", "of friction [m/s]", "not given", 1e-5, 1e-3, True, unit="m/s"),
-    Factor(
-        "dynamic_speed",
-        "of friction [m/s]",
-        "not given; ADAMS' usual value is 0.01",
-        1.5e-3,
-        1e-1,
-        True,
-        unit="m/s",
-    ),
-    Factor(
-        "window",
-        "over which forces and accelerations are averaged",
-        "not given",
-        choices=("rise", "rise and dwell"),
-        phrase="averages over the {}",
-    ),
-    Factor(
-        "bore",
-        "body that carries the bore",
-        "not given",
-        choices=("base", "rear link"),
-        phrase="the bore in the {}",
-    ),
-)
-
-REFERENCE: dict[str, Choice] = {
-    "scale": REFERENCE_SCALE,
-    **{f"mass_{name}": 1.0 for name in BODIES},
-    **{f"centre_along_{name}": 0.0 for name in MEMBERS},
-    **{f"centre_across_{name}": 0.0 for name in ("shield", "canopy")},
-    "start_height": 1.0,
+_ROWS = {row["name"]: row for row in rows("studies.claims", "factor")}
+REFERENCE: dict[str, Choice] = {name: row.pop("reference") for name, row in _ROWS.items()}
+REFERENCE |= {
     "restitution": paper_machine.RESTITUTION,
-    "law": "lankarani_nikravesh",
-    "damping_speed": "last touch",
-    "stiffness": "external",
     "sliding_coefficient": paper_machine.SLIDING_COEFFICIENT,
-    "static_speed": 1e-4,
-    "dynamic_speed": 1e-2,
-    "window": "rise",
-    "bore": "base",
 }
+FACTORS = tuple(Factor(**row) for row in _ROWS.values())
 
 
 def samples(number: int, seed: int) -> list[dict[str, Choice]]:

@@ -15,7 +15,7 @@ import numpy as np
 from studies.claims.evidence import Evidence, Measured
 from studies.claims.plausible import REFERENCE, Sample, machine, pin
 from studies.common import paper_machine, rise
-from studies.common.study import halvings, with_coarser
+from studies.common.runs import halvings, with_coarser
 from support_exudyn import (
     CubicStep,
     Drive,

@@ -9,10 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from studies.common import paper_machine, rise
-from studies.common.chapter import Picture
+from studies.common.numbers import Number, by_case
 from studies.common.paper_machine import SIZES_MM, case_name
-from studies.common.study import Number
-from studies.common.wording import by_case
 from support_exudyn import Result
 from support_exudyn.postprocessing.figures import style
 
@@ -38,29 +36,6 @@ def figures(results: Mapping[str, Result], numbers: Sequence[Number]) -> dict[st
         "fig11_column_angles": angle_figure(results),
         "trends_with_clearance": trend_figure(numbers),
     }  # fmt: skip
-
-
-def pictures() -> tuple[Picture, ...]:
-    """The figures with what they show."""
-    return (
-        Picture("fig6_angular_velocity", f"Angular velocity of the rear link, friction {MU}: the rise (a), "
-            f"and three windows enlarged (b to d). Counterpart of the paper's Fig. 6."),
-        Picture("fig7_angular_acceleration", f"Angular acceleration of the rear link during the rise by "
-            f"clearance, friction {MU}; grey without friction, black the ideal pin. Counterpart of the paper's "
-            "Fig. 7."),
-        Picture("fig8_pin_force", f"Force in the rear-link pin during the rise by clearance, friction {MU}; "
-            f"grey without friction, black the ideal pin. Counterpart of the paper's Fig. 8."),
-        Picture("fig9_tip_path", "Path of the canopy's tip during the rise (a) and a piece of it enlarged "
-            "(b). Counterpart of the paper's Fig. 9."),
-        Picture("fig10_tip_shift", "Horizontal position of the tip over time (a) and its distance from where "
-            "the ideal pin has it (b). Counterpart of the paper's Fig. 10."),
-        Picture("fig11_column_angles", "Angles of the columns from the rearward horizontal, as in the paper's "
-            "Fig. 12 (a, b), and their change against the ideal pin (c, d). Counterpart of the "
-            "paper's Fig. 11."),
-        Picture("trends_with_clearance", "Mean, standard deviation and ripple of the pin force, and ripple of "
-            "the rear link's motion, over the clearance; crosses: the paper's (Table 3). Bars: "
-            "estimated errors."),
-    )  # fmt: skip
 
 
 def velocity_figure(results: Mapping[str, Result]) -> Figure:

@@ -80,6 +80,11 @@ class Peak:
         return self.scale * missed(self.extreme, values, time, run.scenario.breaks)
 
 
+def onset(pin: str, n: int, what: Literal["time", "speed"], scale: float = 1.0) -> Callable[[Result], float]:
+    """The measure of a touch of a pin, the n-th from 0 on: its time [s] or its speed [m/s], scaled."""
+    return lambda run: scale * float(getattr(run.onsets[pin][n], what))
+
+
 def between(run: Run, begin: float, end: float) -> Mask:
     """Mask of the records between two times [s]."""
     return (run.time >= begin - 1e-9) & (run.time <= end + 1e-9)

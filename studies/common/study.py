@@ -1,36 +1,34 @@
-"""What all studies share: their options, runs with errors, numbers and summary."""
+"""What a study is and how it is run: its options, its folder, and everything that it leaves there."""
 
 from __future__ import annotations
 
 import argparse
-import json
-import math
 import os
 import sys
 import tempfile
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 
 from matplotlib.figure import Figure
 from rich.console import Console
-from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
 from studies.common.chapter import Sheet
-from studies.common.rise import Peak
-from support_exudyn import Failure, Result, Scenario, SimulationError
+from studies.common.numbers import Number, write_summary
+from studies.common.runs import file_name, save_run
+from studies.common.words import Table, Words
+from support_exudyn import Result
 from support_exudyn.commands.command_line import Parser, answered, count, folder
 from support_exudyn.files.temporary import remove_leftovers
 from support_exudyn.files.whole_file import whole_file, writing_alone
 from support_exudyn.postprocessing.figures import style
-from support_exudyn.simulation.provenance import versions
-from support_exudyn.sweeps.parallel_runs import run_all
 from support_exudyn.sweeps.workers import Workers
 
-MOST_BARS = 12  # more runs than that share one progress bar
+ALL_OPTIONS = ("quick", "workers", "machines")
+MOST_WORKERS, MOST_MACHINES = 1024, 100_000
 
 
 @dataclass(frozen=True)
@@ -48,8 +46,58 @@ class Options:
     machines: int | None = None
 
 
-ALL_OPTIONS = ("quick", "workers", "machines")
-MOST_WORKERS, MOST_MACHINES = 1024, 100_000
+@dataclass(frozen=True)
+class Outcome:
+    """What a study found.
+
+    numbers: of summary.json. words: what the sentences of words.md.j2 are filled with, by name. figures,
+    tables: by the name of their files. runs: by that of their case. counts: of its own, for the summary.
+    """
+
+    numbers: Sequence[Number]
+    words: Mapping[str, object]
+    figures: Mapping[str, Figure]
+    tables: Mapping[str, Table]
+    runs: Mapping[str, Result] = field(default_factory=dict)
+    counts: Mapping[str, int] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Study:
+    """A study: a question, and the work that answers it.
+
+    name: of its folder. asks: the docstring of its module, whose first line is its help. work: computes all
+    that it leaves. taken: the options that it takes, besides the folder.
+    """
+
+    name: str
+    asks: str | None
+    work: Callable[[Options], Outcome]
+    taken: Sequence[str] = ALL_OPTIONS
+
+    @property
+    def description(self) -> str:
+        """The question, in a line."""
+        return (self.asks or "").splitlines()[0]
+
+    def __call__(self, chosen: Options) -> None:
+        """Compute, draw and write everything into the output folder."""
+        started = time.perf_counter()
+        with style.look():
+            found = self.work(chosen)
+        for case, run in found.runs.items():
+            save_run(run, chosen.out, file_name(case))
+        save_figures(chosen, found.figures)
+        chapter, sheets = Words(self.name).chapter(found.words, found.tables, chosen.quick)
+        for name, table in found.tables.items():
+            if table.in_file:
+                show_table(chosen.out / f"{name}.txt", sheets[name], table.width)
+        chapter.save(chosen.out)
+        write_summary(chosen.out, self.name, found.numbers, time.perf_counter() - started, found.counts)
+
+    def main(self, argv: Sequence[str] | None = None) -> int:
+        """Entry of `python -m studies.NAME`; returns the exit code."""
+        return run_main(self, options(self.name, argv, self.description, self.taken))
 
 
 def options(
@@ -87,146 +135,6 @@ def add_options(parser: argparse.ArgumentParser, out: Path, taken: Sequence[str]
         )
 
 
-@dataclass(frozen=True)
-class Number:
-    """A number that a study reports.
-
-    name, case: what, and of which run. value, unit. numerical_error: as accuracies estimate it, of three runs,
-    see `simulation.estimate`; 0 for a closed form. paper: the printed value, None if there is none.
-    """
-
-    name: str
-    case: str
-    value: float
-    unit: str
-    numerical_error: float
-    paper: float | None = None
-
-
-Measure = Callable[[Result], float]
-
-
-def measured(
-    name: str, case: str, unit: str, result: Result, measure: Measure, paper: float | None = None
-) -> Number:
-    """A number of a run with errors, see `run_with_errors`."""
-    found = result.estimate(measure, unit)
-    between_records = measure.missed(result) if isinstance(measure, Peak) else 0.0
-    return Number(name, case, found.value, unit, found.error + between_records, paper)
-
-
-def counted(name: str, case: str, result: Result, count: Callable[[Result], int]) -> Number:
-    """A count of a run; its error is how far its coarser ones are away, for counts do not converge."""
-    found = [count(run) for run in halvings(result)]
-    return Number(name, case, float(found[-1]), "1", float(max(abs(found[-1] - one) for one in found)))
-
-
-def compared(
-    name: str,
-    case: str,
-    unit: str,
-    run: Result,
-    other: Result,
-    measure: Callable[[Result, Result], float],
-    paper: float | None = None,
-) -> Number:
-    """A number of a run beside another one; the errors of both add up."""
-    here = run.estimate(lambda finer: measure(finer, other), unit)
-    there = other.estimate(lambda finer: measure(run, finer), unit)
-    error = here.error if run is other else here.error + there.error
-    return Number(name, case, here.value, unit, error, paper)
-
-
-def run_with_errors(cases: Mapping[str, Scenario], workers: int | Workers) -> dict[str, Result]:
-    """Run every case at its steps, at half and at a quarter of them, in parallel, under a progress bar.
-
-    Each result is that of the shortest steps, and the others are its `coarser` ones: every number of it has the
-    error that accuracies estimate, `Result.estimate`. Where numbers do not settle that is large, and no reason
-    to end a study.
-
-    Raises SimulationError if a run fails.
-    """
-    steps: dict[str, list[Scenario]] = {}
-    for name, case in cases.items():
-        half = case.refined()
-        steps[name] = [case, half, half.refined()]
-    # the longest first, so that no process is left alone with a long run at the end
-    runs = {_at(name, n): chosen[n] for n in (2, 1, 0) for name, chosen in steps.items()}
-    good = run_cases(runs, workers)
-    return {name: with_coarser([good[_at(name, n)] for n in range(3)]) for name in cases}
-
-
-def _at(name: str, n: int) -> str:
-    return f"{name}, steps / {2**n}" if n else name
-
-
-def with_coarser(runs: Sequence[Result]) -> Result:
-    """The last of runs of a scene, the coarsest first, with those before as its coarser ones."""
-    found, *finer = runs
-    for run in finer:
-        found = replace(run, coarser=found)
-    return found
-
-
-def halvings(result: Result) -> tuple[Result, ...]:
-    """A run and its coarser ones, the coarsest first."""
-    return (*(halvings(result.coarser) if result.coarser else ()), result)
-
-
-def touches(result: Result, pin: str) -> int:
-    """How many touches of a pin a run and all its coarser ones have: that of others has no error."""
-    return min(len(run.onsets.get(pin, ())) for run in halvings(result))
-
-
-def save_run(result: Result, out: Path, name: str) -> None:
-    """Write a run into the folder of runs; one at chosen steps without its coarser ones, which treble it."""
-    kept = result if result.goal is not None else replace(result, coarser=None)
-    kept.save(out / "runs" / f"{name}.h5")
-
-
-def run_cases(runs: Mapping[str, Scenario], workers: int | Workers) -> dict[str, Result]:
-    """Run scenarios in parallel, in the order given, under a progress bar.
-
-    Raises SimulationError if a run fails.
-    """
-    together = len(runs) > MOST_BARS
-    columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.percentage:3.0f} %"))
-    with Progress(*columns, TimeRemainingColumn(), console=Console(stderr=True)) as bars:
-        total = [bars.add_task(f"{len(runs)} runs", total=float(len(runs)))] if together else []
-        tasks = {} if together else {name: bars.add_task(name, total=1.0) for name in runs}
-
-        def show(shares: Mapping[str, float]) -> None:
-            for task in total:
-                bars.update(task, completed=sum(shares.values()))
-            for name, task in tasks.items():
-                bars.update(task, completed=shares[name])
-
-        results = run_all(runs, workers=workers, progress=show)
-    good: dict[str, Result] = {}
-    for name, result in results.items():
-        if isinstance(result, Failure):
-            raise SimulationError(replace(result, reason=f"{name}: {result.reason}"))
-        good[name] = result
-    return good
-
-
-def write_summary(
-    out: Path, study: str, numbers: Sequence[Number], wall_s: float, counts: Mapping[str, int] | None = None
-) -> Path:
-    """Write DIR/summary.json: study, versions, wall time, counts of the study's own, and all numbers."""
-    summary = {
-        "study": study,
-        "versions": versions(),
-        "wall_s": round(wall_s, 3),
-        **(counts or {}),
-        "numbers": [asdict(number) for number in numbers],
-    }
-    path = out / "summary.json"
-    with whole_file(path) as temporary:
-        temporary.write_text(json.dumps(summary, indent=1, allow_nan=False) + "\n", encoding="utf-8")
-    return path
-
-
 def save_figures(chosen: Options, drawings: Mapping[str, Figure]) -> None:
     """Write a study's figures into its folder, as PDF too in the full form; side by side if there is a pool."""
     jobs = [(drawing, chosen.out, name, not chosen.quick) for name, drawing in drawings.items()]
@@ -249,38 +157,6 @@ def show_table(path: Path, table: Sheet, width: int = 150) -> None:
     Console(width=None if sys.stdout.isatty() else width).print(shown)
     with whole_file(path) as temporary, temporary.open("w", encoding="utf-8") as file:
         Console(file=file, width=width).print(shown)
-
-
-def rounded(value: float, error: float) -> str:
-    """A number with its error, both to the digits that the error leaves; alone if it has none."""
-    if error == 0.0 or not math.isfinite(error):
-        return f"{value:.9g}"
-    digits = max(0, 1 - math.floor(math.log10(error)))
-    if digits > 9:
-        return f"{value:.6g} ± {error:.0e}"
-    return f"{value:.{digits}f} ± {error:.{digits}f}"
-
-
-def brief(value: float, error: float) -> str:
-    """A number with its error in at most seven digits, for tables in which many stand side by side."""
-    if error == 0.0 or not math.isfinite(error):
-        return f"{value:.7g}"
-    if value == 0.0:
-        return f"0 ± {error:.0e}"
-    digits = max(0, 6 - math.floor(math.log10(abs(value))))
-    if error < 0.5 * 10.0**-digits:
-        return f"{value:.{digits}f} ± {error:.0e}"
-    left = max(0, 1 - math.floor(math.log10(error)))
-    return f"{value:.{digits}f} ± {error:.{digits}f}" if digits < left else rounded(value, error)
-
-
-@contextmanager
-def bar(name: str) -> Iterator[Callable[[Sequence[float]], None]]:
-    """One progress bar for many jobs: gives what is told the share done of each."""
-    columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.percentage:3.0f} %"))
-    with Progress(*columns, TimeRemainingColumn(), console=Console(stderr=True)) as bars:
-        task = bars.add_task(name, total=1.0)
-        yield lambda shares: bars.update(task, completed=sum(shares) / max(1, len(shares)))
 
 
 @contextmanager

@@ -11,15 +11,10 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
 from studies.common import rise
-from studies.common.chapter import Picture
-from studies.common.study import (
-    Number,
-)
+from studies.common.numbers import Number, by_case
 from studies.contact_laws.cases import ASKED, LOOP_RESTITUTION, SPEED, TEXTBOOK
 from studies.contact_laws.catalogue import POWER_LAWS, title
-from studies.contact_laws.free_impact import (
-    PIN,
-)
+from studies.contact_laws.free_impact import PIN
 from support_exudyn import Result
 from support_exudyn.postprocessing.figures import style
 
@@ -78,7 +73,7 @@ def loop_figure(results: Mapping[str, Result]) -> Figure:
 def rise_figure(numbers: Sequence[Number]) -> Figure:
     """Mean, spread, peak and energy lost of the rise, a row for each law."""
     cases = list(dict.fromkeys(n.case for n in numbers))
-    found = {(n.name, n.case): n for n in numbers}
+    found = by_case(numbers)
     shown = [
         ("mean_pin_force", 1e-3, "mean force,\n3 to 5 s [kN]"),
         ("std_pin_force", 1e-3, "its std,\n3 to 5 s [kN]"),
@@ -143,29 +138,3 @@ def row_title(case: str) -> str:
         return f"friction: {title(case.removeprefix('friction '))}"
     name, _, rest = case.partition(", ")
     return title(name) + (f", {rest}" if rest else "")
-
-
-def pictures() -> tuple[Picture, ...]:
-    """The figures with what they show."""
-    return (
-        Picture(
-            "delivered_restitution",
-            "Restitution that a free impact delivers over the restitution asked for, a panel for each law: "
-            "closed form (line), through the engine (points), and as asked (dashed).",
-        ),
-        Picture(
-            "force_depth_loops",
-            f"Force over depth in a free impact at {SPEED} m/s, a restitution of {LOOP_RESTITUTION} asked for; "
-            "dashed: the elastic part alone.",
-        ),
-        Picture(
-            "rise_under_each_law",
-            "The rise under each law: mean force and its standard deviation from 3 to 5 s, largest force and "
-            "energy lost from 0 to 5 s. Bars are the estimated errors.",
-        ),
-        Picture(
-            "permanent_contact",
-            "Lankarani-Nikravesh in the support, three ways to damp a contact that does not part: the fall "
-            "into the bore (a), and what is left of the vibration (b).",
-        ),
-    )

@@ -7,63 +7,27 @@ normal laws and with each friction law; and with the textbook treatment of a con
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Mapping, Sequence
 
 from studies.common import paper_machine, rise
-from studies.common.chapter import Chapter, Sheet
-from studies.common.study import (
-    Number,
-    Options,
-    counted,
-    measured,
-    options,
-    rounded,
-    run_cases,
-    run_main,
-    run_with_errors,
-    save_figures,
-    save_run,
-    show_table,
-    write_summary,
-)
-from studies.common.wording import by_case, how_sure, percent, said
-from studies.contact_laws import catalogue
-from studies.contact_laws.cases import (
-    CLEARANCE_MM,
-    FEW,
-    FRICTION,
-    IMPACT_STEPS,
-    LOOSE,
-    RESTITUTION,
-    RISE_IMPACT_STEPS,
-    RISE_STEP,
-    SPEED,
-    TEXTBOOK,
-    impact_laws,
-    loop_laws,
-    rises,
-)
+from studies.common.numbers import Found, Number, by_case, counted, measured, rounded
+from studies.common.runs import run_cases, run_with_errors
+from studies.common.study import Options, Outcome, Study
+from studies.common.words import Table
+from studies.contact_laws import cases, catalogue, free_impact
+from studies.contact_laws.cases import FEW, IMPACT_STEPS, LOOSE, SPEED
 from studies.contact_laws.catalogue import POWER_LAWS, title
 from studies.contact_laws.figures import (
     loop_figure,
     permanent_figure,
-    pictures,
     restitution_figure,
     rise_figure,
     row_title,
 )
-from studies.contact_laws.free_impact import (
-    BORE_MASS,
-    JOURNAL_MASS,
-    delivered_restitution,
-    free_impact,
-)
 from support_exudyn import Result
-from support_exudyn.postprocessing.figures import style
 from support_exudyn.sweeps.workers import worker_pool
 
-STUDY = "contact_laws"
+DELIVERED = "delivered_restitution"
 
 
 # --- measures ---
@@ -73,7 +37,7 @@ def restitution_numbers(results: Mapping[str, Result], expected: Mapping[str, fl
     """Delivered restitution and its closed form, by case."""
     numbers = []
     for case, closed_form in expected.items():
-        numbers.append(measured("delivered_restitution", case, "1", results[case], delivered_restitution))
+        numbers.append(measured(DELIVERED, case, "1", results[case], free_impact.delivered_restitution))
         numbers.append(Number("closed_form_restitution", case, closed_form, "1", 0.0))
     return numbers
 
@@ -106,207 +70,118 @@ def rise_numbers(results: Mapping[str, Result]) -> list[Number]:
 # --- tables ---
 
 
-def restitution_table(numbers: Sequence[Number]) -> Sheet:
+def restitution_table(numbers: Sequence[Number]) -> Table:
     """Delivered restitution, a row a law; and the largest distance from the closed form."""
-    values = {(n.name, n.case): n.value for n in numbers}
-    asked = [e for e in FEW if ("delivered_restitution", f"exact e={e:g}") in values]
+    found = by_case(numbers)
+    asked = [e for e in FEW if (DELIVERED, f"exact e={e:g}") in found]
     rows = []
     for name, own in _impacts(numbers).items():
-        cells = [values.get(("delivered_restitution", f"{name} e={e:g}")) for e in asked]
-        off = max(_off(values, case) for case in own)
-        rows.append((title(name), *("" if v is None else f"{v:.4f}" for v in cells), f"{off:.0e}"))
-    return Sheet(
-        title="Restitution that a free impact delivers, through the engine",
-        header=("law", *(f"e = {e:g}" for e in asked), "off the closed form, at most"),
-        rows=tuple(rows),
-    )
+        cells = [found.get((DELIVERED, f"{name} e={e:g}")) for e in asked]
+        off = max(_off(found, case) for case in own)
+        rows.append((title(name), *("" if n is None else f"{n.value:.4f}" for n in cells), f"{off:.0e}"))
+    header = ("law", *(f"e = {e:g}" for e in asked), "off the closed form, at most")
+    return Table(header, tuple(rows), width=200)
 
 
 def _impacts(numbers: Sequence[Number]) -> dict[str, list[str]]:
     """Cases of free impacts by law."""
     by_law: dict[str, list[str]] = {}
     for n in numbers:
-        if n.name == "delivered_restitution":
+        if n.name == DELIVERED:
             by_law.setdefault(n.case.split(" ")[0], []).append(n.case)
     return by_law
 
 
-def _off(values: Mapping[tuple[str, str], float], case: str) -> float:
+def _off(found: Found, case: str) -> float:
     """Distance of a delivered restitution from its closed form."""
-    return abs(values["delivered_restitution", case] - values["closed_form_restitution", case])
+    return abs(found[DELIVERED, case].value - found["closed_form_restitution", case].value)
 
 
-def rise_table(numbers: Sequence[Number]) -> Sheet:
+def rise_table(numbers: Sequence[Number]) -> Table:
     """The rise under each law, a row a law."""
     found = by_case(numbers)
     rows = []
     for case in dict.fromkeys(n.case for n in numbers):
         row = [found[name, case] for name in RISE_UNITS]
         rows.append((row_title(case), *(rounded(n.value, n.numerical_error) for n in row)))
-    return Sheet(
-        title=f"Rise of the reference support, {CLEARANCE_MM} mm, restitution {RESTITUTION}",
-        header=("law", *(f"{name.replace('_', ' ')} [{unit}]" for name, unit in RISE_UNITS.items())),
-        rows=tuple(rows),
-        caption=(
-            "± is the estimated error, of three runs. Mean and std: 3 to 5 s, every "
-            f"{1e3 * RISE_STEP:g} ms; the rest: 0 to 5 s. Laws without damping, or with little under "
-            "load, never come to rest: their numbers are those of a chaotic vibration, and the ± says so."
-        ),
-    )
+    header = ("law", *(f"{name.replace('_', ' ')} [{unit}]" for name, unit in RISE_UNITS.items()))
+    return Table(header, tuple(rows), width=200)
 
 
-# --- words ---
+# --- the study ---
 
 
-def chapter(restitutions: Sequence[Number], risen: Sequence[Number], quick: bool) -> Chapter:
-    """The study as a chapter of the report."""
-    return Chapter(
-        study=STUDY,
-        title="Contact and friction laws",
-        question=(
-            "What restitution does each contact law deliver, and what does the choice of a law change in the "
-            "rise?"
-        ),
-        method=_method(quick),
-        findings=(*_impact_findings(restitutions), *_rise_findings(risen)),
-        pictures=pictures(),
-        sheets=(restitution_table(restitutions), rise_table(risen)),
-        quick=quick,
-    )
-
-
-def _method(quick: bool) -> tuple[str, ...]:
-    bearing = paper_machine.bearing(CLEARANCE_MM)
-    few = "This quick form takes only some of the restitutions, and in the rise only some of the laws. "
-    return (
-        f"Free impacts: a journal of {JOURNAL_MASS:g} kg flies at {SPEED} m/s against the wall of a free bore "
-        f"of {BORE_MASS:g} kg, with nothing else acting, under every normal law and for a range of "
-        "restitutions asked for. What comes out of the engine is compared with the closed form, or, where a "
-        "law has none, with an integration in one dimension.",
-        f"The rise: the reference support with {CLEARANCE_MM} mm of clearance in the rear-link pin and a "
-        f"restitution of {RESTITUTION}, raised as in the paper (mode 2), once under each normal law without "
-        f"friction and once with each friction law (sliding coefficient {FRICTION}, static a quarter above it) "
-        "on the exact law. "
-        f"{few if quick else ''}"
-        "Point-contact laws have the paper's stiffness, linear laws the stiffness that holds the pin's load at "
-        f"the same depth, line-contact laws an assumed length of {1e3 * catalogue.PIN_LENGTH:g} mm and a "
-        f"bore radius of {1e3 * bearing.bore_radius:g} mm.",
-        "A contact that does not part is damped by the depth it reaches (DepthSpeed); two more rises use the "
-        "textbook's speed of the last touch, with two floors below which that speed is not let fall.",
-        f"In the first run an undamped free impact takes {IMPACT_STEPS} steps, one in the rise "
-        f"{RISE_IMPACT_STEPS[quick]}. Between impacts its step is {1e3 * RISE_STEP:g} ms, and so is the "
-        "time between two records. "
-        f"{how_sure(quick)}",
-    )
-
-
-def _impact_findings(numbers: Sequence[Number]) -> tuple[str, ...]:
-    values = {(n.name, n.case): n.value for n in numbers}
-    laws = _impacts(numbers)
-    off = max(_off(values, case) for cases in laws.values() for case in cases)
-    low = min(FEW)
-    power = {name: values["delivered_restitution", f"{name} e={low:g}"] for name in POWER_LAWS}
-    most, least = max(power, key=power.__getitem__), min(power, key=power.__getitem__)
-    paper = [(e, values["delivered_restitution", f"lankarani_nikravesh e={e:g}"]) for e in (low, max(FEW))]
-    return (
-        f"The engine delivers what the closed forms say: all {sum(map(len, laws.values()))} free impacts are "
-        f"within {off:.0e} of it.",
-        f"Laws deliver other restitutions than they are asked for. Asked for {low:g}, "
-        f"{title(most)} delivers {power[most]:.3f} and {title(least)} {power[least]:.3f}; the exact law "
-        f"delivers {power['exact']:.3f}. The paper's law, Lankarani-Nikravesh, delivers "
-        f"{paper[0][1]:.3f} for {paper[0][0]:g} and {paper[1][1]:.3f} for {paper[1][0]:g}.",
-    )
-
-
-def _rise_findings(numbers: Sequence[Number]) -> tuple[str, ...]:
-    found = by_case(numbers)
-    cases = list(dict.fromkeys(n.case for n in numbers))
-    power = [case for case in cases if case in POWER_LAWS]
-    frictions = [case for case in cases if case.startswith("friction ")]
-    sentences = [_spread(found, power)]
-    peaks = {case: found["largest_pin_force_any_step", case] for case in cases if case not in frictions}
-    low, high = min(peaks, key=lambda c: peaks[c].value), max(peaks, key=lambda c: peaks[c].value)
-    sentences.append(
-        "The largest force follows the stiffness: from "
-        f"{said(peaks[low], 1e-3, 'kN')} ({row_title(low)}) to {said(peaks[high], 1e-3, 'kN')} "
-        f"({row_title(high)})."
-    )
-    stds = "; ".join(
-        f"{row_title(c).partition(': ')[2]} {said(found['std_pin_force', c], 1e-3, 'kN')}" for c in frictions
-    )
-    frictionless = said(found["std_pin_force", "exact"], 1e-3, "kN")
-    sentences.append(
-        f"Standard deviation of the pin force with friction laws: {stds}; without: {frictionless}."
-    )
-    textbook = "; ".join(
-        f"floor {1e3 * floor:g} mm/s {said(found['std_pin_force', case], 1e-3, 'kN')}"
-        for case, floor in TEXTBOOK.items()
-    )
-    sentences.append(
-        "How a contact that does not part is damped decides how much vibration is left. Standard deviation of "
-        f"the pin force under Lankarani-Nikravesh: by the depth "
-        f"{said(found['std_pin_force', 'lankarani_nikravesh'], 1e-3, 'kN')}; by the last touch: {textbook}."
-    )
-    lost = max(found["energy_error", c].value / found["energy_dissipated", c].value for c in power)
-    sentences.append(
-        f"Under the laws with hysteresis damping at most {lost:.0e} of the dissipated energy is not accounted "
-        "for."
-    )
-    return tuple(sentences)
-
-
-def _spread(found: Mapping[tuple[str, str], Number], cases: Sequence[str]) -> str:
-    """How far laws with hysteresis damping and the same stiffness are apart."""
-    apart = []
-    for name in ("mean_pin_force", "std_pin_force"):
-        values = [found[name, case].value for case in cases]
-        apart.append(percent(max(values) / min(values) - 1.0))
-    return (
-        f"Among the {len(cases)} laws with hysteresis damping and the paper's stiffness, mean pin force and "
-        f"its standard deviation over the rise differ, largest from smallest, by {apart[0]} and {apart[1]}."
-    )
-
-
-# --- main ---
-
-
-def study(chosen: Options) -> None:
-    """Run, measure, draw and write everything into the output folder."""
-    started = time.perf_counter()
-    laws = impact_laws(chosen.quick)
-    impacts = {case: free_impact(law, SPEED, IMPACT_STEPS) for case, (law, _) in laws.items()}
-    lifted = rises(chosen.quick)
+def work(chosen: Options) -> Outcome:
+    """Free impacts and the rise under every law."""
+    laws = cases.impact_laws(chosen.quick)
+    impacts = {case: free_impact.free_impact(law, SPEED, IMPACT_STEPS) for case, (law, _) in laws.items()}
+    loops = {
+        name: free_impact.free_impact(law, SPEED, 128, records=800) for name, law in cases.loop_laws().items()
+    }
+    lifted = cases.rises(chosen.quick)
     with worker_pool(chosen.workers) as pool:
         done = run_with_errors(lifted | impacts, pool)
-        loops = run_cases(
-            {name: free_impact(law, SPEED, 128, records=800) for name, law in loop_laws().items()}, pool
-        )
+        looped = run_cases(loops, pool)
     restitutions = restitution_numbers(done, {case: expected for case, (_, expected) in laws.items()})
     risen = {name: done[name] for name in lifted}
     numbers = rise_numbers(risen)
-    for name, result in risen.items():
-        save_run(result, chosen.out, _file_name(name))
-    with style.look():
-        drawings = {
-            "delivered_restitution": restitution_figure(restitutions),
-            "force_depth_loops": loop_figure(loops),
-            "rise_under_each_law": rise_figure(numbers),
-            "permanent_contact": permanent_figure(risen),
-        }
-    save_figures(chosen, drawings)
-    tables = [restitution_table(restitutions), rise_table(numbers)]
-    for name, table in zip(("restitution_table", "rise_table"), tables, strict=True):
-        show_table(chosen.out / f"{name}.txt", table, width=200)
-    chapter(restitutions, numbers, chosen.quick).save(chosen.out)
-    write_summary(chosen.out, STUDY, [*restitutions, *numbers], time.perf_counter() - started)
+    drawings = {
+        "delivered_restitution": restitution_figure(restitutions),
+        "force_depth_loops": loop_figure(looped),
+        "rise_under_each_law": rise_figure(numbers),
+        "permanent_contact": permanent_figure(risen),
+    }
+    tables = {"restitution_table": restitution_table(restitutions), "rise_table": rise_table(numbers)}
+    words = _of_impacts(restitutions) | _of_rises(numbers)
+    return Outcome([*restitutions, *numbers], words, drawings, tables, risen)
 
 
-def _file_name(case: str) -> str:
-    kept = case.replace("m/s", "mps").replace(" ", "_").replace(",", "").replace(".", "p")
-    return kept.replace("/", "_")
+def _of_impacts(numbers: Sequence[Number]) -> dict[str, object]:
+    """What is said of free impacts, and of how all was run."""
+    found = by_case(numbers)
+    low, high = min(FEW), max(FEW)
+    power = {name: found[DELIVERED, f"{name} e={low:g}"].value for name in POWER_LAWS}
+    return {
+        "cases": cases,
+        "impact": free_impact,
+        "title": title,
+        "row_title": row_title,
+        "pin_length": catalogue.PIN_LENGTH,
+        "bore_radius": paper_machine.bearing(cases.CLEARANCE_MM).bore_radius,
+        "offs": [_off(found, case) for of_law in _impacts(numbers).values() for case in of_law],
+        "low": low,
+        "high": high,
+        "power": power,
+        "most": max(power, key=power.__getitem__),
+        "least": min(power, key=power.__getitem__),
+        "paper_high": found[DELIVERED, f"lankarani_nikravesh e={high:g}"].value,
+    }
 
 
-def main(argv: Sequence[str] | None = None) -> int:
-    """Entry of `python -m studies.contact_laws`."""
-    description = (__doc__ or "").splitlines()[0]
-    return run_main(study, options(STUDY, argv, description))
+def _of_rises(numbers: Sequence[Number]) -> dict[str, object]:
+    """What is said of the rise under each law."""
+    found = by_case(numbers)
+    all_cases = list(dict.fromkeys(n.case for n in numbers))
+    frictions = [case for case in all_cases if case.startswith("friction ")]
+    hysteresis = [case for case in all_cases if case in POWER_LAWS]
+    peaks = {
+        case: found["largest_pin_force_any_step", case].value for case in all_cases if case not in frictions
+    }
+
+    def spread(name: str) -> float:
+        values = [found[name, case].value for case in hysteresis]
+        return max(values) / min(values) - 1.0
+
+    return {
+        "risen": found,
+        "frictions": frictions,
+        "hysteresis": hysteresis,
+        "spread": {name: spread(name) for name in ("mean_pin_force", "std_pin_force")},
+        "softest": min(peaks, key=peaks.__getitem__),
+        "stiffest": max(peaks, key=peaks.__getitem__),
+        "lost": max(found["energy_error", c].value / found["energy_dissipated", c].value for c in hysteresis),
+    }
+
+
+study = Study("contact_laws", __doc__, work)
+main = study.main

@@ -6,8 +6,8 @@ from collections.abc import Callable, Mapping
 from typing import Literal
 
 from studies.common import rise
-from studies.common.study import Number, measured
-from studies.drive_mode import cylinders as cylinders
+from studies.common.numbers import Number, measured
+from studies.drive_mode import cylinders
 from support_exudyn import Result
 
 Get = Callable[[Result], float]

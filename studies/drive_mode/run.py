@@ -7,56 +7,60 @@ limit, and on hydraulic cylinders, which no displacement drives but the oil that
 
 from __future__ import annotations
 
-import time
-from collections.abc import Sequence
+from collections.abc import Mapping
 
-from studies.common.study import (
-    Options,
-    options,
-    run_main,
-    run_with_errors,
-    save_figures,
-    save_run,
-    show_table,
-    write_summary,
-)
-from studies.drive_mode import cases as cases
-from studies.drive_mode import cylinders as cylinders
-from studies.drive_mode.cases import COLUMNS, naive_peaks, scenarios
+from studies.common.numbers import Found, by_case
+from studies.common.runs import halvings, run_with_errors
+from studies.common.study import Options, Outcome, Study
+from studies.common.words import Table
+from studies.drive_mode import cases, tables
+from studies.drive_mode.cases import COLUMNS, MODES, PINS, case_name, naive_peaks, scenarios
 from studies.drive_mode.figures import figures
 from studies.drive_mode.measures import measure
-from studies.drive_mode.tables import convergence_sheet, mode_sheet, saving_sheet
-from studies.drive_mode.words import chapter
-from support_exudyn.postprocessing.figures import style
-
-STUDY = cases.STUDY
+from support_exudyn import Result
 
 
-def study(chosen: Options) -> None:
-    """Run, measure, draw and write everything into the output folder."""
-    started = time.perf_counter()
+def work(chosen: Options) -> Outcome:
+    """Both modes on all kinds of columns, and the peaks of the recipe that has no limit."""
     results = run_with_errors(scenarios(chosen.quick), chosen.workers)
-    for name, result in results.items():
-        save_run(result, chosen.out, _file_name(name))
-    naive = naive_peaks()
     numbers = measure(results)
-    with style.look():
-        drawings = figures(results) | cylinders.figures(results)
-    save_figures(chosen, drawings)
-    for columns in COLUMNS:
-        show_table(chosen.out / f"table_{columns}.txt", mode_sheet(numbers, columns))
-    show_table(chosen.out / "table_saving.txt", saving_sheet(numbers))
-    show_table(chosen.out / "table_valves.txt", cylinders.sheet(numbers))
-    show_table(chosen.out / "table_convergence.txt", convergence_sheet(results), width=170)
-    chapter(results, naive, numbers, chosen.quick).save(chosen.out)
-    write_summary(chosen.out, STUDY, numbers, time.perf_counter() - started)
+    found = by_case(numbers)
+    naive = tables.naive_said(naive_peaks())
+    sheets = {
+        **{f"table_{columns}": tables.mode_table(found, columns) for columns in COLUMNS},
+        "table_saving": tables.saving_table(found),
+        "table_valves": tables.valve_table(found),
+        "step_halving": tables.halving_table(results, naive),
+        "table_convergence": tables.convergence_table(results),
+    }
+    return Outcome(numbers, _words(found, results, naive, sheets), figures(results), sheets, results)
 
 
-def _file_name(case: str) -> str:
-    return case.replace(",", "").replace(" ", "_").replace(".", "p")
+def _words(
+    found: Found, results: Mapping[str, Result], naive: str, sheets: Mapping[str, Table]
+) -> dict[str, object]:
+    ideal, loose = PINS
+
+    def value(name: str, mode: str, pin: str, columns: str) -> float:
+        return found[name, case_name(mode, pin, columns)].value
+
+    def heat(mode: str) -> float:
+        work = value("work_of_pumps", mode, ideal, "cylinder")
+        return 100.0 * value("loss_in_valves", mode, ideal, "cylinder") / work
+
+    rows = sheets["table_convergence"].rows
+    return {
+        "cases": cases,
+        "ideal": ideal,
+        "loose": loose,
+        "value": value,
+        "step": halvings(next(iter(results.values())))[0].scenario.step,
+        "heat": {mode: heat(mode) for mode in MODES},
+        "naive": naive,
+        "limits": tables.limits(rows),
+        "velocity_converges": tables.velocity_converges(rows),
+    }
 
 
-def main(argv: Sequence[str] | None = None) -> int:
-    """Entry of `python -m studies.drive_mode`."""
-    description = (__doc__ or "").splitlines()[0]
-    return run_main(study, options(STUDY, argv, description))
+study = Study("drive_mode", __doc__, work)
+main = study.main

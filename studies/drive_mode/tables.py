@@ -1,25 +1,18 @@
-"""Tables of the drive modes."""
+"""Tables of the drive modes, and what converges under step halving."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
 
-from studies.common import paper_machine
-from studies.common.chapter import Sheet
-from studies.common.study import Number, brief, halvings
-from studies.common.wording import by_case
-from studies.drive_mode.cases import COLUMNS, FRICTION, MODES, NAIVE, PINS, case_name
+from studies.common.numbers import Found, cell
+from studies.common.runs import halvings
+from studies.common.words import Table
+from studies.drive_mode import cylinders
+from studies.drive_mode.cases import COLUMNS, MODES, NAIVE, PINS, case_name
 from studies.drive_mode.measures import IMPULSES, MEASURES, measures_of
 from support_exudyn import Result
 
-NAMES = {"rigid": "rigid columns", "oil": "columns of oil", "cylinder": "hydraulic cylinders"}
-SAID = {
-    "rigid": "At the jumps of mode 1 forces and accelerations do not exist; the largest are of what follows "
-    "them.",
-    "oil": "Oil: " + paper_machine.OIL_SAID,
-    "cylinder": "Cylinders: " + paper_machine.CYLINDERS_SAID,
-}
 SAVED = (
     "largest_pin_force_in_rise",
     "std_pin_force",
@@ -31,35 +24,36 @@ SAVED = (
 )
 CONVERGES = "converges"
 DIVERGES = "does not converge"
-SAID_CONVERGES = (
-    "Impact steps are halved with the steps. Converges: the last change is below 1 % of the value, or less "
-    "than 0.7 of the change before. Rigid columns: records at the jump itself hold the values before it."
-)
+VELOCITY = "ripple angular velocity"  # as the table of step halving has it
+Rows = Sequence[Sequence[str]]  # of that table
 
 
-def mode_sheet(numbers: Sequence[Number], columns: str) -> Sheet:
+def mode_table(found: Found, columns: str) -> Table:
     """Both modes side by side."""
-    found = by_case(numbers)
+    units = {name: unit for name, (unit, _) in MEASURES.items()} | dict.fromkeys(IMPULSES, "N s")
+    return _side_by_side(found, units, columns)
+
+
+def valve_table(found: Found) -> Table:
+    """What there is on cylinders only."""
+    return _side_by_side(found, {name: unit for name, (unit, _) in cylinders.MEASURES.items()}, "cylinder")
+
+
+def _side_by_side(found: Found, units: Mapping[str, str], columns: str) -> Table:
+    """A row a quantity that is known of any case."""
     cases = [case_name(mode, pin, columns) for pin in PINS for mode in MODES]
     rows = []
-    for name, (unit, _) in MEASURES.items():
-        rows.append((name.replace("_", " "), unit, *(_cell(found[name, case]) for case in cases)))
-    for name in IMPULSES:
-        cells = [_cell(found[name, case]) if (name, case) in found else "" for case in cases]
+    for name, unit in units.items():
+        cells = [cell(found.get((name, case))) for case in cases]
         if any(cells):
-            rows.append((name.replace("_", " "), "N s", *cells))
-    return Sheet(
-        f"Drive modes on {NAMES[columns]}",
-        ("quantity", "unit", *(f"{mode}, {pin}" for pin in PINS for mode in MODES)),
-        tuple(rows),
-        f"Over the rise, friction {FRICTION} in the loose pin. ± is the estimated error. " + SAID[columns],
-        left=2,
+            rows.append((name.replace("_", " "), unit, *cells))
+    return Table(
+        ("quantity", "unit", *(f"{mode}, {pin}" for pin in PINS for mode in MODES)), tuple(rows), left=2
     )
 
 
-def saving_sheet(numbers: Sequence[Number]) -> Sheet:
+def saving_table(found: Found) -> Table:
     """What the gentle drive saves."""
-    found = by_case(numbers)
     headings = [(pin, columns) for columns in COLUMNS for pin in PINS]
     rows = []
     for name in SAVED:
@@ -69,32 +63,21 @@ def saving_sheet(numbers: Sequence[Number]) -> Sheet:
             struck = (pin, columns) == (PINS[0], "rigid")  # nothing gives: all of it is in the impulse
             cells.append("impulse" if struck else f"{100.0 * (gentle / sudden - 1.0):+.0f} %")
         rows.append((name.replace("_", " "), *cells))
-    return Sheet(
-        "What mode 2 changes against mode 1",
-        ("quantity", *(f"{pin}, {columns}" for pin, columns in headings)),
-        tuple(rows),
-        "Minus: mode 2 is gentler. Impulse: with rigid columns and the ideal pin nothing gives, and mode 1 "
-        "has no peak that could be compared.",
-    )
+    return Table(("quantity", *(f"{pin}, {columns}" for pin, columns in headings)), tuple(rows))
 
 
-def convergence_sheet(results: Mapping[str, Result]) -> Sheet:
+def convergence_table(results: Mapping[str, Result]) -> Table:
     """Every number at every step."""
     rows = []
     for case, result in results.items():
         for name, (unit, get) in measures_of(result).items():
             values = [get(run) for run in halvings(result)]
             rows.append((case, name.replace("_", " "), unit, *(f"{v:.7g}" for v in values), verdict(values)))
-    return Sheet(
-        "Step halving, every number",
-        ("case", "quantity", "unit", "step h", "step h/2", "step h/4", "verdict"),
-        tuple(rows),
-        SAID_CONVERGES,
-        left=3,
-    )
+    header = ("case", "quantity", "unit", "step h", "step h/2", "step h/4", "verdict")
+    return Table(header, tuple(rows), left=3, width=170, in_chapter=False)
 
 
-def short_convergence_sheet(results: Mapping[str, Result], naive: Mapping[float, float]) -> Sheet:
+def halving_table(results: Mapping[str, Result], naive: str) -> Table:
     """How far the numbers of each case still move; and the peaks that are no numbers."""
     rows = []
     for case, result in results.items():
@@ -102,14 +85,8 @@ def short_convergence_sheet(results: Mapping[str, Result], naive: Mapping[float,
         last = max(abs(values[-1] - values[-2]) / abs(values[-1]) for values in columns)
         good = sum(verdict(values) == CONVERGES for values in columns)
         rows.append((case, f"{100.0 * last:.1g} %", f"{good} of {len(columns)}", ""))
-    rows.append((NAIVE, "", "0 of 1", f"peak angular acceleration {naive_said(naive)}"))
-    return Sheet(
-        "Step halving",
-        ("case", "largest last change", "converge", "remark"),
-        tuple(rows),
-        f"{SAID_CONVERGES} All values stand in table_convergence.txt.",
-        wide=True,
-    )
+    rows.append((NAIVE, "", "0 of 1", f"peak angular acceleration {naive}"))
+    return Table(("case", "largest last change", "converge", "remark"), tuple(rows), wide=True, in_file=False)
 
 
 def naive_said(peaks: Mapping[float, float]) -> str:
@@ -125,5 +102,14 @@ def verdict(values: Sequence[float]) -> str:
     return CONVERGES if last <= 0.01 * abs(values[-1]) or last < 0.7 * before else DIVERGES
 
 
-def _cell(number: Number) -> str:
-    return brief(number.value, number.numerical_error)
+def limits(rows: Rows) -> tuple[int, int, list[str]]:
+    """How many numbers converge, of how many, and which do not."""
+    diverging = sorted({f"{row[1]} in {row[0]}" for row in rows if row[-1] == DIVERGES})
+    return sum(row[-1] == CONVERGES for row in rows), len(rows), diverging
+
+
+def velocity_converges(rows: Rows) -> bool:
+    """Whether the paper's Fig. 13 b, for mode 1 on rigid columns, has a limit."""
+    cases = [case_name("mode 1", pin, "rigid") for pin in PINS]
+    judged = [row[-1] for row in rows if row[0] in cases and row[1] == VELOCITY]
+    return bool(judged) and all(one == CONVERGES for one in judged)

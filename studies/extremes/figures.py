@@ -12,7 +12,6 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from studies.common.chapter import Picture
 from studies.extremes.cases import CLEARANCE_SPEED, FRICTION_STEP, STEP_STIFFNESS
 from studies.extremes.judge import GOOD, SILENT, Case, Verdict
 from studies.extremes.ranges import Point
@@ -61,27 +60,6 @@ def figures(judged: Judged) -> dict[str, Figure]:
     """All maps of which there are cases, by file name."""
     groups = {case.group for case, _ in judged}
     return {f"map_{name}": _figure(one, judged) for name, one in MAPS.items() if one.group in groups}
-
-
-def pictures() -> tuple[Picture, ...]:
-    """The figures with what they show."""
-    steps = (
-        "Steps at which located impacts need no help: those between impacts may be far longer than a contact, "
-        "as impacts are found and refined."
-    )
-    return (
-        Picture("map_step_stiffness", "Reported error of the worst number (colour) of the support's fall with "
-            "1.5 mm in the rear pin, by step and contact stiffness. Crosses: refused, most of them because "
-            "rounding shows in joint forces at very short steps. Lines: duration of the first contact, and its "
-            f"part that is taken as a step in it. {steps}"),
-        Picture("map_clearance_speed", "The same for a stroke of 50 mm to the accuracy \"standard\", by "
-            "clearance and mean speed of the columns. Line: speed at which the stroke takes as long as the "
-            "journal falls through its clearance: above, the stroke is over before the pin is loaded."),
-        Picture("map_friction_step", "The same for the fall with friction 0.25, by the speed at which its ramp "
-            "begins, v_s (it ends at twice that), and step. Lines: time in which the ramp stops the loaded "
-            "journal, and ten thousand of it. Far above them no Newton iteration converges and runs are "
-            "refused."),
-    )  # fmt: skip
 
 
 def _figure(one: Map, judged: Judged) -> Figure:

@@ -9,28 +9,27 @@ from __future__ import annotations
 
 import json
 import math
-import time
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 
-from studies.common.chapter import Chapter, Sheet
-from studies.common.study import Number, Options, options, run_main, save_figures, show_table, write_summary
+from studies.common.numbers import Number
+from studies.common.study import Options, Outcome, Study
+from studies.common.words import Table
 from studies.extremes import long_runs
 from studies.extremes.cases import MAPS, RANDOM, cases
-from studies.extremes.figures import figures, pictures
+from studies.extremes.figures import figures
 from studies.extremes.judge import FREE, GOOD, MORE, REFUSED, SILENT, Case, Verdict
 from studies.extremes.long_runs import LongRun
 from studies.extremes.ranges import SPANS
 from studies.extremes.runs import PATIENCE, run_cases, run_long
 from support_exudyn.files.whole_file import whole_file
 from support_exudyn.formulations.limits import DEEPEST
-from support_exudyn.postprocessing.figures import style
 from support_exudyn.simulation.audit import OPEN
 
-STUDY = "extremes"
 LARGEST_GAP = 1e-8  # [m] in a long run
 Judged = Sequence[tuple[Case, Verdict]]
 Long = Mapping[str, LongRun | str]
@@ -87,7 +86,7 @@ def counts(judged: Judged) -> dict[str, int]:
 # --- tables ---
 
 
-def group_sheet(judged: Judged) -> Sheet:
+def group_table(judged: Judged) -> Table:
     """How the runs of every group ended."""
     rows = []
     for group in (*MAPS, *RANDOM):
@@ -105,14 +104,14 @@ def group_sheet(judged: Judged) -> Sheet:
         "group", "runs", "good", "refused", "silent", "compared with another formulation",
         "median error", "energy open, largest",
     )  # fmt: skip
-    return Sheet("How runs at the extremes ended", header, tuple(rows))
+    return Table(header, tuple(rows), width=200)
 
 
-def reason_sheet(judged: Judged) -> Sheet:
+def reason_table(judged: Judged) -> Table:
     """Why runs were refused, the commonest first."""
     counted = Counter(_kind(verdict.reason) for _, verdict in judged if verdict.outcome == REFUSED)
     rows = tuple((str(number), reason) for reason, number in counted.most_common())
-    return Sheet("Why runs were refused", ("runs", "reason"), rows, wide=True)
+    return Table(("runs", "reason"), rows, wide=True, width=200)
 
 
 def _kind(reason: str) -> str:
@@ -123,13 +122,13 @@ def _kind(reason: str) -> str:
     return short[:110] + ("..." if len(short) > 110 else "")
 
 
-def silent_sheet(judged: Judged) -> Sheet:
+def silent_table(judged: Judged) -> Table:
     """Silent failures, one by one."""
     rows = tuple((case.name, verdict.reason) for case, verdict in judged if verdict.outcome == SILENT)
-    return Sheet("Silent failures", ("run", "what is wrong"), rows or (("none", ""),), wide=True)
+    return Table(("run", "what is wrong"), rows or (("none", ""),), wide=True, width=200)
 
 
-def long_sheet(long: Long) -> Sheet:
+def long_table(long: Long) -> Table:
     """Long runs."""
     rows = []
     for name, run in long.items():
@@ -145,84 +144,46 @@ def long_sheet(long: Long) -> Sheet:
         "scene", "time [s]", "took [s]", "steps", "touches", "gap, first tenth [m]", "gap, last tenth [m]",
         "energy open / turned over", "memory beyond records [bytes/s]",
     )  # fmt: skip
-    return Sheet("Long runs: raised and lowered by 100 mm every 4 s", header, tuple(rows))
+    return Table(header, tuple(rows), width=200)
 
 
-# --- the chapter ---
+# --- the study ---
 
 
-def chapter(judged: Judged, long: Long, quick: bool) -> Chapter:
-    """The study as a chapter of the report."""
-    return Chapter(
-        study=STUDY,
-        title="Where the model breaks",
-        question="Where does the model break, and does it say so?",
-        method=(
-            f"{len(judged)} scenes: grids for the maps, and random corners of "
-            + ", ".join(f"{name} {span.low:g} to {span.high:g}" for name, span in SPANS.items())
-            + "; mass ratios of 1e-4 to 1e4, postures up to dead centres and past them, no gravity, every kind "
-            "of start, clearance in all pins, a roof that presses with up to 10 MN, free impacts, space. "
-            "Stiffness is in times the paper's, at a depth of 1 mm whatever the exponent; ramp is v_d "
-            "over v_s.",
-            "Each is run at its step, at half and at a quarter of it, or to an accuracy. It is good if all of "
-            f"this holds: it has finished; all numbers are finite; energy is open by at most {OPEN:.0%} of "
-            f"what was turned over; no journal is deeper than {DEEPEST:.0%} of the bore's radius; no free "
-            f"impact (without friction, gravity changing the speed by less than {FREE:.0%}) gives back more "
-            f"than its law by {MORE:.1%}; half the step agrees within the reported error; so does another "
-            "formulation, where one covers the scene. It is refused if it ends with an error that names cause, "
-            f"time and advice. Anything else, among it a run of more than {PATIENCE:g} s, a crash or a "
-            "warning, is a silent failure.",
-            f"The box is what is physically sensible: {_box()}, friction speeds as wide as outside of it; its "
-            "runs are made to an accuracy (draft, standard, reference) and choose their own formulation.",
-        ),
-        findings=_findings(judged, long),
-        pictures=pictures(),
-        sheets=(group_sheet(judged), reason_sheet(judged), silent_sheet(judged), long_sheet(long)),
-        quick=quick,
-    )
-
-
-def _box() -> str:
-    names = ("clearance_m", "stiffness", "restitution", "mu")
-    return ", ".join(f"{name} {SPANS[name].sensible[0]:g} to {SPANS[name].sensible[1]:g}" for name in names)
-
-
-def _findings(judged: Judged, long: Long) -> tuple[str, ...]:
-    counted = counts(judged)
-    box = [verdict for case, verdict in judged if case.box]
-    good = sum(verdict.outcome == GOOD for verdict in box)
-    met = sum(verdict.met for verdict in box)
-    lasting = [run for run in long.values() if isinstance(run, LongRun)]
-    return (
-        f"{counted['runs_good']} runs are good, {counted['runs_refused']} refused, {counted['runs_silent']} "
-        "failed silently.",
-        f"In the box {good} of {len(box)} are good, and {met} reach the accuracy that was asked for.",
-        "In good runs energy is open by at most "
-        f"{_largest([one.energy for _, one in judged if one.outcome == GOOD]):.1g} of what was turned over.",
-        f"Long runs: joints are at most {_largest([run.gap_last for run in lasting]):.1g} m apart in their "
-        f"last tenth, energy is open by at most {_largest([run.energy_share for run in lasting]):.1g} of what "
-        "was turned over.",
-    )
-
-
-# --- main ---
-
-
-def study(chosen: Options) -> None:
-    """Run, judge, draw and write everything into the output folder."""
-    started = time.perf_counter()
+def work(chosen: Options) -> Outcome:
+    """All scenes and long runs, judged; every verdict is kept as a line of runs.jsonl."""
     found = cases(chosen.quick)
     judged = list(zip(found, run_cases(found, chosen.quick, chosen.workers), strict=True))
     long = run_long(long_runs.QUICK if chosen.quick else long_runs.FULL, chosen.workers)
     save_rows(chosen.out / "runs.jsonl", judged)
-    with style.look():
-        drawings = figures(judged)
-    save_figures(chosen, drawings)
-    told = chapter(judged, long, chosen.quick)
-    for name, sheet in zip(("groups", "reasons", "silent", "long"), told.sheets, strict=True):
-        show_table(chosen.out / f"table_{name}.txt", sheet, width=200)
-    told.save(chosen.out)
-    write_summary(chosen.out, STUDY, numbers(judged, long), time.perf_counter() - started, counts(judged))
+    tables = {
+        "table_groups": group_table(judged),
+        "table_reasons": reason_table(judged),
+        "table_silent": silent_table(judged),
+        "table_long": long_table(long),
+    }
+    return Outcome(numbers(judged, long), words(judged, long), figures(judged), tables, counts=counts(judged))
+
+
+def words(judged: Judged, long: Long) -> dict[str, object]:
+    """What the sentences are filled with."""
+    box = [verdict for case, verdict in judged if case.box]
+    lasting = [run for run in long.values() if isinstance(run, LongRun)]
+    return {
+        "runs": len(judged),
+        "spans": SPANS,
+        "limits": SimpleNamespace(OPEN=OPEN, DEEPEST=DEEPEST, FREE=FREE, MORE=MORE),
+        "patience": PATIENCE,
+        "counts": counts(judged),
+        "box": {
+            "all": len(box),
+            "good": sum(verdict.outcome == GOOD for verdict in box),
+            "met": sum(verdict.met for verdict in box),
+        },
+        "energy_open": _largest([one.energy for _, one in judged if one.outcome == GOOD]),
+        "gap": _largest([run.gap_last for run in lasting]),
+        "long_energy": _largest([run.energy_share for run in lasting]),
+    }
 
 
 def save_rows(path: Path, judged: Judged) -> None:
@@ -239,11 +200,5 @@ def _known(verdict: Verdict) -> dict[str, object]:
     return {name: value for name, value in said if not isinstance(value, float) or math.isfinite(value)}
 
 
-def main(argv: Sequence[str] | None = None) -> int:
-    """Entry of `python -m studies.extremes`."""
-    description = (__doc__ or "").splitlines()[0]
-    return run_main(study, options(STUDY, argv, description, taken=("quick", "workers")))
-
-
-if __name__ == "__main__":
-    raise SystemExit(main())
+study = Study("extremes", __doc__, work, taken=("quick", "workers"))
+main = study.main

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from functools import cache
 from typing import Any
 
-from studies.common.study import bar
+from studies.common.runs import bar
 from studies.extremes import long_runs
 from studies.extremes.cases import cases
 from studies.extremes.judge import SILENT, Case, Verdict, judge

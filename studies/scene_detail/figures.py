@@ -10,7 +10,6 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from studies.common import rise
-from studies.common.chapter import Picture
 from studies.scene_detail.measures import Change, Measured, times_as_long
 from studies.scene_detail.scenes import (
     CLEARANCE_MM,
@@ -23,7 +22,7 @@ from studies.scene_detail.scenes import (
     UNEQUAL_FULLEST,
     UNEQUAL_IDEAL,
 )
-from studies.scene_detail.sheets import FARTHEST, RELATIVE, changes
+from studies.scene_detail.tables import FARTHEST, RELATIVE, changes
 from support_exudyn import Result
 from support_exudyn.postprocessing.figures import style
 
@@ -55,22 +54,6 @@ def figures(measured: Mapping[str, Measured]) -> dict[str, Figure]:
         "unequal_columns": unequal_figure(runs),
         "plane_and_space": space_figure(runs),
     }
-
-
-def pictures() -> tuple[Picture, ...]:
-    """The figures with what they show."""
-    return (
-        Picture("change_and_cost", "What each element changes (magnitude of the change), over how many times "
-            "the processor time of the reference scene it costs. Upper row: added to the plainest scene, lower "
-            "row: taken from the fullest. Bars: numerical errors of both scenes. Hollow: the change is below "
-            "the error, which is drawn instead."),
-        Picture("unequal_columns", "The front columns driven 1 % less on the left and 1 % more on the right: "
-            "turns of the canopy (a), depth of the journal at both edges of the rear pin (b), forces of the "
-            "front columns (c), moment on the rear pin (d), and the paths of the journal's two ends in the "
-            "bore (e), against equal drives (f: one path for both ends)."),
-        Picture("plane_and_space", "Force in the paper's pin in the plane and in space, all driven alike "
-            "(above), and how far both are apart (below)."),
-    )  # fmt: skip
 
 
 # --- change and cost ---

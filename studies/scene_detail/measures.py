@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
@@ -10,7 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from studies.common import rise
-from studies.common.study import Number, halvings, touches
+from studies.common.numbers import Number
+from studies.common.runs import halvings, touches
 from studies.scene_detail.runs import Timed, timed
 from studies.scene_detail.scenes import FULLEST, REAR, Scene
 from support_exudyn import Estimate, Result
@@ -139,12 +139,8 @@ def _of_stroke(scene: Scene, result: Result) -> Numbers:
 
 def _touches(result: Result) -> Numbers:
     """Speeds of the first touches of the rear pin, if it is loose; a settled one has none."""
-
-    def speed(n: int) -> Get:
-        return lambda run: run.onsets[REAR][n].speed
-
     return {
-        f"onset_speed_{n + 1}": estimate(result, "m/s", speed(n))
+        f"onset_speed_{n + 1}": estimate(result, "m/s", rise.onset(REAR, n, "speed"))
         for n in range(min(TOUCHES, touches(result, REAR)))
     }
 
@@ -267,8 +263,3 @@ def table(measured: Mapping[str, Measured], said: Mapping[str, str]) -> Table:
 def times_as_long(one: Measured, other: Measured) -> float:
     """Ratio of the costs."""
     return one.cost.seconds / other.cost.seconds
-
-
-def finite(measured: Mapping[str, Measured]) -> bool:
-    """Whether every number and every error is a number."""
-    return all(math.isfinite(x) for one in listed(measured) for x in (one.value, one.numerical_error))

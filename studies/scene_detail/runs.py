@@ -6,10 +6,7 @@ import time
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from rich.console import Console
-from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
-
-from studies.common.study import with_coarser
+from studies.common.runs import bar, with_coarser
 from support_exudyn import Failure, Result, Scenario, SimulationError, simulate
 from support_exudyn.sweeps.workers import Workers, report, worker_pool
 
@@ -30,11 +27,8 @@ def run_timed(cases: Mapping[str, Scenario], workers: int | Workers) -> dict[str
     """
     half = {name: case.refined() for name, case in cases.items()}
     jobs = [*((name, case.refined()) for name, case in half.items()), *half.items(), *cases.items()]
-    columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.percentage:3.0f} %"))
-    with Progress(*columns, TimeRemainingColumn(), console=Console(stderr=True)) as bars:
-        task = bars.add_task(f"{len(jobs)} runs", total=float(len(jobs)))
-        with worker_pool(workers) as pool:
-            done = pool.run(jobs, _run, lambda shares: bars.update(task, completed=sum(shares)))
+    with bar(f"{len(jobs)} runs") as told, worker_pool(workers) as pool:
+        done = pool.run(jobs, _run, told)
     found = {}
     for n, name in enumerate(cases):
         fine, middle, coarse = (_good(name, *done[k * len(cases) + n]) for k in range(3))

@@ -71,6 +71,12 @@ class Scene:
         """Of the stroke [s]."""
         return self.scenario.drive.breaks[-1]
 
+    @property
+    def drive(self) -> str:
+        """The stroke and the run in words."""
+        stroke = self.scenario.drive.span(self.scenario.duration)[1]
+        return f"{1e3 * stroke:g} mm from {self.begin:g} to {self.end:g} s, run of {self.scenario.duration:g} s"
+
 
 def stroke(quick: bool) -> Scenario:
     """The plainest scene: a dwell, then a stroke as steep as the paper's; quick: shorter and coarser."""

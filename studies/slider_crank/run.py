@@ -8,33 +8,19 @@ the journal in the middle of its bore. Without friction, and with a coefficient 
 from __future__ import annotations
 
 import math
-import time
-from collections.abc import Callable, Mapping, Sequence
+import sys
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Literal
 
 import numpy as np
-import numpy.typing as npt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from studies.common.chapter import Chapter, Picture, Sheet
-from studies.common.rise import Peak
-from studies.common.study import (
-    Number,
-    Options,
-    measured,
-    options,
-    rounded,
-    run_main,
-    run_with_errors,
-    save_figures,
-    save_run,
-    show_table,
-    touches,
-    write_summary,
-)
-from studies.common.wording import by_case, how_sure, said
+from studies.common.numbers import Number, by_case, measured, off, printed, rounded
+from studies.common.rise import Peak, onset
+from studies.common.runs import run_with_errors, touches
+from studies.common.study import Options, Outcome, Study
+from studies.common.words import Table
 from support_exudyn import ClearancePin, Result, Scenario, SolverSettings, Steady, ravn_slider_crank
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.figures.journal import journal
@@ -51,8 +37,6 @@ from user_forces import (
     internal_contact_stiffness,
 )
 
-Series = npt.NDArray[np.float64]
-STUDY = "slider_crank"
 PIN = "slider_pin"
 SPEED = 5000.0 * 2.0 * math.pi / 60.0  # of the crank [rad/s]
 REVOLUTION = 2.0 * math.pi / SPEED  # [s]
@@ -70,10 +54,10 @@ REFERENCE = (
     (1205.816, 0.823801),
 )
 # the ideal machine in closed form
-IDEAL_REFERENCE = {
-    "largest_slider_speed": 28.4113,
-    "largest_crank_moment": 138.5217,
-    "largest_pin_force": 2718.71,
+IDEAL_REFERENCE = {  # channel, unit and largest value
+    "largest_slider_speed": ("slider.velocity_x", "m/s", 28.4113),
+    "largest_crank_moment": ("crank.moment", "N m", 138.5217),
+    "largest_pin_force": (f"pin.{PIN}.force", "N", 2718.71),
 }
 
 
@@ -106,14 +90,9 @@ def scenarios(quick: bool) -> dict[str, Scenario]:
 
 def measure(results: Mapping[str, Result]) -> list[Number]:
     """All numbers of the study."""
-    ideal: dict[str, tuple[str, Callable[[Result], float]]] = {
-        "largest_slider_speed": ("m/s", Peak("slider.velocity_x", begin=0.0)),
-        "largest_crank_moment": ("N m", Peak("crank.moment", begin=0.0)),
-        "largest_pin_force": ("N", Peak(f"pin.{PIN}.force", begin=0.0)),
-    }
     numbers = [
-        measured(name, IDEAL, unit, results[IDEAL], get, IDEAL_REFERENCE[name])
-        for name, (unit, get) in ideal.items()
+        measured(name, IDEAL, unit, results[IDEAL], Peak(channel, begin=0.0), known)
+        for name, (channel, unit, known) in IDEAL_REFERENCE.items()
     ]
     for case in (SMOOTH, DRY):
         result = results[case]
@@ -123,14 +102,10 @@ def measure(results: Mapping[str, Result]) -> list[Number]:
         for n in range(min(ONSETS, touches(result, PIN))):
             known = REFERENCE[n] if case == SMOOTH and n < len(REFERENCE) else (None, None)
             numbers += [
-                measured(f"onset_{n + 1}_time", case, "us", result, _onset(n, "time", 1e6), known[0]),
-                measured(f"onset_{n + 1}_speed", case, "m/s", result, _onset(n, "speed", 1.0), known[1]),
+                measured(f"onset_{n + 1}_time", case, "us", result, onset(PIN, n, "time", 1e6), known[0]),
+                measured(f"onset_{n + 1}_speed", case, "m/s", result, onset(PIN, n, "speed"), known[1]),
             ]
     return numbers
-
-
-def _onset(n: int, field: Literal["time", "speed"], scale: float) -> Callable[[Result], float]:
-    return lambda r: scale * float(getattr(r.onsets[PIN][n], field))
 
 
 # --- figure ---
@@ -167,129 +142,37 @@ def _path(axes: Axes, result: Result, title: str) -> None:
     axes.set(xlim=(-0.65, 0.65), ylim=(-0.65, 0.65), title=title)
 
 
-def table(numbers: Sequence[Number]) -> Sheet:
+def table(numbers: Sequence[Number]) -> Table:
     """All numbers, a row each, beside the reference."""
-    return Sheet(
-        title="Slider-crank at 5000 rpm",
-        header=("case", "quantity", "unit", "here", "independent solution"),
-        rows=tuple(
-            (
-                n.case,
-                n.name.replace("_", " "),
-                n.unit,
-                rounded(n.value, n.numerical_error),
-                "" if n.paper is None else f"{n.paper:.9g}",
-            )
-            for n in numbers
-        ),
-        caption=(
-            "± is the estimated error, of three runs. Every touch multiplies the errors of the earlier ones; "
-            "after about a revolution the motion is chaotic and only statistics can be compared."
-        ),
-        left=3,
+    rows = (
+        (n.case, n.name.replace("_", " "), n.unit, rounded(n.value, n.numerical_error), printed(n))
+        for n in numbers
     )
+    return Table(("case", "quantity", "unit", "here", "independent solution"), tuple(rows), left=3, width=120)
 
 
-# --- words ---
+# --- the study ---
 
 
-def chapter(numbers: Sequence[Number], quick: bool) -> Chapter:
-    """The study as a chapter of the report."""
-    return Chapter(
-        study=STUDY,
-        title="The field's benchmark: a slider-crank with a loose slider pin",
-        question=(
-            "Does the program agree with others on the slider-crank with a loose slider pin (Ravn; Flores and "
-            "Ambrosio)?"
-        ),
-        method=_method(quick),
-        findings=_findings(numbers),
-        pictures=(
-            Picture(
-                "slider_crank",
-                "Force in the slider pin over the crank angle (a), and the journal's path in its bore without "
-                "friction (b) and with (c): "
-                "thin and light in free flight, thick and dark in contact.",
-            ),
-        ),
-        sheets=(table(numbers),),
-        quick=quick,
-    )
-
-
-def _method(quick: bool) -> tuple[str, ...]:
-    case = scenarios(quick)[SMOOTH]
-    return (
-        "A crank of 50 mm turns steadily at 5000 rpm and drives a slider by a rod of 120 mm; there is no "
-        f"gravity. The bearing at the slider has a radius of {1e3 * BEARING.bore_radius:g} mm, the journal is "
-        f"{1e3 * BEARING.clearance:g} mm smaller. Both are of steel; the contact force is that of Lankarani "
-        "and Nikravesh with a restitution of 0.9 and the stiffness of internal contact, friction is that of "
-        "Ambrosio.",
-        "The run begins with the velocities of the ideal machine and the journal in the middle of its bore, "
-        "and lasts one revolution. Touches are located in time, and compared with an independent solution of "
-        "the frictionless machine in two free coordinates; the ideal machine is compared with its closed form.",
-        f"Steps of the first run are {1e6 * case.step:g} µs, {case.solver.impact_steps} to an impact. "
-        f"{how_sure(quick)}",
-    )
-
-
-def _findings(numbers: Sequence[Number]) -> tuple[str, ...]:
-    found = by_case(numbers)
-    sentences = []
-    touches = [n for n in range(1, len(REFERENCE) + 1) if (f"onset_{n}_time", SMOOTH) in found]
-    if touches:
-        times = [_off(found[f"onset_{n}_time", SMOOTH]) for n in touches]
-        speeds = [_off(found[f"onset_{n}_speed", SMOOTH]) for n in touches]
-        sentences.append(
-            f"Without friction the first {len(touches)} touches are within {max(times):.0e} (time) and "
-            f"{max(speeds):.0e} (approach speed) of the independent solution, relatively."
-        )
-    ideal = [found[name, IDEAL] for name in IDEAL_REFERENCE]
-    sentences.append(
-        "With ideal pins the largest slider speed, crank moment and pin force are "
-        f"{', '.join(said(n) for n in ideal)}; the closed form gives the same within "
-        f"{max(_off(n) for n in ideal):.0e}."
-    )
-    peaks = [found["largest_pin_force_any_step", case] for case in (SMOOTH, DRY)]
-    sentences.append(
-        f"With clearance the largest pin force is {said(peaks[0], 1e-3, 'kN')} without friction and "
-        f"{said(peaks[1], 1e-3, 'kN')} with; with ideal pins it is {said(ideal[-1], 1e-3, 'kN')}."
-    )
-    first, last = (found.get((f"onset_{n}_time", DRY)) for n in (1, ONSETS))
-    if first and last:
-        sentences.append(
-            f"With friction the error of a touch's time grows from {first.numerical_error:.0e} µs at the first "
-            f"to {last.numerical_error:.0e} µs at touch {ONSETS}: each touch multiplies the errors of the "
-            "earlier ones. The first few touches are results; the hundredth is not."
-        )
-    return tuple(sentences)
-
-
-def _off(number: Number) -> float:
-    """Relative distance from the other solution."""
-    assert number.paper is not None
-    return abs(number.value / number.paper - 1.0)
-
-
-# --- main ---
-
-
-def study(chosen: Options) -> None:
-    """Run, measure, draw and write everything into the output folder."""
-    started = time.perf_counter()
-    results = run_with_errors(scenarios(chosen.quick), chosen.workers)
-    for name, result in results.items():
-        save_run(result, chosen.out, name.replace(" ", "_").replace(".", "p"))
+def work(chosen: Options) -> Outcome:
+    """A revolution of each machine, its touches beside the independent solution."""
+    cases = scenarios(chosen.quick)
+    results = run_with_errors(cases, chosen.workers)
     numbers = measure(results)
-    with style.look():
-        drawings = {"slider_crank": figure(results)}
-    save_figures(chosen, drawings)
-    show_table(chosen.out / "table.txt", table(numbers), width=120)
-    chapter(numbers, chosen.quick).save(chosen.out)
-    write_summary(chosen.out, STUDY, numbers, time.perf_counter() - started)
+    found = by_case(numbers)
+    known = [n for n in range(1, len(REFERENCE) + 1) if (f"onset_{n}_time", SMOOTH) in found]
+    words = {
+        "run": sys.modules[__name__],
+        "found": found,
+        "case": cases[SMOOTH],
+        "ideal": [found[name, IDEAL] for name in IDEAL_REFERENCE],
+        "times": [off(found[f"onset_{n}_time", SMOOTH]) for n in known],
+        "speeds": [off(found[f"onset_{n}_speed", SMOOTH]) for n in known],
+        "first": found.get(("onset_1_time", DRY)),
+        "last": found.get((f"onset_{ONSETS}_time", DRY)),
+    }
+    return Outcome(numbers, words, {"slider_crank": figure(results)}, {"table": table(numbers)}, results)
 
 
-def main(argv: Sequence[str] | None = None) -> int:
-    """Entry of `python -m studies.slider_crank`."""
-    description = (__doc__ or "").splitlines()[0]
-    return run_main(study, options(STUDY, argv, description))
+study = Study("slider_crank", __doc__, work)
+main = study.main

@@ -7,11 +7,11 @@ from dataclasses import replace
 from itertools import combinations
 
 from studies.common import paper_machine
+from studies.common.numbers import Found, Number
 from support_exudyn import ClearancePin, Scenario, SolverSettings
 from support_exudyn.machines.four_bar_shield import PINS
 from user_forces import DepthSpeed, LankaraniNikravesh
 
-STUDY = "which_pin"
 CLEARANCE_MM = 1.5
 FRICTIONS = (paper_machine.SLIDING_COEFFICIENT, 0.0)
 CONDITIONS = ((0.25, 1.5), (0.1, 1.5), (0.25, 0.5), (0.0, 1.5))  # friction and clearance [mm], single pins
@@ -44,6 +44,11 @@ def case_name(pins: Sequence[str], friction: float, clearance_mm: float = CLEARA
     named = ALL if len(pins) == len(PINS) else " + ".join(pins)
     other = "" if clearance_mm == CLEARANCE_MM else f", {clearance_mm:g} mm"
     return f"{named}, mu_d = {friction:g}{other}"
+
+
+def alone(found: Found, name: str, friction: float, clearance_mm: float = CLEARANCE_MM) -> dict[str, Number]:
+    """A number of each pin alone, by the name of the pin."""
+    return {pin: found[name, case_name((pin,), friction, clearance_mm)] for pin in PINS}
 
 
 def scenarios(quick: bool) -> dict[str, Scenario]:

@@ -9,14 +9,13 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from studies.common import paper_machine
-from studies.common.chapter import Picture
-from studies.common.study import Number
+from studies.common.numbers import Found
+from studies.which_pin.cases import ALL
 from studies.which_pin.posture import UnderLoad
 from support_exudyn.machines.four_bar_shield import PINS
 from support_exudyn.postprocessing.figures import style
 
 MU = paper_machine.SLIDING_COEFFICIENT
-ALL = "all five"
 PLAIN = "#777777"  # without friction, as in the study of the clearance's size
 HATCH = "///"
 CASES = (*PINS, ALL)
@@ -24,7 +23,6 @@ MEMBERS = (*PINS, "front_column", "rear_column")
 COLOURS = dict(zip(PINS, (style.LOOSE, style.SMOOTH, style.THIRD, "#CC79A7", style.IDEAL), strict=True))
 DASHES = dict(zip(PINS, ("-", (0, (5, 1)), (0, (1, 1)), (0, (3, 1, 1, 1)), "-"), strict=True))
 MARKS = dict(zip(PINS, "osD^x", strict=True))
-Found = Mapping[tuple[str, str], Number]
 
 
 def figures(found: Found, under_loads: Mapping[str, UnderLoad]) -> dict[str, Figure]:
@@ -35,24 +33,6 @@ def figures(found: Found, under_loads: Mapping[str, UnderLoad]) -> dict[str, Fig
         "shaking": shaking_figure(found),
         "other_loads": load_figure(under_loads),
     }
-
-
-def pictures() -> tuple[Picture, ...]:
-    """The figures with what they show."""
-    return (
-        Picture("tip_shift", "Mean shift of the canopy's tip in the rise against ideal pins, by slack pin "
-            "(a), and the "
-            "shifts of single pins end to end beside that of all five together (b). Crosses: virtual work."),
-        Picture("forces", f"Change of the mean force in each pin and column (a) and largest force against "
-            "that with "
-            f"ideal pins (b), by slack pin, friction {MU}."),
-        Picture("shaking", "Ripple of the pin forces, of the rear link's and of the canopy's angular "
-            "acceleration, by "
-            "slack pin; bars: estimated errors; line: ideal pins."),
-        Picture("other_loads", "What each slack pin moves the tip by over the extension of the columns under "
-            "other loads than the "
-            "weight, from virtual work without friction."),
-    )  # fmt: skip
 
 
 def _case(pins: str, friction: float) -> str:

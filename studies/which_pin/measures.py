@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from studies.common import rise
-from studies.common.study import Number, compared, measured
+from studies.common.numbers import Number, compared, measured
 from studies.which_pin.cases import FORCES, IDEAL, SHAKEN
 from studies.which_pin.posture import posture_numbers
 from support_exudyn import Result

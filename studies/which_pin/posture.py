@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
 import numpy.typing as npt
 
-from studies.common.chapter import Sheet
+from studies.common.numbers import Number
 from studies.common.rise import DEGREES, END, START
-from studies.common.study import Number
 from studies.which_pin import closed_form as slack
 from studies.which_pin.closed_form import Press, Stand
 from support_exudyn import ClearancePin, CubicStep, Scenario, Steady, reference_support
@@ -89,21 +88,3 @@ def _under(pin: ClearancePin, along: list[Stand], extension: Matrix, presses: tu
     found = [slack.shifts(stand, pins, presses) for stand in along]
     thrust = min(-float(slack.forces(stand, {}, presses)[2 * len(PINS) :].max()) for stand in along)
     return UnderLoad(extension, {name: np.array([one[name][0] for one in found]) for name in PINS}, thrust)
-
-
-def load_sheet(found: Mapping[str, UnderLoad], in_order: Callable[[Mapping[str, float]], str]) -> Sheet:
-    """Shift of the tip by pin and load, and the order that it makes."""
-    rows = []
-    for name, under in found.items():
-        cells = (f"{1e3 * under.mean(pin):.2f}" for pin in PINS)
-        rows.append(
-            (name, *cells, f"{under.thrust / 1e3:.0f}", in_order({pin: under.mean(pin) for pin in PINS}))
-        )
-    return Sheet(
-        "What each slack pin moves the tip by under other loads [mm]",
-        ("load besides the weight", *PINS, "least column thrust [kN]", "order"),
-        tuple(rows),
-        "Forward, closed form without friction, at rest, mean along the stroke. A column with a negative "
-        "thrust would "
-        "have to be held.",
-    )

@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from itertools import combinations
 
 import numpy as np
 
-from studies.common.chapter import Sheet
-from studies.common.study import (
-    Number,
-    brief,
+from studies.common.numbers import Found, Number, against, cell
+from studies.common.words import Table
+from studies.which_pin.cases import (
+    ALIKE,
+    CONDITIONS,
+    FORCES,
+    FRICTIONS,
+    IDEAL,
+    SHAKEN,
+    alone,
+    case_name,
 )
-from studies.common.wording import against
-from studies.which_pin.cases import ALIKE, CLEARANCE_MM, CONDITIONS, FORCES, FRICTIONS, IDEAL, SHAKEN, case_name
+from studies.which_pin.posture import UnderLoad
 from support_exudyn.machines.four_bar_shield import PINS
 
 RANKED = {  # title of a ranking: by what, and what else is shown
@@ -26,32 +32,24 @@ RANKED = {  # title of a ranking: by what, and what else is shown
         "ripple_pin_forces", *(f"ripple_{body}_angular_acceleration" for body in SHAKEN), "energy_lost_in_rise",
     ),
 }  # fmt: skip
-Found = Mapping[tuple[str, str], Number]
 
 
 def ranked(found: Found, name: str, friction: float) -> list[str]:
     """The pins, that with the largest effect alone first."""
-    return sorted(PINS, key=lambda pin: -abs(found[name, case_name((pin,), friction)].value))
+    effects = alone(found, name, friction)
+    return sorted(PINS, key=lambda pin: -abs(effects[pin].value))
 
 
-def ranking_sheet(found: Found, title: str, friction: float) -> Sheet:
+def ranking_table(found: Found, title: str, friction: float) -> Table:
     """Pins in the order of an effect, and all together last."""
     names = RANKED[title]
     rows = []
     for pins in [*((pin,) for pin in ranked(found, names[0], friction)), PINS]:
         case = case_name(pins, friction)
-        rows.append((case.split(",")[0], *(_cell(found[name, case]) for name in names)))
-    rows.append((IDEAL, *(_cell(found[name, IDEAL]) for name in names)))
-    return Sheet(
-        f"Pins {title}, friction {friction:g}",
-        ("slack pin", *(f"{name.replace('_', ' ')} [{found[name, IDEAL].unit}]" for name in names)),
-        tuple(rows),
-        f"{CLEARANCE_MM} mm in the pin named, 3 to 5 s, the first column decides. Shift against ideal pins, "
-        "minus to "
-        "the rear. Force: of the five pins and two columns the one that changes most. Ripple: what is left "
-        "when a "
-        "moving mean of 0.1 s is taken away, of all five pin forces together.",
-    )
+        rows.append((case.split(",")[0], *(cell(found[name, case]) for name in names)))
+    rows.append((IDEAL, *(cell(found[name, IDEAL]) for name in names)))
+    header = ("slack pin", *(f"{name.replace('_', ' ')} [{found[name, IDEAL].unit}]" for name in names))
+    return Table(header, tuple(rows))
 
 
 def in_order(effects: Mapping[str, float], errors: Mapping[str, float] | None = None) -> str:
@@ -86,48 +84,40 @@ def order_of(row: Mapping[str, Number]) -> str:
     return in_order(effects, {pin: number.numerical_error for pin, number in row.items()})
 
 
-def condition_sheet(found: Found) -> Sheet:
+def condition_table(found: Found) -> Table:
     """Orders by shift and by shaking under other frictions and clearances."""
     rows = []
     for name in ("mean_tip_shift_forward", "ripple_pin_forces"):
+        what = f"{name.replace('_', ' ')} [{found[name, IDEAL].unit}]"
         for friction, size in CONDITIONS:
-            cases = {pin: case_name((pin,), friction, size) for pin in PINS}
-            if (name, cases[PINS[0]]) in found:
-                row = {pin: found[name, case] for pin, case in cases.items()}
-                order = order_of(row)
-                what = f"{name.replace('_', ' ')} [{found[name, IDEAL].unit}]"
-                rows.append(
-                    (what, f"{friction:g}, {size:g} mm", *(f"{n.value:.4g}" for n in row.values()), order)
-                )
-    return Sheet(
-        "Orders with other frictions and clearances, each pin alone",
-        ("effect", "friction, clearance", *PINS, "order"),
-        tuple(rows),
-        f"Neighbours whose effects differ by less than {100.0 * ALIKE:g} % are joined by =; ? stands where "
-        "numerical errors leave the order open.",
-        left=2,
-    )
+            if (name, case_name(PINS[:1], friction, size)) in found:
+                row = alone(found, name, friction, size)
+                numbers = (f"{n.value:.4g}" for n in row.values())
+                rows.append((what, f"{friction:g}, {size:g} mm", *numbers, order_of(row)))
+    return Table(("effect", "friction, clearance", *PINS, "order"), tuple(rows), left=2, width=170)
 
 
-def together_sheet(found: Found) -> Sheet:
+def together_table(found: Found) -> Table:
     """Whether the whole is the sum of its parts."""
     rows = []
     for friction in FRICTIONS:
-        for title, add in (("mean_tip_shift_forward", total), ("ripple_pin_forces", root_of_squares)):
+        for name in ADD:
             for pins in _together(found, friction):
-                expected = add([found[title, case_name((pin,), friction)].value for pin in pins])
-                whole = found[title, case_name(pins, friction)]
-                rows.append((
-                    case_name(pins, friction), title.replace("_", " "), whole.unit, f"{expected:.4g}",
-                    _cell(whole), against(whole, replace(whole, value=expected)),
-                ))  # fmt: skip
-    return Sheet(
-        "Alone and together",
-        ("slack pins", "quantity", "unit", "of the single ones", "together", "difference"),
-        tuple(rows),
-        "Shifts are added; ripples are added as independent vibrations would, by their squares.",
-        left=3,
-    )
+                expected, whole = _expected(found, name, pins, friction), found[name, case_name(pins, friction)]
+                difference = against(whole, replace(whole, value=expected))
+                quantity = name.replace("_", " ")
+                rows.append(
+                    (
+                        case_name(pins, friction),
+                        quantity,
+                        whole.unit,
+                        f"{expected:.4g}",
+                        cell(whole),
+                        difference,
+                    )
+                )
+    header = ("slack pins", "quantity", "unit", "of the single ones", "together", "difference")
+    return Table(header, tuple(rows), left=3)
 
 
 def _together(found: Found, friction: float) -> list[tuple[str, ...]]:
@@ -145,43 +135,64 @@ def root_of_squares(parts: Sequence[float]) -> float:
     return float(np.sqrt(sum(part**2 for part in parts)))
 
 
-def posture_sheet(found: Found) -> Sheet:
+# how effects of single pins make that of several
+ADD: dict[str, Callable[[Sequence[float]], float]] = {
+    "mean_tip_shift_forward": total,
+    "ripple_pin_forces": root_of_squares,
+}
+
+
+def _expected(found: Found, name: str, pins: Sequence[str], friction: float) -> float:
+    """What the effects of pins alone make together."""
+    single = alone(found, name, friction)
+    return ADD[name]([single[pin].value for pin in pins])
+
+
+def excess(found: Found, name: str, friction: float) -> float:
+    """By how many per cent all five pins together have more than the single ones make."""
+    return 100.0 * (found[name, case_name(PINS, friction)].value / _expected(found, name, PINS, friction) - 1.0)
+
+
+def posture_table(found: Found) -> Table:
     """The simulated shift beside the closed form."""
     rows = []
-    for name, case in found:
-        if name != "closed_form_tip_shift_forward":
-            continue
-        run, form = found["mean_tip_shift_forward", case], found[name, case]
-        off = 100.0 * (run.value / form.value - 1.0)
-        rows.append((case, _cell(run), f"{form.value:.4f}", f"{off:+.2f} %"))
-    return Sheet(
-        "Shift of the tip from runs and from virtual work",
-        ("case", "run [mm]", "closed form [mm]", "run is off by"),
-        tuple(rows),
-        "Forward, mean over the rise. Closed form: journals pressed along the loads of the ideal support by "
-        "clearance "
-        "and depth, turned by the angle of friction, first order; nothing is integrated.",
+    for case, (run, form) in _closed_forms(found).items():
+        rows.append((case, cell(run), f"{form.value:.4f}", f"{100.0 * (run.value / form.value - 1.0):+.2f} %"))
+    return Table(("case", "run [mm]", "closed form [mm]", "run is off by"), tuple(rows))
+
+
+def off_closed_form(found: Found) -> list[tuple[str, float]]:
+    """Each case, and the share by which its shift is off the closed form."""
+    return [(case, abs(run.value / form.value - 1.0)) for case, (run, form) in _closed_forms(found).items()]
+
+
+def _closed_forms(found: Found) -> dict[str, tuple[Number, Number]]:
+    """The simulated shift forward and that of the closed form, by case."""
+    return {
+        case: (found["mean_tip_shift_forward", case], form)
+        for (name, case), form in found.items()
+        if name == "closed_form_tip_shift_forward"
+    }
+
+
+def load_table(under_loads: Mapping[str, UnderLoad]) -> Table:
+    """Shift of the tip by pin and load, and the order that it makes."""
+    rows = []
+    for name, under in under_loads.items():
+        means = {pin: under.mean(pin) for pin in PINS}
+        cells = (f"{1e3 * mean:.2f}" for mean in means.values())
+        rows.append((name, *cells, f"{under.thrust / 1e3:.0f}", in_order(means)))
+    return Table(
+        ("load besides the weight", *PINS, "least column thrust [kN]", "order"), tuple(rows), width=170
     )
 
 
-def force_sheet(found: Found, friction: float) -> Sheet:
+def force_table(found: Found, friction: float) -> Table:
     """Mean forces with each slack pin."""
     cases = [IDEAL, *(case_name(pins, friction) for pins in [*((pin,) for pin in PINS), PINS])]
     rows = []
     for kind in ("mean_force", "ripple_force", "largest_force"):
         for name in FORCES.values():
-            key = f"{kind}_{name}"
-            rows.append((
-                kind.replace("_", " "), name.replace("_", " "), *(_cell(found[key, case]) for case in cases),
-            ))  # fmt: skip
-    return Sheet(
-        f"Forces in the rise, friction {friction:g} [N]",
-        ("what", "where", *(case.split(",")[0] for case in cases)),
-        tuple(rows),
-        "Columns: thrust.",
-        left=2,
-    )
-
-
-def _cell(number: Number) -> str:
-    return brief(number.value, number.numerical_error)
+            cells = (cell(found[f"{kind}_{name}", case]) for case in cases)
+            rows.append((kind.replace("_", " "), name.replace("_", " "), *cells))
+    return Table(("what", "where", *(case.split(",")[0] for case in cases)), tuple(rows), left=2, width=170)

@@ -6,7 +6,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
-from studies.common.study import Number, run_with_errors
+from studies.common.numbers import Number
+from studies.common.runs import run_with_errors
 from support_exudyn import Result, Scenario, SolverSettings
 
 

@@ -5,7 +5,9 @@ from __future__ import annotations
 import sys
 from dataclasses import replace
 
-from studies.common.study import Number, Options, options, run_cases, run_main, write_summary
+from studies.common.numbers import Number, write_summary
+from studies.common.runs import run_cases
+from studies.common.study import Options, options, run_main
 from support_exudyn import Held
 from tests.cases.run_cases import loose_support
 

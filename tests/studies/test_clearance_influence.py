@@ -12,6 +12,7 @@ import pytest
 
 from studies.clearance_influence import run as study
 from studies.common.chapter import Chapter
+from studies.common.runs import file_name
 from support_exudyn import Result
 from support_exudyn.postprocessing.figures import style
 from tests import figure_checks
@@ -64,7 +65,7 @@ def test_every_file_is_there(out: Path) -> None:
 
 
 def test_no_text_of_a_figure_is_cut_off_or_lies_upon_another(out: Path) -> None:
-    results = {case: Result.load(out / "runs" / f"{study._file_name(case)}.h5") for case in study.CASES}
+    results = {case: Result.load(out / "runs" / f"{file_name(case)}.h5") for case in study.CASES}
     with style.look():
         for drawing in study.figures(results).values():
             figure_checks.check(drawing)
@@ -72,7 +73,7 @@ def test_no_text_of_a_figure_is_cut_off_or_lies_upon_another(out: Path) -> None:
 
 def test_the_chapter_says_what_was_computed(out: Path, numbers: dict[tuple[str, str], dict[str, Any]]) -> None:
     chapter = Chapter.load(out)
-    assert chapter.study == study.STUDY
+    assert chapter.study == study.study.name
     assert chapter.quick is True
     assert all((out / f"{picture.stem}.png").is_file() for picture in chapter.pictures)
     mean = next(text for text in chapter.findings if text.startswith("Mean pin force"))
@@ -137,7 +138,7 @@ def test_impacts_at_the_start_exceed_the_load_several_times(
 def test_printed_errors_cover_the_distance_from_another_formulation(
     out: Path, numbers: dict[tuple[str, str], dict[str, Any]]
 ) -> None:
-    stems = {case: out / "runs" / f"{study._file_name(case)}.h5" for case in study.CASES}
+    stems = {case: out / "runs" / f"{file_name(case)}.h5" for case in study.CASES}
     others = {case: by_the_engine(Result.load(path).scenario) for case, path in stems.items()}
     shares = off(numbers, study.measure(others))
     assert max(shares.values()) < 5.0, max(shares, key=lambda name: shares[name])

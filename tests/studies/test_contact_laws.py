@@ -127,7 +127,7 @@ def test_every_file_is_there(out: Path) -> None:
 
 def test_the_chapter_says_what_was_computed(out: Path, numbers: dict[tuple[str, str], dict[str, Any]]) -> None:
     chapter = Chapter.load(out)
-    assert chapter.study == study.STUDY
+    assert chapter.study == study.study.name
     assert all((out / f"{picture.stem}.png").is_file() for picture in chapter.pictures)
     delivered = numbers["delivered_restitution", "lankarani_nikravesh e=0.1"]["value"]
     assert any(f"{delivered:.3f} for 0.1" in text for text in chapter.findings)

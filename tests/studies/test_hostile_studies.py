@@ -21,7 +21,8 @@ from studies import __main__ as all_studies
 from studies import report
 from studies.claims import hypercube
 from studies.claims.plausible import REFERENCE
-from studies.common.study import Number, Options, run_main, save_figures, write_summary
+from studies.common.numbers import Number, write_summary
+from studies.common.study import Options, run_main, save_figures
 from support_exudyn.files.whole_file import writing_alone
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.sweeps.workers import ProcessEndedError, Workers

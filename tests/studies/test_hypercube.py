@@ -26,6 +26,7 @@ from studies.claims import run as claims
 from studies.claims.claim_list import CLAIMS
 from studies.claims.plausible import FACTORS, REFERENCE, Choice, samples
 from studies.claims.plausible_runs import CASES, measures
+from studies.common.words import Words
 from support_exudyn import Failure, SimulationError
 from support_exudyn.sweeps.workers import CONTEXT, Workers
 from tests.cases.evidence_cases import data, right
@@ -318,9 +319,7 @@ def test_a_machine_that_fails_is_a_row_with_its_reason(tmp_path: Path, ran: list
 
 def test_failures_are_seen_in_sheet_table_and_chapter(tmp_path: Path, ran: list[float]) -> None:
     rows = run([GOOD[0], BAD, GOOD[1]], tmp_path)
-    sheet = claims.failure_sheet(rows)
-    assert sheet.title.endswith("1 of 3")
-    ((number, scale, height, reason),) = sheet.rows
+    ((number, scale, height, reason),) = claims.failure_table(rows).rows
     assert (number, scale, height) == ("2", "0.6", "1")
     assert "dead centre" in reason
     claims.write_machines(tmp_path / "machines.csv", rows)
@@ -338,9 +337,10 @@ def test_failures_are_seen_in_sheet_table_and_chapter(tmp_path: Path, ran: list[
     assert [name for name in table[0] if name in {factor.name for factor in FACTORS}] == [
         f.name for f in FACTORS
     ]
-    said = claims.chapter([], rows, quick=True)
+    said, sheets = Words("claims").chapter(claims.words([], rows), claims.tables([], rows), quick=True)
     assert any("2 of 3 plausible machines could be run; 1 could not" in text for text in said.findings)
-    assert said.sheets[-1] == sheet
+    assert said.sheets[-1] == sheets["failures"]
+    assert sheets["failures"].title.endswith("1 of 3")
 
 
 def test_a_real_machine_that_cannot_be_closed_fails_with_the_reason(tmp_path: Path) -> None:

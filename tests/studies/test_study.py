@@ -12,19 +12,9 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from studies.common.study import (
-    Number,
-    brief,
-    compared,
-    counted,
-    halvings,
-    measured,
-    options,
-    output_folder,
-    rounded,
-    run_with_errors,
-    save_run,
-)
+from studies.common.numbers import Number, brief, compared, counted, measured, rounded
+from studies.common.runs import halvings, run_with_errors, save_run
+from studies.common.study import options, output_folder
 from support_exudyn import Result, Scenario, Steady, ravn_slider_crank
 from support_exudyn.commands.command_line import count
 from support_exudyn.files.temporary import PREFIX

@@ -6,21 +6,26 @@ from dataclasses import replace
 
 import pytest
 
-from studies.common.study import Number
-from studies.common.wording import by_case
+from studies.common.numbers import Number, by_case
+from studies.common.words import Words
 from studies.drive_mode.cases import PINS as CASES
 from studies.drive_mode.cases import case_name
-from studies.drive_mode.tables import CONVERGES, DIVERGES
-from studies.drive_mode.words import VELOCITY, _converging_said, _velocity_said
+from studies.drive_mode.tables import CONVERGES, DIVERGES, VELOCITY, limits, velocity_converges
 from studies.which_pin import cases as which_pin_cases
 from studies.which_pin import measures as which_pin_measures
 from studies.which_pin import tables as which_pin_tables
-from studies.which_pin import words as which_pin_words
-from studies.which_pin.tables import together_sheet
+from studies.which_pin.tables import condition_table, together_table
 from support_exudyn.machines.four_bar_shield import PINS
 
 A, B, C, D, E = PINS
 SHIFT, RIPPLE = "mean_tip_shift_forward", "ripple_pin_forces"
+
+
+def said(macro: str, *args: object, study: str = "which_pin") -> str:
+    """What a study says, in one line."""
+    told = {"cases": which_pin_cases, "tables": which_pin_tables}
+    sentences = Words(study).templates.get_template("sentences.md.j2").make_module(told)
+    return " ".join(getattr(sentences, macro)(*args).split())
 
 
 def made_up(errors: float = 0.0) -> dict[tuple[str, str], Number]:
@@ -53,29 +58,29 @@ def test_an_order_is_open_where_errors_reach_over_it() -> None:
 def test_rankings_know_the_errors(errors: float, sign: str) -> None:
     found = made_up(errors)
     order = sign.join(reversed(PINS))
-    assert order in which_pin_words._ranking(found, "by the shaking", 0.25)
-    rows = which_pin_tables.condition_sheet(found).rows
+    assert order in said("ranking", found, "by the shaking", 0.25)
+    rows = condition_table(found).rows
     assert {row[-1] for row in rows} == {order}
-    assert [row[0] for row in which_pin_tables.ranking_sheet(found, "by the shaking", 0.25).rows] == [
+    assert [row[0] for row in which_pin_tables.ranking_table(found, "by the shaking", 0.25).rows] == [
         *reversed(PINS), which_pin_cases.ALL, which_pin_cases.IDEAL,
     ]  # fmt: skip
-    assert "is the same with every" in which_pin_words._conditions_said(found)
+    assert "is the same with every" in said("conditions", [row for row in rows if row[0].startswith("ripple")])
 
 
 def test_sums_are_said_to_add_up_if_they_do() -> None:
     found = made_up()
-    said = which_pin_words._together_said(found, 0.25)
-    assert "+0.0 % off the sum of the single ones: shifts add up" in said
-    assert "shaking can be told" in said
-    assert {row[-1] for row in together_sheet(found).rows} == {"+0 %"}
+    text = said("together", found, 0.25)
+    assert "+0.0 % off the sum of the single ones: shifts add up" in text
+    assert "shaking can be told" in text
+    assert {row[-1] for row in together_table(found).rows} == {"+0 %"}
     whole = which_pin_cases.case_name(PINS, 0.25)
     for name in (SHIFT, RIPPLE):
         found[name, whole] = replace(found[name, whole], value=3.0 * found[name, whole].value)
-    said = which_pin_words._together_said(found, 0.25)
-    assert "+200.0 % off the sum of the single ones: shifts do not add up" in said
-    assert "+200 % off" in said
-    assert "shaking cannot be told" in said
-    assert [row[-1] for row in together_sheet(found).rows] == [
+    text = said("together", found, 0.25)
+    assert "+200.0 % off the sum of the single ones: shifts do not add up" in text
+    assert "+200 % off" in text
+    assert "shaking cannot be told" in text
+    assert [row[-1] for row in together_table(found).rows] == [
         "+200 %",
         "+200 %",
         "+0 %",
@@ -89,8 +94,8 @@ def test_the_worst_case_of_the_closed_form_is_told() -> None:
         case = which_pin_cases.case_name((pin,), 0.0)
         form = found[SHIFT, case].value / off
         found["closed_form_tip_shift_forward", case] = Number("form", case, form, "mm", 0.0)
-    assert f"all 2 cases within 4.0 % ({B}, mu_d = 0)" in which_pin_words._closed_form_said(found)
-    assert [row[-1] for row in which_pin_tables.posture_sheet(found).rows] == ["+2.00 %", "-4.00 %"]
+    assert f"all 2 cases within 4.0 % ({B}, mu_d = 0)" in said("closed_form", found)
+    assert [row[-1] for row in which_pin_tables.posture_table(found).rows] == ["+2.00 %", "-4.00 %"]
 
 
 def test_what_does_not_converge_is_named() -> None:
@@ -98,11 +103,16 @@ def test_what_does_not_converge_is_named() -> None:
         return case_name("mode 1", pin, "rigid"), name, "N", verdict
 
     rows = [row(CONVERGES), row(DIVERGES), row(CONVERGES)]
-    assert _converging_said(rows) == (
+    assert said("converging", *limits(rows), study="drive_mode") == (
         "2 of 3 numbers converge under step halving. Not so: std pin force in mode 1, ideal pin, rigid columns."
     )
-    assert _converging_said([row(CONVERGES)]) == "1 of 1 numbers converge under step halving."
+    assert (
+        said("converging", *limits([row(CONVERGES)]), study="drive_mode")
+        == "1 of 1 numbers converge under step halving."
+    )
     good, bad = row(CONVERGES, VELOCITY), row(DIVERGES, VELOCITY, CASES[1])
-    assert _velocity_said([good, row(DIVERGES)]) == "Angular velocities as in Fig. 13 b converge."
+    assert velocity_converges([good, row(DIVERGES)])
+    assert said("velocity", True, study="drive_mode") == "Angular velocities as in Fig. 13 b converge."
     for rows in ([good, bad], [row(CONVERGES)]):
-        assert _velocity_said(rows).endswith("are not shown to converge here.")
+        assert not velocity_converges(rows)
+    assert said("velocity", False, study="drive_mode").endswith("are not shown to converge here.")

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from studies.common.study import Number
-from studies.common.wording import against, percent, said
+from studies.common.numbers import Number, against, percent, said
 
 
 def number(value: float, error: float, unit: str = "N") -> Number:

@@ -1,0 +1,167 @@
+"""Numbers that studies report, with their errors: from runs, in tables, in sentences and in summary.json."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+from studies.common.rise import Peak
+from studies.common.runs import halvings
+from support_exudyn import Result
+from support_exudyn.files.whole_file import whole_file
+from support_exudyn.simulation.provenance import versions
+
+DIGITS = 5  # of a number in a sentence
+Found = Mapping[tuple[str, str], "Number"]  # numbers by name and case
+
+
+@dataclass(frozen=True)
+class Number:
+    """A number that a study reports.
+
+    name, case: what, and of which run. value, unit. numerical_error: as accuracies estimate it, of three runs,
+    see `simulation.estimate`; 0 for a closed form. paper: the printed value, None if there is none.
+    """
+
+    name: str
+    case: str
+    value: float
+    unit: str
+    numerical_error: float
+    paper: float | None = None
+
+
+Measure = Callable[[Result], float]
+
+
+def measured(
+    name: str, case: str, unit: str, result: Result, measure: Measure, paper: float | None = None
+) -> Number:
+    """A number of a run with errors, see `run_with_errors`."""
+    found = result.estimate(measure, unit)
+    between_records = measure.missed(result) if isinstance(measure, Peak) else 0.0
+    return Number(name, case, found.value, unit, found.error + between_records, paper)
+
+
+def measured_all(results: Mapping[str, Result], measures: Mapping[str, tuple[str, Measure]]) -> list[Number]:
+    """Every measure of every run; measures: unit and measure, by name."""
+    return [
+        measured(name, case, unit, result, measure)
+        for case, result in results.items()
+        for name, (unit, measure) in measures.items()
+    ]
+
+
+def counted(name: str, case: str, result: Result, count: Callable[[Result], int]) -> Number:
+    """A count of a run; its error is how far its coarser ones are away, for counts do not converge."""
+    found = [count(run) for run in halvings(result)]
+    return Number(name, case, float(found[-1]), "1", float(max(abs(found[-1] - one) for one in found)))
+
+
+def compared(
+    name: str,
+    case: str,
+    unit: str,
+    run: Result,
+    other: Result,
+    measure: Callable[[Result, Result], float],
+    paper: float | None = None,
+) -> Number:
+    """A number of a run beside another one; the errors of both add up."""
+    here = run.estimate(lambda finer: measure(finer, other), unit)
+    there = other.estimate(lambda finer: measure(run, finer), unit)
+    error = here.error if run is other else here.error + there.error
+    return Number(name, case, here.value, unit, error, paper)
+
+
+def write_summary(
+    out: Path, study: str, numbers: Sequence[Number], wall_s: float, counts: Mapping[str, int] | None = None
+) -> Path:
+    """Write DIR/summary.json: study, versions, wall time, counts of the study's own, and all numbers."""
+    summary = {
+        "study": study,
+        "versions": versions(),
+        "wall_s": round(wall_s, 3),
+        **(counts or {}),
+        "numbers": [asdict(number) for number in numbers],
+    }
+    path = out / "summary.json"
+    with whole_file(path) as temporary:
+        temporary.write_text(json.dumps(summary, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+    return path
+
+
+# --- in tables and sentences ---
+
+
+def rounded(value: float, error: float) -> str:
+    """A number with its error, both to the digits that the error leaves; alone if it has none."""
+    if error == 0.0 or not math.isfinite(error):
+        return f"{value:.9g}"
+    digits = max(0, 1 - math.floor(math.log10(error)))
+    if digits > 9:
+        return f"{value:.6g} ± {error:.0e}"
+    return f"{value:.{digits}f} ± {error:.{digits}f}"
+
+
+def brief(value: float, error: float) -> str:
+    """A number with its error in at most seven digits, for tables in which many stand side by side."""
+    if error == 0.0 or not math.isfinite(error):
+        return f"{value:.7g}"
+    if value == 0.0:
+        return f"0 ± {error:.0e}"
+    digits = max(0, 6 - math.floor(math.log10(abs(value))))
+    if error < 0.5 * 10.0**-digits:
+        return f"{value:.{digits}f} ± {error:.0e}"
+    left = max(0, 1 - math.floor(math.log10(error)))
+    return f"{value:.{digits}f} ± {error:.{digits}f}" if digits < left else rounded(value, error)
+
+
+def cell(number: Number | None) -> str:
+    """A number in a table with its error, see `brief`; nothing if there is none."""
+    return "" if number is None else brief(number.value, number.numerical_error)
+
+
+def printed(number: Number | None) -> str:
+    """What the paper prints beside a number, if anything."""
+    return "" if number is None or number.paper is None else f"{number.paper:.9g}"
+
+
+def by_case(numbers: Iterable[Number]) -> dict[tuple[str, str], Number]:
+    """Numbers by name and case."""
+    return {(number.name, number.case): number for number in numbers}
+
+
+def said(number: Number, scale: float = 1.0, unit: str | None = None) -> str:
+    """Value and unit in five digits, with the error if it shows in them; in another unit if its scale is given.
+
+    Tables have all digits.
+    """
+    shown = number.unit if unit is None else unit
+    value, error = scale * number.value, scale * number.numerical_error
+    size = max(abs(value), error)
+    last = 10.0 ** (math.floor(math.log10(size)) - DIGITS + 1) if size > 0.0 else 0.0
+    text = f"{value:.{max(0, -round(math.log10(last)))}f}" if error < last else rounded(value, error)
+    if error == 0.0 and "." in text:
+        text = text.rstrip("0").rstrip(".")  # counts and closed forms
+    return text if shown == "1" else f"{text} {shown.replace('^2', '²')}"
+
+
+def against(number: Number, other: Number) -> str:
+    """How much a number is above or below another, in per cent of the other."""
+    change = 100.0 * (number.value / other.value - 1.0)
+    return f"{change:+.0f} %" if abs(change) >= 10.0 else f"{change:+.2g} %"
+
+
+def off(number: Number) -> float:
+    """The relative distance of a number from the one printed or known beside it."""
+    assert number.paper is not None
+    return abs(number.value / number.paper - 1.0)
+
+
+def percent(share: float) -> str:
+    """A share in per cent."""
+    return f"{100.0 * share:.2g} %" if share >= 1e-5 else "less than 0.001 %"

@@ -1,0 +1,113 @@
+"""Runs of studies: in parallel, under a progress bar, at ever shorter steps, and kept as files."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import replace
+from pathlib import Path
+
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+
+from support_exudyn import Failure, Result, Scenario, SimulationError
+from support_exudyn.sweeps.parallel_runs import run_all
+from support_exudyn.sweeps.workers import Workers
+
+MOST_BARS = 12  # more runs than that share one progress bar
+SHORT = {  # what of a case's name stands otherwise in the name of its file
+    " mm, mu_d = ": "mm_mu", ", mu_d = ": "_mu", " + ": "+", "m/s": "mps", ",": "", " ": "_", ".": "p",
+    "/": "_",
+}  # fmt: skip
+
+
+def run_with_errors(cases: Mapping[str, Scenario], workers: int | Workers) -> dict[str, Result]:
+    """Run every case at its steps, at half and at a quarter of them, in parallel, under a progress bar.
+
+    Each result is that of the shortest steps, and the others are its `coarser` ones: every number of it has the
+    error that accuracies estimate, `Result.estimate`. Where numbers do not settle that is large, and no reason
+    to end a study.
+
+    Raises SimulationError if a run fails.
+    """
+    steps: dict[str, list[Scenario]] = {}
+    for name, case in cases.items():
+        half = case.refined()
+        steps[name] = [case, half, half.refined()]
+    # the longest first, so that no process is left alone with a long run at the end
+    runs = {_at(name, n): chosen[n] for n in (2, 1, 0) for name, chosen in steps.items()}
+    good = run_cases(runs, workers)
+    return {name: with_coarser([good[_at(name, n)] for n in range(3)]) for name in cases}
+
+
+def _at(name: str, n: int) -> str:
+    return f"{name}, steps / {2**n}" if n else name
+
+
+def with_coarser(runs: Sequence[Result]) -> Result:
+    """The last of runs of a scene, the coarsest first, with those before as its coarser ones."""
+    found, *finer = runs
+    for run in finer:
+        found = replace(run, coarser=found)
+    return found
+
+
+def halvings(result: Result) -> tuple[Result, ...]:
+    """A run and its coarser ones, the coarsest first."""
+    return (*(halvings(result.coarser) if result.coarser else ()), result)
+
+
+def touches(result: Result, pin: str) -> int:
+    """How many touches of a pin a run and all its coarser ones have: that of others has no error."""
+    return min(len(run.onsets.get(pin, ())) for run in halvings(result))
+
+
+def save_run(result: Result, out: Path, name: str) -> None:
+    """Write a run into the folder of runs; one at chosen steps without its coarser ones, which treble it."""
+    kept = result if result.goal is not None else replace(result, coarser=None)
+    kept.save(out / "runs" / f"{name}.h5")
+
+
+def file_name(case: str) -> str:
+    """The name of the file of a case, without its ending: "1.5 mm, mu_d = 0.25" is kept as 1p5mm_mu0p25."""
+    for said, written in SHORT.items():
+        case = case.replace(said, written)
+    return case
+
+
+def run_cases(runs: Mapping[str, Scenario], workers: int | Workers) -> dict[str, Result]:
+    """Run scenarios in parallel, in the order given, under a progress bar.
+
+    Raises SimulationError if a run fails.
+    """
+    together = len(runs) > MOST_BARS
+    with _bars() as bars:
+        total = [bars.add_task(f"{len(runs)} runs", total=float(len(runs)))] if together else []
+        tasks = {} if together else {name: bars.add_task(name, total=1.0) for name in runs}
+
+        def show(shares: Mapping[str, float]) -> None:
+            for task in total:
+                bars.update(task, completed=sum(shares.values()))
+            for name, task in tasks.items():
+                bars.update(task, completed=shares[name])
+
+        results = run_all(runs, workers=workers, progress=show)
+    good: dict[str, Result] = {}
+    for name, result in results.items():
+        if isinstance(result, Failure):
+            raise SimulationError(replace(result, reason=f"{name}: {result.reason}"))
+        good[name] = result
+    return good
+
+
+@contextmanager
+def bar(name: str) -> Iterator[Callable[[Sequence[float]], None]]:
+    """One progress bar for many jobs: gives what is told the share done of each."""
+    with _bars() as bars:
+        task = bars.add_task(name, total=1.0)
+        yield lambda shares: bars.update(task, completed=sum(shares) / max(1, len(shares)))
+
+
+def _bars() -> Progress:
+    columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.percentage:3.0f} %"))
+    return Progress(*columns, TimeRemainingColumn(), console=Console(stderr=True))

@@ -1,0 +1,110 @@
+"""Sentences of a study: the template `words.md.j2` in its folder, filled with the numbers of a run.
+
+The filled template is a page of Markdown: the title; the question; "## Method" with paragraphs; "## Findings"
+with a list; "## Figures" with a list of "stem: caption"; and "## Tables", where each table has a heading
+"### name", its title and, if there is one, its caption. The rows of the tables come from the study.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+from jinja2 import ChoiceLoader, Environment, PackageLoader, StrictUndefined
+
+from studies.common import numbers
+from studies.common.chapter import Chapter, Picture, Sheet
+
+TEMPLATE = "words.md.j2"
+
+
+@dataclass(frozen=True)
+class Table:
+    """The cells of a table; title and caption stand in the template.
+
+    left, wide: see `Sheet`. width: of the file, in characters. in_file, in_chapter: where it is shown.
+    """
+
+    header: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+    left: int = 1
+    wide: bool = False
+    width: int = 150
+    in_file: bool = True
+    in_chapter: bool = True
+
+
+@dataclass(frozen=True)
+class Words:
+    """The sentences of a study, by the name of its folder."""
+
+    study: str
+
+    @cached_property
+    def templates(self) -> Environment:
+        """The templates in the folder of the study, and `phrases.md.j2` of `studies.common`."""
+        loaders = [PackageLoader(f"studies.{self.study}", ""), PackageLoader("studies.common", "")]
+        surroundings = Environment(
+            loader=ChoiceLoader(loaders),
+            autoescape=False,  # what shows a chapter escapes it
+            undefined=StrictUndefined,
+            trim_blocks=True,
+            lstrip_blocks=True,
+        )
+        surroundings.filters["fmt"] = format
+        for tool in (
+            numbers.said,
+            numbers.against,
+            numbers.percent,
+            numbers.rounded,
+            numbers.brief,
+            numbers.off,
+        ):
+            surroundings.globals[tool.__name__] = surroundings.filters[tool.__name__] = tool
+        return surroundings
+
+    def chapter(
+        self, told: Mapping[str, object], tables: Mapping[str, Table], quick: bool
+    ) -> tuple[Chapter, dict[str, Sheet]]:
+        """The study as a chapter of the report, and all tables by name, those that are not in it among them.
+
+        Raises KeyError if the template has no title for a table.
+        """
+        blocks = _blocks(self.templates.get_template(TEMPLATE).render(told, quick=quick))
+        title = next(iter(blocks))
+        sheets = {}
+        for name, table in tables.items():
+            heading, *caption = blocks[name]
+            sheets[name] = Sheet(
+                heading, table.header, table.rows, " ".join(caption), left=table.left, wide=table.wide
+            )
+        pictures = (block.removeprefix("- ").partition(": ") for block in blocks["Figures"])
+        chapter = Chapter(
+            study=self.study,
+            title=title,
+            question=" ".join(blocks[title]),
+            method=tuple(blocks["Method"]),
+            findings=tuple(block.removeprefix("- ") for block in blocks["Findings"]),
+            pictures=tuple(Picture(stem, caption) for stem, _, caption in pictures),
+            sheets=tuple(sheets[name] for name, table in tables.items() if table.in_chapter),
+            quick=quick,
+        )
+        return chapter, sheets
+
+
+def _blocks(page: str) -> dict[str, list[str]]:
+    """Paragraphs and items of a list, each in one line, by the heading that they stand under."""
+    found: dict[str, list[str]] = {}
+    here: list[str] = []
+    begins = True
+    for line in page.splitlines():
+        text = " ".join(line.split())
+        if line.startswith("#"):
+            here = found.setdefault(text.lstrip("# "), [])
+        elif text and (begins or text.startswith("- ")):
+            here.append(text)
+        elif text:
+            here[-1] += f" {text}"
+        begins = not text or line.startswith("#")
+    return found
