@@ -12,8 +12,8 @@ from support_exudyn.commands.command_line import add_json, add_times, answer, fo
 from support_exudyn.commands.tables import printed, show_table
 from support_exudyn.postprocessing import summary as account
 from support_exudyn.postprocessing.comparison import Difference, compared, same_to_the_bit
-from support_exudyn.postprocessing.figures import windows
-from support_exudyn.postprocessing.figures.names import matching
+from support_exudyn.postprocessing.figures import selection
+from support_exudyn.postprocessing.figures.selection import matching
 from support_exudyn.postprocessing.figures.units import readable_change
 from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.result import Result
@@ -55,7 +55,7 @@ def run(given: argparse.Namespace) -> None:
         answer({name: _object(one) for name, one in found.items()})
         return
     ends = given.start, given.end
-    piece = "" if ends == WHOLE else f", {windows.said(first, *ends)}"
+    piece = "" if ends == WHOLE else f", {selection.said(first, *ends)}"
     printed(lambda console: _table(console, found, f"{given.second.name} less {given.first.name}{piece}"))
     if same := same_to_the_bit(first, second):
         say(f"the same to the bit: all records of {same} channels")

@@ -66,16 +66,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(given: argparse.Namespace) -> None:
     """Write what was asked for, and print what was written."""
-    from support_exudyn.postprocessing.export.export import (  # and meshio
-        MESHES,
-        TABLES,
-        Sampling,
-        to_csv,
-        to_hdf5,
-        to_vtu,
-        to_xdmf,
-    )
+    from support_exudyn.postprocessing.export.mesh_files import MESHES, to_vtu, to_xdmf  # and meshio
+    from support_exudyn.postprocessing.export.sampling import Sampling
     from support_exudyn.postprocessing.export.solution_file import save_solution
+    from support_exudyn.postprocessing.export.tables import TABLES, to_csv, to_hdf5
 
     if given.end is not None and given.end < given.start:
         raise InputError(f"--from {given.start:g} --until {given.end:g}: allowed: --until not before --from")

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from support_exudyn.commands.command_line import add_json, add_times, answer, folder, number, say, warn
 from support_exudyn.postprocessing.figures.journal import chosen_pin, loose_pins
-from support_exudyn.postprocessing.figures.names import matching
+from support_exudyn.postprocessing.figures.selection import matching
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
 

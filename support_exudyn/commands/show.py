@@ -12,8 +12,8 @@ from rich.console import Console
 from support_exudyn.commands.command_line import add_json, add_times, answer, folder
 from support_exudyn.commands.tables import NARROWEST, printed, show_table
 from support_exudyn.postprocessing import summary as account
-from support_exudyn.postprocessing.figures import windows
-from support_exudyn.postprocessing.figures.names import matching
+from support_exudyn.postprocessing.figures import selection
+from support_exudyn.postprocessing.figures.selection import matching
 from support_exudyn.simulation.result import Result
 
 HELP = "tables of what a run was and what came out of it"
@@ -65,7 +65,7 @@ def _object(result: Result, given: argparse.Namespace) -> dict[str, Any]:
 def _tables(console: Console, result: Result, given: argparse.Namespace) -> None:
     names = matching(result.channels, given.channels)
     ends = given.start, given.end
-    piece = "" if ends == WHOLE else f", {windows.said(result, *ends)}"
+    piece = "" if ends == WHOLE else f", {selection.said(result, *ends)}"
     if names:
         _show_channels(console, account.of_channels(result, names, *ends), f"channels{piece}")
         return

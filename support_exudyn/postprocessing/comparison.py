@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from support_exudyn.postprocessing.figures.windows import SLACK, inside
+from support_exudyn.postprocessing.figures.selection import SLACK, inside
 from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError

@@ -8,8 +8,8 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from support_exudyn.model.pins import ClearancePin, Pin
+from support_exudyn.postprocessing.figures.selection import inside
 from support_exudyn.postprocessing.figures.units import readable, said
-from support_exudyn.postprocessing.figures.windows import inside
 from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.reported_numbers import FORCE, measures
 from support_exudyn.simulation.result import Result

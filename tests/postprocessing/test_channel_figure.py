@@ -10,7 +10,7 @@ import pytest
 from support_exudyn import Onset, Result
 from support_exudyn.postprocessing.figures import style, units
 from support_exudyn.postprocessing.figures.channels import error_over_time, over_time
-from support_exudyn.postprocessing.figures.names import matching
+from support_exudyn.postprocessing.figures.selection import matching
 from support_exudyn.postprocessing.figures.units import readable
 from tests import figure_checks, synthetic
 from tests.cases.run_cases import loose_support

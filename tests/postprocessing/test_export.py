@@ -12,9 +12,10 @@ import pytest
 from meshio.xdmf import TimeSeriesReader
 
 from support_exudyn import Result, simulate
-from support_exudyn.postprocessing.export import machine_mesh
-from support_exudyn.postprocessing.export.export import Sampling, to_csv, to_hdf5, to_vtu, to_xdmf
-from support_exudyn.postprocessing.export.pin_points import PinPoints
+from support_exudyn.postprocessing.export.mesh_files import to_vtu, to_xdmf
+from support_exudyn.postprocessing.export.meshes import parts_of, pin_points
+from support_exudyn.postprocessing.export.sampling import Sampling
+from support_exudyn.postprocessing.export.tables import to_csv, to_hdf5
 from support_exudyn.postprocessing.look.solid import Role
 from support_exudyn.postprocessing.render.pin_view import pin_view
 from tests.cases.export_cases import (
@@ -153,7 +154,7 @@ def test_displacements_add_up_from_the_first_step(machine: list[Read]) -> None:
 
 def test_every_triangle_has_a_body_and_a_role(exported: Exported, machine: list[Read]) -> None:
     look = look_of(exported.kind)
-    parts = machine_mesh.parts_of(look)
+    parts = parts_of(look)
     expected = [(part.body, part.role.value) for part in parts for _ in part.mesh.faces]
     bodies, roles = exported.names("body"), exported.names("role")
     for step in machine:
@@ -265,7 +266,7 @@ def test_displacements_are_since_the_first_record_that_is_written(tmp_path: Path
 
 
 def test_roles_of_columns_are_those_of_their_parts() -> None:
-    found = {part.body: part.role for part in machine_mesh.parts_of(look_of("plane"))}
+    found = {part.body: part.role for part in parts_of(look_of("plane"))}
     assert found["front_column_left cylinder"] is Role.CYLINDER
     assert found["front_column_left rod"] is Role.ROD
 
@@ -276,10 +277,11 @@ def test_a_loose_pin_is_at_its_journal_and_pressed_back_into_its_bore(bore: str)
     scenario = loose_support(1.5, 0.0, duration=0.06)
     pin = dataclasses.replace(scenario.clearance_pins[PIN], bore=bore)
     result = simulate(dataclasses.replace(scenario, pins={PIN: pin}))
-    points, view = PinPoints(result), pin_view(result, PIN)
+    points, view = pin_points(result), pin_view(result, PIN)
+    assert points is not None
     assert view is not None
     assert view.bore is not None
-    number = [name.name for name in points.names].index(PIN)
+    number = points.names["pin"].index(PIN)
     pressed = 0
     for record in range(result.time.size):
         apart = points.frame(record).points[number] - view.path[record]
@@ -457,7 +459,7 @@ def test_an_export_of_a_machine_without_pins_leaves_no_pins_of_another(tmp_path:
 
 
 def test_too_many_steps_for_the_memory_are_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("support_exudyn.postprocessing.export.export.MOST_VALUES", 100_000)
+    monkeypatch.setattr("support_exudyn.postprocessing.export.mesh_files.MOST_VALUES", 100_000)
     with pytest.raises(
         InputError, match=r"101 steps of \d+ numbers each: allowed .* here \d steps; choose fewer"
     ):

@@ -15,7 +15,8 @@ import pytest
 
 from support_exudyn import Result, simulate
 from support_exudyn.__main__ import main
-from support_exudyn.postprocessing.export.export import Sampling, to_csv, to_hdf5
+from support_exudyn.postprocessing.export.sampling import Sampling
+from support_exudyn.postprocessing.export.tables import to_csv, to_hdf5
 from tests.cases.export_cases import by_vtk, run
 from user_forces import Value
 

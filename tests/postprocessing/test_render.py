@@ -20,7 +20,7 @@ from studies.common.paper_machine import ideal_rise, loose_rise
 from support_exudyn import CubicStep, Held, Result, simulate
 from support_exudyn.__main__ import main
 from support_exudyn.model.loads.roof import Roof
-from support_exudyn.postprocessing.export.machine_mesh import MachineMesh
+from support_exudyn.postprocessing.export.meshes import machine_mesh
 from support_exudyn.postprocessing.figures.style import CONTACT, FLIGHT
 from support_exudyn.postprocessing.render import render, still
 from support_exudyn.postprocessing.render.camera import Camera, direction_of_view
@@ -168,7 +168,7 @@ def test_the_mark_is_on_the_pin(bouncing: Result) -> None:
 def test_surfaces_are_put_where_the_exported_mesh_has_them(bouncing: Result, spatial: Result) -> None:
     for run in (bouncing, spatial):
         scene, record = Scene(run), run.time.size - 1
-        expected = MachineMesh(run).frame(record).points
+        expected = machine_mesh(run).frame(record).points
         placed = [
             prop.mesh.vertices @ turn.T + place
             for prop, (place, turn) in zip(scene.props(), scene.places(record), strict=True)

@@ -129,10 +129,7 @@ def _sheets(machine: Shield, told: Sequence[Station]) -> list[Sheet]:
     )
     forces = Sheet(
         "static forces [kN], columns: push, negative: pull; angles in pins: shield beam to link [degrees]",
-        (
-            *("stroke", "hinge y", *pins, *columns),
-            *("angle rear_shield", "angle front_shield"),
-        ),
+        (*("stroke", "hinge y", *pins, *columns), *("angle rear_shield", "angle front_shield")),
         [
             row(
                 station,

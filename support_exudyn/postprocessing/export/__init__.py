@@ -1,1 +1,1 @@
-"""What is written for other programs; the entry is `postprocessing.export.export`."""
+"""What is written for other programs: meshes, tables, and Exudyn's own solution file."""

@@ -1,18 +1,93 @@
-"""All channels as CSV."""
+"""All channels of a run as tables for other programs: CSV, and plain HDF5."""
 
 from __future__ import annotations
 
 import csv
-from collections.abc import Sequence
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict
 from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
 
 from support_exudyn.files.whole_file import whole_file
-from support_exudyn.formulations.progress import Progress
+from support_exudyn.formulations.progress import Progress, silent
+from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.mechanics.trajectory import Series
+from support_exudyn.postprocessing.export.sampling import Sampling
 from support_exudyn.postprocessing.export.whole_set import check_is_no_run
 from support_exudyn.simulation.result import Result
 
+TABLES = Sampling()  # all records
 AT_ONCE = 500  # rows
+FORMAT = "support_exudyn channels 1"
+ONSET_COLUMNS = {  # field of an onset: unit, meaning
+    "time": ("s", "beginning of the contact"),
+    "speed": ("m/s", "approach speed at zero depth"),
+    "parting_time": ("s", "end of the contact; infinite: not before the end of the run or the next touch"),
+    "parting_speed": ("m/s", "speed of parting at zero depth"),
+}
+
+
+def to_csv(
+    result: Result, path: str | Path, sampling: Sampling = TABLES, progress: Progress = silent
+) -> tuple[Path, ...]:
+    """All channels as a table: a row of names with units such as `pin.rear_base.force [N]`, then the records.
+
+    Numbers read back as the same bits; pandas before 3 needs `read_csv(path, float_precision="round_trip")` for
+    that. MATLAB keeps the names with `readtable(path, VariableNamingRule="preserve")`.
+
+    Arguments are those of `to_xdmf`; all records if nothing else is asked for. Returns the path.
+
+    Raises InputError if no record is chosen, or if a run is at the path; OSError if it cannot be written.
+    """
+    path = Path(path)
+    check_is_no_run(path)
+    columns, records = columns_of(result), sampling.records(result.time)
+    with whole_file(path) as temporary, temporary.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(columns)
+        for start in range(0, len(records), AT_ONCE):
+            chosen = records[start : start + AT_ONCE]
+            writer.writerows(zip(*(column[chosen].tolist() for column in columns.values()), strict=True))
+            progress(min(1.0, (start + AT_ONCE) / len(records)))
+    return (path,)
+
+
+def to_hdf5(result: Result, path: str | Path, sampling: Sampling = TABLES) -> tuple[Path, ...]:
+    """All channels as plain HDF5, for MATLAB, Octave, h5py and others.
+
+        /channels/NAME      doubles, with the attributes unit and meaning (text of fixed length)
+        /onsets/PIN/...     time, speed, parting_time, parting_speed of every contact, likewise
+        /json/...           scenario, provenance, counts, impulses as JSON text
+
+    In MATLAB: `h5read(path, "/channels/pin.rear_base.force")`, `h5readatt(path, "/channels/tip.x", "unit")`.
+    It is not the file of a run, which `Result.save` writes and only `Result.load` reads.
+
+    Arguments are those of `to_xdmf`; all records if nothing else is asked for; onsets are always all.
+    Returns the path.
+
+    Raises InputError if no record is chosen, or if a run is at the path; OSError if it cannot be written.
+    """
+    path, records = Path(path), sampling.records(result.time)
+    check_is_no_run(path)
+    # made in memory: on a full disk HDF5 would end the whole process
+    with h5py.File("channels", "w", driver="core", backing_store=False) as file:
+        _set_text(file, "format", FORMAT)
+        for name, channel in result.channels.items():
+            _put(file, f"channels/{name}", channel.values[records], channel.unit, channel.meaning)
+        for pin, onsets in result.onsets.items():
+            _put_onsets(file.create_group(f"onsets/{pin}"), onsets, result.largest_force[pin])
+        for name, said in _texts(result).items():
+            text = json.dumps(said)  # in ASCII
+            file.create_dataset(f"json/{name}", data=np.bytes_(text.encode("ascii")))
+        file.flush()
+        image = file.id.get_file_image()
+    with whole_file(path) as temporary:
+        temporary.write_bytes(image)
+    return (path,)
 
 
 def columns_of(result: Result) -> dict[str, Series]:
@@ -21,17 +96,31 @@ def columns_of(result: Result) -> dict[str, Series]:
     return {f"{name} [{result.unit(name) or '1'}]": result[name] for name in names}
 
 
-def write_csv(result: Result, path: Path, records: Sequence[int], progress: Progress) -> None:
-    """A row of names with units, then a row per record.
+def _texts(result: Result) -> Mapping[str, Any]:
+    """What else is known of a run, by name."""
+    return {
+        "scenario": result.scenario.to_data(),
+        "provenance": dict(result.provenance),
+        "counts": asdict(result.counts),
+        "impulses": [asdict(impulse) for impulse in result.impulses],
+    }
 
-    Numbers have as many digits as tell them apart from all others: reading gives the same bits.
-    """
-    check_is_no_run(path)
-    columns = columns_of(result)
-    with whole_file(path) as temporary, temporary.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(columns)
-        for start in range(0, len(records), AT_ONCE):
-            chosen = list(records[start : start + AT_ONCE])
-            writer.writerows(zip(*(column[chosen].tolist() for column in columns.values()), strict=True))
-            progress(min(1.0, (start + AT_ONCE) / len(records)))
+
+def _put_onsets(group: h5py.Group, onsets: Sequence[Onset], largest_force: float) -> None:
+    columns = np.array(onsets, dtype=np.float64).reshape(-1, len(Onset._fields)).T
+    for field, values in zip(Onset._fields, columns, strict=True):
+        _put(group, field, values, *ONSET_COLUMNS[field])
+    group.attrs["largest_force_N"] = largest_force
+
+
+def _put(group: h5py.Group, name: str, values: np.ndarray, unit: str, meaning: str) -> None:
+    data = group.create_dataset(name, data=np.ascontiguousarray(values, dtype=np.float64))
+    _set_text(data, "unit", unit or "1")
+    _set_text(data, "meaning", meaning)
+
+
+def _set_text(where: Any, name: str, text: str) -> None:
+    """An attribute of fixed length, which all readers know."""
+    data = text.encode("utf-8")
+    encoding = "ascii" if text.isascii() else "utf-8"
+    where.attrs.create(name, np.array(data), dtype=h5py.string_dtype(encoding, max(1, len(data))))

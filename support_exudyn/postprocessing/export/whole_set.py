@@ -16,10 +16,7 @@ RUN = b"support_exudyn result "  # as files of runs begin, see `simulation.resul
 
 @contextmanager
 def whole_set(
-    folder: Path,
-    files: Sequence[str],
-    indexes: Sequence[str],
-    stale: Collection[str] = (),
+    folder: Path, files: Sequence[str], indexes: Sequence[str], stale: Collection[str] = ()
 ) -> Iterator[Path]:
     """A temporary folder to write files to; they take their places in `folder` if nothing goes wrong.
 

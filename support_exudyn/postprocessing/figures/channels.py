@@ -13,11 +13,10 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import StrMethodFormatter
 
 from support_exudyn.postprocessing.figures import style, units
-from support_exudyn.postprocessing.figures.caption import caption
 from support_exudyn.postprocessing.figures.journal import Series, loose_pins
-from support_exudyn.postprocessing.figures.names import matching
+from support_exudyn.postprocessing.figures.selection import inside, matching, said, spacing
+from support_exudyn.postprocessing.figures.style import caption
 from support_exudyn.postprocessing.figures.units import Unit, readable
-from support_exudyn.postprocessing.figures.windows import inside, said, spacing
 from support_exudyn.simulation.estimate import believed, multiple
 from support_exudyn.simulation.reported_numbers import ROUNDING
 from support_exudyn.simulation.result import Result

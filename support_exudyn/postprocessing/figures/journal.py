@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from support_exudyn.mechanics.contact_state import Onset
-from support_exudyn.postprocessing.figures.windows import inside
+from support_exudyn.postprocessing.figures.selection import inside
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError, short
 

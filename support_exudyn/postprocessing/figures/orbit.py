@@ -10,10 +10,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from support_exudyn.postprocessing.figures import style, units
-from support_exudyn.postprocessing.figures.caption import caption
 from support_exudyn.postprocessing.figures.journal import Journal, journal, pieces, shortest_touch
+from support_exudyn.postprocessing.figures.selection import said
+from support_exudyn.postprocessing.figures.style import caption
 from support_exudyn.postprocessing.figures.units import Unit, readable
-from support_exudyn.postprocessing.figures.windows import said
 from support_exudyn.simulation.result import Result
 
 CORNERS = 181  # of the clearance circle

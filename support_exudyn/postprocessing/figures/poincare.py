@@ -14,11 +14,11 @@ from matplotlib.figure import Figure
 from support_exudyn.model.drives.drive import Drive, Held, Reciprocating, Steady
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.postprocessing.figures import style, units
-from support_exudyn.postprocessing.figures.caption import caption
 from support_exudyn.postprocessing.figures.journal import Journal, Series, journal, loose_pins
 from support_exudyn.postprocessing.figures.orbit import draw_circle
+from support_exudyn.postprocessing.figures.selection import SLACK, inside, said, spacing
+from support_exudyn.postprocessing.figures.style import caption
 from support_exudyn.postprocessing.figures.units import DEGREES, Unit, readable
-from support_exudyn.postprocessing.figures.windows import SLACK, inside, said, spacing
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError, short
@@ -87,12 +87,7 @@ def periodic_times(result: Result, phase: float = 0.0, start: float = 0.0, until
 
 
 def stroboscopic(
-    result: Result,
-    first: str,
-    second: str,
-    phase: float = 0.0,
-    start: float = 0.0,
-    until: float = math.inf,
+    result: Result, first: str, second: str, phase: float = 0.0, start: float = 0.0, until: float = math.inf
 ) -> Section:
     """Two channels once in every period of the drive, straight between records.
 

@@ -11,10 +11,10 @@ from matplotlib.figure import Figure
 from scipy import signal
 
 from support_exudyn.postprocessing.figures import style, units
-from support_exudyn.postprocessing.figures.caption import caption
 from support_exudyn.postprocessing.figures.journal import Series, chosen_pin, shortest_touch
+from support_exudyn.postprocessing.figures.selection import inside, said
+from support_exudyn.postprocessing.figures.style import caption
 from support_exudyn.postprocessing.figures.units import readable
-from support_exudyn.postprocessing.figures.windows import inside, said
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
 

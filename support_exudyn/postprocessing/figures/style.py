@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Any
@@ -31,6 +32,8 @@ CURVES: tuple[tuple[str, Dashes], ...] = (
     (IDEAL, (0, (1, 1))),
     (PAPER, (0, (8, 1, 1, 1, 1, 1))),
 )
+CAPTION = 7  # size of the letters of a caption [points]
+LETTER_MM = 1.3  # width of one of them, of a line that has many wide ones
 STYLE: dict[Any, Any] = {
     "font.family": "sans-serif",
     "font.size": 9,
@@ -59,6 +62,13 @@ def look() -> AbstractContextManager[None]:
 def size(width_mm: float, height_mm: float) -> tuple[float, float]:
     """Size of a figure in the inches that matplotlib wants."""
     return width_mm / 25.4, height_mm / 25.4
+
+
+def caption(drawing: Figure, text: str) -> None:
+    """Write a text below all panels, in lines as long as the figure is wide."""
+    width_mm = 25.4 * float(drawing.get_figwidth())
+    lines = textwrap.fill(text, int((width_mm - 6.0) / LETTER_MM))
+    drawing.supxlabel(lines, fontsize=CAPTION, x=0.01, ha="left", linespacing=1.3)
 
 
 def save(drawing: Figure, out: Path, name: str, *, pdf: bool = True) -> list[Path]:

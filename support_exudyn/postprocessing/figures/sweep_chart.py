@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from support_exudyn.postprocessing.figures import style
-from support_exudyn.postprocessing.figures.caption import caption
+from support_exudyn.postprocessing.figures.style import caption
 from support_exudyn.postprocessing.figures.units import readable_change
 from user_forces.values import units as quantity
 from user_forces.values.units import Unit as Written

@@ -16,11 +16,7 @@ class Unit(NamedTuple):
 ROUNDED = 1.0 - 1e-9  # so that a thousandth of something is read as that whichever way it was rounded
 LITTLE = 1e-3  # share of a quantity, in whose unit a smaller change is told
 DEGREES = 180.0 / math.pi
-ANGLES = {
-    "rad": Unit("deg", DEGREES),
-    "rad/s": Unit("deg/s", DEGREES),
-    "rad/s^2": Unit("deg/s²", DEGREES),
-}
+ANGLES = {"rad": Unit("deg", DEGREES), "rad/s": Unit("deg/s", DEGREES), "rad/s^2": Unit("deg/s²", DEGREES)}
 FLOW = Unit("l/min", 6e4)
 QUANTITIES = {
     "s": "time", "m": "length", "m/s": "speed", "N": "force", "N m": "moment", "J": "energy",

@@ -15,7 +15,7 @@ from support_exudyn.postprocessing.figures.journal import pieces
 from support_exudyn.postprocessing.figures.style import CONTACT, FLIGHT, IDEAL
 from support_exudyn.postprocessing.look.solid import COLOURS, Role
 from support_exudyn.postprocessing.render.pin_view import Bore, PinView
-from support_exudyn.postprocessing.render.sheet import FAINT, INK, RULE, Box, Point, Sheet
+from support_exudyn.postprocessing.render.sheet import FAINT, INK, RULE, SMALLEST_FONT, Box, Point, Sheet
 
 SHOWN = 0.2  # clearance in the picture, of the bore's radius, at least
 RING = 1.2  # radius of what is drawn about the bore, of the bore's
@@ -167,7 +167,8 @@ class Strip:
         axes.xaxis.set_major_formatter(lambda x, _: f"{x:.6g}")
         axes.yaxis.set_major_formatter(lambda y, _: said(y))
         axes.spines[:].set_visible(False)
-        axes.tick_params(labelsize=12 * u, labelcolor=FAINT, color=FAINT, pad=4 * u, width=u)
+        small = max(SMALLEST_FONT, 12 * u)
+        axes.tick_params(labelsize=small, labelcolor=FAINT, color=FAINT, pad=4 * u, width=u)
         axes.tick_params("y", length=0.0)
         axes.tick_params("x", length=4 * u)
         axes.grid(axis="y", color=RULE, lw=max(1.0, u))
@@ -177,7 +178,7 @@ class Strip:
             axes.legend(
                 handles=[Patch(fc=CONTACT, label="contact"), Patch(fc=FLIGHT, label="free flight")],
                 loc="center left", bbox_to_anchor=(left + sheet.width(name) + 12 * u, top - 13 * u), ncols=2,
-                bbox_transform=sheet.axes.transData, frameon=False, fontsize=13 * u, handlelength=1.4,
+                bbox_transform=sheet.axes.transData, frameon=False, fontsize=small, handlelength=1.4,
                 handleheight=0.3, handletextpad=0.5, columnspacing=1.5, labelcolor=INK,
             )  # fmt: skip
         if self._peak > self._top:

@@ -45,11 +45,7 @@ def differing_versions(result: Result) -> list[str]:
 
 
 def open_viewer(
-    result: Result,
-    *,
-    solution: str | Path | None = None,
-    every: int | None = None,
-    name: str = "",
+    result: Result, *, solution: str | Path | None = None, every: int | None = None, name: str = ""
 ) -> None:
     """Open Exudyn's solution viewer on a run; returns when its user closes it.
 
@@ -122,11 +118,7 @@ class Window:
 
 @contextmanager
 def window(
-    result: Result,
-    *,
-    solution: str | Path | None = None,
-    name: str = "",
-    size: tuple[int, int] = WINDOW,
+    result: Result, *, solution: str | Path | None = None, name: str = "", size: tuple[int, int] = WINDOW
 ) -> Iterator[Window]:
     """The engine's window on a run while the block runs.
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from support_exudyn import Result
-from support_exudyn.postprocessing.figures.windows import inside, said, spacing
+from support_exudyn.postprocessing.figures.selection import inside, said, spacing
 from tests import synthetic
 from tests.cases.run_cases import support
 from user_forces import InputError

@@ -1,17 +1,42 @@
-"""A piece of a run between two times."""
+"""What of a run is looked at: channels by names and patterns, and a piece between two times."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Collection, Sequence
+from difflib import get_close_matches
+from fnmatch import fnmatchcase
 
 import numpy as np
 import numpy.typing as npt
 
 from support_exudyn.simulation.result import Result
-from user_forces.values.value import InputError
+from user_forces.values.value import InputError, short
 
 SLACK = 1e-9  # [s], of times that were computed as sums of steps
 FEWEST = 2  # records that make a line
+
+
+def matching(names: Collection[str], patterns: Sequence[str]) -> list[str]:
+    """The names that any of the patterns matches, in the order of the patterns; time is not among them.
+
+    Arguments:
+        names: of channels.
+        patterns: names, or patterns of them as in a shell, such as "pin.*.force".
+
+    Raises InputError for a pattern that matches none.
+    """
+    found: list[str] = []
+    for pattern in patterns:
+        matched = [name for name in names if name != "time" and fnmatchcase(name, pattern)]
+        if not matched:
+            near = get_close_matches(pattern, names, 4, 0.4) or sorted(names)[:4]
+            raise InputError(
+                f"{short(pattern)}: no such channel; allowed: names or patterns such as 'pin.*.force', of the "
+                f"{len(names)} that the run has, among them {', '.join(near)}"
+            )
+        found += [name for name in matched if name not in found]
+    return found
 
 
 def inside(result: Result, start: float, until: float, fewest: int = FEWEST) -> npt.NDArray[np.bool_]:

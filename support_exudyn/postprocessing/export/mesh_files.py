@@ -1,0 +1,230 @@
+"""Moving meshes of a run for other programs: XDMF with HDF5, and VTU with PVD, by meshio.
+
+Everything is in SI; names of fields end in their unit. What is written are records of the run with their times,
+nothing between them.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+import h5py
+import meshio
+from meshio.xdmf import TimeSeriesWriter
+
+from support_exudyn.files.whole_file import contents
+from support_exudyn.formulations.progress import Progress, silent
+from support_exudyn.postprocessing.export.meshes import MeshSeries, meshes_of, write_names
+from support_exudyn.postprocessing.export.sampling import Sampling
+from support_exudyn.postprocessing.export.whole_set import whole_set
+from support_exudyn.simulation.result import Result
+from user_forces.values.value import InputError
+
+MESHES = Sampling(frames_per_second=25.0)
+MOST_VALUES = 500_000_000  # in the HDF5 file of an XDMF; 4 GB before compression
+LARGEST_INDEX = 1_000_000_000  # bytes
+COMPRESSION: dict[str, Any] = {"compression": "gzip", "compression_opts": 4, "shuffle": True}
+
+
+def to_xdmf(
+    result: Result, path: str | Path, sampling: Sampling = MESHES, progress: Progress = silent
+) -> tuple[Path, ...]:
+    """The machine and its pins as XDMF with HDF5, for ParaView's "XDMF Reader" and meshio.
+
+    For a path `rise.xdmf` the files are, in one folder,
+
+        rise.xdmf       the machine: a triangle mesh whose points move. Data of points: velocity_m_s, and
+                        displacement_m since the first step. Of triangles: body and role.
+        rise_pins.xdmf  the pins as points: force_N of the first body on the second, force_magnitude_N, depth_m
+                        (negative: gap), slip_m_s, pin, loose (1 or 0). Of an ideal pin depth and slip are NaN.
+                        A loose pin is at its journal's centre. In the plane a pin stands for those of a pair.
+        rise_mesh.h5    the numbers of both, to which they refer by this name
+        rise_names.csv  what the numbers body, role and pin stand for
+
+    ParaView moves the points itself. meshio's TimeSeriesReader gives those of the first step, to which
+    displacement_m is to be added.
+
+    Arguments:
+        result: the run; it has recorded where its bodies are and how fast they move, and forces, depths and
+            slips of its pins.
+        path: ends in ".xdmf".
+        sampling: which records are written.
+        progress: is told the share that is done.
+
+    Returns the paths of what was written, the machine's first.
+
+    Raises InputError if a channel is missing, no record is chosen, they take too much memory, or the path ends
+    otherwise; OSError if it cannot be written. After an error or an interruption nothing has changed.
+    """
+    path = Path(path)
+    if path.suffix != ".xdmf":
+        raise InputError(f"path = {str(path)!r}: allowed: names that end in .xdmf, by which readers know it")
+    if ":" in path.stem:
+        raise InputError(
+            f"path = {str(path)!r}: allowed: names without ':', at which readers of XDMF part the name of the "
+            "HDF5 file from the place in it; VTU, CSV and HDF5 can have it"
+        )
+    records = sampling.records(result.time)
+    series = meshes_of(result, records[0])
+    store, table = f"{path.stem}_mesh.h5", f"{path.stem}_names.csv"
+    indexes = [f"{path.stem}.xdmf", f"{path.stem}_pins.xdmf"][: len(series)]
+    _check_room(series, len(records))
+    earlier = f"{path.stem}_pins.xdmf"  # which an earlier export of another machine may have left
+    stale = {earlier} if refers(path.parent / earlier, store) else set()
+    with whole_set(path.parent, (store, table), indexes, stale) as folder:
+        # made in memory: on a full disk HDF5 would end the whole process
+        with h5py.File(store, "w", driver="core", backing_store=False) as file:
+            writers = [MovingMeshWriter(mesh, file, store) for mesh in series]
+            for step, record in enumerate(records):
+                for writer in writers:
+                    writer.write_step(float(result.time[record]), record)
+                progress((step + 1) / len(records))
+            file.flush()
+            (folder / store).write_bytes(file.id.get_file_image())
+        write_names(folder / table, series)
+        for writer, index in zip(writers, indexes, strict=True):
+            writer.write_index(folder / index)
+    return tuple(path.parent / name for name in (*indexes, store, table))
+
+
+def to_vtu(
+    result: Result, folder: str | Path, sampling: Sampling = MESHES, progress: Progress = silent
+) -> tuple[Path, ...]:
+    """The machine and its pins as a VTU file per step, with PVD files that tell their times, for ParaView.
+
+    In the folder: machine.pvd and pins.pvd, which ParaView opens; machine_00000.vtu and so on; names.csv.
+    Fields are those of `to_xdmf`. Steps of an earlier export are replaced, and removed if they were more; other
+    files stay.
+
+    Arguments and errors as with `to_xdmf`. Returns the paths of the PVD files, then of the table and the steps.
+    """
+    folder = Path(folder)
+    records = sampling.records(result.time)
+    series = meshes_of(result, records[0])
+    steps = {mesh.name: [f"{mesh.name}_{step:05d}.vtu" for step in range(len(records))] for mesh in series}
+    files = ["names.csv", *(name for of_mesh in steps.values() for name in of_mesh)]
+    indexes = [f"{mesh.name}.pvd" for mesh in series]
+    stale = earlier_steps(folder, "machine") | earlier_steps(folder, "pins")
+    with whole_set(folder, files, indexes, stale) as temporary:
+        for step, record in enumerate(records):
+            for mesh in series:
+                write_step(temporary / steps[mesh.name][step], mesh, record)
+            progress((step + 1) / len(records))
+        write_names(temporary / "names.csv", series)
+        times = [float(time) for time in result.time[records]]
+        for mesh in series:
+            write_index(temporary / f"{mesh.name}.pvd", steps[mesh.name], times)
+    return tuple(folder / name for name in (*indexes, *files))
+
+
+def _check_room(series: list[MeshSeries], steps: int) -> None:
+    """Raise InputError if so many steps do not fit into memory."""
+    values = sum(mesh.values_per_step for mesh in series)
+    if steps * values > MOST_VALUES:
+        raise InputError(
+            f"{steps} steps of {values} numbers each: allowed in one XDMF file: {MOST_VALUES:g} numbers, "
+            f"here {MOST_VALUES // values} steps; choose fewer frames a second or a shorter time, or VTU"
+        )
+
+
+# --- XDMF ---
+
+
+def refers(path: Path, store: str) -> bool:
+    """Whether a file is one of `MovingMeshWriter`, whose data are in the HDF5 file of this name."""
+    try:
+        return f">{store}:/".encode() in contents(path, LARGEST_INDEX)
+    except (OSError, InputError):
+        return False
+
+
+class MovingMeshWriter(TimeSeriesWriter):  # type: ignore[misc]  # meshio has no types
+    """Writes a mesh whose points move; cells and what stays is written once.
+
+    meshio's own writes the points once. Each step here is a whole grid with its points, so that it moves in
+    ParaView without a filter; the cells and constant data of all steps are the same data set.
+
+    Arguments:
+        series: the mesh.
+        store: file to which its data go, open.
+        store_name: name by which the XDMF file refers to it, of the same folder.
+    """
+
+    def __init__(self, series: MeshSeries, store: h5py.File, store_name: str) -> None:
+        super().__init__(f"{series.name}.xdmf")
+        self.collection.set("Name", series.name)
+        self.series = series
+        self.h5_file = store
+        self.h5_filename = store_name
+        self._constants: list[ElementTree.Element] = []
+
+    def write_step(self, time: float, record: int) -> None:
+        """Write the mesh at a record, whose time [s] this is."""
+        series, frame = self.series, self.series.frame(record)
+        grid = ElementTree.SubElement(self.collection, "Grid", Name=series.name, GridType="Uniform")
+        ElementTree.SubElement(grid, "Time", Value=repr(time))
+        if self._constants:
+            grid.extend(self._constants)
+        else:
+            self.cells([(series.cell_type, series.cells)], grid)
+            self.point_data(dict(series.point_constants), grid)
+            self.cell_data({name: [data] for name, data in series.cell_constants.items()}, grid)
+            self._constants = list(grid)[1:]
+        self.points(grid, frame.points)
+        self.point_data(dict(frame.data), grid)
+
+    def numpy_to_xml_string(self, data: Any) -> str:
+        """Put data into the HDF5 file; returns where they are."""
+        name = f"{self.series.name}/data{self.data_counter}"
+        self.data_counter += 1
+        self.h5_file.create_dataset(name, data=data, **COMPRESSION)
+        return f"{self.h5_filename}:/{name}"
+
+    def write_index(self, path: Path) -> None:
+        """Write the XML of all steps so far."""
+        write_xml(path, self.xdmf_file)
+
+
+# --- VTU ---
+
+
+def write_step(path: Path, series: MeshSeries, record: int) -> None:
+    """Write the mesh at a record as VTU."""
+    frame = series.frame(record)
+    meshio.Mesh(
+        frame.points,
+        [(series.cell_type, series.cells)],
+        point_data={**series.point_constants, **frame.data},
+        cell_data={name: [data] for name, data in series.cell_constants.items()},
+    ).write(path, file_format="vtu")
+
+
+def earlier_steps(folder: Path, series: str) -> set[str]:
+    """Files of an earlier export, as the index of a series names them; none if there is no such index."""
+    index = f"{series}.pvd"
+    try:
+        text = contents(folder / index, LARGEST_INDEX).decode("utf-8", "replace")
+    except (OSError, InputError):
+        return set()
+    steps = re.findall(rf'file="({series}_\d{{5,}}\.vtu)"', text)
+    return {index, *steps} if steps else set()
+
+
+def write_index(path: Path, files: Sequence[str], times: Sequence[float]) -> None:
+    """Write a PVD file: which file of its folder is of which time [s]."""
+    root = ElementTree.Element("VTKFile", type="Collection", version="0.1")
+    collection = ElementTree.SubElement(root, "Collection")
+    for file, time in zip(files, times, strict=True):
+        ElementTree.SubElement(collection, "DataSet", timestep=repr(time), part="0", file=file)
+    write_xml(path, root)
+
+
+def write_xml(path: Path, root: ElementTree.Element) -> None:
+    """Write XML in lines that can be read."""
+    tree = ElementTree.ElementTree(root)
+    ElementTree.indent(tree, " ")
+    tree.write(path, encoding="utf-8", xml_declaration=True)
