@@ -1,1 +1,1 @@
-"""What is made of a finished run: figures, frames and movies, the viewer, files for other programs, a summary."""
+"""What is made of a finished run: figures, frames, movies, the viewer, files for other programs, a summary."""

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import partial
 
 import numpy as np
-from shapely.geometry import MultiPolygon, Point, Polygon
+from shapely.geometry import MultiPolygon, Point, Polygon, box
 from shapely.ops import unary_union
 from trimesh import Trimesh
 
@@ -49,13 +50,10 @@ class _Support:
         self.on_second: dict[str, Vector2] = {name: pin.second_point for name, pin in linkage.pins.items()}
         self.columns = {name: column for name, column in linkage.columns.items() if column.driven}
         self.jacks = {name: column for name, column in linkage.columns.items() if not column.driven}
-        feet = [self.columns[name].foot_point for name in self._standing()]
+        self.standing = standing(scenario)  # on the base
+        feet = [self.columns[name].foot_point for name in self.standing]
         lowest = min(y for _, y in (*feet, self.on_first["rear_base"], self.on_first["front_base"]))
         self.floor = lowest - UNDER * self.sizes.length
-
-    def _standing(self) -> tuple[str, ...]:
-        """Columns that stand on the base."""
-        return standing(self.scenario)
 
     def _beside(self, name: str) -> float:
         """Half the distance of both columns of a pair [m]."""
@@ -88,33 +86,28 @@ class _Support:
         """Two skids, a bridge between them, plates that carry the links, and sockets of the columns."""
         s, floor = self.sizes, self.floor
         rear, front = self.on_first["rear_base"], self.on_first["front_base"]
-        feet = {name: self.columns[name].foot_point for name in self._standing()}
+        feet = {name: self.columns[name].foot_point for name in self.standing}
         top = floor + 0.85 * (min(y for _, y in feet.values()) - floor)
         left = min(rear[0], front[0], *(x for x, _ in feet.values())) - 2.4 * s.eye
         right = max(rear[0], front[0], *(x for x, _ in feet.values())) + 2.6 * s.column
         high = top - floor
         skid = Polygon(
             [
-                (left, floor + 0.25 * high),
-                (left + 0.4 * high, floor),
-                (right - 0.8 * high, floor),
-                (right, floor + 0.55 * high),
-                (right, floor + 0.85 * high),
-                (right - 0.3 * high, top),
+                (left, floor + 0.25 * high), (left + 0.4 * high, floor), (right - 0.8 * high, floor),
+                (right, floor + 0.55 * high), (right, floor + 0.85 * high), (right - 0.3 * high, top),
                 (left, top),
             ]
-        )
+        )  # fmt: skip
         wide = s.base - 0.35 * max(s.columns - s.column, 0.2 * s.base)
-        bridge = _box(left + 0.2 * high, max(rear[0], front[0]) + s.eye, floor + 0.3 * high, top)
+        bridge = box(left + 0.2 * high, floor + 0.3 * high, max(rear[0], front[0]) + s.eye, top)
         ends = [(min(rear[0], front[0]) - 1.6 * s.eye, top), (max(rear[0], front[0]) + 2.2 * s.eye, top)]
         bracket = _round([(rear, 1.15 * s.eye), (front, 1.15 * s.eye), *((end, 0.3 * high) for end in ends)])
-        parts = [plate(skid, side * (s.base - 0.5 * wide), wide) for side in SIDES.values()]
-        parts.append(plate(bridge, 0.0, 2.0 * (s.base - 0.5 * wide)))
-        parts += [plate(bracket, side * s.bracket, s.plate) for side in SIDES.values()]
+        parts = [*_both(skid, s.base - 0.5 * wide, wide), plate(bridge, 0.0, 2.0 * (s.base - 0.5 * wide))]
+        parts += _both(bracket, s.bracket, s.plate)
         inner = s.front_links - 0.5 * s.front_link - (0.5 + 0.1) * s.plate
         if inner > 0.5 * s.plate:  # the other plate of the front links' clevis
             clevis = _round([(front, 1.15 * s.eye), ((front[0], top), s.eye)])
-            parts += [plate(clevis, side * inner, s.plate) for side in SIDES.values()]
+            parts += _both(clevis, inner, s.plate)
         for name, (x, y) in feet.items():
             for side in SIDES.values():
                 z = side * self._beside(name)
@@ -127,7 +120,7 @@ class _Support:
         cheeks = bar(a, b, s.eye)
         web = bar(_between(a, b, 0.22), _between(a, b, 0.78), 0.7 * s.eye)
         wide = 0.3 * s.rear_link
-        beams = [plate(cheeks, side * 0.5 * (s.rear_link - wide), wide) for side in SIDES.values()]
+        beams = _both(cheeks, 0.5 * (s.rear_link - wide), wide)
         return together([*beams, plate(web, 0.0, s.rear_link - wide)])
 
     def _front_links(self) -> Iterator[Solid]:
@@ -147,17 +140,16 @@ class _Support:
         high = _off(_between(rear, hinge, 0.8), back, 1.2 * s.eye)
         eyes = [(rear, 1.1 * s.eye), (front, 1.1 * s.eye), (hinge, 1.1 * s.eye)]
         cheek = _round([*eyes, (low, 0.4 * s.eye), (high, 0.4 * s.eye)])
-        box = bar(_between(rear, hinge, 0.5), _between(rear, hinge, 0.86), 0.75 * s.eye)
-        parts = [plate(cheek, side * s.cheek, s.plate) for side in SIDES.values()]
+        beam = bar(_between(rear, hinge, 0.5), _between(rear, hinge, 0.86), 0.75 * s.eye)
         inside = 2.0 * s.cheek - 0.5 * s.plate
-        parts += self._lugs(rear, hinge)
-        return together([*parts, plate(bar(low, high, 0.4 * s.eye), 0.0, inside), plate(box, 0.0, inside)])
+        covers = [plate(bar(low, high, 0.4 * s.eye), 0.0, inside), plate(beam, 0.0, inside)]
+        return together([*_both(cheek, s.cheek, s.plate), *self._lugs(rear, hinge), *covers])
 
     def _lugs(self, rear: Vector2, hinge: Vector2) -> list[Trimesh]:
         """Plates of the shield beam that carry the feet of rams, on both sides of each."""
         s, found = self.sizes, []
         for name, column in self.columns.items():
-            if name in self._standing():
+            if name in self.standing:
                 continue
             share, _ = parts_of(minus(column.foot_point, rear), minus(hinge, rear))
             root = _between(rear, hinge, min(0.9, max(0.1, share)))
@@ -183,21 +175,16 @@ class _Support:
         front = max(tip[0], last + s.eye)
         beam = Polygon(
             [
-                (rear, top),
-                (front, top),
-                (front, top - 0.35 * high),
-                (last + 0.35 * (front - last), bottom),
-                (rear + high, bottom),
-                (rear, top - 0.5 * high),
+                (rear, top), (front, top), (front, top - 0.35 * high), (last + 0.35 * (front - last), bottom),
+                (rear + high, bottom), (rear, top - 0.5 * high),
             ]
-        )
-        rib = _box(rear + 1.4 * high, last, bottom - 0.45 * s.eye, bottom + 0.3 * high)
+        )  # fmt: skip
+        rib = box(rear + 1.4 * high, bottom - 0.45 * s.eye, last, bottom + 0.3 * high)
         parts = [plate(beam, 0.0, 2.0 * s.roof), plate(rib, 0.0, 1.1 * s.columns)]
         lug = _round([(hinge, s.eye), ((hinge[0] - 0.3 * s.eye, bottom + 0.2 * high), 1.1 * s.eye)])
-        lug = lug.intersection(_box(rear - s.eye, front, hinge[1] - 2.0 * s.eye, top - 0.2 * high))
+        lug = lug.intersection(box(rear - s.eye, hinge[1] - 2.0 * s.eye, front, top - 0.2 * high))
         for inset in (1.3, 5.0):
-            z = s.cheek - inset * s.plate
-            parts += [plate(lug, side * z, s.plate) for side in SIDES.values()]
+            parts += _both(lug, s.cheek - inset * s.plate, s.plate)
         for name, (x, y) in pairs.items():
             for side in SIDES.values():
                 z = side * self._beside(name)
@@ -233,8 +220,7 @@ class _Support:
         cheek = _round([(near, 0.8 * s.eye), (far, 0.35 * s.eye), (low, 0.3 * s.eye), (high, 0.35 * s.eye)])
         cover = bar(low, high, 0.3 * s.eye)
         z = s.cheek - (1.0 + 0.2) * s.plate  # between those of the shield beam
-        parts = [plate(cheek, side * z, s.plate) for side in SIDES.values()]
-        return together([*parts, plate(cover, 0.0, 2.0 * z)])
+        return together([*_both(cheek, z, s.plate), plate(cover, 0.0, 2.0 * z)])
 
     # --- pins ---
 
@@ -249,30 +235,24 @@ class _Support:
             body, centre = pin.journal.body, pin.journal.point[:2]
             end = reach.get(name, s.cheek) + out
             if body == "front_link":
-                yield from self._of_pair(
-                    body, Role.PIN, self._short_pin(centre, end), s.front_links, f"pin_{name}"
-                )
+                inner = s.front_links - 0.5 * s.front_link - 1.2 * s.plate
+                short = partial(_short_pin, centre, inner, end, s.pin)
+                yield from self._of_pair(body, Role.PIN, short, s.front_links, f"pin_{name}")
             else:
                 yield Solid(f"pin_{name}", body, Role.PIN, _rod(centre, -end, end, s.pin))
-
-    def _short_pin(self, centre: Vector2, end: float) -> Callable[[float], Trimesh]:
-        """Through one front link and the plates beside it, by where this stands."""
-        s = self.sizes
-        inner = s.front_links - 0.5 * s.front_link - 1.2 * s.plate
-        return lambda z: _rod(centre, math.copysign(inner, z), math.copysign(end, z), s.pin)
 
     # --- columns ---
 
     def _stroke(self, name: str, column: Column) -> tuple[float, float]:
         """The shortest and the longest that it becomes [m], as its drive says."""
-        drives = [self.scenario.drive_of(one) for one in self._names(name)]
+        space = self.scenario.dimensions == 3
+        drives = [
+            self.scenario.drive_of(one)
+            for one in (self.scenario.space.parts_of_column(name) if space else (name,))
+        ]
         spans = [drive.span(self.scenario.duration) for drive in drives]
         start = column.start_length
         return start + min(low for low, _ in spans), start + max(high for _, high in spans)
-
-    def _names(self, name: str) -> tuple[str, ...]:
-        """Of a column of the plane, as the channels say."""
-        return self.scenario.space.parts_of_column(name) if self.scenario.dimensions == 3 else (name,)
 
     def _meshes(self, name: str, column: Column) -> tuple[Trimesh, Trimesh]:
         shortest, longest = self._stroke(name, column)
@@ -281,7 +261,7 @@ class _Support:
 
     def _radius(self, name: str) -> float:
         """Of a cylinder [m]; a ram's is smaller than that of a column on the base."""
-        return self.sizes.column if name in self._standing() else RAM * self.sizes.column
+        return self.sizes.column if name in self.standing else RAM * self.sizes.column
 
     def _struts(self, name: str, column: Column) -> Iterator[Strut]:
         """Both columns of a pair, or the jack in the middle."""
@@ -300,7 +280,7 @@ class _Support:
             (f"{name}_cylinder", Role.CYLINDER, cylinder, column.foot_point),
             (f"{name}_rod", Role.ROD, rod, column.head_point),
         ):
-            yield from self._of_pair(body, role, _placed(mesh, column, end), self._beside(name))
+            yield from self._of_pair(body, role, partial(_placed, mesh, column, end), self._beside(name))
 
     # --- bodies that there are two of ---
 
@@ -324,19 +304,26 @@ def canopy_top(scenario: Scenario) -> float:
     return max(linkage.points["tip"].point[1], highest + 1.5 * s.eye)
 
 
-def _placed(mesh: Trimesh, column: Column, end: Vector2) -> Callable[[float], Trimesh]:
-    """A surface along a column from one of its ends, by where it stands beside the plane."""
+def _placed(mesh: Trimesh, column: Column, end: Vector2, z: float) -> Trimesh:
+    """A surface along a column from one of its ends, where it stands beside the plane."""
     (x, y), (u, v) = column.foot_point, column.head_point
     length = math.hypot(u - x, v - y)
     c, s = (u - x) / length, (v - y) / length
+    placed: Trimesh = mesh.copy()
+    placed.apply_transform(
+        np.array([[c, -s, 0.0, end[0]], [s, c, 0.0, end[1]], [0.0, 0.0, 1.0, z], [0.0, 0.0, 0.0, 1.0]])
+    )
+    return placed
 
-    def at_side(z: float) -> Trimesh:
-        turn = np.array([[c, -s, 0.0, end[0]], [s, c, 0.0, end[1]], [0.0, 0.0, 1.0, z], [0.0, 0.0, 0.0, 1.0]])
-        placed: Trimesh = mesh.copy()
-        placed.apply_transform(turn)
-        return placed
 
-    return at_side
+def _both(outline: Polygon, z: float, thickness: float) -> list[Trimesh]:
+    """Two plates of an outline, one on either side of the plane at a distance of it [m]."""
+    return [plate(outline, side * z, thickness) for side in SIDES.values()]
+
+
+def _short_pin(centre: Vector2, inner: float, end: float, radius: float, z: float) -> Trimesh:
+    """A pin through one front link and the plates beside it, by where this stands."""
+    return _rod(centre, math.copysign(inner, z), math.copysign(end, z), radius)
 
 
 def _rod(centre: Vector2, first: float, last: float, radius: float) -> Trimesh:
@@ -353,11 +340,6 @@ def _union(outlines: Iterable[Polygon]) -> Polygon:
     """Outlines that may overlap, as one; of several that do not, their hull."""
     whole = unary_union(list(outlines))
     return whole.convex_hull if isinstance(whole, MultiPolygon) else whole
-
-
-def _box(left: float, right: float, low: float, high: float) -> Polygon:
-    """A rectangle."""
-    return Polygon([(left, low), (right, low), (right, high), (left, high)])
 
 
 def _between(a: Vector2, b: Vector2, share: float) -> Vector2:
