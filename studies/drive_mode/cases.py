@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from studies.benchmarking.peers.ideal import peak_acceleration
+from studies.benchmarking.peers.stock import peak_acceleration
 from studies.common import paper_machine, rise
 from support_exudyn import CubicStep, Drive, Scenario, UniformSpeed
 

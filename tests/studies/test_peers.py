@@ -109,8 +109,6 @@ def test_what_is_not_covered_is_refused() -> None:
     rough = loose_support(1.5, 0.25, duration=0.01)
     with pytest.raises(InputError, match="friction"):
         run_built_in(rough, 1e-5)
-    with pytest.raises(InputError, match="adaptive"):
-        run_built_in(drop(), 1e-5, control="adaptive", contact="python")
     with pytest.raises(InputError, match="SliderCrank"):
         run_tree(drop(), 1e-6)
     with pytest.raises(InputError, match="concentric"):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 import exudyn
@@ -25,24 +25,33 @@ from exudyn.itemInterface import (
 
 from support_exudyn.machines.four_column_support import HydraulicSupport
 from support_exudyn.machines.slider_crank import SliderCrank
-from support_exudyn.model.linkage import GROUND, Body, Column, Linkage, Slide
+from support_exudyn.model.linkage import GROUND, Body, Linkage, Slide
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.contact import JournalContact
 from user_forces.values.value import InputError, Vector2
 
 
 @dataclass
-class Frame:
-    """Bodies, weights, ideal pins, columns, cranks and guides; to be assembled."""
+class BareScene:
+    """The model without its contact; to be assembled once that has been added.
+
+    container: owns the system, and must live as long as it. columns: the engine's objects and their lengths at
+    the start [m]. contact: of the loose pin, if there is one; bore, journal: markers of both its centres; link:
+    the body, not the ground or the slider, that it ends.
+    """
 
     scenario: Scenario
     linkage: Linkage
-    container: Any  # owns the system: must live as long as it
+    container: Any
     mbs: Any
     nodes: dict[str, Any]
-    columns: list[tuple[Any, float]]  # the engine's object and its length at the start [m]
+    columns: list[tuple[Any, float]]
     cranks: list[Any]
-    driven: float = field(default=0.0, kw_only=True)  # extension that the engine has [m] or [rad]
+    contact: Any = None
+    bore: Any = None
+    journal: Any = None
+    link: str = ""
+    driven: float = 0.0  # extension that the engine has [m] or [rad]
 
     def drive_to(self, t: float) -> None:
         """Set columns or cranks to where they are at time t [s]."""
@@ -59,25 +68,15 @@ class Frame:
         """Where a body's coordinates begin in the vector of all."""
         return int(self.mbs.systemData.GetNodeLTGODE2(self.nodes[body])[0])
 
-
-@dataclass
-class BareScene(Frame):
-    """The model without its contact; to be assembled once that has been added.
-
-    bore, journal: markers of both centres. link: the body, not the ground or the slider, that the pin ends.
-    """
-
-    contact: JournalContact
-    bore: Any
-    journal: Any
-    link: str
-
-    @property
-    def bore_on_ground(self) -> bool:
-        """Whether the bore's body is the ground."""
-        ((name, pin),) = self.scenario.clearance_pins.items()
-        place = self.linkage.pins[name]
-        return (place.first if pin.bore == "first" else place.second) == GROUND
+    def traced(self, positions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Places x, y [m] of the machine's traced point from the vectors of coordinates, one a row."""
+        (point,) = self.linkage.points.values()
+        body, first = self.linkage.bodies[point.body], self.first(point.body)
+        dx, dy = point.point[0] - body.centre[0], point.point[1] - body.centre[1]
+        c, s = np.cos(positions[:, first + 2]), np.sin(positions[:, first + 2])
+        x = body.centre[0] + positions[:, first] + c * dx - s * dy
+        y = body.centre[1] + positions[:, first + 1] + s * dx + c * dy
+        return x, y
 
 
 def loose_contact(scenario: Scenario) -> tuple[str, JournalContact, str]:
@@ -116,22 +115,6 @@ def start_velocities(machine: Any, speed: float) -> dict[str, tuple[float, float
     }
 
 
-def bare_scene(scenario: Scenario, aside: float = 0.0) -> BareScene:
-    """Bodies, weights, ideal pins, columns, crank and guide of a scenario, and markers for its loose pin.
-
-    aside: of the bore's centre from where it belongs, along x [m].
-    """
-    name, contact, bore_on = loose_contact(scenario)
-    return _Builder(scenario).build(name, contact, bore_on, aside)
-
-
-def ideal_frame(scenario: Scenario) -> Frame:
-    """The same of a scenario without loose pins."""
-    if scenario.clearance_pins or scenario.columns or scenario.loads or scenario.friction_pins:
-        raise InputError("a competitor with ideal pins takes rigid columns, no loads and no friction")
-    return _Builder(scenario).frame(None)
-
-
 class _Builder:
     def __init__(self, scenario: Scenario) -> None:
         self.scenario = scenario
@@ -166,13 +149,8 @@ class _Builder:
         local = [c * x + s * y, c * y - s * x, 0.0]
         return self.mbs.AddMarker(MarkerBodyRigid(bodyNumber=self.objects[body], localPosition=local))
 
-    def add_column(self, column: Column) -> tuple[Any, float]:
-        ends = [
-            self.marker(column.foot, column.foot_point),
-            self.marker(column.head, column.head_point),
-        ]
-        item = self.mbs.AddObject(ObjectConnectorDistance(markerNumbers=ends, distance=column.start_length))
-        return item, column.start_length
+    def pair(self, first: str, first_point: Vector2, second: str, second_point: Vector2) -> list[Any]:
+        return [self.marker(first, first_point), self.marker(second, second_point)]
 
     def add_crank(self, body: str) -> Any:
         fixed = self.mbs.AddNode(NodePointGround())
@@ -183,51 +161,50 @@ class _Builder:
         return self.mbs.AddObject(ObjectConnectorCoordinate(markerNumbers=markers))
 
     def add_slide(self, slide: Slide) -> None:
-        markers = [self.marker(slide.body, slide.point), self.marker(GROUND, slide.point)]
         along = slide.direction - self.linkage.bodies[slide.body].angle
         across = slide.direction + 0.5 * math.pi
         self.mbs.AddObject(
             ObjectJointPrismatic2D(
-                markerNumbers=markers,
+                markerNumbers=self.pair(slide.body, slide.point, GROUND, slide.point),
                 axisMarker0=[math.cos(along), math.sin(along), 0.0],
                 normalMarker1=[math.cos(across), math.sin(across), 0.0],
             )
         )
 
-    def frame(self, loose: str | None) -> Frame:
-        for name, place in self.linkage.pins.items():
+    def scene(self, loose: str = "") -> BareScene:
+        for name, pin in self.linkage.pins.items():
             if name != loose:
-                ends = [
-                    self.marker(place.first, place.first_point),
-                    self.marker(place.second, place.second_point),
-                ]
+                ends = self.pair(pin.first, pin.first_point, pin.second, pin.second_point)
                 self.mbs.AddObject(ObjectJointRevolute2D(markerNumbers=ends))
-        columns = [self.add_column(column) for column in self.linkage.columns.values()]
+        columns = []
+        for one in self.linkage.columns.values():
+            ends = self.pair(one.foot, one.foot_point, one.head, one.head_point)
+            item = ObjectConnectorDistance(markerNumbers=ends, distance=one.start_length)
+            columns.append((self.mbs.AddObject(item), one.start_length))
         cranks = [self.add_crank(crank.body) for crank in self.linkage.cranks.values()]
         for slide in self.linkage.slides.values():
             self.add_slide(slide)
-        return Frame(self.scenario, self.linkage, self.container, self.mbs, self.nodes, columns, cranks)
-
-    def build(self, loose: str, contact: JournalContact, bore_on: str, aside: float) -> BareScene:
-        frame = self.frame(loose)
-        place = self.linkage.pins[loose]
-        sides = [(place.first, place.first_point), (place.second, place.second_point)]
-        (bore_body, bore_point), (journal_body, journal_point) = sides if bore_on == "first" else sides[::-1]
-        return BareScene(
-            **vars(frame),
-            contact=contact,
-            bore=self.marker(bore_body, (bore_point[0] + aside, bore_point[1])),
-            journal=self.marker(journal_body, journal_point),
-            link=place.second,
-        )
+        return BareScene(self.scenario, self.linkage, self.container, self.mbs, self.nodes, columns, cranks)
 
 
-def traced(scene: BareScene, positions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """x, y [m] of the machine's traced point from the vectors of coordinates, one a row."""
-    (point,) = scene.linkage.points.values()
-    body, first = scene.linkage.bodies[point.body], scene.first(point.body)
-    dx, dy = point.point[0] - body.centre[0], point.point[1] - body.centre[1]
-    c, s = np.cos(positions[:, first + 2]), np.sin(positions[:, first + 2])
-    x = body.centre[0] + positions[:, first] + c * dx - s * dy
-    y = body.centre[1] + positions[:, first + 1] + s * dx + c * dy
-    return x, y
+def bare_scene(scenario: Scenario, aside: float = 0.0) -> BareScene:
+    """Bodies, weights, ideal pins, columns, crank and guide of a scenario, and markers for its loose pin.
+
+    aside: of the bore's centre from where it belongs, along x [m].
+    """
+    name, contact, bore_on = loose_contact(scenario)
+    builder = _Builder(scenario)
+    scene = builder.scene(name)
+    pin = scene.linkage.pins[name]
+    sides = [(pin.first, pin.first_point), (pin.second, pin.second_point)]
+    (bore_body, (x, y)), journal = sides if bore_on == "first" else sides[::-1]
+    scene.contact, scene.link = contact, pin.second
+    scene.bore, scene.journal = builder.marker(bore_body, (x + aside, y)), builder.marker(*journal)
+    return scene
+
+
+def ideal_scene(scenario: Scenario) -> BareScene:
+    """The model of a scenario without loose pins; raises InputError if it is not covered."""
+    if scenario.clearance_pins or scenario.columns or scenario.loads or scenario.friction_pins:
+        raise InputError("a competitor with ideal pins takes rigid columns, no loads and no friction")
+    return _Builder(scenario).scene()

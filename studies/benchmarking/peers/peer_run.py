@@ -1,52 +1,51 @@
-"""What a competitor's run gives, and how its touches are found afterwards."""
+"""What a competitor's run gives, how its touches are found afterwards, and what the competitors share."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from typing import Any
 
+import exudyn
 import numpy as np
 import numpy.typing as npt
+from exudyn.itemInterface import NodeGenericData, ObjectContactSphereSphere, SensorMarker
 
 from support_exudyn.formulations.engine_settings import quiet_engine
 from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.simulation.single_run import paused_collector
+from user_forces.contact import JournalContact
+from user_forces.normal.damping_speed import TouchSpeed
+from user_forces.normal.lankarani_nikravesh import LankaraniNikravesh
+from user_forces.values.value import InputError
 
 Series = npt.NDArray[np.float64]
+ASIDE = 1e-12  # of a bore from its journal, so that the engine's own contact has a normal [m]
 
 
 @dataclass(frozen=True)
 class PeerRun:
     """Outcome of a competitor's run; all series at the scenario's records.
 
-    time: [s]. force: magnitude in the loose pin [N]. angular_velocity, angular_acceleration: of the link that
-    the loose pin ends (rear link, rod) [rad/s], [rad/s^2]. x, y: canopy tip or slider [m]. onsets: by
-    interpolation of the depth at the ends of steps. largest_force: at the end of any step [N]. wall_time: of
-    everything [s]; solve_time: of the solver alone [s]. steps: accepted. user_function_calls: of the force, in
-    Python; 0 where they are not counted.
-    newton_iterations, jacobians: of the solver, 0 if it has none.
+    time: [s]. force: magnitude in the loose pin [N]. angular_acceleration: of the link that the loose pin ends
+    (rear link, rod) [rad/s^2]. x, y: canopy tip or slider [m]. onsets: by interpolation of the depth at the
+    ends of steps. largest_force: at the end of any step [N]. solve_time: of the solver [s]. steps: accepted.
+    user_function_calls: of the force, in Python; 0 where they are not counted. newton_iterations: of the
+    solver, 0 if it has none.
     """
 
     time: Series
     force: Series
-    angular_velocity: Series
     angular_acceleration: Series
     x: Series
     y: Series
     onsets: tuple[Onset, ...]
     largest_force: float
-    wall_time: float
     solve_time: float
     steps: int
     user_function_calls: int
     newton_iterations: int
-    jacobians: int
-
-    def rise(self, start: float = 3.0, end: float = 5.0) -> tuple[float, float]:
-        """Mean and standard deviation of the force over the records between two times [s]."""
-        inside = (self.time >= start - 1e-9) & (self.time <= end + 1e-9)
-        return float(self.force[inside].mean()), float(self.force[inside].std())
 
 
 def touches(time: Sequence[float], depth: Sequence[float], rate: Sequence[float]) -> tuple[Onset, ...]:
@@ -86,3 +85,88 @@ def undisturbed() -> Iterator[None]:
     """No output of the engine, no collection of garbage: neither is part of what is measured."""
     with quiet_engine(), paused_collector():
         yield
+
+
+# --- the contact ---
+
+
+def contact_numbers(contact: JournalContact) -> tuple[float, float, float]:
+    """Stiffness [N/m^1.5], damping factor [-], floor of the approach speed [m/s]; InputError for other laws."""
+    law = contact.normal
+    if not isinstance(law, LankaraniNikravesh) or law.exponent != 1.5:
+        raise InputError(f"normal = {law}: allowed here: LankaraniNikravesh with exponent 1.5")
+    if not isinstance(law.damping_speed, TouchSpeed):
+        raise InputError(f"damping_speed = {law.damping_speed}: allowed here: TouchSpeed")
+    return law.stiffness, law.damping_factor, law.damping_speed.floor
+
+
+def contact_forces(contact: JournalContact, depth: np.ndarray, rate: np.ndarray) -> np.ndarray:
+    """Force [N] at the ends of all steps, the approach speed being that at the end of the first in contact."""
+    stiffness, factor, floor = contact_numbers(contact)
+    closed = depth > 0.0
+    begins = closed & ~np.concatenate(([False], closed[:-1]))
+    which = np.maximum.accumulate(np.where(begins, np.arange(len(depth)), 0))
+    speed = np.maximum(rate[which], floor)
+    inside = np.maximum(depth, 0.0)
+    force: np.ndarray = np.maximum(stiffness * inside**1.5 * (1.0 + factor * rate / speed), 0.0)
+    return force
+
+
+def add_ball(mbs: Any, contact: JournalContact, journal: Any, bore: Any) -> None:
+    """Add the engine's own contact: a ball in a hollow ball is a journal in a bore.
+
+    Its Hunt-Crossley factor 3 (1 - e)/2 equals Lankarani and Nikravesh's 3 (1 - e^2)/4 if its restitution is
+    set to 1 - (1 - e^2)/2. It notes the approach speed at the end of the step that noticed the contact, and it
+    has no normal at the centre, so it starts beside it.
+    """
+    stiffness, _, floor = contact_numbers(contact)
+    bearing, restitution = contact.bearing, contact.normal.restitution  # type: ignore[attr-defined]
+    node = mbs.AddNode(NodeGenericData(initialCoordinates=[0.1, 0, 0, 0], numberOfDataCoordinates=4))
+    mbs.AddObject(
+        ObjectContactSphereSphere(
+            markerNumbers=[journal, bore],
+            nodeNumber=node,
+            spheresRadii=[bearing.journal_radius, bearing.bore_radius],
+            isHollowSphere1=True,
+            contactStiffness=stiffness,
+            contactStiffnessExponent=1.5,
+            restitutionCoefficient=1.0 - 0.5 * (1.0 - restitution**2),
+            impactModel=1,
+            minimumImpactVelocity=floor,
+        )
+    )
+
+
+def pin_sensors(mbs: Any, journal: Any, bore: Any) -> tuple[Any, ...]:
+    """Sensors of the position and velocity of journal and bore at every step."""
+    output = exudyn.OutputVariableType
+    return tuple(
+        mbs.AddSensor(
+            SensorMarker(markerNumber=marker, outputVariableType=what, storeInternal=True, writeToFile=False)
+        )
+        for what in (output.Position, output.Velocity)
+        for marker in (journal, bore)
+    )
+
+
+@dataclass(frozen=True)
+class PinSeries:
+    """Time [s], depth [m], rate [m/s], force [N] at all steps; the bore's place [m] and velocity along x."""
+
+    time: np.ndarray
+    depth: np.ndarray
+    rate: np.ndarray
+    force: np.ndarray
+    bore: np.ndarray
+    bore_speed: np.ndarray
+
+    @staticmethod
+    def read(mbs: Any, contact: JournalContact, sensors: Sequence[Any]) -> PinSeries:
+        """What the sensors of `pin_sensors` have written."""
+        journal, bore, journal_speed, bore_speed = (mbs.GetSensorStoredData(sensor) for sensor in sensors)
+        apart, moving = journal[:, 1:3] - bore[:, 1:3], journal_speed[:, 1:3] - bore_speed[:, 1:3]
+        eccentricity = np.hypot(*apart.T)
+        depth = eccentricity - contact.bearing.clearance
+        rate = (apart * moving).sum(axis=1) / np.maximum(eccentricity, 1e-300)
+        force = contact_forces(contact, depth, rate)
+        return PinSeries(journal[:, 0], depth, rate, force, bore[:, 1], bore_speed[:, 1])

@@ -16,14 +16,12 @@ import exudyn
 import numpy as np
 from exudyn.itemInterface import NodeGenericData, ObjectConnectorRigidBodySpringDamper
 
-from studies.benchmarking.peers.bare_scene import BareScene, Frame, bare_scene, traced
-from studies.benchmarking.peers.peer_run import PeerRun, touches, undisturbed
+from studies.benchmarking.peers.bare_scene import BareScene, bare_scene, ideal_scene
+from studies.benchmarking.peers.peer_run import PeerRun, contact_numbers, touches, undisturbed
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.contact import JournalContact
 from user_forces.friction.ambrosio import Ambrosio
 from user_forces.friction.frictionless import Frictionless
-from user_forces.normal.damping_speed import TouchSpeed
-from user_forces.normal.lankarani_nikravesh import LankaraniNikravesh
 from user_forces.values.value import InputError
 
 SPECTRAL_RADIUS = 0.5
@@ -43,7 +41,7 @@ class Watch:
         self.depths: list[float] = []
         self.rates: list[float] = []
         self.largest = 0.0
-        self.rows: list[tuple[float, float, Any, Any, Any]] = []
+        self.rows: list[tuple[float, float, Any, Any]] = []
 
     def before_step(self, mbs: Any, t: float) -> bool:
         """Record what is there every so many steps; then drive to the end of the step, at t."""
@@ -56,75 +54,38 @@ class Watch:
     def record(self) -> None:
         """Keep the state at the end of the last step."""
         data = self.scene.mbs.systemData
-        self.rows.append(
-            (
-                self.now(),
-                self.force,
-                data.GetODE2Coordinates(),
-                data.GetODE2Coordinates_t(),
-                data.GetODE2Coordinates_tt(),
-            )
-        )
+        self.rows.append((self.now(), self.force, data.GetODE2Coordinates(), data.GetODE2Coordinates_tt()))
 
     def now(self) -> float:
         """Time at the end of the last step [s]."""
         return self.count * self.step
 
-    def run(self, wall: float, solve: float, solver: Any, calls: int) -> PeerRun:
+    def run(self, took: float, solver: Any, calls: int) -> PeerRun:
         """The outcome, once the solver has finished."""
         if self.now() > self.rows[-1][0] + 0.5 * self.step:
             self.record()
-        times, forces, positions, velocities, accelerations = (
-            np.array(column) for column in zip(*self.rows, strict=True)
-        )
-        turn = self.scene.first(self.scene.link) + 2
-        x, y = traced(self.scene, positions)
+        times, forces, positions, accelerations = (np.array(column) for column in zip(*self.rows, strict=True))
+        x, y = self.scene.traced(positions)
         return PeerRun(
             time=times,
             force=forces,
-            angular_velocity=velocities[:, turn],
-            angular_acceleration=accelerations[:, turn],
+            angular_acceleration=accelerations[:, self.scene.first(self.scene.link) + 2],
             x=x,
             y=y,
             onsets=touches(self.times, self.depths, self.rates),
             largest_force=self.largest,
-            wall_time=time.perf_counter() - wall,
-            solve_time=solve,
+            solve_time=took,
             steps=len(self.times),
             user_function_calls=calls,
             newton_iterations=int(solver.it.newtonStepsCount),
-            jacobians=int(solver.it.newtonJacobiCount),
         )
-
-
-def contact_numbers(contact: JournalContact) -> tuple[float, float, float]:
-    """Stiffness [N/m^1.5], damping factor [-], floor of the approach speed [m/s]; InputError for other laws."""
-    law = contact.normal
-    if not isinstance(law, LankaraniNikravesh) or law.exponent != 1.5:
-        raise InputError(f"normal = {law}: allowed here: LankaraniNikravesh with exponent 1.5")
-    if not isinstance(law.damping_speed, TouchSpeed):
-        raise InputError(f"damping_speed = {law.damping_speed}: allowed here: TouchSpeed")
-    return law.stiffness, law.damping_factor, law.damping_speed.floor
-
-
-def contact_forces(contact: JournalContact, depth: np.ndarray, rate: np.ndarray) -> np.ndarray:
-    """Force [N] at the ends of all steps, the approach speed being that at the end of the first in contact."""
-    stiffness, factor, floor = contact_numbers(contact)
-    closed = depth > 0.0
-    begins = closed & ~np.concatenate(([False], closed[:-1]))
-    which = np.maximum.accumulate(np.where(begins, np.arange(len(depth)), 0))
-    speed = np.maximum(rate[which], floor)
-    inside = np.maximum(depth, 0.0)
-    force: np.ndarray = np.maximum(stiffness * inside**1.5 * (1.0 + factor * rate / speed), 0.0)
-    return force
 
 
 class StockContact:
     """Force of the bore on the journal in plain floats, and what it remembers."""
 
-    def __init__(self, watch: Watch, contact: JournalContact, interpolate: bool) -> None:
+    def __init__(self, watch: Watch, contact: JournalContact) -> None:
         self.watch = watch
-        self.interpolate = interpolate
         self.speed = 0.0  # of approach, 0 while apart [m/s]
         self.calls = 0
         self.bore_radius, self.clearance = contact.bearing.bore_radius, contact.bearing.clearance
@@ -185,14 +146,6 @@ class StockContact:
 
         return force
 
-    def approach(self, depth: float, rate: float) -> float:
-        """Approach speed [m/s] from depth [m] and rate [m/s] at the end of the step in which they met."""
-        watch = self.watch
-        if not self.interpolate or len(watch.depths) < 2:
-            return rate
-        before, earlier = watch.depths[-2], watch.rates[-2]
-        return earlier + (rate - earlier) * before / (before - depth)
-
     def after_newton(self, force: Force) -> Force:
         """The post-Newton function: note the approach speed once a step."""
         watch, clearance = self.watch, self.clearance
@@ -210,7 +163,7 @@ class StockContact:
             watch.force = 0.0
             if depth > 0.0:
                 if self.speed == 0.0:
-                    self.speed = self.approach(depth, rate)
+                    self.speed = rate
                 found = force(mbs, t, item, displacement, rotation, velocity, angular_velocity)
                 watch.force = math.hypot(found[0], found[1])
                 watch.largest = max(watch.largest, watch.force)
@@ -221,49 +174,42 @@ class StockContact:
         return note
 
 
-def fixed_steps(duration: float, step: float, modified_newton: bool = True) -> Any:
+def fixed_steps(duration: float, step: float) -> Any:
     """Settings of generalised alpha with equal steps [s]; everything else as the engine has it."""
     settings = exudyn.SimulationSettings()
     settings.timeIntegration.endTime = duration
     settings.timeIntegration.numberOfSteps = round(duration / step)
     settings.timeIntegration.generalizedAlpha.spectralRadius = SPECTRAL_RADIUS
-    settings.timeIntegration.newton.useModifiedNewton = modified_newton
+    settings.timeIntegration.newton.useModifiedNewton = True
     settings.timeIntegration.adaptiveStep = False
     settings.timeIntegration.verboseMode = 0
     settings.solution.file.write = False
     return settings
 
 
-def solve(scene: Frame, settings: Any) -> tuple[Any, float]:
-    """Solve; the solver, and how long it took [s]. Raises RuntimeError if it did not finish."""
-    solver: Any = exudyn.MainSolverImplicitSecondOrder()
+def solved(solver: Any, mbs: Any, settings: Any) -> float:
+    """Solve; how long it took [s]. Raises RuntimeError if the solver did not finish."""
     began = time.perf_counter()
     with undisturbed():
-        finished = solver.SolveSystem(scene.mbs, settings)
+        finished = solver.SolveSystem(mbs, settings)
     if not finished:
         raise RuntimeError(f"the solver gave up at t = {solver.it.currentTime} s")
-    return solver, time.perf_counter() - began
+    return time.perf_counter() - began
 
 
-def run_stock(
-    scenario: Scenario, step: float, *, modified_newton: bool = True, interpolate: bool = False
-) -> PeerRun:
+def run_stock(scenario: Scenario, step: float) -> PeerRun:
     """Run the stock recipe.
 
     Arguments:
         scenario: HydraulicSupport with rigid columns or SliderCrank, one loose pin, start "concentric"; its own
             step and solver are not used.
         step: length of all steps [s]; a whole number of them should make a record period.
-        modified_newton: keep the Jacobian as long as it serves, as the engine does by default.
-        interpolate: take the approach speed at zero depth, linearly between both ends of the step, instead of
-            that at its end. Costs nothing and is a little better.
 
     Raises InputError if the scenario is not covered, RuntimeError if the solver gives up.
     """
-    began = time.perf_counter()
     scene = bare_scene(scenario)
     watch = Watch(scene, step)
-    contact = StockContact(watch, scene.contact, interpolate)
+    contact = StockContact(watch, scene.contact)
     force = contact.smooth() if contact.friction is None else contact.rough(contact.friction)
     node = scene.mbs.AddNode(NodeGenericData(initialCoordinates=[0.0], numberOfDataCoordinates=1))
     scene.mbs.AddObject(
@@ -276,5 +222,41 @@ def run_stock(
     )
     scene.mbs.Assemble()
     scene.mbs.SetPreStepUserFunction(watch.before_step)
-    solver, took = solve(scene, fixed_steps(scenario.duration, step, modified_newton))
-    return watch.run(began, took, solver, contact.calls)
+    solver: Any = exudyn.MainSolverImplicitSecondOrder()
+    took = solved(solver, scene.mbs, fixed_steps(scenario.duration, step))
+    return watch.run(took, solver, contact.calls)
+
+
+# --- ideal pins ---
+
+
+def peak_acceleration(scenario: Scenario, step: float, body: str) -> float:
+    """Largest angular acceleration of a body that the engine gives at the end of any step [rad/s^2].
+
+    Users of Exudyn run ideal pins with equal steps, and a solver that is not told of the drive's jumps. The
+    acceleration is the engine's own, of its integrator, not one that follows from the motion.
+
+    Arguments:
+        scenario: without loose pins, of rigid columns; its own step and solver are not used.
+        step: length of all steps [s].
+        body: its name.
+
+    Raises InputError if the scenario is not covered, RuntimeError if the solver gives up.
+    """
+    scene = ideal_scene(scenario)
+    scene.mbs.Assemble()
+    turn = scene.first(body) + 2
+    found: list[float] = []
+
+    def note() -> None:
+        found.append(float(scene.mbs.systemData.GetODE2Coordinates_tt()[turn]))
+
+    def before_step(mbs: Any, t: float) -> bool:
+        note()
+        scene.drive_to(t)
+        return True
+
+    scene.mbs.SetPreStepUserFunction(before_step)
+    solved(exudyn.MainSolverImplicitSecondOrder(), scene.mbs, fixed_steps(scenario.duration, step))
+    note()
+    return float(np.abs(found).max())

@@ -8,24 +8,15 @@ is nothing. DOPRI5 chooses its steps by their error.
 from __future__ import annotations
 
 import math
-import time
 from typing import Any
 
 import exudyn
 import numpy as np
-from exudyn.itemInterface import (
-    MarkerKinematicTreeRigid,
-    NodeGenericData,
-    NodeGenericODE2,
-    ObjectContactSphereSphere,
-    ObjectKinematicTree,
-    SensorMarker,
-    SensorNode,
-)
+from exudyn.itemInterface import MarkerKinematicTreeRigid, NodeGenericODE2, ObjectKinematicTree, SensorNode
 
 from studies.benchmarking.peers.bare_scene import loose_contact
-from studies.benchmarking.peers.peer_run import PeerRun, touches, undisturbed
-from studies.benchmarking.peers.stock import contact_forces, contact_numbers
+from studies.benchmarking.peers.peer_run import ASIDE, PeerRun, PinSeries, add_ball, pin_sensors, touches
+from studies.benchmarking.peers.stock import solved
 from support_exudyn.machines.slider_crank import SliderCrank
 from support_exudyn.model.drives.drive import Steady
 from support_exudyn.scenario.scenario import Scenario
@@ -34,30 +25,21 @@ from user_forces.friction.frictionless import Frictionless
 from user_forces.values.value import InputError
 
 engine: Any = exudyn  # its stubs lack the arguments of its lists
-ASIDE = 1e-12  # of the bore from the journal, so that there is a normal [m]
 FLYWHEEL = 1e8  # inertia of the crank [kg m^2]; a moment of 100 N m changes its speed by 1e-8 rad/s in 10 ms
-SMALLEST_STEP = 1e-13  # [s]
+SMALLEST_STEP, LARGEST_STEP = 1e-13, 2e-5  # [s]
+ITERATION_TOLERANCE = 1.0  # of the engine's discontinuous iteration [N]
 
 
-def run_tree(
-    scenario: Scenario,
-    tolerance: float,
-    *,
-    largest_step: float = 2e-5,
-    iteration_tolerance: float = 1.0,
-) -> PeerRun:
+def run_tree(scenario: Scenario, tolerance: float) -> PeerRun:
     """Run under DOPRI5.
 
     Arguments:
         scenario: SliderCrank driven by Steady, slider pin loose without friction and with its bore in the
             slider, no gravity, start "concentric"; its own step and solver are not used.
         tolerance: of a step, relative and absolute alike (coordinates in rad and m, rates in rad/s and m/s).
-        largest_step: [s].
-        iteration_tolerance: of the engine's discontinuous iteration [N].
 
     Raises InputError if the scenario is not covered, RuntimeError if the solver gives up.
     """
-    began = time.perf_counter()
     machine, drive = scenario.machine, scenario.drive
     name, contact, bore = loose_contact(scenario)
     if not isinstance(machine, SliderCrank) or not isinstance(drive, Steady):
@@ -70,19 +52,12 @@ def run_tree(
     mbs: Any = container.AddSystem()
     sensors = _build(mbs, machine, drive.rate, contact)
     mbs.Assemble()
-    solver: Any = exudyn.MainSolverExplicit()
-    settings = _settings(scenario.duration, tolerance, largest_step, iteration_tolerance)
-    solving = time.perf_counter()
-    with undisturbed():
-        finished = solver.SolveSystem(mbs, settings)
-    took = time.perf_counter() - solving
-    if not finished:
-        raise RuntimeError(f"the solver gave up at t = {solver.it.currentTime} s")
-    return _run(scenario, contact, mbs, sensors, began, took)
+    took = solved(exudyn.MainSolverExplicit(), mbs, _settings(scenario.duration, tolerance))
+    return _run(scenario, contact, mbs, sensors, took)
 
 
 def _build(mbs: Any, m: SliderCrank, speed: float, contact: JournalContact) -> tuple[Any, ...]:
-    """Tree, contact and sensors of journal, bore and of the coordinates."""
+    """Add tree and contact; return sensors of journal, bore and of the coordinates."""
     a = m.start_angle
     bx, by = m.crank_length * math.cos(a), m.crank_length * math.sin(a)
     along = m.slider_position(a) - bx
@@ -114,56 +89,29 @@ def _build(mbs: Any, m: SliderCrank, speed: float, contact: JournalContact) -> t
         MarkerKinematicTreeRigid(objectNumber=tree, linkNumber=1, localPosition=[m.rod_length, 0, 0])
     )
     bore = mbs.AddMarker(MarkerKinematicTreeRigid(objectNumber=tree, linkNumber=2, localPosition=[ASIDE, 0, 0]))
-    _add_contact(mbs, contact, journal, bore)
-    output = exudyn.OutputVariableType
-    places = [
-        mbs.AddSensor(
-            SensorMarker(markerNumber=marker, outputVariableType=what, storeInternal=True, writeToFile=False)
-        )
-        for what in (output.Position, output.Velocity)
-        for marker in (journal, bore)
-    ]
-    coordinates = [
-        mbs.AddSensor(
-            SensorNode(nodeNumber=node, outputVariableType=what, storeInternal=True, writeToFile=False)
-        )
-        for what in (output.Coordinates_t, output.Coordinates_tt)
-    ]
-    return (*places, *coordinates)
-
-
-def _add_contact(mbs: Any, contact: JournalContact, journal: Any, bore: Any) -> None:
-    stiffness, _, floor = contact_numbers(contact)
-    bearing, restitution = contact.bearing, contact.normal.restitution  # type: ignore[attr-defined]
-    node = mbs.AddNode(NodeGenericData(initialCoordinates=[0.1, 0, 0, 0], numberOfDataCoordinates=4))
-    mbs.AddObject(
-        ObjectContactSphereSphere(
-            markerNumbers=[journal, bore],
-            nodeNumber=node,
-            spheresRadii=[bearing.journal_radius, bearing.bore_radius],
-            isHollowSphere1=True,
-            contactStiffness=stiffness,
-            contactStiffnessExponent=1.5,
-            restitutionCoefficient=1.0 - 0.5 * (1.0 - restitution**2),
-            impactModel=1,
-            minimumImpactVelocity=floor,
-        )
+    add_ball(mbs, contact, journal, bore)
+    accelerations = SensorNode(
+        nodeNumber=node,
+        outputVariableType=exudyn.OutputVariableType.Coordinates_tt,
+        storeInternal=True,
+        writeToFile=False,
     )
+    return (*pin_sensors(mbs, journal, bore), mbs.AddSensor(accelerations))
 
 
-def _settings(duration: float, tolerance: float, largest_step: float, iteration_tolerance: float) -> Any:
+def _settings(duration: float, tolerance: float) -> Any:
     settings = exudyn.SimulationSettings()
     integration = settings.timeIntegration
     integration.solverType = exudyn.DynamicSolverType.DOPRI5
     integration.endTime = duration
-    integration.numberOfSteps = math.ceil(duration / largest_step)
+    integration.numberOfSteps = math.ceil(duration / LARGEST_STEP)
     integration.automaticStepSize = True
     integration.adaptiveStep = True
     integration.relativeTolerance = tolerance
     integration.absoluteTolerance = tolerance
     integration.minimumStepSize = SMALLEST_STEP
     integration.initialStepSize = 1e-7
-    integration.discontinuous.iterationTolerance = iteration_tolerance
+    integration.discontinuous.iterationTolerance = ITERATION_TOLERANCE
     integration.discontinuous.ignoreMaxIterations = False
     integration.verboseMode = 0
     settings.solution.file.write = False
@@ -172,40 +120,25 @@ def _settings(duration: float, tolerance: float, largest_step: float, iteration_
 
 
 def _run(
-    scenario: Scenario, contact: JournalContact, mbs: Any, sensors: tuple[Any, ...], began: float, took: float
+    scenario: Scenario, contact: JournalContact, mbs: Any, sensors: tuple[Any, ...], took: float
 ) -> PeerRun:
     """The outcome: the slider by cubic interpolation between steps, all else linearly."""
-    journal, bore, journal_speed, bore_speed, rates, accelerations = (
-        mbs.GetSensorStoredData(sensor) for sensor in sensors
-    )
-    t = journal[:, 0]
-    apart, moving = journal[:, 1:3] - bore[:, 1:3], journal_speed[:, 1:3] - bore_speed[:, 1:3]
-    eccentricity = np.hypot(*apart.T)
-    depth = eccentricity - contact.bearing.clearance
-    rate = (apart * moving).sum(axis=1) / np.maximum(eccentricity, 1e-300)
-    force = contact_forces(contact, depth, rate)
+    pin, accelerations = PinSeries.read(mbs, contact, sensors[:-1]), mbs.GetSensorStoredData(sensors[-1])
+    t = pin.time
     count = round(scenario.duration / scenario.record_period)
     wanted = np.minimum(np.arange(count + 1) * scenario.record_period, t[-1])
-
-    def at(values: np.ndarray) -> np.ndarray:
-        found: np.ndarray = np.interp(wanted, t, values)
-        return found
-
     return PeerRun(
         time=wanted,
-        force=at(force),
-        angular_velocity=at(rates[:, 1] + rates[:, 2]),
-        angular_acceleration=at(accelerations[:, 1] + accelerations[:, 2]),
-        x=_cubic(wanted, t, bore[:, 1], bore_speed[:, 1]),
+        force=np.interp(wanted, t, pin.force),
+        angular_acceleration=np.interp(wanted, t, accelerations[:, 1] + accelerations[:, 2]),
+        x=_cubic(wanted, t, pin.bore, pin.bore_speed),
         y=np.zeros(len(wanted)),
-        onsets=touches(t.tolist(), depth.tolist(), rate.tolist()),
-        largest_force=float(force.max()),
-        wall_time=time.perf_counter() - began,
+        onsets=touches(t.tolist(), pin.depth.tolist(), pin.rate.tolist()),
+        largest_force=float(pin.force.max()),
         solve_time=took,
         steps=len(t) - 1,
         user_function_calls=0,
         newton_iterations=0,
-        jacobians=0,
     )
 
 
