@@ -8,7 +8,7 @@ from functools import partial
 from pathlib import Path
 
 from support_exudyn.commands.command_line import folder, number, say
-from support_exudyn.machines.machine_data import read_machine
+from support_exudyn.files.machines.read import read_machine
 from user_forces.values.value import InputError
 
 HELP = "draw a machine and tell its mobility, closure, dead centres, static forces, and what looks wrong"

@@ -12,8 +12,7 @@ from support_exudyn.files.scenarios.scenario_file import (
 )
 from support_exudyn.files.scenarios.scenario_schema import scenario_schema
 from support_exudyn.files.toml.reading import read_value
-from support_exudyn.files.toml.toml_reading import load_toml, parsed
-from support_exudyn.files.toml.toml_text import toml_text
+from support_exudyn.files.toml.text import load_toml, parsed, toml_text
 from support_exudyn.files.toml.writing import table_of
 
 __all__ = [

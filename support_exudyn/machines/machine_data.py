@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from pathlib import Path
 
 from support_exudyn.model.columns import TwoBodyColumn
 from support_exudyn.model.machine import Machine
@@ -29,18 +28,3 @@ class MachineData:
     sources: Mapping[str, str] = field(default_factory=dict)
     kind: str = ""
     assumed: tuple[str, ...] = ()
-
-
-def read_machine(name: str, folder: Path | None = None) -> MachineData:
-    """A machine from its data file.
-
-    name: a path that ends in .toml, from `folder` on (the working directory); or the name of a machine that
-    comes with the package: "reference", "zf18000", "two_leg_shield" or "slider_crank".
-
-    Raises InputError that names file, key, value and what is allowed; OSError if there is no such file.
-    """
-    from support_exudyn.files.machines import load_machine, shipped
-
-    if not name.lower().endswith(".toml"):
-        return shipped(name)
-    return load_machine((folder or Path()) / name, named=folder is not None)

@@ -17,8 +17,7 @@ from typing import Any
 from support_exudyn.files import machines
 from support_exudyn.files.machines.read import shipped
 from support_exudyn.files.scenarios.scenario_file import scenario_of
-from support_exudyn.files.toml.toml_reading import load_toml, parsed, text_of
-from support_exudyn.files.toml.toml_text import toml_text
+from support_exudyn.files.toml.text import load_toml, parsed, text_of, toml_text
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.sweeps.plan import (
     Inputs,

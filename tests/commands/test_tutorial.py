@@ -15,8 +15,8 @@ import pytest
 from scipy.optimize import root
 
 from support_exudyn import Result
+from support_exudyn.files.machines.read import read_machine
 from support_exudyn.machines.four_column_support import HydraulicSupport
-from support_exudyn.machines.machine_data import read_machine
 
 README = Path(__file__).parents[2] / "README.md"
 SECTION = "## Your own support in ten minutes\n"

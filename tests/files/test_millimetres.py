@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from support_exudyn.files.toml.millimetres import in_millimetres
+from support_exudyn.files.toml.reading import in_millimetres
 
 
 @pytest.mark.parametrize(

@@ -32,7 +32,7 @@ from support_exudyn.files import (
     scenario_of,
     scenario_text,
 )
-from support_exudyn.machines.machine_data import read_machine
+from support_exudyn.files.machines.read import read_machine
 from tests import strategies as some
 from tests.machine_files import OURS
 from user_forces import (

@@ -132,7 +132,7 @@ def test_a_file_that_is_not_toml_is_refused(tmp_path: Path) -> None:
 def test_an_unknown_key_is_refused(tmp_path: Path) -> None:
     message = refusal(tmp_path, 'name = "a support"', 'title = "a support"')
     assert message.startswith(
-        "title: unknown key; allowed: bore_radius_mm, columns, kind, masses_kg, name, parts, pivots_mm, "
+        "title: unknown key; allowed: kind, pivots_mm, start_hinge_height_mm, name, sources, stroke_mm, "
     )
 
 
@@ -142,8 +142,8 @@ def test_a_missing_key_is_refused(tmp_path: Path) -> None:
 
 
 def test_an_unknown_key_of_a_part_is_refused(tmp_path: Path) -> None:
-    message = refusal(tmp_path, "mass_kg = 400", "mass_t = 0.4")
-    assert message.startswith("parts.front_link[0].mass_t: unknown key (did you mean 'mass_kg'?); allowed: ")
+    message = refusal(tmp_path, "mass_kg = 400", "mas_kg = 400")
+    assert message.startswith("parts.front_link[0].mas_kg: unknown key; did you mean mass_kg or mass_t? ")
 
 
 def test_a_part_without_mass_is_refused(tmp_path: Path) -> None:
@@ -153,13 +153,12 @@ def test_a_part_without_mass_is_refused(tmp_path: Path) -> None:
 
 def test_a_part_without_a_place_is_refused(tmp_path: Path) -> None:
     message = refusal(tmp_path, "centre_mm = [899, 2252]\n", "")
-    assert message.startswith("parts.canopy[1] = ")
-    assert "centre_mm or between: missing" in message
+    assert message.startswith("parts.canopy[1]: centre_mm or between: missing")
 
 
 def test_a_negative_mass_is_refused(tmp_path: Path) -> None:
     message = refusal(tmp_path, "mass_kg = 1500", "mass_kg = -1500")
-    assert message.startswith("parts.shield[0].mass_kg = -1500: allowed: a number > 0 ")
+    assert message.startswith("parts.shield[0].mass_kg = -1500: allowed: > 0")
 
 
 def test_a_bar_between_unknown_pivots_is_refused(tmp_path: Path) -> None:
@@ -167,16 +166,20 @@ def test_a_bar_between_unknown_pivots_is_refused(tmp_path: Path) -> None:
     assert message.startswith("parts.front_link[0].between = ['front_base', 'nowhere']: allowed: two of ")
 
 
-@pytest.mark.parametrize("wrong", ["[595]", "[595, 619, 0]", '["a", "b"]', "595"])
-def test_a_pivot_that_is_not_two_numbers_is_refused(tmp_path: Path, wrong: str) -> None:
+@pytest.mark.parametrize(
+    ("wrong", "said"),
+    [
+        ("[595]", " = [595]: allowed: a list of 2, each a number"),
+        ("[595, 619, 0]", " = [595, 619, 0]: allowed: a list of 2, each a number"),
+        ('["a", 619]', "[0] = 'a': allowed: a number"),
+        ("595", " = 595: allowed: a list of 2, each a number"),
+        ("[nan, 619]", "[0] = NaN: allowed: a number up to 1e+30, in SI"),
+        ("[595, 1e34]", "[1] = 1E+34: allowed: a number up to 1e+30, in SI"),
+    ],
+)
+def test_a_pivot_that_is_not_two_numbers_is_refused(tmp_path: Path, wrong: str, said: str) -> None:
     message = refusal(tmp_path, "front_base = [595, 619]", f"front_base = {wrong}")
-    said = wrong.replace('"', "'")
-    assert message == f"pivots_mm.front_base = {said}: allowed: two numbers [x, y] in mm"
-
-
-def test_a_pivot_that_is_not_finite_is_refused(tmp_path: Path) -> None:
-    message = refusal(tmp_path, "front_foot = [1670, 202]", "front_foot = [nan, 202]")
-    assert message == "pivots_mm.front_foot = [NaN, 202]: allowed: two numbers [x, y] in mm"
+    assert message == f"pivots_mm.front_base{said}"
 
 
 def test_an_unknown_pivot_is_refused(tmp_path: Path) -> None:
@@ -262,8 +265,8 @@ def test_columns_are_read_from_a_file(tmp_path: Path) -> None:
     ("old", "new", "said"),
     [
         ("rod_mass_kg = 200", "", "columns.front_column.rod_mass_kg: missing"),
-        ("rod_mass_kg = 200", "rod_mass_kg = 0", "columns.front_column.rod_mass_kg = 0: allowed: a number > 0"),
-        ("rod_mass_kg = 200", "rod_mass_t = 0.2", "columns.front_column.rod_mass_t: unknown key"),
+        ("rod_mass_kg = 200", "rod_mass_kg = 0", "columns.front_column.rod_mass_kg = 0: allowed: > 0"),
+        ("rod_mass_kg = 200", "rod_mas_t = 0.2", "columns.front_column.rod_mas_t: unknown key"),
         ("[columns.front_column]", "[[columns]]", "columns = "),
     ],
 )

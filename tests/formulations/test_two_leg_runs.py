@@ -12,8 +12,8 @@ import pytest
 from studies.common.paper_machine import loose_pin
 from support_exudyn import CubicStep, Held, OilColumn, Result, Scenario, UniformSpeed, bore_area, simulate
 from support_exudyn.files.machines import load_machine
+from support_exudyn.files.machines.read import read_machine
 from support_exudyn.machines.check.shield_stroke import stations
-from support_exudyn.machines.machine_data import read_machine
 from support_exudyn.postprocessing.look.looks import look
 from tests.machine_files import written
 from user_forces import InputError

@@ -13,12 +13,13 @@ import pytest
 
 from support_exudyn import ravn_slider_crank
 from support_exudyn.files.machines import load_machine
+from support_exudyn.files.machines.read import read_machine
 from support_exudyn.machines.check import Report, check_machine
 from support_exudyn.machines.check.shield import check_shield
 from support_exudyn.machines.check.shield_stroke import Shield, Station, _between, _cross, _station, stations
 from support_exudyn.machines.check.statics import mobility
 from support_exudyn.machines.free_impact import ImpactStand
-from support_exudyn.machines.machine_data import MachineData, read_machine
+from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.model.linkage import lumped
 from support_exudyn.model.plane_geometry import moved
 from tests.machine_files import MASSES, OURS, written

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from support_exudyn import CubicStep, Drive, Held, Scenario, Steady, UniformSpeed
-from support_exudyn.machines.machine_data import read_machine
+from support_exudyn.files.machines.read import read_machine
 from support_exudyn.machines.two_leg_shield import TwoLegShield
 from support_exudyn.model.drives.coupled_drive import Follower, following
 from support_exudyn.model.plane_geometry import distance

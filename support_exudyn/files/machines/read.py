@@ -1,31 +1,49 @@
-"""From machine data files to machines."""
+"""From machine data files to machines, and the JSON Schema of these files.
+
+A further kind of machine is a class of values with a method `data`, whose fields are what its files hold, and a
+line in `FILES`.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from difflib import get_close_matches
 from functools import lru_cache
-from importlib import import_module, resources
+from importlib import resources
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, cast
+from typing import Any, cast
 
-from support_exudyn.files.toml.toml_reading import parsed, text_of
+from support_exudyn.files.machines.slider_crank import SliderCrankFile
+from support_exudyn.files.machines.supports import FourColumnSupportFile, TwoLegShieldFile
+from support_exudyn.files.toml.reading import read_value
+from support_exudyn.files.toml.schema import Schemas, without
+from support_exudyn.files.toml.text import parsed, text_of
 from support_exudyn.machines.four_column_support import HydraulicSupport
 from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.model.columns import OilColumn, RigidColumn, TwoBodyColumn
 from user_forces.values.value import InputError, short
 
-if TYPE_CHECKING:
-    from support_exudyn.files.machines.form import MachineForm
-
-KINDS = ("four_column_support", "two_leg_shield", "slider_crank")  # each a module
+FILES: Mapping[str, type[FourColumnSupportFile | TwoLegShieldFile | SliderCrankFile]] = {
+    "four_column_support": FourColumnSupportFile,
+    "two_leg_shield": TwoLegShieldFile,
+    "slider_crank": SliderCrankFile,
+}
 SHIPPED = ("reference", "zf18000", "two_leg_shield", "slider_crank")  # each a data file
 REMEMBERED = 8  # machines that are not read again as long as their text is the same
 
 
-def form(kind: str) -> type[MachineForm]:
-    """What a data file of this kind of machine holds."""
-    return cast("type[MachineForm]", import_module(f"{__package__}.{kind}").Form)
+def read_machine(name: str, folder: Path | None = None) -> MachineData:
+    """A machine from its data file.
+
+    name: a path that ends in .toml, from `folder` on (the working directory); or the name of a machine that
+    comes with the package: "reference", "zf18000", "two_leg_shield" or "slider_crank".
+
+    Raises InputError that names file, key, value and what is allowed; OSError if there is no such file.
+    """
+    if not name.lower().endswith(".toml"):
+        return shipped(name)
+    return load_machine((folder or Path()) / name, named=folder is not None)
 
 
 def load_machine(path: str | Path, named: bool = False) -> MachineData:
@@ -41,8 +59,6 @@ def load_machine(path: str | Path, named: bool = False) -> MachineData:
     except InputError as error:
         parsed(text, str(path), named)  # what is no TOML is told with its line
         raise InputError("\n".join(f"{path}: {line}" for line in str(error).splitlines())) from None
-    except ArithmeticError as error:  # of a number such as 1e999999999
-        raise InputError(f"{path}: {type(error).__name__}: allowed: numbers of a sensible size") from None
     return found if found.name else replace(found, name=path.stem)
 
 
@@ -54,7 +70,7 @@ def _of_text(text: str) -> MachineData:
     sweep ask for that again and again, and finding it takes longer than a short run.
     """
     data = parsed(text, "")
-    return form(_kind(data)).read(data)
+    return read_value(FILES[_kind(data)], data).data()
 
 
 def shipped(name: str) -> MachineData:
@@ -106,16 +122,19 @@ def two_body_columns(
 
 
 def machine_schema() -> dict[str, Any]:
-    """JSON Schema (draft 2020-12) of machine data files, for editors that check and complete them."""
-    from support_exudyn.files.machines.schema import (
-        whole_schema,  # and pydantic's models, which a run has no use for
-    )
-
-    return whole_schema({kind: form(kind) for kind in KINDS})
+    """The JSON Schema (2020-12) of machine data files, which are told apart by their key `kind`."""
+    schemas = Schemas()
+    tables = []
+    for kind in FILES.values():
+        schemas.defs[kind.__name__] = without(schemas.table(kind), "type")
+        tables.append(schemas.value(kind))
+    about = "Bodies, pivots and masses of one machine; mm, kg and degrees are usual."
+    top = {"description": about, "type": "object", "required": ["kind"], "oneOf": tables}
+    return schemas.whole("machine of support-exudyn", top)
 
 
 def _kind(data: dict[str, Any]) -> str:
-    allowed = f"allowed: {', '.join(map(repr, KINDS))}"
+    allowed = f"allowed: {', '.join(map(repr, FILES))}"
     if "kind" not in data and "machine" in data:
         raise InputError(
             f"machine = {short(data['machine'])}: is a key of scenarios, which `run` takes; allowed: "
@@ -124,7 +143,7 @@ def _kind(data: dict[str, Any]) -> str:
     if "kind" not in data:
         raise InputError(f"kind: missing; it says what the machine is; {allowed}")
     kind = data["kind"]
-    if not isinstance(kind, str) or kind not in KINDS:
-        near = get_close_matches(kind, KINDS, n=1) if isinstance(kind, str) else []
+    if not isinstance(kind, str) or kind not in FILES:
+        near = get_close_matches(kind, FILES, n=1) if isinstance(kind, str) else []
         raise InputError(f"kind = {short(kind)}: {allowed}" + (f"; did you mean {near[0]!r}?" if near else ""))
     return kind

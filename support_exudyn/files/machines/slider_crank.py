@@ -3,73 +3,79 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from decimal import Decimal
-from typing import ClassVar, Literal
+from dataclasses import field
+from typing import Annotated, Literal
 
-from pydantic import Field
-
-from support_exudyn.files.machines.form import Degrees, Inertia, MachineForm, Mass, Size, metres, radians
+from support_exudyn.files.toml.shapes import Names
 from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.machines.slider_crank import SliderCrank
-from user_forces.values.value import InputError
+from user_forces.values.units import Kilograms, KilogramSquareMetres, Metres, Radians
+from user_forces.values.value import InputError, Positive, Real, Value, value
 
 PINS = {"main": "crank on ground", "crank_pin": "crank on rod", "slider_pin": "rod on slider"}
 
 
-class Form(MachineForm):
-    """A slider-crank; crank and rod have their centres of mass in the middle."""
+@value
+class SliderCrankFile(Value):
+    """A slider-crank; crank and rod have their centres of mass in the middle.
 
-    NAMES: ClassVar[Mapping[str, Mapping[str, str]]] = {"bore_radius_mm": PINS}
+    Arguments:
+        kind: what the machine is.
+        name: what it is called.
+        sources: where the data come from: texts, by what they are of.
+        crank_length: [m], > 0. rod_length: [m], more than that of the crank.
+        crank_mass, rod_mass, slider_mass: [kg], > 0.
+        crank_inertia, rod_inertia: about the middle [kg m^2], > 0; else of a uniform bar.
+        start_angle: of the crank at the start, from +x [rad].
+        bore_radius: radii of the bores of pins, for pins with clearance [m], > 0.
+    """
 
-    kind: Literal["slider_crank"] = Field(description="What the machine is.")
-    crank_length_mm: Size
-    rod_length_mm: Size = Field(description="More than that of the crank [mm].")
-    crank_mass_kg: Mass
-    rod_mass_kg: Mass
-    slider_mass_kg: Mass
-    crank_inertia_kg_m2: Inertia | None = Field(
-        None, description="About its middle [kg m^2]; else a uniform bar."
-    )
-    rod_inertia_kg_m2: Inertia | None = Field(
-        None, description="About its middle [kg m^2]; else a uniform bar."
-    )
-    start_angle_deg: Degrees = Field(Decimal(0), description="Of the crank at the start, from +x [degrees].")
-    bore_radius_mm: dict[str, Size] = Field(
-        default_factory=dict, description="Radii of the bores of pins, for pins with clearance."
-    )
+    kind: Literal["slider_crank"]
+    name: str = ""
+    sources: Mapping[str, str] = field(default_factory=dict)
+    crank_length: Metres[Positive]
+    rod_length: Metres[Positive]
+    crank_mass: Kilograms[Positive]
+    rod_mass: Kilograms[Positive]
+    slider_mass: Kilograms[Positive]
+    crank_inertia: KilogramSquareMetres[Positive] | None = None
+    rod_inertia: KilogramSquareMetres[Positive] | None = None
+    start_angle: Radians[Real] = SliderCrank.start_angle
+    bore_radius: Metres[Annotated[Mapping[str, Positive], Names(PINS)]] = field(default_factory=dict)
 
     def data(self) -> MachineData:
-        """The machine, in SI. Raises InputError if it cannot be built."""
-        crank, rod = metres(self.crank_length_mm), metres(self.rod_length_mm)
+        """The machine. Raises InputError if it cannot be built."""
+        crank, rod = self.crank_length, self.rod_length
         if rod <= crank:
             raise InputError(
-                f"rod_length_mm = {self.rod_length_mm}: allowed: > crank_length_mm = {self.crank_length_mm}, "
+                f"rod_length_mm = {1e3 * rod:.10g}: allowed: > crank_length_mm = {1e3 * crank:.10g}, "
                 "else the crank cannot turn right round"
             )
         machine = SliderCrank(
             crank_length=crank,
             rod_length=rod,
-            crank_mass=float(self.crank_mass_kg),
-            rod_mass=float(self.rod_mass_kg),
-            slider_mass=float(self.slider_mass_kg),
-            crank_inertia=_inertia(self.crank_inertia_kg_m2, self.crank_mass_kg, crank),
-            rod_inertia=_inertia(self.rod_inertia_kg_m2, self.rod_mass_kg, rod),
-            start_angle=radians(self.start_angle_deg),
+            crank_mass=self.crank_mass,
+            rod_mass=self.rod_mass,
+            slider_mass=self.slider_mass,
+            crank_inertia=_inertia(self.crank_inertia, self.crank_mass, crank),
+            rod_inertia=_inertia(self.rod_inertia, self.rod_mass, rod),
+            start_angle=self.start_angle,
         )
+        given = {"crank": self.crank_inertia, "rod": self.rod_inertia}
         return MachineData(
             machine,
             self.name,
-            bore_radii={name: metres(radius) for name, radius in self.bore_radius_mm.items()},
+            bore_radii=self.bore_radius,
             sources=self.sources,
             kind=self.kind,
             assumed=tuple(
                 f"{name}: its mass is spread evenly over its length"
-                for name in ("crank", "rod")
-                if getattr(self, f"{name}_inertia_kg_m2") is None
+                for name, one in given.items()
+                if one is None
             ),
         )
 
 
-def _inertia(said: Decimal | None, mass: Decimal, length: float) -> float:
+def _inertia(said: float | None, mass: float, length: float) -> float:
     """As said, or of a uniform bar [kg m^2]."""
-    return float(mass) * length**2 / 12.0 if said is None else float(said)
+    return mass * length**2 / 12.0 if said is None else said

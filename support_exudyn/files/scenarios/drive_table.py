@@ -9,7 +9,7 @@ from decimal import Decimal, InvalidOperation
 from pathlib import Path
 from typing import Literal, NamedTuple
 
-from support_exudyn.files.toml.place import nearest
+from support_exudyn.files.toml.faults import nearest
 from support_exudyn.files.whole_file import contents
 from support_exudyn.model.drives.table_drive import MOST_POINTS, TableDrive
 from user_forces.values.units import Metres, Radians, Seconds, Unit

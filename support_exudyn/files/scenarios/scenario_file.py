@@ -8,10 +8,9 @@ from pathlib import Path
 from typing import Any
 
 from support_exudyn.files.scenarios.short_forms import ShortForms, read_machine_of
-from support_exudyn.files.toml.place import Faults
+from support_exudyn.files.toml.faults import Faults
 from support_exudyn.files.toml.reading import FAILED, Failed, Reader
-from support_exudyn.files.toml.toml_reading import load_toml
-from support_exudyn.files.toml.toml_text import toml_text
+from support_exudyn.files.toml.text import load_toml, toml_text
 from support_exudyn.files.toml.writing import table_of
 from support_exudyn.files.whole_file import whole_file
 from support_exudyn.machines.machine_data import MachineData

@@ -7,14 +7,14 @@ from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
-from support_exudyn.files.machines import SHIPPED
+from support_exudyn.files.machines.read import SHIPPED, read_machine
 from support_exudyn.files.scenarios.drive_table import one_drive, read_drives
 from support_exudyn.files.scenarios.short_drive import DriveFile, DriveMode, DrivesFile
 from support_exudyn.files.scenarios.short_pin import ShortPin
-from support_exudyn.files.toml.place import Faults, Place, said
+from support_exudyn.files.toml.faults import Faults, Place, said
 from support_exudyn.files.toml.reading import FAILED, Failed, Reader
 from support_exudyn.files.toml.shapes import Group
-from support_exudyn.machines.machine_data import MachineData, read_machine
+from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.model.columns import TwoBodyColumn
 from support_exudyn.model.drives.drive import Drive
 from support_exudyn.model.machine import Machine
@@ -28,7 +28,7 @@ def read_machine_of(table: Mapping[str, Any], faults: Faults, folder: Path) -> M
     if isinstance(given, str):
         return _from_file(given, faults, folder)
     if isinstance(given, dict):
-        found = Reader(faults).item(Group((Machine,)), given, ("machine",))
+        found = Reader(faults).item({"group": Group((Machine,))}, given, ("machine",))
         return None if isinstance(found, Failed) else MachineData(found)
     said = f"a path that ends in .toml, one of {', '.join(SHIPPED)}, or a table [machine]"
     if given is None:

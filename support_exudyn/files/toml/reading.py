@@ -3,34 +3,23 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+import re
+from collections.abc import Callable, Iterable, Mapping
 from decimal import Decimal
+from difflib import get_close_matches
 from typing import Any, TypeVar
 
-from support_exudyn.files.toml.millimetres import in_millimetres
-from support_exudyn.files.toml.place import Faults, Place, nearest, said, said_place
-from support_exudyn.files.toml.shapes import (
-    Bound,
-    Choice,
-    Either,
-    FieldShape,
-    Fixed,
-    Group,
-    Named,
-    Number,
-    Several,
-    Shape,
-    Text,
-    Truth,
-    field_shapes,
-)
-from support_exudyn.files.toml.words import allowed
+from support_exudyn.files.toml.faults import Faults, Place, nearest, said, said_place
+from support_exudyn.files.toml.shapes import BOUNDS, FieldShape, Group, Shape, allowed, field_shapes
 from user_forces.values.units import Unit
 from user_forces.values.value import DEEPEST, LARGEST, InputError, Value
 
 V = TypeVar("V", bound=Value)
 SMALLEST_EXPONENT = -1000  # of a decimal; what is smaller is 0
 ShortForm = Callable[["Reader", Any, Place], Any]
+NUMBER = r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
+LENGTH = re.compile(rf"(?<![\w.])({NUMBER})(?: to ({NUMBER}))? m(?![\w^*])")
+POINT = re.compile(rf"\(({NUMBER}), ({NUMBER})\) m(?![\w^*])")
 
 
 class Failed:
@@ -80,8 +69,9 @@ class Reader:
             if key == "type":
                 continue
             if key not in keys:
-                self.faults.add(here, _unknown(key, shapes, also))
-                given[_meant(key, shapes)] = FAILED
+                meant, reason = _unknown(key, shapes, also)
+                self.faults.add(here, reason)
+                given[meant] = FAILED
                 continue
             field = keys[key]
             if field.name in by:
@@ -98,7 +88,7 @@ class Reader:
             elif field.required:
                 self.faults.add((*place, field.keys[0]), "missing; it has no default")
                 given[field.name] = FAILED
-            elif field.allows_none and _has_no_default(cls, field.name):
+            elif field.allows_none and field.default is None:
                 given[field.name] = None
         return FAILED if FAILED in given.values() else given
 
@@ -107,18 +97,14 @@ class Reader:
         try:
             return cls(**given)
         except InputError as error:
-            for line in str(error).splitlines():
-                self._of_class(cls, line, place)
+            for line in map(in_millimetres, str(error).splitlines()):
+                if line.startswith(f"{cls.__name__}."):
+                    self.faults.add(
+                        (), ".".join(filter(None, (said_place(place), line[len(cls.__name__) + 1 :])))
+                    )
+                else:
+                    self.faults.add(place, line.removeprefix(f"{cls.__name__}: "))
             return FAILED
-
-    def _of_class(self, cls: type[Value], line: str, place: Place) -> None:
-        """What a class says of its fields, in the words of the file."""
-        name = cls.__name__
-        if line.startswith(f"{name}."):
-            whole = ".".join(filter(None, (said_place(place), line[len(name) + 1 :])))
-            self.faults.add((), _in_file_units(whole))
-        else:
-            self.faults.add(place, _in_file_units(line.removeprefix(f"{name}: ")))
 
     def _item_of(self, field: FieldShape, item: Any, place: Place, ending: str) -> Any:
         if field.unit is not None and not ending and _holds_number(item):
@@ -134,81 +120,82 @@ class Reader:
         if isinstance(item, (dict, list)) and len(place) > 2 * DEEPEST:
             self.faults.add(place[:4], f"is nested too deep; allowed: {DEEPEST} levels")
             return FAILED
-        if isinstance(shape, Either):
-            fitting = [one for one in shape.options if _is_for(one, item)]
-            if not fitting:
-                self.faults.wrong(place, item, allowed(shape, unit, ending))
-                return FAILED
-            return self.item(fitting[0], item, place, unit, ending)
-        if isinstance(shape, Group):
+        if "group" in shape:
             return self._group(shape, item, place)
-        if not _is_for(shape, item):
-            range_ = allowed(shape, unit, ending)
-            kind = "a number " if isinstance(shape, Number) and not range_.startswith("a ") else ""
-            self.faults.wrong(place, item, kind + range_)
-            return FAILED
+        if not is_for(shape, item):
+            return self._refused(shape, item, place, unit, ending)
         match shape:
-            case Number():
-                return self._number(shape, item, place, unit, ending)
-            case Choice():
-                return next(one for one in shape.options if one == item)
-            case Fixed():
-                return self._all(zip(shape.items, item, strict=True), place, unit, ending)
-            case Several():
-                found = self._all(((shape.item, one) for one in item), place, unit, ending)
-                return found if found is FAILED else shape.made(found)
-            case Named():
-                named = {
-                    name: self.item(shape.item, one, (*place, name), unit, ending) for name, one in item.items()
-                }
-                return FAILED if FAILED in named.values() else named
+            case {"anyOf": several}:
+                fitting = next(one for one in several if is_for(one, item))
+                return self.item(fitting, item, place, unit, ending)
+            case {"type": "number" | "integer" as kind}:
+                number = _in_si(item, unit, ending)
+                if number is None or not _is_within(number, shape):
+                    return self._refused(shape, item, place, unit, ending)
+                return int(number) if kind == "integer" else number
+            case {"type": "array"}:
+                shapes = shape.get("prefixItems", [shape.get("items")] * len(item))
+                *before, last = place or ("",)
+                pairs = ((one, (*before, f"{last}[{n}]")) for n, one in enumerate(shapes))
+                found = [self.item(one, item[n], at, unit, ending) for n, (one, at) in enumerate(pairs)]
+                return FAILED if FAILED in found else tuple(found)
+            case {"type": "object"}:
+                return self._table(shape, item, place, unit, ending)
         return item
 
-    def _all(self, pairs: Any, place: Place, unit: Unit | None, ending: str) -> Any:
-        """A tuple of items, each of its shape."""
-        *before, last = place or ("",)
-        found = tuple(
-            self.item(shape, one, (*before, f"{last}[{n}]"), unit, ending)
-            for n, (shape, one) in enumerate(pairs)
-        )
-        return FAILED if FAILED in found else found
+    def _refused(self, shape: Shape, item: Any, place: Place, unit: Unit | None, ending: str) -> Failed:
+        range_ = allowed(shape, unit, ending)
+        if shape.get("type") in ("number", "integer"):
+            if not is_for(shape, item):
+                range_ = range_ if range_.startswith("a ") else f"a number {range_}"
+            elif _in_si(item, unit, ending) is None:
+                range_ += f" up to {LARGEST:g}, in SI"
+        self.faults.wrong(place, item, range_)
+        return FAILED
 
-    def _group(self, shape: Group, item: Any, place: Place) -> Any:
+    def _table(self, shape: Shape, table: Any, place: Place, unit: Unit | None, ending: str) -> Any:
+        """A table of items by name: of any, or of those that the shape has."""
+        known: Mapping[str, Shape] = shape.get("properties", {})
+        found: dict[str, Any] = {}
+        for name, item in table.items():
+            here = (*place, name)
+            if inner := known.get(name, shape.get("additionalProperties")):
+                found[name] = self.item(inner, item, here, unit, ending)
+            else:
+                self.faults.add(here, f"unknown key; {nearest(name, known)}")
+                meant = get_close_matches(name[:80], known, 1)  # which is not called missing too
+                found[meant[0] if meant else name] = FAILED
+        for name in shape.get("required", ()):
+            if name not in found:
+                self.faults.add((*place, name), f"missing; it has no default: {known[name]['description']}")
+                found[name] = FAILED
+        return FAILED if FAILED in found.values() else found
+
+    def _group(self, shape: Shape, item: Any, place: Place) -> Any:
+        group: Group = shape["group"]
         for base, short_form in self.short_forms.items():
-            if any(issubclass(one, base) for one in shape.bases):
+            if any(issubclass(one, base) for one in group.bases):
                 found = short_form(self, item, place)
                 if found is not None:
                     return found
         if not isinstance(item, dict):
-            self.faults.wrong(place, item, allowed(shape))
-            return FAILED
-        cls = self.kind(shape, item, place)
+            return self._refused(shape, item, place, None, "")
+        cls = self._kind(group, item, place)
         return FAILED if cls is None else self.value(cls, item, place)
 
-    def kind(self, shape: Group, table: Mapping[str, Any], place: Place) -> type[Value] | None:
+    def _kind(self, group: Group, table: Mapping[str, Any], place: Place) -> type[Value] | None:
         """The class that a table says it is of; None if that is not known."""
         name = table.get("type")
         if name is None:
-            if shape.usual is None:
-                self.faults.add((*place, "type"), f"missing; allowed: {', '.join(shape.kinds) or 'none'}")
-            return shape.usual
-        if not isinstance(name, str) or name not in shape.kinds:
-            known = nearest(name if isinstance(name, str) else "", shape.kinds)
+            if group.usual is None:
+                self.faults.add((*place, "type"), f"missing; allowed: {', '.join(group.kinds) or 'none'}")
+            return group.usual
+        if not isinstance(name, str) or name not in group.kinds:
+            known = nearest(name if isinstance(name, str) else "", group.kinds)
             said_kinds = f"{known}; classes of one's own: --import MODULE"
             self.faults.add((), f"{said_place((*place, 'type'))} = {said(name)}: {said_kinds}")
             return None
-        return shape.kinds[name]
-
-    def _number(self, shape: Number, item: Any, place: Place, unit: Unit | None, ending: str) -> Any:
-        """A number in SI."""
-        number = _in_si(item, unit, ending)
-        if number is None or (shape.whole and number != math.floor(number)):
-            self.faults.wrong(place, item, allowed(shape, unit, ending))
-            return FAILED
-        if not all(_within(number, bound) for bound in shape.bounds):
-            self.faults.wrong(place, item, allowed(shape, unit, ending))
-            return FAILED
-        return int(number) if shape.whole else number
+        return group.kinds[name]
 
 
 def read_value(
@@ -228,45 +215,37 @@ def read_value(
     Raises InputError with a line for everything that is wrong: file, key, value, and what is allowed.
     """
     faults = Faults(where)
-    found = Reader(faults, short_forms).item(Group((cls,)), table, ())
+    found = Reader(faults, short_forms).item({"group": Group((cls,))}, table, ())
     faults.check()
     return found  # type: ignore[no-any-return]
 
 
-def _in_file_units(line: str) -> str:
-    """What a class says in metres, in mm; without the question whether that is what was given."""
-    return in_millimetres(line).replace(" (is it given in mm?)", "")
+def in_millimetres(message: str) -> str:
+    """What a class says in metres with all lengths in mm, also those over a time; areas and others stay.
+
+    Without the question whether millimetres is what was given.
+    """
+    message = POINT.sub(lambda found: f"({_mm(found[1])}, {_mm(found[2])}) mm", message)
+    message = LENGTH.sub(lambda found: " to ".join(_mm(one) for one in found.groups() if one) + " mm", message)
+    return message.replace(" (is it given in mm?)", "")
 
 
-def _has_no_default(cls: type[Value], name: str) -> bool:
-    info = cls.__pydantic_fields__[name]  # type: ignore[attr-defined]
-    return bool(info.is_required())
+def _mm(metres: str) -> str:
+    return f"{1e3 * float(metres):.10g}"
 
 
-def _unknown(key: str, shapes: Mapping[str, FieldShape], also: tuple[str, ...]) -> str:
-    """What is said of a key that no field has: what it may have been meant to be."""
+def _unknown(key: str, shapes: Mapping[str, FieldShape], also: Iterable[str]) -> tuple[str, str]:
+    """The field that a wrong key may mean, so that it is not called missing too; and what is said of it."""
     for field in shapes.values():
         if field.unit is not None and key.startswith(f"{field.name}_"):
-            return f"has another unit; allowed: {', '.join(field.keys)}"
+            return field.name, f"has another unit; allowed: {', '.join(field.keys)}"
         if key == field.name:
-            return f"is written with its unit; allowed: {', '.join(field.keys)}"
-    usual = [*also, *(one.keys[0] for one in shapes.values())]
-    every = [*also, *(key for one in shapes.values() for key in one.keys)]
-    known = nearest(key, every)
-    guess = known.partition("allowed: ")[0]
-    return f"unknown key; {guess}allowed: {', '.join(usual) or 'none'}"
-
-
-def _meant(key: str, shapes: Mapping[str, FieldShape]) -> str:
-    """The field that a wrong key is of, as far as that can be told, so that it is not called missing too."""
-    for field in shapes.values():
-        if key == field.name or key.startswith(f"{field.name}_"):
-            return field.name
-    known = {key: one.name for one in shapes.values() for key in one.keys}
-    from difflib import get_close_matches
-
-    near = get_close_matches(key[:80], known, 1)
-    return known[near[0]] if near else key
+            return field.name, f"is written with its unit; allowed: {', '.join(field.keys)}"
+    of = {key: one.name for one in shapes.values() for key in one.keys}
+    guess = nearest(key, [*also, *of]).partition("allowed: ")[0]
+    usual = ", ".join([*also, *(one.keys[0] for one in shapes.values())])
+    near = get_close_matches(key[:80], of, 1)
+    return of[near[0]] if near else key, f"unknown key; {guess}allowed: {usual or 'none'}"
 
 
 def _holds_number(item: Any) -> bool:
@@ -275,26 +254,22 @@ def _holds_number(item: Any) -> bool:
     return isinstance(item, (int, Decimal)) and not isinstance(item, bool)
 
 
-def _is_for(shape: Shape, item: Any) -> bool:
+def is_for(shape: Shape, item: Any) -> bool:
     """Whether an item is of the kind that a shape takes, whatever its range."""
     match shape:
-        case Number():
-            return isinstance(item, (int, float, Decimal)) and not isinstance(item, bool)
-        case Text():
-            return isinstance(item, str)
-        case Truth():
-            return isinstance(item, bool)
-        case Choice():
-            same = isinstance(item, (str, bool, int, Decimal))
-            return same and any(type(one) is type(item) and one == item for one in shape.options)
-        case Fixed():
-            return isinstance(item, list) and len(item) == len(shape.items)
-        case Several():
-            return isinstance(item, list)
-        case Named() | Group():
+        case {"anyOf": several}:
+            return any(is_for(one, item) for one in several)
+        case {"group": _} | {"type": "object"}:
             return isinstance(item, dict)
-        case Either():
-            return any(_is_for(one, item) for one in shape.options)
+        case {"enum": choices}:
+            return any(type(one) is type(item) and one == item for one in choices)
+        case {"names": names}:
+            return isinstance(item, str) and item in names.options
+        case {"type": "array"}:
+            return isinstance(item, list) and len(item) == len(shape.get("prefixItems", item))
+        case {"type": "number" | "integer"}:
+            return isinstance(item, (int, float, Decimal)) and not isinstance(item, bool)
+    return isinstance(item, str if shape["type"] == "string" else bool)
 
 
 def _in_si(item: int | float | Decimal, unit: Unit | None, ending: str) -> float | None:
@@ -310,13 +285,7 @@ def _in_si(item: int | float | Decimal, unit: Unit | None, ending: str) -> float
     return number if abs(number) <= LARGEST else None
 
 
-def _within(number: float, bound: Bound) -> bool:
-    sign, limit = bound
-    match sign:
-        case ">":
-            return number > limit
-        case ">=":
-            return number >= limit
-        case "<":
-            return number < limit
-    return number <= limit
+def _is_within(number: float, shape: Shape) -> bool:
+    """Whether a number is one of a shape."""
+    bounds = (fits(number, shape[name]) for name, (*_, fits) in BOUNDS.items() if name in shape)
+    return all(bounds) and (shape["type"] == "number" or number == math.floor(number))

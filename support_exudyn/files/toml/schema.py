@@ -2,32 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+import inspect
+from collections.abc import Mapping
 from decimal import Decimal
 from itertools import combinations
 from typing import Any
 
-from support_exudyn.files.toml.help_texts import summary
 from support_exudyn.files.toml.shapes import (
-    Choice,
-    Either,
+    BOUNDS,
     FieldShape,
-    Fixed,
     Group,
-    Named,
-    Number,
-    Several,
     Shape,
-    Text,
-    Truth,
+    either,
     field_shapes,
+    is_numeric,
+    options,
+    scaled,
 )
-from support_exudyn.files.toml.words import scaled
 from user_forces.values.units import Unit
 from user_forces.values.value import Value
 
 DRAFT = "https://json-schema.org/draft/2020-12/schema"
-KEYWORDS = {">": "exclusiveMinimum", ">=": "minimum", "<": "exclusiveMaximum", "<=": "maximum"}
 Table = dict[str, Any]
 
 
@@ -42,7 +37,7 @@ class Schemas:
         self.besides: dict[type[Value], list[Table]] = {}
 
     def value(self, cls: type[Value]) -> Table:
-        """That of a class: a reference to it."""
+        """The schema of a class: a reference to it."""
         name = cls.__name__
         if name not in self.defs:
             self.defs[name] = {}  # so that a class which holds its like comes to an end
@@ -50,69 +45,76 @@ class Schemas:
         return {"$ref": f"#/$defs/{name}"}
 
     def table(self, cls: type[Value], all_optional: bool = False) -> Table:
-        """That of a table that is a value of a class; all_optional: what is missing comes from elsewhere."""
+        """The schema of a value's table; all_optional: what is missing comes from elsewhere."""
         properties: Table = {"type": {"const": cls.__name__}}
         rules: list[Table] = []
         required: list[str] = []
         for field in field_shapes(cls).values():
             for key in field.keys:
-                properties[key] = self.field(cls, field, key)
+                properties[key] = self._field(field, key)
             rules += [{"not": {"required": list(two)}} for two in combinations(field.keys, 2)]
             if field.required and not all_optional:
                 if len(field.keys) == 1:
                     required.append(field.keys[0])
                 else:
                     rules.append({"anyOf": [{"required": [key]} for key in field.keys]})
-        found: Table = {"type": "object", "description": summary(cls), "properties": properties}
+        said = " ".join(inspect.cleandoc(cls.__doc__ or "").partition("\n\n")[0].split())
+        found: Table = {"type": "object", "description": said, "properties": properties}
         found |= {"required": required} if required else {}
         found |= {"allOf": rules} if rules else {}
         return found | {"additionalProperties": False}
 
-    def field(self, cls: type[Value], field: FieldShape, key: str) -> Table:
-        """That of a key by which a field may be given."""
+    def _field(self, field: FieldShape, key: str) -> Table:
+        """The schema of a key by which a field may be given."""
         ending = field.ending(key)
-        if field.unit is not None and field.wordy:
-            shape = _of_kind(field.shape, numbers=bool(ending))
-        else:
-            shape = field.shape
-        default = _default(cls, field, ending)
+        shape = field.shape
+        if field.unit is not None and len(field.keys) > len(field.unit.endings):  # numbers or words
+            shape = either([one for one in options(shape) if is_numeric(one) is bool(ending)])
+        default = _default(field, ending)
         said = {"description": field.help} if field.help else {}
         return said | self.item(shape, field.unit, ending) | ({} if default is None else {"default": default})
 
     def item(self, shape: Shape, unit: Unit | None = None, ending: str = "") -> Table:
-        """That of what fits a shape; numbers in the unit of an ending."""
-        match shape:
-            case Number():
-                bounds = {KEYWORDS[sign]: _plain(scaled(limit, unit, ending)) for sign, limit in shape.bounds}
-                return {"type": "integer" if shape.whole else "number", **bounds}
-            case Text():
-                return {"type": "string"}
-            case Truth():
-                return {"type": "boolean"}
-            case Choice():
-                return {"enum": list(shape.options)}
-            case Fixed():
-                items = [self.item(one, unit, ending) for one in shape.items]
-                inside = (
-                    {"prefixItems": items} if any(one != items[0] for one in items) else {"items": items[0]}
-                )
-                return {"type": "array", **inside, "minItems": len(items), "maxItems": len(items)}
-            case Several():
-                return {"type": "array", "items": self.item(shape.item, unit, ending)}
-            case Named():
-                return {"type": "object", "additionalProperties": self.item(shape.item, unit, ending)}
-            case Group():
-                return self.group(shape)
-            case Either():
-                return {"anyOf": [self.item(one, unit, ending) for one in shape.options]}
+        """The schema of what fits a shape; numbers in the unit of an ending."""
 
-    def group(self, group: Group) -> Table:
-        """That of a table whose type says its class, and of the other ways to write its values."""
-        kinds: Iterable[type[Value]] = group.kinds.values()
+        def inner(one: Shape) -> Table:
+            return self.item(one, unit, ending)
+
+        match shape:
+            case {"anyOf": several}:
+                return {"anyOf": list(map(inner, several))}
+            case {"group": group}:
+                return self._group(group)
+            case {"enum": choices}:
+                return {"enum": list(choices)}
+            case {"names": names}:
+                return {"enum": list(names.options)}
+            case {"prefixItems": shapes}:
+                items = list(map(inner, shapes))
+                same = all(one == items[0] for one in items)
+                inside = {"items": items[0]} if same else {"prefixItems": items}
+                return {"type": "array", **inside, "minItems": len(items), "maxItems": len(items)}
+            case {"items": item}:
+                return {"type": "array", "items": inner(item)}
+            case {"additionalProperties": item}:
+                return {"type": "object", "additionalProperties": inner(item)}
+            case {"properties": known}:
+                needed = {"required": list(shape["required"])} if shape.get("required") else {}
+                of_unit = f" [{ending}]" if ending else ""
+                inside = {
+                    name: {"description": one.get("description", name) + of_unit, **inner(one)}
+                    for name, one in known.items()
+                }
+                return {"type": "object", "properties": inside, **needed, "additionalProperties": False}
+        bounds = {name: _plain(scaled(shape[name], unit, ending)) for name in BOUNDS if name in shape}
+        return {"type": shape["type"], **bounds}
+
+    def _group(self, group: Group) -> Table:
+        """The schema of a table whose type says its class, and of the other ways to write its values."""
         # not beside the reference, where older drafts, which some editors know only, do not look
         tables = [
             self.value(kind) if kind is group.usual else {"allOf": [self.value(kind)], "required": ["type"]}
-            for kind in kinds
+            for kind in group.kinds.values()
         ]
         short = [one for base, them in self.besides.items() if base in group.bases for one in them]
         every = [*short, *tables]
@@ -123,17 +125,9 @@ class Schemas:
         return {"$schema": DRAFT, "title": title, **table, "$defs": dict(sorted(self.defs.items()))}
 
 
-def _of_kind(shape: Shape, numbers: bool) -> Shape:
-    """Of what may be numbers or words, what is one of them."""
-    options = shape.options if isinstance(shape, Either) else (shape,)
-    fitting = tuple(one for one in options if isinstance(one, (Number, Fixed, Several, Named)) is numbers)
-    return fitting[0] if len(fitting) == 1 else Either(fitting)
-
-
-def _default(cls: type[Value], field: FieldShape, ending: str) -> Any:
+def _default(field: FieldShape, ending: str) -> Any:
     """What a field is if it is left out, as a key says it; None if it is none, or long."""
-    info = cls.__pydantic_fields__[field.name]  # type: ignore[attr-defined]
-    found = None if info.is_required() else info.get_default(call_default_factory=True)
+    found = field.default
     if isinstance(found, (str, bool)):
         return None if ending else found
     if isinstance(found, (int, float)) and (field.unit is None or ending):

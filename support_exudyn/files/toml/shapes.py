@@ -1,85 +1,78 @@
-"""What a field of a value can hold in a file, found from its type: what reading, writing and schemas go by."""
+"""What a field of a value can hold in a file, found from its type: reading, writing and schemas go by it.
+
+A shape is a JSON Schema whose numbers are in SI, with two keywords of our own. `group`: the item is a value of
+one of a `Group` of classes. `names`: the item is a text out of `Names` that are asked for when it is read.
+"""
 
 from __future__ import annotations
 
 import inspect
+import operator
+import re
 import types
 import typing
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import MISSING, dataclass
 from dataclasses import fields as dataclass_fields
+from decimal import Decimal
 from functools import cache
 from typing import Any, Literal
 
-import annotated_types
+from pydantic import GetCoreSchemaHandler
 from pydantic.fields import FieldInfo
+from pydantic_core import core_schema
 from typing_extensions import Never
 
-from support_exudyn.files.toml.help_texts import help_texts
+from support_exudyn.files.toml.faults import said
 from user_forces.values.units import Unit
 from user_forces.values.value import InputError, Value
 
-Bound = tuple[str, float]  # one of > >= < <=, and the limit in SI
+Shape = Mapping[str, Any]
+# keywords of JSON Schema, each with its name in metadata, its sign and what fits it
+BOUNDS: dict[str, tuple[str, str, Callable[[float, float], bool]]] = {
+    "exclusiveMinimum": ("gt", ">", operator.gt),
+    "minimum": ("ge", ">=", operator.ge),
+    "exclusiveMaximum": ("lt", "<", operator.lt),
+    "maximum": ("le", "<=", operator.le),
+}
+ENTRY = re.compile(r"^(?P<names>\w+(?:, \w+)*): (?P<text>.*)$")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Names:
-    """Metadata of a field of texts: the names that are allowed, which are asked for when it is read."""
+    """Metadata of a field: the names that a text, or the keys of a table, can be.
 
-    known: Callable[[], Sequence[str]]
+    known: the names, each with what it means; of a table of tables, a mapping of names in place of the meaning;
+    or a function that gives the names of a text, which later classes may add to. required: keys that a table
+    must have.
+    """
 
-
-@dataclass(frozen=True)
-class Number:
-    """A number within bounds. whole: none between them."""
-
-    bounds: tuple[Bound, ...] = ()
-    whole: bool = False
-
-
-@dataclass(frozen=True)
-class Text:
-    """Any text."""
-
-
-@dataclass(frozen=True)
-class Truth:
-    """true or false."""
-
-
-@dataclass(frozen=True)
-class Choice:
-    """One of some words or numbers: those given, or those that are known when they are asked for."""
-
-    given: tuple[Any, ...] = ()
-    known: Callable[[], Sequence[str]] | None = None
+    known: Mapping[str, Any] | Callable[[], Sequence[str]]
+    required: tuple[str, ...] = ()
 
     @property
-    def options(self) -> tuple[Any, ...]:
-        """All that are allowed."""
-        return self.given if self.known is None else tuple(self.known())
+    def options(self) -> tuple[str, ...]:
+        """All names, as they are now."""
+        return tuple(self.known() if callable(self.known) else self.known)
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> Any:
+        """For pydantic: no value has another name."""
+        return core_schema.no_info_after_validator_function(self._checked, handler(source))
+
+    def _checked(self, item: Any) -> Any:
+        missing = [name for name in self.required if name not in item]
+        if missing:
+            raise ValueError(f"{missing[0]}: missing; it has no default")
+        _check_names(item, self.options if callable(self.known) else self.known)
+        return item
 
 
-@dataclass(frozen=True)
-class Fixed:
-    """A list of so many items."""
-
-    items: tuple[Shape, ...]
-
-
-@dataclass(frozen=True)
-class Several:
-    """A list of any length. made: what becomes of it."""
-
-    item: Shape
-    made: type = tuple
-
-
-@dataclass(frozen=True)
-class Named:
-    """A table of items by name."""
-
-    item: Shape
+def _check_names(item: Any, known: Any) -> None:
+    for name in [item] if isinstance(item, str) else item:
+        if name not in known:
+            raise ValueError(f"there is no {name!r}; allowed: {', '.join(known)}")
+        if isinstance(item, Mapping) and isinstance(known[name], Mapping):
+            _check_names(item[name], known[name])
 
 
 @dataclass(frozen=True)
@@ -108,14 +101,8 @@ class Group:
         return len(self.bases) > 1 or not _is_kind(self.bases[0])
 
 
-@dataclass(frozen=True)
-class Either:
-    """What fits one of some shapes, of which no two take the same."""
-
-    options: tuple[Shape, ...]
-
-
-Shape = Number | Text | Truth | Choice | Fixed | Several | Named | Group | Either
+def _is_kind(cls: type) -> bool:
+    return hasattr(cls, "__pydantic_fields__") and not inspect.isabstract(cls)
 
 
 @dataclass(frozen=True)
@@ -123,8 +110,8 @@ class FieldShape:
     """A field of a class.
 
     name: of it. shape: what it holds; without None, which a file says by leaving it out. unit: of its numbers,
-    if they have one. required: whether it has to be there. allows_none: whether it may be None.
-    help: what the docstring says of it.
+    if they have one. required: whether it has to be there. allows_none: whether it may be None. default: what
+    it is if it is left out. help: what the docstring says of it.
     """
 
     name: str
@@ -132,37 +119,42 @@ class FieldShape:
     unit: Unit | None
     required: bool
     allows_none: bool
+    default: Any
     help: str
 
     @property
-    def wordy(self) -> bool:
-        """Whether something that is no number fits, which needs no unit."""
-        options = self.shape.options if isinstance(self.shape, Either) else (self.shape,)
-        return any(isinstance(one, (Text, Truth, Choice, Group)) for one in options)
-
-    @property
     def keys(self) -> tuple[str, ...]:
-        """The keys by which a file may give it; the usual one first."""
+        """The keys by which a file may give it, the usual one first; without unit, for words, the last."""
         if self.unit is None:
             return (self.name,)
         ended = tuple(f"{self.name}_{ending}" for ending in self.unit.endings)
-        return (*ended, self.name) if self.wordy else ended
+        return ended if all(map(is_numeric, options(self.shape))) else (*ended, self.name)
 
     def ending(self, key: str) -> str:
         """The unit that one of the keys ends by; empty: without."""
         return "" if key == self.name else key[len(self.name) + 1 :]
 
 
-def _is_kind(cls: type) -> bool:
-    return hasattr(cls, "__pydantic_fields__") and not inspect.isabstract(cls)
+def options(shape: Shape) -> Sequence[Shape]:
+    """The shapes of which an item fits one."""
+    return shape.get("anyOf", (shape,))  # type: ignore[no-any-return]
 
 
-def field_shapes(cls: type[Value]) -> dict[str, FieldShape]:
-    """What a class declares, by the names of its fields.
+def either(shapes: Sequence[Shape]) -> Shape:
+    """One shape; classes of values among several become one group."""
+    bases = tuple(base for one in shapes if "group" in one for base in one["group"].bases)
+    rest = [one for one in shapes if "group" not in one] + ([{"group": Group(bases)}] if bases else [])
+    return rest[0] if len(rest) == 1 else {"anyOf": rest}
 
-    Raises InputError if a field is of a type that files have no form for.
-    """
-    return dict(_field_shapes(cls))  # type: ignore[arg-type]  # of values, which its hash is not of
+
+def is_numeric(shape: Shape) -> bool:
+    """Whether this is a number, or numbers in a list or table."""
+    return shape.get("type") in ("number", "integer", "array", "object")
+
+
+def field_shapes(cls: type[Value]) -> Mapping[str, FieldShape]:
+    """The fields of a class, by name. Raises InputError for one of a type that files have no form for."""
+    return _field_shapes(cls)  # type: ignore[arg-type]  # of values, which its hash is not of
 
 
 @cache
@@ -171,66 +163,71 @@ def _field_shapes(cls: type[Value]) -> Mapping[str, FieldShape]:
     declared: Mapping[str, FieldInfo] = cls.__pydantic_fields__  # type: ignore[attr-defined]
     for one in dataclass_fields(cls):  # type: ignore[arg-type]
         info = declared[one.name]
-        options = _options(info.annotation, tuple(info.metadata))
-        shapes = [_shape(kind, metadata, f"{cls.__name__}.{one.name}") for kind, metadata in options if kind]
-        required = one.default is MISSING and one.default_factory is MISSING and info.is_required()
+        members = _members(info.annotation, tuple(info.metadata))
+        shapes = [_shape(kind, metadata, f"{cls.__name__}.{one.name}") for kind, metadata in members if kind]
+        allows_none = len(shapes) < len(members)
+        needed = one.default is MISSING and one.default_factory is MISSING and info.is_required()
         found[one.name] = FieldShape(
             name=one.name,
-            shape=_either(shapes),
+            shape=either(shapes),
             unit=_unit(info.annotation, info.metadata),
-            required=required and len(shapes) == len(options),
-            allows_none=len(shapes) < len(options),
+            required=needed and not allows_none,
+            allows_none=allows_none,
+            default=None if info.is_required() else info.get_default(call_default_factory=True),
             help=help_texts(cls).get(one.name, ""),  # type: ignore[arg-type]
         )
     return found
 
 
-def _options(annotation: Any, metadata: Sequence[Any] = ()) -> list[tuple[Any, tuple[Any, ...]]]:
+def _members(annotation: Any, metadata: Sequence[Any] = ()) -> list[tuple[Any, tuple[Any, ...]]]:
     """The members of a union, with the metadata of each; None for NoneType."""
     if typing.get_origin(annotation) is typing.Annotated:
         inner, *more = typing.get_args(annotation)
-        return _options(inner, (*more, *metadata))
+        return _members(inner, (*more, *metadata))
     if typing.get_origin(annotation) in (typing.Union, types.UnionType):
-        return [one for member in typing.get_args(annotation) for one in _options(member, metadata)]
-    return [(None if annotation is type(None) else annotation, tuple(metadata))]
-
-
-def _either(shapes: Sequence[Shape]) -> Shape:
-    """One shape; classes of values among several become one group."""
-    groups = [one for one in shapes if isinstance(one, Group)]
-    rest: list[Shape] = [one for one in shapes if not isinstance(one, Group)]
-    if groups:
-        rest.append(Group(tuple(base for one in groups for base in one.bases)))
-    return rest[0] if len(rest) == 1 else Either(tuple(rest))
+        return [one for member in typing.get_args(annotation) for one in _members(member, metadata)]
+    return [(None if annotation is type(None) else annotation, tuple(_flat(metadata)))]
 
 
 def _shape(annotation: Any, metadata: Sequence[Any], where: str) -> Shape:
     origin, arguments = typing.get_origin(annotation), typing.get_args(annotation)
+    names = next((one for one in metadata if isinstance(one, Names)), None)
 
     def inner(item: Any) -> Shape:
-        options = [_shape(kind, more, where) for kind, more in _options(item) if kind]
-        return _either(options) if options else _no_form(where, item)
+        shapes = [_shape(kind, more, where) for kind, more in _members(item) if kind]
+        return either(shapes) if shapes else _no_form(where, item)
 
     if origin is Literal:
-        return Choice(arguments)
-    if annotation is bool:
-        return Truth()
+        return {"enum": arguments}
     if annotation in (float, int):
-        return Number(tuple(_bounds(metadata)), whole=annotation is int)
-    if annotation is str:
-        names = [one for one in metadata if isinstance(one, Names)]
-        return Choice(known=names[0].known) if names else Text()
-    if origin is tuple and arguments and arguments[-1] is Ellipsis:
-        return Several(inner(arguments[0]))
-    if origin is tuple:
-        return Fixed(tuple(map(inner, arguments)))
-    if origin in (frozenset, list):
-        return Several(inner(arguments[0]), origin)
+        limits = [(word, getattr(one, name, None)) for one in metadata for word, (name, *_) in BOUNDS.items()]
+        bounds = {word: float(limit) for word, limit in limits if limit is not None}
+        return {"type": "number" if annotation is float else "integer", **bounds}
+    if annotation in (bool, str):
+        return {"names": names} if names else {"type": "boolean" if annotation is bool else "string"}
+    if origin is tuple and arguments and arguments[-1] is not Ellipsis:
+        return {"type": "array", "prefixItems": tuple(map(inner, arguments))}
+    if origin in (tuple, frozenset, list):
+        return {"type": "array", "items": inner(arguments[0])}
     if inspect.isclass(origin) and issubclass(origin, Mapping):
-        return Named(inner(arguments[1]))
+        item = inner(arguments[1])
+        if names is None:
+            return {"type": "object", "additionalProperties": item}
+        return {**_named(item, names.known), "required": names.required}
     if inspect.isclass(annotation) and issubclass(annotation, Value):
-        return Group((annotation,))
+        return {"group": Group((annotation,))}
     return _no_form(where, annotation)
+
+
+def _named(item: Shape, known: Any) -> dict[str, Any]:
+    """The shape of a table whose keys are known, and so of the tables in it where names hold names."""
+    inside = {
+        name: _named(item["additionalProperties"], one)
+        if isinstance(one, Mapping)
+        else {**item, "description": one}
+        for name, one in known.items()
+    }
+    return {"type": "object", "properties": inside}
 
 
 def _no_form(where: str, annotation: Any) -> Never:
@@ -243,22 +240,7 @@ def _no_form(where: str, annotation: Any) -> Never:
 def _flat(metadata: Sequence[Any]) -> Iterator[Any]:
     """Metadata, with those that stand in a `Field(...)`."""
     for item in metadata:
-        if isinstance(item, FieldInfo):
-            yield from _flat(item.metadata)
-        else:
-            yield item
-
-
-def _bounds(metadata: Sequence[Any]) -> Iterator[Bound]:
-    for item in _flat(metadata):
-        if isinstance(item, annotated_types.Gt):
-            yield ">", item.gt  # type: ignore[misc]
-        if isinstance(item, annotated_types.Ge):
-            yield ">=", item.ge  # type: ignore[misc]
-        if isinstance(item, annotated_types.Lt):
-            yield "<", item.lt  # type: ignore[misc]
-        if isinstance(item, annotated_types.Le):
-            yield "<=", item.le  # type: ignore[misc]
+        yield from _flat(item.metadata) if isinstance(item, FieldInfo) else (item,)
 
 
 def _unit(annotation: Any, metadata: Sequence[Any] = ()) -> Unit | None:
@@ -270,3 +252,79 @@ def _unit(annotation: Any, metadata: Sequence[Any] = ()) -> Unit | None:
         inner, *more = typing.get_args(annotation)
         return _unit(inner, more)
     return next(filter(None, map(_unit, typing.get_args(annotation))), None)
+
+
+# --- in words ---
+
+
+def scaled(limit: float, unit: Unit | None, ending: str) -> Decimal:
+    """A limit in the unit of a key."""
+    exact = Decimal(repr(float(limit))) if unit is None else unit.write(float(limit), ending)
+    return exact.to_integral_value() if exact == exact.to_integral_value() and abs(exact) < 10**15 else exact
+
+
+def allowed(shape: Shape, unit: Unit | None = None, ending: str = "") -> str:
+    """What fits a shape, in words; numbers in the unit of a key."""
+
+    def inner(one: Shape) -> str:
+        return allowed(one, unit, ending)
+
+    match shape:
+        case {"anyOf": several}:
+            return ", or ".join(map(inner, several))
+        case {"group": group}:
+            return f"a table of type {', '.join(group.kinds)}" if group.kinds else "none"
+        case {"enum": choices}:
+            return ", ".join(map(said, choices))
+        case {"names": names}:
+            return ", ".join(map(said, names.options))
+        case {"type": "number" | "integer" as kind}:
+            limits = [(sign, shape[name]) for name, (_, sign, _) in BOUNDS.items() if name in shape]
+            bounds = " and ".join(f"{sign} {scaled(limit, unit, ending)}" for sign, limit in limits)
+            return bounds if bounds and kind == "number" else f"a {WHOLE[kind]} {bounds}".strip()
+        case {"prefixItems": items}:
+            return f"a list of {len(items)}, each {' or '.join(dict.fromkeys(map(inner, items)))}"
+        case {"items": item}:
+            return f"a list, each {inner(item)}"
+        case {"additionalProperties": item}:
+            return f"a table of names, each {inner(item)}"
+        case {"properties": names}:
+            return f"a table of {', '.join(names)}"
+    return "a text" if shape["type"] == "string" else "true, false"
+
+
+WHOLE = {"number": "number", "integer": "whole number"}
+
+
+# --- help from docstrings ---
+
+
+@cache
+def help_texts(cls: type) -> Mapping[str, str]:
+    """What docstrings say of the fields of a class, those of its bases too."""
+    found: dict[str, str] = {}
+    for one in reversed(cls.__mro__):
+        if one.__doc__ and "Arguments:" in one.__doc__:
+            found |= dict(_entries(inspect.cleandoc(one.__doc__).partition("Arguments:")[2]))
+    names = "|".join(one.name for one in dataclass_fields(cls))
+    for text in list(found.values()):  # several in a line: `radius: [m], > 0. mass: [kg], > 0.`
+        first, *more = re.split(rf"(?<=\.) (?=(?:{names}): )", text)
+        found = {name: first if one == text else one for name, one in found.items()}
+        found |= {name: one for name, _, one in (item.partition(": ") for item in more)}
+    return found
+
+
+def _entries(text: str) -> Iterator[tuple[str, str]]:
+    """Names and texts of an indented list `name: text`, one text over several lines."""
+    names: list[str] = []
+    words: list[str] = []
+    for line in [*text.splitlines()[1:], "end"]:
+        if line.strip() and not line.startswith("    "):  # a new section
+            break
+        if line.startswith("     ") or not line.strip():
+            words.append(line.strip())
+            continue
+        yield from ((name, " ".join(words).strip()) for name in names)
+        entry = ENTRY.match(line.strip())
+        names, words = (entry["names"].split(", "), [entry["text"]]) if entry else ([], [])
+    yield from ((name, " ".join(words).strip()) for name in names)

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from decimal import Decimal
 from typing import Any
 
-from support_exudyn.files.toml.shapes import FieldShape, Group, Named, Several, Shape, field_shapes
+from support_exudyn.files.toml.shapes import FieldShape, Shape, field_shapes, options
 from user_forces.values.units import Unit
 from user_forces.values.value import InputError, Value
 
@@ -32,8 +32,7 @@ def table_of(value: Value, says_type: bool = True) -> dict[str, Any]:
 
 def _check_default(cls: type[Value], field: FieldShape) -> None:
     """Raise InputError where None is not what a file means that leaves a field out."""
-    info = cls.__pydantic_fields__[field.name]  # type: ignore[attr-defined]
-    if not info.is_required() and info.get_default(call_default_factory=True) is not None:
+    if field.default is not None:
         raise InputError(
             f"{cls.__name__}.{field.name} = None: a file cannot say so, for leaving it out means the default; "
             "allowed in files: classes whose fields are None by default if at all"
@@ -42,21 +41,23 @@ def _check_default(cls: type[Value], field: FieldShape) -> None:
 
 def _item(item: Any, shape: Shape, unit: Unit | None) -> Any:
     if isinstance(item, Value):
-        groups = [one for one in getattr(shape, "options", (shape,)) if isinstance(one, Group)]
-        return table_of(item, not groups or groups[0].says_type or type(item) is not groups[0].bases[0])
+        group = next(one["group"] for one in options(shape) if "group" in one)
+        return table_of(item, group.says_type or type(item) is not group.bases[0])
     if isinstance(item, Mapping):
-        inner = next((one.item for one in _among(shape) if isinstance(one, Named)), shape)
-        return {name: _item(one, inner, unit) for name, one in item.items()}
+        return {name: _item(one, _inner(shape, name), unit) for name, one in item.items()}
     if isinstance(item, (tuple, list, frozenset)):
         items = sorted(item) if isinstance(item, frozenset) else item
-        inner = next((one.item for one in _among(shape) if isinstance(one, Several)), shape)
-        return [_item(one, inner, unit) for one in items]
-    if isinstance(item, float):
-        return Decimal(repr(item)) if unit is None else unit.write(item)
-    if isinstance(item, int) and not isinstance(item, bool) and unit is not None:
-        return unit.write(float(item))
+        return [_item(one, _inner(shape, n), unit) for n, one in enumerate(items)]
+    if isinstance(item, float) or (isinstance(item, int) and not isinstance(item, bool) and unit is not None):
+        return Decimal(repr(item)) if unit is None else unit.write(float(item))
     return item
 
 
-def _among(shape: Shape) -> tuple[Shape, ...]:
-    return getattr(shape, "options", (shape,))
+def _inner(shape: Shape, at: str | int) -> Shape:
+    """The shape of what is at a name of a table or a place of a list."""
+    for one in options(shape):
+        if one.get("type") == "array" and isinstance(at, int):
+            return one["prefixItems"][at] if "prefixItems" in one else one["items"]  # type: ignore[no-any-return]
+        if one.get("type") == "object" and isinstance(at, str):
+            return one["properties"][at] if "properties" in one else one["additionalProperties"]  # type: ignore[no-any-return]
+    return shape

@@ -34,10 +34,6 @@ class Faults:
         key = said_place(place)
         self.lines.append(": ".join(filter(None, (self.where, f"{key} = {said(item)}", f"allowed: {allowed}"))))
 
-    def unknown(self, place: Place, known: Collection[str]) -> None:
-        """A key that nothing asks for."""
-        self.add(place, f"unknown key; {nearest(place[-1], known)}")
-
     def check(self) -> None:
         """Raise InputError if anything was added."""
         if not self.lines:

@@ -1,0 +1,325 @@
+"""Files of four-bar shield supports: pivots, parts, columns, bores and widths."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping
+from dataclasses import field, replace
+from typing import Annotated, Any, ClassVar, Literal
+
+from pydantic import model_validator
+
+from support_exudyn.files.toml.reading import in_millimetres
+from support_exudyn.files.toml.shapes import Names
+from support_exudyn.machines.four_bar_shield import FRAME, PINS, FourBarShield
+from support_exudyn.machines.four_column_support import HydraulicSupport
+from support_exudyn.machines.machine_data import MachineData
+from support_exudyn.machines.shield_layout import BODIES, RODS, TAIL
+from support_exudyn.machines.two_leg_shield import TwoLegShield
+from support_exudyn.model.columns import TwoBodyColumn
+from support_exudyn.model.lateral_dimensions import Width
+from support_exudyn.model.linkage import GROUND, Part, bar
+from user_forces.values.units import Kilograms, KilogramSquareMetres, Metres, Radians
+from user_forces.values.value import InputError, NonNegative, Positive, Real, Value, Vector2, value
+
+PLACES = {
+    "rear_base": "rear link on base",
+    "front_base": "front link on base",
+    "rear_shield": "rear link on shield beam",
+    "front_shield": "front link on shield beam",
+    "hinge": "shield beam on canopy",
+    "tip": "foremost point of the canopy",
+}
+TAIL_PLACES = {
+    "tail_hinge": "tail beam on shield beam, where the tail beam is a body of its own",
+    "tail_jack_foot": "its jack on the shield beam",
+    "tail_jack_head": "its jack on the tail beam",
+}
+BODY_NAMES = {
+    "rear_link": "rear link",
+    "front_link": "front links, both together",
+    "shield": "shield beam, with the tail beam if it is no body of its own",
+    "canopy": "canopy",
+}
+BARS = {  # ends of the uniform bars that stand for bodies of which the mass alone is known
+    "rear_link": ("rear_base", "rear_shield"),
+    "front_link": ("front_base", "front_shield"),
+    "shield": ("rear_shield", "hinge"),
+    "canopy": ("hinge", "tip"),
+}
+BORES = {
+    **{name: PLACES[name] for name in FRAME if name in PINS},
+    "shield_canopy": "shield beam on canopy",
+    "shield_tail": "tail beam on shield beam",
+}
+SAYS_UNIT_TWICE = re.compile(r"(_mm = [^ :]+) mm\b")
+
+
+def pivots(columns: Mapping[str, str]) -> Names:
+    """The pivots of a support; columns: the ends of its columns, with what they are."""
+    return Names({**PLACES, **columns, **TAIL_PLACES}, required=(*PLACES, *columns))
+
+
+def masses(columns: Mapping[str, str]) -> Names:
+    """Bodies of which the mass alone is told, and rods of columns; columns: names, with what they are."""
+    bars = {name: f"{told}: a uniform bar from {' to '.join(BARS[name])}" for name, told in BODY_NAMES.items()}
+    return Names(bars | {name + RODS: f"rods of the {told}, at its head" for name, told in columns.items()})
+
+
+def widths(columns: Mapping[str, str]) -> Names:
+    """The lateral dimensions that a support has; columns: names, with what they are."""
+    cylinders = {
+        f"{name}_{part}": f"{part} of the {columns[name]}" for name in columns for part in ("cylinder", "rod")
+    }
+    return Names(
+        {
+            # widths over which masses are spread evenly; of a pair, of each
+            "bodies": {**BODY_NAMES, TAIL: "tail beam", **cylinders},
+            "pairs": {"front_link": "distance of the two front links"},
+            "columns": {name: f"distance of the two {told}" for name, told in columns.items()},
+            "pins": dict.fromkeys((*PINS, "shield_tail"), "length of the pin"),
+            "points": {"tip": "distance of two more of it, left and right"},
+        }
+    )
+
+
+@value
+class PartData(Value):
+    """A rigid part of a body: a uniform bar between two pivots or about its centre, or a point.
+
+    Arguments:
+        mass: [kg], > 0.
+        name: by which a scenario knows it: tail_beam, COLUMN_rods.
+        between: two pivots: a bar from one to the other.
+        centre: [m], of a bar or a point that is not between pivots.
+        length: of a bar about its centre [m], > 0.
+        direction: of that bar, from +x [rad].
+        inertia: about its centre, in place of that of a bar [kg m^2], > 0.
+    """
+
+    mass: Kilograms[Positive]
+    name: str = ""
+    between: tuple[str, ...] | None = None
+    centre: Metres[Vector2] | None = None
+    length: Metres[Positive] | None = None
+    direction: Radians[Real] | None = None
+    inertia: KilogramSquareMetres[Positive] | None = None
+
+    @model_validator(mode="after")
+    def _has_one_place(self) -> PartData:
+        if self.between is None and self.centre is None:
+            raise ValueError("centre_mm or between: missing; a part needs one of them")
+        for key in ("centre_mm", "length_mm", "direction_deg"):
+            if self.between is not None and getattr(self, key.rpartition("_")[0]) is not None:
+                raise ValueError(f"between and {key}: allowed: one of them")
+        if self.length is not None and self.inertia is not None:
+            raise ValueError("length_mm and inertia_kg_m2: allowed: one of them")
+        return self
+
+    def part(self, places: Mapping[str, Vector2], where: str) -> Part:
+        """The part. Raises InputError if a pivot is not there; where: the part stands in the file."""
+        if self.between is not None:
+            if len(self.between) != 2 or not all(name in places for name in self.between):
+                raise InputError(f"{where}.between = {list(self.between)}: allowed: two of {', '.join(places)}")
+            one = bar(self.mass, *(places[name] for name in self.between))
+        else:
+            assert self.centre is not None  # checked
+            length, along = self.length or 0.0, self.direction or 0.0
+            half = 0.5 * length * math.cos(along), 0.5 * length * math.sin(along)
+            # not its ends: rounding would move its centre
+            one = replace(bar(self.mass, (-half[0], -half[1]), half), centre=self.centre)
+        if self.inertia is not None:
+            one = replace(one, inertia=self.inertia, moments=None)
+        return replace(one, name=self.name)
+
+
+@value
+class ColumnData(Value):
+    """A column with mass, both of a pair together: cylinder and rod, each a uniform bar from its pin on.
+
+    Arguments:
+        cylinder_mass, rod_mass: [kg], > 0.
+        cylinder_length, rod_length: [m], > 0.
+    """
+
+    cylinder_mass: Kilograms[Positive]
+    cylinder_length: Metres[Positive]
+    rod_mass: Kilograms[Positive]
+    rod_length: Metres[Positive]
+
+    def column(self) -> TwoBodyColumn:
+        """The column as two bodies."""
+        return TwoBodyColumn(
+            cylinder_mass=self.cylinder_mass,
+            cylinder_centre=0.5 * self.cylinder_length,
+            cylinder_inertia=self.cylinder_mass * self.cylinder_length**2 / 12,
+            rod_mass=self.rod_mass,
+            rod_centre=0.5 * self.rod_length,
+            rod_inertia=self.rod_mass * self.rod_length**2 / 12,
+        )
+
+
+@value
+class SupportFile(Value):
+    """What all four-bar shield supports have in their files; a kind of them adds what depends on its columns.
+
+    Arguments:
+        kind: what the machine is.
+        name: what it is called.
+        sources: where the data come from: texts, by what they are of.
+        start_hinge_height: height of the hinge at the start, with a level canopy [m], > 0.
+        stroke: by how much the columns (legs) extend from the start on, in use [m], > 0.
+        pivots: all pivots in one reference posture, x forward, y up, [x, y] [m].
+        masses: of bodies of which the mass alone is known: uniform bars [kg], > 0.
+        parts: what bodies are made of, in the reference posture.
+        bore_radius: radii of the bores of pins, for pins with clearance [m], > 0.
+        columns: masses of columns, for scenarios that model them as two bodies.
+        width: lateral dimensions, for the spatial model [m].
+    """
+
+    MACHINE: ClassVar[type[FourBarShield[Any]]]
+    kind: str
+    pivots: Mapping[str, Vector2]
+    start_hinge_height: Metres[Positive]
+    name: str = ""
+    sources: Mapping[str, str] = field(default_factory=dict)
+    stroke: Metres[Positive] | None = None
+    masses: Mapping[str, Positive] = field(default_factory=dict)
+    parts: Annotated[Mapping[str, tuple[PartData, ...]], Names(BODY_NAMES)] = field(default_factory=dict)
+    bore_radius: Metres[Annotated[Mapping[str, Positive], Names(BORES)]] = field(default_factory=dict)
+    columns: Mapping[str, ColumnData] = field(default_factory=dict)
+    width: Mapping[str, Mapping[str, NonNegative]] | None = None
+
+    def data(self) -> MachineData:
+        """The support. Raises InputError if it cannot be built."""
+        parts = {body: self._parts(body) for body in BODIES}
+        try:
+            machine = self.MACHINE(
+                parts=parts, start_hinge_height=self.start_hinge_height, width=self._width(), **self.pivots
+            )
+        except InputError as error:
+            raise InputError(self._in_file_units(str(error))) from None
+        return MachineData(
+            machine,
+            self.name,
+            bore_radii=self.bore_radius,
+            columns={name: column.column() for name, column in self.columns.items()},
+            stroke=self.stroke,
+            sources=self.sources,
+            kind=self.kind,
+            assumed=tuple(self._assumed()),
+        )
+
+    def _width(self) -> Width | None:
+        if self.width is None:
+            return None
+        for kind in self.width.keys() - {"bodies"}:
+            for name, size in self.width[kind].items():
+                if size == 0.0:
+                    raise InputError(f"width_mm.{kind}.{name} = 0: allowed: > 0")
+        given = {
+            kind: dict(self.width.get(kind, {})) for kind in ("bodies", "pairs", "columns", "pins", "points")
+        }
+        evenly = 1.0 / math.sqrt(12.0)
+        return Width(
+            spreads={
+                name: evenly * (1e3 * size) / 1e3 for name, size in given["bodies"].items()
+            },  # rounded as in mm
+            pairs={name: 0.5 * size for name, size in given["pairs"].items()},
+            columns={name: 0.5 * size for name, size in given["columns"].items()},
+            lengths=given["pins"],
+            points={name: 0.5 * size for name, size in given["points"].items()},
+        )
+
+    def _parts(self, body: str) -> tuple[Part, ...]:
+        """The parts of a body: those that the file describes, or a bar; with the rods of columns on it."""
+        given, mass = self.parts.get(body, ()), self.masses.get(body)
+        described = tuple(one.part(self.pivots, f"parts.{body}[{n}]") for n, one in enumerate(given))
+        if described and mass is not None:
+            raise _said_twice(body, mass, body)
+        if not described and mass is None:
+            raise InputError(f"masses_kg.{body}: missing; allowed: this, or parts: [[parts.{body}]]")
+        bars = () if mass is None else (bar(mass, *(self.pivots[end] for end in BARS[body])),)
+        return (*described, *bars, *self._rods(body))
+
+    def _rods(self, body: str) -> list[Part]:
+        """The rods of columns whose heads are on a body, as points, as far as their masses alone are told."""
+        found = []
+        for name, strut in self.MACHINE.STRUTS.items():
+            rods = name + RODS
+            if strut.head[0] != body or rods not in self.masses:
+                continue
+            if any(part.name == rods for part in self.parts.get(body, ())):
+                raise _said_twice(rods, self.masses[rods], body)
+            found.append(Part(mass=self.masses[rods], centre=self.pivots[strut.head[1]], name=rods))
+        return found
+
+    def _assumed(self) -> list[str]:
+        """What was assumed because the file does not say it, in sentences."""
+        found = [
+            f"{name}: its {self.masses[name]:.10g} kg are a uniform bar from {' to '.join(BARS[name])}"
+            for name in BODIES
+            if name in self.masses
+        ]
+        named = {*self.masses, *(part.name for parts in self.parts.values() for part in parts)}
+        for name, strut in self.MACHINE.STRUTS.items():
+            if strut.head[0] != GROUND and name + RODS not in named:
+                found.append(f"{name}: its rods weigh nothing")
+        return found
+
+    def _in_file_units(self, message: str) -> str:
+        """What the machine says in metres by the names of its fields, in mm by the keys of the file."""
+        message = message.removeprefix(f"{self.MACHINE.__name__}: ").removeprefix(f"{self.MACHINE.__name__}.")
+        for name in self.MACHINE.pivots():
+            message = re.sub(rf"(?<![\w.]){name} = \((\S+), (\S+)\)(?: m\b)?", _pivot_in_mm(name), message)
+        message = message.replace("start_hinge_height = ", "start_hinge_height_mm = ")
+        return SAYS_UNIT_TWICE.sub(r"\1", in_millimetres(message))
+
+
+def _said_twice(name: str, mass: float, body: str) -> InputError:
+    return InputError(f"masses_kg.{name} = {mass:.10g}: parts.{body} says it too; allowed: one of them")
+
+
+def _pivot_in_mm(name: str) -> Any:
+    return lambda found: f"pivots_mm.{name} = [{1e3 * float(found[1]):g}, {1e3 * float(found[2]):g}]"
+
+
+FOUR_COLUMNS = {"front_column": "front columns", "rear_column": "rear columns"}
+FOUR_COLUMN_ENDS = {
+    "front_foot": "front column on base",
+    "front_head": "front column on canopy",
+    "rear_foot": "rear column on base",
+    "rear_head": "rear column on canopy",
+}
+LEGS = {"leg": "legs", "ram": "stabilising ram"}
+LEG_ENDS = {
+    "leg_foot": "leg on base",
+    "leg_head": "leg on canopy",
+    "ram_foot": "stabilising ram on shield beam",
+    "ram_head": "stabilising ram on canopy",
+}
+
+
+@value
+class FourColumnSupportFile(SupportFile):
+    """A four-bar shield support on two pairs of columns between base and canopy."""
+
+    MACHINE: ClassVar[type[FourBarShield[Any]]] = HydraulicSupport
+    kind: Literal["four_column_support"]
+    pivots: Metres[Annotated[Mapping[str, Vector2], pivots(FOUR_COLUMN_ENDS)]]
+    masses: Kilograms[Annotated[Mapping[str, Positive], masses(FOUR_COLUMNS)]] = field(default_factory=dict)
+    columns: Annotated[Mapping[str, ColumnData], Names(FOUR_COLUMNS)] = field(default_factory=dict)
+    width: Metres[Annotated[Mapping[str, Mapping[str, NonNegative]], widths(FOUR_COLUMNS)]] | None = None
+
+
+@value
+class TwoLegShieldFile(SupportFile):
+    """A four-bar shield support on a pair of legs, with a stabilising ram between shield beam and canopy."""
+
+    MACHINE: ClassVar[type[FourBarShield[Any]]] = TwoLegShield
+    kind: Literal["two_leg_shield"]
+    pivots: Metres[Annotated[Mapping[str, Vector2], pivots(LEG_ENDS)]]
+    masses: Kilograms[Annotated[Mapping[str, Positive], masses(LEGS)]] = field(default_factory=dict)
+    columns: Annotated[Mapping[str, ColumnData], Names(LEGS)] = field(default_factory=dict)
+    width: Metres[Annotated[Mapping[str, Mapping[str, NonNegative]], widths(LEGS)]] | None = None
