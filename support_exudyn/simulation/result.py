@@ -14,9 +14,7 @@ from typing import cast
 import h5py
 import numpy as np
 
-from support_exudyn.files.hdf5 import BLOCK, check_seal, seal
-from support_exudyn.files.hdf5_reading import Inside
-from support_exudyn.files.hdf5_writing import write_series
+from support_exudyn.files.hdf5 import BLOCK, Inside, check_seal, seal, write_series
 from support_exudyn.files.whole_file import contents, whole_file
 from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.mechanics.counts import Counts

@@ -12,7 +12,7 @@ from studies.common.paper_machine import bearing
 from support_exudyn import ClearancePin, CubicStep, Scenario, UniformSpeed, ravn_slider_crank, reference_support
 from support_exudyn.files import parsed, read_value, scenario_of, table_of, toml_text
 from support_exudyn.files.machines.read import read_machine
-from support_exudyn.files.scenarios.short_drive import DriveFile, DriveMode, DrivesFile
+from support_exudyn.files.scenarios.short_forms import DriveFile, DriveMode, DrivesFile
 from support_exudyn.files.scenarios.short_pin import USUAL_RESTITUTION, ShortPin, simple_laws
 from support_exudyn.files.toml.shapes import Group, field_shapes
 from support_exudyn.machines.slider_crank import SliderCrank

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from support_exudyn.files.machines.read import SHIPPED
-from support_exudyn.files.scenarios.short_drive import DriveFile, DriveMode, DrivesFile
+from support_exudyn.files.scenarios.short_forms import DriveFile, DriveMode, DrivesFile
 from support_exudyn.files.scenarios.short_pin import ShortPin
 from support_exudyn.files.toml.schema import Schemas, without
 from support_exudyn.files.toml.shapes import Group
