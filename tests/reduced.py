@@ -5,9 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from support_exudyn import Result, Scenario, simulate
 from support_exudyn.formulations.progress import Progress, silent
+from support_exudyn.formulations.reduced import parameters
 from support_exudyn.scenario.solver_settings import MOST_STEPS
 
 
@@ -21,6 +23,11 @@ def simulate_reduced(
     """Run a scenario in its free coordinates."""
     solver = replace(scenario.solver, tolerance=tolerance, backend=backend, most_steps=most_steps)
     return simulate(replace(scenario, formulation="reduced", solver=solver), progress=progress)
+
+
+def from_its_source(monkeypatch: pytest.MonkeyPatch) -> None:
+    """From now on a law of the family K depth^n is compiled from its source, as any other law is."""
+    monkeypatch.setattr(parameters, "has_family_form", lambda contact: False)
 
 
 def simulate_redundant(scenario: Scenario) -> Result:

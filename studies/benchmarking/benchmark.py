@@ -13,7 +13,6 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 from itertools import chain
-from typing import Literal
 
 import numpy as np
 
@@ -124,13 +123,8 @@ def rise_lines() -> Iterator[Line]:
     ]
     wanted = {
         "redundant": (RISE, coarse, "1/8"),
-        "tree, on oil columns": (OIL, [with_tolerance(oil, "tree", "auto", t) for t in tolerances], "1/40"),
-        "reduced, plain Python": (
-            RISE,
-            [with_tolerance(smooth, "reduced", "python", t) for t in tolerances],
-            "1/130",
-        ),
-        "reduced, compiled": (RISE, [with_tolerance(smooth, "reduced", "compiled", t) for t in tolerances], ""),
+        "tree, on oil columns": (OIL, [with_tolerance(oil, "tree", t) for t in tolerances], "1/40"),
+        "reduced": (RISE, [with_tolerance(smooth, "reduced", t) for t in tolerances], ""),
     }
     for name, (scene, tried, asked) in wanted.items():
         way = cheapest_way(scene, tried)
@@ -149,7 +143,7 @@ def rise_lines() -> Iterator[Line]:
         what = f"rise to the goal: {name}"
         yield Line(what, way.label, ours, f"stock recipe, {stock.label}", others, asked)
         yield Line(what, way.label, ours, f"stock recipe, {stock_ways[-1].label}", finest, "")
-        if name == "reduced, compiled":
+        if name == "reduced":
             yield from _against_the_yardstick(way)
 
 
@@ -159,9 +153,7 @@ def _against_the_yardstick(way: Way) -> Iterator[Line]:
         with yardstick.compiled() as program:
             run = partial(yardstick.run_yardstick, scenario, 1e-5, program=program, runs=20)
             ours = min(timed(way.bare) for _ in range(20))
-            yield Line(
-                "rise to the goal: reduced, compiled", way.label, ours, "C yardstick, 1e-5", run().seconds, "5"
-            )
+            yield Line("rise to the goal: reduced", way.label, ours, "C yardstick, 1e-5", run().seconds, "5")
     except yardstick.YardstickError as error:
         print(f"no yardstick: {error}", file=sys.stderr)
 
@@ -209,19 +201,16 @@ def slider_crank_lines() -> Iterator[Line]:
 
     tree_tolerance = next(t for t in (1e-6, 1e-7, 1e-8) if off(run_tree(half, t).x) <= SMALL_ERROR)
     tree = partial(run_tree, two, tree_tolerance)
-    backends: tuple[Literal["compiled", "python"], ...] = ("compiled", "python")
-    for backend in backends:
-        for t in (1e-4, 1e-5, 1e-6, 1e-7):
-            solver = SolverSettings(tolerance=t, backend=backend, audit=False)  # how wrong it is is measured
-            run = replace(half, formulation="reduced", solver=solver)
-            if off(simulate(run)["slider.x"]) <= SMALL_ERROR:
-                break
-        ours = partial(simulate, replace(run, duration=two.duration, solver=replace(solver, audit=True)))
-        mine, theirs, engine = in_turns(ours, lsoda, tree)
-        what, how = f"slider-crank, two revolutions: reduced, {backend}", f"tolerance {t:.0e}"
-        asked = ("1", "1.5") if backend == "compiled" else ("", "")
-        yield Line(what, how, mine, f"LSODA, {tolerance:.0e}", theirs, asked[0])
-        yield Line(what, how, mine, f"built-in contact, DOPRI5, {tree_tolerance:.0e}", engine, asked[1])
+    for t in (1e-4, 1e-5, 1e-6, 1e-7):
+        solver = SolverSettings(tolerance=t, audit=False)  # how wrong it is is measured
+        run = replace(half, formulation="reduced", solver=solver)
+        if off(simulate(run)["slider.x"]) <= SMALL_ERROR:
+            break
+    ours = partial(simulate, replace(run, duration=two.duration, solver=replace(solver, audit=True)))
+    mine, theirs, engine = in_turns(ours, lsoda, tree)
+    what, how = "slider-crank, two revolutions: reduced", f"tolerance {t:.0e}"
+    yield Line(what, how, mine, f"LSODA, {tolerance:.0e}", theirs, "1")
+    yield Line(what, how, mine, f"built-in contact, DOPRI5, {tree_tolerance:.0e}", engine, "1.5")
 
 
 # --- long runs and the import ---

@@ -11,7 +11,6 @@ import numpy as np
 from studies.benchmarking.references import tight_runs
 from studies.benchmarking.scenes import SCENES, Scene
 from support_exudyn import Estimate, Result, Scenario, SolverSettings, simulate
-from support_exudyn.formulations.compiled import is_compiling
 from support_exudyn.scenario.scenario_data import Accuracy
 from support_exudyn.simulation.reported_numbers import measures
 
@@ -73,8 +72,6 @@ def asked_for(quick: bool) -> Iterator[tuple[str, Scenario]]:
         if scene.is_short and not quick:
             for accuracy in PRESETS[:2]:
                 yield name, replace(scene.scenario, accuracy=accuracy, formulation="redundant")
-            solver = replace(scene.scenario.solver, backend="python")
-            yield name, replace(scene.scenario, accuracy="standard", formulation="reduced", solver=solver)
 
 
 def check(name: str, scenario: Scenario, tight: Result) -> Check:
@@ -92,7 +89,7 @@ def check(name: str, scenario: Scenario, tight: Result) -> Check:
     return Check(
         name,
         str(scenario.accuracy),
-        result.scenario.formulation + (", python" if scenario.solver.backend == "python" else ""),
+        result.scenario.formulation,
         result.wall_time,
         result.met,
         true,
@@ -117,8 +114,7 @@ def tight(scene: Scene) -> Result:
     """A run of a scene that is far closer than any accuracy that is asked for here."""
     if scene.scenario.oil_columns:
         return simulate(replace(scene.scenario, formulation="tree", solver=SolverSettings(tolerance=1e-9)))
-    plain, compiled = tight_runs(scene)
-    return simulate(compiled if is_compiling() else plain)
+    return simulate(tight_runs(scene)[0])
 
 
 def tight_numbers(after: float, run: Result) -> Mapping[str, float]:

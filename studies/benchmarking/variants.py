@@ -13,7 +13,6 @@ from studies.benchmarking.peers.peer_run import PeerRun
 from studies.benchmarking.peers.stock import run_stock
 from studies.benchmarking.scenes import Scene
 from support_exudyn import Scenario, SolverSettings, simulate
-from support_exudyn.formulations.compiled import is_compiling
 from user_forces import Frictionless
 
 LADDER = (4.0, 2.0, 1.0, 0.5, 0.25)  # times the scene's default step
@@ -54,7 +53,7 @@ def ways(scene: Scene, quick: bool) -> list[Way]:
     if quick:
         return list(_quick(scene))
     short = scene.is_short
-    found = [*_error_controlled(scene, TOLERANCES, TOLERANCES if short else TOLERANCES[::2])]
+    found = [*_error_controlled(scene, TOLERANCES)]
     found += _steps(scene, "symbolic", LADDER if short else SHORT_LADDER)
     found += _steps(scene, "python", SHORT_LADDER if short else SHORT_LADDER[1:2])
     found += _growing(scene)
@@ -67,25 +66,16 @@ def ways(scene: Scene, quick: bool) -> list[Way]:
 
 def _quick(scene: Scene) -> Iterator[Way]:
     """Few ways, none of which takes long."""
-    yield from _error_controlled(scene, TOLERANCES[::2], TOLERANCES[:3:2] if scene.is_short else ())
+    yield from _error_controlled(scene, TOLERANCES[::2])
     if scene.is_short:
         yield from _peers(scene, FIXED_STEPS[:2])
         yield from _steps(scene, "symbolic", SHORT_LADDER[:1])
 
 
-def _error_controlled(scene: Scene, tolerances: Sequence[float], of_python: Sequence[float]) -> Iterator[Way]:
-    """Formulations that choose their steps by a tolerance; plain Python at other tolerances.
-
-    Where nothing is compiled, plain Python is all there is.
-    """
-    if scene.scenario.oil_columns:
-        yield from (with_tolerance(scene, "tree", "auto", tolerance) for tolerance in tolerances)
-        return
-    compiles = is_compiling()
-    plain = of_python if compiles or of_python else tolerances
-    yield from (with_tolerance(scene, "reduced", "python", tolerance) for tolerance in plain)
-    if compiles:
-        yield from (with_tolerance(scene, "reduced", "compiled", tolerance) for tolerance in tolerances)
+def _error_controlled(scene: Scene, tolerances: Sequence[float]) -> Iterator[Way]:
+    """The formulation that chooses its steps by a tolerance."""
+    formulation: Literal["tree", "reduced"] = "tree" if scene.scenario.oil_columns else "reduced"
+    yield from (with_tolerance(scene, formulation, tolerance) for tolerance in tolerances)
 
 
 def _steps(scene: Scene, backend: Literal["python", "symbolic"], shares: Sequence[float]) -> Iterator[Way]:
@@ -135,14 +125,12 @@ def redundant(scene: Scene, family: str, label: str, share: float, **settings: o
 def with_tolerance(
     scene: Scene,
     formulation: Literal["tree", "reduced"],
-    backend: Literal["auto", "python", "compiled"],
     tolerance: float,
 ) -> Way:
     """A formulation with error control."""
-    solver = SolverSettings(tolerance=tolerance, backend=backend, audit=AUDIT)
+    solver = SolverSettings(tolerance=tolerance, audit=AUDIT)
     scenario = replace(scene.scenario, formulation=formulation, solver=solver)
-    family = formulation if backend == "auto" else f"{formulation}, {backend}"
-    return _way(family, f"tolerance {tolerance:.0e}", scene, scenario)
+    return _way(formulation, f"tolerance {tolerance:.0e}", scene, scenario)
 
 
 def _peers(scene: Scene, shares: Sequence[float]) -> Iterator[Way]:

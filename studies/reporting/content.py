@@ -155,7 +155,7 @@ def _verdict_counts(sections: Iterable[Section]) -> tuple[str, ...]:
 def _commands(quick: bool) -> tuple[tuple[str, str], ...]:
     option = " --quick" if quick else ""
     return (
-        ("python -m pip install -e '.[fast]'", "install, from the project's folder"),
+        ("python -m pip install -e .", "install, from the project's folder"),
         (f"python -m studies{option}", "run all studies and write this report"),
         (f"python -m studies.NAME{option}", "run one study, by its name in the table below"),
         ("python -m studies.report", "write this report again from the results that are there"),

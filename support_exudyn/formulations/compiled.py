@@ -1,36 +1,25 @@
-"""How functions of numbers are compiled, where numba is installed; the same numbers in every process.
-
-Without it they run as they stand, in plain Python. With it `plain` gives them back as they stand.
-"""
+"""How functions of numbers are compiled by numba: the same numbers in every process, kept on disk."""
 
 from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable
-from dataclasses import make_dataclass
 from functools import cache
 from pathlib import Path
 from types import FunctionType
-from typing import Any, TypeVar, cast
+from typing import Any, TypeVar
 
+import numba
 import numpy as np
+from llvmlite import ir
+from numba.extending import intrinsic
 
 from support_exudyn.formulations import contact_events
 from user_forces import contact
-
-try:
-    import numba
-except ImportError:
-    numba = None
+from user_forces.compilation.flat import NAMES
 
 CONSTANTS_OF = (contact_events, contact)  # modules of which compiled functions use constants
 Function = TypeVar("Function", bound=Callable[..., Any])
-_written: dict[Any, FunctionType] = {}  # what was decorated, by what it became
-
-
-def is_compiling() -> bool:
-    """Whether numba is there; the extra [fast] brings it."""
-    return numba is not None
 
 
 def compiled(function: Function) -> Function:
@@ -44,7 +33,7 @@ def compiled(function: Function) -> Function:
 
 
 def inlined(function: Function) -> Function:
-    """The same for formulas that are evaluated many times: their code is put where they are called.
+    """Decorator: compile a formula that is evaluated many times, and put its code where it is called.
 
     That makes the right-hand side twice as fast. Of larger functions it would only make compiling slower.
     """
@@ -59,8 +48,6 @@ def entry(function: Function) -> Function:
 def plain(function: Callable[..., Any], **instead: Any) -> Callable[..., Any]:
     """A decorated function as it was written, and so all decorated ones that it calls.
 
-    Named tuples that they make become objects with the same attributes.
-
     Arguments:
         function: that was decorated.
         instead: what is to stand for global names in all of them, such as `math=numpy` for arrays.
@@ -68,29 +55,20 @@ def plain(function: Callable[..., Any], **instead: Any) -> Callable[..., Any]:
     made: dict[FunctionType, FunctionType] = {}
 
     def bound(item: Any) -> FunctionType:
-        written = _written[item]
+        written: FunctionType = item.py_func
         if written not in made:
             names: dict[str, Any] = dict(written.__globals__)
             made[written] = FunctionType(
                 written.__code__, names, written.__name__, written.__defaults__, written.__closure__
             )
             for name in written.__code__.co_names:
-                item = names.get(name)
                 if name in instead:
                     names[name] = instead[name]
-                elif _is_decorated(item):
-                    names[name] = bound(item)
-                elif isinstance(item, type) and issubclass(item, tuple) and hasattr(item, "_fields"):
-                    names[name] = _slotted(item)
+                elif hasattr(names.get(name), "py_func"):
+                    names[name] = bound(names[name])
         return made[written]
 
     return bound(function)
-
-
-@cache
-def _slotted(item: Any) -> type:
-    """A class with the fields of a named tuple, which Python reads several times faster."""
-    return make_dataclass(item.__name__, item._fields, slots=True)
 
 
 def on_arrays(function: Callable[..., Any]) -> Callable[..., Any]:
@@ -98,23 +76,14 @@ def on_arrays(function: Callable[..., Any]) -> Callable[..., Any]:
     return plain(function, math=np)
 
 
-def _is_decorated(item: Any) -> bool:
-    return callable(item) and not isinstance(item, type) and item in _written
-
-
 def _kept(function: Function, **options: bool) -> Function:
-    dispatcher: Any = function
-    if numba is not None:
-        try:
-            dispatcher = numba.njit(cache=True, error_model="numpy", **options)(function)
-            kept = _is_kept_only_while_unchanged(dispatcher)
-        except (
-            RuntimeError
-        ):  # neither beside the program nor in a home may files be written: compiled each time
-            kept = False
-        if not kept:
-            dispatcher = numba.njit(error_model="numpy", **options)(function)
-    _written[dispatcher] = cast(FunctionType, function)
+    try:
+        dispatcher: Any = numba.njit(cache=True, error_model="numpy", **options)(function)
+        kept = _is_kept_only_while_unchanged(dispatcher)
+    except RuntimeError:  # neither beside the program nor in a home may files be written: compiled each time
+        kept = False
+    if not kept:
+        dispatcher = numba.njit(error_model="numpy", **options)(function)
     return dispatcher  # type: ignore[no-any-return]
 
 
@@ -141,3 +110,51 @@ def _is_kept_only_while_unchanged(dispatcher: Any) -> bool:
         return False
     kept._source_stamp = STAMP
     return True
+
+
+NUMBER = numba.types.float64
+LAW = NUMBER(*5 * (NUMBER,), *2 * (numba.types.CPointer(NUMBER),))
+
+
+@cache
+def compiled_law(source: str) -> Any:
+    """Machine code of a function `law`, see `law_source`; its `address` is what `call_law` takes.
+
+    It is kept on disk by a name that comes from its source. That takes half a second at its first use.
+    """
+    space: dict[str, Any] = {**NAMES, "__name__": __name__}
+    exec(compile(source, __file__, "exec"), space)
+    law = space["law"]
+    law.__qualname__ = law.__name__ = f"law_{hashlib.sha256(source.encode()).hexdigest()[:20]}"
+    try:
+        return numba.cfunc(LAW, cache=True, error_model="numpy")(law)
+    except RuntimeError:  # no place to keep it
+        return numba.cfunc(LAW, error_model="numpy")(law)
+
+
+@intrinsic  # type: ignore[untyped-decorator]
+def call_law(
+    context: Any,
+    address: Any,
+    depth: Any,
+    rate: Any,
+    slip: Any,
+    speed: Any,
+    mass: Any,
+    constants: Any,
+    out: Any,
+) -> Any:
+    """What the law at an address gives, which is a whole number in a float; for compiled functions.
+
+    The other arguments are those of `law_source`, constants and out contiguous arrays of floats.
+    """
+
+    def build(target: Any, builder: Any, signature: Any, values: Any) -> Any:
+        numbers, arrays = values[1:6], zip(signature.args[6:], values[6:], strict=True)
+        places = [target.make_array(kind)(target, builder, array).data for kind, array in arrays]
+        double = ir.DoubleType()
+        law = ir.FunctionType(double, [double] * 5 + [double.as_pointer()] * 2)
+        number = builder.fptoui(values[0], ir.IntType(64))
+        return builder.call(builder.inttoptr(number, law.as_pointer()), [*numbers, *places])
+
+    return NUMBER(*6 * (NUMBER,), constants, out), build

@@ -50,9 +50,8 @@ class SolverSettings(Value):
             as a share of the clearance, and of the speed of a fall through half of it. Tree: of that speed;
             1e-5 is enough for most.
         backend: what evaluates the force of clearance pins. "python": a Python function. "symbolic": the same
-            law as an expression of the engine (redundant). "compiled": by numba, the extra [fast], for laws
-            K depth^n with hysteresis damping and Ambrosio's friction or none (reduced). "auto": compiled where
-            that can be done in the reduced formulation, else Python.
+            law as an expression of the engine (redundant). "compiled": the law compiled by numba (reduced).
+            "auto": compiled in the reduced formulation, else Python.
         sections: in how many places along its axis the contact of a loose pin is evaluated in space, 2 to 64,
             the edges among them. Where a pin is not tilted any number gives the same; a tilted one on oil
             columns driven unequally by 2 % is right to 2 % with 5 and to 4e-4 with 9.

@@ -26,6 +26,21 @@ def test_what_cannot_be_kept_is_compiled_all_the_same(monkeypatch: pytest.Monkey
 
     monkeypatch.setattr(numba, "njit", without_a_place)
     dispatcher = compiled._kept(twice)
-    monkeypatch.delitem(compiled._written, dispatcher)
     assert dispatcher(21.0) == 42.0
     assert asked[:2] == [True, False]  # then numba compiles helpers of its own
+
+
+def test_a_law_that_cannot_be_kept_is_compiled_all_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[bool] = []
+    cfunc = numba.cfunc
+
+    def without_a_place(*args: Any, cache: bool = False, **options: Any) -> Any:
+        asked.append(cache)
+        if cache:
+            raise RuntimeError("cannot cache function 'law': no locator available for file 'a.py'")
+        return cfunc(*args, **options)
+
+    monkeypatch.setattr(numba, "cfunc", without_a_place)
+    source = "def law(depth, rate, slip, speed, mass, constants, out):\n    return constants[0] * depth"
+    assert compiled.compiled_law(source).address > 0
+    assert asked == [True, False]

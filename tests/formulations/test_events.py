@@ -18,7 +18,6 @@ from numpy.polynomial import Polynomial
 
 from support_exudyn.formulations.compiled import plain
 from support_exudyn.formulations.reduced import events, integrate, layout
-from support_exudyn.formulations.reduced.plain_run import PARTS_CLOSED
 from support_exudyn.formulations.tree.events import Kind, event
 from support_exudyn.formulations.tree.loose import Place
 
@@ -69,31 +68,28 @@ def crossings(curve: Polynomial, sign: float) -> list[float]:
 Finder = Callable[[Course, float, float], Seen]
 
 
-def reduced(parts: int, cut_samples: int) -> Finder:
-    """The finder of the reduced formulation with so many parts of a step in contact."""
+def in_reduced(course: Course, t: float, h: float) -> Seen:
+    """The finder of the reduced formulation."""
 
-    def find(course: Course, t: float, h: float) -> Seen:
-        def contact(time: float) -> list[float]:
-            found = [0.0] * layout.CONTACT
-            found[layout.DEPTH], found[layout.RATE] = float(course.depth(time)), float(course.rate(time))
-            found[layout.PUSH] = 1.0
-            return found
+    def contact(time: float) -> list[float]:
+        found = [0.0] * layout.CONTACT
+        found[layout.DEPTH], found[layout.RATE] = float(course.depth(time)), float(course.rate(time))
+        found[layout.PUSH] = 1.0
+        return found
 
-        def look(
-            p: object, segment: object, memory: object, begin: float, step: float, x: float, *rest: list
-        ) -> None:
-            rest[-1][:] = contact(begin + x * step)
+    def look(
+        p: object, segment: object, memory: object, begin: float, step: float, x: float, *rest: list
+    ) -> None:
+        rest[-1][:] = contact(begin + x * step)
 
-        p = [0.0] * layout.PARAMETERS
-        p[layout.BY_DEPTH], p[layout.CLEARANCE] = 1.0, 1.0  # no way is too long
-        memory = [0.0] * layout.MEMORY
-        memory[layout.TOUCHING] = float(course.closed)
-        look_for = plain(events.event, look=look, PARTS_CLOSED=parts, CUT_SAMPLES=cut_samples)
-        scratch = [0.0] * layout.STATES, [0.0] * layout.CONTACT
-        what, low, high = look_for(p, [], memory, t, h, contact(t), contact(t + h), None, *scratch)
-        return NAMES[what], t + low * h, t + high * h
-
-    return find
+    p = [0.0] * layout.PARAMETERS
+    p[layout.RENEWS], p[layout.CLEARANCE] = 1.0, 1.0  # no way is too long
+    memory = [0.0] * layout.MEMORY
+    memory[layout.TOUCHING] = float(course.closed)
+    look_for = plain(events.event, look=look)
+    scratch = [0.0] * layout.STATES, [0.0] * layout.CONTACT
+    what, low, high = look_for(p, [], memory, t, h, contact(t), contact(t + h), None, *scratch)
+    return NAMES[what], t + low * h, t + high * h
 
 
 def in_tree(course: Course, t: float, h: float) -> Seen:
@@ -110,7 +106,7 @@ def in_tree(course: Course, t: float, h: float) -> Seen:
     return kinds[found.kind], t + found.fraction * h, t + found.fraction * h
 
 
-FINDERS = {"compiled": reduced(1, events.CUT_SAMPLES), "python": reduced(PARTS_CLOSED, 1), "tree": in_tree}
+FINDERS = {"reduced": in_reduced, "tree": in_tree}
 
 
 def driven(find: Finder, course: Course) -> tuple[Seen, float]:
@@ -209,7 +205,7 @@ def cut(push: Callable[[float], float], depth: Polynomial, h: float = 0.125, sta
         rest[-1][:] = contact(begin + x * step)
 
     p, memory = [0.0] * layout.PARAMETERS, [0.0] * layout.MEMORY
-    p[layout.BY_DEPTH] = memory[layout.TOUCHING] = 1.0
+    p[layout.RENEWS] = memory[layout.TOUCHING] = 1.0
     scratch = [0.0] * layout.STATES, [0.0] * layout.CONTACT
     ends = contact(start), contact(start + h)
     what, low, high = plain(events.event, look=look)(p, [], memory, start, h, *ends, None, *scratch)
@@ -286,7 +282,7 @@ def test_what_is_over_within_a_step_is_seen(finder: str, middle: float) -> None:
     assert (what, low - 1e-9 <= middle - 0.03 <= high + 1e-9) == (TOUCH, True)
 
 
-@pytest.mark.parametrize("finder", ["compiled", "tree"])
+@pytest.mark.parametrize("finder", ["reduced", "tree"])
 @pytest.mark.parametrize("bend", [0.03, -0.03])
 def test_what_a_cubic_cannot_tell_is_looked_at_more_closely(finder: str, bend: float) -> None:
     # s^2 + bend s^4 has the same values and slopes at -1 and 1 as a parabola that is lower by `bend` at 0
@@ -295,7 +291,7 @@ def test_what_a_cubic_cannot_tell_is_looked_at_more_closely(finder: str, bend: f
     assert FINDERS[finder](Course(close, closed=True), 0.0, 0.125)[0] == UNCLEAR
 
 
-@pytest.mark.parametrize("finder", ["compiled", "tree"])
+@pytest.mark.parametrize("finder", ["reduced", "tree"])
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_a_dip_that_a_cubic_does_not_show_is_looked_at_more_closely(finder: str, sign: float) -> None:
     # the rate has the values and the mean of s^2 + 0.02, which stays above zero, but is at -0.02 in the middle

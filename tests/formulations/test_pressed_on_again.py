@@ -48,12 +48,6 @@ def test_a_short_dip_is_seen_at_every_tolerance(tolerance: float) -> None:
     assert result[REAR].max() == pytest.approx(LARGEST, rel=3e-5)
 
 
-@pytest.mark.parametrize("tolerance", [1e-5, 1e-8])
-def test_the_long_steps_of_plain_python_are_looked_into(tolerance: float) -> None:
-    result = simulate_reduced(dipping(), tolerance, "python")
-    assert result[REAR].max() == pytest.approx(LARGEST, rel=1e-5)
-
-
 def test_the_engines_steps_see_it_too() -> None:
     result = simulate(dipping(formulation="redundant"))
     assert result[REAR].max() == pytest.approx(LARGEST, rel=1e-4)
@@ -89,10 +83,10 @@ def test_no_number_of_a_met_run_is_far_off(number: int, accuracy: str) -> None:
 
 
 @pytest.mark.parametrize(("number", "onsets"), [(0, 5), (10, 3)])
-def test_a_turn_that_is_met_in_plain_python_is_not_met_again(number: int, onsets: int) -> None:
+def test_a_turn_that_is_met_is_not_met_again(number: int, onsets: int) -> None:
     # rounding leaves the rate a little below zero where it has turned: the run stood still there; in the second
     # scene the step that followed was made again shorter
-    result = simulate_reduced(drawn(1, number), 1e-8, "python", most_steps=1000)
+    result = simulate_reduced(drawn(1, number), 1e-8, most_steps=1000)
     assert len(result.onsets[PIN]) == onsets
 
 

@@ -21,7 +21,7 @@ from support_exudyn import (
     reference_support,
 )
 from tests.cases.run_cases import FORCE, PIN, loose_support, paper_contact, support
-from tests.reduced import same_channels, simulate_reduced, simulate_redundant
+from tests.reduced import from_its_source, same_channels, simulate_reduced, simulate_redundant
 from user_forces import Ambrosio, DepthSpeed, Frictionless, JournalContact, LankaraniNikravesh, TouchSpeed
 
 # t [s]: pin force, its x, y [N], angular velocity [deg/s] and acceleration [deg/s^2] of the rear link
@@ -229,7 +229,7 @@ def test_a_loose_support_on_columns_that_move_from_the_start_on(bore: str) -> No
     assert ours.energy_error < 1e-5 * ours.dissipated
 
 
-# --- plain Python ---
+# --- the family's formulas, and laws compiled from their source ---
 
 DRIVES: dict[str, Drive] = {
     "mode 1": CubicStep(stroke=0.05, start=0.02, end=0.3),
@@ -241,30 +241,21 @@ DRIVES: dict[str, Drive] = {
 @pytest.mark.parametrize("bore", ["first", "second"])
 @pytest.mark.parametrize("mu", [0.0, 0.25])
 @pytest.mark.parametrize("damping", [TouchSpeed(floor=1e-3), DepthSpeed()], ids=["touch", "depth"])
-def test_plain_python_is_the_compiled_run(
-    damping: TouchSpeed | DepthSpeed, mu: float, bore: str, drive: str
+def test_the_familys_formulas_are_the_source_of_its_laws(
+    damping: TouchSpeed | DepthSpeed, mu: float, bore: str, drive: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     scenario = replace(dropping(law(damping), mu, bore), drive=DRIVES[drive], duration=0.12)
-    python, fast = (simulate_reduced(scenario, 1e-9, backend) for backend in ("python", "compiled"))
-    assert python.counts.user_function_calls > 0
-    assert fast.counts.user_function_calls == 0
-    # two methods at a tolerance of 1e-9 through four to six impacts; measured 2e-8 s and 2e-7 m/s, and where
-    # a contact that is let go for tension parts, up to a nanosecond late
-    np.testing.assert_allclose(python.onsets[PIN], fast.onsets[PIN], rtol=0, atol=1e-6)
-    # measured 9e-6, in the friction force at slip speeds of its ramp
-    for name, wrong in same_channels(python, fast).items():
-        assert wrong.max() < 5e-5, name
-    # measured 3e-6 with mobility renewed, 2e-7 without
-    assert python.largest_force[PIN] == pytest.approx(fast.largest_force[PIN], rel=2e-5)
-    assert len(python.impulses) == len(fast.impulses) == (2 if drive == "mode 2" else 0)
-    for one, other in zip(python.impulses, fast.impulses, strict=True):
-        assert one.time == other.time
-        # of the state before the second, measured 2e-10
-        assert one.columns == pytest.approx(other.columns, rel=1e-8)
-        assert one.energy == pytest.approx(other.energy, rel=1e-8)
-    # of 1.3 kJ of work; four nodes a step where the law's force has kinks, measured 3e-5 J
-    assert python.energy_error < 1e-4
-    assert fast.energy_error < 1e-5
+    family = simulate_reduced(scenario, 1e-9)
+    from_its_source(monkeypatch)
+    source = simulate_reduced(scenario, 1e-9)
+    # the same steps with roundings of another order, through four to six impacts
+    np.testing.assert_allclose(source.onsets[PIN], family.onsets[PIN], rtol=0, atol=1e-9)
+    for name, wrong in same_channels(source, family).items():
+        assert wrong.max() < 1e-6, name
+    assert source.largest_force[PIN] == pytest.approx(family.largest_force[PIN], rel=1e-9)
+    assert len(source.impulses) == len(family.impulses) == (2 if drive == "mode 2" else 0)
+    # of 1.3 kJ of work
+    assert source.energy_error < 1e-5
 
 
 def test_velocities_after_a_jump_are_the_closed_form_ones() -> None:
@@ -296,23 +287,21 @@ def test_a_loose_pin_transmits_no_impulse() -> None:
     assert closed.energy == pytest.approx(0.5 * 0.25 * sum(closed.columns.values()), rel=1e-12)
 
 
-@pytest.mark.parametrize("backend", ["python", "compiled"])
-def test_largest_force_is_that_of_the_peak_between_records(backend: str) -> None:
+def test_largest_force_is_that_of_the_peak_between_records() -> None:
     scenario = loose_support(drive=Held(), duration=0.03)
-    fine = simulate_reduced(replace(scenario, record_period=1e-6), 1e-9, backend)
+    fine = simulate_reduced(replace(scenario, record_period=1e-6), 1e-9)
     # the parabola through neighbours of the peak, 1 us of 5 ms; what 1e-5 makes of an impact: measured 2e-5
     for tolerance, close in ((1e-9, 1e-6), (1e-5, 1e-4)):
-        result = simulate_reduced(scenario, tolerance, backend)
+        result = simulate_reduced(scenario, tolerance)
         assert result.largest_force[PIN] == pytest.approx(fine[FORCE].max(), rel=close)
         assert result[FORCE].max() < result.largest_force[PIN]
 
 
 @pytest.mark.parametrize("loose", [False, True])
-@pytest.mark.parametrize("backend", ["python", "compiled"])
-def test_the_first_record_is_of_the_state_before_a_jump_at_the_start(loose: bool, backend: str) -> None:
+def test_the_first_record_is_of_the_state_before_a_jump_at_the_start(loose: bool) -> None:
     drive = UniformSpeed(stroke=0.5, start=0.0, end=2.0)
     scenario = (loose_support if loose else support)(drive=drive, duration=0.01)
-    ours, theirs = simulate_reduced(scenario, backend=backend), simulate_redundant(scenario)
+    ours, theirs = simulate_reduced(scenario), simulate_redundant(scenario)
     assert ours["energy.kinetic"][0] == theirs["energy.kinetic"][0] == 0.0
     for name in (name for name in ours.channels if "velocity" in name):
         assert ours[name][0] == 0.0, name

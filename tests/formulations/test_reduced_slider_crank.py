@@ -16,7 +16,7 @@ from tests.cases.run_cases import (
     slider_crank_contact,
 )
 from tests.formulations.test_slider_crank import SPEEDS, TIMES
-from tests.reduced import same_channels, simulate_reduced, simulate_redundant
+from tests.reduced import from_its_source, same_channels, simulate_reduced, simulate_redundant
 from user_forces import DepthSpeed, LankaraniNikravesh
 
 GRAVITY = (300.0, -981.0)  # so strong that what is forgotten of it shows [m/s^2]
@@ -54,30 +54,30 @@ def test_printed_onsets(backend: str) -> None:
     assert result.largest_force[SLIDER_PIN] == pytest.approx(4.59e4, rel=1e-3)
 
 
-@BACKENDS
-def test_onsets_at_the_usual_tolerance(backend: str) -> None:
+def test_onsets_at_the_usual_tolerance() -> None:
     # five impacts at 1e-7; measured 9e-10 s and 1.6e-5 m/s
-    check_onsets(simulate_reduced(loose_slider_crank(1.3e-3), 1e-7, backend), 5e-9, 5e-5)
+    check_onsets(simulate_reduced(loose_slider_crank(1.3e-3), 1e-7), 5e-9, 5e-5)
 
 
 @BORES
 @FRICTIONS
 @EVERY_DRIVE
-def test_plain_python_is_the_compiled_run(drive: str, mu: float, bore: str) -> None:
+def test_the_familys_formulas_are_the_source_of_its_laws(
+    drive: str, mu: float, bore: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
     scenario = scene(drive, bore, mu)
     # each of twenty knocks multiplies the errors of the ones before
     tolerance = 1e-11 if drive == "held" else 1e-9
-    python, fast = (simulate_reduced(scenario, tolerance, backend) for backend in ("python", "compiled"))
-    assert python.counts.user_function_calls > 0
-    assert fast.counts.user_function_calls == 0
-    # two methods at a tolerance of 1e-9 through up to nine impacts; measured 2e-9 s and 1e-6 m/s
-    np.testing.assert_allclose(python.onsets[SLIDER_PIN], fast.onsets[SLIDER_PIN], rtol=0, atol=1e-5)
-    assert len(python.onsets[SLIDER_PIN]) >= 4
-    assert python.largest_force[SLIDER_PIN] == pytest.approx(fast.largest_force[SLIDER_PIN], rel=2e-5)
-    for name, wrong in same_channels(python, fast).items():
-        # measured 1e-5 while something drives, 1e-6 after twenty knocks at the smaller tolerance
-        assert wrong.max() < 1e-4, name
-    for result in (python, fast):
+    family = simulate_reduced(scenario, tolerance)
+    from_its_source(monkeypatch)
+    source = simulate_reduced(scenario, tolerance)
+    # through up to nine impacts
+    np.testing.assert_allclose(source.onsets[SLIDER_PIN], family.onsets[SLIDER_PIN], rtol=0, atol=1e-6)
+    assert len(source.onsets[SLIDER_PIN]) >= 4
+    assert source.largest_force[SLIDER_PIN] == pytest.approx(family.largest_force[SLIDER_PIN], rel=1e-6)
+    for name, wrong in same_channels(source, family).items():
+        assert wrong.max() < 1e-5, name
+    for result in (source, family):
         # measured 1.2e-6 J of up to 270 J
         assert result.energy_error < 1e-5
 
@@ -129,16 +129,16 @@ def test_the_moment_of_the_crank_does_the_work() -> None:
 
 
 @BORES
-def test_a_law_that_asks_for_the_moving_mass(bore: str) -> None:
+def test_a_law_that_asks_for_the_moving_mass(bore: str, monkeypatch: pytest.MonkeyPatch) -> None:
     # restitution 0.3: from the third touch on the pin is pressed on again while the rod turns
     law = LankaraniNikravesh(stiffness=5e10, restitution=0.3, damping_speed=DepthSpeed())
     contact = replace(slider_crank_contact(), normal=law)
     scenario = slider_crank(4e-3, pins={SLIDER_PIN: ClearancePin(contact=contact, bore=bore)}, gravity=GRAVITY)
-    python, fast = (simulate_reduced(scenario, 1e-9, backend) for backend in ("python", "compiled"))
-    theirs = simulate_redundant(scenario)
-    assert python.dissipated == pytest.approx(fast.dissipated, rel=1e-6)
+    fast, theirs = simulate_reduced(scenario, 1e-9), simulate_redundant(scenario)
+    from_its_source(monkeypatch)
+    assert simulate_reduced(scenario, 1e-9).dissipated == pytest.approx(fast.dissipated, rel=1e-6)
     # the engine's steps, measured 3e-6; with the mobility in the axes of the ground it is 3e-5
-    assert python.dissipated == pytest.approx(theirs.dissipated, rel=1e-5)
+    assert fast.dissipated == pytest.approx(theirs.dissipated, rel=1e-5)
     for name, item in same_channels(fast, theirs).items():
         assert np.median(item) < 1e-4, name
         assert np.quantile(item, 0.99) < 1e-2, name

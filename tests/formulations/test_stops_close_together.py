@@ -75,9 +75,6 @@ SCENES: dict[str, Callable[[float], Scenario]] = {
     ),
     "tree": lambda t: loose_support(0.5, 0.25, drive=cubic(t), columns=OILS, formulation="tree", **SHORT),
     "reduced": lambda t: loose_support(0.5, 0.25, drive=cubic(t), formulation="reduced", **SHORT),
-    "reduced, by Python": lambda t: loose_support(
-        0.5, 0.25, drive=cubic(t), formulation="reduced", solver=SolverSettings(backend="python"), **SHORT
-    ),
 }
 # of the forces: accelerations jump at smooth breaks by 10 m/s^2 and change within 10 ms, so that forces change
 # by 1e-3 of the weight if a break moves by 1e-6 s; below it is Newton's method, and rounding in steps of 15 us

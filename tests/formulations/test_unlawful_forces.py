@@ -195,7 +195,7 @@ class Branching(Spring):
         return 0.5 * self.stiffness * depth * depth if depth > 0.0 else 0.0
 
 
-@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize("way", sorted(WAYS.keys() - {"reduced"}))  # which refuses what cannot be compiled
 def test_an_elastic_part_that_branches_is_one(way: str) -> None:
     assert not isinstance(simulate(loose(Branching(), **WAYS[way]), throw=False), Failure)
 

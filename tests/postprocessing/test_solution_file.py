@@ -22,7 +22,6 @@ from support_exudyn import (
     OilColumn,
     Result,
     Scenario,
-    SolverSettings,
     bore_area,
     save_solution,
     simulate,
@@ -124,9 +123,9 @@ OIL = OilColumn(bore_area=bore_area(0.25, number=2), oil_length=0.5, bulk_modulu
 COLUMNS = ("front_column", "rear_column")
 RISES = {
     "redundant": loose_support(1.5, 0.25, **RISE),
-    "reduced": loose_support(1.5, 0.25, formulation="reduced", solver=SolverSettings(backend="python"), **RISE),
+    "reduced": loose_support(1.5, 0.25, formulation="reduced", **RISE),
     "tree": loose_support(1.5, 0.25, formulation="tree", columns=dict.fromkeys(COLUMNS, OIL), **RISE),
-    "crank": loose_slider_crank(2e-3, formulation="reduced", solver=SolverSettings(backend="python")),
+    "crank": loose_slider_crank(2e-3, formulation="reduced"),
     "space": loose_support(1.5, 0.25, dimensions=3, **RISE),
 }
 

@@ -118,12 +118,11 @@ def test_the_time_is_that_of_all_runs(drop: Result) -> None:
     assert drop.wall_time > sum(alone)
 
 
-@pytest.mark.parametrize("scene", ["compiled", "python", "ideal", "redundant"])
+@pytest.mark.parametrize("scene", ["compiled", "ideal", "redundant"])
 def test_progress_only_rises_and_ends_at_one(scene: str) -> None:
     short = replace(DROP, duration=0.03)
     scenario = {
         "compiled": short,
-        "python": replace(short, solver=SolverSettings(backend="python")),
         "ideal": support(duration=0.05),
         "redundant": replace(short, formulation="redundant"),
     }[scene]

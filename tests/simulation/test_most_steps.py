@@ -29,8 +29,7 @@ def limited(scenario: Scenario, steps: int) -> Result | Failure:
 CASES = {
     "redundant": held("redundant"),
     "tree": held("tree"),
-    "reduced, compiled": held("reduced"),
-    "reduced, python": replace(held("reduced"), solver=SolverSettings(backend="python")),
+    "reduced": held("reduced"),
     "space": replace(held("redundant"), dimensions=3),
     "growing": replace(held("redundant"), solver=SolverSettings(growth=4.0)),
 }

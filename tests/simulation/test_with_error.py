@@ -147,7 +147,7 @@ def test_no_touch_is_known_better_than_a_step_may_be_though_all_runs_came_to_it_
     # an explicit method's second step is ten times the first, its third ten times that, at every tolerance
     drive = Reciprocating(stroke=8.7e-5, period=0.0345)
     scene = loose_support(0.98, drive=drive, duration=0.0145, formulation="reduced")
-    result = simulate(replace(scene, solver=SolverSettings(tolerance=1e-5, backend="python")), errors=True)
+    result = simulate(replace(scene, solver=SolverSettings(tolerance=1e-5)), errors=True)
     tight = simulate(replace(scene, solver=SolverSettings(tolerance=1e-12)))
     touch, exact = result.onsets[PIN][0], tight.onsets[PIN][0]
     assert result.coarser is not None

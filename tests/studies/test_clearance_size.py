@@ -14,7 +14,7 @@ from studies.clearance_size import run as study
 from studies.common import rise
 from studies.common.chapter import Chapter
 from support_exudyn import Result
-from tests.studies.another_way import by_another_integrator, off
+from tests.studies.another_way import by_a_tight_run, off
 
 DRY = [study.case_name(size, study.FRICTIONS[0]) for size in study.SIZES_MM]
 SMOOTH = [study.case_name(size, 0.0) for size in study.QUICK_SMOOTH_MM]
@@ -47,12 +47,11 @@ def test_table_2_is_met_to_every_printed_digit(numbers: Numbers) -> None:
 
 
 @pytest.mark.slow  # scipy's method takes seconds a run
-def test_printed_errors_cover_the_distance_from_another_integrator(out: Path, numbers: Numbers) -> None:
+def test_printed_errors_cover_the_distance_from_a_tight_run(out: Path, numbers: Numbers) -> None:
     # of the case whose mean stood here as 52542.79 with an error of 0.01; it is 52543.015
     stems = {"ideal": "ideal", DRY[0]: "0p5mm_mu0p25"}
     runs = {
-        case: by_another_integrator(Result.load(out / "runs" / f"{stem}.h5").scenario)
-        for case, stem in stems.items()
+        case: by_a_tight_run(Result.load(out / "runs" / f"{stem}.h5").scenario) for case, stem in stems.items()
     }
     shares = off(numbers, study.measure(runs))
     assert max(shares.values()) < 5.0, max(shares, key=lambda name: shares[name])

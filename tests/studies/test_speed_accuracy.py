@@ -127,16 +127,8 @@ def test_every_scene_has_its_formulations(name: str) -> None:
     if SCENES[name].scenario.oil_columns:
         assert "tree" in families
     else:
-        assert {"reduced, python", "reduced, compiled", STOCK} <= families
+        assert {"reduced", STOCK} <= families
     assert {"redundant, python", "redundant, symbolic", "redundant, growing steps"} <= families
-
-
-def test_where_nothing_is_compiled_plain_python_is_left(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(variants, "is_compiling", lambda: False)
-    for name, quick in (("rise", True), ("rise", False), ("drop", True)):
-        families = [way.family for way in ways(SCENES[name], quick)]
-        assert "reduced, compiled" not in families
-        assert "reduced, python" in families
 
 
 def test_a_scene_of_which_every_run_failed_is_drawn_too() -> None:

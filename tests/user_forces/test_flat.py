@@ -24,8 +24,7 @@ from user_forces import (
     TouchSpeed,
     value,
 )
-from user_forces.compilation.dependence import asks_for_mass
-from user_forces.compilation.flat import FlatForce, flat_force
+from user_forces.compilation.flat import FlatForce, asks_for_mass, flat_force
 
 CLEARANCE = BEARING.clearance
 EXACT = power_law(Exact)

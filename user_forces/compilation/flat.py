@@ -1,7 +1,8 @@
-"""A contact's force as one flat Python function: the same numbers, several times faster.
+"""A contact's force as flat source: one function of numbers, several times faster than the law objects.
 
-The laws are called once, with `Line`s in place of numbers; what comes back is their formulas as lines of
-source, each computed once, which Python compiles. Nothing is called then but functions of `math`.
+The laws are called once, with `Line`s in place of numbers. What comes back is their formulas as lines of
+source, each computed once, in which nothing is called but functions of `math`. `flat_force` lets Python compile
+them, `law_source` is for a compiler of machine code.
 """
 
 from __future__ import annotations
@@ -14,10 +15,15 @@ from types import SimpleNamespace
 from typing import Any, cast
 
 from user_forces.contact import ContactForce, JournalContact, SlipHistory
-from user_forces.expressions.scalar import Expression
+from user_forces.expressions.scalar import Expression, maximum
+from user_forces.friction.law import FrictionLaw
 from user_forces.lawful import look
-from user_forces.normal.law import Touch
+from user_forces.normal.law import NormalLaw, Touch
 
+NAMES = {
+    name: getattr(math, name) for name in ("sqrt", "exp", "log", "tanh", "cos", "sin", "hypot", "inf", "nan")
+}  # that lines of source may use
+CONSTANT = re.compile(r"\((-?(?:\d[^()]*|inf|nan))\)")  # a number as `text` writes it
 Formulas = dict[str, str]  # formula: the name of the line that has it
 # x, y, vx, vy, bore_spin, journal_spin, in_contact, speed, mass, deflection, slip, step
 FlatForce = Callable[..., ContactForce]
@@ -39,6 +45,8 @@ class Line(Expression):
 
     def function(self, name: str) -> Line:
         """sqrt, exp, log, tanh, cos, sin, abs or sign of it."""
+        if name == "sign":
+            return self.line(f"1.0 if {self.name} > 0.0 else -1.0 if {self.name} < 0.0 else 0.0")
         return self.line(f"{name}({self.name})")
 
     def hypotenuse(self, other: Expression | float) -> Line:
@@ -145,6 +153,50 @@ def flat_force(contact: JournalContact) -> FlatForce:
     return cast(FlatForce, compiled(source, contact)["force"])
 
 
+class UnwrittenLawError(TypeError):
+    """A law that cannot be written out as a formula: it branches on its arguments, or needs them as floats."""
+
+
+def law_source(contact: JournalContact) -> tuple[str, list[float]]:
+    """Both laws of a contact as the source of one function `law` of floats, and the constants that it goes by.
+
+    Laws that differ in their numbers alone have the same source, so that it is compiled once for all of them.
+
+        law(depth, rate, slip, speed, mass, constants, out)
+
+    gives the normal force [N] that the normal law asks for, negative if it asks for tension, and writes the
+    friction force [N] and the elastic force [N] into out[0] and out[1]. It gives nan beyond the depth for which
+    the law is valid. speed and mass are those of `Touch`; constants and out are arrays.
+
+    Raises UnwrittenLawError, with the name of the law, if there is no such source.
+    """
+    formulas, (depth, rate, slip, speed, mass) = lines(("depth", "rate", "slip", "speed", "mass"))
+    law: NormalLaw | FrictionLaw = contact.normal
+    try:
+        asked = contact.normal(depth, rate, Touch(speed, mass))
+        elastic = contact.normal.elastic_force(depth)
+        law = contact.friction
+        friction = contact.friction(slip, maximum(asked, 0.0))
+    except TypeError as error:
+        name = type(law).__name__
+        raise UnwrittenLawError(f"{name}, which cannot be written out as a formula ({error})") from error
+    found = text(asked), text(friction), text(elastic)
+    limit = contact.normal.largest_depth
+    body = [
+        *([f"if depth > {text(limit)}: return nan"] if limit < math.inf else []),
+        *needed(formulas, found),
+        f"out[0], out[1] = {found[1]}, {found[2]}",
+        f"return {found[0]}",
+    ]
+    places: dict[str, int] = {}
+
+    def lifted(match: re.Match[str]) -> str:
+        return f"constants[{places.setdefault(match[1], len(places))}]"
+
+    source = "\n    ".join(["def law(depth, rate, slip, speed, mass, constants, out):", *body])
+    return CONSTANT.sub(lifted, source), [float(number) for number in places]
+
+
 class _Called:
     """A law whose formula cannot be written out, as a call of it."""
 
@@ -199,10 +251,7 @@ def depth_check(contact: JournalContact, depth: str) -> list[str]:
 def compiled(source: Iterable[str], contact: JournalContact, **known: object) -> dict[str, Any]:
     """The names that lines of source define, and those that they may use: functions of math, what is known."""
     space: dict[str, Any] = {
-        **{name: getattr(math, name) for name in ("sqrt", "exp", "log", "tanh", "cos", "sin", "hypot")},
-        "sign": lambda z: 1.0 if z > 0.0 else -1.0 if z < 0.0 else 0.0,
-        "inf": math.inf,
-        "nan": math.nan,
+        **NAMES,
         "make": tuple.__new__,
         "ContactForce": ContactForce,
         "too_deep": contact.normal.elastic_force,  # which says so
@@ -234,3 +283,12 @@ def needed(formulas: Formulas, wanted: Iterable[str]) -> list[str]:
             kept.append(f"{name} = {formula}")
             names.update(re.findall(r"\b_\d+\b", formula))
     return kept[::-1]
+
+
+def asks_for_mass(contact: JournalContact) -> bool:
+    """Whether the force depends on the mass that moves with the depth, and so on where it was renewed."""
+    formulas, (x, y, vx, vy, bore_spin, journal_spin, _, speed, mass, deflection, slip, step) = lines(ARGUMENTS)
+    history = SlipHistory(deflection, slip, step)
+    touch = Touch(speed, mass)
+    found = traceable(contact).force(x, y, vx, vy, bore_spin, journal_spin, touch, history)
+    return any(re.search(r"\bmass\b", line) for line in needed(formulas, map(text, found)))

@@ -1,4 +1,4 @@
-"""Force of the loose pin, compiled: the family F = K depth^n (1 + chi rate / w) with Ambrosio's friction.
+"""Force of the clearance pin: the family F = K depth^n (1 + chi rate / w) with Ambrosio's friction, or any law.
 
 The same conventions as `user_forces.contact`: the force acts at one point of space on both bodies.
 """
@@ -7,10 +7,14 @@ from __future__ import annotations
 
 import math
 
-from support_exudyn.formulations.compiled import inlined
+from support_exudyn.formulations.compiled import call_law, compiled, inlined
 from support_exudyn.formulations.reduced.drive import Vector
 from support_exudyn.formulations.reduced.free_motion import PinState
 from support_exudyn.formulations.reduced.layout import (
+    ASKED_DEPTH,
+    ASKED_MASS,
+    ASKED_RATE,
+    ASKED_SLIP,
     BORE_RADIUS,
     BY_DEPTH,
     CLEARANCE,
@@ -23,12 +27,14 @@ from support_exudyn.formulations.reduced.layout import (
     FORCE_Y,
     FRICTION,
     JOURNAL_ARM,
+    LAW,
     MOBILITY_XX,
     MOBILITY_XY,
     MOBILITY_YY,
     NORMAL,
     OFFSET_X,
     OFFSET_Y,
+    PARAMETERS,
     PUSH,
     RATE,
     SLIDING_COEFFICIENT,
@@ -42,7 +48,8 @@ from support_exudyn.formulations.reduced.layout import (
 )
 from support_exudyn.mechanics.contact_state import HEAVIEST
 from support_exudyn.mechanics.contact_state import SMALLEST as SMALLEST_SQUARE
-from user_forces.contact import SMALLEST
+from user_forces.contact import SHALLOWEST, SMALLEST
+from user_forces.lawful import ROUNDING
 
 
 @inlined
@@ -72,6 +79,30 @@ def friction_force(p: Vector, slip: float, normal: float) -> float:
     return float(-size if slip > 0.0 else size)
 
 
+@compiled
+def law_force(
+    p: Vector, memory: Vector, depth: float, rate: float, slip: float, mass: float, out: Vector
+) -> None:
+    """Write NORMAL, FRICTION, DAMPING and PUSH of any law into `out`, see `layout`; nan where it breaks.
+
+    Before the surfaces have parted the law goes on as at SHALLOWEST, so that one with a dashpot does not jump.
+    """
+    depth = max(depth, SHALLOWEST)
+    asked = call_law(p[LAW], depth, rate, slip, memory[TOUCH_SPEED], mass, p[PARAMETERS:], out)
+    friction, elastic = out[0], out[1]
+    normal = asked if asked > 0.0 or asked != asked else 0.0
+    lost = (normal - elastic) * rate
+    lawful = elastic >= 0.0 and friction * slip <= 0.0 and abs(normal) < math.inf and abs(friction) < math.inf
+    if not lawful or (elastic > 0.0 and lost < -ROUNDING * (normal + elastic) * abs(rate)):
+        normal = math.nan
+        if math.isfinite(depth + rate + slip):  # else this is what comes of an unlawful force
+            memory[ASKED_DEPTH], memory[ASKED_RATE] = depth, rate
+            memory[ASKED_SLIP], memory[ASKED_MASS] = slip, mass
+    size = elastic + abs(asked - elastic)
+    out[NORMAL], out[FRICTION], out[DAMPING] = normal, friction, lost
+    out[PUSH] = asked / size if size > 0.0 else 1.0  # with asked = elastic (1 + z) it is (1 + z) / (1 + |z|)
+
+
 @inlined
 def contact_force(p: Vector, memory: Vector, pin: PinState, out: Vector) -> None:
     """Write state and force of the contact into `out`, see `layout`; no force while the surfaces are apart."""
@@ -87,7 +118,10 @@ def contact_force(p: Vector, memory: Vector, pin: PinState, out: Vector) -> None
     slip = nx * pin.vy - ny * pin.vx + pin.journal_spin * journal_arm - pin.bore_spin * bore_arm
     normal = friction = damping = energy = 0.0
     push = 1.0
-    if memory[TOUCHING] != 0.0:
+    if memory[TOUCHING] != 0.0 and p[LAW] != 0.0:
+        law_force(p, memory, depth, speed, slip, moving_mass(memory, pin), out)
+        normal, friction, damping, push = out[NORMAL], out[FRICTION], out[DAMPING], out[PUSH]
+    elif memory[TOUCHING] != 0.0:
         inside = max(depth, 0.0)
         elastic = p[STIFFNESS] * (inside * math.sqrt(inside) if p[EXPONENT] == 1.5 else inside ** p[EXPONENT])
         energy = elastic * inside / (p[EXPONENT] + 1.0)

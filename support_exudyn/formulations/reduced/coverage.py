@@ -4,19 +4,13 @@ from __future__ import annotations
 
 from typing import NoReturn
 
-from support_exudyn.formulations.compiled import is_compiling
 from support_exudyn.formulations.reduced.models import MODELS, Model
 from support_exudyn.model.columns import RigidColumn
 from support_exudyn.scenario.scenario import Scenario
-from user_forces.contact import JournalContact
-from user_forces.friction.ambrosio import Ambrosio
-from user_forces.friction.frictionless import Frictionless
-from user_forces.normal.damping_speed import DepthSpeed, TouchSpeed
-from user_forces.normal.hertz import Hertz
-from user_forces.normal.hysteresis import Hysteresis
-from user_forces.normal.law import NormalLaw
-from user_forces.normal.power_law import ElasticPower, PowerLaw
+from user_forces.compilation.flat import UnwrittenLawError, law_source
 from user_forces.values.value import InputError
+
+WRITTEN = "laws written with the functions of user_forces.expressions.scalar, with `where` in place of `if`"
 
 
 def model_of(scenario: Scenario) -> Model:
@@ -54,49 +48,15 @@ def check(scenario: Scenario) -> None:
     for name in scenario.clearance_pins:
         if name != model.PIN:
             _refuse(f"pins.{name}", "ClearancePin", f"clearance in {model.PIN} only")
-    _check_backend(scenario, model)
+    for name, clearance_pin in scenario.clearance_pins.items():
+        try:
+            law_source(clearance_pin.contact)
+        except UnwrittenLawError as error:
+            _refuse(f"pins.{name}.contact", str(error), WRITTEN)
+    if scenario.solver.backend not in ("auto", "compiled"):
+        _refuse("solver.backend", repr(scenario.solver.backend), "'auto', 'compiled'")
     if scenario.linkage.cranks and model.PIN not in scenario.clearance_pins:
         _refuse(f"pins.{model.PIN}", "IdealPin", "a loose pin: otherwise nothing is free to move")
-
-
-def _check_backend(scenario: Scenario, model: Model) -> None:
-    """Raise InputError if what is to evaluate the contact cannot."""
-    backend = scenario.solver.backend
-    if backend == "symbolic":
-        _refuse("solver.backend", "'symbolic'", "'auto', 'python', 'compiled'")
-    pin = scenario.clearance_pins.get(model.PIN)
-    if backend == "compiled" and not is_compiling():
-        raise InputError(
-            "solver.backend = 'compiled': numba is not installed; allowed: 'auto', 'python', or install the "
-            "extra: pip install 'support-exudyn[fast]'"
-        )
-    if backend == "compiled" and pin and not can_be_compiled(pin.contact):
-        laws = f"{type(pin.contact.normal).__name__}, {type(pin.contact.friction).__name__}"
-        _refuse(
-            "solver.backend",
-            f"'compiled' with the laws {laws}",
-            "'auto', 'python', or laws derived from ElasticPower with Frictionless or Ambrosio",
-        )
-
-
-def can_be_compiled(contact: JournalContact) -> bool:
-    """Whether the compiled functions know the laws of a contact, and there are compiled functions."""
-    return (
-        is_compiling() and has_power_form(contact.normal) and type(contact.friction) in (Frictionless, Ambrosio)
-    )
-
-
-def has_power_form(law: NormalLaw) -> bool:
-    """Whether a law's force is K depth^n (1 + chi rate / w), or K depth^n, and nothing changes that."""
-    kind = type(law)
-    elastic = isinstance(law, ElasticPower) and all(
-        getattr(kind, name) is getattr(ElasticPower, name)
-        for name in ("elastic_force", "elastic_energy", "largest_depth")
-    )
-    if not elastic or kind.__call__ is Hertz.__call__:
-        return elastic
-    damped = isinstance(law, PowerLaw) and type(law.damping_speed) in (TouchSpeed, DepthSpeed)
-    return damped and kind.__call__ is Hysteresis.__call__ and kind.forgets is Hysteresis.forgets
 
 
 def _refuse(where: str, what: str, allowed: str) -> NoReturn:

@@ -13,13 +13,13 @@ from support_exudyn.formulations.contact_events import DOUBT, DOUBT_OF_DEPTH, ST
 from support_exudyn.formulations.reduced.drive import Matrix, Vector
 from support_exudyn.formulations.reduced.equations import observe
 from support_exudyn.formulations.reduced.layout import (
-    BY_DEPTH,
     CLEARANCE,
     DEPTH,
     OFFSET_X,
     OFFSET_Y,
     PUSH,
     RATE,
+    RENEWS,
     TOUCHING,
 )
 from support_exudyn.formulations.reduced.runge_kutta import within
@@ -216,7 +216,7 @@ def touching(
     there: Vector,
 ) -> Found:
     """What happens in a step that begins in contact, see `in_flight` for the arguments."""
-    renews = p[BY_DEPTH] != 0.0
+    renews = p[RENEWS] != 0.0
     d0, r0, push = max(start[DEPTH], 0.0), start[RATE], start[PUSH]
     # a step that begins on a cut and ends beyond it only grazes it; landing would go back to its start
     crosses = abs(push) > CUT_MET

@@ -26,15 +26,17 @@ from support_exudyn.formulations.reduced.events import (
 )
 from support_exudyn.formulations.reduced.jump import jump
 from support_exudyn.formulations.reduced.layout import (
+    ASKED_DEPTH,
     BEGIN,
-    BY_DEPTH,
     CONTACT,
     DEPTH,
     END,
+    FORGETS,
     JUMP,
     NEARNESS,
     PUSH,
     RATE,
+    RENEWS,
     SINE,
     STATES,
     SWIFTNESS,
@@ -195,9 +197,9 @@ def land_on_turn(
 
 
 @compiled
-def happen(what: int, t: float, rate: float, memory: Vector, onsets: Matrix, report: Vector) -> bool:
+def happen(p: Vector, what: int, t: float, rate: float, memory: Vector, onsets: Matrix, report: Vector) -> bool:
     """Change the memory as an event at t [s] at a rate of depth [m/s] does; whether there is room for it."""
-    if what in (PARTING, RETURN):
+    if what == PARTING or (what == RETURN and p[FORGETS] != 0.0):
         memory[TOUCH_SPEED] = 0.0
     n = int(report[TOUCHES])
     if what == PARTING:
@@ -314,6 +316,7 @@ def run_segment(
             first, final = size(now), size(then)
             report[LARGEST] = peak(p, segment, memory, t, h, path, report[LARGEST], first, final, probe, there)
         report[ACCEPTED] += 1
+        memory[ASKED_DEPTH] = 0.0
         report[CUTS] += what not in (NOTHING, RETURN)
         report[CLAMPED] += then[PUSH] < 0.0
         until = stop + CLOSE if last else t + h
@@ -324,9 +327,9 @@ def run_segment(
             k[0, :] = k[STAGES - 1]
             now[:] = then
         else:
-            if not happen(what, t, then[RATE], memory, onsets, report):
+            if not happen(p, what, t, then[RATE], memory, onsets, report):
                 return TOO_MANY_TOUCHES
-            if p[BY_DEPTH] != 0.0 and what in (TOUCH, RETURN):
+            if p[RENEWS] != 0.0 and what in (TOUCH, RETURN):
                 freeze_mobility(p, segment, memory, t, y)
             evaluate(p, segment, memory, t, y, k[0], now)
             # whatever rounding says

@@ -66,9 +66,12 @@ from __future__ import annotations
     SLIDING_COEFFICIENT,
     STATIC_SPEED,
     DYNAMIC_SPEED,
+    LAW,  # address of the compiled law, see `compiled.call_law`; 0: the family K depth^n by the numbers above
+    RENEWS,  # 1: something changes where a contact is pressed on again without having parted,
+    FORGETS,  # 1: the touch speed, which becomes 0
     BORE_FIRST,  # 1: the pin's first body has the bore, see `Linkage.pins`; 0: the second
-    PARAMETERS,  # how many there are
-) = range(63)
+    PARAMETERS,  # how many there are; behind them the constants of a compiled law
+) = range(66)
 
 SUPPORT, SLIDER_CRANK = 0.0, 1.0
 
@@ -84,10 +87,12 @@ WEIGHED = WORK  # components before it count in the error of a step
 
 # What a clearance pin remembers
 TOUCHING, TOUCH_SPEED, MOBILITY_XX, MOBILITY_XY, MOBILITY_YY, MEMORY = range(6)
+# and behind that, where since the last step the law has given what no force can be; ASKED_DEPTH 0: nowhere
+ASKED_DEPTH, ASKED_RATE, ASKED_SLIP, ASKED_MASS, ALL_MEMORY = range(MEMORY, MEMORY + 5)
 
-# State of the contact. DAMPING: power lost by it. PUSH: the law's 1 + chi rate / w, below zero where tension is
-# cut; 1 while the surfaces are apart. FORCE: of the bore on the journal. OFFSET: journal's centre from bore's.
-# STORED: elastic energy.
+# State of the contact. DAMPING: power lost by it. PUSH: the law's 1 + chi rate / w, or a number of the same
+# sign, below zero where tension is cut; 1 while the surfaces are apart. FORCE: of the bore on the journal.
+# OFFSET: journal's centre from bore's. STORED: elastic energy, of the family.
 DEPTH, RATE, SLIP, NORMAL, FRICTION, DAMPING, PUSH = range(7)
 FORCE_X, FORCE_Y, JOURNAL_ARM, OFFSET_X, OFFSET_Y, STORED, CONTACT = range(7, 14)
 

@@ -51,7 +51,7 @@ def outline(scenario: Scenario) -> Outline:
     y[layout.FIRST], y[layout.SECOND] = np.add(
         model.start(machine), model.shifted(machine.linkage(), scenario.linkage)
     )
-    memory = np.zeros(layout.MEMORY)
+    memory = np.zeros(layout.ALL_MEMORY)
     if pin is not None and pin.contact.bearing.depth(math.hypot(*pin.eccentricity)) > 0.0:
         memory[layout.TOUCHING] = (
             1.0  # pressed in from the start on; the journal does not move in its bore then

@@ -7,14 +7,21 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from support_exudyn.formulations.compiled import compiled_law
 from support_exudyn.formulations.reduced import layout
 from support_exudyn.formulations.reduced.drive import Matrix, Vector
 from support_exudyn.model.drives.drive import Drive, Reciprocating, Steady, Stroke, UniformSpeed
 from support_exudyn.model.drives.table_drive import TableDrive
 from support_exudyn.model.pins import ClearancePin
 from support_exudyn.scenario.scenario import Scenario
+from user_forces.compilation.flat import asks_for_mass, law_source
+from user_forces.contact import JournalContact
 from user_forces.friction.ambrosio import Ambrosio
-from user_forces.normal.damping_speed import SMALLEST, TouchSpeed
+from user_forces.friction.frictionless import Frictionless
+from user_forces.normal.damping_speed import SMALLEST, DepthSpeed, TouchSpeed
+from user_forces.normal.hertz import Hertz
+from user_forces.normal.hysteresis import Hysteresis
+from user_forces.normal.law import NormalLaw
 from user_forces.normal.power_law import ElasticPower, PowerLaw
 
 TABLE = slice(layout.ORIGIN, layout.A3 + 1)  # of a segment: what a cubic is
@@ -35,9 +42,34 @@ def parameters(scenario: Scenario, machine: Mapping[str, float], pin: ClearanceP
         **(_contact(pin) if pin else {"BORE_FIRST": 1.0}),
     }
     vector = np.zeros(layout.PARAMETERS)
+    constants: list[float] = []
+    if pin and not has_family_form(pin.contact):
+        source, constants = law_source(pin.contact)
+        named["LAW"] = float(compiled_law(source).address)
     for name, number in named.items():
         vector[getattr(layout, name)] = number
-    return vector
+    return np.array([*vector, *constants])
+
+
+def has_family_form(contact: JournalContact) -> bool:
+    """Whether a contact is of the family K depth^n with hysteresis damping, and Ambrosio's friction or none.
+
+    The family's force takes the fewest operations; other laws are compiled from their source, see `law_source`.
+    """
+    return has_power_form(contact.normal) and type(contact.friction) in (Frictionless, Ambrosio)
+
+
+def has_power_form(law: NormalLaw) -> bool:
+    """Whether a law's force is K depth^n (1 + chi rate / w), or K depth^n, and nothing changes that."""
+    kind = type(law)
+    elastic = isinstance(law, ElasticPower) and all(
+        getattr(kind, name) is getattr(ElasticPower, name)
+        for name in ("elastic_force", "elastic_energy", "largest_depth")
+    )
+    if not elastic or kind.__call__ is Hertz.__call__:
+        return elastic
+    damped = isinstance(law, PowerLaw) and type(law.damping_speed) in (TouchSpeed, DepthSpeed)
+    return damped and kind.__call__ is Hysteresis.__call__ and kind.forgets is Hysteresis.forgets
 
 
 def _contact(pin: ClearancePin) -> dict[str, float]:
@@ -50,6 +82,8 @@ def _contact(pin: ClearancePin) -> dict[str, float]:
         "DYNAMIC_SPEED": 1.0,
         "BORE_FIRST": float(pin.bore == "first"),
         "BY_DEPTH": float(law.forgets),
+        "FORGETS": float(law.forgets),
+        "RENEWS": float(law.forgets or asks_for_mass(pin.contact)),
     }
     if isinstance(law, ElasticPower):
         found |= {"STIFFNESS": law.stiffness, "EXPONENT": law.exponent}

@@ -9,7 +9,6 @@ import numpy as np
 from support_exudyn.formulations.contract import Failure, SimulationError
 from support_exudyn.formulations.progress import Progress
 from support_exudyn.formulations.reduced import layout
-from support_exudyn.formulations.reduced.coverage import can_be_compiled
 from support_exudyn.formulations.reduced.ideal import run_ideal
 from support_exudyn.formulations.reduced.integrate import (
     ACCEPTED,
@@ -35,13 +34,15 @@ from support_exudyn.formulations.reduced.integrate import (
     integrate,
 )
 from support_exudyn.formulations.reduced.outline import MOST_TOUCHES, Outline, outline
-from support_exudyn.formulations.reduced.plain_run import run_plain
 from support_exudyn.formulations.reduced.trajectory import trajectory
 from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.mechanics.counts import Counts
 from support_exudyn.mechanics.impulse import Impulse
 from support_exudyn.mechanics.trajectory import Outcome
 from support_exudyn.scenario.scenario import Scenario
+from user_forces.expressions.scalar import maximum
+from user_forces.lawful import UNLAWFUL, LawError, look
+from user_forces.normal.law import LoadError, Touch
 
 FIRST_STEP = 1e-5  # [s]
 FEWER_STEPS = "Allow a larger tolerance, a shorter duration, or more steps (`solver.most_steps`)."
@@ -52,15 +53,12 @@ CLOSES = "Look whether the posture is near a dead centre, or the pin is pressed 
 def run(scenario: Scenario, progress: Progress) -> Outcome:
     """Run a scenario. Raises SimulationError if it cannot be finished."""
     made = outline(scenario)
-    calls = 0
     if made.pin is None:
         code = run_ideal(
             made.p, made.segments, made.times, made.y, made.memory, made.rows, made.jumps, made.report
         )
-    elif scenario.solver.backend != "python" and can_be_compiled(made.pin.contact):
-        code = _compiled(made, scenario.solver.most_steps, progress)
     else:
-        code, calls = run_plain(made, scenario.solver.most_steps, progress)
+        code = _integrated(made, scenario.solver.most_steps, progress)
     if 0.0 in scenario.breaks:  # a record at a break holds what is just before it
         made.rows[layout.ACCELERATION, 0] = 0.0
     if code == FINISHED and not np.isfinite(made.rows.sum()):
@@ -70,10 +68,10 @@ def run(scenario: Scenario, progress: Progress) -> Outcome:
     # the first record is of the state before the drive's speed jumps, as those of later jumps are
     made.rows[layout.SPEED, 0] -= made.segments[0, layout.JUMP]
     progress(1.0)
-    return _outcome(scenario, made, calls)
+    return _outcome(scenario, made)
 
 
-def _compiled(made: Outline, most_steps: int, progress: Progress) -> int:
+def _integrated(made: Outline, most_steps: int, progress: Progress) -> int:
     going = np.zeros(GOING)
     going[NEXT_STEP] = FIRST_STEP
     for pause in count(AT_ONCE, AT_ONCE):
@@ -98,7 +96,7 @@ def _compiled(made: Outline, most_steps: int, progress: Progress) -> int:
     return code
 
 
-def _outcome(scenario: Scenario, made: Outline, calls: int) -> Outcome:
+def _outcome(scenario: Scenario, made: Outline) -> Outcome:
     report, name = made.report, made.model.PIN
     touches = made.onsets[: int(report[TOUCHES])].tolist()
     loose = made.pin is not None
@@ -111,7 +109,7 @@ def _outcome(scenario: Scenario, made: Outline, calls: int) -> Outcome:
             steps=int(report[ACCEPTED if loose else STEPS]),
             cut_steps=int(report[CUTS]),
             evaluations=int(report[EVALUATIONS]),
-            user_function_calls=calls,
+            user_function_calls=0,
             clamped_steps=int(report[CLAMPED]),
         ),
     )
@@ -139,8 +137,28 @@ def _failure(code: int, made: Outline, most_steps: int) -> Failure:
         reason, advice = f"more than {MOST_TOUCHES} touches", "Look at the contact law: nothing comes to rest."
     elif code == DEAD_CENTRE:
         reason, advice = "the linkage is at a dead centre", CLOSES
+    elif made.memory[layout.ASKED_DEPTH] and (broken := _broken_law(made)):
+        reason, advice = broken
     elif report[NOT_A_NUMBER] or made.pin is None:
         reason, advice = "the linkage cannot close, or a value is no longer a finite number", CLOSES
     else:
         reason, advice = "the step became too short", "Allow a larger tolerance."
     return Failure(reason, advice, float(report[STOPPED_AT]), state)
+
+
+def _broken_law(made: Outline) -> tuple[str, str] | None:
+    """What the laws of the pin say, asked in Python, where the run could not go on by what they give."""
+    assert made.pin is not None
+    contact, memory = made.pin.contact, made.memory
+    depth, rate, slip, mass = memory[layout.ASKED_DEPTH : layout.ALL_MEMORY].tolist()
+    try:
+        asked = contact.normal(depth, rate, Touch(float(memory[layout.TOUCH_SPEED]), mass))
+        normal, elastic = maximum(asked, 0.0), contact.normal.elastic_force(depth)
+        look(contact, depth, rate, slip, normal, contact.friction(slip, normal), elastic, made.model.PIN)
+    except LoadError as error:
+        return "a contact is overloaded", str(error)
+    except LawError as error:
+        return str(error), UNLAWFUL
+    except ArithmeticError:
+        pass
+    return None

@@ -7,7 +7,7 @@ import numpy as np
 from support_exudyn.formulations.compiled import on_arrays
 from support_exudyn.formulations.reduced import layout
 from support_exudyn.formulations.reduced.drive import Drive, Matrix, Vector
-from support_exudyn.formulations.reduced.equations import law_at, power_at
+from support_exudyn.formulations.reduced.equations import law_at
 from support_exudyn.formulations.reduced.free_motion import accelerations
 from support_exudyn.formulations.reduced.models import Model
 from support_exudyn.mechanics.body_motion import BodyMotion
@@ -20,7 +20,7 @@ from support_exudyn.model.pins import ClearancePin
 from support_exudyn.scenario.recorded_channels import needs
 from support_exudyn.scenario.scenario import Scenario
 
-_law_at, _accelerations, _power_at = on_arrays(law_at), on_arrays(accelerations), on_arrays(power_at)
+_law_at, _accelerations = on_arrays(law_at), on_arrays(accelerations)
 
 
 def trajectory(scenario: Scenario, model: Model, p: list[float], rows: Matrix) -> Trajectory:
@@ -83,17 +83,6 @@ def _contact(p: list[float], pin: ClearancePin, rows: Matrix) -> tuple[ContactSe
     contact[layout.OFFSET_X], contact[layout.OFFSET_Y] = moving.x, moving.y
     first, second = _accelerations(at, law, contact)
     return found, np.array([first, second, found.force_x, found.force_y])
-
-
-def power(p: list[float], pin: ClearancePin, rows: Matrix) -> Vector:
-    """Power of the drive [W] at records, (n,)."""
-    _, (first, second, fx, fy) = _contact(p, pin, rows)
-    contact = np.zeros((layout.CONTACT, rows.shape[1]))
-    contact[layout.FORCE_X], contact[layout.FORCE_Y] = fx, fy
-    drive = Drive(*rows[layout.EXTENSION : layout.ACCELERATION + 1])
-    state = rows[layout.STATE_ROW : layout.STATE_ROW + layout.STATES]
-    watts: Vector = _power_at(p, drive, state, first, second, contact)
-    return watts
 
 
 def _memories(rows: Matrix) -> Vector:

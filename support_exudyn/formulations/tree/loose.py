@@ -12,8 +12,7 @@ from support_exudyn.formulations.tree.loads import TURN, push
 from support_exudyn.mechanics.contact_state import Mobility, Onset, PinMemory
 from support_exudyn.mechanics.pressed_pins import normal
 from support_exudyn.model.pins import ClearancePin
-from user_forces.compilation.dependence import asks_for_mass
-from user_forces.compilation.flat import flat_force
+from user_forces.compilation.flat import asks_for_mass, flat_force
 from user_forces.values.value import Vector2
 
 

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from enum import Enum
 from typing import NamedTuple
 
-from user_forces.compilation.dependence import asks_for_mass
+from user_forces.compilation.flat import asks_for_mass
 from user_forces.contact import ContactForce, JournalContact, SlipHistory
 from user_forces.expressions.scalar import hypot
 from user_forces.friction.frictionless import Frictionless
