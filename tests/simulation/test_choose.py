@@ -58,7 +58,7 @@ def test_a_backend_that_is_asked_for_decides_too() -> None:
     symbolic = replace(DROP, solver=SolverSettings(backend="symbolic"))
     assert settings_for(symbolic, 1e-3).formulation == "redundant"
     python = replace(DROP, solver=SolverSettings(backend="python"))
-    assert settings_for(python, 1e-3).formulation == "reduced"
+    assert settings_for(python, 1e-3).formulation == "redundant"
     assert settings_for(python, 1e-3).solver.backend == "python"
 
 

@@ -143,19 +143,21 @@ def test_methods_with_error_control_have_theirs(formulation: str) -> None:
     assert 0.0 < disagreement(result, tight) < result.worst_error < 1e-2
 
 
-def test_no_touch_is_known_better_than_a_step_may_be_though_all_runs_came_to_it_by_the_same_steps() -> None:
-    # an explicit method's second step is ten times the first, its third ten times that, at every tolerance
+def test_no_touch_is_known_better_than_a_step_may_be_though_all_runs_came_to_it_by_nearly_the_same_steps() -> (
+    None
+):
+    # an explicit method's second step is eight times the first, its third eight times that, at every tolerance
     drive = Reciprocating(stroke=8.7e-5, period=0.0345)
-    scene = loose_support(0.98, drive=drive, duration=0.0145, formulation="reduced")
+    scene = loose_support(0.1, drive=drive, duration=0.012, formulation="reduced")
     result = simulate(replace(scene, solver=SolverSettings(tolerance=1e-5)), errors=True)
     tight = simulate(replace(scene, solver=SolverSettings(tolerance=1e-12)))
     touch, exact = result.onsets[PIN][0], tight.onsets[PIN][0]
     assert result.coarser is not None
-    assert result.coarser.onsets[PIN][0].time == pytest.approx(touch.time, rel=1e-11)
+    assert result.coarser.onsets[PIN][0].time == pytest.approx(touch.time, rel=1e-7)
     numbers = result.numbers()
     for field in ("time", "speed"):
         number = numbers[f"pin.{PIN}.onset_1.{field}"]
-        # measured: a fifth and a seventh of it
+        # measured: a fifth of it
         assert 0.01 * number.error < abs(getattr(touch, field) - getattr(exact, field)) < number.error
 
 

@@ -48,11 +48,11 @@ def check(scenario: Scenario) -> None:
     for name in scenario.clearance_pins:
         if name != model.PIN:
             _refuse(f"pins.{name}", "ClearancePin", f"clearance in {model.PIN} only")
-    for name, clearance_pin in scenario.clearance_pins.items():
-        try:
+    try:
+        for clearance_pin in scenario.clearance_pins.values():
             law_source(clearance_pin.contact)
-        except UnwrittenLawError as error:
-            _refuse(f"pins.{name}.contact", str(error), WRITTEN)
+    except UnwrittenLawError as error:
+        _refuse(f"pins.{model.PIN}.contact", str(error), WRITTEN)
     if scenario.solver.backend not in ("auto", "compiled"):
         _refuse("solver.backend", repr(scenario.solver.backend), "'auto', 'compiled'")
     if scenario.linkage.cranks and model.PIN not in scenario.clearance_pins:
