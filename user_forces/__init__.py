@@ -1,119 +1,63 @@
-"""What pushes in a joint: contact and friction laws, and the geometry of a journal in its bore.
+"""The force of a bore on its journal: contact and friction laws, and the geometry they need; see README.md.
 
-Nothing in this package knows a multibody engine. Everything is SI (m, s, kg, N, rad).
-
-- `Material`, `STEEL`, `STEEL_35CRMO`, `effective_modulus`: elastic data.
-- `external_contact_stiffness`, `internal_contact_stiffness`: K of the laws K depth^1.5.
-- `JournalBearing`: bore, clearance and where the journal touches.
-- Normal laws (`NormalLaw`), K depth^n with hysteresis damping: `Exact`, `HuntCrossley`, `HerbertMcWhannell`,
-  `LeeWang`, `LankaraniNikravesh`, `Gonthier`, `ZhiyingQishao`, `Flores`, `GharibHurmuzlu`, `HuGuo`,
-  `SafaeifarFarshidianfar`, `CarvalhoMartins`; elastic: `Hertz`; with a dashpot: `KelvinVoigt`,
-  `Anagnostopoulos`, `AdamsImpact`; line contact of cylinders: `Johnson`, `Radzimovsky`, `Goldsmith`,
-  `DubowskyFreudenstein`, `Esdu78035`, `Liu`, `Pereira`.
-- What a contact does that does not part: `DepthSpeed` (the default) and `TouchSpeed` (textbook).
-- Friction laws (`FrictionLaw`): `Frictionless`, `Ambrosio`, `CubicCoulomb`, `Threlfall`, `BengisuAkay`,
-  `Stribeck`, `BrownMcPhee`, `LuGre`.
-- `JournalContact`: all of these together, evaluated to a force and the arm it acts on.
+Nothing in this package knows a multibody engine. Everything is SI (m, s, kg, N, rad). A law that lies in
+`normal` or `friction` is found there by `laws`; it is imported here by name for those who check types.
 """
 
-from user_forces.contact import ContactForce, JournalContact, SlipHistory
-from user_forces.friction.ambrosio import Ambrosio
-from user_forces.friction.bengisu_akay import BengisuAkay
-from user_forces.friction.brown_mcphee import BrownMcPhee
-from user_forces.friction.coulomb import CubicCoulomb
-from user_forces.friction.frictionless import Frictionless
-from user_forces.friction.law import FrictionLaw
-from user_forces.friction.lugre import LuGre
-from user_forces.friction.stribeck import Stribeck
-from user_forces.friction.threlfall import Threlfall
-from user_forces.journal import JournalBearing
-from user_forces.materials import STEEL, STEEL_35CRMO, Material, effective_modulus
-from user_forces.normal.adams_impact import AdamsImpact
-from user_forces.normal.anagnostopoulos import Anagnostopoulos
-from user_forces.normal.carvalho_martins import CarvalhoMartins
-from user_forces.normal.cylinder import CylinderLaw
-from user_forces.normal.damping_speed import DampingSpeed, DepthSpeed, TouchSpeed
-from user_forces.normal.dubowsky_freudenstein import DubowskyFreudenstein
-from user_forces.normal.esdu_78035 import Esdu78035
-from user_forces.normal.exact import Exact
-from user_forces.normal.flores import Flores
-from user_forces.normal.gharib_hurmuzlu import GharibHurmuzlu
-from user_forces.normal.goldsmith import Goldsmith
-from user_forces.normal.gonthier import Gonthier
-from user_forces.normal.herbert_mcwhannell import HerbertMcWhannell
-from user_forces.normal.hertz import Hertz
-from user_forces.normal.hu_guo import HuGuo
-from user_forces.normal.hunt_crossley import HuntCrossley
-from user_forces.normal.hysteresis import Hysteresis, delivered_restitution, exact_damping_factor
-from user_forces.normal.johnson import Johnson
-from user_forces.normal.kelvin_voigt import KelvinVoigt
-from user_forces.normal.lankarani_nikravesh import LankaraniNikravesh
-from user_forces.normal.law import LoadError, NormalLaw, Touch
-from user_forces.normal.lee_wang import LeeWang
-from user_forces.normal.liu import Liu
-from user_forces.normal.pereira import Pereira
-from user_forces.normal.power_law import PowerLaw
-from user_forces.normal.radzimovsky import Radzimovsky
-from user_forces.normal.safaeifar_farshidianfar import SafaeifarFarshidianfar
-from user_forces.normal.zhiying_qishao import ZhiyingQishao
-from user_forces.stiffness import external_contact_stiffness, internal_contact_stiffness
-from user_forces.values.value import InputError, Value, value
-
-__all__ = [
-    "STEEL",
-    "STEEL_35CRMO",
-    "AdamsImpact",
-    "Ambrosio",
-    "Anagnostopoulos",
-    "BengisuAkay",
-    "BrownMcPhee",
-    "CarvalhoMartins",
-    "ContactForce",
-    "CubicCoulomb",
-    "CylinderLaw",
-    "DampingSpeed",
-    "DepthSpeed",
-    "DubowskyFreudenstein",
-    "Esdu78035",
-    "Exact",
-    "Flores",
-    "FrictionLaw",
-    "Frictionless",
-    "GharibHurmuzlu",
-    "Goldsmith",
-    "Gonthier",
-    "HerbertMcWhannell",
-    "Hertz",
-    "HuGuo",
-    "HuntCrossley",
-    "Hysteresis",
-    "InputError",
-    "Johnson",
-    "JournalBearing",
-    "JournalContact",
-    "KelvinVoigt",
-    "LankaraniNikravesh",
-    "LeeWang",
-    "Liu",
-    "LoadError",
-    "LuGre",
-    "Material",
-    "NormalLaw",
-    "Pereira",
-    "PowerLaw",
-    "Radzimovsky",
-    "SafaeifarFarshidianfar",
-    "SlipHistory",
-    "Stribeck",
-    "Threlfall",
-    "Touch",
-    "TouchSpeed",
-    "Value",
-    "ZhiyingQishao",
-    "delivered_restitution",
-    "effective_modulus",
-    "exact_damping_factor",
-    "external_contact_stiffness",
-    "internal_contact_stiffness",
-    "value",
-]
+from user_forces.catalogue import laws as laws
+from user_forces.contact import ContactForce as ContactForce
+from user_forces.contact import JournalContact as JournalContact
+from user_forces.contact import SlipHistory as SlipHistory
+from user_forces.friction.ambrosio import Ambrosio as Ambrosio
+from user_forces.friction.bengisu_akay import BengisuAkay as BengisuAkay
+from user_forces.friction.brown_mcphee import BrownMcPhee as BrownMcPhee
+from user_forces.friction.cubic_coulomb import CubicCoulomb as CubicCoulomb
+from user_forces.friction.frictionless import Frictionless as Frictionless
+from user_forces.friction.law import FrictionLaw as FrictionLaw
+from user_forces.friction.lugre import LuGre as LuGre
+from user_forces.friction.stribeck import Stribeck as Stribeck
+from user_forces.friction.threlfall import Threlfall as Threlfall
+from user_forces.journal import JournalBearing as JournalBearing
+from user_forces.materials import STEEL as STEEL
+from user_forces.materials import STEEL_35CRMO as STEEL_35CRMO
+from user_forces.materials import Material as Material
+from user_forces.materials import effective_modulus as effective_modulus
+from user_forces.materials import external_contact_stiffness as external_contact_stiffness
+from user_forces.materials import internal_contact_stiffness as internal_contact_stiffness
+from user_forces.normal.adams_impact import AdamsImpact as AdamsImpact
+from user_forces.normal.anagnostopoulos import Anagnostopoulos as Anagnostopoulos
+from user_forces.normal.carvalho_martins import CarvalhoMartins as CarvalhoMartins
+from user_forces.normal.cylinder import CylinderLaw as CylinderLaw
+from user_forces.normal.damping_speed import DampingSpeed as DampingSpeed
+from user_forces.normal.damping_speed import DepthSpeed as DepthSpeed
+from user_forces.normal.damping_speed import TouchSpeed as TouchSpeed
+from user_forces.normal.dubowsky_freudenstein import DubowskyFreudenstein as DubowskyFreudenstein
+from user_forces.normal.esdu_78035 import Esdu78035 as Esdu78035
+from user_forces.normal.exact import Exact as Exact
+from user_forces.normal.flores import Flores as Flores
+from user_forces.normal.gharib_hurmuzlu import GharibHurmuzlu as GharibHurmuzlu
+from user_forces.normal.goldsmith import Goldsmith as Goldsmith
+from user_forces.normal.gonthier import Gonthier as Gonthier
+from user_forces.normal.herbert_mcwhannell import HerbertMcWhannell as HerbertMcWhannell
+from user_forces.normal.hertz import Hertz as Hertz
+from user_forces.normal.hu_guo import HuGuo as HuGuo
+from user_forces.normal.hunt_crossley import HuntCrossley as HuntCrossley
+from user_forces.normal.hysteresis import Hysteresis as Hysteresis
+from user_forces.normal.hysteresis import delivered_restitution as delivered_restitution
+from user_forces.normal.hysteresis import exact_damping_factor as exact_damping_factor
+from user_forces.normal.johnson import Johnson as Johnson
+from user_forces.normal.kelvin_voigt import KelvinVoigt as KelvinVoigt
+from user_forces.normal.lankarani_nikravesh import LankaraniNikravesh as LankaraniNikravesh
+from user_forces.normal.law import LoadError as LoadError
+from user_forces.normal.law import NormalLaw as NormalLaw
+from user_forces.normal.law import Touch as Touch
+from user_forces.normal.lee_wang import LeeWang as LeeWang
+from user_forces.normal.liu import Liu as Liu
+from user_forces.normal.pereira import Pereira as Pereira
+from user_forces.normal.power_law import PowerLaw as PowerLaw
+from user_forces.normal.radzimovsky import Radzimovsky as Radzimovsky
+from user_forces.normal.safaeifar_farshidianfar import SafaeifarFarshidianfar as SafaeifarFarshidianfar
+from user_forces.normal.zhiying_qishao import ZhiyingQishao as ZhiyingQishao
+from user_forces.values.value import InputError as InputError
+from user_forces.values.value import Value as Value
+from user_forces.values.value import value as value

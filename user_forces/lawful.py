@@ -69,34 +69,21 @@ def look(
         elastic: part of the normal force that is given back [N]; without it only the others are looked at.
         pin: where it is.
     """
-    said = _unlawful(contact, depth, rate, slip, normal, friction, elastic)
-    if said:
-        raise LawError(f"{pin}: {said}" if pin else said)
-
-
-def _unlawful(
-    contact: JournalContact,
-    depth: float,
-    rate: float,
-    slip: float,
-    normal: float,
-    friction: float,
-    elastic: float,
-) -> str | None:
-    """What of a force cannot be, in words."""
     pressing, rubbing = (type(getattr(law, "law", law)).__name__ for law in (contact.normal, contact.friction))
     at = f"at a depth of {depth:.6g} m and a rate of {rate:.6g} m/s"
     if not math.isfinite(normal) or not math.isfinite(elastic):
-        return f"{pressing} gives a force of {normal if elastic == elastic else elastic:g} N {at}"
-    if not math.isfinite(friction):
-        return f"{rubbing} gives a force of {friction:g} N at a slip of {slip:.6g} m/s and {normal:.6g} N"
-    if elastic < 0.0:
-        return f"{pressing} pulls with {-elastic:.6g} N {at}, where at rest a contact pushes"
-    if elastic and (normal - elastic) * rate < -ROUNDING * (normal + elastic) * abs(rate):
-        return (
+        said = f"{pressing} gives a force of {normal if elastic == elastic else elastic:g} N {at}"
+    elif not math.isfinite(friction):
+        said = f"{rubbing} gives a force of {friction:g} N at a slip of {slip:.6g} m/s and {normal:.6g} N"
+    elif elastic < 0.0:
+        said = f"{pressing} pulls with {-elastic:.6g} N {at}, where at rest a contact pushes"
+    elif elastic and (normal - elastic) * rate < -ROUNDING * (normal + elastic) * abs(rate):
+        said = (
             f"{pressing} drives the motion instead of damping it: {normal:.6g} N {at}, of which "
             f"{elastic:.6g} N are elastic"
         )
-    if friction * slip > 0.0 and not contact.friction.has_state:
-        return f"{rubbing} pushes along the slip: {friction:.6g} N at {slip:.6g} m/s, {normal:.6g} N pressed"
-    return None
+    elif friction * slip > 0.0 and not contact.friction.has_state:
+        said = f"{rubbing} pushes along the slip: {friction:.6g} N at {slip:.6g} m/s, {normal:.6g} N pressed"
+    else:
+        return
+    raise LawError(f"{pin}: {said}" if pin else said)

@@ -1,79 +1,36 @@
-"""The laws that are compared, by the names under which studies report them."""
+"""The laws that are compared, by the names under which studies report them: all that `user_forces` has."""
 
 from __future__ import annotations
 
+from dataclasses import fields
 from typing import Any
 
 from studies.common import paper_machine
 from user_forces import (
     STEEL,
     STEEL_35CRMO,
-    AdamsImpact,
-    Ambrosio,
-    Anagnostopoulos,
-    BengisuAkay,
-    BrownMcPhee,
-    CarvalhoMartins,
-    CubicCoulomb,
-    DubowskyFreudenstein,
-    Esdu78035,
-    Exact,
-    Flores,
+    CylinderLaw,
     FrictionLaw,
-    GharibHurmuzlu,
-    Goldsmith,
-    Gonthier,
-    HerbertMcWhannell,
     Hertz,
-    HuGuo,
-    HuntCrossley,
-    Johnson,
     JournalBearing,
-    KelvinVoigt,
-    LankaraniNikravesh,
-    LeeWang,
-    Liu,
-    LuGre,
     NormalLaw,
-    Pereira,
-    Radzimovsky,
-    SafaeifarFarshidianfar,
-    Stribeck,
-    Threlfall,
-    ZhiyingQishao,
+    PowerLaw,
     effective_modulus,
+    laws,
 )
+from user_forces import catalogue as found
 
-# F = K depth^n (1 + chi rate / w), in the order of their publication, the exact one first
-POWER_LAWS: dict[str, Any] = {
-    "exact": Exact,
-    "hunt_crossley": HuntCrossley,
-    "herbert_mcwhannell": HerbertMcWhannell,
-    "lee_wang": LeeWang,
-    "lankarani_nikravesh": LankaraniNikravesh,
-    "gonthier": Gonthier,
-    "zhiying_qishao": ZhiyingQishao,
-    "flores": Flores,
-    "gharib_hurmuzlu": GharibHurmuzlu,
-    "hu_guo": HuGuo,
-    "carvalho_martins": CarvalhoMartins,
-    "safaeifar_farshidianfar": SafaeifarFarshidianfar,
-}
-CYLINDER_LAWS: dict[str, Any] = {
-    "johnson": Johnson,
-    "radzimovsky": Radzimovsky,
-    "goldsmith": Goldsmith,
-    "dubowsky_freudenstein": DubowskyFreudenstein,
-    "esdu_78035": Esdu78035,
-    "liu": Liu,
-    "pereira": Pereira,
-}
+POWER_LAWS = laws(PowerLaw)  # F = K depth^n (1 + chi rate / w)
+CYLINDER_LAWS = laws(CylinderLaw)
+OTHER_LAWS = {n: law for n, law in laws(NormalLaw).items() if n not in POWER_LAWS | CYLINDER_LAWS}
+FRICTION_LAWS = laws(FrictionLaw)
 PIN_LENGTH = 0.1  # of the rear-link pin's bearing, for laws of line contact; assumed [m]
 RESTING_FORCE = 51e3  # of the rear-link pin, about [N]
+DASHPOT = {"damping": 1e5, "full_damping": 5e4, "full_damping_depth": 1e-4}  # [N s/m], [N s/m], [m]
 
 
 def cylinder_law(name: str, bearing: JournalBearing, restitution: float, length: float = PIN_LENGTH) -> Any:
-    """A law of line contact, steel on 35CrMo."""
+    """A law of line contact, steel on 35CrMo, for a bearing of a length [m]."""
     modulus = effective_modulus(STEEL, STEEL_35CRMO)
     return CYLINDER_LAWS[name](
         bearing=bearing, length=length, effective_modulus=modulus, restitution=restitution
@@ -81,46 +38,40 @@ def cylinder_law(name: str, bearing: JournalBearing, restitution: float, length:
 
 
 def normal_laws(clearance_mm: float, restitution: float) -> dict[str, NormalLaw]:
-    """Every normal law for the rear-link pin.
+    """Every normal law for the rear-link pin, by name.
 
     Laws K depth^1.5 have the paper's K; linear laws have the stiffness with which those hold the pin's load,
     and the dashpot of Kelvin and Voigt a damping ratio of some per cent. IMPACT has its common set of values.
     """
     k = paper_machine.stiffness(clearance_mm)
     linear = RESTING_FORCE / Hertz(stiffness=k).resting_depth(RESTING_FORCE)
-    laws: dict[str, NormalLaw] = {
-        name: law(stiffness=k, restitution=restitution) for name, law in POWER_LAWS.items()
-    }
-    laws["hertz"] = Hertz(stiffness=k)
-    laws["kelvin_voigt"] = KelvinVoigt(stiffness=linear, damping=1e5)
-    laws["anagnostopoulos"] = Anagnostopoulos(stiffness=linear, restitution=restitution)
-    laws["adams_impact"] = AdamsImpact(stiffness=k, full_damping=5e4, full_damping_depth=1e-4)
+    given = DASHPOT | {"restitution": restitution}
     bearing = paper_machine.bearing(clearance_mm)
-    return laws | {name: cylinder_law(name, bearing, restitution) for name in CYLINDER_LAWS}
+    return {
+        **{
+            name: _filled(law, given | {"stiffness": linear if _is_linear(law) else k})
+            for name, law in (POWER_LAWS | OTHER_LAWS).items()
+        },
+        **{name: cylinder_law(name, bearing, restitution) for name in CYLINDER_LAWS},
+    }
 
 
 def friction_laws(sliding_coefficient: float) -> dict[str, FrictionLaw]:
-    """Every friction law but none, with static coefficients a quarter above the sliding one."""
-    static = 1.25 * sliding_coefficient
-    return {
-        "ambrosio": Ambrosio(sliding_coefficient=sliding_coefficient),
-        "cubic_coulomb": CubicCoulomb(sliding_coefficient=sliding_coefficient),
-        "threlfall": Threlfall(sliding_coefficient=sliding_coefficient),
-        "bengisu_akay": BengisuAkay(static_coefficient=static, sliding_coefficient=sliding_coefficient),
-        "stribeck": Stribeck(static_coefficient=static, sliding_coefficient=sliding_coefficient),
-        "brown_mcphee": BrownMcPhee(static_coefficient=static, sliding_coefficient=sliding_coefficient),
-        "lugre": LuGre(static_coefficient=static, sliding_coefficient=sliding_coefficient),
-    }
+    """Every friction law but none, by name, with static coefficients a quarter above the sliding one."""
+    given = {"sliding_coefficient": sliding_coefficient, "static_coefficient": 1.25 * sliding_coefficient}
+    return {name: _filled(law, given) for name, law in FRICTION_LAWS.items()}
+
+
+def _filled(law: Any, given: dict[str, float]) -> Any:
+    """A law with those of the numbers given that it has fields for."""
+    return law(**{field.name: given[field.name] for field in fields(law) if field.name in given})
+
+
+def _is_linear(law: Any) -> bool:
+    return any(field.name == "exponent" and field.default == 1.0 for field in fields(law))
 
 
 def title(name: str) -> str:
-    """A law's name for readers: authors with a dash between them."""
-    special = {
-        "adams_impact": "ADAMS IMPACT",
-        "esdu_78035": "ESDU 78035",
-        "lugre": "LuGre",
-        "cubic_coulomb": "Coulomb, cubic STEP",
-        "brown_mcphee": "Brown-McPhee",
-        "herbert_mcwhannell": "Herbert-McWhannell",
-    }
-    return special.get(name) or "-".join(part.capitalize() for part in name.split("_"))
+    """A law's name for readers; a name that is no law's as it is, in words."""
+    law: Any = (POWER_LAWS | CYLINDER_LAWS | OTHER_LAWS | FRICTION_LAWS).get(name)
+    return found.title(law) if law else name.capitalize()

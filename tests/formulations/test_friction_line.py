@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from support_exudyn.formulations.redundant.clearance.friction_line import TRIES, FrictionLine
 from user_forces import Ambrosio
 from user_forces.friction.brown_mcphee import BrownMcPhee
-from user_forces.friction.coulomb import CubicCoulomb
+from user_forces.friction.cubic_coulomb import CubicCoulomb
 from user_forces.friction.law import FrictionLaw
 from user_forces.friction.threlfall import Threlfall
 

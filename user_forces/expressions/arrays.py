@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import operator
+from collections.abc import Callable
 from typing import Any, cast
 
 import numpy as np
@@ -11,6 +13,16 @@ from user_forces.expressions.scalar import Expression
 
 NAMES = ("sqrt", "exp", "log", "tanh", "cos", "sin", "abs", "sign")
 FUNCTIONS = {name: getattr(np, name) for name in NAMES}
+
+
+def _operator(function: Callable[[Any, Any], Any], swapped: bool = False) -> Callable[[Array, Any], Array]:
+    """The method of `Array` for an operator; swapped: with the array on its right."""
+
+    def method(self: Array, other: Any) -> Array:
+        sides = (_values(other), self.values) if swapped else (self.values, _values(other))
+        return Array(function(*sides))
+
+    return method
 
 
 class Array(Expression):
@@ -41,47 +53,22 @@ class Array(Expression):
         """The smaller of both."""
         return Array(np.minimum(self.values, _values(other)))
 
-    def __add__(self, other: Any) -> Array:
-        return Array(self.values + _values(other))
-
-    def __radd__(self, other: Any) -> Array:
-        return Array(_values(other) + self.values)
-
-    def __sub__(self, other: Any) -> Array:
-        return Array(self.values - _values(other))
-
-    def __rsub__(self, other: Any) -> Array:
-        return Array(_values(other) - self.values)
-
-    def __mul__(self, other: Any) -> Array:
-        return Array(self.values * _values(other))
-
-    def __rmul__(self, other: Any) -> Array:
-        return Array(_values(other) * self.values)
-
-    def __truediv__(self, other: Any) -> Array:
-        return Array(self.values / _values(other))
-
-    def __rtruediv__(self, other: Any) -> Array:
-        return Array(_values(other) / self.values)
-
-    def __pow__(self, exponent: float) -> Array:
-        return Array(self.values**exponent)
+    __add__ = _operator(operator.add)
+    __sub__ = _operator(operator.sub)
+    __mul__ = _operator(operator.mul)
+    __truediv__ = _operator(operator.truediv)
+    __pow__ = _operator(operator.pow)
+    __radd__ = _operator(operator.add, swapped=True)
+    __rsub__ = _operator(operator.sub, swapped=True)
+    __rmul__ = _operator(operator.mul, swapped=True)
+    __rtruediv__ = _operator(operator.truediv, swapped=True)
+    __lt__ = _operator(operator.lt)
+    __le__ = _operator(operator.le)
+    __gt__ = _operator(operator.gt)
+    __ge__ = _operator(operator.ge)
 
     def __neg__(self) -> Array:
         return Array(-self.values)
-
-    def __lt__(self, other: Any) -> Array:
-        return Array(self.values < _values(other))
-
-    def __le__(self, other: Any) -> Array:
-        return Array(self.values <= _values(other))
-
-    def __gt__(self, other: Any) -> Array:
-        return Array(self.values > _values(other))
-
-    def __ge__(self, other: Any) -> Array:
-        return Array(self.values >= _values(other))
 
 
 def as_number(values: npt.ArrayLike) -> float:

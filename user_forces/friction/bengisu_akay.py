@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from pydantic import model_validator
-
 from user_forces.expressions.scalar import exp, magnitude, maximum, where
-from user_forces.friction.law import FrictionLaw, against, check_coefficients
+from user_forces.friction.law import TwoCoefficients, against
 from user_forces.values.units import MetresPerSecond, SecondsPerMetre
-from user_forces.values.value import NonNegative, Positive, value
+from user_forces.values.value import Positive, value
 
 
 @value
-class BengisuAkay(FrictionLaw):
+class BengisuAkay(TwoCoefficients):
     """F_t = -mu(abs(slip)) F_n sign(slip), rising to mu_s at v_0 and falling to mu_d beyond:
 
         mu(v) = mu_s (1 - (v - v_0)^2 / v_0^2)              v < v_0
@@ -20,23 +18,15 @@ class BengisuAkay(FrictionLaw):
     Continuous, with a kink at v_0. It does not stick: a loaded pin creeps.
 
     Arguments:
-        static_coefficient: mu_s [-], >= mu_d.
-        sliding_coefficient: mu_d [-], >= 0.
+        static_coefficient, sliding_coefficient: mu_s, mu_d [-], those of `TwoCoefficients`.
         static_speed: v_0 [m/s], > 0.
         decay: xi [s/m], > 0.
 
     Source: Bengisu and Akay, J. Sound Vib. 171 (1994) 557-570.
     """
 
-    static_coefficient: NonNegative
-    sliding_coefficient: NonNegative
     static_speed: MetresPerSecond[Positive] = 1e-3
     decay: SecondsPerMetre[Positive] = 100.0
-
-    @model_validator(mode="after")
-    def _static_is_larger(self) -> BengisuAkay:
-        check_coefficients(self.static_coefficient, self.sliding_coefficient)
-        return self
 
     def __call__(self, slip: float, normal_force: float, deflection: float = 0.0) -> float:
         """Tangential force [N] for a slip [m/s] and a normal force [N] >= 0."""

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from pydantic import model_validator
-
 from user_forces.expressions.scalar import tanh
-from user_forces.friction.law import FrictionLaw, check_coefficients
+from user_forces.friction.law import TwoCoefficients
 from user_forces.values.units import MetresPerSecond
-from user_forces.values.value import NonNegative, Positive, value
+from user_forces.values.value import Positive, value
 
 
 @value
-class BrownMcPhee(FrictionLaw):
+class BrownMcPhee(TwoCoefficients):
     """F_t = -F_n (mu_d tanh(4 x) + (mu_s - mu_d) x / (x^2/4 + 3/4)^2), x = slip/v_t.
 
     Smooth everywhere. The second term has its largest value, 1, at x = 1, so the force is mu_s F_n at v_t
@@ -19,21 +17,13 @@ class BrownMcPhee(FrictionLaw):
     pins do not have.
 
     Arguments:
-        static_coefficient: mu_s [-], >= mu_d.
-        sliding_coefficient: mu_d [-], >= 0.
+        static_coefficient, sliding_coefficient: mu_s, mu_d [-], those of `TwoCoefficients`.
         transition_speed: v_t [m/s], > 0.
 
     Source: Brown and McPhee, J. Comput. Nonlinear Dyn. 11 (2016) 054502.
     """
 
-    static_coefficient: NonNegative
-    sliding_coefficient: NonNegative
     transition_speed: MetresPerSecond[Positive] = 1e-2
-
-    @model_validator(mode="after")
-    def _static_is_larger(self) -> BrownMcPhee:
-        check_coefficients(self.static_coefficient, self.sliding_coefficient)
-        return self
 
     def __call__(self, slip: float, normal_force: float, deflection: float = 0.0) -> float:
         """Tangential force [N] for a slip [m/s] and a normal force [N] >= 0."""

@@ -5,8 +5,11 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 
+from pydantic import model_validator
+from typing_extensions import Self
+
 from user_forces.expressions.scalar import sign
-from user_forces.values.value import Value
+from user_forces.values.value import NonNegative, Value, value
 
 
 class FrictionLaw(Value, ABC):
@@ -52,7 +55,23 @@ def against(slip: float, force: float) -> float:
     return -sign(slip) * force
 
 
-def check_coefficients(static: float, sliding: float) -> None:
-    """Raise ValueError if the static coefficient is smaller than the sliding one."""
-    if static < sliding:
-        raise ValueError(f"static_coefficient = {static}: allowed: >= sliding_coefficient = {sliding}")
+@value
+class TwoCoefficients(FrictionLaw):
+    """Laws whose coefficient of friction is larger at rest than in fast slip.
+
+    Arguments:
+        static_coefficient: mu_s [-], >= mu_d.
+        sliding_coefficient: mu_d [-], >= 0.
+    """
+
+    static_coefficient: NonNegative
+    sliding_coefficient: NonNegative
+
+    @model_validator(mode="after")
+    def _static_is_larger(self) -> Self:
+        if self.static_coefficient < self.sliding_coefficient:
+            raise ValueError(
+                f"static_coefficient = {self.static_coefficient}: allowed: >= sliding_coefficient = "
+                f"{self.sliding_coefficient}"
+            )
+        return self

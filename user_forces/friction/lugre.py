@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 import math
-
-from pydantic import model_validator
+from typing import ClassVar
 
 from user_forces.expressions.scalar import exp, magnitude, sign
-from user_forces.friction.law import FrictionLaw, check_coefficients
+from user_forces.friction.law import TwoCoefficients
 from user_forces.values.units import MetresPerSecond, PerMetre, SecondsPerMetre
 from user_forces.values.value import NonNegative, Positive, value
 
 
 @value
-class LuGre(FrictionLaw):
+class LuGre(TwoCoefficients):
     """F_t = -F_n (s0 z + s1 dz/dt + s2 slip), with the deflection z [m] of bristles between the surfaces:
 
         dz/dt = slip - s0 abs(slip) z / g,   g = mu_d + (mu_s - mu_d) exp(-(slip/v_S)^2)
@@ -36,17 +35,13 @@ class LuGre(FrictionLaw):
     Source: Canudas de Wit, Olsson, Astrom and Lischinsky, IEEE Trans. Autom. Control 40 (1995) 419-425.
     """
 
-    static_coefficient: NonNegative
+    TITLE: ClassVar[str] = "LuGre"
+
     sliding_coefficient: Positive
     stribeck_speed: MetresPerSecond[Positive] = 1e-2
     bristle_stiffness: PerMetre[Positive] = 1e5
     bristle_damping: SecondsPerMetre[NonNegative] = 10.0
     viscosity: SecondsPerMetre[NonNegative] = 0.0
-
-    @model_validator(mode="after")
-    def _static_is_larger(self) -> LuGre:
-        check_coefficients(self.static_coefficient, self.sliding_coefficient)
-        return self
 
     @property
     def has_state(self) -> bool:

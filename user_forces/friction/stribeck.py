@@ -2,24 +2,21 @@
 
 from __future__ import annotations
 
-from pydantic import model_validator
-
 from user_forces.expressions.scalar import exp, magnitude, step
-from user_forces.friction.law import FrictionLaw, against, check_coefficients
+from user_forces.friction.law import TwoCoefficients, against
 from user_forces.values.units import MetresPerSecond
-from user_forces.values.value import NonNegative, Positive, value
+from user_forces.values.value import Positive, value
 
 
 @value
-class Stribeck(FrictionLaw):
+class Stribeck(TwoCoefficients):
     """F_t = -(mu_d + (mu_s - mu_d) exp(-(slip/v_S)^2)) s^2 (3 - 2 s) F_n sign(slip), s = abs(slip)/v_t to 1.
 
     The force falls from mu_s to mu_d as the slip passes v_S; the cubic STEP up to v_t makes it continuous at
     rest. It does not stick: a loaded pin creeps.
 
     Arguments:
-        static_coefficient: mu_s [-], >= mu_d.
-        sliding_coefficient: mu_d [-], >= 0.
+        static_coefficient, sliding_coefficient: mu_s, mu_d [-], those of `TwoCoefficients`.
         stribeck_speed: v_S [m/s], > 0.
         tolerance_speed: v_t [m/s], > 0; well below v_S, else mu_s is not reached.
 
@@ -27,15 +24,8 @@ class Stribeck(FrictionLaw):
     Canudas de Wit, Automatica 30 (1994) 1083-1138.
     """
 
-    static_coefficient: NonNegative
-    sliding_coefficient: NonNegative
     stribeck_speed: MetresPerSecond[Positive] = 1e-2
     tolerance_speed: MetresPerSecond[Positive] = 1e-3
-
-    @model_validator(mode="after")
-    def _static_is_larger(self) -> Stribeck:
-        check_coefficients(self.static_coefficient, self.sliding_coefficient)
-        return self
 
     def __call__(self, slip: float, normal_force: float, deflection: float = 0.0) -> float:
         """Tangential force [N] for a slip [m/s] and a normal force [N] >= 0."""

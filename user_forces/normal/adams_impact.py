@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 from user_forces.expressions.scalar import step
 from user_forces.normal.law import Touch
 from user_forces.normal.power_law import ElasticPower
@@ -26,6 +28,8 @@ class AdamsImpact(ElasticPower):
     Source: MSC Adams, function builder: IMPACT and STEP. (ADAMS multiplies by the rate of the distance, which
     is minus the rate of depth.)
     """
+
+    TITLE: ClassVar[str] = "ADAMS IMPACT"
 
     full_damping: NewtonSecondsPerMetre[NonNegative]
     full_damping_depth: Metres[Positive]

@@ -20,5 +20,5 @@ class CarvalhoMartins(PowerLaw):
     """
 
     def factor(self, restitution: float) -> float:
-        """3 (1 - e) (11 - e) / (2 (1 + 9 e))."""
+        """chi = 3 (1 - e) (11 - e) / (2 (1 + 9 e))."""
         return 1.5 * (1.0 - restitution) * (11.0 - restitution) / (1.0 + 9.0 * restitution)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from abc import abstractmethod
+from typing import ClassVar
 
 from user_forces.expressions.scalar import is_number, log, maximum, sqrt
 from user_forces.journal import JournalBearing
@@ -58,15 +59,12 @@ class LogarithmicLaw(CylinderLaw):
     y - ln y = z, z = ln(H A / depth) + c, that is y = -W(-exp(-z)) with Lambert's lower branch W.
     """
 
-    @property
-    @abstractmethod
-    def scale(self) -> float:
-        """A [N/m]."""
+    offset: ClassVar[float]  # c [-]
 
     @property
     @abstractmethod
-    def offset(self) -> float:
-        """c [-]."""
+    def scale(self) -> float:
+        """A [N/m], the load per length at which the logarithm is zero."""
 
     @property
     def line_compliance(self) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import ClassVar
 
 from user_forces.normal.cylinder import LogarithmicLaw
 from user_forces.values.value import value
@@ -21,13 +22,10 @@ class DubowskyFreudenstein(LogarithmicLaw):
     only m = 3 makes the argument of the logarithm a number. See `Goldsmith` for m = 1.
     """
 
+    offset: ClassVar[float] = 1.0
+
     @property
     def scale(self) -> float:
         """pi E* dR L^2 / (R1 R2) [N/m]."""
         r1, r2 = self.bearing.journal_radius, self.bearing.bore_radius
         return math.pi * self.effective_modulus * self.bearing.clearance * self.length**2 / (r1 * r2)
-
-    @property
-    def offset(self) -> float:
-        """+1."""
-        return 1.0

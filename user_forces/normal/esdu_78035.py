@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import ClassVar
 
 from user_forces.normal.cylinder import LogarithmicLaw
 from user_forces.values.value import value
@@ -21,12 +22,10 @@ class Esdu78035(LogarithmicLaw):
     depth = p (h1 + h2) (ln(4 dR / (p (h1 + h2))) + 1).
     """
 
+    TITLE: ClassVar[str] = "ESDU 78035"
+    offset: ClassVar[float] = 1.0
+
     @property
     def scale(self) -> float:
         """4 pi E* dR [N/m]."""
         return 4.0 * math.pi * self.effective_modulus * self.bearing.clearance
-
-    @property
-    def offset(self) -> float:
-        """+1."""
-        return 1.0

@@ -22,5 +22,5 @@ class Flores(PowerLaw):
     restitution: Restitution
 
     def factor(self, restitution: float) -> float:
-        """8 (1 - e) / (5 e)."""
+        """chi = 8 (1 - e) / (5 e)."""
         return 8.0 * (1.0 - restitution) / (5.0 * restitution)

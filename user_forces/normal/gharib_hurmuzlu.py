@@ -22,5 +22,5 @@ class GharibHurmuzlu(PowerLaw):
     restitution: Restitution
 
     def factor(self, restitution: float) -> float:
-        """1 / e."""
+        """chi = 1 / e."""
         return 1.0 / restitution

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import ClassVar
 
 from user_forces.normal.cylinder import LogarithmicLaw
 from user_forces.values.units import Metres
@@ -26,6 +27,8 @@ class Goldsmith(LogarithmicLaw):
     Eng. K 220 (2006) 21-34.
     """
 
+    offset: ClassVar[float] = 1.0
+
     reference_length: Metres[NonNegative] = 0.0
 
     @property
@@ -34,8 +37,3 @@ class Goldsmith(LogarithmicLaw):
         product = self.bearing.journal_radius * self.bearing.bore_radius
         square = self.reference_length**2 if self.reference_length else 4.0 * product
         return math.pi * self.effective_modulus * self.bearing.clearance * square / product
-
-    @property
-    def offset(self) -> float:
-        """+1."""
-        return 1.0

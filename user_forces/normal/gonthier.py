@@ -22,5 +22,5 @@ class Gonthier(PowerLaw):
     restitution: Restitution
 
     def factor(self, restitution: float) -> float:
-        """(1 - e^2) / e."""
+        """chi = (1 - e^2) / e."""
         return (1.0 - restitution**2) / restitution

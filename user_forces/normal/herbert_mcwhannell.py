@@ -20,5 +20,5 @@ class HerbertMcWhannell(PowerLaw):
     """
 
     def factor(self, restitution: float) -> float:
-        """6 (1 - e) / ((2 e - 1)^2 + 3)."""
+        """chi = 6 (1 - e) / ((2 e - 1)^2 + 3)."""
         return 6.0 * (1.0 - restitution) / ((2.0 * restitution - 1.0) ** 2 + 3.0)

@@ -12,7 +12,7 @@ class Hertz(ElasticPower):
     """F = K depth^n: no damping, restitution 1.
 
     Arguments:
-        stiffness: K [N/m^n], > 0; see `user_forces.stiffness`.
+        stiffness: K [N/m^n], > 0; see `user_forces.materials`.
         exponent: n [-], 1.5 for two spheres, from 1 to 3.
 
     Source: Hertz, J. reine angew. Math. 92 (1882) 156-171; Johnson, Contact Mechanics (1985), Eq. 4.23.

@@ -22,5 +22,5 @@ class HuGuo(PowerLaw):
     restitution: Restitution
 
     def factor(self, restitution: float) -> float:
-        """3 (1 - e) / (2 e)."""
+        """chi = 3 (1 - e) / (2 e)."""
         return 1.5 * (1.0 - restitution) / restitution

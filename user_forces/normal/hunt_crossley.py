@@ -20,5 +20,5 @@ class HuntCrossley(PowerLaw):
     """
 
     def factor(self, restitution: float) -> float:
-        """3 (1 - e) / 2."""
+        """chi = 3 (1 - e) / 2."""
         return 1.5 * (1.0 - restitution)

@@ -29,8 +29,8 @@ class KelvinVoigt(ElasticPower):
         stiffness: K [N/m], > 0.
         damping: c [N s/m], >= 0.
 
-    Source: any textbook on vibration; with a cut tension Schwager and Poeschel, Granular Matter 9 (2007)
-    465-469.
+    Source: Voigt, Ann. Phys. 283 (1892) 671-693; with a cut tension Schwager and Poeschel, Granular Matter 9
+    (2007) 465-469.
     """
 
     damping: NewtonSecondsPerMetre[NonNegative]

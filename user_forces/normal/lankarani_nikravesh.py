@@ -21,5 +21,5 @@ class LankaraniNikravesh(PowerLaw):
     """
 
     def factor(self, restitution: float) -> float:
-        """3 (1 - e^2) / 4."""
+        """chi = 3 (1 - e^2) / 4."""
         return 0.75 * (1.0 - restitution**2)

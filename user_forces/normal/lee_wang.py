@@ -20,5 +20,5 @@ class LeeWang(PowerLaw):
     """
 
     def factor(self, restitution: float) -> float:
-        """3 (1 - e) / 4."""
+        """chi = 3 (1 - e) / 4."""
         return 0.75 * (1.0 - restitution)

@@ -44,7 +44,7 @@ class Pereira(CylinderLaw):
         return self
 
     def factor(self, restitution: float) -> float:
-        """3 (1 - e^2) / 4."""
+        """chi = 3 (1 - e^2) / 4."""
         return 0.75 * (1.0 - restitution**2)
 
     @cached_property

@@ -18,7 +18,7 @@ class ElasticPower(NormalLaw):
     """The elastic part F_el = K depth^n.
 
     Arguments:
-        stiffness: K [N/m^n], > 0; see `user_forces.stiffness`.
+        stiffness: K [N/m^n], > 0; see `user_forces.materials`.
         exponent: n [-], 1.5 for metals, from 1 to 3.
     """
 
@@ -51,7 +51,7 @@ class PowerLaw(ElasticPower, Hysteresis):
     """F = K depth^n (1 + chi rate / w); what chi is, is the law.
 
     Arguments:
-        stiffness: K [N/m^n], > 0; see `user_forces.stiffness`.
+        stiffness: K [N/m^n], > 0; see `user_forces.materials`.
         restitution: e that is asked for [-].
         exponent: n [-], 1.5 for metals, from 1 to 3.
         damping_speed: what w is: the approach speed v0 in a free impact.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from pydantic import Field
 
@@ -26,14 +26,11 @@ class Radzimovsky(LogarithmicLaw):
     and Ambrosio, Nonlinear Dyn. 63 (2011) 681-697.
     """
 
+    offset: ClassVar[float] = 2.0 / 3.0
+
     width_factor: Annotated[Real, Field(ge=1, le=2.5)] = 1.6
 
     @property
     def scale(self) -> float:
         """16 E* dR / k^2 [N/m]."""
         return 16.0 * self.effective_modulus * self.bearing.clearance / self.width_factor**2
-
-    @property
-    def offset(self) -> float:
-        """2/3."""
-        return 2.0 / 3.0

@@ -22,5 +22,5 @@ class SafaeifarFarshidianfar(PowerLaw):
     restitution: Restitution
 
     def factor(self, restitution: float) -> float:
-        """5 (1 - e) / (4 e)."""
+        """chi = 5 (1 - e) / (4 e)."""
         return 1.25 * (1.0 - restitution) / restitution

@@ -22,5 +22,5 @@ class ZhiyingQishao(PowerLaw):
     """
 
     def factor(self, restitution: float) -> float:
-        """3 (1 - e^2) exp(2 (1 - e)) / 4."""
+        """chi = 3 (1 - e^2) exp(2 (1 - e)) / 4."""
         return 0.75 * (1.0 - restitution**2) * math.exp(2.0 * (1.0 - restitution))

@@ -100,7 +100,7 @@ class Value:
     def __new__(cls, *args: Any, **kwargs: Any) -> Self:
         """Of a class that only groups others nothing can be made, since nothing could be read back."""
         if ABC in cls.__bases__ and not _has_fields(cls):
-            raise InputError(f"{cls.__name__}: is a kind of values; allowed: {_names(_kinds_of(cls))}")
+            raise InputError(f"{cls.__name__}: is a kind of values; allowed: {_names(kinds_of(cls))}")
         return super().__new__(cls)
 
     def to_data(self) -> dict[str, Any]:
@@ -122,8 +122,8 @@ class Value:
         return _value_of(data, 0)
 
 
-def _kinds_of(cls: type[Value]) -> dict[str, type[Value]]:
-    """All kinds of a class of which values can be made, by name."""
+def kinds_of(cls: type[Value]) -> dict[str, type[Value]]:
+    """The classes under a class of which values can be made, by name."""
     known = {name: kind for name, kind in Value._register.items() if issubclass(kind, cls)}
     return {name: kind for name, kind in known.items() if _has_fields(kind) and not inspect.isabstract(kind)}
 
@@ -150,7 +150,7 @@ def _plain(item: Any) -> Any:
 
 def _value_of(data: Any, depth: int) -> Any:
     kind = data.get("type") if isinstance(data, Mapping) else None
-    known = _kinds_of(Value)
+    known = kinds_of(Value)
     if not isinstance(kind, str) or kind not in known:
         near = ", ".join(get_close_matches(kind if isinstance(kind, str) else "", known, NEAR, 0.0))
         raise InputError(

@@ -15,11 +15,16 @@ from user_forces.contact import JournalContact
 from user_forces.friction.ambrosio import Ambrosio
 from user_forces.friction.law import FrictionLaw
 from user_forces.journal import JournalBearing
-from user_forces.materials import STEEL, STEEL_35CRMO, Material
+from user_forces.materials import (
+    STEEL,
+    STEEL_35CRMO,
+    Material,
+    external_contact_stiffness,
+    internal_contact_stiffness,
+)
 from user_forces.normal.damping_speed import DampingSpeed
 from user_forces.normal.law import NormalLaw
 from user_forces.normal.power_law import ElasticPower
-from user_forces.stiffness import external_contact_stiffness, internal_contact_stiffness
 from user_forces.values.units import Metres, NewtonsPerMetreToN
 from user_forces.values.value import InputError, NonNegative, Positive, Restitution, Value, Vector2, value
 

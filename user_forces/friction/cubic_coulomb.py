@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 from user_forces.expressions.scalar import magnitude, step
 from user_forces.friction.law import FrictionLaw, against
 from user_forces.values.units import MetresPerSecond
@@ -22,6 +24,8 @@ class CubicCoulomb(FrictionLaw):
     Source: MSC Adams, function builder, STEP; regularised Coulomb friction as in Marques, Flores, Claro and
     Lankarani, Nonlinear Dyn. 86 (2016) 1407-1443.
     """
+
+    TITLE: ClassVar[str] = "Coulomb, cubic STEP"
 
     sliding_coefficient: NonNegative
     dynamic_speed: MetresPerSecond[Positive] = 1e-2
