@@ -2,31 +2,36 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import TypeVar
 
 import numpy as np
 
 from support_exudyn.model.drives.drive import Drive
 from user_forces.values.value import InputError
 
-if TYPE_CHECKING:
-    from support_exudyn.machines.four_bar_shield import FourBarShield
+P = TypeVar("P")  # of a posture
+Reached = Callable[[Sequence[float], P], P | None]  # the posture for lengths of both columns, near another one
 
 SAMPLES = 32  # of a stretch without breaks, and of a period
 MOST_SAMPLES = 1024  # of a stretch; an oscillation that goes on for longer has been everywhere by then
 SHORTEST = 2.0**-24  # of a run: time between two postures at which the way is given up
 
 
-def check_path(machine: FourBarShield[Any], drives: Mapping[str, Drive], duration: float) -> None:
-    """Raise InputError unless the linkage closes from the start posture on, as the drives go [s].
+def check_path(
+    start: P, lengths: Mapping[str, float], reached_by: Reached[P], drives: Mapping[str, Drive], duration: float
+) -> None:
+    """Raise InputError unless the linkage closes from the start posture on, as the drives go.
 
-    drives: of both columns, by name. Postures are looked at in small steps between the breaks of the drives;
-    each is searched for from the one before, so that the way leads over no dead centre.
+    Postures are looked at in small steps between the breaks of the drives; each is searched for from the one
+    before, so that the way leads over no dead centre.
+
+    Arguments:
+        start: posture at the start. lengths: of both columns in it [m], by name.
+        reached_by: finds the posture for two lengths [m] near another one; None if there is none.
+        drives: of both columns, by name. duration: of the run [s].
     """
-    start = machine.start()
-    lengths = dict(zip(machine.STRUTS, machine.column_lengths(start), strict=True))
 
     def at(time: float) -> list[float]:
         return [length + drives[name].extension(time) for name, length in lengths.items()]
@@ -35,12 +40,11 @@ def check_path(machine: FourBarShield[Any], drives: Mapping[str, Drive], duratio
     for goal in times(tuple(drives.values()), duration):
         while reached < goal:
             step = goal - reached
-            while (following := machine.reached(at(reached + step), posture)) is None:
+            while (following := reached_by(at(reached + step), posture)) is None:
                 step /= 2.0
                 if step < SHORTEST * duration:
-                    _refuse(
-                        machine, drives, reached, at(reached), at(min(goal, reached + 2.0**12 * step)), posture
-                    )
+                    then = at(min(goal, reached + 2.0**12 * step))
+                    _refuse(reached_by, drives, tuple(lengths), reached, at(reached), then, posture)
             reached, posture = (goal if step == goal - reached else reached + step), following
 
 
@@ -55,17 +59,17 @@ def times(drives: Sequence[Drive], duration: float) -> Iterator[float]:
 
 
 def _refuse(
-    machine: FourBarShield[Any],
+    reached_by: Reached[P],
     drives: Mapping[str, Drive],
+    names: tuple[str, ...],
     time: float,
     now: Sequence[float],
     then: Sequence[float],
-    posture: Any,
+    posture: P,
 ) -> None:
     """Name the column that cannot go on, while the other could."""
-    names = tuple(machine.STRUTS)
     alone = [
-        machine.reached([then[n] if n == moving else now[n] for n in range(len(names))], posture) is not None
+        reached_by([then[n] if n == moving else now[n] for n in range(len(names))], posture) is not None
         for moving in range(len(names))
     ]
     stuck = [name for name, can in zip(names, alone, strict=True) if not can]

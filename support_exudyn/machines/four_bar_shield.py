@@ -17,26 +17,20 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from functools import cached_property
-from typing import Any, ClassVar, Generic, NamedTuple, Protocol, TypeVar
+from typing import Any, Generic
 
 import numpy as np
-from typing_extensions import Self
 
 from support_exudyn.machines.drive_path import check_path
-from support_exudyn.machines.shield_layout import BODIES, TAIL, TAIL_PLACES, laid_out
+from support_exudyn.machines.shield_layout import PINS as PINS
+from support_exudyn.machines.shield_layout import P, ShieldLayout
 from support_exudyn.model.drives.drive import Drive
-from support_exudyn.model.lateral_dimensions import Width
-from support_exudyn.model.linkage import GROUND, Linkage, Part, lumped
-from support_exudyn.model.machine import Machine
-from support_exudyn.model.plane_geometry import circle_intersection, direction, distance, minus, moved, side
-from user_forces.expressions.roots import bracketed_root
+from support_exudyn.model.linkage import GROUND
+from support_exudyn.model.plane_geometry import minus
 from user_forces.values.value import InputError, Vector2
 
-PINS = ("rear_base", "front_base", "rear_shield", "front_shield", "shield_canopy")
-FRAME = ("rear_base", "front_base", "rear_shield", "front_shield", "hinge", "tip")  # pivots of all of them
-FARTHEST = 1000.0  # [m] from the origin
 PRECISE = 1e-11  # [m] to which lengths of columns are met
 MOST_CORRECTIONS = 20  # of Newton's method; four do
 LOCKED = 1e-12  # [m^2] determinant of the columns' rates at which they hold nothing any more
@@ -45,201 +39,8 @@ REMEMBERED = ("_closing", "_followed", "_known")  # what values of machines reme
 LONGEST_STEP = 0.2  # [rad] from one posture to the next, so that it is not taken for one behind a dead centre
 
 
-class ShieldPosture(Protocol):
-    """Where everything is with ideal pins. Angles [rad] are turns from the reference posture, points in m."""
-
-    @property
-    def rear_link(self) -> float:
-        """Turn of the rear link."""
-
-    @property
-    def front_link(self) -> float:
-        """Turn of the front link."""
-
-    @property
-    def shield(self) -> float:
-        """Turn of the shield beam."""
-
-    @property
-    def canopy(self) -> float:
-        """Turn of the canopy."""
-
-    @property
-    def rear_shield(self) -> Vector2:
-        """C."""
-
-    @property
-    def front_shield(self) -> Vector2:
-        """D."""
-
-    @property
-    def hinge(self) -> Vector2:
-        """I."""
-
-    @property
-    def tip(self) -> Vector2:
-        """T."""
-
-
-P = TypeVar("P", bound=ShieldPosture)
-
-
-class Strut(NamedTuple):
-    """A column of a support: the bodies of its foot and its head, each with the name of the pivot on it."""
-
-    foot: tuple[str, str]
-    head: tuple[str, str]
-
-
-class FourBarShield(Machine, ABC, Generic[P]):
-    """Closed-form kinematics and layout of four-bar shield supports; a kind of them adds fields and columns.
-
-    The names below are fields of every kind, see there. `STRUTS`: its two columns by name.
-    """
-
-    STRUTS: ClassVar[Mapping[str, Strut]]
-
-    rear_base: Vector2
-    front_base: Vector2
-    rear_shield: Vector2
-    front_shield: Vector2
-    hinge: Vector2
-    tip: Vector2
-    parts: Mapping[str, tuple[Part, ...]]
-    start_hinge_height: float
-    width: Width | None
-    tail_hinge: Vector2 | None
-    tail_jack_foot: Vector2 | None
-    tail_jack_head: Vector2 | None
-
-    @classmethod
-    def pivots(cls) -> tuple[str, ...]:
-        """Names of all its pivots, those of the tail beam last, which may be missing."""
-        feet = [place for strut in cls.STRUTS.values() for _, place in strut]
-        return (*FRAME[:-1], *feet, FRAME[-1], *TAIL_PLACES)
-
-    def check(self) -> Self:
-        """Itself. Raises ValueError if it cannot be built: the rest of what its fields are checked for."""
-        for name in self.pivots():
-            if max(map(abs, getattr(self, name) or (0.0,))) > FARTHEST:
-                raise ValueError(
-                    f"{name} = {getattr(self, name)} m: allowed: from {-FARTHEST:g} to {FARTHEST:g} m "
-                    "(is it given in mm?)"
-                )
-        if sorted(self.parts) != sorted(BODIES):
-            raise ValueError(f"parts = {sorted(self.parts)}: allowed: exactly {', '.join(BODIES)}")
-        for name, parts in self.parts.items():
-            if not parts:
-                raise ValueError(f"parts.{name} = (): allowed: at least one part")
-            if lumped(parts).inertia <= 0.0:
-                raise ValueError(f"parts.{name}: total inertia is 0 kg m^2; allowed: > 0")
-        if self.width is not None:
-            self._check_width(self.width)
-        try:
-            self.start()
-        except InputError as error:
-            raise ValueError(str(error)) from None
-        return self
-
-    def _check_width(self, width: Width) -> None:
-        columns = tuple(self.STRUTS)
-        known = {
-            "spreads": (*BODIES, TAIL, *(f"{name}_{part}" for name in columns for part in ("cylinder", "rod"))),
-            "pairs": ("front_link",),
-            "columns": columns,
-            "lengths": (*PINS, "shield_tail"),
-            "points": ("tip",),
-        }
-        for kind, names in known.items():
-            for name in getattr(width, kind):
-                if name not in names:
-                    raise ValueError(f"width.{kind}.{name}: there is none; allowed: {', '.join(names)}")
-
-    # --- posture, closed form ---
-
-    def four_bar(self, rear_link: float) -> tuple[Vector2, Vector2, Vector2] | None:
-        """C, D and I for a turn of the rear link [rad]; None where the four-bar does not close.
-
-        D is where the circles of the front link about A and of the shield beam about C meet, on the
-        same side of CA as in the reference posture.
-        """
-        c = moved(self.rear_shield, self.rear_base, self.rear_base, rear_link)
-        which = side(self.rear_shield, self.front_base, self.front_shield)
-        d = circle_intersection(
-            c,
-            distance(self.rear_shield, self.front_shield),
-            self.front_base,
-            distance(self.front_base, self.front_shield),
-            which,
-        )
-        if d is None:
-            return None
-        turned = turn(direction(self.rear_shield, self.front_shield), direction(c, d))
-        return c, d, moved(self.hinge, self.rear_shield, c, turned)
-
-    @abstractmethod
-    def posture(self, rear_link: float, canopy: float) -> P | None:
-        """Posture for turns of rear link and canopy [rad]; None where the four-bar does not close."""
-
-    def start(self) -> P:
-        """Posture with a level canopy and the hinge at its start height.
-
-        Raises InputError with the reachable range if the linkage does not go there.
-        """
-        return self._start
-
-    @cached_property
-    def _start(self) -> P:
-        turns = np.radians(np.linspace(-60.0, 60.0, 241))
-        heights = np.array([closed[2][1] if (closed := self.four_bar(t)) else math.nan for t in turns])
-        if np.isnan(heights).all():
-            raise InputError(
-                f"front_base = {self.front_base}, front_shield = {self.front_shield} m: the four-bar does not "
-                "close within 60 degrees of the posture in which its pivots are given; allowed: links that "
-                "reach each other"
-            )
-        excess = heights - self.start_hinge_height
-        crossings = np.flatnonzero(np.sign(excess[:-1]) * np.sign(excess[1:]) <= 0.0)
-        if crossings.size == 0:
-            raise InputError(
-                f"start_hinge_height = {self.start_hinge_height} m: the four-bar cannot bring the hinge there; "
-                f"allowed: {np.nanmin(heights):.4f} to {np.nanmax(heights):.4f} m"
-            )
-        near = crossings[np.argmin(np.abs(turns[crossings]))]
-
-        def height_error(turn: float) -> float:
-            closed = self.four_bar(turn)
-            return closed[2][1] - self.start_hinge_height if closed else math.nan
-
-        try:
-            turned = bracketed_root(height_error, float(turns[near]), float(turns[near + 1]), xtol=1e-15)
-        except ValueError:  # it opens between both, or its heights are rounding
-            turned = math.nan
-        found = None if math.isnan(turned) else self.posture(turned, 0.0)
-        if found is None:
-            raise InputError(
-                f"start_hinge_height = {self.start_hinge_height} m: the four-bar opens next to that posture; "
-                "allowed: heights farther from where it locks"
-            )
-        return found
-
-    def place(self, body: str, pivot: str, posture: P) -> Vector2:
-        """Where a pivot of a body, or of the ground, is in a posture [m]."""
-        point: Vector2 = getattr(self, pivot)
-        if body == GROUND:
-            return point
-        if body == "canopy":
-            return moved(point, self.hinge, posture.hinge, posture.canopy)
-        assert body == "shield"  # columns stand on nothing else
-        return moved(point, self.rear_shield, posture.rear_shield, posture.shield)
-
-    def column_lengths(self, posture: P) -> tuple[float, float]:
-        """Lengths [m] of its columns, in the order of `STRUTS`."""
-        first, second = (
-            distance(self.place(*strut.foot, posture), self.place(*strut.head, posture))
-            for strut in self.STRUTS.values()
-        )
-        return first, second
+class FourBarShield(ShieldLayout[P], ABC, Generic[P]):
+    """Motion of four-bar shield supports, in closed form; a kind of them adds fields and columns."""
 
     def link_rates(self, posture: P) -> tuple[float, Vector2]:
         """How fast the shield beam turns, and the hinge's velocity [m/s], if the rear link turns by 1 rad/s.
@@ -344,7 +145,9 @@ class FourBarShield(Machine, ABC, Generic[P]):
         if all(drives[name] == lead for name in self.alike) and self._follow(drives, duration):
             self.check_extension(*lead.span(duration))
         else:
-            check_path(self, drives, duration)
+            start = self.start()
+            lengths = dict(zip(self.STRUTS, self.column_lengths(start), strict=True))
+            check_path(start, lengths, self.reached, drives, duration)
         if len(self._followed) == MOST_REMEMBERED:
             self._followed.clear()
         self._followed.append((dict(drives), duration))
@@ -378,33 +181,6 @@ class FourBarShield(Machine, ABC, Generic[P]):
         for name in REMEMBERED:
             state.pop(name, None)
         return state
-
-    # --- layout ---
-
-    def widths(self) -> Width | None:
-        """Its lateral dimensions, if they are known."""
-        return self.width
-
-    def linkage(self) -> Linkage:
-        """The support as four moving bodies, five pins, two columns and the canopy tip."""
-        return self.detailed((), ())
-
-    @property
-    def jacks(self) -> Mapping[str, str]:
-        """The tail beam's."""
-        return {TAIL: "tail_jack"}
-
-    def detailed(self, columns: Collection[str], parts: Collection[str]) -> Linkage:
-        """The same without the parts that stand for the mass of columns, and with the tail beam as a body.
-
-        Raises InputError if nothing is left of a body, or data of the tail beam are missing.
-        """
-        return laid_out(self, columns, parts)
-
-
-def turn(before: float, after: float) -> float:
-    """Smallest turn [rad] from one direction to another."""
-    return math.remainder(after - before, 2.0 * math.pi)
 
 
 def _turning(arm: Vector2) -> Vector2:

@@ -22,8 +22,8 @@ from typing import ClassVar, NamedTuple
 import numpy as np
 from pydantic import model_validator
 
-from support_exudyn.machines.four_bar_shield import PRECISE, FourBarShield, Strut, turn
-from support_exudyn.machines.shield_layout import BODIES, TAIL
+from support_exudyn.machines.four_bar_shield import PRECISE, FourBarShield
+from support_exudyn.machines.shield_layout import BODIES, TAIL, Strut, turn
 from support_exudyn.model.lateral_dimensions import Width
 from support_exudyn.model.linkage import GROUND, Part
 from support_exudyn.model.plane_geometry import direction, moved

@@ -1,11 +1,18 @@
-"""A four-bar shield support as a linkage: bodies in their start posture, pins, columns, tail beam."""
+"""A four-bar shield support in its start posture: what its pivots must be, the closed four-bar, the linkage."""
 
 from __future__ import annotations
 
-from collections.abc import Collection
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Collection, Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from functools import cached_property
+from typing import ClassVar, Generic, NamedTuple, Protocol, TypeVar
 
+import numpy as np
+from typing_extensions import Self
+
+from support_exudyn.model.lateral_dimensions import Width
 from support_exudyn.model.linkage import (
     GROUND,
     Body,
@@ -17,109 +24,327 @@ from support_exudyn.model.linkage import (
     pinned,
     turned_moments,
 )
-from support_exudyn.model.plane_geometry import direction, moved
+from support_exudyn.model.machine import Machine
+from support_exudyn.model.plane_geometry import circle_intersection, direction, distance, moved, side
+from user_forces.expressions.roots import bracketed_root
 from user_forces.values.value import InputError, Vector2
-
-if TYPE_CHECKING:
-    from support_exudyn.machines.four_bar_shield import FourBarShield
 
 BODIES = ("rear_link", "front_link", "shield", "canopy")
 TAIL = "tail_beam"  # part of the shield, and the body that it can be
 TAIL_PLACES = ("tail_hinge", "tail_jack_foot", "tail_jack_head")
 RODS = "_rods"  # after a column's name: parts that stand for its mass as long as it has none
+PINS = ("rear_base", "front_base", "rear_shield", "front_shield", "shield_canopy")
+FRAME = ("rear_base", "front_base", "rear_shield", "front_shield", "hinge", "tip")  # pivots of all of them
+FARTHEST = 1000.0  # [m] from the origin
 
 
-def laid_out(shield: FourBarShield[Any], columns: Collection[str], parts: Collection[str]) -> Linkage:
-    """A support as four moving bodies, five pins, two columns and the canopy tip.
+class ShieldPosture(Protocol):
+    """Where everything is with ideal pins. Angles [rad] are turns from the reference posture, points in m."""
 
-    Arguments:
-        columns: names of those whose mass no part stands for.
-        parts: names of those that are bodies of their own: the tail beam or none.
+    @property
+    def rear_link(self) -> float:
+        """Turn of the rear link."""
 
-    Raises InputError if nothing is left of a body, or data of the tail beam are missing.
+    @property
+    def front_link(self) -> float:
+        """Turn of the front link."""
+
+    @property
+    def shield(self) -> float:
+        """Turn of the shield beam."""
+
+    @property
+    def canopy(self) -> float:
+        """Turn of the canopy."""
+
+    @property
+    def rear_shield(self) -> Vector2:
+        """C."""
+
+    @property
+    def front_shield(self) -> Vector2:
+        """D."""
+
+    @property
+    def hinge(self) -> Vector2:
+        """I."""
+
+    @property
+    def tip(self) -> Vector2:
+        """T."""
+
+
+P = TypeVar("P", bound=ShieldPosture)
+
+
+class Strut(NamedTuple):
+    """A column of a support: the bodies of its foot and its head, each with the name of the pivot on it."""
+
+    foot: tuple[str, str]
+    head: tuple[str, str]
+
+
+class ShieldLayout(Machine, ABC, Generic[P]):
+    """Pivots, parts and start posture of four-bar shield supports.
+
+    The names below are fields of every kind, see there. `STRUTS`: its two columns by name.
     """
-    p = shield.start()
-    left_out = {*(column + RODS for column in columns), *parts}
-    turned = {"rear_link": p.rear_link, "front_link": p.front_link, "shield": p.shield, "canopy": p.canopy}
-    anchors = {  # a point of each body: where it is in the reference posture and at the start
-        "rear_link": (shield.rear_base, shield.rear_base),
-        "front_link": (shield.front_base, shield.front_base),
-        "shield": (shield.rear_shield, p.rear_shield),
-        "canopy": (shield.hinge, p.hinge),
-    }
-    lines = {  # by which a body's angle is measured
-        "rear_link": direction(shield.rear_base, p.rear_shield),
-        "front_link": direction(shield.front_base, p.front_shield),
-        "shield": direction(p.rear_shield, p.hinge),
-        "canopy": p.canopy,
-    }
-    bodies = {}
-    for name in BODIES:
-        lump = _lump(shield, name, left_out)
-        centre = moved(lump.centre, *anchors[name], turned[name])
-        bodies[name] = Body(
+
+    STRUTS: ClassVar[Mapping[str, Strut]]
+
+    rear_base: Vector2
+    front_base: Vector2
+    rear_shield: Vector2
+    front_shield: Vector2
+    hinge: Vector2
+    tip: Vector2
+    parts: Mapping[str, tuple[Part, ...]]
+    start_hinge_height: float
+    width: Width | None
+    tail_hinge: Vector2 | None
+    tail_jack_foot: Vector2 | None
+    tail_jack_head: Vector2 | None
+
+    @classmethod
+    def pivots(cls) -> tuple[str, ...]:
+        """Names of all its pivots, those of the tail beam last, which may be missing."""
+        feet = [place for strut in cls.STRUTS.values() for _, place in strut]
+        return (*FRAME[:-1], *feet, FRAME[-1], *TAIL_PLACES)
+
+    def check(self) -> Self:
+        """Itself. Raises ValueError if it cannot be built: the rest of what its fields are checked for."""
+        for name in self.pivots():
+            if max(map(abs, getattr(self, name) or (0.0,))) > FARTHEST:
+                raise ValueError(
+                    f"{name} = {getattr(self, name)} m: allowed: from {-FARTHEST:g} to {FARTHEST:g} m "
+                    "(is it given in mm?)"
+                )
+        if sorted(self.parts) != sorted(BODIES):
+            raise ValueError(f"parts = {sorted(self.parts)}: allowed: exactly {', '.join(BODIES)}")
+        for name, parts in self.parts.items():
+            if not parts:
+                raise ValueError(f"parts.{name} = (): allowed: at least one part")
+            if lumped(parts).inertia <= 0.0:
+                raise ValueError(f"parts.{name}: total inertia is 0 kg m^2; allowed: > 0")
+        if self.width is not None:
+            self._check_width(self.width)
+        try:
+            self.start()
+        except InputError as error:
+            raise ValueError(str(error)) from None
+        return self
+
+    def _check_width(self, width: Width) -> None:
+        columns = tuple(self.STRUTS)
+        known = {
+            "spreads": (*BODIES, TAIL, *(f"{name}_{part}" for name in columns for part in ("cylinder", "rod"))),
+            "pairs": ("front_link",),
+            "columns": columns,
+            "lengths": (*PINS, "shield_tail"),
+            "points": ("tip",),
+        }
+        for kind, names in known.items():
+            for name in getattr(width, kind):
+                if name not in names:
+                    raise ValueError(f"width.{kind}.{name}: there is none; allowed: {', '.join(names)}")
+
+    # --- posture, closed form ---
+
+    def four_bar(self, rear_link: float) -> tuple[Vector2, Vector2, Vector2] | None:
+        """C, D and I for a turn of the rear link [rad]; None where the four-bar does not close.
+
+        D is where the circles of the front link about A and of the shield beam about C meet, on the
+        same side of CA as in the reference posture.
+        """
+        c = moved(self.rear_shield, self.rear_base, self.rear_base, rear_link)
+        which = side(self.rear_shield, self.front_base, self.front_shield)
+        d = circle_intersection(
+            c,
+            distance(self.rear_shield, self.front_shield),
+            self.front_base,
+            distance(self.front_base, self.front_shield),
+            which,
+        )
+        if d is None:
+            return None
+        turned = turn(direction(self.rear_shield, self.front_shield), direction(c, d))
+        return c, d, moved(self.hinge, self.rear_shield, c, turned)
+
+    @abstractmethod
+    def posture(self, rear_link: float, canopy: float) -> P | None:
+        """Posture for turns of rear link and canopy [rad]; None where the four-bar does not close."""
+
+    def start(self) -> P:
+        """Posture with a level canopy and the hinge at its start height.
+
+        Raises InputError with the reachable range if the linkage does not go there.
+        """
+        return self._start
+
+    @cached_property
+    def _start(self) -> P:
+        turns = np.radians(np.linspace(-60.0, 60.0, 241))
+        heights = np.array([closed[2][1] if (closed := self.four_bar(t)) else math.nan for t in turns])
+        if np.isnan(heights).all():
+            raise InputError(
+                f"front_base = {self.front_base}, front_shield = {self.front_shield} m: the four-bar does not "
+                "close within 60 degrees of the posture in which its pivots are given; allowed: links that "
+                "reach each other"
+            )
+        excess = heights - self.start_hinge_height
+        crossings = np.flatnonzero(np.sign(excess[:-1]) * np.sign(excess[1:]) <= 0.0)
+        if crossings.size == 0:
+            raise InputError(
+                f"start_hinge_height = {self.start_hinge_height} m: the four-bar cannot bring the hinge there; "
+                f"allowed: {np.nanmin(heights):.4f} to {np.nanmax(heights):.4f} m"
+            )
+        near = crossings[np.argmin(np.abs(turns[crossings]))]
+
+        def height_error(turn: float) -> float:
+            closed = self.four_bar(turn)
+            return closed[2][1] - self.start_hinge_height if closed else math.nan
+
+        try:
+            turned = bracketed_root(height_error, float(turns[near]), float(turns[near + 1]), xtol=1e-15)
+        except ValueError:  # it opens between both, or its heights are rounding
+            turned = math.nan
+        found = None if math.isnan(turned) else self.posture(turned, 0.0)
+        if found is None:
+            raise InputError(
+                f"start_hinge_height = {self.start_hinge_height} m: the four-bar opens next to that posture; "
+                "allowed: heights farther from where it locks"
+            )
+        return found
+
+    def place(self, body: str, pivot: str, posture: P) -> Vector2:
+        """Where a pivot of a body, or of the ground, is in a posture [m]."""
+        point: Vector2 = getattr(self, pivot)
+        if body == GROUND:
+            return point
+        if body == "canopy":
+            return moved(point, self.hinge, posture.hinge, posture.canopy)
+        assert body == "shield"  # columns stand on nothing else
+        return moved(point, self.rear_shield, posture.rear_shield, posture.shield)
+
+    def column_lengths(self, posture: P) -> tuple[float, float]:
+        """Lengths [m] of its columns, in the order of `STRUTS`."""
+        first, second = (
+            distance(self.place(*strut.foot, posture), self.place(*strut.head, posture))
+            for strut in self.STRUTS.values()
+        )
+        return first, second
+
+    # --- layout ---
+
+    def widths(self) -> Width | None:
+        """Its lateral dimensions, if they are known."""
+        return self.width
+
+    def linkage(self) -> Linkage:
+        """The support as four moving bodies, five pins, two columns and the canopy tip."""
+        return self.detailed((), ())
+
+    @property
+    def jacks(self) -> Mapping[str, str]:
+        """The tail beam, which can be a body of its own, with its jack."""
+        return {TAIL: "tail_jack"}
+
+    def detailed(self, columns: Collection[str], parts: Collection[str]) -> Linkage:
+        """A support as four moving bodies, five pins, two columns and the canopy tip.
+
+        Arguments:
+            columns: names of those whose mass no part stands for.
+            parts: names of those that are bodies of their own: the tail beam or none.
+
+        Raises InputError if nothing is left of a body, or data of the tail beam are missing.
+        """
+        p = self.start()
+        left_out = {*(column + RODS for column in columns), *parts}
+        turned = {"rear_link": p.rear_link, "front_link": p.front_link, "shield": p.shield, "canopy": p.canopy}
+        anchors = {  # a point of each body: where it is in the reference posture and at the start
+            "rear_link": (self.rear_base, self.rear_base),
+            "front_link": (self.front_base, self.front_base),
+            "shield": (self.rear_shield, p.rear_shield),
+            "canopy": (self.hinge, p.hinge),
+        }
+        lines = {  # by which a body's angle is measured
+            "rear_link": direction(self.rear_base, p.rear_shield),
+            "front_link": direction(self.front_base, p.front_shield),
+            "shield": direction(p.rear_shield, p.hinge),
+            "canopy": p.canopy,
+        }
+        bodies = {}
+        for name in BODIES:
+            lump = self._lump(name, left_out)
+            centre = moved(lump.centre, *anchors[name], turned[name])
+            bodies[name] = Body(
+                mass=lump.mass,
+                inertia=lump.inertia,
+                centre=centre,
+                angle=lines[name],
+                moments=turned_moments(lump.second_moments, turned[name]),
+            )
+        linkage = Linkage(
+            bodies=bodies,
+            pins={
+                "rear_base": pinned(GROUND, "rear_link", self.rear_base),
+                "front_base": pinned(GROUND, "front_link", self.front_base),
+                "rear_shield": pinned("rear_link", "shield", p.rear_shield),
+                "front_shield": pinned("front_link", "shield", p.front_shield),
+                "shield_canopy": pinned("shield", "canopy", p.hinge),
+            },
+            columns={
+                name: Column(
+                    foot=strut.foot[0],
+                    head=strut.head[0],
+                    foot_point=self.place(*strut.foot, p),
+                    head_point=self.place(*strut.head, p),
+                )
+                for name, strut in self.STRUTS.items()
+            },
+            points={"tip": TracePoint(body="canopy", point=p.tip)},
+        )
+        return self._with_tail(linkage) if TAIL in parts else linkage
+
+    def _lump(self, body: str, left_out: Collection[str]) -> Part:
+        """A body as one part, reference posture."""
+        kept = [part for part in self.parts[body] if part.name not in left_out]
+        if not kept or lumped(kept).inertia <= 0.0:
+            named = ", ".join(part.name for part in self.parts[body] if part.name in left_out)
+            raise InputError(f"parts.{body}: nothing with inertia is left without {named}; allowed: > 0 kg m^2")
+        return lumped(kept)
+
+    def _with_tail(self, linkage: Linkage) -> Linkage:
+        """The tail beam on its hinge on the shield beam, and its jack between both."""
+        hinge, foot, head = self.tail_hinge, self.tail_jack_foot, self.tail_jack_head
+        beam = [part for part in self.parts["shield"] if part.name == TAIL]
+        if hinge is None or foot is None or head is None or not beam:
+            missing = [name for name in TAIL_PLACES if getattr(self, name) is None]
+            missing += [] if beam else [f"a part of parts.shield named {TAIL}"]
+            raise InputError(f"parts.{TAIL}: the machine lacks {', '.join(missing)}; allowed: Lumped")
+        p, lump = self.start(), lumped(beam)
+
+        def at_start(point: Vector2) -> Vector2:
+            return moved(point, self.rear_shield, p.rear_shield, p.shield)
+
+        body = Body(
             mass=lump.mass,
             inertia=lump.inertia,
-            centre=centre,
-            angle=lines[name],
-            moments=turned_moments(lump.second_moments, turned[name]),
+            centre=at_start(lump.centre),
+            angle=direction(at_start(hinge), at_start(lump.centre)),
+            moments=turned_moments(lump.second_moments, p.shield),
         )
-    linkage = Linkage(
-        bodies=bodies,
-        pins={
-            "rear_base": pinned(GROUND, "rear_link", shield.rear_base),
-            "front_base": pinned(GROUND, "front_link", shield.front_base),
-            "rear_shield": pinned("rear_link", "shield", p.rear_shield),
-            "front_shield": pinned("front_link", "shield", p.front_shield),
-            "shield_canopy": pinned("shield", "canopy", p.hinge),
-        },
-        columns={
-            name: Column(
-                foot=strut.foot[0],
-                head=strut.head[0],
-                foot_point=shield.place(*strut.foot, p),
-                head_point=shield.place(*strut.head, p),
-            )
-            for name, strut in shield.STRUTS.items()
-        },
-        points={"tip": TracePoint(body="canopy", point=p.tip)},
-    )
-    return _with_tail(shield, linkage) if TAIL in parts else linkage
+        jack = Column(
+            foot="shield", head=TAIL, foot_point=at_start(foot), head_point=at_start(head), driven=False
+        )
+        return replace(
+            linkage,
+            bodies={**linkage.bodies, TAIL: body},
+            pins={**linkage.pins, "shield_tail": pinned("shield", TAIL, at_start(hinge))},
+            columns={**linkage.columns, self.jacks[TAIL]: jack},
+        )
 
 
-def _lump(shield: FourBarShield[Any], body: str, left_out: Collection[str]) -> Part:
-    """A body as one part, reference posture."""
-    kept = [part for part in shield.parts[body] if part.name not in left_out]
-    if not kept or lumped(kept).inertia <= 0.0:
-        named = ", ".join(part.name for part in shield.parts[body] if part.name in left_out)
-        raise InputError(f"parts.{body}: nothing with inertia is left without {named}; allowed: > 0 kg m^2")
-    return lumped(kept)
-
-
-def _with_tail(shield: FourBarShield[Any], linkage: Linkage) -> Linkage:
-    """The tail beam on its hinge on the shield beam, and its jack between both."""
-    hinge, foot, head = shield.tail_hinge, shield.tail_jack_foot, shield.tail_jack_head
-    beam = [part for part in shield.parts["shield"] if part.name == TAIL]
-    if hinge is None or foot is None or head is None or not beam:
-        missing = [name for name in TAIL_PLACES if getattr(shield, name) is None]
-        missing += [] if beam else [f"a part of parts.shield named {TAIL}"]
-        raise InputError(f"parts.{TAIL}: the machine lacks {', '.join(missing)}; allowed: Lumped")
-    p, lump = shield.start(), lumped(beam)
-
-    def at_start(point: Vector2) -> Vector2:
-        return moved(point, shield.rear_shield, p.rear_shield, p.shield)
-
-    body = Body(
-        mass=lump.mass,
-        inertia=lump.inertia,
-        centre=at_start(lump.centre),
-        angle=direction(at_start(hinge), at_start(lump.centre)),
-        moments=turned_moments(lump.second_moments, p.shield),
-    )
-    jack = Column(foot="shield", head=TAIL, foot_point=at_start(foot), head_point=at_start(head), driven=False)
-    return replace(
-        linkage,
-        bodies={**linkage.bodies, TAIL: body},
-        pins={**linkage.pins, "shield_tail": pinned("shield", TAIL, at_start(hinge))},
-        columns={**linkage.columns, shield.jacks[TAIL]: jack},
-    )
+def turn(before: float, after: float) -> float:
+    """Smallest turn [rad] from one direction to another."""
+    return math.remainder(after - before, 2.0 * math.pi)

@@ -23,14 +23,8 @@ from typing import ClassVar, NamedTuple
 import numpy as np
 from pydantic import model_validator
 
-from support_exudyn.machines.four_bar_shield import (
-    LONGEST_STEP,
-    MOST_REMEMBERED,
-    PRECISE,
-    FourBarShield,
-    Strut,
-    turn,
-)
+from support_exudyn.machines.four_bar_shield import LONGEST_STEP, MOST_REMEMBERED, PRECISE, FourBarShield
+from support_exudyn.machines.shield_layout import Strut, turn
 from support_exudyn.model.drives.coupled_drive import following
 from support_exudyn.model.drives.drive import Drive, Held
 from support_exudyn.model.lateral_dimensions import Width

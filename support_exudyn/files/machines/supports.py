@@ -12,10 +12,10 @@ from pydantic import model_validator
 
 from support_exudyn.files.toml.reading import in_millimetres
 from support_exudyn.files.toml.shapes import Names
-from support_exudyn.machines.four_bar_shield import FRAME, PINS, FourBarShield
+from support_exudyn.machines.four_bar_shield import FourBarShield
 from support_exudyn.machines.four_column_support import HydraulicSupport
 from support_exudyn.machines.machine_data import MachineData
-from support_exudyn.machines.shield_layout import BODIES, RODS, TAIL
+from support_exudyn.machines.shield_layout import BODIES, FRAME, PINS, RODS, TAIL
 from support_exudyn.machines.two_leg_shield import TwoLegShield
 from support_exudyn.model.columns import TwoBodyColumn
 from support_exudyn.model.lateral_dimensions import Width
