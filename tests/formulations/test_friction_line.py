@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from support_exudyn.formulations.redundant.clearance.friction_line import TRIES, FrictionLine
+from support_exudyn.formulations.redundant.clearance.steep_friction import TRIES, FrictionLine
 from user_forces import Ambrosio
 from user_forces.friction.brown_mcphee import BrownMcPhee
 from user_forces.friction.cubic_coulomb import CubicCoulomb

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from support_exudyn import ClearancePin, Held, Result, Scenario, SolverSettings, simulate
-from support_exudyn.formulations.redundant.clearance.attachment import Attachment, attachment
 from support_exudyn.formulations.redundant.clearance.clearance_pin import LoosePin
+from support_exudyn.formulations.redundant.clearance.connector_force import Attachment, attachment
 from support_exudyn.formulations.redundant.scene.scene_builder import build
 from tests.cases.run_cases import PIN, Pair, loose_support, paper_contact
 from tests.formulations.test_momentum import ONE, TWO, momenta
@@ -121,7 +121,6 @@ def test_memory_is_that_of_the_last_step_that_stands() -> None:
     scene = build(loose_support())
     pin = scene.loose_pins[PIN]
     kept = pin.kept
-    pin.step_size = lambda: 1e-3
     pin.begin_try(1e-3)
     scene.mbs.systemData.SetODE2Coordinates(0.0 * scene.mbs.systemData.GetODE2Coordinates())
     pin.engine_force.function(None, 0.0, 0, 1e-4, 0.5, 0.0, 0.0, 0.0)  # 0.1 mm deep at 0.5 m/s
@@ -148,11 +147,10 @@ def test_force_was_last_evaluated_at_the_end_of_the_step(
     wrong: list[float] = []
 
     def checked(self: LoosePin, t: float) -> float | None:
-        assert self.motion is not None
-        (bx, by, *_), (x, y, vx, vy, *_) = self.motion.now()  # the bore stands
+        (bx, by, *_), (x, y, vx, vy, *_) = self.frames.moving.now()  # the bore stands
         x, y = x - bx, y - by
         eccentricity = math.hypot(x, y)
-        found = self._relative()
+        found = self.frames.relative(self.engine_force)
         wrong.append(abs(math.hypot(found.x, found.y) - eccentricity))
         wrong.append(abs((found.x * found.vx + found.y * found.vy) - (x * vx + y * vy)) / eccentricity)
         return after_newton(self, t)

@@ -16,8 +16,12 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from support_exudyn import Body, ClearancePin, Held, Result, Scenario, SolverSettings, simulate
-from support_exudyn.formulations.redundant.clearance.attachment import Attachment, attachment
-from support_exudyn.formulations.redundant.clearance.connector import displacement_scale, user_function
+from support_exudyn.formulations.redundant.clearance.connector import user_function
+from support_exudyn.formulations.redundant.clearance.connector_force import (
+    Attachment,
+    attachment,
+    displacement_scale,
+)
 from support_exudyn.formulations.redundant.clearance.python_force import PythonForce
 from support_exudyn.formulations.redundant.clearance.symbolic_force import SymbolicForce, engine
 from support_exudyn.mechanics.contact_state import Mobility, Onset, PinMemory

@@ -12,7 +12,8 @@ from scipy.integrate import quad
 from scipy.spatial.transform import Rotation
 
 from support_exudyn import ClearancePin, Scenario, reference_support
-from support_exudyn.formulations.redundant.clearance.attachment import Attachment, in_plane
+from support_exudyn.formulations.redundant.clearance.connector_force import Attachment
+from support_exudyn.formulations.redundant.clearance.pin_motion import in_plane
 from support_exudyn.formulations.redundant.space.section_pin import SectionEnd, SectionMover
 from support_exudyn.formulations.redundant.space.section_pin import half_way as half_way_of_one
 from support_exudyn.formulations.redundant.space.sections import half_way, lobatto, section_motion, sections

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from exudyn.itemInterface import (
@@ -23,7 +23,12 @@ from exudyn.itemInterface import (
     ObjectConnectorSpringDamper,
 )
 
-from support_exudyn.formulations.redundant.clearance.attachment import Attachment
+from support_exudyn.formulations.redundant.clearance.connector_force import (
+    Attachment,
+    attachment,
+    displacement_scale,
+)
+from user_forces.contact import JournalContact
 from user_forces.values.value import Vector2
 
 # Largest turn between the marker frames before they are lined up again [rad]: the displacement is then
@@ -34,40 +39,51 @@ FRAME_TURN = 1e-4
 Frame = list[list[float]]
 
 
+class Mount(NamedTuple):
+    """Where a bore or a journal is in the engine.
+
+    item: its body. frame: on the body, in the body's axes (4 x 4): its centre, and its axis as z.
+    """
+
+    item: Any
+    frame: Frame
+    on_ground: bool
+
+
 class PinConnector:
     """Markers and connector of one clearance pin in the engine.
 
     Arguments:
         mbs: the engine's system.
-        bore, journal: the engine's body, and the frame of the bore or journal on it, in the body's axes
-            (4 x 4): its centre, and its axis as z.
+        contact: bearing and laws, from which follows what the force acts on.
+        bore, journal: where they are.
         turn: of the journal's frame relative to the bore's about the axis [rad].
-        at: what the force acts on.
-        clearance: [m].
+        in_space: the bodies move in space.
     """
 
     def __init__(
         self,
         mbs: Any,
-        bore: tuple[Any, Frame],
-        journal: tuple[Any, Frame],
+        contact: JournalContact,
+        bore: Mount,
+        journal: Mount,
         turn: float,
-        at: Attachment,
-        clearance: float,
+        in_space: bool = False,
     ) -> None:
         self.mbs = mbs
-        self._clearance = clearance
-        self.at = at
-        self._bore, self._journal = np.array(bore[1]), np.array(journal[1])
+        self.clearance = contact.bearing.clearance
+        self.bore_on_ground = bore.on_ground
+        self.at = at = attachment(contact, bore.on_ground, journal.on_ground, in_space)
+        self._bore, self._journal = np.array(bore.frame), np.array(journal.frame)
         self._journal_shift = 0.0
         self.frame_turn = -turn if at is Attachment.MIDDLE else 0.0  # of the journal's frame on its body [rad]
-        self.bore_marker = mbs.AddMarker(MarkerBodyRigid(bodyNumber=bore[0], localHT=bore[1]))
-        self.journal_marker = mbs.AddMarker(MarkerBodyRigid(bodyNumber=journal[0], localHT=self._frame()))
+        self.bore_marker = mbs.AddMarker(MarkerBodyRigid(bodyNumber=bore.item, localHT=bore.frame))
+        self.journal_marker = mbs.AddMarker(MarkerBodyRigid(bodyNumber=journal.item, localHT=self._frame()))
         self.object = mbs.AddObject(self._connector([self.bore_marker, self.journal_marker]))
 
     def _connector(self, markers: list[Any]) -> Any:
         if self.at is Attachment.LINE:  # what it is stretched by is the depth
-            return ObjectConnectorSpringDamper(markerNumbers=markers, referenceLength=self._clearance)
+            return ObjectConnectorSpringDamper(markerNumbers=markers, referenceLength=self.clearance)
         if self.at is Attachment.CENTRAL:
             return ObjectConnectorCartesianSpringDamper(markerNumbers=markers)
         return ObjectConnectorRigidBodySpringDamper(
@@ -83,7 +99,7 @@ class PinConnector:
         if self.at is Attachment.LINE:
 
             def tension(mbs: Any, t: float, item: int, depth: float, *others: Any) -> float:
-                eccentricity = depth + self._clearance
+                eccentricity = depth + self.clearance
                 return stiffness(eccentricity) * eccentricity
 
             self.set_force(tension)
@@ -137,13 +153,3 @@ def user_function(at: Attachment) -> tuple[str, str]:
     if at is Attachment.CENTRAL:
         return "ObjectConnectorCartesianSpringDamper", "springForceUserFunction"
     return "ObjectConnectorRigidBodySpringDamper", "springForceTorqueUserFunction"
-
-
-def displacement_scale(turn: float) -> float:
-    """Distance of the marker points over the engine's displacement, see the top of this file.
-
-    sin(a/2)/(a/2) of the turn a [rad] by its series: right to rounding as long as frames are lined up. Takes a
-    number or an expression.
-    """
-    square = 0.25 * turn * turn
-    return 1.0 - square / 6.0 * (1.0 - square / 20.0 * (1.0 - square / 42.0))

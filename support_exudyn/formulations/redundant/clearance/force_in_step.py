@@ -11,7 +11,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from support_exudyn.formulations.contact_events import DepthPath
-from support_exudyn.formulations.redundant.clearance.attachment import Relative
+from support_exudyn.formulations.redundant.clearance.connector_force import Relative
 
 PEAK_SAMPLES = 8  # parts of a step between which the force is looked at
 NEAR_PEAK = 0.8  # share of the largest force so far from which a step is looked at more closely

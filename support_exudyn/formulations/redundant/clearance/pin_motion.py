@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any, NamedTuple, Protocol
 
 from user_forces.values.value import Vector2
@@ -57,3 +58,20 @@ class PinMotion(NamedTuple):
         position = self.data.GetODE2Coordinates().tolist()
         velocity = self.data.GetODE2Coordinates_t().tolist()
         return self.bore.motion(position, velocity), self.journal.motion(position, velocity)
+
+
+def in_plane(displacement: Sequence[float], velocity: Sequence[float]) -> tuple[float, float, float, float]:
+    """Displacement and velocity in space as ones across the bore's axis, with the same distance and rate.
+
+    Sections of a tilted journal lie a little beside those of the bore, by less than the square of the tilt
+    times the length; their distance is that of their centres.
+    """
+    x, y, z = displacement
+    vx, vy, vz = velocity
+    across = math.hypot(x, y)
+    if across == 0.0:
+        return x, y, vx, vy
+    distance = math.hypot(across, z)
+    rate = (x * vx + y * vy + z * vz) / distance - (x * vx + y * vy) / across
+    stretch = distance / across
+    return stretch * x, stretch * y, vx + rate * x / across, vy + rate * y / across

@@ -6,21 +6,26 @@ are set before a step is tried; there it also leaves the arguments of its last c
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
-from support_exudyn.formulations.redundant.clearance.attachment import Attachment, Relative, rough_force
-from support_exudyn.formulations.redundant.clearance.connector import displacement_scale
-from support_exudyn.formulations.redundant.clearance.friction_line import straightened
+from support_exudyn.formulations.redundant.clearance.connector_force import (
+    Attachment,
+    Relative,
+    central_force,
+    displacement_scale,
+    line_force,
+    rough_force,
+    straightened,
+)
 from support_exudyn.mechanics.contact_state import Mobility, PinMemory
 from user_forces.compilation.flat import Formulas, Line, compiled, depth_check, lines, needed, text, traceable
 from user_forces.contact import JournalContact, SlipHistory
-from user_forces.expressions.scalar import hypot, maximum
-from user_forces.normal.law import Touch
+from user_forces.expressions.scalar import hypot
 
 MOTION = ["x", "y", "vx", "vy", "turning", "bore_spin"]
 LINE = ["offset", "slope"]
+RIGID = "displacement, rotation, velocity, angular_velocity, k, d, j0, j1, o"  # of the rigid-body connector
 MEMORY = ["speed", "mobility_xx", "mobility_xy", "mobility_yy", "deflection", "slip", "step"]
 
 
@@ -43,10 +48,10 @@ class PythonForce:
             formulas = straightened(formulas, *(Line(name, {}) for name in LINE))
         if at is Attachment.LINE:
             source = _line(formulas)
-        elif at is Attachment.CENTRAL:
-            source = _central(formulas)
+        elif at in (Attachment.CENTRAL, Attachment.SPACE):
+            source = _central(formulas, at)
         else:
-            source = _space(formulas) if at is Attachment.SPACE else _rough(formulas, at)
+            source = _rough(formulas, at)
         known = dict.fromkeys([*MEMORY, *LINE], 0.0)
         self._names = compiled(
             source, contact, find_spin=bore_spin, in_contact=False, last=(), calls=0, **known
@@ -89,67 +94,37 @@ class PythonForce:
 def _line(contact: JournalContact) -> list[str]:
     """Source of the force that depends on depth and rate alone."""
     formulas, (depth, rate, speed) = lines(["depth", "rate", "speed"])
-    asked = text(contact.normal(depth, rate, Touch(speed, math.nan)))
-    _, pressed = _parts(contact, formulas, "depth", asked)
-    return [
-        "def force(mbs, t, item, depth, rate, k, d, f):",
-        "    global calls, last",
-        "    calls += 1",
-        "    last = depth, rate",
-        "    if not in_contact or depth <= 0.0: return 0.0",
-        *pressed,
-        f"    return 0.0 if {asked} <= 0.0 else {asked}",  # what is no number is not cut
-    ]
+    force = text(line_force(contact, depth, rate, speed))
+    return _source(contact, formulas, "depth, rate, k, d, f", "depth, rate", "depth", force, "0.0")
 
 
-def _central(contact: JournalContact) -> list[str]:
-    """Source of the force along the line of centres."""
-    formulas, (x, y, vx, vy, speed, xx, xy, yy) = lines([*MOTION[:4], *MEMORY[:4]])
-    eccentricity = hypot(x, y)
-    depth = contact.bearing.depth(eccentricity)
-    rate = (x * vx + y * vy) / eccentricity
-    asked = contact.normal(depth, rate, Touch(speed, Mobility(xx, xy, yy).mass(x, y)))
-    share = text(maximum(asked, 0.0) / eccentricity)
-    apart, pressed = _parts(contact, formulas, text(depth), share)
-    nothing = "return [0.0, 0.0, 0.0]"
-    return [
-        "def force(mbs, t, item, displacement, velocity, k, d, o):",
-        "    global calls, last",
-        "    calls += 1",
-        "    last = displacement, velocity",
-        f"    if not in_contact: {nothing}",
-        "    x, y, _ = displacement",
-        *apart,
-        f"    if {text(depth)} <= 0.0: {nothing}",
-        "    vx, vy, _ = velocity",
-        *pressed,
-        f"    return [{share} * x, {share} * y, 0.0]",
-    ]
-
-
-def _space(contact: JournalContact) -> list[str]:
-    """Source of the force along the line between both centres in space."""
-    formulas, (x, y, z, vx, vy, vz, speed, xx, xy, yy) = lines(["x", "y", "z", "vx", "vy", "vz", *MEMORY[:4]])
-    eccentricity = hypot(hypot(x, y), z)
-    depth = contact.bearing.depth(eccentricity)
-    rate = (x * vx + y * vy + z * vz) / eccentricity
-    asked = contact.normal(depth, rate, Touch(speed, Mobility(xx, xy, yy).mass(x, y)))
-    share = text(maximum(asked, 0.0) / eccentricity)
-    apart, pressed = _parts(contact, formulas, text(depth), share)
-    nothing = "return [0.0, 0.0, 0.0, 0.0, 0.0, 0.0]"
-    return [
-        "def force(mbs, t, item, displacement, rotation, velocity, angular_velocity, k, d, j0, j1, o):",
-        "    global calls, last",
-        "    calls += 1",
-        "    last = displacement, velocity",
-        f"    if not in_contact: {nothing}",
-        "    x, y, z = displacement",
-        *apart,
-        f"    if {text(depth)} <= 0.0: {nothing}",
-        "    vx, vy, vz = velocity",
-        *pressed,
-        f"    return [{share} * x, {share} * y, {share} * z, 0.0, 0.0, 0.0]",
-    ]
+def _central(contact: JournalContact, at: Attachment) -> list[str]:
+    """Source of the force along the line of centres, which in space has three components."""
+    axes = "xyz" if at is Attachment.SPACE else "xy"
+    rates = [f"v{axis}" for axis in axes]
+    formulas, (*motion, speed, xx, xy, yy) = lines([*axes, *rates, *MEMORY[:4]])
+    way, velocity = motion[: len(axes)], motion[len(axes) :]
+    distance, product = hypot(way[0], way[1]), way[0] * velocity[0] + way[1] * velocity[1]
+    if at is Attachment.SPACE:
+        distance, product = hypot(distance, way[2]), product + way[2] * velocity[2]
+    x, y = way[:2]
+    found = central_force(contact, x, y, distance, product / distance, speed, Mobility(xx, xy, yy))
+    depth, share = map(text, found)
+    pull = [f"{share} * {axis}" for axis in axes]
+    size, arguments = 3, "displacement, velocity, k, d, o"
+    if at is Attachment.SPACE:
+        size, arguments = 6, RIGID
+    return _source(
+        contact,
+        formulas,
+        arguments,
+        "displacement, velocity",
+        depth,
+        _vector(pull, size),
+        _vector([], size),
+        placed=[f"{_unpacked(axes)} = displacement"],
+        moving=[f"{_unpacked(rates)} = velocity"],
+    )
 
 
 def _rough(contact: JournalContact, at: Attachment) -> list[str]:
@@ -162,32 +137,69 @@ def _rough(contact: JournalContact, at: Attachment) -> list[str]:
         scale = displacement_scale(turn)
         x, y = scale * dx, scale * dy
         placed = ["dx, dy, _ = displacement", "turn = rotation[2]", "bore_spin = find_spin()"]
-    touch, history = Touch(speed, Mobility(xx, xy, yy).mass(x, y)), SlipHistory(deflection, slip, step)
-    found, arm = rough_force(contact, at, Relative(x, y, *motion), touch, history)
-    forces = f"{text(-found.force_x)}, {text(-found.force_y)}"
+    history = SlipHistory(deflection, slip, step)
+    found, arm = rough_force(contact, at, Relative(x, y, *motion), speed, Mobility(xx, xy, yy), history)
     moment = text(-arm * found.friction_force)
-    apart, pressed = _parts(contact, formulas, text(found.depth), forces, moment)
-    nothing = "return [0.0, 0.0, 0.0, 0.0, 0.0, 0.0]"
-    return [
-        "def force(mbs, t, item, displacement, rotation, velocity, angular_velocity, k, d, j0, j1, o):",
-        "    global calls, last",
-        "    calls += 1",
-        "    last = displacement, velocity, rotation, angular_velocity",
-        f"    if not in_contact: {nothing}",
-        *(f"    {line}" for line in placed),
+    forces = [text(-found.force_x), text(-found.force_y)]
+    return _source(
+        contact,
+        formulas,
+        RIGID,
+        "displacement, velocity, rotation, angular_velocity",
+        text(found.depth),
+        _vector([*forces, "0.0", "0.0", "0.0", moment], 6),
+        _vector([], 6),
+        placed=placed,
+        moving=["vx, vy, _ = velocity", "turning = angular_velocity[2]"],
+    )
+
+
+def _source(
+    contact: JournalContact,
+    formulas: Formulas,
+    arguments: str,
+    told: str,
+    depth: str,
+    force: str,
+    nothing: str,
+    *,
+    placed: Sequence[str] = (),
+    moving: Sequence[str] = (),
+) -> list[str]:
+    """Lines of the user function.
+
+    Arguments:
+        contact: bearing and laws. formulas: of all that follows.
+        arguments: the engine's, after those that all its functions have; told: those that are kept.
+        depth, force: the names of what follows from them; nothing: the force of surfaces that are apart.
+        placed, moving: lines that name what the depth follows from, and what the force needs besides.
+    """
+    apart = needed(formulas, [depth])
+    pressed = [line for line in needed(formulas, [force]) if line not in apart]
+    body = [
+        "global calls, last",
+        "calls += 1",
+        f"last = {told}",
+        f"if not in_contact: return {nothing}",
+        *placed,
         *apart,
-        f"    if {text(found.depth)} <= 0.0: {nothing}",
-        "    vx, vy, _ = velocity",
-        "    turning = angular_velocity[2]",
-        *pressed,
-        f"    return [{forces}, 0.0, 0.0, 0.0, {moment}]",
+        f"if {depth} <= 0.0: return {nothing}",
+        *moving,
+    ]
+    return [
+        f"def force(mbs, t, item, {arguments}):",
+        *(f"    {line}" for line in body),
+        *depth_check(contact, depth),
+        *(f"    {line}" for line in pressed),
+        f"    return {force}",
     ]
 
 
-def _parts(
-    contact: JournalContact, formulas: Formulas, depth: str, *wanted: str
-) -> tuple[list[str], list[str]]:
-    """Lines that give the depth, and those that only a pressed contact needs."""
-    apart = needed(formulas, [depth])
-    pressed = [f"    {line}" for line in needed(formulas, wanted) if line not in apart]
-    return [f"    {line}" for line in apart], depth_check(contact, depth) + pressed
+def _unpacked(names: Sequence[str]) -> str:
+    """Names for the three components of a vector."""
+    return ", ".join([*names, "_"][:3])
+
+
+def _vector(parts: Sequence[str], size: int) -> str:
+    """Source of a list of so many numbers, zero where no part is given."""
+    return f"[{', '.join([*parts, *['0.0'] * size][:size])}]"

@@ -1,14 +1,24 @@
-"""The engine's force of a pin, in which a straight line may stand for a law of friction that is too steep.
+"""A straight line in place of a law of friction, for steps in which Newton's method cannot follow the law.
 
-See `friction_line`. The line is laid when Newton's method has failed, and stands until the surfaces part.
+Where friction is steep against the step (its ramp is narrower than what the slip changes by in the step), the
+iterates jump from one side of the ramp to the other for ever. With a straight line,
+
+    friction force = normal force (offset + slope slip),
+
+the step can be solved whatever its length. Then it is seen whether the line meets the law at the slip that
+came out. If not, the next line is the law's tangent where the slip is expected: the slip hangs nearly linearly
+on the friction, by a softness that two solutions tell. So the step ends with the force of the law itself.
+
+The line is laid when Newton's method has failed, and stands until the surfaces part.
 """
 
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Callable
 
-from support_exudyn.formulations.redundant.clearance.friction_line import FrictionLine
+from support_exudyn.formulations.engine_settings import TRIES
 from support_exudyn.formulations.redundant.clearance.python_force import PythonForce
 from support_exudyn.formulations.redundant.clearance.symbolic_force import SymbolicForce
 from user_forces.contact import ContactForce
@@ -16,6 +26,12 @@ from user_forces.friction.frictionless import Frictionless
 from user_forces.friction.law import FrictionLaw
 
 EngineForce = SymbolicForce | PythonForce
+MEETS = 1e-6  # share of the largest friction so far, by which line and law may differ
+LITTLE = 1e-3  # friction over normal force that is counted as the largest at least
+# the tangent is taken over shorter and shorter parts of the law, until it changes no more
+WIDEST, NARROWER, PARTS, SAME = 0.1, 0.1, 12, 1e-3
+SLOWEST = 1e-9  # [m/s] that parts are shares of at least
+HALVINGS = 200
 
 
 class SteepFriction:
@@ -85,3 +101,92 @@ class SteepFriction:
     def rounding(self, normal_force: float, size: float, step: float) -> float:
         """Return by how much a line scatters, see `FrictionLine.rounding`; 0 without one."""
         return 0.0 if self._line is None else self._line.rounding(normal_force, size, step)
+
+
+class FrictionLine:
+    """The line that stands for a law without a state.
+
+    offset, slope: of the ratio of friction to normal force over the slip [-], [s/m].
+    """
+
+    def __init__(self, law: FrictionLaw) -> None:
+        self._law = law
+        self.offset = self.slope = 0.0
+        self._tries = 0
+        self._solved: tuple[float, float] | None = None  # ratio and slip of the last solution of this step
+        self._largest = LITTLE  # ratio so far
+
+    @property
+    def exhausted(self) -> bool:
+        """Whether so many lines have been tried in the step that a shorter one is to be made."""
+        return self._tries >= TRIES
+
+    def begin(self) -> None:
+        """A step begins, with the line of the last one."""
+        self._tries = 0
+        self._solved = None
+
+    def lay(self, slip: float, normal_force: float) -> None:
+        """Take the law's tangent at a slip [m/s] under a force [N]."""
+        ratio = self._ratio(normal_force)
+        self.slope = _slope(ratio, slip)
+        self.offset = ratio(slip) - self.slope * slip
+
+    def meets(self, slip: float, normal_force: float, softness: float) -> bool:
+        """Whether line and law are the same where a step was solved; if not, there is another line.
+
+        Arguments:
+            slip: that came out [m/s]. normal_force: [N].
+            softness: by how much the ratio changes the slip, as far as is known before [m/s].
+        """
+        ratio = self._ratio(normal_force)
+        applied, wanted = self.offset + self.slope * slip, ratio(slip)
+        self._largest = max(self._largest, abs(wanted))
+        if normal_force <= 0.0 or abs(applied - wanted) <= MEETS * self._largest:
+            return True
+        self._tries += 1
+        if self._solved is not None and applied != self._solved[0]:
+            measured = (slip - self._solved[1]) / (applied - self._solved[0])
+            softness = measured if measured > 0.0 else softness
+        self._solved = applied, slip
+        free = slip - softness * applied  # without friction
+        self.lay(_meeting(ratio, free, softness), normal_force)
+        return False
+
+    def rounding(self, normal_force: float, size: float, step: float) -> float:
+        """By how much rounding of positions of a size [m] lets friction scatter in a step [s], [N].
+
+        Newton's method cannot become closer than that.
+        """
+        return abs(self.slope) * normal_force * size * sys.float_info.epsilon / step
+
+    def _ratio(self, normal_force: float) -> Callable[[float], float]:
+        force = max(normal_force, 1.0)
+        return lambda slip: float(self._law(slip, force)) / force
+
+
+def _meeting(ratio: Callable[[float], float], free: float, softness: float) -> float:
+    """The slip v = free + softness ratio(v), which lies between 0 and free: friction is against it."""
+    low, high = 0.0, free
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        if middle in (low, high):
+            break
+        beyond = middle - free - softness * ratio(middle)
+        if (beyond > 0.0) == (free > 0.0):
+            high = middle
+        else:
+            low = middle
+    return 0.5 * (low + high)
+
+
+def _slope(ratio: Callable[[float], float], slip: float) -> float:
+    """The rise of the ratio at a slip [s/m]."""
+    part, before = WIDEST * max(abs(slip), SLOWEST), None
+    slope = 0.0
+    for _ in range(PARTS):
+        slope = (ratio(slip + part) - ratio(slip - part)) / (2.0 * part)
+        if before is not None and abs(slope - before) <= SAME * abs(slope):
+            break
+        before, part = slope, NARROWER * part
+    return slope

@@ -1,3 +1,4 @@
+# ruff: noqa: N803 - the engine goes by the names of arguments
 """A contact's force as an expression that the engine evaluates by itself.
 
 The laws are called once, with `Symbol`s in place of numbers; what comes back is the expression of the same
@@ -8,20 +9,25 @@ expression, which Python sets before a step is tried.
 from __future__ import annotations
 
 import itertools
-import math
 from collections.abc import Callable, Iterable
 from typing import Any, cast
 
 import exudyn
 from exudyn.advancedUtilities import CreateSymbolicUserFunction
 
-from support_exudyn.formulations.redundant.clearance.attachment import Attachment, Relative, rough_force
-from support_exudyn.formulations.redundant.clearance.connector import displacement_scale, user_function
-from support_exudyn.formulations.redundant.clearance.friction_line import straightened
+from support_exudyn.formulations.redundant.clearance.connector import user_function
+from support_exudyn.formulations.redundant.clearance.connector_force import (
+    Attachment,
+    Relative,
+    central_force,
+    displacement_scale,
+    line_force,
+    rough_force,
+    straightened,
+)
 from support_exudyn.mechanics.contact_state import Mobility, PinMemory
 from user_forces.contact import SMALLEST, JournalContact, SlipHistory
 from user_forces.expressions.scalar import Expression, hypot, maximum, where
-from user_forces.normal.law import Touch
 
 engine: Any = getattr(exudyn, "symbolic")  # noqa: B009 - its stubs lack the module
 APART = 1e300  # [m], deeper than any pin
@@ -171,81 +177,68 @@ class SymbolicForce:
         stands in others; products with a vector keep that rare.
         """
         if self._at is Attachment.LINE:
-
-            def line(mbs, t, itemNumber, deltaL, deltaL_t, stiffness, damping, force):  # type: ignore[no-untyped-def] # noqa: N803
-                return self._between(deltaL, deltaL_t)
-
-            return line
+            return lambda mbs, t, itemNumber, deltaL, deltaL_t, stiffness, damping, force: self._line_force(
+                deltaL, deltaL_t
+            )
         if self._at is Attachment.CENTRAL:
+            return lambda mbs, t, itemNumber, displacement, velocity, stiffness, damping, offset: self._central(
+                displacement, velocity
+            )
 
-            def central(  # type: ignore[no-untyped-def]
-                mbs,
-                t,
-                itemNumber,  # noqa: N803
-                displacement,
-                velocity,
-                stiffness,
-                damping,
-                offset,
-            ):
-                return self._central(displacement, velocity)
-
-            return central
-
-        def rough(  # type: ignore[no-untyped-def]
+        def rigid(  # type: ignore[no-untyped-def]
             mbs,
             t,
-            itemNumber,  # noqa: N803
+            itemNumber,
             displacement,
             rotation,
             velocity,
-            angularVelocity,  # noqa: N803
+            angularVelocity,
             stiffness,
             damping,
-            rotJ0,  # noqa: N803
-            rotJ1,  # noqa: N803
+            rotJ0,
+            rotJ1,
             offset,
         ):
-            if self._at is Attachment.SPACE:
-                pull = self._central(displacement, velocity)
-                return engine.Vector([pull[0], pull[1], pull[2], *_zeros(3)])
-            return self._rough(displacement, velocity, angularVelocity)
+            return self._rigid(displacement, velocity, angularVelocity)
 
-        return rough
+        return rigid
 
-    def _between(self, depth: Any, rate: Any) -> Any:
+    def _line_force(self, depth: Any, rate: Any) -> Any:
         """The force from depth and rate alone."""
-        asked = self._contact.normal(_unknown(depth), _unknown(rate), Touch(self._speed, math.nan))
-        return _real(where(cast(Any, Symbol(depth) > _unknown(self._surface)), maximum(asked, 0.0), 0.0))
+        push = line_force(self._contact, _unknown(depth), _unknown(rate), self._speed)
+        return _real(self._if_pressed(Symbol(depth), push))
 
     def _central(self, displacement: Any, velocity: Any) -> Any:
         """The force along the line of centres."""
-        eccentricity = _unknown(displacement.NormL2())
-        depth = self._contact.bearing.depth(eccentricity)
-        rate = _unknown(displacement * velocity) / eccentricity
-        mass = self._mobility.mass(_unknown(displacement[0]), _unknown(displacement[1]))
-        asked = self._contact.normal(depth, rate, Touch(self._speed, mass))
-        pressed = cast(Any, depth) > _unknown(self._surface)
-        return _real(where(pressed, maximum(asked, 0.0) / eccentricity, 0.0)) * displacement
+        distance = _unknown(displacement.NormL2())
+        rate = _unknown(displacement * velocity) / distance
+        x, y = _unknown(displacement[0]), _unknown(displacement[1])
+        depth, share = central_force(self._contact, x, y, distance, rate, self._speed, self._mobility)
+        return _real(self._if_pressed(depth, share)) * displacement
 
-    def _rough(self, displacement: Any, velocity: Any, angular_velocity: Any) -> Any:
-        """Force and moment with friction."""
+    def _rigid(self, displacement: Any, velocity: Any, angular_velocity: Any) -> Any:
+        """Force and moment of the rigid-body connector."""
+        if self._at is Attachment.SPACE:
+            pull = self._central(displacement, velocity)
+            return engine.Vector([pull[0], pull[1], pull[2], *_zeros(3)])
         x, y = _unknown(displacement[0]), _unknown(displacement[1])
         if self._at is Attachment.MIDDLE:
             x, y = _unknown(self._scale) * x, _unknown(self._scale) * y
         vx, vy = _unknown(velocity[0]), _unknown(velocity[1])
         motion = Relative(x, y, vx, vy, _unknown(angular_velocity[2]), _unknown(self._bore_spin))
-        touch = Touch(self._speed, self._mobility.mass(x, y))
         history = SlipHistory(*(_unknown(variable) for variable in self._history))
-        found, arm = rough_force(self._contact, self._at, motion, touch, history)
+        found, arm = rough_force(self._contact, self._at, motion, self._speed, self._mobility, history)
         away = maximum(hypot(x, y), SMALLEST)
         nx, ny = x / away, y / away
         along = engine.Vector([_real(nx), _real(ny), *_zeros(4)])
         across = engine.Vector([_real(ny), _real(-nx), *_zeros(3), _real(-arm)])
-        pressed = cast(Any, found.depth) > _unknown(self._surface)
-        normal = where(pressed, found.normal_force, 0.0)
-        friction = where(pressed, found.friction_force, 0.0)
+        normal = self._if_pressed(found.depth, found.normal_force)
+        friction = self._if_pressed(found.depth, found.friction_force)
         return along * _real(normal) + across * _real(friction)
+
+    def _if_pressed(self, depth: Any, force: float) -> Any:
+        """A force where the depth is beyond the surface, else 0."""
+        return where(cast(Any, depth > _unknown(self._surface)), force, 0.0)
 
     @property
     def _speed(self) -> float:

@@ -82,12 +82,12 @@ class Scene(InEngine):
 
     def bore_angle(self, name: str, position: Any) -> float:
         """Angle [rad] of the axes of the bore's body."""
-        body = self._ends(name)[0]
+        body = self.ends(name)[0]
         start = 0.0 if body == GROUND else self.bodies[body].body.angle
         return start + self._turn(body, position)
 
-    def _ends(self, name: str) -> tuple[str, str]:
-        """Bodies of the bore and of the journal of a clearance pin."""
+    def ends(self, name: str) -> tuple[str, str]:
+        """The bodies of the bore and of the journal of a clearance pin."""
         place = self.linkage.pins[name]
         bore_first = self.scenario.clearance_pins[name].bore == "first"
         return (place.first, place.second) if bore_first else (place.second, place.first)
@@ -195,7 +195,7 @@ class Scene(InEngine):
                 rate=state.rate,
                 slip=state.slip,
             )
-            bore, journal = self._ends(name)
+            bore, journal = self.ends(name)
             turn = self._turn(journal, position) - self._turn(bore, position)
             bore_motion = self.bore_angle(name, position), self._turn(bore, rates)
             pin.start(memory, self.mobilities(name, INITIAL), turn, bore_motion)
@@ -209,7 +209,7 @@ class Scene(InEngine):
     def pin_motion(self, name: str) -> PinMotion:
         """How the journal of a clearance pin moves in its bore."""
         place = self.linkage.pins[name]
-        bore, journal = self._ends(name)
+        bore, journal = self.ends(name)
         points = {place.first: place.first_point, place.second: place.second_point}
 
         def end(body: str) -> PinEnd:
@@ -228,7 +228,7 @@ class Scene(InEngine):
 
         output = exudyn.OutputVariableType
         rates = self.mbs.systemData.GetODE2Coordinates_t(state)
-        bore_spin, journal_spin = (self._turn(body, rates) for body in self._ends(name))
+        bore_spin, journal_spin = (self._turn(body, rates) for body in self.ends(name))
         return pin.contact.force(
             *relative(output.Position), *relative(output.Velocity), bore_spin, journal_spin, None
         )

@@ -23,7 +23,7 @@ from exudyn.itemInterface import (
 )
 
 from support_exudyn.formulations.redundant.clearance.clearance_pin import LoosePin
-from support_exudyn.formulations.redundant.clearance.connector import frame
+from support_exudyn.formulations.redundant.clearance.connector import Mount, PinConnector, frame
 from support_exudyn.formulations.redundant.scene.bushing import BushingItem
 from support_exudyn.formulations.redundant.scene.cylinder_item import CylinderItem
 from support_exudyn.formulations.redundant.scene.driven_parts import OilColumnItem, by_drive
@@ -49,7 +49,7 @@ class _Builder:
         self.mbs = self.container.AddSystem()
         self._markers: dict[tuple[str, Vector2], Any] = {}  # by body and point of the start posture
         self.ideal: dict[str, Any] = {}  # joints by name
-        self.loose: dict[str, LoosePin] = {}
+        self.connectors: dict[str, PinConnector] = {}  # of clearance pins
         self.compliant: dict[str, CompliantItem] = {}
         self.bodies = {name: self.add_body(body) for name, body in self.linkage.bodies.items()}
 
@@ -116,32 +116,36 @@ class _Builder:
         self.compliant[name] = BushingItem(self.mbs, pin, place, self.pin_markers(name), turns)
 
     @add_pin.register
-    def _add_loose(self, pin: ClearancePin, name: str) -> None:
+    def _add_clearance(self, pin: ClearancePin, name: str) -> None:
         place = self.linkage.pins[name]
         ends = [(place.first, place.first_point), (place.second, place.second_point)]
         if pin.bore == "second":
             ends.reverse()
-        (bore, bore_point), (journal, journal_point) = ends
+        bore, journal = (self.mount(body, point) for body, point in ends)
+        angles = [0.0 if body == GROUND else self.bodies[body].body.angle for body, _ in ends]
+        self.connectors[name] = PinConnector(self.mbs, pin.contact, bore, journal, angles[1] - angles[0])
 
-        def local(body: str, point: Vector2) -> Vector2:
-            return point if body == GROUND else self.bodies[body].local(point)
+    def mount(self, body: str, point: Vector2) -> Mount:
+        """Where a bore or a journal is, at a point of the start posture."""
+        if body == GROUND:
+            return Mount(self.ground, frame(point), True)
+        item = self.bodies[body]
+        return Mount(item.object, frame(item.local(point)), False)
 
-        def item(body: str) -> Any:
-            return self.ground if body == GROUND else self.bodies[body].object
+    def clearance_pin(self, scene: Scene, name: str, connector: PinConnector) -> LoosePin:
+        """The pin of a connector in the whole scene."""
+        node = self.node(scene.ends(name)[0])
 
-        def angle(body: str) -> float:
-            return 0.0 if body == GROUND else self.bodies[body].body.angle
+        def bore_spin() -> float:
+            return float(self.mbs.GetNodeOutput(node, exudyn.OutputVariableType.Coordinates_t)[2])
 
-        self.loose[name] = LoosePin(
-            self.mbs,
-            pin.contact,
-            bore=(item(bore), frame(local(bore, bore_point))),
-            journal=(item(journal), frame(local(journal, journal_point))),
-            turn=angle(journal) - angle(bore),
-            bore_node=self.node(bore),
-            journal_node=self.node(journal),
-            symbolic=self.scenario.solver.backend == "symbolic",
-            impact_steps=self.scenario.solver.impact_steps,
+        return LoosePin(
+            self.scenario.clearance_pins[name].contact,
+            connector,
+            scene.pin_motion(name),
+            bore_spin,
+            partial(scene.mobilities, name),
+            self.scenario.solver,
         )
 
     def add_friction(self, pin: IdealPin, name: str) -> PinFriction:
@@ -244,7 +248,7 @@ class _Builder:
             bodies=bodies,
             ideal_pins={name: IdealItem(o, int(data.GetObjectLTGAE(o)[0])) for name, o in self.ideal.items()},
             frictions=frictions,
-            loose_pins=self.loose,
+            loose_pins={},
             compliant_pins=self.compliant,
             rigid_columns=rigid_columns,
             oil_columns=oil_columns,
@@ -259,10 +263,9 @@ class _Builder:
             place = self.linkage.pins[name]
             turns = (bodies[end].first + 2 if end != GROUND else None for end in (place.first, place.second))
             friction.assembled(scene.ideal_pins[name].first, *turns)
-            friction.lagged = bool(self.loose) or self.scenario.jumps
-        for name, pin in self.loose.items():
-            pin.find_mobilities = partial(scene.mobilities, name)
-            pin.motion = scene.pin_motion(name)
+            friction.lagged = bool(self.connectors) or self.scenario.jumps
+        for name, connector in self.connectors.items():
+            scene.loose_pins[name] = self.clearance_pin(scene, name, connector)
         scene.drive_to(0.0)
         scene.start_moving()
         for cylinder in cylinders.values():

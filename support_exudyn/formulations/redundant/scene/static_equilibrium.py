@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager
+from collections.abc import Callable
+from contextlib import ExitStack
 from typing import Any
 
 import exudyn
 
 from support_exudyn.formulations.contract import Failure, SimulationError
 from support_exudyn.formulations.engine_settings import quiet_engine
-from support_exudyn.formulations.redundant.clearance.clearance_pin import LoosePin
 from support_exudyn.formulations.redundant.scene.engine_scene import INITIAL, EngineScene
 from support_exudyn.formulations.redundant.scene.load_item import LoadItem
 from support_exudyn.mechanics.body_coordinates import BodyItem
@@ -49,7 +48,7 @@ def settle(scene: EngineScene) -> None:
         for load, pull in hanging.values():
             for_a_while.enter_context(load.hung(pull))
         for pin in scene.loose_pins.values():
-            for_a_while.enter_context(_settling(pin, stiffness(pin.contact.bearing.clearance)))
+            for_a_while.enter_context(pin.settling(stiffness(pin.contact.bearing.clearance)))
         for cylinder in scene.cylinders.values():
             for_a_while.enter_context(cylinder.settling())
         for share in CENTRING:  # noqa: B007
@@ -65,27 +64,6 @@ def settle(scene: EngineScene) -> None:
             velocity[item.first : item.first + 3] = *item.body.velocity, item.body.spin
     data.SetODE2Coordinates_t(velocity, INITIAL)
     scene.reset_memory()
-
-
-@contextmanager
-def _settling(pin: LoosePin, stiffness: Callable[[], float]) -> Iterator[None]:
-    """Replace a contact by its elastic part and a spring that pulls a free journal to the middle.
-
-    Arguments:
-        pin: whose contact it is.
-        stiffness: of the spring [N/m], asked at every evaluation.
-    """
-
-    def held(eccentricity: float) -> float:
-        depth = pin.contact.bearing.depth(eccentricity)
-        pressed = pin.contact.normal.elastic_force(depth) / eccentricity if depth > 0.0 else 0.0
-        return stiffness() + pressed
-
-    pin.connector.set_spring(held)
-    try:
-        yield
-    finally:
-        pin.connector.set_force(pin.engine_force.function)
 
 
 def _hanging(scene: EngineScene) -> dict[str, tuple[LoadItem, Any]]:

@@ -9,7 +9,6 @@ from dataclasses import dataclass
 import exudyn
 import numpy as np
 
-from support_exudyn.formulations.redundant.clearance.law_checks import look_at
 from support_exudyn.formulations.redundant.scene.driven_parts import OilColumnItem
 from support_exudyn.formulations.redundant.scene.engine_scene import EngineScene
 from support_exudyn.formulations.redundant.solver.energy import RunningIntegrals
@@ -209,7 +208,7 @@ class Recorder:
                 lost = (force.normal_force - elastic) * force.rate
                 rubbed = force.friction_force * force.slip
                 if self._looks and not (lost >= 0.0 >= rubbed and elastic >= 0.0):
-                    look_at(pin, elastic, name)
+                    pin.look(elastic, name)
                 damping += lost
                 friction -= rubbed
         return columns, damping, friction

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from support_exudyn.formulations import engine_errors
 from support_exudyn.formulations.engine_errors import explained, first_line
-from support_exudyn.formulations.redundant.clearance.law_checks import probe
 from support_exudyn.formulations.redundant.scene.engine_scene import EngineScene
 from user_forces.lawful import UNLAWFUL, LawError
 from user_forces.normal.law import LoadError
@@ -62,7 +61,7 @@ def unlawful(scene: EngineScene, ahead: float) -> tuple[str, str] | None:
         for name, friction in scene.frictions.items():
             friction.probe(name)
         for name, pin in scene.loose_pins.items():
-            probe(pin, name)
+            pin.probe(name)
     except LawError as error:
         return str(error), UNLAWFUL
     return None

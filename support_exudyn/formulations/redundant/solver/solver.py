@@ -110,8 +110,6 @@ class Run:
         """Integrate. Raises SimulationError if the run cannot be finished."""
         mbs, it = self.scene.mbs, self.solver.it
         for pin in self.pins:
-            pin.step_size = lambda: float(it.currentStepSize)
-            pin.locates = self.locates
             pin.begin_try(0.0)
             if self.scene.scenario.start != "settled":
                 pin.begin_impact()

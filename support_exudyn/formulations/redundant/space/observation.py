@@ -86,7 +86,7 @@ class Observation:
 
     def _section(self, pin: SectionPin, memory: Series) -> SectionSeries:
         bore, journal = pin.ends
-        moving = section_motion(self.motion, bore, journal, pin.section.place, pin.at, pin.slides)
+        moving = section_motion(self.motion, bore, journal, pin.section.place, pin.connector.at, pin.slides)
         ones, zeros = np.ones(self.motion.count), np.zeros(self.motion.count)
         relative = RelativeMotion(
             moving.x, moving.y, moving.vx, moving.vy, moving.bore_spin, moving.journal_spin, ones, zeros

@@ -19,6 +19,7 @@ from exudyn.itemInterface import (
     ObjectRigidBody,
 )
 
+from support_exudyn.formulations.redundant.clearance.connector import Mount, PinConnector
 from support_exudyn.formulations.redundant.scene.driven_parts import OilColumnItem, by_drive
 from support_exudyn.formulations.redundant.space.joints import joint
 from support_exudyn.formulations.redundant.space.scene import BodyItem, SpatialScene
@@ -28,6 +29,7 @@ from support_exudyn.formulations.redundant.space.section_pin import (
     SectionMover,
     SectionPin,
     marker_frame,
+    part_of,
 )
 from support_exudyn.formulations.redundant.space.sections import ends, sections
 from support_exudyn.mechanics.body_coordinates import ColumnItem
@@ -97,27 +99,56 @@ class _Builder:
         markers = [self.frame_marker(end) for end in ends(bearing, "first")]
         return self.mbs.AddObject(joint(bearing, held, markers))
 
-    def add_sections(self, bearing: Bearing) -> list[SectionPin]:
+    def mount(self, end: End, place: float) -> Mount:
+        """Where a section of a bore or a journal is."""
+        frame = marker_frame(end, place, self.centre(end.body))
+        return Mount(self.item(end.body), frame, end.body == GROUND)
+
+    def add_connectors(self, bearing: Bearing) -> list[PinConnector]:
+        """The connectors of all sections of a bearing."""
         pin = self.scenario.clearance_pins[bearing.pin]
         bore, journal = ends(bearing, pin.bore)
-        settings = self.scenario.solver
-        whole = Journal()
+        return [
+            PinConnector(
+                self.mbs,
+                part_of(pin.contact, section),
+                self.mount(bore, section.place),
+                self.mount(journal, section.place),
+                0.0,
+                in_space=True,
+            )
+            for section in sections(bearing, self.scenario.solver.sections)
+        ]
+
+    def section_pins(self, scene: SpatialScene, name: str, connectors: list[PinConnector]) -> list[SectionPin]:
+        """The sections of a bearing in the whole scene."""
+        bearing = self.linkage.bearings[name]
+        pin, (bore, journal) = self.scenario.clearance_pins[bearing.pin], scene.ends_of(name)
+        data, places = self.mbs.systemData, sections(bearing, self.scenario.solver.sections)
+        node, axis = self.node(bore.body), np.array(bore.axis)
+
+        def bore_spin() -> float:
+            spin = self.mbs.GetNodeOutput(node, exudyn.OutputVariableType.AngularVelocityLocal)
+            return float(spin @ axis)
+
+        def mover(place: float, connector: PinConnector) -> SectionMover:
+            at_bore, at_journal = (self.section_end(scene, end, place) for end in (bore, journal))
+            return SectionMover(data, at_bore, at_journal, connector.at)
+
+        whole = Journal(mover(0.0, connectors[0]), partial(scene.mobilities, name))
         return [
             SectionPin(
-                self.mbs,
                 pin.contact,
+                connector,
+                mover(section.place, connector),
+                bore_spin,
                 whole,
                 section,
-                bore,
-                journal,
-                items=(self.item(bore.body), self.item(journal.body)),
-                nodes=(self.node(bore.body), self.node(journal.body)),
-                centres=(self.centre(bore.body), self.centre(journal.body)),
+                (bore, journal),
                 slides="along" not in bearing.holds,
-                symbolic=settings.backend == "symbolic",
-                impact_steps=settings.impact_steps,
+                settings=self.scenario.solver,
             )
-            for section in sections(bearing, settings.sections)
+            for section, connector in zip(places, connectors, strict=True)
         ]
 
     def add_rigid(self, column: SpatialColumn) -> Any:
@@ -155,7 +186,7 @@ class _Builder:
                 self.add_joint(bearing, held)
         rigid = {row.name: self.add_rigid(linkage.columns[row.name]) for row in rows if row.kind == "column"}
         oil = {name: self.add_oil(linkage.columns[name]) for name in on_oil}
-        groups = {name: self.add_sections(linkage.bearings[name]) for name in loose}
+        connectors = {name: self.add_connectors(linkage.bearings[name]) for name in loose}
         if any(scenario.gravity):
             for name, body in linkage.bodies.items():
                 self.add_weight(name, body)
@@ -178,19 +209,15 @@ class _Builder:
             bodies=bodies,
             rows=rows,
             all_rows=candidates,
-            loose_pins={f"{name}[{n}]": pin for name, group in groups.items() for n, pin in enumerate(group)},
-            sections=groups,
+            loose_pins={},
+            sections={},
             rigid_columns=rigid_items,
             oil_columns=oil_items,
             driven=by_drive(self.mbs, scenario.drive_of, rigid_items, oil_items, {}),
         )
-        for name, group in groups.items():
-            whole = group[0].whole
-            whole.sections = group
-            whole.find_mobilities = partial(scene.mobilities, name)
-            whole.mover = self.mover(scene, group[0], 0.0)
-            for pin in group:
-                pin.mover = self.mover(scene, pin, pin.section.place)
+        for name, group in connectors.items():
+            scene.sections[name] = pins = self.section_pins(scene, name, group)
+            scene.loose_pins.update({f"{name}[{n}]": pin for n, pin in enumerate(pins)})
         scene.drive_to(0.0)
         scene.start_moving()
         scene.reset_memory()
@@ -207,17 +234,12 @@ class _Builder:
             found[name] = replace(whole, model=model)
         return found
 
-    def mover(self, scene: SpatialScene, pin: SectionPin, place: float) -> SectionMover:
-        """How a section moves, from the engine's coordinates."""
-
-        def end(of: End) -> SectionEnd:
-            frame = np.array(marker_frame(of, place, self.centre(of.body)))
-            first = None if of.body == GROUND else scene.bodies[of.body].first
-            arm, *axes = (tuple(frame[:3, k].tolist()) for k in (3, 0, 1, 2))
-            return SectionEnd(first, self.centre(of.body), arm, (axes[0], axes[1]), axes[2])
-
-        bore, journal = pin.ends
-        return SectionMover(self.mbs.systemData, end(bore), end(journal), pin.at)
+    def section_end(self, scene: SpatialScene, end: End, place: float) -> SectionEnd:
+        """Where a section of a bore or a journal stands in the engine's coordinates."""
+        frame = np.array(marker_frame(end, place, self.centre(end.body)))
+        first = None if end.body == GROUND else scene.bodies[end.body].first
+        arm, *axes = (tuple(frame[:3, k].tolist()) for k in (3, 0, 1, 2))
+        return SectionEnd(first, self.centre(end.body), arm, (axes[0], axes[1]), axes[2])
 
 
 def build(scenario: Scenario) -> SpatialScene:

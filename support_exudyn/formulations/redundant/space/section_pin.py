@@ -7,18 +7,19 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
-import exudyn
 import numpy as np
 
 from support_exudyn.formulations.impact_steps import ImpactSteps
-from support_exudyn.formulations.redundant.clearance.attachment import Attachment, in_plane
 from support_exudyn.formulations.redundant.clearance.clearance_pin import LoosePin
+from support_exudyn.formulations.redundant.clearance.connector import PinConnector
+from support_exudyn.formulations.redundant.clearance.connector_force import Attachment
 from support_exudyn.formulations.redundant.clearance.force_in_step import NEAR_PEAK, has_a_top, peak
-from support_exudyn.formulations.redundant.clearance.pin_motion import Motion
+from support_exudyn.formulations.redundant.clearance.pin_motion import Motion, in_plane
 from support_exudyn.formulations.redundant.space.sections import ON_LINE, Section
 from support_exudyn.mechanics.contact_state import Onset, PinMemory
-from support_exudyn.mechanics.pressed_pins import NOT_KNOWN, Mobilities
+from support_exudyn.mechanics.pressed_pins import Mobilities
 from support_exudyn.mechanics.space.constraints import End, frame_of
+from support_exudyn.scenario.solver_settings import SolverSettings
 from user_forces.contact import JournalContact
 from user_forces.normal.part import PartOf
 from user_forces.values.value import Vector2, Vector3
@@ -188,12 +189,15 @@ class Journal:
     """What the sections of one loose bearing share: where its middle is and how it answers impulses.
 
     Both are asked for by every section in every step of an impact, and found once.
+
+    Arguments:
+        moving: how its middle moves.
+        find_mobilities: tells how its middle answers impulses now, in the axes of its bore.
     """
 
-    def __init__(self) -> None:
-        # set when the scene is whole
-        self.find_mobilities: Callable[[], Mobilities] = lambda: NOT_KNOWN
-        self.mover: SectionMover | None = None
+    def __init__(self, moving: SectionMover, find_mobilities: Callable[[], Mobilities]) -> None:
+        self.moving = moving
+        self._find_mobilities = find_mobilities
         self._mobilities: Mobilities | None = None
         self._place: Vector2 | None = None
         self.sections: list[SectionPin] = []
@@ -208,17 +212,10 @@ class Journal:
         """The bodies are elsewhere now."""
         self._mobilities = self._place = None
 
-    @property
-    def moving(self) -> SectionMover:
-        """How its middle moves."""
-        if self.mover is None:
-            raise RuntimeError("Journal.mover: is set by the scene")
-        return self.mover
-
     def mobilities(self) -> Mobilities:
         """Of the middle of the journal, in the axes of its bore."""
         if self._mobilities is None:
-            self._mobilities = self.find_mobilities()
+            self._mobilities = self._find_mobilities()
         return self._mobilities
 
     def place(self) -> Vector2:
@@ -278,66 +275,34 @@ class SectionPin(LoosePin):
     """One section of a loose bearing.
 
     Arguments:
-        mbs: the engine's system.
         contact: of the whole pin.
+        connector, moving, bore_spin, settings: as of LoosePin.
         whole: what it shares with the other sections.
         section: its place and share.
-        bore, journal: their ends; items: the engine's bodies, nodes: of them (None: the ground); centres: of
-            the bodies' mass.
+        ends: bore and journal.
         slides: whether the journal may shift along the bore. The markers then move along before every step,
             so that sections of both meet that are abreast of each other.
-        symbolic, impact_steps: as of LoosePin.
     """
 
     def __init__(
         self,
-        mbs: Any,
         contact: JournalContact,
+        connector: PinConnector,
+        moving: SectionMover,
+        bore_spin: Callable[[], float],
         whole: Journal,
         section: Section,
-        bore: End,
-        journal: End,
+        ends: tuple[End, End],
         *,
-        items: tuple[Any, Any],
-        nodes: tuple[Any, Any],
-        centres: tuple[Vector3, Vector3],
         slides: bool,
-        symbolic: bool,
-        impact_steps: int,
+        settings: SolverSettings,
     ) -> None:
-        self.section = section
-        self.whole = whole
-        frames = [
-            marker_frame(end, section.place, centre)
-            for end, centre in zip((bore, journal), centres, strict=True)
-        ]
-        self._bore_axis = bore.axis
-        super().__init__(
-            mbs,
-            replace(contact, normal=PartOf(law=contact.normal, share=section.share)),
-            bore=(items[0], frames[0]),
-            journal=(items[1], frames[1]),
-            turn=0.0,
-            bore_node=nodes[0],
-            journal_node=nodes[1],
-            in_space=True,
-            symbolic=symbolic,
-            impact_steps=impact_steps,
-        )
-        self.impact = ImpactSteps(contact.normal, impact_steps)  # steps of the whole
-        self.share = section.share
-        self.ends = bore, journal
-        self.mover: SectionMover | None = None  # set when the scene is whole
-        self.find_mobilities = whole.mobilities
-        self.slides = slides
+        part = part_of(contact, section)
+        super().__init__(part, connector, moving, bore_spin, whole.mobilities, settings, section.share)
+        self.impact = ImpactSteps(contact.normal, settings.impact_steps)  # steps of the whole
+        self.section, self.whole, self.moving, self.ends, self.slides = section, whole, moving, ends, slides
+        whole.sections.append(self)
         self._beside = 0.0, 0.0  # where the journal is along the bore at the last accepted step [m], [m/s]
-
-    @property
-    def moving(self) -> SectionMover:
-        """How it moves."""
-        if self.mover is None:
-            raise RuntimeError("SectionPin.mover: is set by the scene")
-        return self.mover
 
     def look_beside(self, position: list[float], velocity: list[float]) -> None:
         """See where the journal is along the bore at the engine's coordinates and their rates."""
@@ -379,9 +344,10 @@ class SectionPin(LoosePin):
     def _place(self) -> Vector2:
         return self.whole.place()
 
-    def _bore_spin(self) -> float:
-        spin = self.mbs.GetNodeOutput(self.bore_node, exudyn.OutputVariableType.AngularVelocityLocal)
-        return float(spin @ np.array(self._bore_axis))
+
+def part_of(contact: JournalContact, section: Section) -> JournalContact:
+    """The contact of a section, which has its share of the force."""
+    return replace(contact, normal=PartOf(law=contact.normal, share=section.share))
 
 
 def marker_frame(end: End, place: float, centre: Vector3) -> list[list[float]]:

@@ -14,7 +14,7 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from support_exudyn.formulations.redundant.clearance.attachment import Attachment
+from support_exudyn.formulations.redundant.clearance.connector_force import Attachment
 from support_exudyn.mechanics.space.constraints import End, frame_of
 from support_exudyn.mechanics.space.motion import SpatialMotion, cross
 from support_exudyn.mechanics.trajectory import Series

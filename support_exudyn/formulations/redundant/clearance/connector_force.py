@@ -1,0 +1,135 @@
+"""The force of a clearance pin's connector: where it acts, what it is told, and its formulas for both backends.
+
+Without friction the force acts along the line of centres: forces at both centres, no moment. If the law does
+not ask for the mass that moves either, which depends on the direction, depth and rate are all it needs. With
+friction force and moment act at the moving body's centre if the other body is the ground, and in the middle
+between both centres if both move, so that they act at one point on both bodies.
+
+Formulas take numbers or expressions: `python_force` writes them out as source, `symbolic_force` as the engine's
+expressions. At the ends of steps and at the records `JournalContact.force` tells all parts of the same force.
+"""
+
+from __future__ import annotations
+
+import math
+from enum import Enum
+from functools import partial
+from types import SimpleNamespace
+from typing import Any, NamedTuple, cast
+
+from support_exudyn.mechanics.contact_state import Mobility
+from user_forces.compilation.flat import asks_for_mass
+from user_forces.contact import ContactForce, JournalContact, SlipHistory
+from user_forces.expressions.scalar import hypot, maximum
+from user_forces.friction.frictionless import Frictionless
+from user_forces.normal.law import Touch
+
+
+class Attachment(Enum):
+    """What the force of a pin acts on."""
+
+    LINE = "both centres, without a moment; all that is known is their distance and its rate"
+    CENTRAL = "both centres, without a moment"
+    JOURNAL = "the journal's centre; the bore is on the ground"
+    BORE = "the bore's centre; the journal is on the ground"
+    SPACE = "both centres, without a moment; bodies move in space"
+    MIDDLE = "both bodies, in the middle between the centres"
+
+
+def attachment(
+    contact: JournalContact, bore_on_ground: bool, journal_on_ground: bool, in_space: bool = False
+) -> Attachment:
+    """What the force of a contact acts on."""
+    if isinstance(contact.friction, Frictionless):
+        if not asks_for_mass(contact):
+            return Attachment.LINE
+        return Attachment.SPACE if in_space else Attachment.CENTRAL
+    if bore_on_ground:
+        return Attachment.JOURNAL
+    return Attachment.BORE if journal_on_ground else Attachment.MIDDLE
+
+
+class Relative(NamedTuple):
+    """Motion of a journal in its bore as the connector knows it; numbers or expressions.
+
+    x, y, vx, vy: journal's centre minus bore's and its rate [m], [m/s]. turning: of the journal against the
+    bore, bore_spin: of the bore [rad/s]; the latter is used only if both bodies move, both only with friction.
+    """
+
+    x: float
+    y: float
+    vx: float
+    vy: float
+    turning: float = 0.0
+    bore_spin: float = 0.0
+
+    def spins(self, at: Attachment) -> tuple[float, float]:
+        """Angular velocities of bore and journal [rad/s]."""
+        if at is Attachment.BORE:
+            return -self.turning, 0.0
+        if at is Attachment.MIDDLE:
+            return self.bore_spin, self.bore_spin + self.turning
+        return 0.0, self.turning
+
+
+def line_force(contact: JournalContact, depth: float, rate: float, speed: float) -> float:
+    """The push [N] that depends on depth [m] and rate [m/s] alone, in a touch with a speed [m/s]."""
+    return maximum(contact.normal(depth, rate, Touch(speed, math.nan)), 0.0)
+
+
+def central_force(
+    contact: JournalContact, x: float, y: float, distance: float, rate: float, speed: float, mobility: Mobility
+) -> tuple[float, float]:
+    """The depth [m], and the push over the distance [N/m], which times both centres' displacement is the force.
+
+    Arguments:
+        contact: bearing and laws.
+        x, y: journal's centre minus bore's, across the axis [m]; distance: of both centres [m].
+        rate: of the distance [m/s].
+        speed, mobility: of the touch [m/s], and of the journal, in the axes of x and y.
+    """
+    depth = contact.bearing.depth(distance)
+    asked = contact.normal(depth, rate, Touch(speed, mobility.mass(x, y)))
+    return depth, maximum(asked, 0.0) / distance
+
+
+def rough_force(
+    contact: JournalContact,
+    at: Attachment,
+    motion: Relative,
+    speed: float,
+    mobility: Mobility,
+    history: SlipHistory,
+) -> tuple[ContactForce, float]:
+    """The force, and the arm [m] of its friction about the point at which the connector lets it act.
+
+    Arguments as of `central_force`; history: of friction laws with a state, the step whose end this is.
+    """
+    touch = Touch(speed, mobility.mass(motion.x, motion.y))
+    found = contact.force(*motion[:4], *motion.spins(at), touch, history)
+    eccentricity = hypot(motion.x, motion.y)
+    share = {Attachment.JOURNAL: 0.0, Attachment.MIDDLE: 0.5, Attachment.BORE: 1.0}[at]
+    return found, found.journal_arm + share * eccentricity
+
+
+def displacement_scale(turn: float) -> float:
+    """Distance of the marker points over the engine's displacement, see `connector`.
+
+    sin(a/2)/(a/2) of the turn a [rad] by its series: right to rounding as long as frames are lined up. Takes a
+    number or an expression.
+    """
+    square = 0.25 * turn * turn
+    return 1.0 - square / 6.0 * (1.0 - square / 20.0 * (1.0 - square / 42.0))
+
+
+def straightened(contact: JournalContact, offset: Any, slope: Any) -> JournalContact:
+    """The contact with a line in place of its law of friction; offset and slope may be expressions."""
+
+    def line(slip: Any, normal_force: Any, deflection: float = 0.0) -> Any:
+        return normal_force * (slip * slope + offset)
+
+    friction: Any = line
+    friction.has_state = False
+    found: Any = SimpleNamespace(bearing=contact.bearing, normal=contact.normal, friction=friction)
+    found.force = partial(JournalContact.force, found)
+    return cast(JournalContact, found)
