@@ -9,11 +9,7 @@ import numpy as np
 from studies.common import paper_machine
 from studies.contact_laws import catalogue
 from studies.contact_laws.catalogue import CYLINDER_LAWS, POWER_LAWS
-from studies.contact_laws.free_impact import (
-    BORE_MASS,
-    JOURNAL_MASS,
-    one_dimensional_restitution,
-)
+from studies.contact_laws.free_impact import BORE_MASS, JOURNAL_MASS, one_dimensional_restitution
 from support_exudyn import ClearancePin, Scenario, SolverSettings
 from user_forces import (
     AdamsImpact,

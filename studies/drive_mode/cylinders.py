@@ -45,10 +45,7 @@ def _of_column(column: str) -> dict[str, tuple[str, Get]]:
         ),
         f"settled_extension_{short}": ("mm", settled),
         f"overshoot_{short}": ("mm", lambda r: float(1e3 * extension(r, column).max()) - settled(r)),
-        f"largest_pressure_{short}": (
-            "MPa",
-            rise.Peak(pressure, 1e-6, end=math.inf, extreme="max"),
-        ),
+        f"largest_pressure_{short}": ("MPa", rise.Peak(pressure, 1e-6, end=math.inf, extreme="max")),
         f"least_pressure_{short}": ("MPa", rise.Peak(pressure, 1e-6, end=math.inf, extreme="min")),
         f"pressure_after_{short}": (
             "MPa",

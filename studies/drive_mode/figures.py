@@ -130,12 +130,7 @@ def rise_figure(results: Mapping[str, Result]) -> Figure:
             panels[2].plot(t, 1e-6 * run["rear_column.pressure"][inside], lw=0.8, **look)
             panels[3].plot(t, 1e-3 * run[rise.FORCE][inside], lw=0.8, **look)
         panels[1].plot(t, [1e3 * drive.speed(at) for at in t.tolist()], color=style.IDEAL, ls=":", lw=1.2)
-    labels = (
-        "behind the drive [mm]",
-        "speed, front [mm/s]",
-        "pressure, rear [MPa]",
-        "pin force [kN]",
-    )
+    labels = ("behind the drive [mm]", "speed, front [mm/s]", "pressure, rear [MPa]", "pin force [kN]")
     for axes, letter, label in zip(panels, "abcd", labels, strict=True):
         axes.set(xlim=(2.9, END), xlabel="time [s]", ylabel=label)
         axes.set_title(f"{letter})")

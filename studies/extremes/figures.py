@@ -153,10 +153,7 @@ def _of_friction() -> list[Curve]:
         point = Point(mu=0.25, static_speed_m_s=static, dynamic_speed_m_s=2.0 * static)
         return timescales(fallen(point)).rubbing
 
-    return [
-        ("time constant of friction", rubbing),
-        ("10 000 of it", lambda static: 1e4 * rubbing(static)),
-    ]
+    return [("time constant of friction", rubbing), ("10 000 of it", lambda static: 1e4 * rubbing(static))]
 
 
 LIMITS: Mapping[str, Callable[[], list[Curve]]] = {

@@ -197,10 +197,7 @@ def space_figure(runs: Mapping[str, Result]) -> Figure:
     """Forces above, their distance below."""
     drawing = Figure(figsize=style.size(190, 105))
     panels = drawing.subplots(2, 2, sharex=True, sharey="row", height_ratios=(2, 1))
-    pairs = {
-        "no friction": (LOOSE, LOOSE_IN_SPACE),
-        "friction 0.25": (PAPERS, PAPERS_IN_SPACE),
-    }
+    pairs = {"no friction": (LOOSE, LOOSE_IN_SPACE), "friction 0.25": (PAPERS, PAPERS_IN_SPACE)}
     force = f"pin.{REAR}.force"
     for column, (title, (plane, space)) in enumerate(pairs.items()):
         above, below = panels[:, column]

@@ -209,10 +209,7 @@ def unequal(quick: bool) -> list[Scene]:
     base = Scenario(
         machine=reference_support(),
         drive=drive(1.0),
-        drives={
-            "front_column_left": drive(1.0 - APART),
-            "front_column_right": drive(1.0 + APART),
-        },
+        drives={"front_column_left": drive(1.0 - APART), "front_column_right": drive(1.0 + APART)},
         duration=end,
         dimensions=3,
         columns=paper_machine.oil_columns(),

@@ -10,16 +10,7 @@ import numpy as np
 
 from studies.common.numbers import Found, Number, against, cell
 from studies.common.words import Table
-from studies.which_pin.cases import (
-    ALIKE,
-    CONDITIONS,
-    FORCES,
-    FRICTIONS,
-    IDEAL,
-    SHAKEN,
-    alone,
-    case_name,
-)
+from studies.which_pin.cases import ALIKE, CONDITIONS, FORCES, FRICTIONS, IDEAL, SHAKEN, alone, case_name
 from studies.which_pin.posture import UnderLoad
 from support_exudyn.machines.four_bar_shield import PINS
 
