@@ -12,8 +12,7 @@ from pathlib import Path
 from studies.catalogue import STUDIES
 from studies.common.chapter import FILE
 from studies.reporting.content import Section, content
-from studies.reporting.html import page
-from studies.reporting.markdown_page import text
+from studies.reporting.pages import page, text
 from support_exudyn.commands.command_line import Parser, folder, warn
 from support_exudyn.files.whole_file import whole_file
 from user_forces.values.value import InputError

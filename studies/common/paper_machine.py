@@ -39,11 +39,6 @@ SLIDING_COEFFICIENT = 0.25  # assumed: dry steel on steel
 OIL_BORE, OIL_LENGTH, BULK_MODULUS = 0.25, 0.5, 1.5e9  # [m], [m] at the start of the rise, [Pa]
 # jack of the tail beam as a closed cushion of oil, assumed: one cylinder
 JACK = OilColumn(bore_area=bore_area(0.14), oil_length=0.3, bulk_modulus=BULK_MODULUS)
-OIL_SAID = (
-    "Assumed: two columns of 250 mm bore to a pair, 0.5 m of emulsion under the pistons at the start, bulk "
-    "modulus 1.5 GPa: 295 kN/mm for a pair at the start of the rise, 147 kN/mm at its end; a damping time of "
-    "1 ms, which is 6 % of critical damping at 20 Hz."
-)
 # the same columns as hydraulic cylinders, assumed. Pump of 31.5 MPa, as stations for supports are rated. Valve,
 # pipe and hoses of a pair let 354 l/min pass at 1 MPa: chosen so that the columns extend by 500 mm from 3 to 5
 # s, for which a pair takes 1500 l/min, more than such stations deliver. Seals: 25 kN at 0.25 m/s, 0.8 % of what
@@ -56,13 +51,6 @@ INLETS: dict[str, Inlet] = {
     "mode 1": SuddenOpening(extent=SUDDEN_OPENING),
     "mode 2": RampedOpening(extent=RAMPED_OPENING, ramp=RAMP),
 }
-CYLINDERS_SAID = (
-    "Assumed: two columns of 250 mm bore and 230 mm rod to a pair, 0.5 m of emulsion under the pistons and "
-    "0.6 m around the rods at the start, 5 litres in the hoses of either side, bulk modulus 1.5 GPa; a pump of "
-    "31.5 MPa, an open tank, and a valve with pipe that lets 354 l/min of a pair pass at 1 MPa; seals with 25 "
-    "kN at 0.25 m/s. Mode 1 opens the valve to 75 % from 3 to 5 s at once, mode 2 wholly, along ramps of 0.5 s "
-    "at both ends. A rise of 500 mm in 2 s takes 3000 l/min in all, more than usual pump stations deliver."
-)
 
 SIZES_MM = (0.5, 1.0, 1.5, 2.0)  # the paper's clearances
 

@@ -34,10 +34,14 @@ class Table:
     in_file: bool = True
     in_chapter: bool = True
 
+    def sheet(self, title: str, caption: str = "") -> Sheet:
+        """The table with its words."""
+        return Sheet(title, self.header, self.rows, caption, left=self.left, wide=self.wide)
+
 
 @dataclass(frozen=True)
 class Words:
-    """The sentences of a study, by the name of its folder."""
+    """The sentences of a study, or of the report around them, by the name of the folder."""
 
     study: str
 
@@ -64,6 +68,22 @@ class Words:
             surroundings.globals[tool.__name__] = surroundings.filters[tool.__name__] = tool
         return surroundings
 
+    def blocks(self, told: Mapping[str, object]) -> dict[str, list[str]]:
+        """Paragraphs and items of lists of the filled template, each in one line, by their heading."""
+        found: dict[str, list[str]] = {}
+        here: list[str] = []
+        begins = True
+        for line in self.templates.get_template(TEMPLATE).render(told).splitlines():
+            text = " ".join(line.split())
+            if line.startswith("#"):
+                here = found.setdefault(text.lstrip("# "), [])
+            elif text and (begins or text.startswith("- ")):
+                here.append(text)
+            elif text:
+                here[-1] += f" {text}"
+            begins = not text or line.startswith("#")
+        return found
+
     def chapter(
         self, told: Mapping[str, object], tables: Mapping[str, Table], quick: bool
     ) -> tuple[Chapter, dict[str, Sheet]]:
@@ -71,14 +91,9 @@ class Words:
 
         Raises KeyError if the template has no title for a table.
         """
-        blocks = _blocks(self.templates.get_template(TEMPLATE).render(told, quick=quick))
+        blocks = self.blocks({**told, "quick": quick})
         title = next(iter(blocks))
-        sheets = {}
-        for name, table in tables.items():
-            heading, *caption = blocks[name]
-            sheets[name] = Sheet(
-                heading, table.header, table.rows, " ".join(caption), left=table.left, wide=table.wide
-            )
+        sheets = {name: table.sheet(*blocks[name]) for name, table in tables.items()}
         pictures = (block.removeprefix("- ").partition(": ") for block in blocks["Figures"])
         chapter = Chapter(
             study=self.study,
@@ -91,20 +106,3 @@ class Words:
             quick=quick,
         )
         return chapter, sheets
-
-
-def _blocks(page: str) -> dict[str, list[str]]:
-    """Paragraphs and items of a list, each in one line, by the heading that they stand under."""
-    found: dict[str, list[str]] = {}
-    here: list[str] = []
-    begins = True
-    for line in page.splitlines():
-        text = " ".join(line.split())
-        if line.startswith("#"):
-            here = found.setdefault(text.lstrip("# "), [])
-        elif text and (begins or text.startswith("- ")):
-            here.append(text)
-        elif text:
-            here[-1] += f" {text}"
-        begins = not text or line.startswith("#")
-    return found

@@ -5,11 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 from studies.common import paper_machine
-from studies.common.chapter import Sheet
-from support_exudyn import CubicStep, HydraulicSupport, reference_support
+from studies.common.words import Table
+from support_exudyn import CubicStep, HydraulicSupport
 from support_exudyn.model.linkage import Part, lumped
 from user_forces import STEEL, STEEL_35CRMO, Material
-from user_forces.values.value import Vector2
 
 PAPER, ASSUMED = "paper", "assumed"
 PIVOTS = {  # with the letters of the sketch in support_exudyn/machines/four_column_support.py
@@ -25,43 +24,23 @@ PIVOTS = {  # with the letters of the sketch in support_exudyn/machines/four_col
     "tip": "T, tip of the canopy",
 }
 CLEARANCE_MM = 1.5  # that of section 3; all else in the contact data does not depend on it
-NOTES = (
-    "The paper prints the materials, the radii of the shaft, the stiffness coefficients and the drive. It "
-    "prints no dimensions of the support, no masses, no restitution and no friction.",
-    "Pivots are joint coordinates of a published 3-D model of a ZF18000 support, scaled by 0.65 and rounded to "
-    "1 mm; the scale is assumed. The tail beam's mass, a part of the shield, was tuned so that the mean static "
-    "force in the rear-link pin over the rise is near the paper's 51 kN: agreement in that mean confirms "
-    "nothing.",
-    "Motion is planar with both sides of the support lumped into one plane, bodies are rigid and columns "
-    "massless. Where a study departs from these data, its method says so.",
-)
 
 
-def sheets() -> tuple[Sheet, ...]:
+def tables(support: HydraulicSupport) -> dict[str, Table]:
     """The reference support's pivots and parts, and the data of contact and drive."""
-    support = reference_support()
-    return pivots(support), masses(support), contact_and_drive()
+    return {"pivots": pivots(support), "masses": masses(support), "contact_and_drive": contact_and_drive()}
 
 
-def pivots(support: HydraulicSupport) -> Sheet:
+def pivots(support: HydraulicSupport) -> Table:
     """Where the pivots are in the reference posture."""
-    rows = []
-    for name, meaning in PIVOTS.items():
-        point: Vector2 = getattr(support, name)
-        rows.append((meaning, ASSUMED, *(_mm(x) for x in point)))
-    return Sheet(
-        title="Pivots of the reference support, in its reference posture",
-        header=("pivot", "source", "x [mm]", "y [mm]"),
-        rows=tuple(rows),
-        caption=(
-            "x forward, towards the coal face; y up. The rise starts with the canopy level and pivot I at "
-            f"{_mm(support.start_hinge_height)} mm (assumed)."
-        ),
-        left=2,
+    rows = tuple(
+        (meaning, ASSUMED, *(millimetres(x) for x in getattr(support, name)))
+        for name, meaning in PIVOTS.items()
     )
+    return Table(("pivot", "source", "x [mm]", "y [mm]"), rows, left=2)
 
 
-def masses(support: HydraulicSupport) -> Sheet:
+def masses(support: HydraulicSupport) -> Table:
     """What the bodies are made of, and each body as a whole where it has several parts."""
     rows = []
     for body, parts in support.parts.items():
@@ -71,14 +50,8 @@ def masses(support: HydraulicSupport) -> Sheet:
             rows.append(_part(f"{name}, whole", lumped(parts)))
         else:
             rows.append(_part(name, parts[0]))
-    total = sum(part.mass for parts in support.parts.values() for part in parts)
-    return Sheet(
-        title="Masses of the reference support, centres in its reference posture",
-        header=("body", "source", "mass [kg]", "centre x [mm]", "centre y [mm]", "inertia [kg m²]"),
-        rows=tuple(rows),
-        caption=f"Inertia is about the own centre of mass. Together: {total:g} kg.",
-        left=2,
-    )
+    header = ("body", "source", "mass [kg]", "centre x [mm]", "centre y [mm]", "inertia [kg m²]")
+    return Table(header, tuple(rows), left=2)
 
 
 def _part(name: str, part: Part) -> tuple[str, ...]:
@@ -86,7 +59,7 @@ def _part(name: str, part: Part) -> tuple[str, ...]:
     return name, ASSUMED, f"{part.mass:g}", *centre, f"{part.inertia:.1f}"
 
 
-def contact_and_drive() -> Sheet:
+def contact_and_drive() -> Table:
     """Materials, bearing, laws and drive."""
     contact = paper_machine.loose_pin(CLEARANCE_MM, paper_machine.SLIDING_COEFFICIENT).contact
     normal: Any = contact.normal
@@ -95,29 +68,49 @@ def contact_and_drive() -> Sheet:
     rows = (
         *_material(STEEL, "bore"),
         *_material(STEEL_35CRMO, "journal"),
-        ("bore radius (shaft radius and clearance of Table 2)", PAPER, "mm", _mm(contact.bearing.bore_radius)),
+        (
+            "bore radius (shaft radius and clearance of Table 2)",
+            PAPER,
+            "mm",
+            millimetres(contact.bearing.bore_radius),
+        ),
         *(_stiffness(clearance) for clearance in paper_machine.STIFFNESS),
         ("exponent of the normal force (Eq. 4)", PAPER, "1", f"{normal.exponent:g}"),
         ("restitution", ASSUMED, "1", f"{normal.restitution:g}"),
-        ("smallest speed that damps a contact", ASSUMED, "mm/s", _mm(normal.damping_speed.floor)),
+        ("smallest speed that damps a contact", ASSUMED, "mm/s", millimetres(normal.damping_speed.floor)),
         ("sliding friction coefficient mu_d (Eq. 7)", ASSUMED, "1", f"{friction.sliding_coefficient:g}"),
-        ("speed v_s below which there is no friction (Eq. 8)", ASSUMED, "mm/s", _mm(friction.static_speed)),
-        ("speed v_d above which it is full (Eq. 8)", ASSUMED, "mm/s", _mm(friction.dynamic_speed)),
-        ("oil: bore of a column, two to a pair", ASSUMED, "mm", _mm(paper_machine.OIL_BORE)),
-        ("oil: length under the pistons at the start", ASSUMED, "mm", _mm(paper_machine.OIL_LENGTH)),
+        (
+            "speed v_s below which there is no friction (Eq. 8)",
+            ASSUMED,
+            "mm/s",
+            millimetres(friction.static_speed),
+        ),
+        ("speed v_d above which it is full (Eq. 8)", ASSUMED, "mm/s", millimetres(friction.dynamic_speed)),
+        ("oil: bore of a column, two to a pair", ASSUMED, "mm", millimetres(paper_machine.OIL_BORE)),
+        ("oil: length under the pistons at the start", ASSUMED, "mm", millimetres(paper_machine.OIL_LENGTH)),
         ("oil: bulk modulus", ASSUMED, "GPa", f"{paper_machine.BULK_MODULUS / 1e9:g}"),
-        ("oil: damping time", ASSUMED, "ms", _mm(paper_machine.oil_columns()["front_column"].damping_time)),
-        ("cylinders: rod", ASSUMED, "mm", _mm(paper_machine.ROD)),
-        ("cylinders: length around the rods at the start", ASSUMED, "mm", _mm(paper_machine.ROD_SIDE_LENGTH)),
+        (
+            "oil: damping time",
+            ASSUMED,
+            "ms",
+            millimetres(paper_machine.oil_columns()["front_column"].damping_time),
+        ),
+        ("cylinders: rod", ASSUMED, "mm", millimetres(paper_machine.ROD)),
+        (
+            "cylinders: length around the rods at the start",
+            ASSUMED,
+            "mm",
+            millimetres(paper_machine.ROD_SIDE_LENGTH),
+        ),
         ("cylinders: pressure of the pump", ASSUMED, "MPa", f"{paper_machine.SYSTEM_PRESSURE / 1e6:g}"),
         ("cylinders: flow of a pair at 1 MPa", ASSUMED, "l/min", f"{6e4 * paper_machine.NOMINAL_FLOW:g}"),
-        ("cylinders: hoses of either side", ASSUMED, "l", _mm(paper_machine.HOSE_VOLUME)),
+        ("cylinders: hoses of either side", ASSUMED, "l", millimetres(paper_machine.HOSE_VOLUME)),
         ("cylinders: damping of the seals", ASSUMED, "kN s/m", f"{paper_machine.SEAL_DAMPING / 1e3:g}"),
-        ("stroke of the columns", PAPER, "mm", _mm(drive.stroke)),
+        ("stroke of the columns", PAPER, "mm", millimetres(drive.stroke)),
         ("stroke begins and ends", PAPER, "s", f"{drive.start:g}, {drive.end:g}"),
         ("start: journal at rest, off the middle of its bore by", ASSUMED, "mm", "0"),
     )
-    return Sheet(title="Contact and drive", header=("quantity", "source", "unit", "value"), rows=rows, left=3)
+    return Table(("quantity", "source", "unit", "value"), rows, left=3)
 
 
 def _material(material: Material, part: str) -> tuple[tuple[str, ...], ...]:
@@ -139,5 +132,6 @@ def _stiffness(clearance_mm: float) -> tuple[str, ...]:
     )
 
 
-def _mm(metres: float) -> str:
+def millimetres(metres: float) -> str:
+    """A length [m] in millimetres, or a volume [m^3] in litres, to six digits."""
     return f"{1e3 * metres:.6g}"

@@ -10,21 +10,13 @@ from pathlib import Path
 from pydantic import BaseModel, ValidationError
 
 from studies.common.chapter import LARGEST_FILE, Chapter, Picture, Sheet
+from studies.common.words import Table, Words
 from studies.reporting import assumptions
+from support_exudyn import reference_support
 from support_exudyn.files.whole_file import contents
 from support_exudyn.simulation.provenance import provenance
 from user_forces.values.value import InputError
 
-TITLE = "Clearance in the rear-link pin of a hydraulic support: the published results repeated"
-SUMMARY = (
-    'The paper "Dynamic Analysis of Hydraulic Support with Single Clearance" says what clearance in the '
-    "rear-link pin of a hydraulic support does to its rise. Here its results are repeated with the free "
-    "multibody program Exudyn. The paper prints no dimensions, masses, restitution or friction; those used "
-    "here are assumed, and listed below. Directions, orderings and shapes can therefore be compared with the "
-    "paper; values cannot. Every computed number comes with its numerical error, estimated from three runs "
-    "with ever shorter steps."
-)
-QUICK = "This is a quick report: some or all studies were run with coarse steps, and their errors are larger."
 VERDICT = "verdict"  # the heading of the column that is coloured
 VERDICTS = {  # class of a verdict by its beginning
     "holds": "holds",
@@ -87,16 +79,32 @@ def content(sections: Sequence[Section], quick: bool) -> Report:
     figures, tables = _Numbers("Figure"), _Numbers("Table")
     numbered = tuple(_numbered(section, figures, tables) for section in sections)
     quicks = [quick if s.chapter.quick is None else s.chapter.quick for s in sections]
+    support = reference_support()
+    data = assumptions.tables(support)
+    claims, counts = _verdict_counts(sections)
+    words = Words("reporting").blocks({
+        "quick": any(quicks),
+        "claims": claims,
+        "counts": counts,
+        "start_height": assumptions.millimetres(support.start_hinge_height),
+        "total_mass": sum(part.mass for parts in support.parts.values() for part in parts),
+        "platform": platform.platform(),
+    })  # fmt: skip
+    title = next(iter(words))
+
+    def sheet(name: str, table: Table) -> Sheet:
+        return tables.sheet(table.sheet(*words[name]))
+
     return Report(
-        title=TITLE,
+        title=title,
         made_at=provenance()["made_at"].replace("T", " ").removesuffix("+00:00") + " UTC",
-        summary=(SUMMARY, *_verdict_counts(sections), *([QUICK] if any(quicks) else [])),
+        summary=tuple(words[title]),
         sections=numbered,
-        notes=assumptions.NOTES,
-        assumptions=tuple(tables.sheet(sheet) for sheet in assumptions.sheets()),
+        notes=tuple(words["Notes"]),
+        assumptions=tuple(sheet(name, table) for name, table in data.items()),
         commands=_commands(any(quicks)),
-        times=tables.sheet(_times(sections, quicks)),
-        versions=tables.sheet(_versions(sections)),
+        times=sheet("times", _times(sections, quicks)),
+        versions=sheet("versions", _versions(sections)),
     )
 
 
@@ -139,14 +147,13 @@ def verdict_column(sheet: Sheet) -> int | None:
     return next((n for n, heading in enumerate(sheet.header) if heading.lower() == VERDICT), None)
 
 
-def _verdict_counts(sections: Iterable[Section]) -> tuple[str, ...]:
-    """How the claims come out, if the study of the claims is there."""
+def _verdict_counts(sections: Iterable[Section]) -> tuple[int, list[str]]:
+    """Of how many claims there are verdicts, and how many of each kind, if the study of the claims is there."""
     claims = [s for section in sections if section.chapter.study == "claims" for s in section.chapter.sheets]
     cells = [row[column] for s in claims if (column := verdict_column(s)) is not None for row in s.rows]
     kinds = [verdict_class(cell) for cell in cells]
     words = {name: f'"{start}"' for start, name in VERDICTS.items()} | {"": "another"}
-    counts = [f"{kinds.count(name)} {word}" for name, word in words.items() if name in kinds]
-    return (f"Verdicts on {len(cells)} claims of the paper: {', '.join(counts)}.",) if counts else ()
+    return len(cells), [f"{kinds.count(name)} {word}" for name, word in words.items() if name in kinds]
 
 
 # --- how to repeat ---
@@ -162,30 +169,20 @@ def _commands(quick: bool) -> tuple[tuple[str, str], ...]:
     )
 
 
-def _times(sections: Sequence[Section], quicks: Sequence[bool]) -> Sheet:
+def _times(sections: Sequence[Section], quicks: Sequence[bool]) -> Table:
     rows = [
         (s.chapter.study, "quick" if quick else "full", f"{s.wall_s:.1f}")
         for s, quick in zip(sections, quicks, strict=True)
     ]
     total = sum(section.wall_s for section in sections)
-    return Sheet(
-        title="Studies, how they were run, and how long they took",
-        header=("study", "form", "wall time [s]"),
-        rows=(*rows, ("together", "", f"{total:.1f}")),
-        left=2,
-    )
+    return Table(("study", "form", "wall time [s]"), (*rows, ("together", "", f"{total:.1f}")), left=2)
 
 
-def _versions(sections: Sequence[Section]) -> Sheet:
+def _versions(sections: Sequence[Section]) -> Table:
     """Versions recorded by the studies; more than one where the studies were run with different ones."""
     found: dict[str, dict[str, None]] = {}
     for section in sections:
         for name, version in section.versions.items():
             found.setdefault(name, {})[version] = None
-    return Sheet(
-        title="Versions with which the numbers were made",
-        header=("package", "version"),
-        rows=tuple((name, ", ".join(versions)) for name, versions in found.items()),
-        caption=f"Report written on {platform.platform()}.",
-        left=2,
-    )
+    rows = tuple((name, ", ".join(versions)) for name, versions in found.items())
+    return Table(("package", "version"), rows, left=2)

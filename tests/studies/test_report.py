@@ -17,13 +17,14 @@ from studies import __main__ as all_studies
 from studies import report
 from studies.common.chapter import Chapter, Picture, Sheet
 from studies.common.study import Options
-from studies.reporting.content import TITLE, verdict_class
+from studies.reporting.content import verdict_class
 from support_exudyn.simulation.provenance import versions
 from user_forces.values.value import InputError
 
 PNG = base64.b64decode(  # one white pixel
     "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAQAAAC1HAwCAAAAC0lEQVR42mP8/x8AAwMCAO+ip1sAAAAASUVORK5CYII="
 )
+TITLE = "Clearance in the rear-link pin of a hydraulic support: the published results repeated"
 HOSTILE = "<script>alert(1)</script> | \"quoted\" & '<img src=http://x.example/>'\n- new line"
 VERDICTS = (
     "holds",
