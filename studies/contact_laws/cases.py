@@ -6,24 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 
+import user_forces as forces
 from studies.common import paper_machine
 from studies.contact_laws import catalogue
 from studies.contact_laws.catalogue import CYLINDER_LAWS, POWER_LAWS
 from studies.contact_laws.free_impact import BORE_MASS, JOURNAL_MASS, one_dimensional_restitution
 from support_exudyn import ClearancePin, Scenario, SolverSettings
-from user_forces import (
-    AdamsImpact,
-    Anagnostopoulos,
-    Exact,
-    FrictionLaw,
-    Frictionless,
-    Hertz,
-    JournalContact,
-    KelvinVoigt,
-    LankaraniNikravesh,
-    NormalLaw,
-    TouchSpeed,
-)
 
 ASKED = tuple(n / 20 for n in range(1, 20))  # e = 0.05, 0.1 ... 0.95
 FEW = (0.1, 0.3, 0.5, 0.7, 0.9)  # for laws whose damping factor is another's
@@ -47,28 +35,28 @@ REDUCED_MASS = BORE_MASS * JOURNAL_MASS / (BORE_MASS + JOURNAL_MASS)  # of free 
 STIFFNESS = 1e8  # K of free impacts [N/m^1.5], or [N/m] of linear laws
 
 
-def impact_laws(quick: bool) -> dict[str, tuple[NormalLaw, float]]:
+def impact_laws(quick: bool) -> dict[str, tuple[forces.NormalLaw, float]]:
     """Laws of the free impacts and the restitution that is to come out, by case."""
-    cases: dict[str, tuple[NormalLaw, float]] = {}
+    cases: dict[str, tuple[forces.NormalLaw, float]] = {}
     for name, law in POWER_LAWS.items():
         for asked in QUICK_ASKED if quick else ASKED:
             chosen = law(stiffness=STIFFNESS, restitution=asked)
             cases[f"{name} e={asked:g}"] = (chosen, chosen.delivered_restitution)
     for asked in QUICK_ASKED if quick else FEW:
-        linear = Anagnostopoulos(stiffness=STIFFNESS, restitution=asked)
+        linear = forces.Anagnostopoulos(stiffness=STIFFNESS, restitution=asked)
         cases[f"anagnostopoulos e={asked:g}"] = (linear, linear.delivered_restitution)
         bearing = paper_machine.bearing(CLEARANCE_MM)
         for name in CYLINDER_LAWS:
             line = catalogue.cylinder_law(name, bearing, asked)
             cases[f"{name} e={asked:g}"] = (line, line.delivered_restitution)
-    cases["hertz e=1"] = (Hertz(stiffness=STIFFNESS), 1.0)
+    cases["hertz e=1"] = (forces.Hertz(stiffness=STIFFNESS), 1.0)
     for ratio in (0.05, 0.2, 0.5, 1.0):
-        dashpot = KelvinVoigt(
+        dashpot = forces.KelvinVoigt(
             stiffness=STIFFNESS, damping=float(2.0 * ratio * np.sqrt(STIFFNESS * REDUCED_MASS))
         )
         cases[f"kelvin_voigt zeta={ratio:g}"] = (dashpot, dashpot.delivered_restitution(REDUCED_MASS))
     for depth in (1e-3, 1e-4):
-        impact = AdamsImpact(stiffness=STIFFNESS, full_damping=500.0, full_damping_depth=depth)
+        impact = forces.AdamsImpact(stiffness=STIFFNESS, full_damping=500.0, full_damping_depth=depth)
         cases[f"adams_impact d_max={1e3 * depth:g} mm"] = (
             impact,
             one_dimensional_restitution(impact, REDUCED_MASS, SPEED),
@@ -76,14 +64,14 @@ def impact_laws(quick: bool) -> dict[str, tuple[NormalLaw, float]]:
     return cases
 
 
-def loop_laws() -> dict[str, NormalLaw]:
+def loop_laws() -> dict[str, forces.NormalLaw]:
     """Laws whose loops of force over depth are drawn, by name."""
-    laws: dict[str, NormalLaw] = {
+    laws: dict[str, forces.NormalLaw] = {
         name: law(stiffness=STIFFNESS, restitution=LOOP_RESTITUTION) for name, law in POWER_LAWS.items()
     }
-    laws["kelvin_voigt"] = KelvinVoigt(stiffness=STIFFNESS, damping=5e3)
-    laws["anagnostopoulos"] = Anagnostopoulos(stiffness=STIFFNESS, restitution=LOOP_RESTITUTION)
-    laws["adams_impact"] = AdamsImpact(stiffness=STIFFNESS, full_damping=2e3, full_damping_depth=3e-4)
+    laws["kelvin_voigt"] = forces.KelvinVoigt(stiffness=STIFFNESS, damping=5e3)
+    laws["anagnostopoulos"] = forces.Anagnostopoulos(stiffness=STIFFNESS, restitution=LOOP_RESTITUTION)
+    laws["adams_impact"] = forces.AdamsImpact(stiffness=STIFFNESS, full_damping=2e3, full_damping_depth=3e-4)
     bearing = paper_machine.bearing(CLEARANCE_MM)
     laws["johnson"] = catalogue.cylinder_law("johnson", bearing, LOOP_RESTITUTION)
     return laws
@@ -93,17 +81,18 @@ def rises(quick: bool) -> dict[str, Scenario]:
     """The rise under every law, by case."""
     friction = catalogue.friction_laws(FRICTION)
     stiffness = paper_machine.stiffness(CLEARANCE_MM)
-    laws: dict[str, tuple[NormalLaw, FrictionLaw]] = {
-        name: (law, Frictionless()) for name, law in catalogue.normal_laws(CLEARANCE_MM, RESTITUTION).items()
+    laws: dict[str, tuple[forces.NormalLaw, forces.FrictionLaw]] = {
+        name: (law, forces.Frictionless())
+        for name, law in catalogue.normal_laws(CLEARANCE_MM, RESTITUTION).items()
     }
-    exact = Exact(stiffness=stiffness, restitution=RESTITUTION)
+    exact = forces.Exact(stiffness=stiffness, restitution=RESTITUTION)
     laws |= {f"friction {name}": (exact, law) for name, law in friction.items()}
     if quick:
         laws = {name: laws[name] for name in QUICK_RISE}
     for name, floor in TEXTBOOK.items():
-        speed = TouchSpeed(floor=floor)
-        law = LankaraniNikravesh(stiffness=stiffness, restitution=RESTITUTION, damping_speed=speed)
-        laws[name] = (law, Frictionless())
+        speed = forces.TouchSpeed(floor=floor)
+        law = forces.LankaraniNikravesh(stiffness=stiffness, restitution=RESTITUTION, damping_speed=speed)
+        laws[name] = (law, forces.Frictionless())
     base = replace(paper_machine.ideal_rise(RISE_STEP), record_period=RISE_STEP)
     # of Newton's iterations a looser tolerance spares one a step; it changes means and spreads by 1e-6
     settings = SolverSettings(impact_steps=RISE_IMPACT_STEPS[quick], newton_tolerance=1e-6, backend="symbolic")
@@ -112,7 +101,9 @@ def rises(quick: bool) -> dict[str, Scenario]:
         name: replace(
             base,
             pins={
-                LOOSE: ClearancePin(contact=JournalContact(bearing=bearing, normal=normal, friction=tangential))
+                LOOSE: ClearancePin(
+                    contact=forces.JournalContact(bearing=bearing, normal=normal, friction=tangential)
+                )
             },
             solver=settings,
         )

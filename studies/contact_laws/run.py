@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 
 from studies.common import paper_machine, rise
-from studies.common.numbers import Found, Number, by_case, counted, measured, rounded
+from studies.common.numbers import Found, Number, by_case, counted, measured, measured_all, rounded
 from studies.common.runs import run_cases, run_with_errors
 from studies.common.study import Options, Outcome, Study
 from studies.common.words import Table
@@ -60,9 +60,7 @@ def rise_numbers(results: Mapping[str, Result]) -> list[Number]:
     """Mean and spread over the records from 3 to 5 s, the rest over the whole run, by case."""
     numbers = []
     for case, result in results.items():
-        numbers += [
-            measured(name, case, unit, result, measure) for name, (unit, measure) in RISE_MEASURES.items()
-        ]
+        numbers += measured_all({case: result}, RISE_MEASURES)
         numbers += [counted(name, case, result, count) for name, count in RISE_COUNTS.items()]
     return numbers
 

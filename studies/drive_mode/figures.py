@@ -12,7 +12,7 @@ from matplotlib.lines import Line2D
 from studies.common import rise
 from studies.drive_mode.cases import END, PINS, case_name
 from studies.drive_mode.cases import MODES as DRIVES
-from studies.drive_mode.cylinders import extension
+from studies.drive_mode.measures import extension
 from support_exudyn import Result
 from support_exudyn.postprocessing.figures import style
 

@@ -1,13 +1,15 @@
-"""What is measured of the drive modes."""
+"""What is measured of the drive modes; on hydraulic cylinders also motion, pressures, flow and losses."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from typing import Literal
 
+import numpy as np
+
 from studies.common import rise
-from studies.common.numbers import Number, measured
-from studies.drive_mode import cylinders
+from studies.common.numbers import Number, measured_all
 from support_exudyn import Result
 
 Get = Callable[[Result], float]
@@ -50,16 +52,69 @@ IMPULSES: dict[str, Get] = {
 }
 
 
+# --- on hydraulic cylinders ---
+
+LATE = 5.2  # from here on it is taken as settled in the mean [s]
+MIDDLE = (3.6, 4.4)  # of the rise, ramps of mode 2 excluded [s]
+
+
+def extension(result: Result, column: str) -> np.ndarray:
+    """Of a column since the start (n,) [m]."""
+    length = result[f"{column}.length"]
+    return np.asarray(length - length[0])
+
+
+def _after(result: Result, time: float = rise.START) -> np.ndarray:
+    return np.asarray(result.time >= time - 1e-9)
+
+
+def _of_column(column: str) -> dict[str, tuple[str, Get]]:
+    short, pressure = column.partition("_")[0], f"{column}.pressure"
+
+    def speed(r: Result) -> float:
+        begin, end = np.searchsorted(r.time, np.array(MIDDLE) - 1e-9)
+        moved = extension(r, column)
+        return float(1e3 * (moved[end] - moved[begin]) / (r.time[end] - r.time[begin]))
+
+    def settled(r: Result) -> float:
+        return float(1e3 * extension(r, column)[_after(r, LATE)].mean())
+
+    return {
+        f"speed_in_mid_rise_{short}": ("mm/s", speed),
+        f"extension_at_5s_{short}": (
+            "mm",
+            lambda r: float(1e3 * np.interp(rise.END, r.time, extension(r, column))),
+        ),
+        f"settled_extension_{short}": ("mm", settled),
+        f"overshoot_{short}": ("mm", lambda r: float(1e3 * extension(r, column).max()) - settled(r)),
+        f"largest_pressure_{short}": ("MPa", rise.Peak(pressure, 1e-6, end=math.inf, extreme="max")),
+        f"least_pressure_{short}": ("MPa", rise.Peak(pressure, 1e-6, end=math.inf, extreme="min")),
+        f"pressure_after_{short}": (
+            "MPa",
+            lambda r: float(1e-6 * r[f"{column}.pressure"][_after(r, LATE)].mean()),
+        ),
+        f"largest_flow_{short}": ("l/min", rise.Peak(f"{column}.flow", 6e4, begin=0.0, end=math.inf)),
+    }
+
+
+ON_CYLINDERS: dict[str, tuple[str, Get]] = {
+    **_of_column("front_column"),
+    **_of_column("rear_column"),
+    "largest_pin_force_after_closing": ("N", rise.Peak(rise.FORCE, begin=rise.END, end=math.inf)),
+    "loss_in_valves": ("kJ", lambda r: float(1e-3 * r["energy.damping_loss"][-1])),
+    "work_of_pumps": ("kJ", lambda r: float(1e-3 * r["energy.work"][-1])),
+}
+
+
+# --- all ---
+
+
 def measure(results: Mapping[str, Result]) -> list[Number]:
     """All numbers of the study, but for those that are none."""
-    numbers = []
-    for case, result in results.items():
-        for name, (unit, get) in measures_of(result).items():
-            numbers.append(measured(name, case, unit, result, get))
-    return numbers
+    return [n for case, result in results.items() for n in measured_all({case: result}, measures_of(result))]
 
 
 def measures_of(result: Result) -> dict[str, tuple[str, Get]]:
     """Unit and measure of every number of a case, by name."""
     impulses = {name: ("N s", get) for name, get in IMPULSES.items()} if result.impulses else {}
-    return MEASURES | impulses | (cylinders.MEASURES if result.scenario.cylinders else {})
+    return MEASURES | impulses | (ON_CYLINDERS if result.scenario.cylinders else {})

@@ -8,9 +8,8 @@ from itertools import pairwise
 from studies.common.numbers import Found, cell
 from studies.common.runs import halvings
 from studies.common.words import Table
-from studies.drive_mode import cylinders
 from studies.drive_mode.cases import COLUMNS, MODES, NAIVE, PINS, case_name
-from studies.drive_mode.measures import IMPULSES, MEASURES, measures_of
+from studies.drive_mode.measures import IMPULSES, MEASURES, ON_CYLINDERS, measures_of
 from support_exudyn import Result
 
 SAVED = (
@@ -36,7 +35,7 @@ def mode_table(found: Found, columns: str) -> Table:
 
 def valve_table(found: Found) -> Table:
     """What there is on cylinders only."""
-    return _side_by_side(found, {name: unit for name, (unit, _) in cylinders.MEASURES.items()}, "cylinder")
+    return _side_by_side(found, {name: unit for name, (unit, _) in ON_CYLINDERS.items()}, "cylinder")
 
 
 def _side_by_side(found: Found, units: Mapping[str, str], columns: str) -> Table:

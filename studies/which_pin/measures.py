@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from studies.common import rise
-from studies.common.numbers import Number, compared, measured
+from studies.common.numbers import Number, compared, measured_all
 from studies.which_pin.cases import FORCES, IDEAL, SHAKEN
 from studies.which_pin.posture import posture_numbers
 from support_exudyn import Result
@@ -104,11 +104,7 @@ def measure(results: Mapping[str, Result]) -> list[Number]:
         else n
         for n in numbers
     ]
-    numbers += [
-        measured(name, case, "N", result, peak)
-        for case, result in results.items()
-        for name, peak in PEAKS.items()
-    ]
+    numbers += measured_all(results, {name: ("N", peak) for name, peak in PEAKS.items()})
     for case, result in results.items():
         if case != IDEAL:
             numbers += posture_numbers(case, result.scenario)
