@@ -17,7 +17,7 @@ from support_exudyn.postprocessing.export.meshes import parts_of, pin_points
 from support_exudyn.postprocessing.export.sampling import Sampling
 from support_exudyn.postprocessing.export.tables import to_csv, to_hdf5
 from support_exudyn.postprocessing.look.solid import Role
-from support_exudyn.postprocessing.render.pin_view import pin_view
+from support_exudyn.postprocessing.render.panels import pin_view
 from tests.cases.export_cases import (
     Read,
     by_vtk,

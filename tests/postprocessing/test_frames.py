@@ -14,13 +14,23 @@ from PIL import Image
 from PIL.ImageColor import getrgb
 
 from support_exudyn import Result
+from support_exudyn.postprocessing.figures.selection import nearest
 from support_exudyn.postprocessing.figures.style import CONTACT, FLIGHT
 from support_exudyn.postprocessing.render import movie, panels
-from support_exudyn.postprocessing.render.camera import fitted
-from support_exudyn.postprocessing.render.moments import moments, nearest
-from support_exudyn.postprocessing.render.panels import Inset, Strip, round_down, round_up, said, usual
-from support_exudyn.postprocessing.render.pin_view import Bore, PinView, pin_view
+from support_exudyn.postprocessing.render.movie import moments
+from support_exudyn.postprocessing.render.panels import (
+    Bore,
+    Inset,
+    PinView,
+    Strip,
+    pin_view,
+    round_down,
+    round_up,
+    said,
+    usual,
+)
 from support_exudyn.postprocessing.render.sheet import INK, Sheet
+from support_exudyn.postprocessing.render.stage import fitted
 from tests import synthetic
 from tests.cases.run_cases import PIN, loose_support
 

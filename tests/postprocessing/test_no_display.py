@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from support_exudyn import Held, simulate
-from support_exudyn.postprocessing.viewer.display import NoDisplayError, check_display
+from support_exudyn.postprocessing.viewer.view import NoDisplayError, check_display
 from tests import screen
 from tests.cases.run_cases import support
 from tests.processes import environment
@@ -69,8 +69,8 @@ def test_windows_that_are_not_to_open_do_not(run: Path, tmp_path: Path) -> None:
 
 
 def test_a_display_that_never_answers_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("support_exudyn.postprocessing.viewer.display.TRY", "import time; time.sleep(600)")
-    monkeypatch.setattr("support_exudyn.postprocessing.viewer.display.LONGEST", 0.2)
+    monkeypatch.setattr("support_exudyn.postprocessing.viewer.view.TRY", "import time; time.sleep(600)")
+    monkeypatch.setattr("support_exudyn.postprocessing.viewer.view.LONGEST", 0.2)
     monkeypatch.delenv("EXUDYN_SUPPRESS_UI_WINDOW_OPEN", raising=False)
     with pytest.raises(NoDisplayError, match=r"more than 0\.2 s"):
         check_display()

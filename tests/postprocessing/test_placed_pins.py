@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from support_exudyn import ClearancePin, Scenario
-from support_exudyn.postprocessing.look.placed_pins import PlacedPin, placed_pins
+from support_exudyn.postprocessing.look.poses import PlacedPin, placed_pins
 from tests.cases.run_cases import PIN, loose_support, paper_contact
 from tests.postprocessing.test_shield_look import HEAVY
 

@@ -13,7 +13,7 @@ from support_exudyn import ClearancePin, Scenario
 from support_exudyn.machines.free_impact import ImpactStand
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.postprocessing.look.looks import look
-from support_exudyn.postprocessing.look.placed_pins import planar_pins
+from support_exudyn.postprocessing.look.poses import planar_pins
 from support_exudyn.postprocessing.look.solid import Role
 from user_forces import Frictionless, JournalBearing, JournalContact, LankaraniNikravesh
 

@@ -23,16 +23,13 @@ from support_exudyn.model.loads.roof import Roof
 from support_exudyn.postprocessing.export.meshes import machine_mesh
 from support_exudyn.postprocessing.figures.style import CONTACT, FLIGHT
 from support_exudyn.postprocessing.render import render, still
-from support_exudyn.postprocessing.render.camera import Camera, direction_of_view
 from support_exudyn.postprocessing.render.frame import Layout
-from support_exudyn.postprocessing.render.moments import moment
-from support_exudyn.postprocessing.render.movie import durations
-from support_exudyn.postprocessing.render.panels import Inset
-from support_exudyn.postprocessing.render.pin_view import pin_view
+from support_exudyn.postprocessing.render.movie import durations, moment
+from support_exudyn.postprocessing.render.panels import Inset, pin_view
 from support_exudyn.postprocessing.render.scene import Scene
 from support_exudyn.postprocessing.render.sheet import Image as Picture
 from support_exudyn.postprocessing.render.sheet import Sheet
-from support_exudyn.postprocessing.render.stage import Prop, Stage
+from support_exudyn.postprocessing.render.stage import Camera, Prop, Stage, direction_of_view
 from tests.hostile import DISKS, left_behind, little_room, with_own_files
 from user_forces import InputError
 

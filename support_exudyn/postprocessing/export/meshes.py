@@ -15,8 +15,7 @@ from trimesh import Trimesh
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.postprocessing.look.looks import look
-from support_exudyn.postprocessing.look.placed_pins import placed_pins
-from support_exudyn.postprocessing.look.poses import Poses, strut_pose
+from support_exudyn.postprocessing.look.poses import Poses, placed_pins, strut_pose
 from support_exudyn.postprocessing.look.solid import Look, Role
 from support_exudyn.simulation.result import Result
 

@@ -9,6 +9,7 @@ import numpy as np
 from pydantic import Field, model_validator
 
 from support_exudyn.mechanics.trajectory import Series
+from support_exudyn.postprocessing.figures.selection import nearest
 from user_forces.values.value import InputError, NonNegative, Positive, Value, Whole, value
 
 MOST_FRAMES = 1_000_000
@@ -62,8 +63,6 @@ class Sampling(Value):
 
 def _nearest(time: Series, rate: float) -> np.ndarray:
     """Indexes of the times that lie nearest to a uniform row of times, each once."""
-    if time.size == 1:
-        return np.array([0])
     count = (time[-1] - time[0]) * rate
     if count > MOST_FRAMES:
         raise InputError(
@@ -71,6 +70,4 @@ def _nearest(time: Series, rate: float) -> np.ndarray:
             "all records"
         )
     wanted = time[0] + np.arange(math.floor(count + 1e-9) + 1) / rate
-    after = np.clip(np.searchsorted(time, wanted), 1, time.size - 1)
-    closer_before = wanted - time[after - 1] <= time[after] - wanted
-    return np.unique(np.where(closer_before, after - 1, after))
+    return np.unique(nearest(time, wanted))

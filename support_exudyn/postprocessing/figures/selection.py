@@ -10,6 +10,7 @@ from fnmatch import fnmatchcase
 import numpy as np
 import numpy.typing as npt
 
+from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError, short
 
@@ -65,3 +66,11 @@ def spacing(result: Result) -> float:
     """Time between records [s], the median; infinite if there is only one."""
     steps = np.diff(result.time)
     return float(np.median(steps)) if steps.size else math.inf
+
+
+def nearest(time: Series, asked: Series) -> npt.NDArray[np.intp]:
+    """The indexes of the records (n,) next to times (m,) [s]; of two that are equally near the earlier one."""
+    if time.size == 1:
+        return np.zeros(asked.size, dtype=np.intp)
+    after = np.clip(np.searchsorted(time, asked), 1, time.size - 1)
+    return np.where(asked - time[after - 1] <= time[after] - asked, after - 1, after).astype(np.intp)

@@ -13,7 +13,7 @@ from shapely.ops import unary_union
 from support_exudyn.model.linkage import GROUND, Column, Linkage, Slide
 from support_exudyn.model.loads.falling_block import FallingBlock
 from support_exudyn.model.to_space import at, copies
-from support_exudyn.postprocessing.look.placed_pins import planar_pins
+from support_exudyn.postprocessing.look.poses import planar_pins
 from support_exudyn.postprocessing.look.shapes import bar, bored, hull, plate, together, tube
 from support_exudyn.postprocessing.look.solid import Look, Role, Solid, Strut
 from support_exudyn.scenario.scenario import Scenario

@@ -17,8 +17,8 @@ from support_exudyn.model.columns import TwoBodyColumn
 from support_exudyn.model.linkage import GROUND, Column, lumped
 from support_exudyn.model.plane_geometry import minus, moved, parts_of
 from support_exudyn.model.to_space import LEFT, RIGHT, SIDES, at
-from support_exudyn.postprocessing.look.placed_pins import planar_pins
 from support_exudyn.postprocessing.look.plain import blocks
+from support_exudyn.postprocessing.look.poses import planar_pins
 from support_exudyn.postprocessing.look.shapes import ROUND, bar, cylinder_and_rod, plate, together, tube
 from support_exudyn.postprocessing.look.shield_sizes import Sizes, sizes, standing
 from support_exudyn.postprocessing.look.solid import Look, Role, Solid, Strut

@@ -8,12 +8,11 @@ import numpy as np
 
 from support_exudyn.model.pins import ClearancePin
 from support_exudyn.postprocessing.figures.style import CONTACT, FLIGHT, IDEAL
-from support_exudyn.postprocessing.render.camera import Camera
-from support_exudyn.postprocessing.render.moments import Moments
-from support_exudyn.postprocessing.render.panels import TRAIL, Inset, Strip, round_down, said, usual
-from support_exudyn.postprocessing.render.pin_view import PinView
+from support_exudyn.postprocessing.render.movie import Moments
+from support_exudyn.postprocessing.render.panels import TRAIL, Inset, PinView, Strip, round_down, said, usual
 from support_exudyn.postprocessing.render.scene import Scene
 from support_exudyn.postprocessing.render.sheet import FAINT, INK, Box, Image, Sheet
+from support_exudyn.postprocessing.render.stage import Camera
 from support_exudyn.scenario.scenario import Scenario
 
 ARROW = 0.24  # length of the usual force's arrow, of the height of a machine's picture that is as wide as usual

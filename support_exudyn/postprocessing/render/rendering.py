@@ -15,8 +15,8 @@ from support_exudyn.formulations.progress import Progress, silent
 from support_exudyn.postprocessing.export.whole_set import whole_set
 from support_exudyn.postprocessing.render import movie as movies
 from support_exudyn.postprocessing.render.frame import Layout, Painter
-from support_exudyn.postprocessing.render.moments import Moments, moment, moments
-from support_exudyn.postprocessing.render.pin_view import pin_view
+from support_exudyn.postprocessing.render.movie import Moments, moment, moments
+from support_exudyn.postprocessing.render.panels import pin_view
 from support_exudyn.postprocessing.render.scene import Scene
 from support_exudyn.postprocessing.render.sheet import Image as Picture
 from support_exudyn.postprocessing.render.stage import Stage

@@ -12,10 +12,9 @@ from support_exudyn.model.loads.roof import Roof
 from support_exudyn.postprocessing.look.looks import look
 from support_exudyn.postprocessing.look.poses import Poses, strut_pose
 from support_exudyn.postprocessing.look.solid import COLOURS, Look, Role, Strut
-from support_exudyn.postprocessing.render.camera import Camera, fitted
-from support_exudyn.postprocessing.render.pin_view import PinView
+from support_exudyn.postprocessing.render.panels import PinView
 from support_exudyn.postprocessing.render.scenery import GAP, Label, Surroundings, surroundings
-from support_exudyn.postprocessing.render.stage import Prop
+from support_exudyn.postprocessing.render.stage import Camera, Prop, fitted
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import Vector3
 

@@ -19,8 +19,7 @@ from support_exudyn.formulations.redundant.scene.engine_scene import INITIAL
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.postprocessing.look import looks
-from support_exudyn.postprocessing.look.placed_pins import PlacedPin, placed_pins
-from support_exudyn.postprocessing.look.poses import strut_axes
+from support_exudyn.postprocessing.look.poses import PlacedPin, placed_pins, strut_axes
 from support_exudyn.postprocessing.look.shapes import tube
 from support_exudyn.postprocessing.look.solid import COLOURS, Colour, Look, Role, Solid, Strut, solids_of
 from support_exudyn.postprocessing.viewer.engine_graphics import engine_surface
