@@ -26,11 +26,9 @@ DIGITS = 6  # of numbers without known error
 def what_was_run(result: Result) -> list[Row]:
     """Machine, pins, drives and settings: name and words."""
     scenario = result.scenario
+    space = "in the plane" if scenario.dimensions == 2 else "in space"
     rows: list[Row] = [
-        (
-            "machine",
-            f"{type(scenario.machine).__name__}, {'in the plane' if scenario.dimensions == 2 else 'in space'}",
-        ),
+        ("machine", f"{type(scenario.machine).__name__}, {space}"),
         ("duration", f"{scenario.duration:g} s, recorded every {said(scenario.record_period, 's')}"),
         ("start", f"{scenario.start}, gravity {scenario.gravity[0]:g}, {scenario.gravity[1]:g} m/s²"),
     ]
@@ -62,10 +60,7 @@ def how(result: Result) -> list[Row]:
         ("formulation", f"{scenario.formulation}, {steps}"),
         ("accuracy", accuracy),
         ("counts", ", ".join(f"{count} {name.replace('_', ' ')}" for name, count in made if count)),
-        (
-            "wall time",
-            f"{said(result.wall_time, 's')}{' (all runs of the accuracy)' if result.coarser else ''}",
-        ),
+        ("wall time", said(result.wall_time, "s") + (" (all runs of the accuracy)" if result.coarser else "")),
         ("made", f"{result.provenance.get('made_at', 'at a time unknown')} with {', '.join(versions)}"),
     ]
 
@@ -91,7 +86,7 @@ def numbers(result: Result, after: float, until: float) -> dict[str, Estimate]:
 
 
 def came_out(result: Result, after: float, until: float) -> list[Row]:
-    """The same in the units in which they are read best: name, value, error (empty if not known), unit.
+    """`numbers` in the units in which they are read best: name, value, error (empty if not known), unit.
 
     Raises InputError if no record lies between.
     """
@@ -192,11 +187,9 @@ def _pin(result: Result, name: str, pin: Pin) -> str:
 
 
 def _energies(result: Result) -> dict[str, float]:
-    """Of the whole run [J], as far as they were recorded."""
-    found = {}
-    for name in ("work", "damping_loss", "friction_loss"):
-        if f"energy.{name}" in result.channels:
-            found[f"energy.{name} at the end"] = float(result[f"energy.{name}"][-1])
+    """Energies of the whole run [J], as far as they were recorded."""
+    names = [f"energy.{name}" for name in ("work", "damping_loss", "friction_loss")]
+    found = {f"{name} at the end": float(result[name][-1]) for name in names if name in result.channels}
     if "energy.balance" in result.channels:
         found["energy not accounted for, largest"] = result.energy_error
     return found

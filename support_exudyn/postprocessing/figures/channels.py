@@ -22,14 +22,7 @@ from support_exudyn.simulation.reported_numbers import ROUNDING
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
 
-Dashes = str | tuple[int, tuple[float, ...]]
-# the curves of a panel: colours that are told apart by all readers, dashes for grey prints
-CURVES: tuple[tuple[str, Dashes], ...] = (
-    (style.LOOSE, "-"),
-    (style.SMOOTH, (0, (6, 1.5))),
-    (style.THIRD, (0, (3, 1, 1, 1))),
-    (style.IDEAL, (0, (1, 1))),
-)
+CURVES = style.CURVES[:4]  # of a panel
 MOST = 32  # channels in a figure
 PANEL_MM, LINE_MM, REST_MM = 38.0, 4.0, 30.0  # height of a panel, of a line of its legend, and of the rest
 LETTERS = 22  # of a line beside a panel
@@ -110,7 +103,8 @@ def over_time(result: Result, channels: Sequence[str], start: float = 0.0, until
     chosen = inside(result, start, until)
     panels = groups(result, names, chosen)
     lines = sum(len(panel.names) for panel in panels)
-    drawing = Figure(figsize=style.size(170, REST_MM + PANEL_MM * len(panels) + LINE_MM * lines))
+    title = f"{type(result.scenario.machine).__name__}, {said(result, start, until)}"
+    drawing = style.begin(170, REST_MM + PANEL_MM * len(panels) + LINE_MM * lines, title)
     rows = drawing.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
     seconds = readable("s", float(np.ptp(result.time[chosen])))
     worst: dict[str, float] = {}
@@ -120,9 +114,6 @@ def over_time(result: Result, channels: Sequence[str], start: float = 0.0, until
     drawing.align_ylabels(rows)
     rows[-1].set_xlabel(f"time [{seconds.name}]")
     rows[-1].set_xlim(*(seconds.scale * result.time[chosen][[0, -1]]))
-    drawing.suptitle(
-        f"{type(result.scenario.machine).__name__}, {said(result, start, until)}", x=0.01, ha="left"
-    )
     caption(drawing, _words(result, worst))
     return drawing
 

@@ -57,7 +57,7 @@ def check_figure(report: Report) -> Figure:
 def _(report: ShieldReport) -> Figure:
     """A support in three postures, and curves over its stroke."""
     machine, fine = report.machine, report.fine
-    drawing = Figure(figsize=style.size(180, 205))
+    drawing = style.begin(180, 205, report.name)
     grid = drawing.add_gridspec(3, 2, height_ratios=(1.75, 1.0, 1.0))
     upper = grid[0, :].subgridspec(1, 2, width_ratios=(2.7, 1.0))
     _machine(drawing.add_subplot(upper[0]), machine, fine)
@@ -75,14 +75,13 @@ def _(report: ShieldReport) -> Figure:
         axes.axhline(0.0, color=GREY, lw=0.6)
         axes.set(xlabel="stroke [mm]", title=title, ylabel="force [kN]")
         _forces(axes, stroke, forces, room=0.45)
-    drawing.suptitle(report.name, x=0.01, ha="left")
     return drawing
 
 
 @check_figure.register
 def _(report: CrankReport) -> Figure:
     """A slider-crank at three angles, and curves over one revolution."""
-    drawing, fine = Figure(figsize=style.size(170, 150)), report.fine
+    drawing, fine = style.begin(170, 150, report.name), report.fine
     grid = drawing.add_gridspec(2, 2, height_ratios=(1.2, 1.0))
     _crank(drawing.add_subplot(grid[0, :]), report.machine)
     degrees = [math.degrees(one.angle) for one in fine]
@@ -97,7 +96,6 @@ def _(report: CrankReport) -> Figure:
     _forces(right, degrees, {**forces, "guide": guide}, room=0.4)
     for axes in (left, right):
         axes.set(xlim=(0.0, 360.0), xticks=range(0, 361, 90), xlabel="crank from +x [degrees]")
-    drawing.suptitle(report.name, x=0.01, ha="left")
     return drawing
 
 

@@ -33,7 +33,8 @@ def orbit(result: Result, pin: str | None = None, start: float = 0.0, until: flo
     Raises InputError if there is no such loose pin, or fewer than two records lie between the times.
     """
     shown = journal(result, pin, start, until)
-    drawing = Figure(figsize=style.size(170, 112))
+    title = f"Journal orbit, pin {shown.pin}, {1e3 * shown.clearance:g} mm clearance"
+    drawing = style.begin(170, 112, f"{title}, {said(result, start, until)}")
     grid = drawing.add_gridspec(3, 2, width_ratios=(1.15, 1.0), height_ratios=(1.0, 1.0, 0.12))
     unit = readable("m", max(shown.clearance, float(np.hypot(shown.x, shown.y).max())))
     place = drawing.add_subplot(grid[:2, 0])
@@ -51,10 +52,6 @@ def orbit(result: Result, pin: str | None = None, start: float = 0.0, until: flo
     handles, labels = place.get_legend_handles_labels()
     below.legend(handles, labels, loc="center left", ncols=len(labels), fontsize=7, borderaxespad=0.0)
     depth.locator_params(axis="x", nbins=5)
-    drawing.suptitle(
-        f"Journal orbit, pin {shown.pin}, {1e3 * shown.clearance:g} mm clearance, {said(result, start, until)}",
-        x=0.01, ha="left",
-    )  # fmt: skip
     caption(drawing, _words(result, shown))
     return drawing
 

@@ -29,6 +29,7 @@ DOT: dict[str, Any] = {"marker": "o", "ms": 3.0, "mew": 0.0, "ls": "none", "zord
 CONTACT_MARK = {**DOT, "color": style.CONTACT}
 FLIGHT_MARK = {**DOT, "color": style.FLIGHT, "marker": "^", "ms": 4.0}
 PLAIN_MARK = {**DOT, "color": style.IDEAL}
+BELOW: dict[str, Any] = {"loc": "upper center", "bbox_to_anchor": (0.5, -0.19), "fontsize": 7}  # a legend
 NARROW = 0.01  # share of its size below which only the spread of a channel is shown
 SAME = 1e-4  # ... and below which all points are the same, which they are then seen to be
 
@@ -47,15 +48,12 @@ def period(scenario: Scenario) -> float | None:
     A crank that turns steadily has a revolution, a reciprocating drive its own. Drives that hold still do not
     count.
     """
-    found = set()
-    for name in scenario.driven:
-        drive = scenario.drive_of(name)
-        if isinstance(drive, Held):
-            continue
-        one = _period(drive, turns=name in scenario.linkage.cranks)
-        if one is None:
-            return None
-        found.add(one)
+    drives = {name: scenario.drive_of(name) for name in scenario.driven}
+    found = {
+        _period(drive, turns=name in scenario.linkage.cranks)
+        for name, drive in drives.items()
+        if not isinstance(drive, Held)
+    }
     return found.pop() if len(found) == 1 else None
 
 
@@ -151,7 +149,9 @@ def _by_period(
     pair = tuple(channels) or _pair(result, shown.pin if shown else None)
     if shown is None and not pair:
         raise InputError("a section: the run has neither a loose pin nor a moving body on record")
-    drawing = Figure(figsize=style.size(170, 95 if shown else 110))
+    of = f", pin {shown.pin}" if shown is not None else ""
+    title = f"Poincare section once in a period{of}, {said(result, start, until)}"
+    drawing = style.begin(170, 95 if shown else 110, title)
     panels = drawing.subplots(1, bool(shown) + bool(pair), squeeze=False)[0]
     touching = None
     if shown is not None:
@@ -164,8 +164,6 @@ def _by_period(
     length = period(result.scenario)
     assert length is not None  # there are times
     count = periodic_times(result, phase, start, until).size
-    of = f", pin {shown.pin}" if shown is not None else ""
-    drawing.suptitle(f"Poincare section once in a period{of}, {said(result, start, until)}", x=0.01, ha="left")
     caption(
         drawing,
         f"{count} points, one in every period of the drive ({units.said(length, 's', 4)}) at {phase:g} of it; "
@@ -201,7 +199,7 @@ def _draw_places(
     reach *= 1.12 * unit.scale
     axes.set(aspect="equal", xlim=(-reach, reach), ylim=(-reach, reach))
     axes.set(xlabel=f"eccentricity x [{unit.name}]", ylabel=f"eccentricity y [{unit.name}]")
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.19), ncols=3, fontsize=7)
+    axes.legend(ncols=3, **BELOW)
     return touching
 
 
@@ -215,15 +213,12 @@ def _draw_section(
     touching: npt.NDArray[np.bool_] | None,
 ) -> None:
     section = stroboscopic(result, *pair, phase, start, until)
-    shown, labels = [], []
-    for name, values in zip(pair, (section.first, section.second), strict=True):
-        numbers, label = _readable_spread(name, values, result.unit(name))
-        shown.append(numbers)
-        labels.append(label)
-    _marked(axes, shown[0], shown[1], touching)
-    axes.set(xlabel=labels[0], ylabel=labels[1])
-    axes.set_xlim(*_widen(float(shown[0].min()), float(shown[0].max())))
-    axes.set_ylim(*_widen(float(shown[1].min()), float(shown[1].max())))
+    (x, x_name), (y, y_name) = (
+        _readable_spread(name, values, result.unit(name))
+        for name, values in zip(pair, (section.first, section.second), strict=True)
+    )
+    _marked(axes, x, y, touching)
+    axes.set(xlabel=x_name, ylabel=y_name, xlim=_widened(x), ylim=_widened(y))
     axes.locator_params(nbins=4)
 
 
@@ -238,11 +233,11 @@ def _readable_spread(name: str, values: Series, unit: str) -> tuple[Series, str]
     return chosen.scale * (values - middle), f"{name},\nfrom {at.scale * middle:.6g} {at.name} [{chosen.name}]"
 
 
-def _widen(low: float, high: float) -> tuple[float, float]:
+def _widened(values: Series) -> tuple[float, float]:
     """Limits of an axis; around values that are all the same, so far apart that ticks can be told apart."""
-    margin = 0.08 * (high - low)
-    size = max(abs(low), abs(high))
-    return low - max(margin, 0.01 * NARROW * size), high + max(margin, 0.01 * NARROW * size)
+    low, high = float(values.min()), float(values.max())
+    margin = max(0.08 * (high - low), 0.01 * NARROW * max(abs(low), abs(high)))
+    return low - margin, high + margin
 
 
 def _marked(axes: Axes, x: Series, y: Series, touching: npt.NDArray[np.bool_] | None) -> None:
@@ -267,13 +262,11 @@ def _by_touch(result: Result, shown: Journal, start: float, until: float) -> Fig
         )
     speeds = np.array([touch.speed for touch in shown.touches])
     unit = readable("m/s", float(speeds.max()))
-    drawing = Figure(figsize=style.size(170, 95))
+    title = f"Poincare section by touches, pin {shown.pin}, {said(result, start, until)}"
+    drawing = style.begin(170, 95, title)
     places, returns = drawing.subplots(1, 2)
     _draw_touches(places, DEGREES * _together(shown.directions), unit.scale * speeds, unit)
     _draw_returns(returns, unit.scale * speeds, unit)
-    drawing.suptitle(
-        f"Poincare section by touches, pin {shown.pin}, {said(result, start, until)}", x=0.01, ha="left"
-    )
     none = period(result.scenario) is None
     why = "The drive has no period" if none else f"Fewer than {FEWEST_PERIODS} periods of the drive lie here"
     caption(
@@ -301,7 +294,7 @@ def _draw_touches(axes: Axes, directions: Series, speeds: Series, unit: Unit) ->
     axes.set_ylim(0.0, None)
     axes.margins(x=0.08)
     axes.set_title("a) where and how fast it touches")
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.19), fontsize=7)
+    axes.legend(**BELOW)
 
 
 def _draw_returns(axes: Axes, speeds: Series, unit: Unit) -> None:
@@ -311,4 +304,4 @@ def _draw_returns(axes: Axes, speeds: Series, unit: Unit) -> None:
     axes.set(aspect="equal", xlim=(0.0, top), ylim=(0.0, top))
     axes.set(xlabel=f"approach speed of a touch [{unit.name}]", ylabel=f"of the next one [{unit.name}]")
     axes.set_title("b) from touch to touch")
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.19), ncols=2, fontsize=7)
+    axes.legend(ncols=2, **BELOW)

@@ -35,7 +35,7 @@ COLOURS = "Greys"
 
 @dataclass(frozen=True)
 class Spectrum:
-    """Of a quantity of unit U that was sampled at equal times.
+    """The spectrum of a quantity of unit U that was sampled at equal times.
 
     frequency: (m,) [Hz]. amplitude: of a sine of each frequency [U], (m,). density: power by frequency,
     one-sided [U^2/Hz], (m,). resolution: between two frequencies [Hz]. spacing: between two samples [s].
@@ -148,13 +148,13 @@ def force_spectrum(
     chosen = inside(result, start, until, FEWEST)
     time, force = result.time[chosen], result[f"pin.{pin}.force"][chosen]
     found = spectrum(time, force, segments)
-    drawing = Figure(figsize=style.size(170, 130 if over_time else 85))
+    title = f"Spectrum of the force in pin {pin}, {said(result, start, until)}"
+    drawing = style.begin(170, 130 if over_time else 85, title)
     panels = drawing.subplots(2 if over_time else 1, 1, squeeze=False)[:, 0]
     _draw(panels[0], found, style.CONTACT if pin in result.onsets else style.IDEAL)
     if over_time:
         panels[0].set_title("a) amplitudes")
         _draw_over_time(panels[1], time, force)
-    drawing.suptitle(f"Spectrum of the force in pin {pin}, {said(result, start, until)}", x=0.01, ha="left")
     caption(drawing, _words(result, pin, found, float(time[0]), float(time[-1]), over_time))
     return drawing
 

@@ -64,6 +64,13 @@ def size(width_mm: float, height_mm: float) -> tuple[float, float]:
     return width_mm / 25.4, height_mm / 25.4
 
 
+def begin(width_mm: float, height_mm: float, title: str) -> Figure:
+    """An empty figure of a size with a title on its left."""
+    drawing = Figure(figsize=size(width_mm, height_mm))
+    drawing.suptitle(title, x=0.01, ha="left")
+    return drawing
+
+
 def caption(drawing: Figure, text: str) -> None:
     """Write a text below all panels, in lines as long as the figure is wide."""
     width_mm = 25.4 * float(drawing.get_figwidth())

@@ -22,13 +22,8 @@ if TYPE_CHECKING:
 
 LITTLE = 1e-3  # share of a number in whose unit a smaller difference is still shown
 LOST = "#666666"  # runs without a result
-# curves: colours that are told apart by all readers, lightness and markers for grey prints
-CURVES = (
-    (style.LOOSE, "o", "-"),
-    (style.SMOOTH, "s", (0, (6, 1.5))),
-    (style.THIRD, "^", (0, (3, 1, 1, 1))),
-    (style.IDEAL, "D", (0, (1, 1))),
-)
+# curves: with markers, too, for grey prints
+CURVES = tuple((colour, marker, dashes) for (colour, dashes), marker in zip(style.CURVES, "os^D", strict=False))
 
 
 def sweep_chart(table: pa.Table, x: str, y: str, by: str | None = None) -> Figure:
@@ -60,7 +55,7 @@ def sweep_chart(table: pa.Table, x: str, y: str, by: str | None = None) -> Figur
     alike = all(name in (x, by) or len(set(map(str, rows[name]))) == 1 for name in varied)
     known = f"{y}_error" in rows
     errors = np.array([np.nan if one is None else one for one in rows[f"{y}_error"]]) if known else None
-    drawing = Figure(figsize=style.size(170, 95))
+    drawing = style.begin(170, 95, f"{_bare(y, unit)} over {in_words(x).partition(' [')[0]}")
     axes = drawing.subplots()
     for label, chosen, (colour, marker, dashes) in _curves(rows, by, len(values)):
         there = chosen & ~np.isnan(values)
@@ -86,7 +81,6 @@ def sweep_chart(table: pa.Table, x: str, y: str, by: str | None = None) -> Figur
         sequence = sorted(range(len(labels)), key=lambda n: labels[n].startswith("no result"))  # these last
         handles, labels = [handles[n] for n in sequence], [labels[n] for n in sequence]
         axes.legend(handles, labels, title=None if by is None else in_words(by), loc="best", alignment="left")
-    drawing.suptitle(f"{_bare(y, unit)} over {in_words(x).partition(' [')[0]}", x=0.01, ha="left")
     caption(drawing, _words(rows, varied, x, by, known))
     return drawing
 

@@ -40,7 +40,8 @@ def look(scenario: Scenario) -> Look:
     layers = _layers(scenario, 1.1 * thickness)
     solids = []
     for name, around in points.items():
-        wide = max([margin, *(WALL * bore_radius(scenario, pin, margin) for pin in _pins_of(linkage, name))])
+        pins = [pin for pin, place in linkage.pins.items() if name in (place.first, place.second)]
+        wide = max([margin, *(WALL * bore_radius(scenario, pin, margin) for pin in pins)])
         outline = _outline(linkage, name, around, wide, size)
         for pin in planar_pins(scenario).values():
             if pin.bore.body == name:
@@ -53,7 +54,8 @@ def look(scenario: Scenario) -> Look:
             solids.append(Solid(body, body, Role.BODY, mesh))
     solids += _pins(scenario, layers, thickness, margin)
     lowest = min(y for around in points.values() for _, y in around)
-    return Look(tuple(solids), struts(scenario, 0.5 * margin), lowest - margin)
+    columns = [strut for name in linkage.columns for strut in _struts(scenario, name, 0.5 * margin)]
+    return Look(tuple(solids), tuple(columns), lowest - margin)
 
 
 def _layers(scenario: Scenario, apart: float) -> dict[str, float]:
@@ -61,11 +63,6 @@ def _layers(scenario: Scenario, apart: float) -> dict[str, float]:
     names = [*scenario.linkage.bodies, GROUND]
     known = scenario.machine.widths() is not None
     return {name: 0.0 if known else n * apart for n, name in enumerate(names)}
-
-
-def _pins_of(linkage: Linkage, body: str) -> list[str]:
-    """Names of the pins on a body."""
-    return [name for name, place in linkage.pins.items() if body in (place.first, place.second)]
 
 
 def _outline(linkage: Linkage, body: str, around: Sequence[Vector2], wide: float, size: float) -> Polygon:
@@ -111,19 +108,16 @@ def _pins(scenario: Scenario, layers: Mapping[str, float], thickness: float, mar
 
 def joined_points(linkage: Linkage) -> dict[str, list[Vector2]]:
     """The points of every body, and of the ground, at which something is joined or traced, start posture."""
+    known = [
+        *((name, body.centre) for name, body in linkage.bodies.items()),
+        *(end for p in linkage.pins.values() for end in ((p.first, p.first_point), (p.second, p.second_point))),
+        *(end for c in linkage.columns.values() for end in ((c.foot, c.foot_point), (c.head, c.head_point))),
+        *((point.body, point.point) for point in linkage.points.values()),
+        *((slide.against, slide.point) for slide in linkage.slides.values()),
+    ]
     found: dict[str, list[Vector2]] = defaultdict(list)
-    for name, body in linkage.bodies.items():
-        found[name].append(body.centre)
-    for pin in linkage.pins.values():
-        found[pin.first].append(pin.first_point)
-        found[pin.second].append(pin.second_point)
-    for column in linkage.columns.values():
-        found[column.foot].append(column.foot_point)
-        found[column.head].append(column.head_point)
-    for point in linkage.points.values():
-        found[point.body].append(point.point)
-    for slide in linkage.slides.values():
-        found[slide.against].append(slide.point)
+    for name, place in known:
+        found[name].append(place)
     return dict(found)
 
 
@@ -134,7 +128,7 @@ def extent(linkage: Linkage) -> float:
 
 
 def bore_radius(scenario: Scenario, pin: str, margin: float) -> float:
-    """Of a pin's bore [m], as far as the scenario knows it."""
+    """The radius of a pin's bore [m], as far as the scenario knows it."""
     loose = scenario.clearance_pins.get(pin)
     if loose is not None:
         return loose.contact.bearing.bore_radius
@@ -168,12 +162,8 @@ def _pairs(scenario: Scenario) -> Mapping[str, float]:
     return {**width.pairs, **of_columns}
 
 
-def struts(scenario: Scenario, radius: float) -> tuple[Strut, ...]:
-    """All columns as cylinder and rod; radius: of the cylinder [m]."""
-    return tuple(strut for name in scenario.linkage.columns for strut in _struts(scenario, name, radius))
-
-
 def _struts(scenario: Scenario, name: str, radius: float) -> Iterator[Strut]:
+    """A column as cylinder and rod; radius: of the cylinder [m]."""
     column: Column = scenario.linkage.columns[name]
     width = scenario.machine.widths()
     pairs = _pairs(scenario)
@@ -182,15 +172,9 @@ def _struts(scenario: Scenario, name: str, radius: float) -> Iterator[Strut]:
     rod = tube((-0.9 * reach, 0.0, 0.0), (0.0, 0.0, 0.0), 0.65 * radius)
     for side, z, _ in copies(width.columns.get(name) if width else None):
         part = side if scenario.dimensions == 3 else ""
-        yield Strut(
-            name + side,
-            column.foot + part * (column.foot in pairs),
-            column.head + part * (column.head in pairs),
-            at(column.foot_point, z),
-            at(column.head_point, z),
-            cylinder,
-            rod,
-        )
+        foot, head = column.foot + part * (column.foot in pairs), column.head + part * (column.head in pairs)
+        ends = at(column.foot_point, z), at(column.head_point, z)
+        yield Strut(name + side, foot, head, *ends, cylinder, rod)
 
 
 def blocks(scenario: Scenario) -> list[Solid]:

@@ -9,8 +9,9 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from support_exudyn.mechanics.trajectory import Series
-from support_exudyn.model.linkage import GROUND
+from support_exudyn.model.linkage import GROUND, Body
 from support_exudyn.model.pins import ClearancePin
+from support_exudyn.model.spatial_linkage import SpatialBody
 from support_exudyn.model.to_space import at
 from support_exudyn.postprocessing.look.solid import Strut
 from support_exudyn.scenario.scenario import Scenario
@@ -20,6 +21,7 @@ from user_forces.values.value import Vector3
 MOST_CORRECTIONS = 50  # of a rotation; three do for a machine
 WHY = "without it nobody knows where the body is"
 ROUNDING = 1e-14  # [rad]
+ONLY_IN_SPACE = ("z", "velocity_z", "angular_velocity_x", "angular_velocity_y")
 
 
 @dataclass(frozen=True)
@@ -71,11 +73,11 @@ class Poses:
 
     @property
     def time(self) -> Series:
-        """Of the records, shape (n,) [s]."""
+        """The times of the records, shape (n,) [s]."""
         return self._result.time
 
     def of(self, body: str) -> Pose:
-        """A body by its name, or "ground"."""
+        """The pose of a body by its name, or of "ground"."""
         return self._of(body)
 
     def _read(self, body: str) -> Pose:
@@ -84,35 +86,26 @@ class Poses:
             nowhere = np.zeros((rows, 3))
             unturned = np.broadcast_to(np.eye(3), (rows, 3, 3))
             return Pose((0.0, 0.0, 0.0), nowhere, unturned, nowhere, nowhere)
-        if scenario.dimensions == 3:
-            return self._in_space(scenario, body)
-        return self._in_plane(scenario, body)
+        in_space = scenario.dimensions == 3
+        known: Body | SpatialBody = (scenario.space if in_space else scenario.linkage).bodies[body]
 
-    def _in_plane(self, scenario: Scenario, body: str) -> Pose:
-        known, zero = scenario.linkage.bodies[body], np.zeros(self.time.size)
-        turn = self._channel(f"{body}.angle") - known.angle
+        def channel(name: str) -> Series:
+            if name in ONLY_IN_SPACE and not in_space:
+                return np.zeros(rows)
+            return self._result.recorded(f"{body}.{name}", WHY)
+
+        def columns(*names: str) -> Series:
+            return np.column_stack([channel(name) for name in names])
+
+        angle = channel("angle") - known.angle
+        x, y, *z = known.centre
         return Pose(
-            (*known.centre, 0.0),
-            np.column_stack([self._channel(f"{body}.x"), self._channel(f"{body}.y"), zero]),
-            _about_z(turn),
-            np.column_stack([self._channel(f"{body}.velocity_x"), self._channel(f"{body}.velocity_y"), zero]),
-            np.column_stack([zero, zero, self._channel(f"{body}.angular_velocity")]),
+            (x, y, z[0] if z else 0.0),
+            columns("x", "y", "z"),
+            turned(angle, channel("roll"), channel("yaw")) if in_space else _about_z(angle),
+            columns("velocity_x", "velocity_y", "velocity_z"),
+            columns("angular_velocity_x", "angular_velocity_y", "angular_velocity"),
         )
-
-    def _in_space(self, scenario: Scenario, body: str) -> Pose:
-        known = scenario.space.bodies[body]
-        turn = self._channel(f"{body}.angle") - known.angle
-        spins = ("angular_velocity_x", "angular_velocity_y", "angular_velocity")
-        return Pose(
-            known.centre,
-            np.column_stack([self._channel(f"{body}.{axis}") for axis in "xyz"]),
-            turned(turn, self._channel(f"{body}.roll"), self._channel(f"{body}.yaw")),
-            np.column_stack([self._channel(f"{body}.velocity_{axis}") for axis in "xyz"]),
-            np.column_stack([self._channel(f"{body}.{spin}") for spin in spins]),
-        )
-
-    def _channel(self, name: str) -> Series:
-        return self._result.recorded(name, WHY)
 
 
 def _about_z(angle: Series) -> Series:

@@ -52,9 +52,7 @@ def lathed(profile: Sequence[tuple[float, float]]) -> Trimesh:
     """
     places, radii = np.array(profile).T
     mesh: Trimesh = revolve(np.column_stack([radii, places]), sections=SECTIONS)
-    mesh.apply_transform(
-        [[0.0, 0.0, 1.0, 0.0], [1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0]]
-    )
+    mesh.apply_transform(np.eye(4)[[2, 0, 1, 3]])  # z becomes x
     return mesh
 
 
@@ -66,7 +64,7 @@ def together(meshes: Iterable[Trimesh]) -> Trimesh:
 
 
 INSIDE = (
-    0.08  # of the shortest length: the rod that always stays in the cylinder, and the end that it never reaches
+    0.08  # of the shortest length: rod that always stays in the cylinder, and the end that it never reaches
 )
 SHORTEST_CYLINDER = 0.68  # of the shortest length
 BALL = 0.95  # radius of the ends, of the cylinder's

@@ -11,7 +11,7 @@ from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.loads.roof import Roof
 from support_exudyn.postprocessing.look.looks import look
 from support_exudyn.postprocessing.look.poses import Poses, strut_pose
-from support_exudyn.postprocessing.look.solid import COLOURS, Look, Role, Strut
+from support_exudyn.postprocessing.look.solid import COLOURS, Look, Role, Solid
 from support_exudyn.postprocessing.render.panels import PinView
 from support_exudyn.postprocessing.render.scenery import GAP, Label, Surroundings, surroundings
 from support_exudyn.postprocessing.render.stage import Camera, Prop, fitted
@@ -24,10 +24,7 @@ NOWHERE = np.zeros(3)
 
 
 class Scene:
-    """Of a run.
-
-    Raises InputError if the run has not recorded where its bodies are.
-    """
+    """The scene of a run. Raises InputError if the run has not recorded where its bodies are."""
 
     def __init__(self, result: Result) -> None:
         self.result = result
@@ -39,28 +36,26 @@ class Scene:
     def points(self) -> Series:
         """Where the machine is at these records, shape (n, 3) [m]."""
         found = []
-        for record in self.records:
-            for solid in self.look.solids:
-                corners = solid.mesh.convex_hull.vertices
-                found.append(self.poses.of(solid.body).points(corners, int(record)))
+        for record in self.records.tolist():
+            found += [self._hull(solid, record) for solid in self.look.solids]
             for strut in self.look.struts:
-                for mesh, (place, turn) in zip(
-                    (strut.cylinder, strut.rod), self._strut(strut, int(record)), strict=True
-                ):
-                    found.append(mesh.bounds @ turn.T + place)
+                pose = strut_pose(strut, self.poses, record)
+                found += [pose.cylinder(strut.cylinder.bounds)[0], pose.rod(strut.rod.bounds)[0]]
         return np.concatenate(found)
+
+    def _hull(self, solid: Solid, record: int) -> Series:
+        """The outermost points of a solid (n, 3) [m]."""
+        return self.poses.of(solid.body).points(solid.mesh.convex_hull.vertices, record)
 
     @cached_property
     def surroundings(self) -> Surroundings | None:
-        """Of a support; None of machines without a canopy."""
+        """What stands around a support; None around machines without a canopy."""
         canopies = [solid for solid in self.look.solids if solid.role is Role.CANOPY]
         if not canopies:
             return None
         length = float(np.ptp(self.points[:, 0]))
         highest = max(
-            self.poses.of(solid.body).points(solid.mesh.convex_hull.vertices, int(record))[:, 1].max()
-            for solid in canopies
-            for record in self.records
+            self._hull(one, record)[:, 1].max() for one in canopies for record in self.records.tolist()
         )
         half_width = float(np.abs(self.points[:, 2]).max())
         roof = self._face(0)
@@ -95,7 +90,8 @@ class Scene:
             pose = self.poses.of(solid.body)
             yield pose.place[record], pose.turn[record]
         for strut in self.look.struts:
-            yield from self._strut(strut, record)
+            ends = strut_pose(strut, self.poses, record)
+            yield from ((ends.foot, ends.axes), (ends.head, ends.axes))
         if self.surroundings is not None:
             yield from ((NOWHERE, UNTURNED) for _ in self.surroundings.props)
             yield np.array([0.0, self.roof(record), 0.0]), UNTURNED
@@ -106,19 +102,10 @@ class Scene:
         face = self._face(record)
         return self.surroundings.roof_height if face is None else face
 
-    def _strut(self, strut: Strut, record: int) -> Iterator[tuple[Series, Series]]:
-        """Of cylinder and rod; their x axis runs from foot to head."""
-        pose = strut_pose(strut, self.poses, record)
-        yield pose.foot, pose.axes
-        yield pose.head, pose.axes
-
     def camera(self, width: int, height: int) -> Camera:
-        """That sees all of it over the whole run."""
-        points = (
-            self.points
-            if self.surroundings is None
-            else np.concatenate([self.points, self.surroundings.points])
-        )
+        """The camera that sees all of it over the whole run."""
+        around = self.surroundings
+        points = self.points if around is None else np.concatenate([self.points, around.points])
         margin = max(2, round(0.02 * height))
         return fitted(points, width, height, (margin, margin, margin, margin))
 
@@ -130,12 +117,8 @@ class Scene:
         x, y, z = word.place
         return [*self.surroundings.labels, Label(word.text, (x, y + self.roof(record), z), word.light)]
 
-    def near_end(self, pin: PinView) -> float:
-        """z of the end of a pin that the camera sees [m]."""
-        ends = [s.mesh.bounds[0, 2] for s in self.look.solids if s.name.startswith(f"pin_{pin.name}")]
-        return float(min(ends)) if ends else float(self.points[:, 2].min())
-
     def seen(self, pin: PinView, record: int) -> Vector3:
-        """Where the visible end of a pin is [m]."""
+        """Where the end of a pin is that the camera sees [m]."""
         x, y, _ = pin.path[record]
-        return float(x), float(y), self.near_end(pin)
+        ends = [s.mesh.bounds[0, 2] for s in self.look.solids if s.name.startswith(f"pin_{pin.name}")]
+        return float(x), float(y), float(min(ends, default=self.points[:, 2].min()))

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from shapely.geometry import Polygon
+from shapely.geometry import Polygon, box
 from trimesh import Trimesh
 from trimesh.convex import convex_hull
 
@@ -61,7 +61,7 @@ class Surroundings:
 
 
 def surroundings(machine: Series, floor: float, roof_height: float, half_width: float) -> Surroundings:
-    """Of a machine that is at some time or other at all these points (n, 3).
+    """What stands around a machine that is at some time or other at all these points (n, 3).
 
     Arguments:
         machine: points of its surface [m].
@@ -78,20 +78,9 @@ def surroundings(machine: Series, floor: float, roof_height: float, half_width: 
     ground = _slab(right, left, floor - 0.035 * length, floor, -1.25 * half_width, deep)
     coal = _slab(face, left, floor, roof_height + thick, 0.0, deep)
     edge = back - 0.02 * length  # where the roof has broken off
-    roof = plate(
-        Polygon(
-            [
-                (face, 0.0),
-                (edge + 0.05 * length, 0.0),
-                (edge, 0.35 * thick),
-                (edge + 0.03 * length, 0.6 * thick),
-                (edge - 0.03 * length, thick),
-                (face, thick),
-            ]
-        ),
-        0.5 * deep,
-        deep,
-    )
+    broken = [(0.05, 0.0), (0.0, 0.35), (0.03, 0.6), (-0.03, 1.0)]  # of the length, of the thickness
+    crack = [(edge + x * length, y * thick) for x, y in broken]
+    roof = plate(Polygon([(face, 0.0), *crack, (face, thick)]), 0.5 * deep, deep)
     height = roof_height - floor
     heap = 0.82 * height
     behind = Polygon(
@@ -104,7 +93,7 @@ def surroundings(machine: Series, floor: float, roof_height: float, half_width: 
         Label("floor", (face - 0.16 * length, floor - 0.0175 * length, -1.25 * half_width)),
         Label("goaf", (right + 0.22 * (back - right), floor + 0.95 * height, 0.0)),
     )
-    corners = np.concatenate([prop.mesh.bounds for prop in props])
+    corners = [prop.mesh.bounding_box.vertices for prop in props]
     above = np.array([[face, roof_height + thick, deep], [edge, roof_height + thick, deep]])
     return Surroundings(
         tuple(props),
@@ -112,22 +101,13 @@ def surroundings(machine: Series, floor: float, roof_height: float, half_width: 
         roof_height,
         labels,
         Label("roof", (0.5 * (face + edge), 0.5 * thick, 0.0)),
-        np.concatenate([*_all_corners(corners.reshape(-1, 2, 3)), above]),
+        np.concatenate([*corners, above]),
     )
-
-
-def _all_corners(bounds: Series) -> Iterator[Series]:
-    """Of boxes."""
-    for low, high in bounds:
-        yield np.array(
-            [(x, y, z) for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])]
-        )
 
 
 def _slab(left: float, right: float, low: float, high: float, near: float, far: float) -> Trimesh:
     """A box."""
-    outline = Polygon([(left, low), (right, low), (right, high), (left, high)])
-    return plate(outline, 0.5 * (near + far), far - near)
+    return plate(box(left, low, right, high), 0.5 * (near + far), far - near)
 
 
 def _rocks(right: float, left: float, floor: float, height: float, deep: float) -> Iterator[Prop]:

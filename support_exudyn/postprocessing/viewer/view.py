@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from math import pi
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import exudyn
 import numpy as np
@@ -18,7 +18,6 @@ from exudyn.basicUtilities import SetSolutionState
 
 from support_exudyn.formulations.engine_settings import quiet_engine
 from support_exudyn.mechanics.trajectory import Series
-from support_exudyn.model.linkage import GROUND
 from support_exudyn.postprocessing.export.solution_file import Solution, check_fits, read_solution, rows
 from support_exudyn.postprocessing.viewer.viewer_model import SHOWN, DressedModel, dressed
 from support_exudyn.simulation.provenance import installed
@@ -214,10 +213,10 @@ def window(
         check_display()
         shown = Window(model, rows(result, model.scene) if read is None else read)
         _prepare(container.visualizationSettings, title(result, name), size)
-        camera = Camera.on(model, shown.solution, size)
+        zoom, centre = _camera(model, shown.solution, size)
         with quiet_engine():
             container.renderer.Start()
-            container.renderer.SetModelView(camera.zoom, list(FROM_THE_SIDE), camera.centre)
+            container.renderer.SetModelView(zoom, list(FROM_THE_SIDE), centre)
             shown.show(0)
             yield shown
     finally:
@@ -252,19 +251,12 @@ def _prepare(settings: Any, text: str, size: tuple[int, int]) -> None:
     settings.openGL.light1.position = [2.0, 4.0, 10.0, 0.0]
 
 
-class Camera(NamedTuple):
-    """Where one looks, in the axes of the screen [m], and half the height that is seen [m]."""
-
-    centre: list[float]
-    zoom: float
-
-    @staticmethod
-    def on(model: DressedModel, solution: Solution, size: tuple[int, int]) -> Camera:
-        """On all that the machine reaches in any of the rows."""
-        low, high = reach(model, solution)
-        x, y, z = 0.5 * (low + high)
-        width, height = high[0] - low[0], high[1] - low[1]
-        return Camera([-x, y, -z], 0.5 * MARGIN * max(height, width * size[1] / size[0]))
+def _camera(model: DressedModel, solution: Solution, size: tuple[int, int]) -> tuple[float, list[float]]:
+    """Half the height that is seen [m], and where one looks in the axes of the screen [m]: at all rows."""
+    low, high = reach(model, solution)
+    x, y, z = 0.5 * (low + high)
+    width, height = high[0] - low[0], high[1] - low[1]
+    return 0.5 * MARGIN * max(height, width * size[1] / size[0]), [-x, y, -z]
 
 
 def reach(model: DressedModel, solution: Solution) -> tuple[Series, Series]:
@@ -273,21 +265,12 @@ def reach(model: DressedModel, solution: Solution) -> tuple[Series, Series]:
     for row in np.unique(np.linspace(0, solution["nRows"] - 1, MOST_LOOKED_AT).astype(int)):
         _show(model, solution, int(row))
         for solid in model.look.solids:
-            corners += (
-                [model.place(solid.body, (x, y, z)) for x, y, z in _box(solid.mesh.bounds)]
-                if solid.body != GROUND
-                else list(solid.mesh.bounds)
-            )
+            box = solid.mesh.bounding_box.vertices.tolist()
+            corners += [model.place(solid.body, (x, y, z)) for x, y, z in box]
         for strut in model.look.struts:
             corners += [model.place(strut.foot, strut.foot_point), model.place(strut.head, strut.head_point)]
     points = np.array(corners)
     return points.min(axis=0), points.max(axis=0)
-
-
-def _box(bounds: Series) -> list[tuple[float, float, float]]:
-    """The eight corners between two."""
-    (x0, y0, z0), (x1, y1, z1) = bounds.tolist()
-    return [(x, y, z) for x in (x0, x1) for y in (y0, y1) for z in (z0, z1)]
 
 
 def _show(model: DressedModel, solution: Solution, row: int) -> None:

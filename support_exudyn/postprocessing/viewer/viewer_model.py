@@ -7,7 +7,8 @@ equations stay those of the model that runs.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any, NamedTuple
 
 import exudyn
@@ -22,7 +23,7 @@ from support_exudyn.postprocessing.look import looks
 from support_exudyn.postprocessing.look.poses import PlacedPin, placed_pins, strut_axes
 from support_exudyn.postprocessing.look.shapes import tube
 from support_exudyn.postprocessing.look.solid import COLOURS, Colour, Look, Role, Solid, Strut, solids_of
-from support_exudyn.postprocessing.viewer.engine_graphics import engine_surface
+from support_exudyn.postprocessing.viewer.engine_graphics import EngineSurface, engine_surface
 from support_exudyn.scenario.scenario import Scenario
 from user_forces import JournalBearing
 from user_forces.values.value import Vector3
@@ -50,7 +51,7 @@ class DressedModel:
         if body == GROUND:
             return np.array(point)
         item = self.scene.bodies[body]
-        local = _local(self.scene, body, np.array([point]))[0]
+        local = _axes(self.scene, body).local(np.array([point]))[0]
         return np.array(self.scene.mbs.GetObjectOutputBody(item.object, POSITION, local, SHOWN))
 
 
@@ -59,8 +60,7 @@ def dressed(scenario: Scenario) -> DressedModel:
     scene, look = model(scenario), looks.look(scenario)
     loose = [(pin, pin.loose.contact.bearing) for pin in placed_pins(scenario) if pin.loose is not None]
     rims = [_rim(pin, bearing, look) for pin, bearing in loose]
-    journals = [_journal(pin, bearing, look) for pin, bearing in loose]
-    whole = Look((*look.solids, *journals), look.struts, look.floor)
+    whole = replace(look, solids=(*look.solids, *(_journal(pin, bearing, look) for pin, bearing in loose)))
     shown = DressedModel(scene, whole)
     for name, item in scene.bodies.items():
         drawn = [_of_solid(solid, _axes(scene, name)) for solid in solids_of(whole, name)]
@@ -75,15 +75,10 @@ def dressed(scenario: Scenario) -> DressedModel:
             visualization=VObjectGround(graphicsDataUserFunction=lambda mbs, item: [part() for part in moving])
         )
     )
-    _assemble_again(scene.mbs)
+    kept = scene.mbs.systemData.GetSystemState(INITIAL)  # which assembling would set back
+    scene.mbs.Assemble()
+    scene.mbs.systemData.SetSystemState(kept, INITIAL)
     return shown
-
-
-def _assemble_again(mbs: Any) -> None:
-    """Tell the engine of what has come, and keep the initial state, which this would set back."""
-    kept = mbs.systemData.GetSystemState(INITIAL)
-    mbs.Assemble()
-    mbs.systemData.SetSystemState(kept, INITIAL)
 
 
 # --- what bodies show ---
@@ -114,10 +109,6 @@ def _axes(scene: Model, name: str) -> Axes:
     return Axes(origin, np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]))
 
 
-def _local(scene: Model, name: str, points: Series) -> Series:
-    return _axes(scene, name).local(points)
-
-
 def _of_solid(solid: Solid, axes: Axes = STILL) -> dict[str, Any]:
     mesh = solid.mesh.copy()
     mesh.vertices = axes.local(mesh.vertices)
@@ -136,19 +127,12 @@ def _parts(shown: DressedModel, strut: Strut) -> Iterator[Callable[[], dict[str,
     cylinder = engine_surface(strut.cylinder, COLOURS[Role.CYLINDER])
     rod = engine_surface(strut.rod, COLOURS[Role.ROD])
 
-    def line() -> tuple[Series, Series]:
-        return shown.place(strut.foot, strut.foot_point), shown.place(strut.head, strut.head_point)
+    def part(surface: EngineSurface, end: int) -> dict[str, Any]:
+        ends = shown.place(strut.foot, strut.foot_point), shown.place(strut.head, strut.head_point)
+        return surface.placed(strut_axes(ends[1] - ends[0]), ends[end])
 
-    def from_foot() -> dict[str, Any]:
-        foot, head = line()
-        return cylinder.placed(strut_axes(head - foot), foot)
-
-    def from_head() -> dict[str, Any]:
-        foot, head = line()
-        return rod.placed(strut_axes(head - foot), head)
-
-    yield from_foot
-    yield from_head
+    yield partial(part, cylinder, 0)
+    yield partial(part, rod, 1)
 
 
 # --- loose pins ---
