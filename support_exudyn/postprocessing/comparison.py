@@ -47,7 +47,7 @@ def compared(
 
 
 def same_to_the_bit(first: Result, second: Result) -> int:
-    """How many channels two runs have, if all are in both and all their records the same bits; else 0."""
+    """The number of channels of two runs, if all are in both and all their records the same bits; else 0."""
     names = list(first.channels)
     if set(names) != set(second.channels):
         return 0

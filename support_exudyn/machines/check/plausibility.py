@@ -20,7 +20,7 @@ WIDE = 0.5  # of the distance of two pins of a body: the bores of both together
 
 
 def suspicions(data: MachineData, machine: FourBarShield[Any]) -> Iterator[str]:
-    """What looks wrong in the data themselves, in sentences with the keys of the file."""
+    """The generator says what looks wrong in the data themselves, in sentences with the keys of the file."""
     pivots = {name: getattr(machine, name) for name in machine.pivots() if getattr(machine, name) is not None}
     size = extent(pivots)
     if size < SMALL:
@@ -39,7 +39,7 @@ def suspicions(data: MachineData, machine: FourBarShield[Any]) -> Iterator[str]:
 
 
 def missing(data: MachineData, machine: FourBarShield[Any]) -> Iterator[str]:
-    """What cannot be done for want of data, and what was assumed."""
+    """The generator says what cannot be done for want of data, and what was assumed."""
     for said in data.assumed:
         yield f"assumed: {said}"
     if data.stroke is None:

@@ -54,7 +54,7 @@ class Station:
 
 @dataclass(frozen=True)
 class Limit:
-    """Where the way of a support ends, up or down.
+    """The end of the way of a support, up or down.
 
     Arguments:
         height: of the hinge [m]. margin: how far that is from the used range [m]. stroke: the extension
@@ -156,7 +156,7 @@ def moved_by(machine: Shield, linkage: Linkage, posture: Any) -> np.ndarray:
 
 
 def limit(machine: Shield, used: tuple[Station, Station], up: bool) -> Limit | None:
-    """Where the support locks above (below) the used range; None if that is far.
+    """The posture in which the support locks above (below) the used range; None if that is far.
 
     used: the lowest and the highest posture.
     """

@@ -135,7 +135,7 @@ def _check_room(series: list[MeshSeries], steps: int) -> None:
 
 
 def refers(path: Path, store: str) -> bool:
-    """Whether a file is one of `MovingMeshWriter`, whose data are in the HDF5 file of this name."""
+    """The answer whether a file is one of `MovingMeshWriter`, whose data are in the HDF5 file of this name."""
     try:
         return f">{store}:/".encode() in contents(path, LARGEST_INDEX)
     except (OSError, InputError):

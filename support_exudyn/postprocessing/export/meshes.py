@@ -53,7 +53,7 @@ class MeshSeries:
 
     @property
     def values_per_step(self) -> int:
-        """How many numbers a step has."""
+        """The count of numbers that a step has."""
         frame = self.frame(0)
         return frame.points.size + sum(data.size for data in frame.data.values())
 

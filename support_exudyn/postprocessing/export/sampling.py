@@ -17,7 +17,7 @@ MOST_FRAMES = 1_000_000
 
 @value
 class Sampling(Value):
-    """Which records are written; all if nothing is said. Never anything between records.
+    """The choice of the records that are written; all if nothing is said. Nothing between records is written.
 
     Arguments:
         every: one in so many records, >= 1.

@@ -73,12 +73,12 @@ class Journal:
 
     @property
     def in_contact(self) -> npt.NDArray[np.bool_]:
-        """At which records it is pressed in (n,)."""
+        """The records at which the journal is pressed in, as a mask (n,)."""
         return self.depth > 0.0
 
     @property
     def directions(self) -> Series:
-        """Of the journal from the bore's centre at every touch [rad], shape (touches,).
+        """Directions of the journal from the bore's centre at every touch [rad], shape (touches,).
 
         By the straight line through the last two records of the flight before; where there are no two, by that
         between the records around the touch.

@@ -41,7 +41,7 @@ def matching(names: Collection[str], patterns: Sequence[str]) -> list[str]:
 
 
 def inside(result: Result, start: float, until: float, fewest: int = FEWEST) -> npt.NDArray[np.bool_]:
-    """Which records lie between two times [s], shape (n,).
+    """The records that lie between two times [s], as a mask (n,).
 
     Raises InputError if they are fewer than `fewest`.
     """

@@ -86,7 +86,7 @@ def sweep_chart(table: pa.Table, x: str, y: str, by: str | None = None) -> Figur
 
 
 def varied_in(table: pa.Table) -> list[str]:
-    """What was varied, by the names of its columns."""
+    """The names of the columns of what was varied."""
     return [name for name in table.column_names if _metadata(table, name).get("meaning") == "varied"]
 
 

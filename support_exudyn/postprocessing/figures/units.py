@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 
 class Unit(NamedTuple):
-    """What is shown: its name, and how many of it one SI unit is."""
+    """A unit that is shown: its name, and how many of it one SI unit is."""
 
     name: str
     scale: float

@@ -137,7 +137,7 @@ def bore_radius(scenario: Scenario, pin: str, margin: float) -> float:
 
 
 def body_copies(scenario: Scenario, name: str) -> list[tuple[str, list[float]]]:
-    """By what names the channels know a body of the plane, each with where it stands beside the plane [m].
+    """The names by which channels know a body of the plane, each with its distances from the plane [m].
 
     In the plane a pair has one name and two places; in space two names.
     """

@@ -43,19 +43,19 @@ class Pose:
     spin: Series
 
     def points(self, points: Series, record: int) -> Series:
-        """Where points of the start posture (m, 3) are at a record [m]."""
+        """The places of points of the start posture (m, 3) at a record [m]."""
         arms = (points - np.array(self.start)) @ self.turn[record].T
         moved: Series = self.place[record] + arms
         return moved
 
     def velocities(self, points: Series, record: int) -> Series:
-        """How fast these points (m, 3) then move [m/s]."""
+        """The velocities of these points (m, 3) at a record [m/s]."""
         arms = (points - np.array(self.start)) @ self.turn[record].T
         moving: Series = self.velocity[record] + np.cross(self.spin[record], arms)
         return moving
 
     def path(self, point: Vector3) -> Series:
-        """Where a point of the start posture is at all records, shape (n, 3) [m]."""
+        """The places of a point of the start posture at all records, shape (n, 3) [m]."""
         arm = np.array(point) - np.array(self.start)
         path: Series = self.place + self.turn @ arm
         return path
@@ -252,7 +252,7 @@ class PlacedPin:
 
     @property
     def bore_is_second(self) -> bool:
-        """Whether the second body carries the bore; of an ideal pin the first one counts as doing so."""
+        """The second body carries the bore; of an ideal pin the first one counts as doing so."""
         return self.loose is not None and self.loose.bore == "second"
 
     @property

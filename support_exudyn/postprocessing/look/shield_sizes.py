@@ -15,7 +15,7 @@ GAP = 0.1  # between plates that pass each other, of their thickness
 
 @dataclass(frozen=True)
 class Sizes:
-    """What is not among the dimensions of the machine, and those of its width [m].
+    """The sizes that are not among the dimensions of the machine, and those of its width [m].
 
     Arguments:
         length: extent of the machine, which what nobody knows is a share of.
@@ -40,13 +40,13 @@ class Sizes:
 
     @property
     def bracket(self) -> float:
-        """Where the plates of the base stand that carry the links, beside the plane: just outside of these."""
+        """The distance from the plane of the base's plates that carry the links: just outside of these."""
         outside = max(self.front_links + 0.5 * self.front_link, 0.5 * self.rear_link)
         return outside + (0.5 + GAP) * self.plate
 
     @property
     def cheek(self) -> float:
-        """Where the side plates of shield and tail beam stand: outside of those of the base."""
+        """The distance from the plane of the side plates of shield and tail beam: outside of the base's."""
         return max(0.5 * (self.shield - self.plate), self.bracket + (1.0 + GAP) * self.plate)
 
     @property
@@ -61,7 +61,7 @@ class Sizes:
 
 
 def sizes(scenario: Scenario) -> Sizes:
-    """Of a scenario's machine: its widths, where it knows them; the rest by distances of its pivots."""
+    """The sizes of a scenario's machine: its own widths, where it knows them; the rest by its pivots."""
     linkage = scenario.linkage
     length = extent(linkage)
     columns = {name: linkage.columns[name] for name in standing(scenario)}
@@ -71,7 +71,7 @@ def sizes(scenario: Scenario) -> Sizes:
     known = width.spreads if width else {}
 
     def wide(body: str, share: float) -> float:
-        """Of a body over whose width the mass is spread evenly."""
+        """The width of a body over whose width the mass is spread evenly."""
         return known[body] * math.sqrt(12.0) if known.get(body) else share * length
 
     apart = (width.columns.get(next(iter(columns))) if width else None) or 0.077 * length
@@ -101,7 +101,7 @@ def standing(scenario: Scenario) -> tuple[str, ...]:
 
 
 def _distance_of_eyes(scenario: Scenario) -> float:
-    """Of the two on the shield beam, and of the two on the base [m]; the smaller, but not next to nothing."""
+    """The smaller distance of two eyes, on the shield beam or the base [m], but not next to nothing."""
     pins = scenario.linkage.pins
     on_shield = math.dist(pins["rear_shield"].second_point, pins["front_shield"].second_point)
     on_base = math.dist(pins["rear_base"].first_point, pins["front_base"].first_point)

@@ -260,7 +260,7 @@ class _Support:
         return cylinder_and_rod(shortest, longest, radius)
 
     def _radius(self, name: str) -> float:
-        """Of a cylinder [m]; a ram's is smaller than that of a column on the base."""
+        """The radius of a cylinder [m]; a ram's is smaller than that of a column on the base."""
         return self.sizes.column if name in self.standing else RAM * self.sizes.column
 
     def _struts(self, name: str, column: Column) -> Iterator[Strut]:
@@ -274,7 +274,7 @@ class _Support:
             yield Strut(label, column.foot, column.head, foot, head, cylinder, rod)
 
     def _column_bodies(self, name: str, column: Column) -> Iterator[Solid]:
-        """The same shapes as of a column without mass, on the bodies that it is made of."""
+        """The shapes of a column without mass, on the bodies that this one is made of."""
         cylinder, rod = self._meshes(name, column)
         for body, role, mesh, end in (
             (f"{name}_cylinder", Role.CYLINDER, cylinder, column.foot_point),

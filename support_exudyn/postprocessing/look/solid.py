@@ -11,7 +11,7 @@ from user_forces.values.value import Vector3
 
 
 class Role(Enum):
-    """What a solid is in the machine; pictures colour by it."""
+    """The part of the machine that a solid is; pictures colour by it."""
 
     GROUND = "ground"
     BASE = "base"

@@ -34,12 +34,12 @@ class Layout:
 
     @property
     def unit(self) -> float:
-        """By what lengths of a frame of 1280 x 720 are multiplied."""
+        """The factor by which lengths of a frame of 1280 x 720 are multiplied."""
         return min(self.width / 1280, self.height / 720)
 
     @property
     def margin(self) -> int:
-        """What is left free around everything."""
+        """The width that is left free around everything [pixels]."""
         return max(2, round(14 * self.unit))
 
     @property

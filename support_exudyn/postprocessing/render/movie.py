@@ -28,7 +28,7 @@ LONGEST_STEP = 1e-3  # [s] to which the time of a single picture is printed at l
 
 @dataclass(frozen=True)
 class Moments:
-    """Of frames.
+    """The times of frames.
 
     Frames need not be at records: each shows the record next to its time, for between records nobody knows
     whether a journal has touched. In slow motion one record may so be seen in several frames.
@@ -51,7 +51,7 @@ class Moments:
 
     @property
     def pace(self) -> str:
-        """What is said of the movie's speed; nothing at the run's."""
+        """The words for the movie's speed; none at the run's."""
         speed = self.step * self.rate
         if self.times.size == 1 or abs(speed - 1.0) < 1e-9:
             return ""
@@ -69,7 +69,7 @@ class Moments:
 
 
 def moments(time: Series, start: float | None, end: float | None, rate: float, speed: float) -> Moments:
-    """Of the frames between two times of a run.
+    """The times of the frames between two times of a run.
 
     Arguments:
         time: of the records [s].
@@ -100,7 +100,7 @@ def moments(time: Series, start: float | None, end: float | None, rate: float, s
 
 
 def moment(time: Series, at: float) -> Moments:
-    """Of a single picture at a time [s]. Raises InputError if the run does not reach it."""
+    """The time of a single picture [s]. Raises InputError if the run does not reach it."""
     check_between("time", at, float(time[0]), float(time[-1]), " s")
     times = np.array([at])
     step = min(LONGEST_STEP, float(np.median(np.diff(time)))) if time.size > 1 else LONGEST_STEP
@@ -147,7 +147,7 @@ def write(kind: str, path: Path, frames: Sequence[Path], rate: float, progress: 
 
 
 def durations(number: int, rate: float) -> list[int]:
-    """Of the frames of a GIF [ms]: whole hundredths of a second, which add up to the movie's length."""
+    """The durations of the frames of a GIF [ms]: hundredths of a second that add up to the movie's length."""
     ends = [round(100.0 * (n + 1) / rate) for n in range(number)]
     return [10 * (end - start) for start, end in zip([0, *ends], ends, strict=False)]
 

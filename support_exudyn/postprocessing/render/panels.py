@@ -175,7 +175,7 @@ class Inset:
 
     @property
     def title(self) -> str:
-        """By how much the clearance is enlarged, in words."""
+        """The words for how much the clearance is enlarged."""
         return f"clearance \u00d7 {said(self.factor)}"
 
     def draw_still(self, sheet: Sheet) -> None:

@@ -35,7 +35,7 @@ MAKER = "support_exudyn"
 
 @dataclass(frozen=True)
 class Rendered:
-    """What was written.
+    """The files that were written.
 
     Arguments:
         frames: files of the frames, in their order.
@@ -153,7 +153,7 @@ class _Show:
 
 
 def _processors() -> int:
-    """That this process may use."""
+    """The number of processors that this process may use."""
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1

@@ -34,7 +34,7 @@ class Scene:
 
     @cached_property
     def points(self) -> Series:
-        """Where the machine is at these records, shape (n, 3) [m]."""
+        """The places of the machine at these records, shape (n, 3) [m]."""
         found = []
         for record in self.records.tolist():
             found += [self._hull(solid, record) for solid in self.look.solids]
@@ -49,7 +49,7 @@ class Scene:
 
     @cached_property
     def surroundings(self) -> Surroundings | None:
-        """What stands around a support; None around machines without a canopy."""
+        """The surroundings of a support; None of machines without a canopy."""
         canopies = [solid for solid in self.look.solids if solid.role is Role.CANOPY]
         if not canopies:
             return None
@@ -85,7 +85,7 @@ class Scene:
         return found if around is None else [*found, *around.props, around.roof]
 
     def places(self, record: int) -> Iterator[tuple[Series, Series]]:
-        """Where each of these is: a place (3,) [m] and a turn (3, 3)."""
+        """The place (3,) [m] and the turn (3, 3) of each of these at a record."""
         for solid in self.look.solids:
             pose = self.poses.of(solid.body)
             yield pose.place[record], pose.turn[record]
@@ -110,7 +110,7 @@ class Scene:
         return fitted(points, width, height, (margin, margin, margin, margin))
 
     def labels(self, record: int) -> list[Label]:
-        """What is written into the picture."""
+        """The words that are written into the picture."""
         if self.surroundings is None:
             return []
         word = self.surroundings.roof_label
@@ -118,7 +118,7 @@ class Scene:
         return [*self.surroundings.labels, Label(word.text, (x, y + self.roof(record), z), word.light)]
 
     def seen(self, pin: PinView, record: int) -> Vector3:
-        """Where the end of a pin is that the camera sees [m]."""
+        """The place of that end of a pin which the camera sees [m]."""
         x, y, _ = pin.path[record]
         ends = [s.mesh.bounds[0, 2] for s in self.look.solids if s.name.startswith(f"pin_{pin.name}")]
         return float(x), float(y), float(min(ends, default=self.points[:, 2].min()))

@@ -42,7 +42,7 @@ class Label:
 
 @dataclass(frozen=True)
 class Surroundings:
-    """What does not move, the roof, and what is written on them.
+    """The things that do not move, the roof, and what is written on them.
 
     Arguments:
         props: in ground's axes.
@@ -61,7 +61,7 @@ class Surroundings:
 
 
 def surroundings(machine: Series, floor: float, roof_height: float, half_width: float) -> Surroundings:
-    """What stands around a machine that is at some time or other at all these points (n, 3).
+    """The surroundings of a machine that is at some time or other at all these points (n, 3).
 
     Arguments:
         machine: points of its surface [m].

@@ -103,7 +103,7 @@ class Sheet:
         return written
 
     def width(self, written: Text) -> float:
-        """How wide a text is [pixels]."""
+        """The width of a text [pixels]."""
         return float(written.get_window_extent(self._canvas.get_renderer()).width)
 
     def line(self, x: Series, y: Series, colour: str, thick: float) -> None:

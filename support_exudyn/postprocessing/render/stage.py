@@ -26,7 +26,7 @@ TURN, LIFT = 0.26, 0.17
 
 @dataclass(frozen=True)
 class Camera:
-    """From points in space to pixels.
+    """A parallel projection from points in space to pixels.
 
     Arguments:
         rotation: from ground's axes to right, up and towards the eye.
@@ -47,7 +47,7 @@ class Camera:
         return self.height_px / self.height
 
     def pixels(self, points: Series) -> Pixels:
-        """Where points (n, 3) are in the picture: to the right and down from its upper left corner (n, 2)."""
+        """The places (n, 2) of points (n, 3) in the picture, to the right and down from its upper left corner."""
         seen = self.rotation.apply(np.atleast_2d(points) - np.array(self.centre))
         return np.column_stack(
             [0.5 * self.width_px + self.scale * seen[:, 0], 0.5 * self.height_px - self.scale * seen[:, 1]]

@@ -186,11 +186,11 @@ class Window:
 
     @property
     def time(self) -> float:
-        """Of what is shown [s]."""
+        """The time of what is shown [s]."""
         return float(self.model.scene.mbs.systemData.GetTime(SHOWN))
 
     def picture(self) -> np.ndarray:
-        """What is in the window: RGB (height, width, 3) of 8 bits."""
+        """The picture in the window: RGB (height, width, 3) of 8 bits."""
         return np.array(self.model.scene.container.renderer.RedrawAndGetImage())
 
 

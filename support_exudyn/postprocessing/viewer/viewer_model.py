@@ -47,7 +47,7 @@ class DressedModel:
     look: Look
 
     def place(self, body: str, point: Vector3) -> Series:
-        """Where a point of the start posture is in the state that is shown [m]."""
+        """The place of a point of the start posture in the state that is shown [m]."""
         if body == GROUND:
             return np.array(point)
         item = self.scene.bodies[body]
@@ -85,7 +85,7 @@ def dressed(scenario: Scenario) -> DressedModel:
 
 
 class Axes(NamedTuple):
-    """Of a body in the start posture: origin [m], and rotation (3, 3) to the ground's axes."""
+    """The axes of a body in the start posture: origin [m], and rotation (3, 3) to the ground's axes."""
 
     origin: Series
     turn: Series
