@@ -233,7 +233,7 @@ def _in_space(poses: Poses, name: str) -> tuple[Series, Series]:
 
 
 def euler_parameters(turn: Series) -> Series:
-    """Euler parameters (n, 4) of rotations (n, 3, 3) that follow each other; they begin positive and keep signs."""
+    """Euler parameters (n, 4) of rotations (n, 3, 3) that follow each other; their signs do not jump."""
     found = Rotation.from_matrix(turn).as_quat()[:, [3, 0, 1, 2]]
     follows = np.sum(found[1:] * found[:-1], axis=1) >= 0.0
     first = 1.0 if found[0, 0] >= 0.0 else -1.0

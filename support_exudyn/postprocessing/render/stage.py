@@ -47,7 +47,7 @@ class Camera:
         return self.height_px / self.height
 
     def pixels(self, points: Series) -> Pixels:
-        """The places (n, 2) of points (n, 3) in the picture, to the right and down from its upper left corner."""
+        """The pixels (n, 2) of points (n, 3), to the right and down from the upper left corner."""
         seen = self.rotation.apply(np.atleast_2d(points) - np.array(self.centre))
         return np.column_stack(
             [0.5 * self.width_px + self.scale * seen[:, 0], 0.5 * self.height_px - self.scale * seen[:, 1]]
