@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -80,7 +80,13 @@ def to_hdf5(result: Result, path: str | Path, sampling: Sampling = TABLES) -> tu
             _put(file, f"channels/{name}", channel.values[records], channel.unit, channel.meaning)
         for pin, onsets in result.onsets.items():
             _put_onsets(file.create_group(f"onsets/{pin}"), onsets, result.largest_force[pin])
-        for name, said in _texts(result).items():
+        told = {
+            "scenario": result.scenario.to_data(),
+            "provenance": dict(result.provenance),
+            "counts": asdict(result.counts),
+            "impulses": [asdict(impulse) for impulse in result.impulses],
+        }
+        for name, said in told.items():
             text = json.dumps(said)  # in ASCII
             file.create_dataset(f"json/{name}", data=np.bytes_(text.encode("ascii")))
         file.flush()
@@ -94,16 +100,6 @@ def columns_of(result: Result) -> dict[str, Series]:
     """All channels by names such as `pin.rear_base.force [N]`; time first, also of a run that was read back."""
     names = sorted(result.channels, key=lambda name: name != "time")
     return {f"{name} [{result.unit(name) or '1'}]": result[name] for name in names}
-
-
-def _texts(result: Result) -> Mapping[str, Any]:
-    """What else is known of a run, by name."""
-    return {
-        "scenario": result.scenario.to_data(),
-        "provenance": dict(result.provenance),
-        "counts": asdict(result.counts),
-        "impulses": [asdict(impulse) for impulse in result.impulses],
-    }
 
 
 def _put_onsets(group: h5py.Group, onsets: Sequence[Onset], largest_force: float) -> None:

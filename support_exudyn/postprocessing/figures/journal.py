@@ -157,14 +157,3 @@ def clearance(result: Result, pin: str) -> float:
 def shortest_touch(touches: tuple[Onset, ...]) -> float:
     """Shortest time from a touch to its parting [s]; infinite if nothing parted."""
     return min((touch.parting_time - touch.time for touch in touches), default=math.inf)
-
-
-def pieces(x: Series, y: Series, chosen: npt.NDArray[np.bool_]) -> tuple[Series, Series]:
-    """One line of the chosen pieces (n - 1,) of a path (n,), broken by NaN where others lie between."""
-    drawn = np.zeros(x.size, dtype=bool)
-    drawn[:-1] |= chosen
-    drawn[1:] |= chosen
-    # where two chosen pieces are parted by one that is not, both of its ends are drawn: a gap goes in between
-    gaps = np.flatnonzero(~chosen & drawn[:-1] & drawn[1:]) + 1
-    broken_x, broken_y = (np.insert(np.where(drawn, values, np.nan), gaps, np.nan) for values in (x, y))
-    return broken_x, broken_y

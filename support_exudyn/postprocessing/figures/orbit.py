@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from support_exudyn.postprocessing.figures import style, units
-from support_exudyn.postprocessing.figures.journal import Journal, journal, pieces, shortest_touch
+from support_exudyn.postprocessing.figures.journal import Journal, journal, shortest_touch
 from support_exudyn.postprocessing.figures.selection import said
 from support_exudyn.postprocessing.figures.style import caption
 from support_exudyn.postprocessing.figures.units import Unit, readable
@@ -19,7 +19,7 @@ from support_exudyn.simulation.result import Result
 CORNERS = 181  # of the clearance circle
 MARGIN = 1.12  # of the largest eccentricity
 MANY = 20000  # points from which on a line is a picture within a PDF
-FLIGHT_WIDTH, CONTACT_WIDTH = 0.8, 1.6
+WIDTHS = (0.8, 1.6)  # of flight and of contact [points]
 TOUCH: dict[str, Any] = {"marker": "v", "ms": 3.5, "mfc": "white", "mec": style.IDEAL, "mew": 0.7, "ls": "none"}
 
 
@@ -68,15 +68,8 @@ def draw_path(axes: Axes, shown: Journal, unit: Unit) -> None:
     x, y, contact = shown.path()
     radius = unit.scale * shown.clearance
     draw_circle(axes, radius)
-    for chosen, colour, width, label in (
-        (~contact, style.FLIGHT, FLIGHT_WIDTH, "free flight"),
-        (contact, style.CONTACT, CONTACT_WIDTH, "contact"),
-    ):
-        if chosen.any():
-            axes.plot(
-                *pieces(unit.scale * x, unit.scale * y, chosen), color=colour, lw=width, label=label,
-                rasterized=x.size > MANY, zorder=3,
-            )  # fmt: skip
+    more: dict[str, Any] = {"rasterized": x.size > MANY, "zorder": 3}
+    style.draw_pieces(axes, unit.scale * x, unit.scale * y, contact, WIDTHS, **more)
     if shown.touches:
         directions = shown.directions
         axes.plot(radius * np.cos(directions), radius * np.sin(directions), label="touch", zorder=4, **TOUCH)
@@ -95,14 +88,7 @@ def _draw_depth(axes: Axes, shown: Journal, over_time: Unit) -> None:
     time, depth = over_time.scale * shown.time, unit.scale * shown.depth
     axes.axhline(0.0, color=style.IDEAL, lw=0.6)
     contact = shown.in_contact[:-1] & shown.in_contact[1:]
-    for chosen, colour, width in (
-        (~contact, style.FLIGHT, FLIGHT_WIDTH),
-        (contact, style.CONTACT, CONTACT_WIDTH),
-    ):
-        if chosen.any():
-            axes.plot(
-                *pieces(time, depth, chosen), color=colour, lw=width, rasterized=time.size > MANY, zorder=3
-            )
+    style.draw_pieces(axes, time, depth, contact, WIDTHS, rasterized=time.size > MANY, zorder=3)
     if shown.touches:
         times = over_time.scale * np.array([touch.time for touch in shown.touches])
         axes.plot(times, np.zeros(times.size), zorder=4, **TOUCH)

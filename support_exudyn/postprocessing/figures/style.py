@@ -8,9 +8,13 @@ from pathlib import Path
 from typing import Any
 
 import matplotlib as mpl
+import numpy as np
+import numpy.typing as npt
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from support_exudyn.files.whole_file import whole_file
+from support_exudyn.mechanics.trajectory import Series
 
 # Okabe and Ito's colours: told apart by colour-blind readers; the lightness differs too, for grey prints.
 IDEAL = "#000000"
@@ -20,6 +24,7 @@ THIRD = "#009E73"
 # of a single run: what a journal does, and the force on it
 CONTACT = "#D55E00"
 FLIGHT = "#56B4E9"
+STATES = ((FLIGHT, "free flight"), (CONTACT, "contact"))
 # what the paper prints, as crosses
 PAPER = "#882255"
 
@@ -86,3 +91,26 @@ def save(drawing: Figure, out: Path, name: str, *, pdf: bool = True) -> list[Pat
             drawing.savefig(temporary, format=path.suffix[1:])
         drawing.set_layout_engine("none")  # it is laid out now; once more would take as long as drawing it
     return paths
+
+
+def draw_pieces(
+    axes: Axes, x: Series, y: Series, contact: npt.NDArray[np.bool_], widths: tuple[float, float], **more: Any
+) -> None:
+    """Draw a line (n,) in the colours of flight and contact, by which of its n - 1 pieces are contact.
+
+    widths: of flight and of contact [points]. more: for `Axes.plot`.
+    """
+    for chosen, (colour, name), width in zip((~contact, contact), STATES, widths, strict=True):
+        if chosen.any():
+            axes.plot(*pieces(x, y, chosen), color=colour, lw=width, label=name, **more)
+
+
+def pieces(x: Series, y: Series, chosen: npt.NDArray[np.bool_]) -> tuple[Series, Series]:
+    """One line of the chosen pieces (n - 1,) of a path (n,), broken by NaN where others lie between."""
+    drawn = np.zeros(x.size, dtype=bool)
+    drawn[:-1] |= chosen
+    drawn[1:] |= chosen
+    # where two chosen pieces are parted by one that is not, both of its ends are drawn: a gap goes in between
+    gaps = np.flatnonzero(~chosen & drawn[:-1] & drawn[1:]) + 1
+    broken_x, broken_y = (np.insert(np.where(drawn, values, np.nan), gaps, np.nan) for values in (x, y))
+    return broken_x, broken_y

@@ -14,8 +14,7 @@ from matplotlib.ticker import MaxNLocator
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.model.pins import ClearancePin
-from support_exudyn.postprocessing.figures.journal import pieces
-from support_exudyn.postprocessing.figures.style import CONTACT, FLIGHT, IDEAL
+from support_exudyn.postprocessing.figures.style import CONTACT, FLIGHT, IDEAL, draw_pieces, pieces
 from support_exudyn.postprocessing.look.poses import Poses, placed_pins
 from support_exudyn.postprocessing.look.solid import COLOURS, Role
 from support_exudyn.postprocessing.render.sheet import FAINT, INK, RULE, SMALLEST_FONT, Box, Point, Sheet
@@ -287,10 +286,8 @@ class Strip:
             axes.plot(self._time, force, color=IDEAL, lw=1.3 * u)
             return
         pressed = self._touching[1:] | self._touching[:-1]  # there is a force at one of both records
-        for chosen, colour, thick in ((~pressed, FLIGHT, 3.0), (pressed, CONTACT, 1.3)):
-            if chosen.any():
-                line = pieces(self._time, force, chosen)
-                axes.plot(*line, color=colour, lw=thick * u, solid_capstyle="butt", clip_on=False)
+        widths = (3.0 * u, 1.3 * u)
+        draw_pieces(axes, self._time, force, pressed, widths, solid_capstyle="butt", clip_on=False)
 
     def cursor(self, sheet: Sheet, time: float, force: float) -> None:
         """Draw the cursor at a time [s], with a dot at the force [N]."""
