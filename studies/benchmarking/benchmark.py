@@ -18,12 +18,11 @@ import numpy as np
 
 from studies.benchmarking import process, yardstick
 from studies.benchmarking.lsoda import loosest, run_lsoda
-from studies.benchmarking.measures import errors, thinned, times_the_goal
 from studies.benchmarking.peers.built_in import run_built_in
 from studies.benchmarking.peers.stock import run_stock
 from studies.benchmarking.peers.tree import run_tree
 from studies.benchmarking.process import timed
-from studies.benchmarking.references import references
+from studies.benchmarking.references import errors, references, thinned, times_the_goal
 from studies.benchmarking.scenes import SCENES
 from studies.benchmarking.variants import Way, peer, redundant, with_tolerance
 from studies.common import paper_machine

@@ -1,16 +1,17 @@
-"""Ways to compute a scene: every knob, one at a time, and what others do."""
+"""Ways to compute a scene, ours and those of others, and what they cost."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Literal
 
-from studies.benchmarking.measures import ONSETS, Sample, of_result, sample
 from studies.benchmarking.peers.built_in import run_built_in
 from studies.benchmarking.peers.peer_run import PeerRun
 from studies.benchmarking.peers.stock import run_stock
+from studies.benchmarking.references import ONSETS, Sample, of_result, sample, times_the_goal
 from studies.benchmarking.scenes import Scene
 from support_exudyn import Scenario, SolverSettings, simulate
 from user_forces import Frictionless
@@ -169,3 +170,47 @@ def _way(family: str, label: str, scene: Scene, scenario: Scenario) -> Way:
         return Done(of_result(scene, result), result.counts.steps, result.counts.user_function_calls)
 
     return Way(family, label, done, partial(simulate, scenario))
+
+
+# --- cost and errors ---
+
+
+@dataclass(frozen=True)
+class Row:
+    """A run.
+
+    scene, family, label: what was run and how. seconds: wall time, the least if it was timed more than once.
+    steps: accepted. calls: of contact forces in Python. errors: by the names of `references.GOALS`; none if it
+    failed, and failure says why. scatter: by how much its wall times differ [s]; nan if it was timed once.
+    """
+
+    scene: str
+    family: str
+    label: str
+    seconds: float
+    steps: int
+    calls: int
+    errors: dict[str, float] = field(default_factory=dict)
+    failure: str = ""
+    scatter: float = math.nan
+
+    @property
+    def overall(self) -> float:
+        """The worst error in units of the goal."""
+        return times_the_goal(self.errors) if self.errors else float("inf")
+
+
+def front(rows: Sequence[Row]) -> list[Row]:
+    """The rows than which no other is both faster and more accurate, the fastest first."""
+    best, least = [], float("inf")
+    for row in sorted(rows, key=lambda row: (row.seconds, row.overall)):
+        if row.overall < least:
+            best.append(row)
+            least = row.overall
+    return best
+
+
+def cheapest(rows: Sequence[Row], most: float = 1.0) -> Row | None:
+    """The fastest row whose errors are within the goal, or so many times it; None if there is none."""
+    good = [row for row in rows if row.overall <= most]
+    return min(good, key=lambda row: row.seconds) if good else None

@@ -9,8 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, NullLocator, StrMethodFormatter
 
-from studies.benchmarking.front import Row, front
-from studies.benchmarking.variants import BUILT_IN, STOCK
+from studies.benchmarking.variants import BUILT_IN, STOCK, Row, front
 from support_exudyn.postprocessing.figures import style
 
 PANELS: dict[str, Callable[[Row], float]] = {

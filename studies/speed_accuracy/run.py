@@ -14,12 +14,10 @@ from dataclasses import replace
 
 from studies.benchmarking import estimates
 from studies.benchmarking.estimates import Check
-from studies.benchmarking.front import Row, cheapest, front
-from studies.benchmarking.measures import GOALS, Sample, errors
 from studies.benchmarking.process import timed
-from studies.benchmarking.references import own_errors, references
+from studies.benchmarking.references import GOALS, Sample, errors, own_errors, references
 from studies.benchmarking.scenes import SCENES
-from studies.benchmarking.variants import STOCK, Way, ways
+from studies.benchmarking.variants import STOCK, Row, Way, cheapest, front, ways
 from studies.common.numbers import Number
 from studies.common.runs import bar
 from studies.common.study import Options, Outcome, Study

@@ -11,11 +11,19 @@ import numpy as np
 import pytest
 
 from studies.benchmarking import estimates, variants
-from studies.benchmarking.front import Row, cheapest, front
-from studies.benchmarking.measures import GOALS, Sample, errors, of_result, thinned, times_the_goal
-from studies.benchmarking.references import own_errors, references, tight_runs
+from studies.benchmarking.references import (
+    GOALS,
+    Sample,
+    errors,
+    of_result,
+    own_errors,
+    references,
+    thinned,
+    tight_runs,
+    times_the_goal,
+)
 from studies.benchmarking.scenes import SCENES
-from studies.benchmarking.variants import STOCK, Done, Way, ways
+from studies.benchmarking.variants import STOCK, Done, Row, Way, cheapest, front, ways
 from studies.common.chapter import Chapter
 from studies.common.study import Options
 from studies.speed_accuracy import figures as speed_accuracy_figures
