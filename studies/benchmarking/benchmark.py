@@ -18,7 +18,7 @@ import numpy as np
 
 from studies.benchmarking import process, yardstick
 from studies.benchmarking.lsoda import loosest, run_lsoda
-from studies.benchmarking.peers.built_in import run_built_in
+from studies.benchmarking.peers.built_in import Evaluator, run_built_in
 from studies.benchmarking.peers.stock import run_stock
 from studies.benchmarking.peers.tree import run_tree
 from studies.benchmarking.process import timed
@@ -79,9 +79,18 @@ def _brief(ratio: float) -> str:
     return f"{ratio:.3g}" if ratio < 100.0 else f"{ratio:.0f}"
 
 
-def refused_line(what: str, how: str, against: str, asked: str, error: SimulationError) -> Line:
+def refused_line(what: str, how: str, against: str, asked: str, reason: str) -> Line:
     """A line of runs one of which was not finished."""
-    return Line(what, how, math.nan, against, math.nan, asked, f"refused: {error.failure.reason}")
+    return Line(what, how, math.nan, against, math.nan, asked, f"refused: {reason}")
+
+
+def versus(what: str, how: str, ours: Scenario, against: str, other: Scenario, asked: str) -> Line:
+    """A line of two runs of ours, timed in turns."""
+    try:
+        seconds = in_turns(partial(simulate, ours), partial(simulate, other), turns=2)
+    except SimulationError as error:
+        return refused_line(what, how, against, asked, error.failure.reason)
+    return Line(what, how, seconds[0], against, seconds[1], asked)
 
 
 def in_turns(*runs: Callable[[], object], turns: int = TURNS) -> list[float]:
@@ -126,33 +135,25 @@ def rise_lines() -> Iterator[Line]:
         "reduced": (RISE, [with_tolerance(smooth, "reduced", t) for t in tolerances], ""),
     }
     for name, (scene, tried, asked) in wanted.items():
+        what = f"rise to the goal: {name}"
         way = cheapest_way(scene, tried)
         if way is None:
-            yield Line(
-                f"rise to the goal: {name}",
-                "",
-                math.nan,
-                "",
-                math.nan,
-                asked,
-                "refused: no setting meets the goal",
-            )
+            yield refused_line(what, "", "", asked, "no setting meets the goal")
             continue
         ours, others, finest = in_turns(way.bare, stock.bare, stock_ways[-1].bare, turns=2)
-        what = f"rise to the goal: {name}"
         yield Line(what, way.label, ours, f"stock recipe, {stock.label}", others, asked)
         yield Line(what, way.label, ours, f"stock recipe, {stock_ways[-1].label}", finest, "")
         if name == "reduced":
-            yield from _against_the_yardstick(way)
+            yield from _against_the_yardstick(what, way)
 
 
-def _against_the_yardstick(way: Way) -> Iterator[Line]:
+def _against_the_yardstick(what: str, way: Way) -> Iterator[Line]:
     scenario = SCENES[RISE].scenario
     try:
         with yardstick.compiled() as program:
-            run = partial(yardstick.run_yardstick, scenario, 1e-5, program=program, runs=20)
             ours = min(timed(way.bare) for _ in range(20))
-            yield Line("rise to the goal: reduced", way.label, ours, "C yardstick, 1e-5", run().seconds, "5")
+            found = yardstick.run_yardstick(scenario, 1e-5, program=program, runs=20)
+            yield Line(what, way.label, ours, "C yardstick, 1e-5", found.seconds, "5")
     except yardstick.YardstickError as error:
         print(f"no yardstick: {error}", file=sys.stderr)
 
@@ -167,20 +168,14 @@ def connector_lines() -> Iterator[Line]:
         "drop of 1 s, 5e-5 s": (replace(SCENES["drop"].scenario, duration=1.0), 5e-5),
         "slider-crank, 1e-6 s": (replace(crank, duration=slider_crank.REVOLUTION), 1e-6),
     }
+    kinds: tuple[Evaluator, ...] = ("built_in", "symbolic", "python")
     for case, (scenario, step) in cases.items():
         run = partial(run_built_in, scenario, step, watch_steps=False)
-        built_in, symbolic, python = (
-            min(times)
-            for times in zip(
-                *(
-                    [run(contact=kind).solve_time for kind in ("built_in", "symbolic", "python")]
-                    for _ in range(5)
-                ),
-                strict=True,
-            )
-        )
-        yield Line(f"connector, symbolic: {case}", "generalised alpha", symbolic, "built-in", built_in, "1.1")
-        yield Line(f"connector, Python: {case}", "generalised alpha", python, "built-in", built_in, "1.6")
+        turns = [[run(contact=kind).solve_time for kind in kinds] for _ in range(5)]
+        built_in, *ours = (min(times) for times in zip(*turns, strict=True))
+        for name, seconds, asked in zip(("symbolic", "Python"), ours, ("1.1", "1.6"), strict=True):
+            what = f"connector, {name}: {case}"
+            yield Line(what, "generalised alpha", seconds, "built-in", built_in, asked)
 
 
 # --- the slider-crank ---
@@ -220,13 +215,7 @@ def long_lines() -> Iterator[Line]:
     for name in ("redundant", "reduced"):
         short = restless(name, 5.0)
         long = replace(short, duration=20.0)
-        what, how, against, asked = f"four times the time: {name}", "20 s", "5 s", "4"
-        try:
-            a, b = in_turns(partial(simulate, long), partial(simulate, short), turns=2)
-        except SimulationError as error:
-            yield refused_line(what, how, against, asked, error)
-            continue
-        yield Line(what, how, a, against, b, asked)
+        yield versus(f"four times the time: {name}", "20 s", long, "5 s", short, "4")
 
 
 def restless(name: str, duration: float) -> Scenario:
@@ -262,14 +251,8 @@ def space_lines() -> Iterator[Line]:
     }
     for case, plane in cases.items():
         space = replace(plane, dimensions=3)
-        what, against, asked = f"rise in space: {case}", "the same in the plane", "4"
         how = f"{space.solver.sections} sections" if space.clearance_pins else "1e-3 s"
-        try:
-            ours, others = in_turns(partial(simulate, space), partial(simulate, plane), turns=2)
-        except SimulationError as error:
-            yield refused_line(what, how, against, asked, error)
-            continue
-        yield Line(what, how, ours, against, others, asked)
+        yield versus(f"rise in space: {case}", how, space, "the same in the plane", plane, "4")
 
 
 # --- main ---
@@ -283,7 +266,7 @@ def whole(part: Callable[[], Iterator[Line]]) -> Iterator[Line]:
         yield from part()
     except SimulationError as error:
         words = (part.__doc__ or part.__name__).splitlines()[0]
-        yield refused_line(words, "", "", "", error)
+        yield refused_line(words, "", "", "", error.failure.reason)
 
 
 def sheet(lines: Sequence[Line]) -> Sheet:

@@ -104,18 +104,9 @@ def rows() -> list[tuple[str, ...]]:
         alone = best[name, 1]
         gain = alone.wall / one.wall
         steady = (alone.wall - alone.started) / (one.wall - one.started)
-        lines.append(
-            (
-                f"{one.runs} {name} runs",
-                str(workers),
-                f"{one.wall:.2f}",
-                f"{one.started:.2f}",
-                f"{1e3 * one.work / one.runs:.1f}",
-                f"{1e3 * one.overhead:.1f}",
-                "" if workers == 1 else f"{gain:.2f}",
-                "" if workers == 1 else f"{steady:.2f}",
-            )
-        )
+        gains = ("", "") if workers == 1 else (f"{gain:.2f}", f"{steady:.2f}")
+        times = f"{one.wall:.2f}", f"{one.started:.2f}", f"{1e3 * one.work / one.runs:.1f}"
+        lines.append((f"{one.runs} {name} runs", str(workers), *times, f"{1e3 * one.overhead:.1f}", *gains))
     return lines
 
 

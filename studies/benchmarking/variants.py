@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Literal
@@ -23,6 +23,11 @@ IMPACT_STEPS = 512  # at the default step
 FIXED_STEPS = (2.0, 0.4, 0.1)  # times the default, of runs in which nothing is located
 FINEST_FIXED_STEP = 0.04  # tried besides where time allows
 AUDIT = False  # how wrong a way can be is what is looked at
+KNOBS: tuple[tuple[str, str, Mapping[str, object]], ...] = (  # turned at the default step
+    *(("spectral radius", f"spectral radius {x:g}", {"spectral_radius": x}) for x in (0.0, 0.3, 0.7, 0.9)),
+    *(("Newton's method", f"Newton tolerance {x:.0e}", {"newton_tolerance": x}) for x in (1e-5, 1e-6, 1e-10)),
+    ("Newton's method", "full Newton", {"newton": "full"}),
+)
 STOCK, BUILT_IN = "stock recipe", "built-in contact"
 
 
@@ -50,27 +55,30 @@ class Way:
 
 
 def ways(scene: Scene, quick: bool) -> list[Way]:
-    """All ways to compute a scene; knobs that cost much are turned on short scenes only."""
-    if quick:
-        return list(_quick(scene))
+    """All ways to compute a scene; what costs much is done on short scenes only, and not if quick."""
     short = scene.is_short
+    if quick:
+        found = [*_error_controlled(scene, TOLERANCES[::2])]
+        if short:
+            found += _peers(scene, FIXED_STEPS[:2])
+            found += _steps(scene, "redundant, symbolic", "step", SHORT_LADDER[:1], backend="symbolic")
+        return found
     found = [*_error_controlled(scene, TOLERANCES)]
-    found += _steps(scene, "symbolic", LADDER if short else SHORT_LADDER)
-    found += _steps(scene, "python", SHORT_LADDER if short else SHORT_LADDER[1:2])
-    found += _growing(scene)
+    many, few = (LADDER, SHORT_LADDER) if short else (SHORT_LADDER, SHORT_LADDER[1:2])
+    found += _steps(scene, "redundant, symbolic", "step", many, backend="symbolic")
+    found += _steps(scene, "redundant, python", "step", few, backend="python")
+    growing = SHORT_LADDER[:2]
+    found += _steps(
+        scene, "redundant, growing steps", "growth 8, step", growing, growth=8.0, backend="symbolic"
+    )
     if not scene.scenario.oil_columns:
         found += _peers(scene, (*FIXED_STEPS, FINEST_FIXED_STEP) if short else FIXED_STEPS)
     if short:
-        found += [*_knobs(scene), *_fixed(scene), *_index_2(scene)]
+        found += [redundant(scene, family, label, 1.0, **settings) for family, label, settings in KNOBS]
+        found += _steps(scene, "nothing located", "fixed step", FIXED_STEPS, locate=False)
+        index_2 = {"constraint_index": 2, "integrator": "trapezoidal"}
+        found += _steps(scene, "trapezoidal, index 2", "trapezoidal, step", SHORT_LADDER, **index_2)
     return found
-
-
-def _quick(scene: Scene) -> Iterator[Way]:
-    """Few ways, none of which takes long."""
-    yield from _error_controlled(scene, TOLERANCES[::2])
-    if scene.is_short:
-        yield from _peers(scene, FIXED_STEPS[:2])
-        yield from _steps(scene, "symbolic", SHORT_LADDER[:1])
 
 
 def _error_controlled(scene: Scene, tolerances: Sequence[float]) -> Iterator[Way]:
@@ -79,38 +87,10 @@ def _error_controlled(scene: Scene, tolerances: Sequence[float]) -> Iterator[Way
     yield from (with_tolerance(scene, formulation, tolerance) for tolerance in tolerances)
 
 
-def _steps(scene: Scene, backend: Literal["python", "symbolic"], shares: Sequence[float]) -> Iterator[Way]:
+def _steps(scene: Scene, family: str, label: str, shares: Sequence[float], **settings: object) -> Iterator[Way]:
+    """The redundant formulation by several lengths of its steps."""
     for share in shares:
-        yield redundant(scene, f"redundant, {backend}", f"step x {share:g}", share, backend=backend)
-
-
-def _growing(scene: Scene) -> Iterator[Way]:
-    """Steps that grow while the motion is smooth."""
-    for share in SHORT_LADDER[:2]:
-        label = f"growth 8, step x {share:g}"
-        yield redundant(scene, "redundant, growing steps", label, share, growth=8.0, backend="symbolic")
-
-
-def _knobs(scene: Scene) -> Iterator[Way]:
-    """Spectral radius and Newton's method at the default step."""
-    for radius in (0.0, 0.3, 0.7, 0.9):
-        yield redundant(scene, "spectral radius", f"spectral radius {radius:g}", 1.0, spectral_radius=radius)
-    for tolerance in (1e-5, 1e-6, 1e-10):
-        label = f"Newton tolerance {tolerance:.0e}"
-        yield redundant(scene, "Newton's method", label, 1.0, newton_tolerance=tolerance)
-    yield redundant(scene, "Newton's method", "full Newton", 1.0, newton="full")
-
-
-def _fixed(scene: Scene) -> Iterator[Way]:
-    """Our connector and solver, but nothing located."""
-    for share in FIXED_STEPS:
-        yield redundant(scene, "nothing located", f"fixed step x {share:g}", share, locate=False)
-
-
-def _index_2(scene: Scene) -> Iterator[Way]:
-    for share in SHORT_LADDER:
-        settings = {"constraint_index": 2, "integrator": "trapezoidal"}
-        yield redundant(scene, "trapezoidal, index 2", f"trapezoidal, step x {share:g}", share, **settings)
+        yield redundant(scene, family, f"{label} x {share:g}", share, **settings)
 
 
 def redundant(scene: Scene, family: str, label: str, share: float, **settings: object) -> Way:
@@ -139,12 +119,8 @@ def _peers(scene: Scene, shares: Sequence[float]) -> Iterator[Way]:
     for share in shares:
         step = scene.step * share
         yield peer(STOCK, f"fixed step x {share:g}", scene, run_stock, step)
-        if _is_smooth(scene):
+        if isinstance(scene.scenario.clearance_pins[scene.pin].contact.friction, Frictionless):
             yield peer(BUILT_IN, f"fixed step x {share:g}", scene, run_built_in, step)
-
-
-def _is_smooth(scene: Scene) -> bool:
-    return isinstance(scene.scenario.clearance_pins[scene.pin].contact.friction, Frictionless)
 
 
 def peer(family: str, label: str, scene: Scene, run: Callable[[Scenario, float], PeerRun], step: float) -> Way:

@@ -18,8 +18,8 @@ from support_exudyn.model.linkage import Linkage
 class Machine(Value, ABC):
     """A machine is its dimensions and masses; it knows how to lay itself out as a linkage.
 
-    It does not draw itself: pictures show plates around its joints, or the look that is registered for its class
-    with `postprocessing.look.looks.look_of`.
+    It does not draw itself: pictures show plates around its joints, or the look that is registered for its
+    class with `postprocessing.look.looks.look_of`.
     """
 
     @abstractmethod
