@@ -14,8 +14,8 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _asked(argv: Sequence[str] | None) -> None:
-    from support_exudyn.commands.parser import command, parser  # and libraries: long enough to be interrupted
-    from support_exudyn.commands.user_modules import at_work, import_modules
+    # with their libraries: long enough to be interrupted
+    from support_exudyn.commands.parser import at_work, command, import_modules, parser
 
     given = parser().parse_args(argv)
     import_modules(given.imports)

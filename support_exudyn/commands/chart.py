@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import re
 
-from support_exudyn.commands.command_line import folder, say
+from support_exudyn.commands.command_line import add_out, folder, say
 
 HELP = "figure of a sweep: one number over one varied field, with errors, as PNG and PDF"
 NO_NAME = re.compile(r"[^\w.-]+")  # what is left out of a file's name
@@ -21,7 +21,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--by", metavar="Z", help="something else that was varied, a curve for each of its values"
     )
-    parser.add_argument("--out", type=folder, metavar="DIR", help="folder of the figure (figures in the store)")
+    add_out(parser, "folder of the figure (figures in the store)")
 
 
 def run(given: argparse.Namespace) -> None:

@@ -7,7 +7,7 @@ import json
 from functools import partial
 from pathlib import Path
 
-from support_exudyn.commands.command_line import folder, number, say
+from support_exudyn.commands.command_line import add_out, number, say
 from support_exudyn.files.machines.read import read_machine
 from user_forces.values.value import InputError
 
@@ -23,9 +23,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="machine data file, a path that ends in .toml; or a machine that comes with the package: "
         "reference, zf18000, two_leg_shield, slider_crank",
     )
-    parser.add_argument(
-        "--out", type=folder, metavar="DIR", help="where the figure goes; by default beside the file, or here"
-    )
+    add_out(parser, "where the figure goes; by default beside the file, or here")
     parser.add_argument(
         "--stroke-mm",
         type=partial(number, low=-FARTHEST, high=FARTHEST),

@@ -23,7 +23,7 @@ LONGEST_REFUSAL = 400  # characters
 
 
 class Parser(argparse.ArgumentParser):
-    """Of a command line; what is wrong with it is said in one line, whatever words it was given."""
+    """A command line; what is wrong with it is said in one line, whatever words it was given."""
 
     def error(self, message: str) -> NoReturn:
         """End the program with exit code 2, a usage and a line."""
@@ -74,6 +74,16 @@ def folder(text: str) -> Path:
     return Path(text)
 
 
+def add_run(parser: argparse.ArgumentParser) -> None:
+    """Take RUN, the file of a run."""
+    parser.add_argument("run", type=folder, metavar="RUN", help="file of a run, as Result.save writes it")
+
+
+def add_out(parser: argparse.ArgumentParser, what: str, metavar: str = "DIR") -> None:
+    """Take --out, a folder or file to write; what: its help."""
+    parser.add_argument("--out", type=folder, metavar=metavar, help=what)
+
+
 def add_json(parser: argparse.ArgumentParser) -> None:
     """Take --json: what came out as one JSON object on standard output, for scripts."""
     parser.add_argument("--json", action="store_true", help="one JSON object instead of text, in SI units")
@@ -108,7 +118,7 @@ def say(text: str) -> None:
 
 
 def warn(text: str) -> None:
-    """Print a line on standard error, likewise."""
+    """Print a line on standard error; what it would do to a terminal is not done."""
     print(cleaned(text), file=sys.stderr, flush=True)
 
 

@@ -11,10 +11,11 @@ from pathlib import Path
 
 from support_exudyn.commands.command_line import (
     add_json,
+    add_out,
+    add_run,
     add_times,
     answer,
     count,
-    folder,
     number,
     say,
     shown_progress,
@@ -37,7 +38,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "%(prog)s [-h] RUN [--to FORMAT ...] [--out DIR]\n"
         "    [--every N | --frames-per-second F] [--from T] [--until T] [--json]"
     )
-    parser.add_argument("run", type=folder, metavar="RUN", help="file of a run, as Result.save writes it")
+    add_run(parser)
     parser.add_argument(
         "--to",
         nargs="+",
@@ -48,9 +49,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "solution: NAME_solution.txt, Exudyn's own solution file, all records; by default all but the last "
         "that the run has recorded enough for",
     )
-    parser.add_argument(
-        "--out", type=folder, metavar="DIR", help="where to; by default NAME_export beside the run"
-    )
+    add_out(parser, "where to; by default NAME_export beside the run")
     density = parser.add_mutually_exclusive_group()
     density.add_argument("--every", type=count, metavar="N", help="one in N records")
     density.add_argument(

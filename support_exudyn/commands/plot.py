@@ -10,7 +10,16 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from typing import TYPE_CHECKING
 
-from support_exudyn.commands.command_line import add_json, add_times, answer, folder, number, say, warn
+from support_exudyn.commands.command_line import (
+    add_json,
+    add_out,
+    add_run,
+    add_times,
+    answer,
+    number,
+    say,
+    warn,
+)
 from support_exudyn.postprocessing.figures.journal import chosen_pin, loose_pins
 from support_exudyn.postprocessing.figures.selection import matching
 from support_exudyn.simulation.result import Result
@@ -26,7 +35,7 @@ KINDS = ("orbit", "poincare", "spectrum")  # of figures of a pin
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The run's file, what is drawn, and where to."""
-    parser.add_argument("run", type=folder, metavar="RUN", help="file of a run, as Result.save writes it")
+    add_run(parser)
     parser.add_argument(
         "channels", nargs="*", metavar="CHANNEL", help="channels over time: names, or patterns as 'pin.*.force'"
     )  # fmt: skip
@@ -49,9 +58,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--section", nargs=2, default=(), metavar="CHANNEL", help="channels of a section once in every period"
     )
-    parser.add_argument(
-        "--out", type=folder, metavar="DIR", help="folder of the figures (RUN_figures beside the run)"
-    )
+    add_out(parser, "folder of the figures (RUN_figures beside the run)")
     add_json(parser)
     parser.add_argument("--show", action="store_true", help="open them in windows, too")
 

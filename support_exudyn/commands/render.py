@@ -8,9 +8,10 @@ import sys
 
 from support_exudyn.commands.command_line import (
     add_json,
+    add_out,
+    add_run,
     add_times,
     answer,
-    folder,
     number,
     say,
     shown_progress,
@@ -24,12 +25,10 @@ HELP = "ray-traced frames and a movie of a run, without a display"
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The run's file, and what is made of it."""
     add = parser.add_argument
-    add("run", type=folder, metavar="RUN", help="file of a run, as Result.save writes it")
-    add(
-        "--out",
-        type=folder,
-        metavar="DIR",
-        help="folder for frame_0000.png and so on; the movie is written beside it. Default: RUN_frames beside "
+    add_run(parser)
+    add_out(
+        parser,
+        "folder for frame_0000.png and so on; the movie is written beside it. Default: RUN_frames beside "
         "RUN. With --still: the file of the picture",
     )
     add(

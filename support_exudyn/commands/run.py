@@ -4,14 +4,12 @@ from __future__ import annotations
 
 import argparse
 import sys
-from dataclasses import asdict
 from pathlib import Path
-from typing import Any
 
 from rich.console import Console
 
-from support_exudyn.commands.command_line import add_json, answer, folder, shown_progress
-from support_exudyn.commands.tables import printed, show_table
+from support_exudyn.commands.command_line import add_json, add_out, answer, folder, shown_progress
+from support_exudyn.commands.tables import facts, printed, show_numbers, show_table, show_touches
 from support_exudyn.files import ScenarioFile, read_scenario_file
 from support_exudyn.files.whole_file import check_may_be_replaced, named, real_path
 from support_exudyn.postprocessing import summary as account
@@ -27,9 +25,7 @@ WHOLE = (0.0, float("inf"))  # run
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The scenario's file, and where the run goes."""
     parser.add_argument("file", type=folder, metavar="FILE", help="a scenario, as TOML")
-    parser.add_argument(
-        "--out", type=folder, metavar="RUN", help="file of the run (beside the scenario, with the ending .h5)"
-    )
+    add_out(parser, "file of the run (beside the scenario, with the ending .h5)", "RUN")
     parser.add_argument(
         "--accuracy",
         type=accuracy,
@@ -86,7 +82,9 @@ def run(given: argparse.Namespace) -> None:
     if solution is not None:
         solution_file.save_solution(result, solution)
     if given.json:
-        answer(_object(result, out) | ({} if solution is None else {"solution": solution}))
+        touches = {pin: len(onsets) for pin, onsets in result.onsets.items()}
+        said = {"run": out, **facts(result, *WHOLE), "touches": touches}
+        answer(said | ({} if solution is None else {"solution": solution}))
     else:
         printed(lambda console: _tell(console, result, file, list(files.values())))
     if result.goal is not None and not result.met:
@@ -98,31 +96,14 @@ def run(given: argparse.Namespace) -> None:
 
 def _tell(console: Console, result: Result, file: ScenarioFile, written: list[Path]) -> None:
     """A short account."""
-    title = file.name or "what came out"
-    known = "± estimated numerical error" if result.coarser else "numerical errors not known: errors = true"
-    rows = account.came_out(result, *WHOLE)
-    show_table(console, f"{title} ({known})", ("number", ">value", ">±", "unit"), rows)
+    show_numbers(console, file.name or "what came out", "errors = true", result, *WHOLE)
     linkage = result.scenario.linkage
     points = [name for name in account.telling(result) if name.rpartition(".")[0] in linkage.points]
     if points:
         paths = [row[:-1] for row in account.of_channels(result, points, *WHOLE)]
         show_table(console, "paths", ("channel", "unit", ">least", ">mean", ">largest"), paths)
-    if touched := account.touches(result):
-        header = ("pin", "touch", ">time", ">lasts", ">approach", ">parting")
-        show_table(console, "touches, and speeds of approach and parting", header, touched)
+    show_touches(console, result)
     assumed = [("assumed", sentence) for sentence in file.assumed]
     show_table(console, "how", (), [*account.how(result)[:-1], *assumed])
     for path in written:
         print(path)
-
-
-def _object(result: Result, out: Path) -> dict[str, Any]:
-    """The same for scripts, in SI."""
-    return {
-        "run": out,
-        "accuracy": {"asked": result.goal, "met": result.met if result.goal is not None else None},
-        "counts": asdict(result.counts),
-        "wall_time_s": result.wall_time,
-        "numbers": {name: found._asdict() for name, found in account.numbers(result, *WHOLE).items()},
-        "touches": {pin: len(onsets) for pin, onsets in result.onsets.items()},
-    }

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from dataclasses import replace
 
-from support_exudyn.commands.command_line import folder, say
+from support_exudyn.commands.command_line import add_out, add_run, say
 from support_exudyn.files import save_scenario, scenario_text
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.result import Result
@@ -15,8 +15,8 @@ HELP = "the scenario of a run as a TOML file, which `run` takes"
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The run's file, and where the scenario goes."""
-    parser.add_argument("run", type=folder, metavar="RUN", help="file of a run, as Result.save writes it")
-    parser.add_argument("--out", type=folder, metavar="FILE", help="write it there, not to standard output")
+    add_run(parser)
+    add_out(parser, "write it there, not to standard output", "FILE")
 
 
 def run(given: argparse.Namespace) -> None:

@@ -9,7 +9,7 @@ from importlib import import_module
 from importlib.util import find_spec
 from typing import Any
 
-from support_exudyn.commands.command_line import folder, say
+from support_exudyn.commands.command_line import add_out, say
 from support_exudyn.files.whole_file import whole_file
 
 HELP = "the JSON Schema of scenario files, or of machine files, by which editors complete and check them"
@@ -24,12 +24,11 @@ KINDS = tuple(kind for kind, (module, _) in MADE_BY.items() if find_spec(module)
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Which one, and where it goes."""
     parser.add_argument("kind", choices=KINDS, metavar="KIND", help=" or ".join(KINDS))
-    parser.add_argument(
-        "--out",
-        type=folder,
-        metavar="FILE",
-        help="write it there, not to standard output; `#:schema FILE` as the first line of a TOML file then "
+    add_out(
+        parser,
+        "write it there, not to standard output; `#:schema FILE` as the first line of a TOML file then "
         "lets editors with Taplo (Even Better TOML) complete and check it",
+        "FILE",
     )
 
 

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import argparse
 import math
-from dataclasses import asdict
 from typing import Any
 
 from rich.console import Console
 
-from support_exudyn.commands.command_line import add_json, add_times, answer, folder
-from support_exudyn.commands.tables import NARROWEST, printed, show_table
+from support_exudyn.commands.command_line import add_json, add_run, add_times, answer
+from support_exudyn.commands.tables import NARROWEST, facts, printed, show_numbers, show_table, show_touches
 from support_exudyn.postprocessing import summary as account
 from support_exudyn.postprocessing.figures import selection
 from support_exudyn.postprocessing.figures.selection import matching
@@ -22,7 +21,7 @@ WHOLE = (0.0, math.inf)  # run
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The run's file, and which channels."""
-    parser.add_argument("run", type=folder, metavar="RUN", help="file of a run, as Result.save writes it")
+    add_run(parser)
     parser.add_argument(
         "channels", nargs="*", metavar="CHANNEL", help="only these: names or patterns, such as 'pin.*.force'"
     )
@@ -47,11 +46,8 @@ def _object(result: Result, given: argparse.Namespace) -> dict[str, Any]:
     return {
         "run": given.run,
         "scenario": result.scenario.to_data(),
-        "accuracy": {"asked": result.goal, "met": result.met if result.goal is not None else None},
-        "counts": asdict(result.counts),
-        "wall_time_s": result.wall_time,
+        **facts(result, *ends),
         "provenance": dict(result.provenance),
-        "numbers": {name: found._asdict() for name, found in account.numbers(result, *ends).items()},
         "touches": {
             pin: [
                 {"time_s": o.time, "speed_m_per_s": o.speed, "parting_time_s": o.parting_time} for o in onsets
@@ -69,16 +65,10 @@ def _tables(console: Console, result: Result, given: argparse.Namespace) -> None
     if names:
         _show_channels(console, account.of_channels(result, names, *ends), f"channels{piece}")
         return
-    numbers = account.came_out(result, *ends)
     show_table(console, "what was run", (), account.what_was_run(result))
     show_table(console, "how", (), account.how(result))
-    known = (
-        "± estimated numerical error" if result.coarser else "numerical errors not known: no accuracy was asked"
-    )
-    show_table(console, f"what came out{piece} ({known})", ("number", ">value", ">±", "unit"), numbers)
-    if rows := account.touches(result):
-        header = ("pin", "touch", ">time", ">lasts", ">approach", ">parting")
-        show_table(console, "touches, and speeds of approach and parting", header, rows)
+    show_numbers(console, f"what came out{piece}", "no accuracy was asked", result, *ends)
+    show_touches(console, result)
     telling = [name for name in result.channels if name != "time"] if given.all else account.telling(result)
     rest = len(result.channels) - 1 - len(telling)
     more = f" ({rest} more: --all)" if rest else ""

@@ -11,7 +11,7 @@ from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING, Any
 
-from support_exudyn.commands.command_line import count, folder, say, warn
+from support_exudyn.commands.command_line import add_out, count, folder, say, warn
 from user_forces.values.value import cleaned
 
 if TYPE_CHECKING:
@@ -34,9 +34,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The sweep's file, where the store is, and who runs it."""
     parser.epilog = EPILOG
     parser.add_argument("file", type=folder, metavar="FILE", help="what is varied, as TOML")
-    parser.add_argument(
-        "--out", type=folder, metavar="DIR", help="the store; by default FILE_sweep beside FILE"
-    )
+    add_out(parser, "the store; by default FILE_sweep beside FILE")
     where = parser.add_mutually_exclusive_group()
     where.add_argument(
         "--workers",

@@ -1,9 +1,14 @@
-"""Tables in the terminal, or in what reads standard output: numbers whole, words broken at its width."""
+"""What commands say of a run: tables in the terminal or in what reads standard output, and numbers for scripts.
+
+Numbers in tables are whole, words are broken at the width of the terminal.
+"""
 
 from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Sequence
+from dataclasses import asdict
+from typing import Any
 
 from rich import box
 from rich.cells import cell_len
@@ -12,6 +17,8 @@ from rich.markup import escape
 from rich.table import Table
 
 from support_exudyn.commands.command_line import hush
+from support_exudyn.postprocessing import summary as account
+from support_exudyn.simulation.result import Result
 from user_forces.values.value import cleaned
 
 NARROWEST = 25  # characters that words are worth showing in
@@ -66,3 +73,27 @@ def show_table(console: Console, title: str, header: Sequence[str], rows: Sequen
         broad.print(table)
     lines = (shown.get() + told.get()).splitlines()
     print("\n".join(line.rstrip() for line in lines), end="\n\n")
+
+
+def show_numbers(console: Console, title: str, unknown: str, result: Result, start: float, end: float) -> None:
+    """The table of the numbers of a run between two times [s]; unknown: why they may have no errors."""
+    known = "± estimated numerical error" if result.coarser else f"numerical errors not known: {unknown}"
+    rows = account.came_out(result, start, end)
+    show_table(console, f"{title} ({known})", ("number", ">value", ">±", "unit"), rows)
+
+
+def show_touches(console: Console, result: Result) -> None:
+    """The table of the touches of a run, if there are any."""
+    if rows := account.touches(result):
+        header = ("pin", "touch", ">time", ">lasts", ">approach", ">parting")
+        show_table(console, "touches, and speeds of approach and parting", header, rows)
+
+
+def facts(result: Result, start: float, end: float) -> dict[str, Any]:
+    """Accuracy, cost and numbers of a run between two times [s], for scripts, in SI."""
+    return {
+        "accuracy": {"asked": result.goal, "met": result.met if result.goal is not None else None},
+        "counts": asdict(result.counts),
+        "wall_time_s": result.wall_time,
+        "numbers": {name: found._asdict() for name, found in account.numbers(result, start, end).items()},
+    }

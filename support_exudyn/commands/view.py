@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from support_exudyn.commands.command_line import count, folder
+from support_exudyn.commands.command_line import add_run, count, folder
 from support_exudyn.simulation.result import Result
 
 HELP = "open Exudyn's solution viewer on a run"
@@ -12,7 +12,7 @@ HELP = "open Exudyn's solution viewer on a run"
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The run's file, and what of it is shown."""
-    parser.add_argument("run", type=folder, metavar="RUN", help="file of a run, as Result.save writes it")
+    add_run(parser)
     parser.add_argument(
         "--solution",
         type=folder,
