@@ -187,8 +187,8 @@ def slider_crank_lines() -> Iterator[Line]:
     two = replace(half, duration=2.0 * slider_crank.REVOLUTION)
     times = np.linspace(0.0, half.duration, round(half.duration / half.record_period) + 1)
     exact = references()["slider-crank"].path[0]
-    tolerance, _ = loosest(half, SMALL_ERROR, times)
-    lsoda = partial(run_lsoda, two, rtol=tolerance, atol=tolerance)
+    tolerance = loosest(half, SMALL_ERROR, times)
+    lsoda = partial(run_lsoda, two, tolerance)
 
     def off(x: np.ndarray) -> float:
         return float(np.abs(thinned(x) - exact).max())

@@ -8,11 +8,13 @@ else is drawn.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import TypeVar
 
 import numpy as np
 
+import user_forces as forces
 from studies.common import paper_machine
 from support_exudyn import (
     ClearancePin,
@@ -37,39 +39,19 @@ from support_exudyn import (
     reference_support,
 )
 from support_exudyn.scenario.scenario_data import Accuracy
-from user_forces import (
-    Ambrosio,
-    BengisuAkay,
-    BrownMcPhee,
-    CubicCoulomb,
-    DampingSpeed,
-    DepthSpeed,
-    Exact,
-    Flores,
-    FrictionLaw,
-    Frictionless,
-    Gonthier,
-    HuGuo,
-    HuntCrossley,
-    InputError,
-    JournalBearing,
-    JournalContact,
-    LankaraniNikravesh,
-    LeeWang,
-    Threlfall,
-    TouchSpeed,
-)
 from user_forces.normal.power_law import PowerLaw
 
+T = TypeVar("T")
 LAWS: tuple[type[PowerLaw], ...] = (
-    *(LankaraniNikravesh, Exact, HuntCrossley, Gonthier, Flores, LeeWang, HuGuo),
+    *(forces.LankaraniNikravesh, forces.Exact, forces.HuntCrossley, forces.Gonthier),
+    *(forces.Flores, forces.LeeWang, forces.HuGuo),
 )
 STATIC = 1.3  # times the sliding coefficient, of laws that know both
-RUBBING: tuple[Callable[[float], FrictionLaw], ...] = (
-    lambda mu: CubicCoulomb(sliding_coefficient=mu),
-    lambda mu: Threlfall(sliding_coefficient=mu),
-    lambda mu: BrownMcPhee(sliding_coefficient=mu, static_coefficient=STATIC * mu),
-    lambda mu: BengisuAkay(sliding_coefficient=mu, static_coefficient=STATIC * mu),
+RUBBING: tuple[Callable[[float], forces.FrictionLaw], ...] = (
+    lambda mu: forces.CubicCoulomb(sliding_coefficient=mu),
+    lambda mu: forces.Threlfall(sliding_coefficient=mu),
+    lambda mu: forces.BrownMcPhee(sliding_coefficient=mu, static_coefficient=STATIC * mu),
+    lambda mu: forces.BengisuAkay(sliding_coefficient=mu, static_coefficient=STATIC * mu),
 )
 SHORTEST = 0.04  # [s] of a run of the support
 RECORDS = 200  # of a run
@@ -103,7 +85,7 @@ def fresh(seed: int, number: int) -> Fresh:
         try:
             scenario = KINDS[kind](random)
             scenario.linkage  # noqa: B018  # journals may not fit where they are to start
-        except InputError:
+        except forces.InputError:
             continue
         return Fresh(seed, number, kind, scenario)
     raise RuntimeError(f"seed {seed}, scene {number}: {DRAWS} draws gave no {kind} that fits together")
@@ -117,12 +99,24 @@ def _between(random: np.random.Generator, low: float, high: float) -> float:
     return float(low * (high / low) ** random.uniform())
 
 
-def _contact(random: np.random.Generator, size: float, stiffness: float) -> JournalContact:
+def _pick(random: np.random.Generator, items: Sequence[T]) -> T:
+    """Draw one of some items."""
+    return items[int(random.integers(len(items)))]
+
+
+def _some_pin(random: np.random.Generator, rear: float = 0.0) -> str:
+    """Draw the name of a pin of the support; with this chance the rear-link pin before all."""
+    if rear and random.uniform() < rear:
+        return paper_machine.LOOSE_PIN
+    return _pick(random, list(reference_support().linkage().pins))
+
+
+def _contact(random: np.random.Generator, size: float, stiffness: float) -> forces.JournalContact:
     """Draw a pin's contact; size and stiffness of its bearing are multiples of those of the support."""
-    bearing = JournalBearing(
+    bearing = forces.JournalBearing(
         bore_radius=paper_machine.BORE_RADIUS * size, clearance=_between(random, 1e-4, 3e-3) * size
     )
-    law = LAWS[random.integers(len(LAWS))]
+    law = _pick(random, LAWS)
     exponent = 1.5 if random.uniform() < 0.7 else float(random.uniform(1.0, 2.0))
     normal = law(
         stiffness=stiffness
@@ -133,21 +127,23 @@ def _contact(random: np.random.Generator, size: float, stiffness: float) -> Jour
         restitution=float(random.uniform(0.3, 0.98)),
         damping_speed=_damping_speed(random),
     )
-    return JournalContact(bearing=bearing, normal=normal, friction=_friction(random))
+    return forces.JournalContact(bearing=bearing, normal=normal, friction=_friction(random))
 
 
-def _damping_speed(random: np.random.Generator) -> DampingSpeed:
-    return DepthSpeed() if random.uniform() < 0.6 else TouchSpeed(floor=_between(random, 1e-4, 1e-2))
+def _damping_speed(random: np.random.Generator) -> forces.DampingSpeed:
+    return (
+        forces.DepthSpeed() if random.uniform() < 0.6 else forces.TouchSpeed(floor=_between(random, 1e-4, 1e-2))
+    )
 
 
-def _friction(random: np.random.Generator) -> FrictionLaw:
+def _friction(random: np.random.Generator) -> forces.FrictionLaw:
     if random.uniform() < 0.4:
-        return Frictionless()
+        return forces.Frictionless()
     coefficient = float(random.uniform(0.02, 0.4))
     if random.uniform() < 0.6:
-        return RUBBING[random.integers(len(RUBBING))](coefficient)
+        return _pick(random, RUBBING)(coefficient)
     static = _between(random, 1e-4, 1e-3)
-    return Ambrosio(
+    return forces.Ambrosio(
         sliding_coefficient=coefficient,
         static_speed=static,
         dynamic_speed=static * _between(random, 3.0, 100.0),
@@ -165,10 +161,6 @@ def _pin(random: np.random.Generator, size: float = 1.0, stiffness: float = 1.0)
     )
 
 
-def _duration(random: np.random.Generator, longest: float) -> float:
-    return _between(random, SHORTEST, longest)
-
-
 def _drive(random: np.random.Generator, duration: float) -> Drive:
     """Draw a drive of columns: none, or one that goes as far as the fastest does in that time [s]."""
     far = float(random.uniform(-1.0, 1.0)) * SPEED_OF_STROKE * duration
@@ -179,7 +171,7 @@ def _drive(random: np.random.Generator, duration: float) -> Drive:
         lambda: UniformSpeed(stroke=0.3 * far, start=begin, end=end + 0.2 * duration),
         lambda: Reciprocating(stroke=0.2 * abs(far), period=duration * float(random.uniform(0.5, 2.0))),
     )
-    return drives[random.integers(len(drives))]()
+    return _pick(random, drives)()
 
 
 def _start(random: np.random.Generator, scenario: Scenario) -> Scenario:
@@ -200,7 +192,7 @@ def _scene(
     longest: float,
     **more: object,
 ) -> Scenario:
-    duration = _duration(random, longest)
+    duration = _between(random, SHORTEST, longest)
     fields: dict[str, object] = {
         "machine": machine, "pins": pins, "duration": duration, "record_period": duration / RECORDS,
         "drive": _drive(random, duration), "solver": SolverSettings(most_steps=MOST_STEPS),
@@ -208,10 +200,16 @@ def _scene(
     return _start(random, Scenario(**(fields | more)))  # type: ignore[arg-type]
 
 
-def _oil(random: np.random.Generator) -> OilColumn:
+def _oil(
+    random: np.random.Generator,
+    bore: tuple[float, float] = (0.15, 0.3),
+    length: tuple[float, float] = (0.2, 0.8),
+    columns: int = 2,
+) -> OilColumn:
+    """Draw a column of oil, or so many side by side; diameters of bores and lengths in m."""
     return OilColumn(
-        bore_area=bore_area(float(random.uniform(0.15, 0.3)), 2),
-        oil_length=float(random.uniform(0.2, 0.8)),
+        bore_area=bore_area(float(random.uniform(*bore)), columns),
+        oil_length=float(random.uniform(*length)),
         bulk_modulus=_between(random, 7e8, 2e9),
         damping_time=_between(random, 3e-4, 3e-3),
     )
@@ -231,9 +229,8 @@ def _rear_pin(random: np.random.Generator) -> Scenario:
 
 
 def _any_pin(random: np.random.Generator) -> Scenario:
-    machine = reference_support()
-    names = list(machine.linkage().pins)
-    return _scene(random, machine, {names[random.integers(len(names))]: _pin(random)}, 0.12)
+    name = _some_pin(random)
+    return _scene(random, reference_support(), {name: _pin(random)}, 0.12)
 
 
 def _several_pins(random: np.random.Generator) -> Scenario:
@@ -245,15 +242,13 @@ def _several_pins(random: np.random.Generator) -> Scenario:
 
 def _on_oil(random: np.random.Generator) -> Scenario:
     """Of three, one asks for the engine's formulation where the tree would do."""
-    machine = reference_support()
-    names = list(machine.linkage().pins)
-    name = paper_machine.LOOSE_PIN if random.uniform() < 0.6 else names[random.integers(len(names))]
-    scene = _scene(random, machine, {name: _pin(random)}, 0.2, columns=_columns(_oil(random)))
+    name = _some_pin(random, rear=0.6)
+    scene = _scene(random, reference_support(), {name: _pin(random)}, 0.2, columns=_columns(_oil(random)))
     return replace(scene, formulation="redundant") if random.uniform() < 0.33 else scene
 
 
 def _on_cylinders(random: np.random.Generator) -> Scenario:
-    duration = _duration(random, 0.12)
+    duration = _between(random, SHORTEST, 0.12)
     begin, end = (duration * float(random.uniform(low, low + 0.5)) for low in (0.0, 0.5))
     ramp = 0.4 * max(end - begin, 0.02)
     extent = float(random.uniform(-1.0, 1.0))
@@ -261,7 +256,7 @@ def _on_cylinders(random: np.random.Generator) -> Scenario:
         SuddenOpening(start=begin, end=end + 0.02, extent=extent),
         RampedOpening(start=begin, end=end + 0.02, ramp=ramp, extent=extent),
     )
-    cylinder = paper_machine.hydraulic_cylinders(inlets[random.integers(2)])["front_column"]
+    cylinder = paper_machine.hydraulic_cylinders(_pick(random, inlets))["front_column"]
     cylinder = replace(cylinder, bulk_modulus=_between(random, 7e8, 2e9))
     columns: dict[str, HydraulicCylinder] = {"front_column": cylinder, "rear_column": cylinder}
     pins = {paper_machine.LOOSE_PIN: _pin(random)} if random.uniform() < 0.8 else {}
@@ -284,8 +279,7 @@ def _under_block(random: np.random.Generator) -> Scenario:
         stiffness=_between(random, 1e8, 3e9),
         restitution=float(random.uniform(0.2, 0.9)),
     )
-    names = list(machine.linkage().pins)
-    pins = {names[random.integers(len(names))]: _pin(random)} if random.uniform() < 0.6 else {}
+    pins = {_some_pin(random): _pin(random)} if random.uniform() < 0.6 else {}
     columns = _columns(_oil(random)) if random.uniform() < 0.5 else {}
     return replace(
         _scene(random, machine, pins, 0.12, columns=columns, loads={"rock": block}), start="concentric"
@@ -293,12 +287,7 @@ def _under_block(random: np.random.Generator) -> Scenario:
 
 
 def _tail_beam(random: np.random.Generator) -> Scenario:
-    jack = OilColumn(
-        bore_area=bore_area(float(random.uniform(0.1, 0.18))),
-        oil_length=float(random.uniform(0.15, 0.5)),
-        bulk_modulus=_between(random, 7e8, 2e9),
-        damping_time=_between(random, 3e-4, 3e-3),
-    )
+    jack = _oil(random, (0.1, 0.18), (0.15, 0.5), 1)
     columns = _columns(_oil(random)) if random.uniform() < 0.5 else {}
     pins = {paper_machine.LOOSE_PIN: _pin(random)}
     parts = {"tail_beam": OwnBody(jack=jack)}
@@ -322,11 +311,9 @@ def _crank(random: np.random.Generator) -> Scenario:
 
 
 def _in_space(random: np.random.Generator) -> Scenario:
-    machine = reference_support()
-    names = list(machine.linkage().pins)
-    name = paper_machine.LOOSE_PIN if random.uniform() < 0.5 else names[random.integers(len(names))]
+    name = _some_pin(random, rear=0.5)
     columns = _columns(_oil(random)) if random.uniform() < 0.5 else {}
-    return _scene(random, machine, {name: _pin(random)}, 0.08, columns=columns, dimensions=3)
+    return _scene(random, reference_support(), {name: _pin(random)}, 0.08, columns=columns, dimensions=3)
 
 
 KINDS: Mapping[str, Callable[[np.random.Generator], Scenario]] = {

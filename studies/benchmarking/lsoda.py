@@ -8,18 +8,16 @@ no gravity.
 from __future__ import annotations
 
 import math
-import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 from scipy.integrate import solve_ivp
 
+from studies.benchmarking.peers.peer_run import contact_numbers
 from support_exudyn import Scenario, SliderCrank, Steady
-from support_exudyn.mechanics.contact_state import Onset
-from user_forces import Frictionless, LankaraniNikravesh, TouchSpeed
+from user_forces import Frictionless
 from user_forces.values.value import InputError
 
 PIN = "slider_pin"
@@ -45,125 +43,93 @@ class Numbers(NamedTuple):
     floor: float  # of the approach speed [m/s]
 
 
-@dataclass(frozen=True)
-class LsodaRun:
-    """Outcome: slider's place [m] at the asked times [s], touches, evaluations, seconds it took."""
-
-    time: Series
-    slider: Series
-    onsets: tuple[Onset, ...]
-    evaluations: int
-    seconds: float
-
-
-def run_lsoda(
-    scenario: Scenario, *, rtol: float, atol: float, times: Sequence[float] | Series | None = None
-) -> LsodaRun:
-    """Integrate a scenario.
+def run_lsoda(scenario: Scenario, tolerance: float, times: Series | None = None) -> Series:
+    """Integrate a scenario; return the slider's place [m] at the times.
 
     Arguments:
         scenario: SliderCrank driven by Steady, slider pin loose with its bore in the slider, no gravity, start
             "concentric", LankaraniNikravesh with exponent 1.5 and TouchSpeed, no friction.
-        rtol, atol: of LSODA, for angle [rad], place [m] and their rates alike.
+        tolerance: of LSODA, relative and absolute, for angle [rad], place [m] and their rates alike.
         times: where the slider's place is wanted [s]; the scenario's records by default.
 
     Raises InputError if the scenario is not covered, RuntimeError if LSODA gives up.
     """
-    numbers = _numbers(scenario)
-    count = round(scenario.duration / scenario.record_period)
-    wanted = np.asarray(
-        np.arange(count + 1) * scenario.record_period if times is None else times, dtype=np.float64
-    )
-    began = time.perf_counter()
-    run = _Run(numbers, rtol, atol)
-    slider = run.go(scenario.duration, wanted)
-    return LsodaRun(wanted, slider, tuple(run.onsets), run.evaluations, time.perf_counter() - began)
+    numbers, end = _numbers(scenario), scenario.duration
+    records = np.arange(round(end / scenario.record_period) + 1) * scenario.record_period
+    wanted = records if times is None else times
+    t, state, touching, speed = 0.0, _start(numbers), False, 0.0
+    pieces: list[Series] = []
+    while t < end:
+        if len(pieces) > MOST_PIECES:
+            raise RuntimeError(
+                f"more than {MOST_PIECES} touches and partings by {t} s: the tolerance is too loose"
+            )
+        inside = wanted[(wanted > t if pieces else wanted >= t) & (wanted <= end)]
+        found = _smooth(numbers, t, end, state, touching, speed, inside, tolerance)
+        if not found.success:
+            raise RuntimeError(f"LSODA gave up at {t} s: {found.message}")
+        pieces.append(found.y[1] if len(found.y) else inside[:0])
+        if found.status == 0:
+            break
+        t, state = float(found.t_events[0][0]), found.y_events[0][0].tolist()
+        touching = not touching
+        if touching:
+            speed = max(0.0, _pin(numbers, t, state)[1])
+    return np.concatenate(pieces)
 
 
-def loosest(scenario: Scenario, error: float, times: Sequence[float] | Series) -> tuple[float, LsodaRun]:
-    """The loosest tolerance (rtol = atol, a power of ten) at which and below which the slider is right.
+def loosest(scenario: Scenario, error: float, times: Series) -> float:
+    """The loosest tolerance, a power of ten, at which and below which the slider is right.
 
     Arguments:
         scenario: see `run_lsoda`.
         error: largest one allowed at any of the times, against the tightest tolerance [m].
     """
-    exact = run_lsoda(scenario, rtol=10.0**TIGHTEST, atol=10.0**TIGHTEST, times=times).slider
-    found: tuple[float, LsodaRun] | None = None
+    exact = run_lsoda(scenario, 10.0**TIGHTEST, times)
+    found = math.nan
     for exponent in range(TIGHTEST + 1, LOOSEST + 1):
-        tolerance = 10.0**exponent
         try:
-            run = run_lsoda(scenario, rtol=tolerance, atol=tolerance, times=times)
+            if np.abs(run_lsoda(scenario, 10.0**exponent, times) - exact).max() > error:
+                break
         except RuntimeError:
             break
-        if np.abs(run.slider - exact).max() > error:
-            break
-        found = tolerance, run
-    if found is None:
+        found = 10.0**exponent
+    if math.isnan(found):
         raise RuntimeError(f"no tolerance gives an error of {error} m")
     return found
 
 
-class _Run:
-    """One run, from touch to parting to touch."""
+def _smooth(
+    numbers: Numbers,
+    begin: float,
+    end: float,
+    state: list[float],
+    touching: bool,
+    speed: float,
+    inside: Series,
+    tolerance: float,
+) -> Any:
+    """The motion up to the next touch or parting, as `solve_ivp` gives it, at the times inside."""
+    side = -1.0 if touching else 1.0
 
-    def __init__(self, numbers: Numbers, rtol: float, atol: float) -> None:
-        self.numbers = numbers
-        self.rtol, self.atol = rtol, atol
-        self.onsets: list[Onset] = []
-        self.evaluations = 0
+    # just after a change the depth is zero but for rounding: it must not be seen as the next change
+    def change(t: float, y: Any) -> float:
+        if t == begin and begin > 0.0:
+            return -side
+        return _pin(numbers, t, y.tolist())[0]
 
-    def go(self, end: float, wanted: Series) -> Series:
-        t, state, touching, speed = 0.0, _start(self.numbers), False, 0.0
-        pieces: list[Series] = []
-        while t < end:
-            if len(pieces) > MOST_PIECES:
-                raise RuntimeError(
-                    f"more than {MOST_PIECES} touches and partings by {t} s: tolerances are too loose"
-                )
-            inside = (
-                wanted[(wanted >= t) & (wanted <= end)]
-                if not pieces
-                else wanted[(wanted > t) & (wanted <= end)]
-            )
-            found = self._smooth(t, end, state, touching, speed, inside)
-            if not found.success:
-                raise RuntimeError(f"LSODA gave up at {t} s: {found.message}")
-            self.evaluations += int(found.nfev)
-            pieces.append(found.y[1] if len(found.y) else inside[:0])
-            if found.status == 0:
-                break
-            t, state = float(found.t_events[0][0]), found.y_events[0][0].tolist()
-            touching = not touching
-            if touching:
-                speed = max(0.0, _pin(self.numbers, t, state)[1])
-                self.onsets.append(Onset(t, speed))
-        return np.concatenate(pieces)
-
-    def _smooth(
-        self, t: float, end: float, state: list[float], touching: bool, speed: float, inside: Series
-    ) -> Any:
-        numbers = self.numbers
-        side = -1.0 if touching else 1.0
-        begin = t
-
-        # just after a change the depth is zero but for rounding: it must not be seen as the next change
-        def change(t: float, y: Any) -> float:
-            if t == begin and begin > 0.0:
-                return -side
-            return _pin(numbers, t, y.tolist())[0]
-
-        change.terminal = True  # type: ignore[attr-defined]
-        change.direction = side  # type: ignore[attr-defined]
-        return solve_ivp(
-            rates(numbers, max(speed, numbers.floor) if touching else 0.0),
-            (t, end),
-            np.array(state),
-            method="LSODA",
-            t_eval=inside,
-            events=change,
-            rtol=self.rtol,
-            atol=self.atol,
-        )
+    change.terminal = True  # type: ignore[attr-defined]
+    change.direction = side  # type: ignore[attr-defined]
+    return solve_ivp(
+        rates(numbers, max(speed, numbers.floor) if touching else 0.0),
+        (begin, end),
+        np.array(state),
+        method="LSODA",
+        t_eval=inside,
+        events=change,
+        rtol=tolerance,
+        atol=tolerance,
+    )
 
 
 def rates(n: Numbers, speed: float) -> Rates:
@@ -224,15 +190,9 @@ def _numbers(scenario: Scenario) -> Numbers:
     if tuple(scenario.clearance_pins) != (PIN,) or any(scenario.gravity) or scenario.start != "concentric":
         raise InputError(f"this takes one loose pin, {PIN}, no gravity and start = 'concentric'")
     contact = scenario.clearance_pins[PIN].contact
-    law = contact.normal
-    if (
-        not isinstance(contact.friction, Frictionless)
-        or not isinstance(law, LankaraniNikravesh)
-        or law.exponent != 1.5
-    ):
-        raise InputError("contact: allowed here: LankaraniNikravesh with exponent 1.5 and no friction")
-    if not isinstance(law.damping_speed, TouchSpeed):
-        raise InputError("damping_speed: allowed here: TouchSpeed")
+    if not isinstance(contact.friction, Frictionless):
+        raise InputError("friction: allowed here: Frictionless")
+    stiffness, factor, floor = contact_numbers(contact)
     return Numbers(
         crank=machine.crank_length,
         speed=drive.rate,
@@ -242,7 +202,7 @@ def _numbers(scenario: Scenario) -> Numbers:
         rod_inertia=machine.rod_inertia + 0.25 * machine.rod_mass * machine.rod_length**2,
         slider_mass=machine.slider_mass,
         clearance=contact.bearing.clearance,
-        stiffness=law.stiffness,
-        factor=law.damping_factor,
-        floor=law.damping_speed.floor,
+        stiffness=stiffness,
+        factor=factor,
+        floor=floor,
     )

@@ -12,49 +12,35 @@ import subprocess
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
-import numpy as np
-import numpy.typing as npt
-
+from studies.benchmarking.peers.peer_run import contact_numbers
 from support_exudyn import CubicStep, HydraulicSupport, Scenario
 from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.model.linkage import lumped
 from support_exudyn.model.plane_geometry import minus, parts_of, side
-from user_forces import Ambrosio, Frictionless, JournalContact, LankaraniNikravesh, TouchSpeed
+from user_forces import Ambrosio, Frictionless, JournalContact
 from user_forces.values.value import InputError
 
 SOURCE = Path(__file__).with_name("yardstick.c")
 PIN = "rear_base"
-Series = npt.NDArray[np.float64]
 
 
 class YardstickError(RuntimeError):
     """The yardstick could not be compiled or run."""
 
 
-@dataclass(frozen=True)
-class Yardstick:
+class Yardstick(NamedTuple):
     """Outcome of the yardstick.
 
-    seconds: of the best run [s]. mean, spread, largest: of the pin force at the records, the former two from
-    the start of the stroke on [N]. mean_acceleration, spread_acceleration: of the rear link [rad/s^2].
-    force, acceleration: at the records, empty if they were not asked for.
+    seconds: of the best run [s]. mean: of the pin force at the records from the start of the stroke on [N].
+    onsets: of the pin.
     """
 
     seconds: float
-    steps: int
-    evaluations: int
     mean: float
-    spread: float
-    largest: float
-    largest_at_any_step: float
-    mean_acceleration: float
-    spread_acceleration: float
     onsets: tuple[Onset, ...]
-    force: Series
-    acceleration: Series
 
 
 @contextmanager
@@ -72,9 +58,7 @@ def compiled() -> Iterator[Path]:
         yield program
 
 
-def run_yardstick(
-    scenario: Scenario, tolerance: float, *, program: Path, runs: int = 5, records: bool = False
-) -> Yardstick:
+def run_yardstick(scenario: Scenario, tolerance: float, *, program: Path, runs: int = 5) -> Yardstick:
     """Run the yardstick.
 
     Arguments:
@@ -83,20 +67,15 @@ def run_yardstick(
         tolerance: largest error of a step as a share of the clearance.
         program: from `compiled`.
         runs: of which the fastest is reported.
-        records: whether to read force and acceleration at the records.
 
     Raises InputError if the scenario is not covered, YardstickError if the run fails.
     """
     text = "\n".join(repr(float(x)) for x in _numbers(scenario, tolerance)) + f"\n{runs}\n"
-    command = [str(program), *(["--records"] if records else [])]
-    done = subprocess.run(command, input=text, capture_output=True, text=True, check=False)
+    done = subprocess.run([str(program)], input=text, capture_output=True, text=True, check=False)
     if done.returncode != 0:
         raise YardstickError(done.stderr.strip() or f"the program ended with {done.returncode}")
     found = json.loads(done.stdout)
-    found["onsets"] = tuple(Onset(*touch) for touch in found["onsets"])
-    for name in ("force", "acceleration"):
-        found[name] = np.array(found.get(name, ()), dtype=np.float64)
-    return Yardstick(**found)
+    return Yardstick(found["seconds"], found["mean"], tuple(Onset(*touch) for touch in found["onsets"]))
 
 
 # --- the machine in numbers, in the order of the C program ---
@@ -172,20 +151,12 @@ def _masses(m: HydraulicSupport) -> list[float]:
 
 
 def _contact(contact: JournalContact) -> list[float]:
-    law, friction = contact.normal, contact.friction
-    if not isinstance(law, LankaraniNikravesh) or law.exponent != 1.5:
-        raise InputError("normal: allowed here: LankaraniNikravesh with exponent 1.5")
-    if not isinstance(law.damping_speed, TouchSpeed):
-        raise InputError("damping_speed: allowed here: TouchSpeed")
-    normal = [law.stiffness, law.damping_factor, law.damping_speed.floor]
+    friction = contact.friction
+    tangential = [0.0, 0.0, 1.0]
     if isinstance(friction, Ambrosio):
-        tangential = [
-            friction.sliding_coefficient,
-            friction.static_speed,
-            friction.dynamic_speed - friction.static_speed,
-        ]
-    elif isinstance(friction, Frictionless):
-        tangential = [0.0, 0.0, 1.0]
-    else:
+        static = friction.static_speed
+        tangential = [friction.sliding_coefficient, static, friction.dynamic_speed - static]
+    elif not isinstance(friction, Frictionless):
         raise InputError("friction: allowed here: Frictionless, Ambrosio")
-    return [contact.bearing.clearance, contact.bearing.bore_radius, *normal, *tangential]
+    bearing = contact.bearing
+    return [bearing.clearance, bearing.bore_radius, *contact_numbers(contact), *tangential]
