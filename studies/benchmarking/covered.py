@@ -70,7 +70,7 @@ class Reference(NamedTuple):
     falls: float
 
     def error(self, name: str) -> float:
-        """Of a number: half of how far the less fine run is away, which for second order is a third of that.
+        """The error of a number: half of how far the less fine run is away; a third of that for second order.
 
         Two runs can agree in a number by chance: it is at least as far as the middle one of its family, such as
         all forces, as a share of each, and as the distance before makes it; that itself, if it is far below.
@@ -190,7 +190,7 @@ def at(scene: Fresh, accuracy: Accuracy) -> Scenario:
 
 
 def accuracies(scene: Fresh) -> tuple[Accuracy, ...]:
-    """To which it is run: to "reference" only where steps are chosen, for nothing finer could judge it else."""
+    """The accuracies of a scene: "reference" only where steps are chosen; nothing finer could judge it else."""
     chosen = settings_for(scene.scenario, ACCURACIES["standard"])
     steps_are_chosen = chosen.formulation in ERROR_CONTROLLED
     return tuple(a for a in scene.accuracies if a != "reference" or steps_are_chosen)
@@ -201,26 +201,25 @@ def references(scene: Fresh, runs: Sequence[Result]) -> Iterator[Reference]:
     plain = replace(scene.scenario, accuracy=None)
     sharp = False
     for name, tolerances in TIGHT.items():
-        if formulation(name).covers(plain):
-            made = [
-                replace(plain, formulation=name, solver=replace(plain.solver, tolerance=tolerance))
-                for tolerance in tolerances
-            ]
-            if (found := _reference(name, _numbers(made), _falls(tolerances))) is not None:
-                sharp = True
-                yield found
+        if not formulation(name).covers(plain):
+            continue
+        solvers = [replace(plain.solver, tolerance=tolerance) for tolerance in tolerances]
+        known = _numbers([replace(plain, formulation=name, solver=solver) for solver in solvers])
+        if known:
+            sharp = True
+            yield Reference(name, *known, _falls(tolerances))
     if sharp and all(run.scenario.formulation == "redundant" for run in runs):
         return
     if sharp:
         witness = settings_for(replace(plain, formulation="redundant"), ACCURACIES["standard"])
         factors, known = WITNESS, _numbers([witness.refined(factor) for factor in WITNESS])
     elif (finest := _finest(runs)) is not None:
-        finer = _numbers([finest.scenario.refined(factor) for factor in FINER[:2]])
-        factors, known = FINER, [*finer, tight_numbers(0.0, finest)]
+        factors, known = FINER, _numbers([finest.scenario.refined(factor) for factor in FINER[:2]])
+        known = [*known, tight_numbers(0.0, finest)] if known else known
     else:
         return
-    if (found := _reference("redundant", known, _falls([factor**-ORDER for factor in factors]))) is not None:
-        yield found
+    if known:
+        yield Reference("redundant", *known, _falls([factor**-ORDER for factor in factors]))
 
 
 def _finest(runs: Sequence[Result]) -> Result | None:
@@ -243,14 +242,6 @@ def _numbers(scenarios: Sequence[Scenario]) -> list[Mapping[str, float]]:
         return [tight_numbers(0.0, simulate(scenario)) for scenario in scenarios]
     except SimulationError:
         return []
-
-
-def _reference(name: str, found: Sequence[Mapping[str, float]], falls: float) -> Reference | None:
-    """Make a reference of the numbers of three runs; None if one of them has failed."""
-    if not found:
-        return None
-    fine, coarse, coarsest = found
-    return Reference(name, fine, coarse, coarsest, falls)
 
 
 def judged(run: Result, known: Sequence[Reference]) -> Iterator[Judged]:

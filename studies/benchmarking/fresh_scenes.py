@@ -175,7 +175,7 @@ def _drive(random: np.random.Generator, duration: float) -> Drive:
 
 
 def _start(random: np.random.Generator, scenario: Scenario) -> Scenario:
-    """Settled in a quarter of all cases, if no journal is to start elsewhere; the drive then begins later."""
+    """The scenario, in a quarter of all cases settled at the start, all journals then in the middle."""
     if random.uniform() > 0.25:
         return scenario
     pins = {
@@ -223,7 +223,7 @@ def _columns(oil: OilColumn) -> dict[str, OilColumn]:
 
 
 def _rear_pin(random: np.random.Generator) -> Scenario:
-    """Of three, one asks for the engine's formulation, and one of those that may starts settled."""
+    """A rear pin; a third of these scenes ask for the engine's formulation."""
     scene = _scene(random, reference_support(), {paper_machine.LOOSE_PIN: _pin(random)}, 0.4)
     return replace(scene, formulation="redundant", start="concentric") if random.uniform() < 0.33 else scene
 
@@ -241,7 +241,7 @@ def _several_pins(random: np.random.Generator) -> Scenario:
 
 
 def _on_oil(random: np.random.Generator) -> Scenario:
-    """Of three, one asks for the engine's formulation where the tree would do."""
+    """Columns of oil; a third of these scenes ask for the engine's formulation where the tree would do."""
     name = _some_pin(random, rear=0.6)
     scene = _scene(random, reference_support(), {name: _pin(random)}, 0.2, columns=_columns(_oil(random)))
     return replace(scene, formulation="redundant") if random.uniform() < 0.33 else scene
@@ -295,7 +295,7 @@ def _tail_beam(random: np.random.Generator) -> Scenario:
 
 
 def _crank(random: np.random.Generator) -> Scenario:
-    """At most a revolution, at 200 to 6000 revolutions a minute; half of them without weight."""
+    """A revolution or less, at 200 to 6000 revolutions a minute; half of these scenes are without weight."""
     speed = 2.0 * math.pi / 60.0 * _between(random, 200.0, 6000.0)
     duration = float(random.uniform(0.1, 1.0)) * 2.0 * math.pi / speed
     scene = Scenario(

@@ -55,8 +55,8 @@ def run_lsoda(scenario: Scenario, tolerance: float, times: Series | None = None)
     Raises InputError if the scenario is not covered, RuntimeError if LSODA gives up.
     """
     numbers, end = _numbers(scenario), scenario.duration
-    records = np.arange(round(end / scenario.record_period) + 1) * scenario.record_period
-    wanted = records if times is None else times
+    count = round(end / scenario.record_period)
+    wanted: Series = np.arange(float(count + 1)) * scenario.record_period if times is None else times
     t, state, touching, speed = 0.0, _start(numbers), False, 0.0
     pieces: list[Series] = []
     while t < end:

@@ -97,7 +97,7 @@ def parser() -> Parser:
 
 
 def _called() -> str:
-    """By what name the program was started."""
+    """The name by which the program was started."""
     return INSTALLED if Path(sys.argv[0]).stem == INSTALLED else "python -m support_exudyn"
 
 

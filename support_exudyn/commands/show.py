@@ -40,7 +40,7 @@ def run(given: argparse.Namespace) -> None:
 
 
 def _object(result: Result, given: argparse.Namespace) -> dict[str, Any]:
-    """The same for scripts, in SI: every number with its error, and all channels unless some are asked for."""
+    """What scripts are told, in SI: every number with its error, and all channels unless some are asked for."""
     ends = given.start, given.end
     names = matching(result.channels, given.channels) or [name for name in result.channels if name != "time"]
     return {

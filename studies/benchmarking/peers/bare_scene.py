@@ -65,7 +65,7 @@ class BareScene:
             self.mbs.SetObjectParameter(item, "offset", extension)
 
     def first(self, body: str) -> int:
-        """Where a body's coordinates begin in the vector of all."""
+        """The place of a body's first coordinate in the vector of all."""
         return int(self.mbs.systemData.GetNodeLTGODE2(self.nodes[body])[0])
 
     def traced(self, positions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

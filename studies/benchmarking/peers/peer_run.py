@@ -67,7 +67,7 @@ def touches(time: Sequence[float], depth: Sequence[float], rate: Sequence[float]
 
 
 def _crossing(first: float, last: float, first_slope: float, last_slope: float) -> tuple[float, float]:
-    """Where between 0 and 1 the cubic with these values and slopes at both passes zero, and its slope there."""
+    """The place between 0 and 1 where the cubic with these values and slopes passes zero, and its slope."""
     a, b, c = last - first, first_slope, last_slope
     cubic = np.array([b + c - 2.0 * a, 3.0 * a - 2.0 * b - c, b, first])
     low, high = 0.0, 1.0

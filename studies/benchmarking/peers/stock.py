@@ -118,7 +118,7 @@ class StockContact:
         return force
 
     def rough(self, friction: Ambrosio) -> Force:
-        """The same with friction: the journal turns in a bore that does not."""
+        """The connector's force with friction: the journal turns in a bore that does not."""
         stiffness, factor, floor = self.numbers
         clearance, bore_radius = self.clearance, self.bore_radius
         static, ramp = friction.static_speed, friction.dynamic_speed - friction.static_speed
