@@ -242,7 +242,7 @@ def _seed(text: str) -> int:
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run `python -m studies.benchmarking.coverage`; return its exit code."""
-    parser = Parser(prog=f"python -m studies.{STUDY}", description=(__doc__ or "").splitlines()[0])
+    parser = Parser(prog=f"python -m studies.benchmarking.{STUDY}", description=(__doc__ or "").splitlines()[0])
     add, out = parser.add_argument, Path("results") / STUDY
     add("--seed", type=_seed, required=True, metavar="S", help="that scenes are drawn from")
     add("--scenes", type=partial(count, most=MOST_SCENES), default=300, metavar="N", help="how many (300)")

@@ -207,7 +207,7 @@ def references(scene: Fresh, runs: Sequence[Result]) -> Iterator[Reference]:
         known = _numbers([replace(plain, formulation=name, solver=solver) for solver in solvers])
         if known:
             sharp = True
-            yield Reference(name, *known, _falls(tolerances))
+            yield Reference(name, known[0], known[1], known[2], _falls(tolerances))
     if sharp and all(run.scenario.formulation == "redundant" for run in runs):
         return
     if sharp:
@@ -219,7 +219,9 @@ def references(scene: Fresh, runs: Sequence[Result]) -> Iterator[Reference]:
     else:
         return
     if known:
-        yield Reference("redundant", *known, _falls([factor**-ORDER for factor in factors]))
+        yield Reference(
+            "redundant", known[0], known[1], known[2], _falls([factor**-ORDER for factor in factors])
+        )
 
 
 def _finest(runs: Sequence[Result]) -> Result | None:
