@@ -8,9 +8,9 @@ from support_exudyn.files.scenarios.scenario_file import (
     save_scenario,
     scenario_file_of,
     scenario_of,
+    scenario_schema,
     scenario_text,
 )
-from support_exudyn.files.scenarios.scenario_schema import scenario_schema
 from support_exudyn.files.toml.reading import read_value
 from support_exudyn.files.toml.text import load_toml, parsed, toml_text
 from support_exudyn.files.toml.writing import table_of

@@ -1,4 +1,4 @@
-"""Scenarios as TOML files."""
+"""Scenarios as TOML files, and the JSON Schema of these files."""
 
 from __future__ import annotations
 
@@ -7,25 +7,52 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from support_exudyn.files.scenarios.short_forms import ShortForms, read_machine_of
+from support_exudyn.files.machines.read import SHIPPED
+from support_exudyn.files.scenarios.short_forms import (
+    DriveFile,
+    DriveMode,
+    DrivesFile,
+    ShortForms,
+    read_machine_of,
+)
+from support_exudyn.files.scenarios.short_pin import ShortPin
 from support_exudyn.files.toml.faults import Faults
 from support_exudyn.files.toml.reading import FAILED, Failed, Reader
+from support_exudyn.files.toml.schema import Schemas, without
+from support_exudyn.files.toml.shapes import Group, field_shapes
 from support_exudyn.files.toml.text import load_toml, toml_text
 from support_exudyn.files.toml.writing import table_of
 from support_exudyn.files.whole_file import whole_file
 from support_exudyn.machines.machine_data import MachineData
-from support_exudyn.model.columns import ColumnModel
+from support_exudyn.model.columns import ColumnModel, TwoBodyColumn
 from support_exudyn.model.drives.drive import Drive
 from support_exudyn.model.machine import Machine
-from support_exudyn.model.pins import Pin
+from support_exudyn.model.pins import IdealPin, Pin
 from support_exudyn.scenario.scenario import Scenario
-from user_forces.values.value import InputError
+from user_forces.values.value import InputError, Value, value
 
-HEAD: Mapping[str, type] = {"name": str, "description": str, "errors": bool}  # besides what a scenario has
 OTHER_FILES = {  # by a key that they have
     "kind": "is the file of a machine; allowed: a scenario, which names it, `machine = FILE`; or `check` it",
     "scenario": "is the file of a sweep; allowed: a scenario; or `sweep` it",
 }
+
+
+@value
+class ScenarioHead(Value):
+    """What a scenario's file says besides the scenario.
+
+    Arguments:
+        name: what the scenario is called.
+        description: what it is for.
+        errors: run it at half and at a quarter of its steps, too, so that every number has its error.
+    """
+
+    name: str = ""
+    description: str = ""
+    errors: bool = False
+
+
+HEAD = tuple(field_shapes(ScenarioHead))
 
 
 @dataclass(frozen=True)
@@ -74,10 +101,7 @@ def scenario_of(table: Mapping[str, Any], where: str, folder: Path) -> Scenario:
 def scenario_file_of(table: Mapping[str, Any], where: str, folder: Path) -> ScenarioFile:
     """All that a table says. Arguments and errors as of `scenario_of`."""
     faults = Faults(where)
-    head = {key: table[key] for key in HEAD if key in table}
-    for key, item in head.items():
-        if not isinstance(item, HEAD[key]):
-            faults.wrong((key,), item, "a text" if HEAD[key] is str else "true, false")
+    head = Reader(faults).value(ScenarioHead, {key: table[key] for key in HEAD if key in table}, ())
     rest = {key: item for key, item in table.items() if key not in HEAD}
     other = next((said for key, said in OTHER_FILES.items() if key in rest and "machine" not in rest), "")
     if other:
@@ -87,7 +111,7 @@ def scenario_file_of(table: Mapping[str, Any], where: str, folder: Path) -> Scen
     machine = read_machine_of(rest, faults, folder)
     scenario = _scenario(rest, faults, folder, machine)
     faults.check()
-    return ScenarioFile(scenario, **head, assumed=() if machine is None else machine.assumed)
+    return ScenarioFile(scenario, head.name, head.description, head.errors, machine.assumed if machine else ())
 
 
 def _scenario(table: dict[str, Any], faults: Faults, folder: Path, machine: MachineData | None) -> Any:
@@ -100,7 +124,7 @@ def _scenario(table: dict[str, Any], faults: Faults, folder: Path, machine: Mach
     if apart:
         table = {**table, "drives": forms.without_file(table["drives"])}
     table = {"machine": "", **table}  # that it is missing has been said
-    given = reader.fields(Scenario, table, (), also=tuple(HEAD))
+    given = reader.fields(Scenario, table, (), also=HEAD)
     if isinstance(given, Failed) or FAILED in apart.values():
         return FAILED
     if apart:
@@ -113,8 +137,8 @@ def scenario_text(scenario: Scenario, name: str = "", description: str = "", err
 
     Raises InputError if it holds a value of a class that files have no form for.
     """
+    head = table_of(ScenarioHead(name=name, description=description, errors=errors), says_type=False)
     table = {key: item for key, item in table_of(scenario, says_type=False).items() if item != {}}
-    head: dict[str, Any] = {"name": name, "description": description, "errors": errors}
     return toml_text({key: item for key, item in head.items() if item} | table)
 
 
@@ -129,3 +153,46 @@ def save_scenario(
     with whole_file(path) as temporary:
         temporary.write_text(text, encoding="utf-8", newline="\n")
     return Path(path)
+
+
+def scenario_schema() -> dict[str, Any]:
+    """The JSON Schema (2020-12) of a scenario's TOML file, with all classes that are known by then.
+
+    What only a whole scenario can tell (whether the machine has such a pin) is left to the reader.
+    """
+    schemas = Schemas()
+    about = f"path of a machine's file from the folder of this one on, or one of {', '.join(SHIPPED)}"
+    schemas.besides[Machine] = [{"type": "string", "description": about}]
+    schemas.besides[Pin] = [_short(schemas.table(ShortPin)), _ideal(schemas)]
+    schemas.besides[Drive] = [_short(schemas.table(DriveMode)), _short(schemas.table(DriveFile))]
+    top = schemas.table(Scenario)
+    properties = top["properties"]
+    drives = _short(schemas.table(DrivesFile))["properties"]
+    properties["drives"] = {**properties["drives"], "properties": drives}
+    properties["columns"] = {
+        **properties["columns"],
+        "additionalProperties": _columns(schemas),
+    }
+    properties = {**_short(schemas.table(ScenarioHead))["properties"], **properties}
+    return schemas.whole("scenario of support-exudyn", {**top, "properties": properties})
+
+
+def _short(table: dict[str, Any]) -> dict[str, Any]:
+    """That of a short form, which says no type."""
+    return without(table, "type")
+
+
+def _ideal(schemas: Schemas) -> dict[str, Any]:
+    table = _short(schemas.table(IdealPin))
+    ideal = {"const": True, "description": "an ideal pin, as all are that no table speaks of"}
+    return {**table, "properties": {"ideal": ideal, **table["properties"]}, "required": ["ideal"]}
+
+
+def _columns(schemas: Schemas) -> dict[str, Any]:
+    """Of columns: those of two bodies may leave out what the machine's file says."""
+    kinds = Group((ColumnModel,)).kinds.values()
+    tables = [
+        schemas.table(kind, all_optional=True) if kind is TwoBodyColumn else schemas.value(kind)
+        for kind in kinds
+    ]
+    return {"oneOf": [{"allOf": [table], "required": ["type"]} for table in tables]}

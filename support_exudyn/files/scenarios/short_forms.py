@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from difflib import get_close_matches
+from functools import partial
 from pathlib import Path
 from typing import Any, Literal
 
@@ -195,7 +196,11 @@ class ShortForms:
             return mode.drive(self.data.stroke)
         if "table" in item:
             file = reader.value(DriveFile, item, place)
-            return FAILED if isinstance(file, Failed) else self._read(reader, file, place)
+            if isinstance(file, Failed):
+                return FAILED
+            path, turns = self.folder / file.table, self._turns(place[-1])
+            read = partial(one_drive, path, file.column, file.between, turns)
+            return _read(read, reader.faults, file.table, (*place, "table"))
         kinds = ", ".join(Group((Drive,)).kinds)
         reader.faults.add(
             place, f"says no mode, table or type; allowed: mode = 1 or 2, table = a CSV file, type: {kinds}"
@@ -211,15 +216,6 @@ class ShortForms:
             return None if linkage.cranks and linkage.columns else bool(linkage.cranks)
         return name in linkage.cranks if name in linkage.driven else None
 
-    def _read(self, reader: Reader, file: DriveFile, place: Place) -> Any:
-        try:
-            return one_drive(self.folder / file.table, file.column, file.between, self._turns(place[-1]))
-        except InputError as error:
-            reader.faults.lines += str(error).splitlines()
-        except (OSError, ValueError) as error:
-            _not_read(reader, file.table, error, (*place, "table"))
-        return FAILED
-
     def drives(self, reader: Reader, table: Mapping[str, Any]) -> dict[str, Any]:
         """The drives that `[drives] table = FILE` gives, by name; empty if it names none."""
         given = table.get("drives")
@@ -229,17 +225,13 @@ class ShortForms:
         file = reader.value(DrivesFile, own, ("drives",))
         if isinstance(file, Failed):
             return {"": FAILED}
-        try:
-            found: dict[str, Any] = dict(read_drives(self.folder / file.table, file.between, self._turns))
-        except InputError as error:
-            reader.faults.lines += str(error).splitlines()
-            return {"": FAILED}
-        except (OSError, ValueError) as error:
-            _not_read(reader, file.table, error, ("drives", "table"))
+        read = partial(read_drives, self.folder / file.table, file.between, self._turns)
+        found = _read(read, reader.faults, file.table, ("drives", "table"))
+        if found is FAILED:
             return {"": FAILED}
         for name in found.keys() & given.keys():
             reader.faults.add(("drives", name), f"is a column of {file.table} too; allowed: one of them")
-        return found
+        return dict(found)
 
     @staticmethod
     def without_file(given: Mapping[str, Any]) -> dict[str, Any]:
@@ -247,6 +239,13 @@ class ShortForms:
         return {key: one for key, one in given.items() if isinstance(one, dict)}
 
 
-def _not_read(reader: Reader, name: str, error: OSError | ValueError, place: Place) -> None:
-    reason = getattr(error, "strerror", None) or error
-    reader.faults.wrong(place, name, f"a file that can be read ({reason})")
+def _read(read: Callable[[], Any], faults: Faults, name: str, place: Place) -> Any:
+    """What a file that a place names holds; FAILED, with the reason among the faults."""
+    try:
+        return read()
+    except InputError as error:  # which names the file itself
+        faults.lines += str(error).splitlines()
+    except (OSError, ValueError) as error:  # ValueError: of names that no file can have
+        reason = getattr(error, "strerror", None) or error
+        faults.wrong(place, name, f"a file that can be read ({reason})")
+    return FAILED
