@@ -5,9 +5,10 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from decimal import Decimal, InvalidOperation
 from pathlib import Path
-from typing import Literal, NamedTuple
+from typing import Literal
 
 from support_exudyn.files.toml.faults import nearest
 from support_exudyn.files.whole_file import contents
@@ -23,18 +24,37 @@ LONGEST_NUMBER = 100  # characters
 LARGEST_FILE = 200_000_000  # bytes
 MOST_ITEMS = 20 * MOST_POINTS
 
-
 Turns = Callable[[str], bool | None]
+Line = tuple[int, list[str]]  # its number in the file, its items
 
 
-class _Column(NamedTuple):
-    """name: without unit. title: as the file has it. place: which of a line."""
+@dataclass(frozen=True)
+class _Column:
+    """A column of a file: its name without unit, the title as it stands there, its unit, its place."""
 
     name: str
     title: str
     unit: Unit
     ending: str
     place: int
+
+    def number(self, line: Line, path: Path) -> float:
+        """The number in a line, in SI, rounded once. Raises InputError if there is none."""
+        text = line[1][self.place]
+        try:
+            written = Decimal(text) if 0 < len(text) <= LONGEST_NUMBER else Decimal("nan")
+        except InvalidOperation:
+            written = Decimal("nan")
+        if not written.is_finite() or abs(written.adjusted()) > 300:
+            raise self.refusal(line, path, short(text), "a number such as 12.5")
+        number = self.unit.read(written, self.ending)
+        if abs(number) > LARGEST:
+            raise self.refusal(line, path, short(text), f"up to {LARGEST:g} in SI")
+        return number
+
+    def refusal(self, line: Line, path: Path, said: str, allowed: str) -> InputError:
+        """What is said of the column in a line."""
+        return InputError(f"{path}: line {line[0]}, column {self.title}: {said}: allowed: {allowed}")
 
 
 def read_drives(
@@ -51,21 +71,7 @@ def read_drives(
     lines = _lines(path)
     if not lines:
         raise InputError(f"{path}: is empty; allowed: a first line such as time_s,extension_mm, and numbers")
-    number, header = lines[0]
-    if not _is_header(header):  # whatever file it is: nothing in it is repeated
-        raise InputError(
-            f"{path}: line {number}: names no time; allowed: a first line such as time_s,extension_mm"
-            f"{_hint(lines)}"
-        )
-    columns = [_column(title, n, f"{path}: line {number}") for n, title in enumerate(header)]
-    names = [one.name for one in columns]
-    for one in columns:
-        _check_unit(one, None if turns is None else turns(one.name), f"{path}: line {number}")
-    if len(set(names)) < len(names) or names.count("time") != 1 or len(names) < 2:
-        raise InputError(
-            f"{path}: line {number}: {short(','.join(header))}: allowed: one time_s or time_ms, and a name "
-            f"with unit for each other column, all different{_hint(lines)}"
-        )
+    columns = _columns(lines, path, turns)
     if len(lines) - 1 > MOST_POINTS:
         raise InputError(f"{path}: has {len(lines) - 1} points; allowed: up to {MOST_POINTS}")
     for at, line in lines[1:]:
@@ -74,18 +80,15 @@ def read_drives(
                 f"{path}: line {at}: has {len(line)} items; allowed: {len(columns)}, as the first line "
                 "(decimals have a point, 12.5)"
             )
-    values = {one.name: _values(lines[1:], one, path) for one in columns}
+    values = {one.name: tuple(one.number(line, path) for line in lines[1:]) for one in columns.values()}
     times = values.pop("time")
-    _check_times(times, lines[1:], columns[names.index("time")], path)
-    at, line = lines[1]
-    for one in columns:
-        if one.name != "time" and values[one.name][0] != 0.0:
-            raise InputError(
-                f"{path}: line {at}, column {one.title}: {line[one.place]}: allowed: 0, for extension "
-                "counts from the start posture"
-            )
+    _check_times(times, lines[1:], columns["time"], path)
+    for name, found in values.items():
+        if found[0] != 0.0:
+            said = "0, for extension counts from the start posture"
+            raise columns[name].refusal(lines[1], path, lines[1][1][columns[name].place], said)
     return {
-        name: _drive(times, found, between, f"{path}: column {columns[names.index(name)].title}")
+        name: _drive(times, found, between, f"{path}: column {columns[name].title}")
         for name, found in values.items()
     }
 
@@ -109,7 +112,7 @@ def one_drive(
     return drives[column]
 
 
-def _lines(path: Path) -> list[tuple[int, list[str]]]:
+def _lines(path: Path) -> list[Line]:
     """The lines of a file that are not empty, each with its number and its items."""
     found, items = [], 0
     try:
@@ -129,12 +132,33 @@ def _lines(path: Path) -> list[tuple[int, list[str]]]:
     return found
 
 
-def _is_header(titles: Sequence[str]) -> bool:
-    """Whether a line is meant for one that names columns."""
+def _columns(lines: Sequence[Line], path: Path, turns: Turns | None) -> dict[str, _Column]:
+    """The columns by name, from the first line."""
+    number, titles = lines[0]
+    where = f"{path}: line {number}"
+    other = next((said for sign, said in SEPARATORS.items() if any(sign in item for item in titles)), "")
+    hint = f"; they are separated by commas, not by {other}, and decimals have a point" if other else ""
     endings = tuple(f"_{ending}" for unit in (TIME, LENGTH, ANGLE) for ending in unit.endings)
-    return any(title.partition("_")[0] == "time" for title in titles) or all(
-        title.endswith(endings) for title in titles
-    )
+    named = any(title.partition("_")[0] == "time" for title in titles)
+    if not named and not all(title.endswith(endings) for title in titles):
+        # whatever file it is: nothing in it is repeated
+        raise InputError(f"{where}: names no time; allowed: a first line such as time_s,extension_mm{hint}")
+    columns = [_column(title, n, where) for n, title in enumerate(titles)]
+    for one in columns:
+        turning = None if turns is None or one.name == "time" else turns(one.name)
+        if turning is not None and turning is not (one.unit is ANGLE):
+            driven, unit = ("cranks turn", ANGLE) if turning else ("columns of machines extend", LENGTH)
+            raise InputError(
+                f"{where}: column {one.place + 1} = {short(one.title)}: {driven}; allowed: names that end by "
+                f"{', '.join(f'_{ending}' for ending in unit.endings)}"
+            )
+    found = {one.name: one for one in columns}
+    if len(found) < len(columns) or "time" not in found or len(found) < 2:
+        raise InputError(
+            f"{where}: {short(','.join(titles))}: allowed: one time_s or time_ms, and a name "
+            f"with unit for each other column, all different{hint}"
+        )
+    return found
 
 
 def _column(title: str, place: int, where: str) -> _Column:
@@ -150,54 +174,13 @@ def _column(title: str, place: int, where: str) -> _Column:
     )
 
 
-def _hint(lines: Sequence[tuple[int, list[str]]]) -> str:
-    """What may be wrong with a first line that is no list of columns."""
-    other = next((said for sign, said in SEPARATORS.items() if any(sign in item for item in lines[0][1])), "")
-    return f"; they are separated by commas, not by {other}, and decimals have a point" if other else ""
-
-
-def _check_unit(column: _Column, turning: bool | None, where: str) -> None:
-    """Raise InputError if a column is an angle where a length is wanted, or the other way round."""
-    if column.name == "time" or turning is None or turning is (column.unit is ANGLE):
-        return
-    driven, unit = ("cranks turn", ANGLE) if turning else ("columns of machines extend", LENGTH)
-    raise InputError(
-        f"{where}: column {column.place + 1} = {short(column.title)}: {driven}; allowed: names that end by "
-        f"{', '.join(f'_{ending}' for ending in unit.endings)}"
-    )
-
-
-def _values(lines: Sequence[tuple[int, list[str]]], column: _Column, path: Path) -> tuple[float, ...]:
-    return tuple(_number(line[column.place], column, f"{path}: line {at}") for at, line in lines)
-
-
-def _number(text: str, column: _Column, where: str) -> float:
-    """A number in SI, rounded once."""
-    try:
-        written = Decimal(text) if 0 < len(text) <= LONGEST_NUMBER else Decimal("nan")
-    except InvalidOperation:
-        written = Decimal("nan")
-    if not written.is_finite() or abs(written.adjusted()) > 300:
-        raise InputError(f"{where}, column {column.title}: {short(text)}: allowed: a number such as 12.5")
-    number = column.unit.read(written, column.ending)
-    if abs(number) > LARGEST:
-        raise InputError(f"{where}, column {column.title}: {short(text)}: allowed: up to {LARGEST:g} in SI")
-    return number
-
-
-def _check_times(
-    times: Sequence[float], lines: Sequence[tuple[int, list[str]]], column: _Column, path: Path
-) -> None:
+def _check_times(times: Sequence[float], lines: Sequence[Line], column: _Column, path: Path) -> None:
     if len(times) < 2:
         raise InputError(f"{path}: has {len(times)} points; allowed: two at least")
-    before = -1.0
-    for n, (time, (at, line)) in enumerate(zip(times, lines, strict=True)):
-        if time <= before or time < 0.0:
+    for n, time in enumerate(times):
+        if time < 0.0 or (n and time <= times[n - 1]):
             least = f"> {lines[n - 1][1][column.place]}, the time before" if n else ">= 0"
-            raise InputError(
-                f"{path}: line {at}, column {column.title}: {line[column.place]}: allowed: {least}"
-            )
-        before = time
+            raise column.refusal(lines[n], path, lines[n][1][column.place], least)
 
 
 def _drive(
