@@ -23,9 +23,18 @@ from support_exudyn.machines.free_impact import ImpactStand
 from support_exudyn.machines.slider_crank import SliderCrank, ravn_slider_crank
 from support_exudyn.machines.two_leg_shield import TwoLegShield
 from support_exudyn.mechanics.contact_state import Onset
-from support_exudyn.mechanics.impulse import Impulse
+from support_exudyn.mechanics.trajectory import Impulse
 from support_exudyn.model.bushing_pin import BushingPin
-from support_exudyn.model.columns import ColumnModel, OilColumn, RigidColumn, TwoBodyColumn, bore_area
+from support_exudyn.model.columns import (
+    ColumnModel,
+    Lumped,
+    OilColumn,
+    OwnBody,
+    PartModel,
+    RigidColumn,
+    TwoBodyColumn,
+    bore_area,
+)
 from support_exudyn.model.drives.drive import (
     CubicStep,
     Drive,
@@ -41,7 +50,6 @@ from support_exudyn.model.lateral_dimensions import Width
 from support_exudyn.model.linkage import Body, Column, Crank, Linkage, Part, PinPlace, Slide, TracePoint
 from support_exudyn.model.loads import AppliedForce, FallingBlock, Load, LoadedPoint, Roof
 from support_exudyn.model.machine import Machine
-from support_exudyn.model.parts import Lumped, OwnBody, PartModel
 from support_exudyn.model.pins import ClearancePin, IdealPin, Pin
 from support_exudyn.model.valve_opening import ClosedInlet, Inlet, RampedOpening, SuddenOpening
 from support_exudyn.scenario.recorded_channels import Channel

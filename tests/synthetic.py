@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from support_exudyn import Channel, Onset, Result, Scenario
-from support_exudyn.mechanics.counts import Counts
+from support_exudyn.mechanics.trajectory import Counts
 from tests.cases.run_cases import PIN
 
 UNITS = {"depth": "m", "eccentricity_x": "m", "eccentricity_y": "m", "force": "N"}

@@ -27,7 +27,7 @@ from support_exudyn import (
     reference_support,
     simulate,
 )
-from support_exudyn.mechanics.impulse import Impulse
+from support_exudyn.mechanics.trajectory import Impulse
 
 IDEAL = "ideal"
 LOOSE = tuple(f"{size:.1f} mm" for size in paper_machine.SIZES_MM)

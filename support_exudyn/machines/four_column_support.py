@@ -20,15 +20,13 @@ from collections.abc import Mapping
 from typing import ClassVar, NamedTuple
 
 import numpy as np
-from pydantic import model_validator
 
 from support_exudyn.machines.four_bar_shield import PRECISE, FourBarShield
 from support_exudyn.machines.shield_layout import BODIES, TAIL, Strut, turn
-from support_exudyn.model.lateral_dimensions import Width
-from support_exudyn.model.linkage import GROUND, Part
+from support_exudyn.model.linkage import GROUND
 from support_exudyn.model.plane_geometry import direction, moved
 from user_forces.values.units import Metres
-from user_forces.values.value import Positive, Vector2, value
+from user_forces.values.value import Vector2, value
 
 __all__ = ["BODIES", "PIVOTS", "TAIL", "HydraulicSupport", "Posture"]
 
@@ -52,22 +50,9 @@ class Posture(NamedTuple):
 class HydraulicSupport(FourBarShield[Posture]):
     """Pivots, parts and start height of a four-column shield support.
 
-    Arguments:
-        rear_base, front_base: B and A, pivots of rear and front link on the base [m].
-        rear_shield, front_shield: C and D, pivots of the links on the shield beam.
-        hinge: I, shield beam on canopy.
-        front_foot, front_head: F and E, ends of the front column.
-        rear_foot, rear_head: H and G, ends of the rear column.
-        tip: foremost point of the canopy.
-        tail_hinge: tail beam on shield beam.
-        tail_jack_foot, tail_jack_head: ends of the tail beam's jack, on the shield beam and on the tail beam;
-            these and the hinge are only needed where the tail beam is a body of its own.
-            All of these in one reference posture.
-        parts: for each of rear_link, front_link, shield and canopy the parts it is made of, in the
-            reference posture. Those named COLUMN_rods stand for a massless column's mass; that named tail_beam,
-            of the shield, can be a body of its own.
-        start_hinge_height: y of the hinge at the start [m], with the canopy level.
-        width: lateral dimensions, for the spatial model; None: there are none.
+    Arguments: those of `ShieldLayout`, and in the same reference posture
+        front_foot, front_head: F and E, ends of the front column [m].
+        rear_foot, rear_head: H and G, ends of the rear column [m].
     """
 
     STRUTS: ClassVar[Mapping[str, Strut]] = {
@@ -75,26 +60,10 @@ class HydraulicSupport(FourBarShield[Posture]):
         "rear_column": Strut(foot=(GROUND, "rear_foot"), head=("canopy", "rear_head")),
     }
 
-    rear_base: Metres[Vector2]
-    front_base: Metres[Vector2]
-    rear_shield: Metres[Vector2]
-    front_shield: Metres[Vector2]
-    hinge: Metres[Vector2]
     front_foot: Metres[Vector2]
     front_head: Metres[Vector2]
     rear_foot: Metres[Vector2]
     rear_head: Metres[Vector2]
-    tip: Metres[Vector2]
-    parts: Mapping[str, tuple[Part, ...]]
-    start_hinge_height: Metres[Positive]
-    width: Width | None = None
-    tail_hinge: Metres[Vector2] | None = None
-    tail_jack_foot: Metres[Vector2] | None = None
-    tail_jack_head: Metres[Vector2] | None = None
-
-    @model_validator(mode="after")
-    def _can_be_built(self) -> HydraulicSupport:
-        return self.check()
 
     def posture(self, rear_link: float, canopy: float) -> Posture | None:
         """Posture for turns of rear link and canopy [rad]; None where the four-bar does not close."""

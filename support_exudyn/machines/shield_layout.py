@@ -10,6 +10,7 @@ from functools import cached_property
 from typing import ClassVar, Generic, NamedTuple, Protocol, TypeVar
 
 import numpy as np
+from pydantic import model_validator
 from typing_extensions import Self
 
 from support_exudyn.model.lateral_dimensions import Width
@@ -27,7 +28,8 @@ from support_exudyn.model.linkage import (
 from support_exudyn.model.machine import Machine
 from support_exudyn.model.plane_geometry import circle_intersection, direction, distance, moved, side
 from user_forces.expressions.roots import bracketed_root
-from user_forces.values.value import InputError, Vector2
+from user_forces.values.units import Metres
+from user_forces.values.value import InputError, Positive, Vector2, value
 
 BODIES = ("rear_link", "front_link", "shield", "canopy")
 TAIL = "tail_beam"  # part of the shield, and the body that it can be
@@ -84,26 +86,39 @@ class Strut(NamedTuple):
     head: tuple[str, str]
 
 
+@value
 class ShieldLayout(Machine, ABC, Generic[P]):
-    """Pivots, parts and start posture of four-bar shield supports.
+    """Pivots, parts and start posture of four-bar shield supports; `STRUTS`: its two columns by name.
 
-    The names below are fields of every kind, see there. `STRUTS`: its two columns by name.
+    All points are those of one reference posture. Arguments:
+        rear_base, front_base: B and A, pivots of rear and front link on the base [m].
+        rear_shield, front_shield: C and D, pivots of the links on the shield beam.
+        hinge: I, shield beam on canopy.
+        tip: foremost point of the canopy.
+        parts: for each of rear_link, front_link, shield and canopy the parts it is made of, in the
+            reference posture. Those named COLUMN_rods stand for a massless column's mass; that named tail_beam,
+            of the shield, can be a body of its own.
+        start_hinge_height: y of the hinge at the start [m], with the canopy level.
+        width: lateral dimensions, for the spatial model; None: there are none.
+        tail_hinge: tail beam on shield beam.
+        tail_jack_foot, tail_jack_head: ends of the tail beam's jack, on the shield beam and on the tail beam;
+            these and its hinge are only needed where the tail beam is a body of its own.
     """
 
     STRUTS: ClassVar[Mapping[str, Strut]]
 
-    rear_base: Vector2
-    front_base: Vector2
-    rear_shield: Vector2
-    front_shield: Vector2
-    hinge: Vector2
-    tip: Vector2
+    rear_base: Metres[Vector2]
+    front_base: Metres[Vector2]
+    rear_shield: Metres[Vector2]
+    front_shield: Metres[Vector2]
+    hinge: Metres[Vector2]
+    tip: Metres[Vector2]
     parts: Mapping[str, tuple[Part, ...]]
-    start_hinge_height: float
-    width: Width | None
-    tail_hinge: Vector2 | None
-    tail_jack_foot: Vector2 | None
-    tail_jack_head: Vector2 | None
+    start_hinge_height: Metres[Positive]
+    width: Width | None = None
+    tail_hinge: Metres[Vector2] | None = None
+    tail_jack_foot: Metres[Vector2] | None = None
+    tail_jack_head: Metres[Vector2] | None = None
 
     @classmethod
     def pivots(cls) -> tuple[str, ...]:
@@ -111,8 +126,8 @@ class ShieldLayout(Machine, ABC, Generic[P]):
         feet = [place for strut in cls.STRUTS.values() for _, place in strut]
         return (*FRAME[:-1], *feet, FRAME[-1], *TAIL_PLACES)
 
-    def check(self) -> Self:
-        """Itself. Raises ValueError if it cannot be built: the rest of what its fields are checked for."""
+    @model_validator(mode="after")
+    def _can_be_built(self) -> Self:
         for name in self.pivots():
             if max(map(abs, getattr(self, name) or (0.0,))) > FARTHEST:
                 raise ValueError(

@@ -21,17 +21,15 @@ from functools import cached_property
 from typing import ClassVar, NamedTuple
 
 import numpy as np
-from pydantic import model_validator
 
 from support_exudyn.machines.four_bar_shield import LONGEST_STEP, MOST_REMEMBERED, PRECISE, FourBarShield
 from support_exudyn.machines.shield_layout import Strut, turn
 from support_exudyn.model.drives.coupled_drive import following
 from support_exudyn.model.drives.drive import Drive, Held
-from support_exudyn.model.lateral_dimensions import Width
-from support_exudyn.model.linkage import GROUND, Part
+from support_exudyn.model.linkage import GROUND
 from support_exudyn.model.plane_geometry import direction, moved
 from user_forces.values.units import Metres
-from user_forces.values.value import InputError, Positive, Vector2, value
+from user_forces.values.value import InputError, Vector2, value
 
 MOST_CORRECTIONS = 50  # of Newton's method; five do
 STRIDE = 0.02  # [m] from one level posture to the next
@@ -57,22 +55,9 @@ class LegPosture(NamedTuple):
 class TwoLegShield(FourBarShield[LegPosture]):
     """Pivots, parts and start height of a two-leg shield support.
 
-    Columns: `leg` and `ram`. Arguments:
-        rear_base, front_base: B and A, pivots of rear and front link on the base [m].
-        rear_shield, front_shield: C and D, pivots of the links on the shield beam.
-        hinge: I, shield beam on canopy.
-        leg_foot, leg_head: F and L, ends of the legs on base and canopy.
-        ram_foot, ram_head: P and Q, ends of the stabilising ram on shield beam and canopy.
-        tip: foremost point of the canopy.
-        tail_hinge: tail beam on shield beam.
-        tail_jack_foot, tail_jack_head: ends of the tail beam's jack, on the shield beam and on the tail beam;
-            these and the hinge are only needed where the tail beam is a body of its own.
-            All of these in one reference posture.
-        parts: for each of rear_link, front_link, shield and canopy the parts it is made of, in the
-            reference posture. Those named leg_rods or ram_rods stand for a massless column's mass; that named
-            tail_beam, of the shield, can be a body of its own.
-        start_hinge_height: y of the hinge at the start [m], with the canopy level.
-        width: lateral dimensions, for the spatial model; None: there are none.
+    Columns: `leg` and `ram`. Arguments: those of `ShieldLayout`, and in the same reference posture
+        leg_foot, leg_head: F and L, ends of the legs on base and canopy [m].
+        ram_foot, ram_head: P and Q, ends of the stabilising ram on shield beam and canopy [m].
     """
 
     STRUTS: ClassVar[Mapping[str, Strut]] = {
@@ -80,26 +65,10 @@ class TwoLegShield(FourBarShield[LegPosture]):
         "ram": Strut(foot=("shield", "ram_foot"), head=("canopy", "ram_head")),
     }
 
-    rear_base: Metres[Vector2]
-    front_base: Metres[Vector2]
-    rear_shield: Metres[Vector2]
-    front_shield: Metres[Vector2]
-    hinge: Metres[Vector2]
     leg_foot: Metres[Vector2]
     leg_head: Metres[Vector2]
     ram_foot: Metres[Vector2]
     ram_head: Metres[Vector2]
-    tip: Metres[Vector2]
-    parts: Mapping[str, tuple[Part, ...]]
-    start_hinge_height: Metres[Positive]
-    width: Width | None = None
-    tail_hinge: Metres[Vector2] | None = None
-    tail_jack_foot: Metres[Vector2] | None = None
-    tail_jack_head: Metres[Vector2] | None = None
-
-    @model_validator(mode="after")
-    def _can_be_built(self) -> TwoLegShield:
-        return self.check()
 
     def posture(self, rear_link: float, canopy: float) -> LegPosture | None:
         """Posture for turns of rear link and canopy [rad]; None where the four-bar does not close."""

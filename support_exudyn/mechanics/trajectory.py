@@ -10,8 +10,6 @@ import numpy as np
 import numpy.typing as npt
 
 from support_exudyn.mechanics.contact_state import Onset
-from support_exudyn.mechanics.counts import Counts
-from support_exudyn.mechanics.impulse import Impulse
 
 Series = npt.NDArray[np.float64]
 
@@ -128,6 +126,40 @@ class Observed(Protocol):
     def contacts_of(self, pin: str) -> list[ContactSeries]:
         """Where a loose pin touches, section by section."""
         ...
+
+
+@dataclass(frozen=True)
+class Counts:
+    """What the solver of a run did.
+
+    steps: accepted; cut_steps: repeated shorter to land on an impact; newton_iterations, jacobians: of an
+    implicit solver; evaluations: of the equations of motion by an explicit one; user_function_calls:
+    evaluations of contact forces in Python; failed_newton: steps repeated because Newton's method did not
+    converge; clamped_steps: steps at whose end a law asked for tension.
+    """
+
+    steps: int = 0
+    cut_steps: int = 0
+    newton_iterations: int = 0
+    jacobians: int = 0
+    evaluations: int = 0
+    user_function_calls: int = 0
+    failed_newton: int = 0
+    clamped_steps: int = 0
+
+
+@dataclass(frozen=True)
+class Impulse:
+    """A jump of velocities at an instant.
+
+    time: [s]. columns: impulse of each rigid column [N s], positive in compression. energy: given to the bodies
+    by it [J]. cranks: angular impulse on each crank [N m s].
+    """
+
+    time: float
+    columns: dict[str, float]
+    energy: float
+    cranks: dict[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

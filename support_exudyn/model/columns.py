@@ -1,4 +1,4 @@
-"""What a column can be: a rigid drive, oil that gives, or two bodies. One field of the scenario chooses it."""
+"""What a column, and a part that a jack holds, can be modelled as; fields of the scenario choose it."""
 
 from __future__ import annotations
 
@@ -113,6 +113,27 @@ class TwoBodyColumn(ColumnModel):
     def check_extension(self, lowest: float, name: str) -> None:
         """Raise InputError if its drive cannot be drawn in so far [m]."""
         self.drive.check_extension(lowest, f"{name}.drive")
+
+
+class PartModel(Value, ABC):
+    """How a part that a jack holds on its body is modelled."""
+
+
+@value
+class Lumped(PartModel):
+    """Fixed to its body, whose mass and inertia contain it."""
+
+
+@value
+class OwnBody(PartModel):
+    """A body of its own on a hinge, locked by its jack, which is not driven.
+
+    Arguments:
+        jack: a strut of constant length, or a closed cushion of oil, which carries the static load of the start
+            posture, so that a machine at rest stays there.
+    """
+
+    jack: RigidColumn | OilColumn = field(default_factory=RigidColumn)
 
 
 def bore_area(diameter: float, number: int = 1) -> float:

@@ -6,7 +6,7 @@ import math
 import sys
 from collections.abc import Iterable, Mapping
 from dataclasses import field
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 from pydantic import Field, model_validator
 
@@ -19,10 +19,6 @@ from user_forces.values.units import (
     RadiansPerSecond,
 )
 from user_forces.values.value import Positive, Real, Value, Vector2, value
-
-if TYPE_CHECKING:
-    pass
-
 
 GROUND = "ground"
 Moments = tuple[Real, Real, Real]
@@ -44,9 +40,8 @@ class Part(Value):
 
     mass: Kilograms[Positive]
     centre: Metres[Vector2]
-    inertia: KilogramSquareMetres[Annotated[Real, Field(ge=0)]] = (
-        0.0  # of a bar between two points that rounding has parted it is tiny
-    )
+    # of a bar between two points that rounding has parted the inertia is tiny
+    inertia: KilogramSquareMetres[Annotated[Real, Field(ge=0)]] = 0.0
     name: str = ""
     moments: KilogramSquareMetres[Moments] | None = None
 

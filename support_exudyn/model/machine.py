@@ -4,15 +4,13 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Collection, Mapping
-from typing import TYPE_CHECKING
 
+from support_exudyn.model.drives.drive import Drive
 from support_exudyn.model.lateral_dimensions import Width
-from user_forces.values.value import InputError, Value
-
-if TYPE_CHECKING:
-    from support_exudyn.model.drives.drive import Drive
-    from support_exudyn.model.spatial_linkage import SpatialLinkage
 from support_exudyn.model.linkage import Linkage
+from support_exudyn.model.spatial_linkage import SpatialLinkage
+from support_exudyn.model.to_space import lift
+from user_forces.values.value import InputError, Value
 
 
 class Machine(Value, ABC):
@@ -35,8 +33,6 @@ class Machine(Value, ABC):
 
         Raises InputError if there are none.
         """
-        from support_exudyn.model.to_space import lift  # which is made of what stands here
-
         width = self.widths()
         if width is None:
             raise InputError(

@@ -9,9 +9,7 @@ from difflib import get_close_matches
 import numpy as np
 
 from support_exudyn.mechanics.contact_state import Onset
-from support_exudyn.mechanics.counts import Counts
-from support_exudyn.mechanics.impulse import Impulse
-from support_exudyn.mechanics.trajectory import Series
+from support_exudyn.mechanics.trajectory import Counts, Impulse, Series
 from support_exudyn.scenario.recorded_channels import Channel
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.values.value import InputError, short

@@ -17,8 +17,7 @@ import numpy as np
 from support_exudyn.files.hdf5 import BLOCK, Inside, check_seal, seal, write_series
 from support_exudyn.files.whole_file import contents, whole_file
 from support_exudyn.mechanics.contact_state import Onset
-from support_exudyn.mechanics.counts import Counts
-from support_exudyn.mechanics.impulse import Impulse
+from support_exudyn.mechanics.trajectory import Counts, Impulse
 from support_exudyn.scenario.recorded_channels import Channel
 from support_exudyn.simulation.estimate import Estimate, error, errors, fall, worst_error
 from support_exudyn.simulation.memory import available

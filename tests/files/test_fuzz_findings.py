@@ -14,9 +14,8 @@ import numpy as np
 import pytest
 
 from support_exudyn import ImpactStand, Linkage, Scenario, SolverSettings, load_support, reference_support
-from support_exudyn.model.columns import ColumnModel
+from support_exudyn.model.columns import ColumnModel, PartModel
 from support_exudyn.model.linkage import Body, Part, bar
-from support_exudyn.model.parts import PartModel
 from support_exudyn.model.spatial_linkage import Bearing
 from support_exudyn.simulation.evidence.table import Table
 from tests import strategies as some

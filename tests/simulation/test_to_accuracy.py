@@ -13,7 +13,7 @@ import pytest
 
 from support_exudyn import Failure, Held, Scenario, SimulationError
 from support_exudyn.formulations.progress import silent
-from support_exudyn.mechanics.counts import Counts
+from support_exudyn.mechanics.trajectory import Counts
 from support_exudyn.simulation import to_accuracy
 from tests.cases.run_cases import loose_support
 

@@ -17,8 +17,7 @@ class BengisuAkay(TwoCoefficients):
 
     Continuous, with a kink at v_0. It does not stick: a loaded pin creeps.
 
-    Arguments:
-        static_coefficient, sliding_coefficient: mu_s, mu_d [-], those of `TwoCoefficients`.
+    Arguments: those of `TwoCoefficients`, and
         static_speed: v_0 [m/s], > 0.
         decay: xi [s/m], > 0.
 

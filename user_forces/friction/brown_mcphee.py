@@ -16,8 +16,7 @@ class BrownMcPhee(TwoCoefficients):
     within mu_d/1500. It does not stick: a loaded pin creeps. The published law adds a viscous term, which dry
     pins do not have.
 
-    Arguments:
-        static_coefficient, sliding_coefficient: mu_s, mu_d [-], those of `TwoCoefficients`.
+    Arguments: those of `TwoCoefficients`, and
         transition_speed: v_t [m/s], > 0.
 
     Source: Brown and McPhee, J. Comput. Nonlinear Dyn. 11 (2016) 054502.

@@ -15,8 +15,7 @@ class Stribeck(TwoCoefficients):
     The force falls from mu_s to mu_d as the slip passes v_S; the cubic STEP up to v_t makes it continuous at
     rest. It does not stick: a loaded pin creeps.
 
-    Arguments:
-        static_coefficient, sliding_coefficient: mu_s, mu_d [-], those of `TwoCoefficients`.
+    Arguments: those of `TwoCoefficients`, and
         stribeck_speed: v_S [m/s], > 0.
         tolerance_speed: v_t [m/s], > 0; well below v_S, else mu_s is not reached.
 

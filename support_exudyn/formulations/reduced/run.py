@@ -36,9 +36,7 @@ from support_exudyn.formulations.reduced.integrate import (
 from support_exudyn.formulations.reduced.outline import MOST_TOUCHES, Outline, outline
 from support_exudyn.formulations.reduced.trajectory import trajectory
 from support_exudyn.mechanics.contact_state import Onset
-from support_exudyn.mechanics.counts import Counts
-from support_exudyn.mechanics.impulse import Impulse
-from support_exudyn.mechanics.trajectory import Outcome
+from support_exudyn.mechanics.trajectory import Counts, Impulse, Outcome
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.expressions.scalar import maximum
 from user_forces.lawful import UNLAWFUL, LawError, look

@@ -13,10 +13,9 @@ from support_exudyn.formulations.tree.path import Ends, motion_within
 from support_exudyn.formulations.tree.quadrature import POINTS, Look, largest, running
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.channels import Part
-from support_exudyn.mechanics.counts import Counts
 from support_exudyn.mechanics.joint_forces import JointForces, PinForce, open_joint_forces
 from support_exudyn.mechanics.oil_column import FilledColumn
-from support_exudyn.mechanics.trajectory import Outcome, Trajectory
+from support_exudyn.mechanics.trajectory import Counts, Outcome, Trajectory
 from support_exudyn.scenario.recorded_channels import needs
 from support_exudyn.scenario.scenario import Scenario
 

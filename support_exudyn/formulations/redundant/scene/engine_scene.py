@@ -13,8 +13,7 @@ from support_exudyn.formulations.redundant.scene.driven_parts import DrivenParts
 from support_exudyn.formulations.redundant.scene.load_item import LoadItem
 from support_exudyn.formulations.redundant.scene.pin_friction import PinFriction
 from support_exudyn.mechanics.body_motion import BodyMotion
-from support_exudyn.mechanics.impulse import Impulse
-from support_exudyn.mechanics.trajectory import CompliantSeries, Series
+from support_exudyn.mechanics.trajectory import CompliantSeries, Impulse, Series
 from support_exudyn.model.linkage import PinPlace
 from support_exudyn.scenario.scenario import Scenario
 

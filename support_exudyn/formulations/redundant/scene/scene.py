@@ -19,9 +19,9 @@ from support_exudyn.formulations.redundant.scene.load_item import LoadItem
 from support_exudyn.formulations.redundant.scene.pin_friction import PinFriction
 from support_exudyn.mechanics.body_coordinates import BodyItem, ColumnItem, CrankItem, IdealItem, SlideItem
 from support_exudyn.mechanics.contact_state import PinMemory
-from support_exudyn.mechanics.impulse import Impulse
 from support_exudyn.mechanics.kinetics import Kinetics, Matrix
 from support_exudyn.mechanics.pressed_pins import Mobilities, mobilities, normal
+from support_exudyn.mechanics.trajectory import Impulse
 from support_exudyn.model.linkage import GROUND, Linkage
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.contact import ContactForce

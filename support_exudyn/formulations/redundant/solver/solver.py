@@ -30,9 +30,8 @@ from support_exudyn.formulations.redundant.solver.step_growth import SmoothSteps
 from support_exudyn.formulations.redundant.solver.symbolic_drive import turns_by_itself
 from support_exudyn.formulations.redundant.solver.uninterrupted_steps import Stretch, solve_in_stretches
 from support_exudyn.formulations.time_grid import StepPlan
-from support_exudyn.mechanics.counts import Counts
-from support_exudyn.mechanics.impulse import Impulse
 from support_exudyn.mechanics.oil_column import force_rounding
+from support_exudyn.mechanics.trajectory import Counts, Impulse
 from user_forces import Frictionless
 from user_forces.lawful import UNLAWFUL, LawError
 

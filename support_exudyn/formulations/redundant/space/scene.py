@@ -18,13 +18,12 @@ from support_exudyn.formulations.redundant.space.section_pin import SectionPin
 from support_exudyn.formulations.redundant.space.sections import ends
 from support_exudyn.mechanics.body_coordinates import ColumnItem
 from support_exudyn.mechanics.contact_state import Mobility, PinMemory
-from support_exudyn.mechanics.impulse import Impulse
 from support_exudyn.mechanics.pressed_pins import Mobilities, held, normal
 from support_exudyn.mechanics.space.constraints import End, Row, all_rows, independent, matrix
 from support_exudyn.mechanics.space.kinetics import SpatialKinetics
 from support_exudyn.mechanics.space.motion import COORDINATES, SpatialMotion, motion_of, parameter_rates
 from support_exudyn.mechanics.space.reactions import reactions
-from support_exudyn.mechanics.trajectory import Series
+from support_exudyn.mechanics.trajectory import Impulse, Series
 from support_exudyn.model.spatial_linkage import SpatialBody, SpatialLinkage
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.values.value import Vector3
