@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 
 from studies.slider_crank.run import scenarios
-from support_exudyn import ClearancePin, Scenario
+from support_exudyn import ClearancePin, HydraulicSupport, Scenario, TwoLegShield
 from support_exudyn.machines.free_impact import ImpactStand
 from support_exudyn.model.linkage import GROUND
-from support_exudyn.postprocessing.look.looks import look
+from support_exudyn.postprocessing.look.looks import look, look_of
 from support_exudyn.postprocessing.look.poses import planar_pins
-from support_exudyn.postprocessing.look.solid import Role
+from support_exudyn.postprocessing.look.solid import Look, Role
 from user_forces import Frictionless, JournalBearing, JournalContact, LankaraniNikravesh
 
 BEARING = JournalBearing(bore_radius=0.3, clearance=0.03)
@@ -68,3 +68,15 @@ def test_a_journal_fits_its_bore() -> None:
     other = replace(STAND, pins={"pin": replace(STAND.clearance_pins["pin"], bore="second")})
     assert planar_pins(other)["pin"].bore.body == "journal"
     assert {s.name: s for s in look(other).solids}["pin_pin"].body == "bore"
+
+
+def test_a_class_of_ones_own_registers_its_look() -> None:
+    class Own(ImpactStand):  # type: ignore[misc]
+        """A stand that looks like nothing."""
+
+    nothing = Look((), (), 0.0)
+    assert look_of.dispatch(Own) is look_of.dispatch(ImpactStand)
+    look_of.register(Own, lambda machine, scenario: nothing)
+    assert look_of.dispatch(Own)(None, STAND) is nothing
+    assert look_of.dispatch(ImpactStand) is not look_of.dispatch(Own)
+    assert look_of.dispatch(HydraulicSupport) is look_of.dispatch(TwoLegShield)
