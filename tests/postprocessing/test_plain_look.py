@@ -71,8 +71,8 @@ def test_a_journal_fits_its_bore() -> None:
 
 
 def test_a_class_of_ones_own_registers_its_look() -> None:
-    class Own(ImpactStand):  # type: ignore[misc]
-        """A stand that looks like nothing."""
+    class Own:
+        """A machine that looks like nothing; no value, so that other tests do not find it."""
 
     nothing = Look((), (), 0.0)
     assert look_of.dispatch(Own) is look_of.dispatch(ImpactStand)

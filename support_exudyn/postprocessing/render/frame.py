@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from support_exudyn.model.pins import ClearancePin
@@ -19,7 +17,6 @@ ARROW = 0.24  # length of the usual force's arrow, of the height of a machine's 
 LONGEST = 0.42  # of an arrow in it
 
 
-@dataclass(frozen=True)
 class Layout:
     """Places on a frame: a line on top, the machine, a panel on the right of it, and force over time below.
 
@@ -28,44 +25,22 @@ class Layout:
         has_panel: whether there is a pin to show.
     """
 
-    width: int
-    height: int
-    has_panel: bool
-
-    @property
-    def unit(self) -> float:
-        """The factor by which lengths of a frame of 1280 x 720 are multiplied."""
-        return min(self.width / 1280, self.height / 720)
-
-    @property
-    def margin(self) -> int:
-        """The width that is left free around everything [pixels]."""
-        return max(2, round(14 * self.unit))
-
-    @property
-    def line(self) -> Box:
-        """The box on top: what is shown, and when."""
-        return self.margin, 0, self.width - self.margin, round(48 * self.unit)
-
-    @property
-    def panel(self) -> Box:
-        """The box on the right."""
-        left = self.width - self.margin - (round(286 * self.unit) if self.has_panel else 0)
-        return left, self.line[3], self.width - self.margin, self.picture[3]
-
-    @property
-    def picture(self) -> Box:
-        """The box of the machine."""
-        right = self.width - (round(286 * self.unit) + 2 * self.margin if self.has_panel else 0)
-        bottom = self.height - (round(142 * self.unit) if self.has_panel else 0)
-        return 0, self.line[3], right, bottom
-
-    @property
-    def strip(self) -> Box:
-        """The box of the axes of force over time."""
-        top = self.picture[3] + round(28 * self.unit)
-        left = self.margin + round(58 * self.unit)
-        return left, top, self.width - 2 * self.margin, self.height - round(30 * self.unit)
+    def __init__(self, width: int, height: int, has_panel: bool) -> None:
+        self.width, self.height = width, height
+        # by this lengths of a frame of 1280 x 720 are multiplied
+        self.unit = u = min(width / 1280, height / 720)
+        margin, top = max(2, round(14 * u)), round(48 * u)
+        aside, below = (round(286 * u), round(142 * u)) if has_panel else (0, 0)
+        right, bottom = width - margin, height - below
+        self.line: Box = (margin, 0, right, top)
+        self.picture: Box = (0, top, right - aside - margin if has_panel else width, bottom)
+        self.panel: Box = (right - aside, top, right, bottom)
+        self.strip: Box = (
+            margin + round(58 * u),
+            bottom + round(28 * u),
+            right - margin,
+            height - round(30 * u),
+        )
 
 
 class Painter:
