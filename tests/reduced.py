@@ -9,7 +9,7 @@ import pytest
 
 from support_exudyn import Result, Scenario, simulate
 from support_exudyn.formulations.progress import Progress, silent
-from support_exudyn.formulations.reduced import parameters
+from support_exudyn.formulations.reduced import setup
 from support_exudyn.scenario.solver_settings import MOST_STEPS
 
 
@@ -27,7 +27,7 @@ def simulate_reduced(
 
 def from_its_source(monkeypatch: pytest.MonkeyPatch) -> None:
     """From now on a law of the family K depth^n is compiled from its source, as any other law is."""
-    monkeypatch.setattr(parameters, "has_family_form", lambda contact: False)
+    monkeypatch.setattr(setup, "has_family_form", lambda contact: False)
 
 
 def simulate_redundant(scenario: Scenario) -> Result:

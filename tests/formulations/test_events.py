@@ -19,7 +19,7 @@ from numpy.polynomial import Polynomial
 from support_exudyn.formulations.compiled import plain
 from support_exudyn.formulations.reduced import events, integrate, layout
 from support_exudyn.formulations.tree.events import Kind, event
-from support_exudyn.formulations.tree.loose import Place
+from support_exudyn.formulations.tree.forces import Place
 
 C = 10.0  # clearance [m], large: dips of a thousandth of a step are then far above what is called still
 DEPTH = 1.0  # [m], of the order of all depths

@@ -11,9 +11,9 @@ import pytest
 from support_exudyn import ClearancePin, Scenario, UniformSpeed
 from support_exudyn.formulations.compiled import compiled, on_arrays, plain
 from support_exudyn.formulations.reduced import layout, support_model
-from support_exudyn.formulations.reduced.drive import Drive, driven
 from support_exudyn.formulations.reduced.equations import law_at
-from support_exudyn.formulations.reduced.parameters import parameters
+from support_exudyn.formulations.reduced.layout import Drive, driven
+from support_exudyn.formulations.reduced.setup import parameters
 from support_exudyn.formulations.reduced.support_posture import meeting_point
 from tests.cases.machine_cases import contact, support
 

@@ -31,11 +31,10 @@ from support_exudyn import (
 )
 from support_exudyn.formulations.compiled import compiled_law, plain
 from support_exudyn.formulations.reduced import layout, support_model
-from support_exudyn.formulations.reduced.contact import contact_force
-from support_exudyn.formulations.reduced.drive import driven
-from support_exudyn.formulations.reduced.free_motion import PinState
-from support_exudyn.formulations.reduced.parameters import parameters, segments
+from support_exudyn.formulations.reduced.contact import PinState, contact_force
+from support_exudyn.formulations.reduced.layout import driven
 from support_exudyn.formulations.reduced.records import peak
+from support_exudyn.formulations.reduced.setup import parameters, segments
 from support_exudyn.formulations.time_grid import record_times
 from support_exudyn.sweeps.precompile import warm_up
 from tests.cases.law_cases import LUGRE
@@ -269,7 +268,7 @@ def test_a_run_with_too_many_steps_is_given_up() -> None:
 
 
 def test_a_run_with_too_many_touches_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
-    for name in ("run", "outline"):
+    for name in ("run", "setup"):
         module = importlib.import_module(f"support_exudyn.formulations.reduced.{name}")
         monkeypatch.setattr(module, "MOST_TOUCHES", 1)
     with pytest.raises(SimulationError, match="more than 1 touches"):

@@ -20,13 +20,11 @@ from support_exudyn.formulations.tree.dynamics import (
     pin_mobility,
 )
 from support_exudyn.formulations.tree.events import Event, Kind, event
-from support_exudyn.formulations.tree.forces import Forces
-from support_exudyn.formulations.tree.from_scenario import largest_error
+from support_exudyn.formulations.tree.forces import Forces, Place
 from support_exudyn.formulations.tree.integration import growth
 from support_exudyn.formulations.tree.loads import SPEED_X, SPEED_Y, X, Y
-from support_exudyn.formulations.tree.loose import Place
-from support_exudyn.formulations.tree.path import Ends, motion_within
-from support_exudyn.formulations.tree.quadrature import POINTS, largest, running, weights
+from support_exudyn.formulations.tree.run import largest_error
+from support_exudyn.formulations.tree.within_steps import POINTS, Ends, largest, motion_within, running, weights
 from support_exudyn.mechanics.body_coordinates import BodyItem
 from support_exudyn.mechanics.kinetics import Kinetics
 from support_exudyn.mechanics.oil_column import fill

@@ -27,8 +27,8 @@ from support_exudyn import (
     reference_support,
     two_body_columns,
 )
-from support_exudyn.formulations.reduced import coverage as reduced_coverage
-from support_exudyn.formulations.tree import coverage as tree_coverage
+from support_exudyn.formulations import reduced as reduced_coverage
+from support_exudyn.formulations import tree as tree_coverage
 from support_exudyn.model.linkage import Body, Part
 from tests.cases.machine_cases import contact, support
 from user_forces import InputError, JournalBearing, Value, value

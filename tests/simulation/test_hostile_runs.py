@@ -39,7 +39,6 @@ LONG = 1000.0  # [s] that the machine is simulated for: minutes of work
 OIL = OilColumn(bore_area=0.1, oil_length=0.5, bulk_modulus=1.5e9)
 PLANE = loose_support(1.5, 0.1, drive=Held(), duration=0.04)
 COLUMNS = dict.fromkeys(PLANE.linkage.columns, OIL)
-PLAIN = SolverSettings(backend="python")
 RUNS = {
     "plane": PLANE,
     "plane, ideal pins": replace(PLANE, pins={}),
@@ -47,7 +46,6 @@ RUNS = {
     "space": replace(PLANE, dimensions=3),
     "space, ideal pins, one channel": replace(PLANE, dimensions=3, pins={}, channels=("tip.x",)),
     "tree": replace(PLANE, formulation="tree", columns=COLUMNS),
-    "reduced, plain": replace(PLANE, formulation="reduced", solver=PLAIN),
     "with an accuracy": replace(PLANE, accuracy="draft", formulation="redundant"),
 }
 
@@ -86,7 +84,7 @@ def test_an_interruption_comes_out_at_once_and_leaves_nothing_behind(name: str, 
     assert 0.0 < time.perf_counter() - sent.sent < PROMPT
     assert exudyn.config.printToConsole
     assert gc.isenabled()
-    assert len(released) == (0 if name == "reduced, plain" else 1)  # that one is without the engine
+    assert len(released) == 1
     assert same(simulate(scenario), before)
 
 
@@ -158,10 +156,8 @@ def interrupting(scenario: Scenario) -> Scenario:
 
 @pytest.mark.parametrize("start", ["concentric", "settled"])
 @pytest.mark.parametrize("call", [1, 3])
-@pytest.mark.parametrize("name", ["plane", "space", "tree", "reduced, plain"])
+@pytest.mark.parametrize("name", ["plane", "space", "tree"])
 def test_an_interruption_in_a_law_is_not_taken_for_a_failed_run(name: str, call: int, start: str) -> None:
-    if start == "settled" and name.startswith("reduced"):
-        pytest.skip("is not covered")
     Calls.left = call
     with pytest.raises(KeyboardInterrupt):
         simulate(interrupting(replace(RUNS[name], start=start)), throw=False)

@@ -2,14 +2,23 @@
 
 from __future__ import annotations
 
-from typing import NoReturn
+from typing import NoReturn, cast
 
-from support_exudyn.formulations.reduced.models import MODELS, Model
+from support_exudyn.formulations.reduced import slider_crank, support_model
+from support_exudyn.formulations.reduced.machine_model import Model
+from support_exudyn.machines.four_column_support import HydraulicSupport
+from support_exudyn.machines.slider_crank import SliderCrank
 from support_exudyn.model.columns import RigidColumn
+from support_exudyn.model.machine import Machine
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.compilation.flat import UnwrittenLawError, law_source
 from user_forces.values.value import InputError
 
+# the machines that are covered; a new one is a file with its formulas and its model, and a line here
+MODELS: dict[type[Machine], Model] = {
+    HydraulicSupport: cast(Model, support_model),
+    SliderCrank: cast(Model, slider_crank),
+}
 WRITTEN = "laws written with the functions of user_forces.expressions.scalar, with `where` in place of `if`"
 
 

@@ -10,8 +10,7 @@ import math
 
 from support_exudyn.formulations.compiled import compiled
 from support_exudyn.formulations.contact_events import DOUBT, DOUBT_OF_DEPTH, STILL
-from support_exudyn.formulations.reduced.drive import Matrix, Vector
-from support_exudyn.formulations.reduced.equations import observe
+from support_exudyn.formulations.reduced.equations import observe, within
 from support_exudyn.formulations.reduced.layout import (
     CLEARANCE,
     DEPTH,
@@ -21,8 +20,9 @@ from support_exudyn.formulations.reduced.layout import (
     RATE,
     RENEWS,
     TOUCHING,
+    Matrix,
+    Vector,
 )
-from support_exudyn.formulations.reduced.runge_kutta import within
 
 # RETURN: pressed on again without having parted. CUT: the law begins or ceases to ask for tension
 NOTHING, TOUCH, PARTING, RETURN, CUT, TOO_LONG = range(6)

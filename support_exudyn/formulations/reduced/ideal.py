@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 
 from support_exudyn.formulations.compiled import compiled, entry
-from support_exudyn.formulations.reduced.drive import Drive, Matrix, Vector, driven
-from support_exudyn.formulations.reduced.free_motion import closing_force, closing_rates
+from support_exudyn.formulations.reduced.contact import closing_force, closing_rates
 from support_exudyn.formulations.reduced.integrate import (
     CLOSE,
     EVALUATIONS,
@@ -16,7 +15,6 @@ from support_exudyn.formulations.reduced.integrate import (
     STOPPED_AT,
     STUCK,
 )
-from support_exudyn.formulations.reduced.jump import closed, jump
 from support_exudyn.formulations.reduced.layout import (
     BEGIN,
     END,
@@ -26,10 +24,21 @@ from support_exudyn.formulations.reduced.layout import (
     SECOND,
     SECOND_RATE,
     WORK,
+    Drive,
+    Matrix,
+    Vector,
+    driven,
 )
 from support_exudyn.formulations.reduced.records import record
-from support_exudyn.formulations.reduced.support import pin_state, rear_pin
-from support_exudyn.formulations.reduced.support_dynamics import balance, column_forces, unforced
+from support_exudyn.formulations.reduced.support import (
+    balance,
+    closed,
+    column_forces,
+    jump,
+    pin_state,
+    rear_pin,
+    unforced,
+)
 from support_exudyn.formulations.reduced.support_posture import posture, rates
 
 ITERATIONS = 30

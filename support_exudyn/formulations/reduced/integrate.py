@@ -7,12 +7,15 @@ import math
 import numpy as np
 
 from support_exudyn.formulations.compiled import compiled, entry
-from support_exudyn.formulations.reduced.drive import Matrix, Vector
 from support_exudyn.formulations.reduced.equations import (
+    STAGES,
+    advance,
     approach,
     evaluate,
+    fit,
     freeze_mobility,
     move_with_the_drive,
+    within,
 )
 from support_exudyn.formulations.reduced.events import (
     CUT,
@@ -24,7 +27,6 @@ from support_exudyn.formulations.reduced.events import (
     TOUCH,
     event,
 )
-from support_exudyn.formulations.reduced.jump import jump
 from support_exudyn.formulations.reduced.layout import (
     ASKED_DEPTH,
     BEGIN,
@@ -42,9 +44,11 @@ from support_exudyn.formulations.reduced.layout import (
     SWIFTNESS,
     TOUCH_SPEED,
     TOUCHING,
+    Matrix,
+    Vector,
 )
 from support_exudyn.formulations.reduced.records import peak, record, size
-from support_exudyn.formulations.reduced.runge_kutta import STAGES, advance, fit, within
+from support_exudyn.formulations.reduced.support import jump
 
 FINISHED, STUCK, TOO_MANY_STEPS, TOO_MANY_TOUCHES, DEAD_CENTRE, PAUSED = range(6)
 # what is reported of a run

@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 
 from support_exudyn.formulations.compiled import compiled
-from support_exudyn.formulations.reduced.drive import Matrix, Vector, driven
-from support_exudyn.formulations.reduced.equations import observe
+from support_exudyn.formulations.reduced.equations import observe, within
 from support_exudyn.formulations.reduced.layout import (
     ACCELERATION,
     EXTENSION,
@@ -18,8 +17,10 @@ from support_exudyn.formulations.reduced.layout import (
     STATE_ROW,
     STATES,
     TIME,
+    Matrix,
+    Vector,
+    driven,
 )
-from support_exudyn.formulations.reduced.runge_kutta import within
 from support_exudyn.formulations.redundant.clearance.force_in_step import (
     GOLDEN,
     NARROWINGS,

@@ -8,12 +8,18 @@ import numpy as np
 
 from support_exudyn.formulations.compiled import on_arrays
 from support_exudyn.formulations.reduced import layout
-from support_exudyn.formulations.reduced.bodies import Bodies, moved, placed
-from support_exudyn.formulations.reduced.drive import Drive, Matrix, Vector
-from support_exudyn.formulations.reduced.free_motion import closing_force
-from support_exudyn.formulations.reduced.jump import closed
-from support_exudyn.formulations.reduced.support import rear_pin
-from support_exudyn.formulations.reduced.support_dynamics import arms, balance, column_forces, motion, unforced
+from support_exudyn.formulations.reduced.contact import closing_force
+from support_exudyn.formulations.reduced.layout import Drive, Matrix, Vector
+from support_exudyn.formulations.reduced.machine_model import Bodies, moved, placed
+from support_exudyn.formulations.reduced.support import (
+    arms,
+    balance,
+    closed,
+    column_forces,
+    motion,
+    rear_pin,
+    unforced,
+)
 from support_exudyn.formulations.reduced.support_posture import posture, rates
 from support_exudyn.machines.four_column_support import BODIES, HydraulicSupport, Posture
 from support_exudyn.model.drives.drive import CubicStep, Held, Reciprocating, Steady, UniformSpeed

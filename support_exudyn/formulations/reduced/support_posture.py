@@ -11,7 +11,6 @@ import math
 from typing import NamedTuple
 
 from support_exudyn.formulations.compiled import inlined
-from support_exudyn.formulations.reduced.drive import Vector
 from support_exudyn.formulations.reduced.layout import (
     FRONT_BASE_X,
     FRONT_BASE_Y,
@@ -37,6 +36,7 @@ from support_exudyn.formulations.reduced.layout import (
     SHIELD_SIDE,
     SINE,
     SWIFTNESS,
+    Vector,
 )
 
 

@@ -5,7 +5,6 @@ uses `tolerance` alone: the contact laws are always called from Python, which is
 functions of the engine.
 """
 
-from support_exudyn.formulations.tree.coverage import check
-from support_exudyn.formulations.tree.from_scenario import run
+from support_exudyn.formulations.tree.run import check, run
 
 __all__ = ["check", "run"]

@@ -1,7 +1,8 @@
-"""The tree in the engine, and its explicit solver set up so that every step is chosen here."""
+"""The tree in the engine, its explicit solver, of which every step is chosen here, and the steps of a run."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from typing import Any
 
 import exudyn
@@ -10,6 +11,7 @@ from exudyn.itemInterface import NodeGenericODE2, ObjectKinematicTree
 
 from support_exudyn.formulations.tree.branches import Matrix, Tree
 from support_exudyn.formulations.tree.forces import Forces
+from support_exudyn.mechanics.contact_state import PinMemory
 from user_forces.values.value import Vector2
 
 SMALLEST_STEP = 1e-13  # [s]
@@ -94,3 +96,32 @@ def settings(duration: float, error: float, first_step: float) -> Any:
     integration.verboseMode = 0
     chosen.solution.file.write = False
     return chosen
+
+
+@dataclass
+class History:
+    """The accepted steps of a run, filled by it.
+
+    time, position, velocity: at the start of the run and at the end of every step. piece: of the drive; memory:
+    of the loose pins, number in `memories`; both for every step.
+    """
+
+    time: list[float]
+    position: list[list[float]]
+    velocity: list[list[float]]
+    piece: list[int] = field(default_factory=list)
+    memory: list[int] = field(default_factory=list)
+    memories: list[tuple[PinMemory, ...]] = field(default_factory=list)
+
+    def add(self, time: float, position: list[float], velocity: list[float], piece: int) -> None:
+        """Add a step by its end; the memory is the last one."""
+        self.time.append(time)
+        self.position.append(position)
+        self.velocity.append(velocity)
+        self.piece.append(piece)
+        self.memory.append(len(self.memories) - 1)
+
+    def pin_memory(self, pin: int) -> Matrix:
+        """Memory of a pin in every step, shape (steps, fields of PinMemory)."""
+        table = np.array([memories[pin] for memories in self.memories], dtype=np.float64)
+        return np.asarray(table[self.memory])

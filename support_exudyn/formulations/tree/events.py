@@ -12,7 +12,7 @@ from typing import NamedTuple
 from scipy.optimize import brentq
 
 from support_exudyn.formulations.contact_events import DOUBT_OF_DEPTH, DepthPath
-from support_exudyn.formulations.tree.loose import Place
+from support_exudyn.formulations.tree.forces import Place
 from user_forces.values.value import Vector2
 
 PARTS = 4  # of a step in free flight, each looked at

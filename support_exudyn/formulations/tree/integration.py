@@ -13,11 +13,9 @@ from support_exudyn.formulations.engine_errors import explained
 from support_exudyn.formulations.engine_settings import quiet_engine
 from support_exudyn.formulations.progress import Progress
 from support_exudyn.formulations.tree.drive_pieces import Piece
-from support_exudyn.formulations.tree.engine import SMALLEST_STEP, Engine, settings
+from support_exudyn.formulations.tree.engine import SMALLEST_STEP, Engine, History, settings
 from support_exudyn.formulations.tree.events import Kind, event
-from support_exudyn.formulations.tree.forces import Forces
-from support_exudyn.formulations.tree.history import History
-from support_exudyn.formulations.tree.loose import LoosePin
+from support_exudyn.formulations.tree.forces import Forces, LoosePin
 from support_exudyn.mechanics.contact_state import Mobility, Onset
 from support_exudyn.mechanics.pressed_pins import Mobilities
 from user_forces.lawful import UNLAWFUL, LawError

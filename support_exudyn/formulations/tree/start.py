@@ -11,9 +11,8 @@ from support_exudyn.formulations.contract import Failure, SimulationError
 from support_exudyn.formulations.redundant.scene.static_equilibrium import CENTRING
 from support_exudyn.formulations.tree.branches import Matrix, Tree
 from support_exudyn.formulations.tree.dynamics import Posture, mass_moment
-from support_exudyn.formulations.tree.forces import Forces
+from support_exudyn.formulations.tree.forces import Forces, LoosePin
 from support_exudyn.formulations.tree.loads import push
-from support_exudyn.formulations.tree.loose import LoosePin
 from support_exudyn.mechanics.contact_state import PinMemory
 from support_exudyn.mechanics.kinetics import kinetics_of
 from support_exudyn.mechanics.pressed_pins import Mobilities

@@ -1,14 +1,15 @@
-"""Bodies of a machine at the records."""
+"""What the reduced formulation needs of a machine, and the bodies of one at the records."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
-from support_exudyn.formulations.reduced.drive import Vector
+from support_exudyn.formulations.reduced.layout import Matrix, Vector
+from support_exudyn.model.drives.drive import Drive
 from support_exudyn.model.linkage import Linkage
 
 
@@ -86,3 +87,30 @@ def placed(
         columns,
         pin_force,
     )
+
+
+class Model(Protocol):
+    """What a machine's module offers. PIN: the pin that may be loose; DRIVES: that it covers."""
+
+    PIN: str
+    DRIVES: tuple[type[Drive], ...]
+
+    def start(self, machine: Any) -> tuple[float, float]:
+        """The free coordinates at the start."""
+
+    def shifted(self, before: Linkage, after: Linkage) -> tuple[float, float]:
+        """By how much the free coordinates differ between two postures of the linkage."""
+
+    def reaches(self, machine: Any) -> tuple[float, float]:
+        """By how much the journal moves with the free coordinates."""
+
+    def fall(self, machine: Any, speed: float) -> float:
+        """Acceleration of the journal without its contact besides gravity's [m/s^2] at a speed of the drive."""
+
+    def parameters(self, machine: Any) -> dict[str, float]:
+        """Parameters by name, see `layout`."""
+
+    def bodies(
+        self, machine: Any, linkage: Linkage, p: list[float], rows: Matrix, accelerations: Matrix | None
+    ) -> Bodies:
+        """Bodies and columns at the records."""
