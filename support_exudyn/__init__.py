@@ -45,13 +45,18 @@ from support_exudyn.model.drives.drive import (
     UniformSpeed,
 )
 from support_exudyn.model.drives.table_drive import TableDrive
-from support_exudyn.model.hydraulic_cylinder import HydraulicCylinder
-from support_exudyn.model.lateral_dimensions import Width
+from support_exudyn.model.hydraulic_cylinder import (
+    ClosedInlet,
+    HydraulicCylinder,
+    Inlet,
+    RampedOpening,
+    SuddenOpening,
+)
 from support_exudyn.model.linkage import Body, Column, Crank, Linkage, Part, PinPlace, Slide, TracePoint
 from support_exudyn.model.loads import AppliedForce, FallingBlock, Load, LoadedPoint, Roof
 from support_exudyn.model.machine import Machine
 from support_exudyn.model.pins import ClearancePin, IdealPin, Pin
-from support_exudyn.model.valve_opening import ClosedInlet, Inlet, RampedOpening, SuddenOpening
+from support_exudyn.model.to_space import Width
 from support_exudyn.scenario.recorded_channels import Channel
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scenario.solver_settings import SolverSettings

@@ -27,7 +27,7 @@ class LawError(ArithmeticError):
     """A law, a load or a drive gave what no force can be."""
 
     def at(self, name: str) -> LawError:
-        """The same, with the name of the pin or load at which it did."""
+        """The error with the name of the pin or load at which it came up."""
         return LawError(f"{name}: {self}")
 
 

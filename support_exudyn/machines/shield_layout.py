@@ -13,7 +13,6 @@ import numpy as np
 from pydantic import model_validator
 from typing_extensions import Self
 
-from support_exudyn.model.lateral_dimensions import Width
 from support_exudyn.model.linkage import (
     GROUND,
     Body,
@@ -27,6 +26,7 @@ from support_exudyn.model.linkage import (
 )
 from support_exudyn.model.machine import Machine
 from support_exudyn.model.plane_geometry import circle_intersection, direction, distance, moved, side
+from support_exudyn.model.to_space import Width
 from user_forces.expressions.roots import bracketed_root
 from user_forces.values.units import Metres
 from user_forces.values.value import InputError, Positive, Vector2, value
@@ -122,7 +122,7 @@ class ShieldLayout(Machine, ABC, Generic[P]):
 
     @classmethod
     def pivots(cls) -> tuple[str, ...]:
-        """Names of all its pivots, those of the tail beam last, which may be missing."""
+        """Names of all pivots of the support, those of the tail beam last, which may be missing."""
         feet = [place for strut in cls.STRUTS.values() for _, place in strut]
         return (*FRAME[:-1], *feet, FRAME[-1], *TAIL_PLACES)
 
@@ -232,7 +232,7 @@ class ShieldLayout(Machine, ABC, Generic[P]):
         return found
 
     def place(self, body: str, pivot: str, posture: P) -> Vector2:
-        """Where a pivot of a body, or of the ground, is in a posture [m]."""
+        """Place of a pivot of a body, or of the ground, in a posture [m]."""
         point: Vector2 = getattr(self, pivot)
         if body == GROUND:
             return point
@@ -242,7 +242,7 @@ class ShieldLayout(Machine, ABC, Generic[P]):
         return moved(point, self.rear_shield, posture.rear_shield, posture.shield)
 
     def column_lengths(self, posture: P) -> tuple[float, float]:
-        """Lengths [m] of its columns, in the order of `STRUTS`."""
+        """Lengths [m] of the support's columns, in the order of `STRUTS`."""
         first, second = (
             distance(self.place(*strut.foot, posture), self.place(*strut.head, posture))
             for strut in self.STRUTS.values()
@@ -252,7 +252,7 @@ class ShieldLayout(Machine, ABC, Generic[P]):
     # --- layout ---
 
     def widths(self) -> Width | None:
-        """Its lateral dimensions, if they are known."""
+        """The support's lateral dimensions; None if they are not known."""
         return self.width
 
     def linkage(self) -> Linkage:

@@ -60,11 +60,11 @@ class SliderCrank(Machine):
         return self.crank_length * math.cos(angle) + self._rod_along(angle)
 
     def slider_speed(self, angle: float, speed: float) -> float:
-        """Its rate [m/s] at a crank angle [rad] and a speed of the crank [rad/s]."""
+        """Rate of the slider's x [m/s] at a crank angle [rad] and a speed of the crank [rad/s]."""
         return -speed * self._height(angle) * (1.0 + self._crank_along(angle) / self._rod_along(angle))
 
     def slider_acceleration(self, angle: float, speed: float) -> float:
-        """Its acceleration [m/s^2] at a crank angle [rad] and a constant speed of the crank [rad/s]."""
+        """Acceleration of the slider [m/s^2] at a crank angle [rad] and a constant crank speed [rad/s]."""
         along, height, rod = self._crank_along(angle), self._height(angle), self._rod_along(angle)
         bend = (along**2 - height**2) / rod + (height * along) ** 2 / rod**3
         return -(speed**2) * (along + bend)

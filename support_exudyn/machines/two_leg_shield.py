@@ -119,7 +119,7 @@ class TwoLegShield(FourBarShield[LegPosture]):
         return {"ram": "leg"}
 
     def follower(self, name: str, lead: Drive, duration: float) -> Drive:
-        """How the ram moves so that the canopy keeps level while the leg is driven."""
+        """The drive of the ram that keeps the canopy level while the leg is driven."""
         if name != "ram":
             return super().follower(name, lead, duration)
         for key, found in self._known:

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from support_exudyn.mechanics.trajectory import Series
-from support_exudyn.model.linkage import GROUND, Linkage
+from support_exudyn.model.linkage import GROUND, Column, Linkage
 from support_exudyn.model.plane_geometry import minus
 from user_forces.values.value import Vector2
 
@@ -28,7 +28,7 @@ class PointMotion:
 
     @cached_property
     def velocity(self) -> Series:
-        """Of the point (n, 2) [m/s]."""
+        """Velocity of the point (n, 2) [m/s]."""
         velocity = self.centre_velocity.copy()
         velocity[:, 0] -= self.spin * self.arm[:, 1]
         velocity[:, 1] += self.spin * self.arm[:, 0]
@@ -69,7 +69,7 @@ class BodyMotion:
         return np.zeros(len(self.position)) if body == GROUND else self.position[:, self.first(body) + 2]
 
     def place(self, body: str, point: Vector2) -> Series:
-        """Where a point of the start posture is (n, 2) [m]; velocities may be missing."""
+        """Path of a point of the start posture (n, 2) [m]; velocities may be missing."""
         if body == GROUND:
             return np.tile(point, (len(self.position), 1))
         i = self.first(body)
@@ -96,3 +96,10 @@ class BodyMotion:
             arm,
             self.velocity[:, i : i + 2],
         )
+
+    def lengthening(self, column: Column) -> tuple[Series, Series]:
+        """Length of a column (n,) [m] and its rate (n,) [m/s]."""
+        foot, head = self.point(column.foot, column.foot_point), self.point(column.head, column.head_point)
+        apart, relative = head.position - foot.position, head.velocity - foot.velocity
+        length = np.hypot(*apart.T)
+        return length, (apart * relative).sum(axis=1) / length

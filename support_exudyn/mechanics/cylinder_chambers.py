@@ -6,8 +6,6 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-import numpy as np
-
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.oil_column import static_loads
 from support_exudyn.mechanics.trajectory import CylinderSeries, Series
@@ -30,7 +28,7 @@ class FilledCylinder:
 
     @property
     def start_pressures(self) -> tuple[float, float]:
-        """Of piston side and rod side [Pa] before the valve opens: one of them is the tank's."""
+        """Pressures of piston side and rod side [Pa] before the valve opens: one of them is the tank's."""
         model, tank = self.model, self.model.tank_pressure
         if self.load >= model.force(tank, tank, 0.0):
             return (self.load + tank * model.rod_side_area) / model.bore_area, tank
@@ -49,7 +47,7 @@ class FilledCylinder:
     def pressure_rates(
         self, length: float, rate: float, pressures: tuple[float, float], opening: float
     ) -> tuple[float, float]:
-        """Of both chambers [Pa/s]."""
+        """Rates of the pressures in both chambers [Pa/s]."""
         model = self.model
         volumes = model.volumes(length - self.column.start_length)
         flow, rod_flow = model.flows(*pressures, opening)
@@ -59,7 +57,7 @@ class FilledCylinder:
         )
 
     def energy(self, length: Quantity, pressure: Quantity, rod_pressure: Quantity) -> Quantity:
-        """Stored in the oil of both chambers [J]."""
+        """Energy stored in the oil of both chambers [J]."""
         piston, rod = self.model.volumes(length - self.column.start_length)
         density = self.model.energy_density
         return piston * density(pressure) + rod * density(rod_pressure)
@@ -84,12 +82,8 @@ class FilledCylinder:
 
     def series(self, motion: BodyMotion, pressures: Series, opening: Series) -> CylinderSeries:
         """The column over time, with these pressures (n, 2) [Pa] and openings (n,)."""
-        column, model = self.column, self.model
-        foot, head = motion.point(column.foot, column.foot_point), motion.point(column.head, column.head_point)
-        apart, relative = head.position - foot.position, head.velocity - foot.velocity
-        length = np.hypot(*apart.T)
-        rate = (apart * relative).sum(axis=1) / length
-        piston, rod = pressures.T
+        length, rate = motion.lengthening(self.column)
+        model, (piston, rod) = self.model, pressures.T
         return CylinderSeries(
             model.force(piston, rod, rate),
             self.energy(length, piston, rod),

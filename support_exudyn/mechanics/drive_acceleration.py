@@ -41,7 +41,7 @@ def _at(drive: Drive, breaks: list[float], t: float) -> float:
 
 
 def _at_the_start(drive: Drive, breaks: list[float]) -> float:
-    """The same with times after the start; before one that is a break nothing has been accelerated."""
+    """The rate at the start, from times after it; before one that is a break nothing has been accelerated."""
     if 0.0 in breaks:
         return 0.0
     d = min([BACK, *(b / PARTS for b in breaks)])
@@ -49,5 +49,5 @@ def _at_the_start(drive: Drive, breaks: list[float]) -> float:
 
 
 def _difference(last: float, first: float, second: float, third: float) -> float:
-    """Of the cubic through four speeds, the change in a step up to the last; they are counted back from it."""
+    """Change of the cubic through four speeds, counted back from the last, in a step up to that."""
     return (11.0 * last - 18.0 * first + 9.0 * second - 2.0 * third) / 6.0

@@ -25,7 +25,7 @@ TOWARDS: Mapping[str, Callable[[Series], Series]] = {
 
 
 def missed(extreme: str, values: Series, time: Series, breaks: Sequence[float] = ()) -> float:
-    """By how much an extreme between records may exceed that of the records, >= 0; 0 of what is no extreme.
+    """Amount by which an extreme between records may exceed that of the records, >= 0; 0 of what is no extreme.
 
     Of a parabola through three records, the middle one the largest, the top is at most an eighth of the second
     difference above it. Across a break of the drive, where a record holds the value before it, there is no

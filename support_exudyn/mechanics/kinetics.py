@@ -108,7 +108,7 @@ class Kinetics:
         return rates
 
     def point(self, position: Matrix, body: str, point: Vector2) -> tuple[Matrix, Matrix]:
-        """Where a point of a body is (2,) and the matrix that turns all velocities into its own (2, n)."""
+        """Place of a point of a body (2,) and the matrix that turns all velocities into its own (2, n)."""
         rate = np.zeros((2, position.size))
         if body == GROUND:
             return np.array(point), rate
@@ -153,7 +153,7 @@ class Kinetics:
     def pin_mobility(
         self, position: Matrix, name: str, pressed: Mapping[str, Matrix] = MappingProxyType({})
     ) -> Matrix:
-        """How a clearance pin's eccentricity answers an impulse in it: J dv per impulse (2, 2) [1/kg].
+        """Answer of a clearance pin's eccentricity to an impulse in it: J dv per impulse (2, 2) [1/kg].
 
             M dv + C^T L = J^T,   C dv = 0
 

@@ -36,7 +36,7 @@ class FilledColumn:
         return self.model.stiffness(extension) * (compression + self.model.damping_time * (speed - rate))
 
     def energy(self, length: Quantity, extension: Quantity) -> Quantity:
-        """Stored in the oil [J]."""
+        """Energy stored in the oil [J]."""
         compression = self.natural_length(extension) - length
         return 0.5 * self.model.stiffness(extension) * compression * compression
 
@@ -63,10 +63,7 @@ class FilledColumn:
 
     def series(self, motion: BodyMotion, extension: Series, speed: Series) -> OilSeries:
         """The column over time, while the drive has these extensions [m] and speeds [m/s], shape (n,)."""
-        foot, head = self.ends(motion)
-        apart, relative = head.position - foot.position, head.velocity - foot.velocity
-        length = np.hypot(*apart.T)
-        rate = (apart * relative).sum(axis=1) / length
+        length, rate = motion.lengthening(self.column)
         moving = length, rate, extension, speed
         return OilSeries(self.force(*moving), self.energy(length, extension), *self.powers(*moving))
 
@@ -107,14 +104,14 @@ def fill(linkage: Linkage, models: Mapping[str, OilColumn], gravity: Vector2) ->
 
 
 def force_rounding(columns: Iterable[FilledColumn]) -> float:
-    """By how much rounding of lengths lets the forces of these columns scatter [N]."""
+    """Scatter [N] of the forces of these columns that the rounding of lengths causes."""
     return sum(
         LENGTHS * sys.float_info.epsilon * one.model.stiffness(0.0) * _size(one.column) for one in columns
     )
 
 
 def _size(column: Column) -> float:
-    """Of what a column's length is computed from [m]."""
+    """The largest of the numbers that a column's length is computed from [m]."""
     ends = (*column.foot_point, *column.head_point)
     return max(column.start_length, *map(abs, ends))
 

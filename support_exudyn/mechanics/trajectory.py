@@ -111,7 +111,7 @@ class Trajectory:
     compliant_pins: Mapping[str, CompliantSeries] = field(default_factory=dict)
 
     def contacts_of(self, pin: str) -> list[ContactSeries]:
-        """Where a loose pin touches: in the plane in one place."""
+        """Histories of the contacts of a clearance pin: in the plane one."""
         return [self.contacts[pin]]
 
 
@@ -120,11 +120,11 @@ class Observed(Protocol):
 
     @property
     def time(self) -> Series:
-        """Of the records (n,) [s]."""
+        """Times of the records (n,) [s]."""
         ...
 
     def contacts_of(self, pin: str) -> list[ContactSeries]:
-        """Where a loose pin touches, section by section."""
+        """Histories of the contacts of a clearance pin, section by section."""
         ...
 
 

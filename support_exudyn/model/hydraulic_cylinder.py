@@ -1,4 +1,4 @@
-"""A column that is a hydraulic cylinder: two chambers of oil behind a valve; its equations.
+"""A column that is a hydraulic cylinder: two chambers of oil behind a valve, and how the valve opens.
 
     dp0/dt = B / V0 (Q0 - A0 v),    V0 = A0 (h0 + e) + H0      piston side
     dp1/dt = B / V1 (Q1 + A1 v),    V1 = A1 (h1 - e) + H1      rod side
@@ -14,21 +14,154 @@ They are those of the engine's ObjectConnectorHydraulicActuatorSimple with `useC
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from dataclasses import field
+from typing import Annotated
 
 import numpy as np
+from pydantic import Field, model_validator
 
 from support_exudyn.model.columns import ColumnModel, Quantity
-from support_exudyn.model.valve_opening import ClosedInlet, Inlet
 from user_forces.values.units import (
     CubicMetres,
     CubicMetresPerSecond,
     Metres,
     NewtonSecondsPerMetre,
     Pascals,
+    Seconds,
     SquareMetres,
 )
-from user_forces.values.value import InputError, NonNegative, Positive, value
+from user_forces.values.value import InputError, NonNegative, Positive, Real, Value, value
+
+Opening = Annotated[Real, Field(ge=-1.0, le=1.0)]
+
+
+class Inlet(Value, ABC):
+    """Opening of a cylinder's valve, from -1 to 1, over time.
+
+    Positive: the pump is connected to the piston side and the tank to the rod side, so that the column extends.
+    Negative: the other way round. Zero: both sides are closed. The contract is that of a drive's speed: between
+    two neighbouring `breaks` the opening is smooth; at a break it may jump by `opening_jump`. The solver lands
+    on every break.
+    """
+
+    @abstractmethod
+    def opening(self, t: float) -> float:
+        """Share of the full opening at time t [s]; at a jump the value before it."""
+
+    def opening_jump(self, t: float) -> float:
+        """Jump of the opening at a break t [s]; 0 by default."""
+        del t
+        return 0.0
+
+    @property
+    @abstractmethod
+    def breaks(self) -> tuple[float, ...]:
+        """Times [s] at which the opening or its rate jumps."""
+
+    @property
+    @abstractmethod
+    def shortest_time(self) -> float:
+        """Time [s] in which the opening changes, or stays, whichever is shorter."""
+
+
+@value
+class ClosedInlet(Inlet):
+    """A valve that stays closed: the oil in both chambers carries the load."""
+
+    def opening(self, t: float) -> float:
+        """The opening is 0 at any time."""
+        return 0.0
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """There are no breaks."""
+        return ()
+
+    @property
+    def shortest_time(self) -> float:
+        """The time is infinite [s]."""
+        return float("inf")
+
+
+@value
+class SuddenOpening(Inlet):
+    """Direct inlet, drive mode 1 of the paper: the valve opens and closes at once.
+
+    Arguments:
+        start, end: when it opens and closes [s], 3 and 5 by default; end > start >= 0.
+        extent: of the opening, from -1 to 1, 1 by default: fully open so that the column extends.
+    """
+
+    start: Seconds[NonNegative] = 3.0
+    end: Seconds[Positive] = 5.0
+    extent: Opening = 1.0
+
+    @model_validator(mode="after")
+    def _closes_after_it_opens(self) -> SuddenOpening:
+        if self.end <= self.start:
+            raise ValueError(f"end = {self.end} s: allowed: > start = {self.start} s")
+        return self
+
+    def opening(self, t: float) -> float:
+        """Share of the full opening at time t [s]; at the jumps the value before."""
+        return self.extent if self.start < t <= self.end else 0.0
+
+    def opening_jump(self, t: float) -> float:
+        """Jump of the opening: up at the start, down at the end."""
+        return {self.start: self.extent, self.end: -self.extent}.get(t, 0.0)
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """Start and end [s]."""
+        return self.start, self.end
+
+    @property
+    def shortest_time(self) -> float:
+        """Time for which the valve is open [s]."""
+        return self.end - self.start
+
+
+@value
+class RampedOpening(Inlet):
+    """Smooth inlet, drive mode 2 of the paper: the valve opens and closes along straight ramps.
+
+    Arguments:
+        start, end: when it begins to open and is closed again [s], 3 and 5 by default; end > start >= 0.
+        ramp: how long it takes to open, and to close [s], 0.5 by default; > 0, at most half of end - start.
+        extent: of the opening between the ramps, from -1 to 1, 1 by default: fully open so that the column
+            extends.
+    """
+
+    start: Seconds[NonNegative] = 3.0
+    end: Seconds[Positive] = 5.0
+    ramp: Seconds[Positive] = 0.5
+    extent: Opening = 1.0
+
+    @model_validator(mode="after")
+    def _ramps_fit(self) -> RampedOpening:
+        if self.end <= self.start:
+            raise ValueError(f"end = {self.end} s: allowed: > start = {self.start} s")
+        if 2.0 * self.ramp > (self.end - self.start) * (1.0 + 1e-12):
+            raise ValueError(
+                f"ramp = {self.ramp} s: allowed: at most half of end - start, {0.5 * (self.end - self.start)} s"
+            )
+        return self
+
+    def opening(self, t: float) -> float:
+        """Share of the full opening at time t [s]."""
+        share = min((t - self.start) / self.ramp, 1.0, (self.end - t) / self.ramp)
+        return self.extent * max(0.0, share)
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """Ends of the ramps [s]."""
+        return tuple(sorted({self.start, self.start + self.ramp, self.end - self.ramp, self.end}))
+
+    @property
+    def shortest_time(self) -> float:
+        """Time of a ramp [s]."""
+        return self.ramp
 
 
 @value
@@ -91,17 +224,17 @@ class HydraulicCylinder(ColumnModel):
         return self.nominal_flow / math.sqrt(self.nominal_drop)
 
     def volumes(self, extension: Quantity) -> tuple[Quantity, Quantity]:
-        """Of both chambers, hoses included [m^3], at an extension since the start [m]."""
+        """Volumes of both chambers, hoses included [m^3], at an extension since the start [m]."""
         piston = self.bore_area * (self.oil_length + extension) + self.hose_volume
         rod = self.rod_side_area * (self.rod_side_length - extension) + self.rod_side_hose_volume
         return piston, rod
 
     def force(self, pressure: Quantity, rod_pressure: Quantity, rate: Quantity) -> Quantity:
-        """That pushes the ends apart [N], at pressures [Pa] and a rate of the length [m/s]."""
+        """Force that pushes the ends apart [N], at pressures [Pa] and a rate of the length [m/s]."""
         return self.bore_area * pressure - self.rod_side_area * rod_pressure - self.damping * rate
 
     def stiffness(self, extension: float) -> float:
-        """Of the closed chambers [N/m]."""
+        """Stiffness of the closed chambers [N/m] at an extension since the start [m]."""
         piston, rod = self.volumes(extension)
         return self.bulk_modulus * (self.bore_area**2 / piston + self.rod_side_area**2 / rod)
 
@@ -116,14 +249,14 @@ class HydraulicCylinder(ColumnModel):
         return piston, rod
 
     def flows(self, pressure: Quantity, rod_pressure: Quantity, opening: Quantity) -> tuple[Quantity, Quantity]:
-        """Into the piston side and into the rod side [m^3/s]."""
+        """Flows into the piston side and into the rod side [m^3/s], at pressures [Pa] and an opening."""
         piston, rod = self.supplies(opening)
         wide = self.flow_factor * np.abs(opening)
         into: tuple[Quantity, Quantity] = (wide * _root(piston - pressure), wide * _root(rod - rod_pressure))
         return into
 
     def energy_density(self, pressure: Quantity) -> Quantity:
-        """Of compressed oil [J/m^3]: B (exp(p/B) - 1 - p/B), about p^2 / 2 B."""
+        """Energy of compressed oil [J/m^3] at a pressure [Pa]: B (exp(p/B) - 1 - p/B), about p^2 / 2 B."""
         strain = pressure / self.bulk_modulus
         density: Quantity = self.bulk_modulus * (np.expm1(strain) - strain)
         return density

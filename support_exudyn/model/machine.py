@@ -6,10 +6,9 @@ from abc import ABC, abstractmethod
 from collections.abc import Collection, Mapping
 
 from support_exudyn.model.drives.drive import Drive
-from support_exudyn.model.lateral_dimensions import Width
 from support_exudyn.model.linkage import Linkage
 from support_exudyn.model.spatial_linkage import SpatialLinkage
-from support_exudyn.model.to_space import lift
+from support_exudyn.model.to_space import Width, lift
 from user_forces.values.value import InputError, Value
 
 
@@ -25,7 +24,7 @@ class Machine(Value, ABC):
         """The mechanism in its start posture."""
 
     def widths(self) -> Width | None:
-        """Its lateral dimensions; None if it is known in its plane only."""
+        """The machine's lateral dimensions; None if it is known in its plane only."""
         return None
 
     def in_space(self, linkage: Linkage) -> SpatialLinkage:
@@ -71,9 +70,9 @@ class Machine(Value, ABC):
         return {}
 
     def follower(self, name: str, lead: Drive, duration: float) -> Drive:
-        """How a part of `leaders` moves while what it follows is driven by `lead`, for so long [s].
+        """The drive of a part of `leaders` while what it follows is driven by `lead`, for so long [s].
 
-        By default the same. Raises InputError if it cannot follow.
+        By default `lead` itself. Raises InputError if it cannot follow.
         """
         del name, duration
         return lead

@@ -34,7 +34,7 @@ def direction(a: Vector2, b: Vector2) -> float:
 
 
 def moved(point: Vector2, origin: Vector2, to: Vector2, angle: float) -> Vector2:
-    """Where a point of a rigid body goes when its `origin` goes to `to` and it turns by `angle`."""
+    """Place to which a point of a rigid body goes when its `origin` goes to `to` and it turns by `angle`."""
     return plus(to, rotated(minus(point, origin), angle))
 
 
@@ -52,7 +52,7 @@ def parts_of(vector: Vector2, base: Vector2) -> tuple[float, float]:
 
 
 def circle_intersection(a: Vector2, ra: float, b: Vector2, rb: float, which: float) -> Vector2 | None:
-    """Where circles about a and b with radii ra and rb meet; None if they do not.
+    """Intersection of circles about a and b with radii ra and rb; None if there is none.
 
     Of the two points, the one to the left of the line from a to b if `which` is +1, to the right if -1.
     """

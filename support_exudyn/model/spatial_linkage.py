@@ -94,7 +94,7 @@ class Bearing(Value):
 
     @property
     def misfit(self) -> str:
-        """In what both bodies do not fit each other at the start, as an ideal pin needs; empty: they do."""
+        """The misfit of both bodies at the start, which no ideal pin may have, in words; empty: none."""
         apart = math.dist(self.first_point, self.second_point)
         if apart > ROUNDING:
             return f"its points on both bodies are {apart:.3g} m apart"

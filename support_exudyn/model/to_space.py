@@ -10,9 +10,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
+from dataclasses import field, fields
 from typing import Literal
 
-from support_exudyn.model.lateral_dimensions import Width
 from support_exudyn.model.linkage import GROUND, Body, Column, Linkage, PinPlace, TracePoint
 from support_exudyn.model.spatial_linkage import (
     Bearing,
@@ -21,7 +21,38 @@ from support_exudyn.model.spatial_linkage import (
     SpatialLinkage,
     SpatialPoint,
 )
-from user_forces.values.value import InputError, Vector2, Vector3
+from user_forces.values.units import Metres
+from user_forces.values.value import InputError, NonNegative, Positive, Value, Vector2, Vector3, value
+
+
+@value
+class Width(Value):
+    """Lateral dimensions of a machine that is symmetric about its plane.
+
+    Arguments:
+        spreads: by body, the radius of gyration about the plane of symmetry [m] (of a body of uniform width b:
+            b / sqrt(12)); of a body that there are two of, about the plane of each. 0 where none is given.
+        pairs: by body, half the distance [m] of the two that it stands for in the plane.
+        columns: by column, half the distance [m] of the two that it stands for.
+        lengths: by pin, its length [m]; of a pin of a pair, of each. 0 where none is given.
+        points: by traced point, half the distance [m] of two more of it, left and right.
+    """
+
+    spreads: Mapping[str, Metres[NonNegative]] = field(default_factory=dict)
+    pairs: Mapping[str, Metres[Positive]] = field(default_factory=dict)
+    columns: Mapping[str, Metres[Positive]] = field(default_factory=dict)
+    lengths: Mapping[str, Metres[Positive]] = field(default_factory=dict)
+    points: Mapping[str, Metres[Positive]] = field(default_factory=dict)
+
+    def scaled(self, factor: float) -> Width:
+        """The dimensions of the machine, larger by a factor."""
+        return Width(
+            **{
+                one.name: {name: factor * length for name, length in getattr(self, one.name).items()}
+                for one in fields(self)
+            }
+        )
+
 
 LEFT, RIGHT = "left", "right"
 SIDES = {LEFT: -1.0, RIGHT: 1.0}

@@ -14,8 +14,14 @@ from support_exudyn.mechanics.channels import ALL_CHANNELS, Recipe
 from support_exudyn.mechanics.initial_eccentricity import eccentric
 from support_exudyn.mechanics.plane_channels import recipes
 from support_exudyn.mechanics.space.channels import recipes as spatial_recipes
-from support_exudyn.model.columns import ColumnModel, OilColumn, OwnBody, PartModel, TwoBodyColumn
-from support_exudyn.model.cylinder_and_rod import with_two_bodies
+from support_exudyn.model.columns import (
+    ColumnModel,
+    OilColumn,
+    OwnBody,
+    PartModel,
+    TwoBodyColumn,
+    with_two_bodies,
+)
 from support_exudyn.model.drives.drive import Drive, Held
 from support_exudyn.model.hydraulic_cylinder import HydraulicCylinder
 from support_exudyn.model.linkage import Linkage

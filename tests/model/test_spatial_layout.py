@@ -31,10 +31,9 @@ from support_exudyn import (
 from support_exudyn.mechanics.space.constraints import frame_of
 from support_exudyn.mechanics.space.kinetics import tensor
 from support_exudyn.model.drives.drive import CubicStep, UniformSpeed
-from support_exudyn.model.lateral_dimensions import Width
 from support_exudyn.model.linkage import bar, check_moments, lumped, pinned, turned_moments
 from support_exudyn.model.spatial_linkage import Bearing, SpatialBody, SpatialLinkage
-from support_exudyn.model.to_space import lift
+from support_exudyn.model.to_space import Width, lift
 from tests.cases.machine_cases import support as narrow_support
 from user_forces import InputError
 

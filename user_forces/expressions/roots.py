@@ -13,7 +13,7 @@ RTOL = 8.881784197001252e-16  # four roundings, the least that is allowed
 def bracketed_root(
     function: Callable[[float], float], low: float, high: float, xtol: float = 2e-12, rtol: float = RTOL
 ) -> float:
-    """Where a function passes zero between two places at which its signs differ, by Brent's method.
+    """Root of a function between two places at which its signs differ, by Brent's method.
 
     Arguments:
         function: continuous, of one number.

@@ -45,7 +45,7 @@ class LuGre(TwoCoefficients):
 
     @property
     def has_state(self) -> bool:
-        """Yes: the deflection of the bristles [m]."""
+        """The state is the deflection of the bristles [m]."""
         return True
 
     def steady_deflection(self, slip: float) -> float:

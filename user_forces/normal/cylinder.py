@@ -37,7 +37,7 @@ class CylinderLaw(Hysteresis):
     restitution: Restitution
 
     def factor(self, restitution: float) -> float:
-        """See `exact_damping_factor`."""
+        """chi is the exact damping factor, see there."""
         return exact_damping_factor(restitution)
 
     def check(self, depth: float) -> None:
@@ -73,7 +73,7 @@ class LogarithmicLaw(CylinderLaw):
 
     @property
     def largest_depth(self) -> float:
-        """Where the load stops to rise with depth [m]."""
+        """Depth [m] at which the load stops to rise."""
         return self.line_compliance * self.scale * math.exp(self.offset - 1.0)
 
     def depth_of(self, force: float) -> float:

@@ -57,7 +57,7 @@ class DepthSpeed(DampingSpeed):
 
     @property
     def forgets(self) -> bool:
-        """Yes."""
+        """The touch speed is forgotten."""
         return True
 
 
@@ -80,5 +80,5 @@ class TouchSpeed(DampingSpeed):
 
     @property
     def forgets(self) -> bool:
-        """No."""
+        """The touch speed is kept."""
         return False

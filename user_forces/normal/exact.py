@@ -27,5 +27,5 @@ class Exact(PowerLaw):
     restitution: Restitution
 
     def factor(self, restitution: float) -> float:
-        """See `exact_damping_factor`."""
+        """chi is the exact damping factor, see there."""
         return exact_damping_factor(restitution)

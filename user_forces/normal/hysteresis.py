@@ -54,7 +54,7 @@ class Hysteresis(NormalLaw):
 
     @property
     def forgets(self) -> bool:
-        """As the damping speed does."""
+        """The law forgets as its damping speed does."""
         return self.damping_speed.forgets
 
 

@@ -28,7 +28,7 @@ class Liu(CylinderLaw):
         return self.bearing.journal_radius
 
     def elastic_force(self, depth: float) -> float:
-        """See the class [N]."""
+        """F_el [N] of the class's formula."""
         self.check(depth)
         share = depth / (2.0 * (self.bearing.clearance + depth))
         return self._stiffness * depth * sqrt(share)

@@ -51,12 +51,12 @@ class PartOf(NormalLaw):
 
     @property
     def forgets(self) -> bool:
-        """As the whole does."""
+        """A part forgets as the whole does."""
         return self.law.forgets
 
     @property
     def largest_depth(self) -> float:
-        """Of the whole [m]."""
+        """The largest depth is that of the whole [m]."""
         return self.law.largest_depth
 
     def impact_time(self, touch: Touch) -> float:

@@ -63,7 +63,7 @@ class Pereira(CylinderLaw):
 
     @property
     def largest_depth(self) -> float:
-        """That of Johnson's law, 4 dR / exp(2) [m]."""
+        """The largest depth is that of Johnson's law, 4 dR / exp(2) [m]."""
         return 4.0 * self.bearing.clearance / math.exp(2.0)
 
     def elastic_force(self, depth: float) -> float:

@@ -34,13 +34,13 @@ class ElasticPower(NormalLaw):
         return self.stiffness / (self.exponent + 1.0) * power(depth, self.exponent + 1.0)
 
     def resting_depth(self, force: float) -> float:
-        """(F/K)^(1/n) [m]."""
+        """The depth (F/K)^(1/n) [m] under a force F [N] >= 0."""
         if not force >= 0.0:
             raise InputError(f"{type(self).__name__}: force = {force} N: allowed: >= 0")
         return float((force / self.stiffness) ** (1.0 / self.exponent))
 
     def turning_depth(self, energy: float) -> float:
-        """((n+1) E / K)^(1/(n+1)) [m]."""
+        """The depth ((n+1) E / K)^(1/(n+1)) [m] for an energy E [J] >= 0."""
         if not energy >= 0.0:
             raise InputError(f"{type(self).__name__}: energy = {energy} J: allowed: >= 0")
         return float(((self.exponent + 1.0) * energy / self.stiffness) ** (1.0 / (self.exponent + 1.0)))

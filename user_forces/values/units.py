@@ -70,12 +70,12 @@ class Unit:
         return tuple(plain.tolist()) if getattr(plain, "ndim", 0) else plain
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> Any:
-        """For pydantic: units are taken off before anything else looks at the number."""
+        """Schema for pydantic: units are taken off before anything else looks at the number."""
         return core_schema.no_info_before_validator_function(self.magnitude, handler(source))
 
 
 def _plain(number: Decimal) -> Decimal:
-    """The same without superfluous zeros; whole numbers as 1.0, so that files keep decimals, and signs."""
+    """The number without superfluous zeros; whole numbers as 1.0, so that files keep decimals, and signs."""
     number = number.normalize(EXACT)
     whole = number == number.to_integral_value()
     return number.quantize(Decimal("0.1"), context=EXACT) if whole and number.adjusted() < 16 else number

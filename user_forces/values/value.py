@@ -98,7 +98,7 @@ class Value:
         Value._register[cls.__name__] = cls
 
     def __new__(cls, *args: Any, **kwargs: Any) -> Self:
-        """Of a class that only groups others nothing can be made, since nothing could be read back."""
+        """The new value. A class that only groups others is refused, since nothing could be read back."""
         if ABC in cls.__bases__ and not _has_fields(cls):
             raise InputError(f"{cls.__name__}: is a kind of values; allowed: {_names(kinds_of(cls))}")
         return super().__new__(cls)

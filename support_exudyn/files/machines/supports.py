@@ -18,8 +18,8 @@ from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.machines.shield_layout import BODIES, FRAME, PINS, RODS, TAIL
 from support_exudyn.machines.two_leg_shield import TwoLegShield
 from support_exudyn.model.columns import TwoBodyColumn
-from support_exudyn.model.lateral_dimensions import Width
 from support_exudyn.model.linkage import GROUND, Part, bar
+from support_exudyn.model.to_space import Width
 from user_forces.values.units import Kilograms, KilogramSquareMetres, Metres, Radians
 from user_forces.values.value import InputError, NonNegative, Positive, Real, Value, Vector2, value
 

@@ -59,7 +59,7 @@ class Follower(Drive):
         return self._slope(self.lead.extension(t)) * self.lead.speed(t)
 
     def speed_jump(self, t: float) -> float:
-        """By how much the speed jumps [m/s] where the lead's does."""
+        """Jump of the speed [m/s], which is there where the lead's is."""
         return self._slope(self.lead.extension(t)) * self.lead.speed_jump(t)
 
     @property
@@ -69,7 +69,7 @@ class Follower(Drive):
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """Those of the lead [s]."""
+        """The breaks are those of the lead [s]."""
         return self.lead.breaks
 
     def span(self, duration: float) -> tuple[float, float]:
@@ -99,7 +99,7 @@ class Follower(Drive):
         return tuple(self.lowest + 0.5 * self.reach * (one + 1.0) for one in real.tolist())
 
     def _place(self, extension: float) -> float:
-        """Where an extension of the lead lies within the range, from -1 to 1."""
+        """Place of an extension of the lead within the range, from -1 to 1."""
         place = 2.0 * (extension - self.lowest) / self.reach - 1.0 if self.reach > 0.0 else 0.0
         return min(1.0, max(-1.0, place))
 

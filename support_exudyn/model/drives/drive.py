@@ -27,10 +27,10 @@ class Drive(Value, ABC):
 
     @abstractmethod
     def speed(self, t: float) -> float:
-        """Its rate [m/s]; at a jump the value before it."""
+        """Rate of the extension [m/s] at time t [s]; at a jump the value before it."""
 
     def speed_jump(self, t: float) -> float:
-        """By how much the speed jumps [m/s] at a break t [s]; nowhere by default."""
+        """Jump of the speed [m/s] at a break t [s]; 0 by default."""
         del t
         return 0.0
 
@@ -54,20 +54,20 @@ class Held(Drive):
     """Columns of constant length."""
 
     def extension(self, t: float) -> float:
-        """0 m."""
+        """The extension is 0 m at any time."""
         return 0.0
 
     def speed(self, t: float) -> float:
-        """0 m/s."""
+        """The speed is 0 m/s at any time."""
         return 0.0
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """None."""
+        """There are no breaks."""
         return ()
 
     def span(self, duration: float) -> tuple[float, float]:
-        """(0, 0)."""
+        """The span is (0, 0) m."""
         return 0.0, 0.0
 
 
@@ -96,11 +96,11 @@ class Stroke(Drive):
         return self.start, self.end
 
     def span(self, duration: float) -> tuple[float, float]:
-        """0 and the stroke [m], in order."""
+        """The span from 0 to the stroke [m], in order."""
         return min(0.0, self.stroke), max(0.0, self.stroke)
 
     def phase(self, t: float) -> float:
-        """0 at the start of the stroke, 1 at its end, clipped."""
+        """Share of the stroke's time that is over at t [s]: 0 before its start, 1 after its end."""
         x = (t - self.start) / (self.end - self.start)
         if is_number(x):  # asked for in every step
             return 0.0 if x <= 0.0 else 1.0 if x >= 1.0 else x
@@ -150,7 +150,7 @@ class UniformSpeed(Stroke):
         return self.stroke / (self.end - self.start) if self.start < t <= self.end else 0.0
 
     def speed_jump(self, t: float) -> float:
-        """Up at the start, down at the end [m/s]."""
+        """Jump of the speed [m/s]: up at the start, down at the end."""
         speed = self.stroke / (self.end - self.start)
         return {self.start: speed, self.end: -speed}.get(t, 0.0)
 
@@ -166,7 +166,7 @@ class Steady(Drive):
     rate: RadiansPerSecond[Real]
 
     def extension(self, t: float) -> float:
-        """rate t [rad]."""
+        """The angle, rate t [rad]."""
         return self.rate * t
 
     def speed(self, t: float) -> float:
@@ -180,11 +180,11 @@ class Steady(Drive):
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """None: it has been so for long."""
+        """There are no breaks: the crank has been turning for long."""
         return ()
 
     def span(self, duration: float) -> tuple[float, float]:
-        """0 and rate times duration [rad], in order."""
+        """The span from 0 to rate times duration [rad], in order."""
         return min(0.0, self.rate * duration), max(0.0, self.rate * duration)
 
 
@@ -229,6 +229,6 @@ class Reciprocating(Drive):
         return (0.0,)
 
     def span(self, duration: float) -> tuple[float, float]:
-        """0 and as far as it comes within this time [m], in order."""
+        """The span from 0 to the farthest extension within this time [m], in order."""
         farthest = self.stroke if duration >= 0.5 * self.period else self.extension(duration)
         return min(0.0, farthest), max(0.0, farthest)

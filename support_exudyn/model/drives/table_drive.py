@@ -99,7 +99,7 @@ class TableDrive(Drive):
         return rise * 6.0 * x * (1.0 - x) / length + bent
 
     def speed_jump(self, t: float) -> float:
-        """By how much the speed jumps [m/s]; where the points are joined smoothly nowhere."""
+        """Jump of the speed at a time [s], in m/s; 0 everywhere if the points are joined smoothly."""
         return self._jumps.get(t, 0.0)
 
     @property
@@ -130,7 +130,7 @@ class TableDrive(Drive):
         return Cubic(begin, length, low, first, 3.0 * rise - 2.0 * first - last, first + last - 2.0 * rise)
 
     def _piece(self, t: float) -> int:
-        """How many points lie before a time [s]."""
+        """Number of points that lie before a time [s]."""
         if not is_number(t):
             raise TypeError("a table is no formula of time")
         return bisect_left(self.times, t)

@@ -37,7 +37,7 @@ class AppliedForce(Load):
         return self
 
     def _share(self, t: float) -> float:
-        """How much of it has come on, from 0 to 1."""
+        """Share of the force that has come on, from 0 to 1."""
         if self.end == 0.0:
             return 1.0
         x = (t - self.start) / (self.end - self.start)
@@ -50,17 +50,17 @@ class AppliedForce(Load):
         return self.full_force[0] * share, self.full_force[1] * share
 
     def stored(self, at: LoadedPoint) -> float:
-        """Nothing [J]."""
+        """Stored energy, which is 0 J."""
         return 0.0
 
     def powers(self, at: LoadedPoint) -> Powers:
-        """What it does to the point, and no loss [W]."""
+        """Power [W] of the force on the point, and no loss."""
         along, up = self.force(at)
         return Powers(along * at.vx + up * at.vy, 0.0)
 
     @property
     def channels(self) -> dict[str, Observed]:
-        """Its two components."""
+        """The channels are the force's two components."""
         return {
             "force_x": Observed("N", "of the load, forward"),
             "force_y": Observed("N", "of the load, up"),

@@ -91,7 +91,7 @@ class FallingBlock(Load):
 
     @property
     def side(self) -> float:
-        """Of a cube of its mass and density [m]."""
+        """Side of a cube of the block's mass and density [m]."""
         return float(math.cbrt(self.mass / self.density))
 
     @property
@@ -131,7 +131,7 @@ class FallingBlock(Load):
         )
 
     def against(self, name: str) -> str:
-        """The block."""
+        """The opposite force acts on the block."""
         return name
 
     # --- its force ---
@@ -153,12 +153,12 @@ class FallingBlock(Load):
         return self._elastic_push(at) * maximum(0.0, at.y - self.height) / (self.exponent + 1.0)
 
     def powers(self, at: LoadedPoint) -> Powers:
-        """Nothing moves it but gravity; (F - K depth^n) rate is lost [W]."""
+        """Powers [W]: nothing moves the block but gravity; (F - K depth^n) rate is lost."""
         return Powers(0.0, (self._push(at) - self._elastic_push(at)) * at.vy)
 
     @property
     def channels(self) -> Mapping[str, Observed]:
-        """Its force and its gap."""
+        """The channels are the block's force and its gap."""
         return {
             "force": Observed("N", "of the block, downward"),
             "gap": Observed("m", "between block and point; negative: depth"),
@@ -172,13 +172,13 @@ class FallingBlock(Load):
 
     @property
     def steepness(self) -> Vector2:
-        """None along the face, n K depth^(n-1) against it where the first impact is deepest [N/m]."""
+        """Steepness [N/m]: none along the face, n K depth^(n-1) against it at the first impact's depth."""
         deepest = self._elastic.turning_depth(0.5 * self.mass * self.first_speed**2)
         return 0.0, self.exponent * self.stiffness * deepest ** (self.exponent - 1.0)
 
     @property
     def strikes(self) -> bool:
-        """Yes."""
+        """The block strikes."""
         return True
 
     def longest_step(self, at: LoadedPoint, number: int) -> float:

@@ -107,7 +107,7 @@ class Load(Value, ABC):
 
     @property
     def steepness(self) -> Vector2:
-        """By how much the force grows at most with the point's way along x and y [N/m]."""
+        """Largest growth of the force with the point's way along x and y [N/m]."""
         return 0.0, 0.0
 
     @property
@@ -116,7 +116,7 @@ class Load(Value, ABC):
         return False
 
     def longest_step(self, at: LoadedPoint, number: int) -> float:
-        """How long the next step may be [s] if an impact is to take so many; any by default."""
+        """Longest next step [s] if an impact is to take so many steps; infinite by default."""
         del at, number
         return math.inf
 

@@ -53,7 +53,7 @@ class Roof(Load):
         return self.descent.extension(at.time) + at.y - self.gap
 
     def _rate(self, at: LoadedPoint) -> float:
-        """Its rate [m/s]."""
+        """Rate of the depth [m/s]."""
         return self.descent.speed(at.time) + at.vy
 
     def stored(self, at: LoadedPoint) -> float:
@@ -69,7 +69,7 @@ class Roof(Load):
 
     @property
     def channels(self) -> Mapping[str, Observed]:
-        """Its force and its gap."""
+        """The channels are the roof's force and its gap."""
         return {
             "force": Observed("N", "of the roof, downward"),
             "gap": Observed("m", "between roof and point; negative: depth"),
@@ -81,12 +81,12 @@ class Roof(Load):
 
     @property
     def drives(self) -> tuple[Drive, ...]:
-        """Its descent."""
+        """The only drive is the descent."""
         return (self.descent,)
 
     @property
     def steepness(self) -> Vector2:
-        """None along the face, k against it [N/m]."""
+        """Steepness [N/m]: none along the face, k against it."""
         return 0.0, self.stiffness
 
     def largest(self, duration: float) -> Vector2:

@@ -24,7 +24,7 @@ from exudyn.itemInterface import (
 )
 
 from support_exudyn.mechanics.cylinder_chambers import FilledCylinder
-from support_exudyn.model.valve_opening import ClosedInlet
+from support_exudyn.model.hydraulic_cylinder import ClosedInlet
 
 UNIT = 1e6  # of pressures in the engine [Pa]
 CURRENT = exudyn.ConfigurationType.Current
