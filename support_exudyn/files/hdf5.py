@@ -86,11 +86,11 @@ class Inside:
 
     @property
     def attributes(self) -> Any:
-        """Of the group."""
+        """The attributes of the group."""
         return self._group.attrs
 
     def data(self, name: str) -> Any:
-        """An attribute in JSON."""
+        """The data that an attribute holds as JSON."""
         return json.loads(self._group.attrs[name])
 
     def inside(self, name: str) -> Inside:

@@ -63,7 +63,7 @@ def real_path(path: str | Path) -> Path:
 
 
 def check_may_be_replaced(path: Path) -> None:
-    """As opening it for writing would be refused; replacing asks only whether the folder may be written to."""
+    """Raise OSError where opening for writing would; replacing asks the folder's permissions only."""
     try:
         mode = path.stat().st_mode
     except FileNotFoundError:
@@ -102,7 +102,7 @@ def check_is_file(path: str | Path, most: int) -> None:
 
 
 def named(error: OSError, path: str | Path) -> OSError:
-    """The same error, of the name that was given."""
+    """The error, told of the name that was given."""
     return type(error)(error.errno, f"{error.strerror}; {REFUSED}", str(path))
 
 

@@ -54,7 +54,7 @@ def test_a_machine_that_cannot_be_built_is_told_in_a_line(
     assert main(["check", str(path)]) == 1
     said = capsys.readouterr()
     assert said.out == ""
-    assert said.err == (f"error: {path}: pivots_mm.rear_base = [0]: allowed: two numbers [x, y] in mm\n")
+    assert said.err == (f"error: {path}: pivots_mm.rear_base = [0]: allowed: a list of 2, each a number\n")
     assert list(tmp_path.iterdir()) == [path]
 
 

@@ -1,4 +1,4 @@
-"""From machine data files to machines, and the JSON Schema of these files.
+"""Machine data files are read into machines here, and have their JSON Schema.
 
 A further kind of machine is a class of values with a method `data`, whose fields are what its files hold, and a
 line in `FILES`.

@@ -77,5 +77,5 @@ class SliderCrankFile(Value):
 
 
 def _inertia(said: float | None, mass: float, length: float) -> float:
-    """As said, or of a uniform bar [kg m^2]."""
+    """The inertia that the file says, or that of a uniform bar [kg m^2]."""
     return mass * length**2 / 12.0 if said is None else said

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 import re
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import field, replace
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import model_validator
 
@@ -161,8 +162,8 @@ class ColumnData(Value):
 
 
 @value
-class SupportFile(Value):
-    """What all four-bar shield supports have in their files; a kind of them adds what depends on its columns.
+class SupportFile(Value, ABC):
+    """The file of a four-bar shield support; a kind of support narrows what depends on its columns.
 
     Arguments:
         kind: what the machine is.
@@ -178,7 +179,6 @@ class SupportFile(Value):
         width: lateral dimensions, for the spatial model [m].
     """
 
-    MACHINE: ClassVar[type[FourBarShield[Any]]]
     kind: str
     pivots: Mapping[str, Vector2]
     start_hinge_height: Metres[Positive]
@@ -191,11 +191,16 @@ class SupportFile(Value):
     columns: Mapping[str, ColumnData] = field(default_factory=dict)
     width: Mapping[str, Mapping[str, NonNegative]] | None = None
 
+    @classmethod
+    @abstractmethod
+    def machine_class(cls) -> type[FourBarShield[Any]]:
+        """The class of the machines that these files hold."""
+
     def data(self) -> MachineData:
         """The support. Raises InputError if it cannot be built."""
         parts = {body: self._parts(body) for body in BODIES}
         try:
-            machine = self.MACHINE(
+            machine = self.machine_class()(
                 parts=parts, start_hinge_height=self.start_hinge_height, width=self._width(), **self.pivots
             )
         except InputError as error:
@@ -246,7 +251,7 @@ class SupportFile(Value):
     def _rods(self, body: str) -> list[Part]:
         """The rods of columns whose heads are on a body, as points, as far as their masses alone are told."""
         found = []
-        for name, strut in self.MACHINE.STRUTS.items():
+        for name, strut in self.machine_class().STRUTS.items():
             rods = name + RODS
             if strut.head[0] != body or rods not in self.masses:
                 continue
@@ -256,22 +261,24 @@ class SupportFile(Value):
         return found
 
     def _assumed(self) -> list[str]:
-        """What was assumed because the file does not say it, in sentences."""
+        """The assumptions for what the file does not say, in sentences."""
         found = [
             f"{name}: its {self.masses[name]:.10g} kg are a uniform bar from {' to '.join(BARS[name])}"
             for name in BODIES
             if name in self.masses
         ]
         named = {*self.masses, *(part.name for parts in self.parts.values() for part in parts)}
-        for name, strut in self.MACHINE.STRUTS.items():
+        for name, strut in self.machine_class().STRUTS.items():
             if strut.head[0] != GROUND and name + RODS not in named:
                 found.append(f"{name}: its rods weigh nothing")
         return found
 
     def _in_file_units(self, message: str) -> str:
-        """What the machine says in metres by the names of its fields, in mm by the keys of the file."""
-        message = message.removeprefix(f"{self.MACHINE.__name__}: ").removeprefix(f"{self.MACHINE.__name__}.")
-        for name in self.MACHINE.pivots():
+        """The machine's message in metres and names of fields, told in mm and keys of the file."""
+        message = message.removeprefix(f"{self.machine_class().__name__}: ").removeprefix(
+            f"{self.machine_class().__name__}."
+        )
+        for name in self.machine_class().pivots():
             message = re.sub(rf"(?<![\w.]){name} = \((\S+), (\S+)\)(?: m\b)?", _pivot_in_mm(name), message)
         message = message.replace("start_hinge_height = ", "start_hinge_height_mm = ")
         return SAYS_UNIT_TWICE.sub(r"\1", in_millimetres(message))
@@ -305,21 +312,29 @@ LEG_ENDS = {
 class FourColumnSupportFile(SupportFile):
     """A four-bar shield support on two pairs of columns between base and canopy."""
 
-    MACHINE: ClassVar[type[FourBarShield[Any]]] = HydraulicSupport
     kind: Literal["four_column_support"]
     pivots: Metres[Annotated[Mapping[str, Vector2], pivots(FOUR_COLUMN_ENDS)]]
     masses: Kilograms[Annotated[Mapping[str, Positive], masses(FOUR_COLUMNS)]] = field(default_factory=dict)
     columns: Annotated[Mapping[str, ColumnData], Names(FOUR_COLUMNS)] = field(default_factory=dict)
     width: Metres[Annotated[Mapping[str, Mapping[str, NonNegative]], widths(FOUR_COLUMNS)]] | None = None
 
+    @classmethod
+    def machine_class(cls) -> type[FourBarShield[Any]]:
+        """The class of the machines that these files hold."""
+        return HydraulicSupport
+
 
 @value
 class TwoLegShieldFile(SupportFile):
     """A four-bar shield support on a pair of legs, with a stabilising ram between shield beam and canopy."""
 
-    MACHINE: ClassVar[type[FourBarShield[Any]]] = TwoLegShield
     kind: Literal["two_leg_shield"]
     pivots: Metres[Annotated[Mapping[str, Vector2], pivots(LEG_ENDS)]]
     masses: Kilograms[Annotated[Mapping[str, Positive], masses(LEGS)]] = field(default_factory=dict)
     columns: Annotated[Mapping[str, ColumnData], Names(LEGS)] = field(default_factory=dict)
     width: Metres[Annotated[Mapping[str, Mapping[str, NonNegative]], widths(LEGS)]] | None = None
+
+    @classmethod
+    def machine_class(cls) -> type[FourBarShield[Any]]:
+        """The class of the machines that these files hold."""
+        return TwoLegShield

@@ -53,7 +53,7 @@ class _Column:
         return number
 
     def refusal(self, line: Line, path: Path, said: str, allowed: str) -> InputError:
-        """What is said of the column in a line."""
+        """The error that names file, line and column."""
         return InputError(f"{path}: line {line[0]}, column {self.title}: {said}: allowed: {allowed}")
 
 

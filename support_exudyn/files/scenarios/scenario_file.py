@@ -39,7 +39,7 @@ OTHER_FILES = {  # by a key that they have
 
 @value
 class ScenarioHead(Value):
-    """What a scenario's file says besides the scenario.
+    """The head of a scenario's file: all but the scenario.
 
     Arguments:
         name: what the scenario is called.
@@ -57,7 +57,7 @@ HEAD = tuple(field_shapes(ScenarioHead))
 
 @dataclass(frozen=True)
 class ScenarioFile:
-    """What a scenario's file says.
+    """A scenario's file, read.
 
     scenario: what is run. name, description: of people, for people. errors: whether it is run with estimated
     errors, see `simulate`. assumed: of the machine, because its file does not say it, in sentences.
@@ -178,7 +178,7 @@ def scenario_schema() -> dict[str, Any]:
 
 
 def _short(table: dict[str, Any]) -> dict[str, Any]:
-    """That of a short form, which says no type."""
+    """The schema of a short form, which says no type."""
     return without(table, "type")
 
 
@@ -189,7 +189,7 @@ def _ideal(schemas: Schemas) -> dict[str, Any]:
 
 
 def _columns(schemas: Schemas) -> dict[str, Any]:
-    """Of columns: those of two bodies may leave out what the machine's file says."""
+    """The schema of columns; those of two bodies may leave out what the machine's file says."""
     kinds = Group((ColumnModel,)).kinds.values()
     tables = [
         schemas.table(kind, all_optional=True) if kind is TwoBodyColumn else schemas.value(kind)

@@ -1,4 +1,4 @@
-"""What a scenario's file may say in short: by the machine, its pins and columns, and by tables of numbers."""
+"""Short forms of a scenario's file: a machine by its name, pins, columns and drives in few words."""
 
 from __future__ import annotations
 
@@ -156,7 +156,7 @@ class ShortForms:
         if "ideal" in item:
             if item["ideal"] is not True:
                 reader.faults.wrong(
-                    (*place, "ideal"), item["ideal"], "true; a loose pin has a clearance_mm instead"
+                    (*place, "ideal"), item["ideal"], "true; a clearance pin has a clearance_mm instead"
                 )
                 return FAILED
             return reader.value(IdealPin, {key: one for key, one in item.items() if key != "ideal"}, place)
@@ -235,12 +235,12 @@ class ShortForms:
 
     @staticmethod
     def without_file(given: Mapping[str, Any]) -> dict[str, Any]:
-        """What `[drives]` says besides its file."""
+        """The drives that `[drives]` holds besides its file."""
         return {key: one for key, one in given.items() if isinstance(one, dict)}
 
 
 def _read(read: Callable[[], Any], faults: Faults, name: str, place: Place) -> Any:
-    """What a file that a place names holds; FAILED, with the reason among the faults."""
+    """The content of a file that a place names; FAILED, with the reason among the faults."""
     try:
         return read()
     except InputError as error:  # which names the file itself

@@ -16,7 +16,7 @@ MOST_LINES = 30
 
 
 class Faults:
-    """What is wrong in a file, one line each.
+    """The faults that were found in a file, one line each.
 
     where: the file's name, or what the table is.
     """
@@ -26,11 +26,11 @@ class Faults:
         self.lines: list[str] = []
 
     def add(self, place: Place, text: str) -> None:
-        """Something that is said of a place."""
+        """Note what is said of a place."""
         self.lines.append(": ".join(filter(None, (self.where, said_place(place), text))))
 
     def wrong(self, place: Place, item: Any, allowed: str) -> None:
-        """A value that cannot be used."""
+        """Note a value that cannot be used."""
         key = said_place(place)
         self.lines.append(": ".join(filter(None, (self.where, f"{key} = {said(item)}", f"allowed: {allowed}"))))
 
@@ -44,7 +44,7 @@ class Faults:
 
 
 def nearest(word: str, known: Collection[str]) -> str:
-    """What is said of a misspelt word: the names that look like it, then all that are allowed."""
+    """The hint for a misspelt word: the names that look like it, then all that are allowed."""
     near = get_close_matches(word[:LONGEST], known, 3)
     guess = f"did you mean {' or '.join(near)}? " if near else ""
     return f"{guess}allowed: {', '.join(known) or 'none'}"

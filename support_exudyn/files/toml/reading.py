@@ -1,4 +1,4 @@
-"""From a table of a file to a value, by what the value's class declares."""
+"""Tables of files are read as values, by what the values' classes declare."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ POINT = re.compile(rf"\(({NUMBER}), ({NUMBER})\) m(?![\w^*])")
 
 
 class Failed:
-    """What stands for a value that could not be read; why is among the faults."""
+    """The stand-in for a value that could not be read; the reason is among the faults."""
 
 
 FAILED = Failed()
@@ -113,7 +113,7 @@ class Reader:
         return self.item(field.shape, item, place, field.unit, ending)
 
     def item(self, shape: Shape, item: Any, place: Place, unit: Unit | None = None, ending: str = "") -> Any:
-        """What an item of a file means, where something of a shape is wanted.
+        """The meaning of an item of a file where something of a shape is wanted.
 
         unit, ending: of its numbers. FAILED if it does not fit.
         """
@@ -221,7 +221,7 @@ def read_value(
 
 
 def in_millimetres(message: str) -> str:
-    """What a class says in metres with all lengths in mm, also those over a time; areas and others stay.
+    """A class's message in metres, with all lengths in mm, also those over a time; areas and others stay.
 
     Without the question whether millimetres is what was given.
     """

@@ -126,7 +126,7 @@ class Schemas:
 
 
 def _default(field: FieldShape, ending: str) -> Any:
-    """What a field is if it is left out, as a key says it; None if it is none, or long."""
+    """The default of a field, in the unit of a key; None if there is none, or it is long."""
     found = field.default
     if isinstance(found, (str, bool)):
         return None if ending else found

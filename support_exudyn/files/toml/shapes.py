@@ -1,7 +1,8 @@
-"""What a field of a value can hold in a file, found from its type: reading, writing and schemas go by it.
+"""Shapes say what a field of a value can hold in a file: reading, writing and schemas go by them.
 
-A shape is a JSON Schema whose numbers are in SI, with two keywords of our own. `group`: the item is a value of
-one of a `Group` of classes. `names`: the item is a text out of `Names` that are asked for when it is read.
+A shape is found from the type of the field. It is a JSON Schema whose numbers are in SI, with two keywords of
+our own. `group`: the item is a value of one of a `Group` of classes. `names`: the item is a text out of `Names`
+that are asked for when it is read.
 """
 
 from __future__ import annotations
@@ -264,7 +265,7 @@ def scaled(limit: float, unit: Unit | None, ending: str) -> Decimal:
 
 
 def allowed(shape: Shape, unit: Unit | None = None, ending: str = "") -> str:
-    """What fits a shape, in words; numbers in the unit of a key."""
+    """The words for what fits a shape; numbers in the unit of a key."""
 
     def inner(one: Shape) -> str:
         return allowed(one, unit, ending)
@@ -301,7 +302,7 @@ WHOLE = {"number": "number", "integer": "whole number"}
 
 @cache
 def help_texts(cls: type) -> Mapping[str, str]:
-    """What docstrings say of the fields of a class, those of its bases too."""
+    """The help on the fields of a class, from its docstring and those of its bases."""
     found: dict[str, str] = {}
     for one in reversed(cls.__mro__):
         if one.__doc__ and "Arguments:" in one.__doc__:

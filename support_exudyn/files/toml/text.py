@@ -57,7 +57,7 @@ def parsed(text: str, where: str, named: bool = False) -> dict[str, Any]:
 
 
 def _reason(said: str, text: str, named: bool) -> str:
-    """What is wrong with a text, from what the library says: with the line, and twofold keys by their name.
+    """The fault of a text, from what the library says: with the line, and twofold keys by their name.
 
     named: the line by its number only.
     """

@@ -1,4 +1,4 @@
-"""From a value to the table of a file, whole, so that reading gives the same value to the bit."""
+"""Values are written as tables of files, whole, so that reading gives the same value to the bit."""
 
 from __future__ import annotations
 
