@@ -15,6 +15,9 @@ if TYPE_CHECKING:
 # support meets 1 % of it.
 DEEPEST = 0.2
 
+# Springs that centre free journals while a static equilibrium is looked for, as shares of the weight over the
+# clearance, until they are taken away.
+CENTRING = (1.0, 0.3, 0.1, 0.03, 0.01, 1e-3, 1e-4, 1e-6, 0.0)
 
 SOFT = (
     "The contact is too soft for the load that it meets: take a larger stiffness, or a smaller load. If both "

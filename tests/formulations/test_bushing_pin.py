@@ -24,7 +24,7 @@ from support_exudyn import (
     simulate,
 )
 from support_exudyn.files.scenarios.scenario_file import read_scenario
-from support_exudyn.formulations.registry import covers
+from support_exudyn.formulations.registry import formulation
 from support_exudyn.scenario.timescales import timescales
 from tests.cases.run_cases import support
 from user_forces.values.value import InputError, Vector2, value
@@ -183,7 +183,8 @@ def test_a_file_says_it(tmp_path: Path) -> None:
 )
 def test_where_it_is_not_covered_it_is_refused(changed: dict[str, object], said: str) -> None:
     scene = Scenario(machine=reference_support(), pins={"rear_base": BUSHING}, duration=0.1)
-    assert [covers(name, scene) for name in ("redundant", "tree", "reduced")] == [True, False, False]
+    covered = [formulation(name).covers(scene) for name in ("redundant", "tree", "reduced")]
+    assert covered == [True, False, False]
     with pytest.raises(InputError, match=said):
         simulate(replace(scene, **changed))  # type: ignore[arg-type]
 
@@ -215,7 +216,7 @@ def test_no_stage_asks_which_kind_a_pin_is() -> None:
     root = Path(support_exudyn.__file__).parent
     asks = [file for file in root.rglob("*.py") if "isinstance(pin, " in file.read_text()]
     assert {file.relative_to(root).as_posix() for file in asks} <= {
-        "scenario/scenario.py",
+        "scenario/scenario_data.py",
         "postprocessing/summary.py",
     }
     assert IdealPin().holds

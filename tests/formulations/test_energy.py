@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.polynomial import Polynomial
 
-from support_exudyn.formulations.redundant.solver.energy import RunningIntegrals
+from support_exudyn.formulations.redundant.solver.within_steps import RunningIntegrals
 
 coefficients = st.lists(st.floats(-5.0, 5.0), min_size=3, max_size=3)
 # each step up to nearly four times as long as the one before, or shorter

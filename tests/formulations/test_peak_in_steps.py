@@ -10,9 +10,10 @@ import pytest
 
 from support_exudyn import ClearancePin, Held, Scenario, SimulationError
 from support_exudyn.formulations.contact_events import DepthPath
+from support_exudyn.formulations.peak_force import has_a_top, peak
 from support_exudyn.formulations.redundant.clearance.clearance_pin import LoosePin
 from support_exudyn.formulations.redundant.clearance.connector_force import Relative
-from support_exudyn.formulations.redundant.clearance.force_in_step import Course, has_a_top, peak
+from support_exudyn.formulations.redundant.clearance.pin_motion import Course
 from tests.cases.run_cases import PIN, paper_contact, support
 from tests.reduced import simulate_reduced, simulate_redundant
 from user_forces import DepthSpeed, Flores

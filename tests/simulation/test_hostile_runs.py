@@ -25,7 +25,7 @@ from support_exudyn import (
     UniformSpeed,
     simulate,
 )
-from support_exudyn.formulations.redundant.scene.engine_scene import InEngine
+from support_exudyn.formulations.redundant.scene.engine_scene import EngineScene
 from support_exudyn.formulations.registry import formulation
 from support_exudyn.formulations.tree.engine import Engine
 from support_exudyn.sweeps.parallel_runs import run_all
@@ -59,7 +59,7 @@ def long(scenario: Scenario) -> Scenario:
 def released(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """Models of the engine that have been let go of."""
     found: list[str] = []
-    for kind in (InEngine, Engine):
+    for kind in (EngineScene, Engine):
 
         def release(model: object, before: Callable[[object], None] = kind.release) -> None:
             found.append(type(model).__name__)

@@ -21,7 +21,7 @@ from support_exudyn.formulations.reduced.layout import (
     Vector,
     driven,
 )
-from support_exudyn.formulations.redundant.clearance.force_in_step import (
+from support_exudyn.formulations.peak_force import (
     GOLDEN,
     NARROWINGS,
     NEAR_PEAK,

@@ -26,7 +26,7 @@ from support_exudyn.formulations.redundant.scene.scene_builder import build
 from support_exudyn.formulations.redundant.scene.static_equilibrium import settle
 from support_exudyn.formulations.redundant.solver.recorder import History, Recorder
 from support_exudyn.formulations.redundant.solver.solver import Run
-from support_exudyn.formulations.redundant.space.outcome import outcome as outcome_in_space
+from support_exudyn.formulations.redundant.space.observation import Observation
 from support_exudyn.formulations.redundant.space.scene import SpatialScene
 from support_exudyn.formulations.redundant.space.scene_builder import build as build_in_space
 from support_exudyn.mechanics.body_motion import BodyMotion
@@ -39,6 +39,7 @@ from support_exudyn.scenario.recorded_channels import needs
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.values.value import InputError
 
+EDGES = {"left": 0, "right": -1}  # of bearings in space: the first and the last section
 AnyScene = TypeVar("AnyScene", bound=EngineScene)
 Model = Scene | SpatialScene
 
@@ -46,7 +47,7 @@ Model = Scene | SpatialScene
 def model(scenario: Scenario) -> Model:
     """The engine's model of a scenario at its start, before any settling, whatever its formulation is.
 
-    Who asks for it releases it, see `InEngine.release`.
+    Who asks for it releases it, see `EngineScene.release`.
     """
     return build_in_space(scenario) if scenario.dimensions == 3 else build(scenario)
 
@@ -78,7 +79,7 @@ def check(scenario: Scenario) -> None:
 def run(scenario: Scenario, progress: Progress) -> Outcome:
     """Run a scenario. Raises SimulationError if it cannot be finished."""
     if scenario.dimensions == 3:
-        return _run(build_in_space(scenario), progress, outcome_in_space)
+        return _run(build_in_space(scenario), progress, _outcome_in_space)
     return _run(build(scenario), progress, _outcome)
 
 
@@ -100,6 +101,26 @@ def _outcome(scene: Scene, progress: Progress) -> Outcome:
         trajectory=trajectory(scene, recorder.history(), needed),
         onsets={name: tuple(pin.onsets) for name, pin in scene.loose_pins.items()},
         largest_force={name: pin.largest_force for name, pin in scene.loose_pins.items()},
+        impulses=tuple(solving.impulses),
+        counts=counts,
+    )
+
+
+def _outcome_in_space(scene: SpatialScene, progress: Progress) -> Outcome:
+    """Run a model in space. Raises SimulationError if it cannot be finished."""
+    recorder = Recorder(scene, needs(scene.scenario))
+    solving = Run(scene, recorder, progress)
+    counts = solving.go()
+    groups = scene.sections.items()
+    edges = {
+        f"{name}.{side}": group[n] for name, group in groups for side, n in EDGES.items() if len(group) > 1
+    }
+    return Outcome(
+        trajectory=Observation(scene, recorder.history()),
+        onsets={name: tuple(group[0].whole.onsets) for name, group in groups}
+        | {name: tuple(pin.onsets) for name, pin in edges.items()},
+        largest_force={name: group[0].whole.largest_force for name, group in groups}
+        | {name: pin.largest_force for name, pin in edges.items()},
         impulses=tuple(solving.impulses),
         counts=counts,
     )

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.optimize import root
 
 from support_exudyn.formulations.contract import Failure, SimulationError
-from support_exudyn.formulations.redundant.scene.static_equilibrium import CENTRING
+from support_exudyn.formulations.limits import CENTRING
 from support_exudyn.formulations.tree.branches import Matrix, Tree
 from support_exudyn.formulations.tree.dynamics import Posture, mass_moment
 from support_exudyn.formulations.tree.forces import Forces, LoosePin

@@ -8,11 +8,11 @@ from contextlib import contextmanager
 
 from support_exudyn.formulations.contact_events import Action, DepthPath, Verdict, goes_on, judge, judge_at_ends
 from support_exudyn.formulations.impact_steps import ImpactSteps
+from support_exudyn.formulations.peak_force import NEAR_PEAK, has_a_top, peak
 from support_exudyn.formulations.redundant.clearance.connector import PinConnector
 from support_exudyn.formulations.redundant.clearance.connector_force import Attachment, Relative
-from support_exudyn.formulations.redundant.clearance.force_in_step import NEAR_PEAK, Course, has_a_top, peak
 from support_exudyn.formulations.redundant.clearance.pin_frames import PinFrames
-from support_exudyn.formulations.redundant.clearance.pin_motion import Moving
+from support_exudyn.formulations.redundant.clearance.pin_motion import Course, Moving
 from support_exudyn.formulations.redundant.clearance.python_force import PythonForce
 from support_exudyn.formulations.redundant.clearance.steep_friction import EngineForce, SteepFriction
 from support_exudyn.formulations.redundant.clearance.symbolic_force import SymbolicForce

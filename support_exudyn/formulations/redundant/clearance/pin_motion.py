@@ -6,6 +6,8 @@ import math
 from collections.abc import Sequence
 from typing import Any, NamedTuple, Protocol
 
+from support_exudyn.formulations.contact_events import DepthPath
+from support_exudyn.formulations.redundant.clearance.connector_force import Relative
 from user_forces.values.value import Vector2
 
 # x, y, vx, vy [m], [m/s]; angle [rad] and spin [rad/s] of the body
@@ -75,3 +77,30 @@ def in_plane(displacement: Sequence[float], velocity: Sequence[float]) -> tuple[
     rate = (x * vx + y * vy + z * vz) / distance - (x * vx + y * vy) / across
     stretch = distance / across
     return stretch * x, stretch * y, vx + rate * x / across, vy + rate * y / across
+
+
+class Course(NamedTuple):
+    """How a journal moves in its bore within a step.
+
+    path: its depth, a cubic. slip: at the start [m/s]. angle: of its place in the bore at the start [rad].
+    end: its motion at the end; slip_end, angle_end: the same there. clearance: [m].
+    """
+
+    path: DepthPath
+    slip: float
+    angle: float
+    end: Relative
+    slip_end: float
+    angle_end: float
+    clearance: float
+
+    def at(self, x: float) -> Relative:
+        """The motion at a fraction of the step: slip and angle change evenly, spins are those of the end."""
+        path, end = self.path, self.end
+        size = math.hypot(end.x, end.y)
+        across = (end.x * end.vy - end.y * end.vx) / size if size else 0.0
+        across += (1.0 - x) * (self.slip - self.slip_end)
+        # in the axes of the end
+        angle = math.atan2(end.y, end.x) - (1.0 - x) * math.remainder(self.angle_end - self.angle, math.tau)
+        away, rate, c, s = self.clearance + path.depth(x), path.rate(x), math.cos(angle), math.sin(angle)
+        return Relative(away * c, away * s, rate * c - across * s, rate * s + across * c, end[4], end[5])

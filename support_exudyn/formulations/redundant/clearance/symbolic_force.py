@@ -9,6 +9,7 @@ expression, which Python sets before a step is tried.
 from __future__ import annotations
 
 import itertools
+import operator
 from collections.abc import Callable, Iterable
 from typing import Any, cast
 
@@ -34,6 +35,14 @@ APART = 1e300  # [m], deeper than any pin
 _numbers = itertools.count()  # names of variables differ between all pins of all scenes of a process
 
 
+def _both_ways(operation: Callable[[Any, Any], Any]) -> tuple[Any, Any]:
+    """An operator of a symbol with another or a number, and the same the other way round."""
+    return (
+        lambda this, other: Symbol(operation(this.real, real(other))),
+        lambda this, other: Symbol(operation(real(other), this.real)),
+    )
+
+
 class Symbol(Expression):
     """An expression of the engine."""
 
@@ -48,43 +57,19 @@ class Symbol(Expression):
 
     def hypotenuse(self, other: Expression | float) -> Symbol:
         """Square root of the sum of both squares."""
-        return Symbol(engine.Vector([self.real, _real(other)]).NormL2())
+        return Symbol(engine.Vector([self.real, real(other)]).NormL2())
 
     def choose(self, yes: Expression | float, no: Expression | float) -> Symbol:
         """`yes` where this condition holds, else `no`."""
-        return Symbol(engine.IfThenElse(self.real, _real(yes), _real(no)))
+        return Symbol(engine.IfThenElse(self.real, real(yes), real(no)))
 
     def larger(self, other: Expression | float) -> Symbol:
         """The larger of both."""
-        return Symbol(engine.max(self.real, _real(other)))
+        return Symbol(engine.max(self.real, real(other)))
 
     def smaller(self, other: Expression | float) -> Symbol:
         """The smaller of both."""
-        return Symbol(engine.min(self.real, _real(other)))
-
-    def __add__(self, other: Any) -> Symbol:
-        return Symbol(self.real + _real(other))
-
-    def __radd__(self, other: Any) -> Symbol:
-        return Symbol(_real(other) + self.real)
-
-    def __sub__(self, other: Any) -> Symbol:
-        return Symbol(self.real - _real(other))
-
-    def __rsub__(self, other: Any) -> Symbol:
-        return Symbol(_real(other) - self.real)
-
-    def __mul__(self, other: Any) -> Symbol:
-        return Symbol(self.real * _real(other))
-
-    def __rmul__(self, other: Any) -> Symbol:
-        return Symbol(_real(other) * self.real)
-
-    def __truediv__(self, other: Any) -> Symbol:
-        return Symbol(self.real / _real(other))
-
-    def __rtruediv__(self, other: Any) -> Symbol:
-        return Symbol(_real(other) / self.real)
+        return Symbol(engine.min(self.real, real(other)))
 
     def __pow__(self, exponent: float) -> Symbol:
         return Symbol(engine.pow(self.real, engine.Real(exponent)))
@@ -92,26 +77,31 @@ class Symbol(Expression):
     def __neg__(self) -> Symbol:
         return Symbol(-self.real)
 
-    def __lt__(self, other: Any) -> Symbol:
-        return Symbol(self.real < _real(other))
-
-    def __le__(self, other: Any) -> Symbol:
-        return Symbol(self.real <= _real(other))
-
-    def __gt__(self, other: Any) -> Symbol:
-        return Symbol(self.real > _real(other))
-
-    def __ge__(self, other: Any) -> Symbol:
-        return Symbol(self.real >= _real(other))
+    __add__, __radd__ = _both_ways(operator.add)
+    __sub__, __rsub__ = _both_ways(operator.sub)
+    __mul__, __rmul__ = _both_ways(operator.mul)
+    __truediv__, __rtruediv__ = _both_ways(operator.truediv)
+    __lt__, __gt__ = _both_ways(operator.lt)[0], _both_ways(operator.gt)[0]
+    __le__, __ge__ = _both_ways(operator.le)[0], _both_ways(operator.ge)[0]
 
 
-def _real(item: Any) -> Any:
+def real(item: Any) -> Any:
+    """The engine's own expression of a symbol or a number."""
     return item.real if isinstance(item, Symbol) else engine.Real(float(item))
 
 
-def _unknown(real: Any) -> float:
+def unknown(real: Any) -> float:
     """A symbol where a number is expected."""
     return cast(float, Symbol(real))
+
+
+def is_formula(function: Callable[..., Any], count: int) -> bool:
+    """Whether a function of so many numbers takes expressions, see `scalar.Expression`."""
+    try:
+        function(*(unknown(engine.Real(0.0)) for _ in range(count)))
+    except TypeError:
+        return False
+    return True
 
 
 class SymbolicForce:
@@ -138,7 +128,7 @@ class SymbolicForce:
         self._bore_spin = variable("bore_spin")
         self._scale = variable("scale", 1.0)
         self._line = [variable("offset"), variable("slope")]
-        self._contact = straightened(contact, *map(_unknown, self._line)) if straight else contact
+        self._contact = straightened(contact, *map(unknown, self._line)) if straight else contact
         self._at = at
         self._loaded: tuple[object, ...] = ()
         item, self.name = user_function(at)
@@ -205,48 +195,48 @@ class SymbolicForce:
 
     def _line_force(self, depth: Any, rate: Any) -> Any:
         """The force from depth and rate alone."""
-        push = line_force(self._contact, _unknown(depth), _unknown(rate), self._speed)
-        return _real(self._if_pressed(Symbol(depth), push))
+        push = line_force(self._contact, unknown(depth), unknown(rate), self._speed)
+        return real(self._if_pressed(Symbol(depth), push))
 
     def _central(self, displacement: Any, velocity: Any) -> Any:
         """The force along the line of centres."""
-        distance = _unknown(displacement.NormL2())
-        rate = _unknown(displacement * velocity) / distance
-        x, y = _unknown(displacement[0]), _unknown(displacement[1])
+        distance = unknown(displacement.NormL2())
+        rate = unknown(displacement * velocity) / distance
+        x, y = unknown(displacement[0]), unknown(displacement[1])
         depth, share = central_force(self._contact, x, y, distance, rate, self._speed, self._mobility)
-        return _real(self._if_pressed(depth, share)) * displacement
+        return real(self._if_pressed(depth, share)) * displacement
 
     def _rigid(self, displacement: Any, velocity: Any, angular_velocity: Any) -> Any:
         """Force and moment of the rigid-body connector."""
         if self._at is Attachment.SPACE:
             pull = self._central(displacement, velocity)
             return engine.Vector([pull[0], pull[1], pull[2], *_zeros(3)])
-        x, y = _unknown(displacement[0]), _unknown(displacement[1])
+        x, y = unknown(displacement[0]), unknown(displacement[1])
         if self._at is Attachment.MIDDLE:
-            x, y = _unknown(self._scale) * x, _unknown(self._scale) * y
-        vx, vy = _unknown(velocity[0]), _unknown(velocity[1])
-        motion = Relative(x, y, vx, vy, _unknown(angular_velocity[2]), _unknown(self._bore_spin))
-        history = SlipHistory(*(_unknown(variable) for variable in self._history))
+            x, y = unknown(self._scale) * x, unknown(self._scale) * y
+        vx, vy = unknown(velocity[0]), unknown(velocity[1])
+        motion = Relative(x, y, vx, vy, unknown(angular_velocity[2]), unknown(self._bore_spin))
+        history = SlipHistory(*(unknown(variable) for variable in self._history))
         found, arm = rough_force(self._contact, self._at, motion, self._speed, self._mobility, history)
         away = maximum(hypot(x, y), SMALLEST)
         nx, ny = x / away, y / away
-        along = engine.Vector([_real(nx), _real(ny), *_zeros(4)])
-        across = engine.Vector([_real(ny), _real(-nx), *_zeros(3), _real(-arm)])
+        along = engine.Vector([real(nx), real(ny), *_zeros(4)])
+        across = engine.Vector([real(ny), real(-nx), *_zeros(3), real(-arm)])
         normal = self._if_pressed(found.depth, found.normal_force)
         friction = self._if_pressed(found.depth, found.friction_force)
-        return along * _real(normal) + across * _real(friction)
+        return along * real(normal) + across * real(friction)
 
     def _if_pressed(self, depth: Any, force: float) -> Any:
         """A force where the depth is beyond the surface, else 0."""
-        return where(cast(Any, depth > _unknown(self._surface)), force, 0.0)
+        return where(cast(Any, depth > unknown(self._surface)), force, 0.0)
 
     @property
     def _speed(self) -> float:
-        return _unknown(self._touch[0])
+        return unknown(self._touch[0])
 
     @property
     def _mobility(self) -> Mobility:
-        return Mobility(*(_unknown(variable) for variable in self._touch[1:]))
+        return Mobility(*(unknown(variable) for variable in self._touch[1:]))
 
 
 def _set(variables: Iterable[Any], values: Iterable[object]) -> None:

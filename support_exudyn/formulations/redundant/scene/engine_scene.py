@@ -1,7 +1,8 @@
-"""What the solver needs of a model in the engine, be it in the plane or in space."""
+"""The model of a scenario in the engine as the solver sees it, be it in the plane or in space."""
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from typing import Any, Protocol
 
@@ -13,58 +14,14 @@ from support_exudyn.formulations.redundant.scene.driven_parts import DrivenParts
 from support_exudyn.formulations.redundant.scene.load_item import LoadItem
 from support_exudyn.formulations.redundant.scene.pin_friction import PinFriction
 from support_exudyn.mechanics.body_motion import BodyMotion
+from support_exudyn.mechanics.contact_state import PinMemory
 from support_exudyn.mechanics.trajectory import CompliantSeries, Impulse, Series
 from support_exudyn.model.linkage import PinPlace
 from support_exudyn.scenario.scenario import Scenario
+from user_forces.contact import ContactForce
 
 INITIAL = exudyn.ConfigurationType.Initial
 CURRENT = exudyn.ConfigurationType.Current
-
-
-class InEngine:
-    """What every model in the engine can do.
-
-    container: owns the system, and must live as long as it. mbs: the system. driven: all columns and cranks, by
-    the drive that they follow. cylinders: the columns that follow none.
-    """
-
-    container: Any
-    mbs: Any
-    driven: tuple[DrivenParts, ...]
-    cylinders: dict[str, CylinderItem]
-
-    def release(self) -> None:
-        """Let go of the engine's model: what its user functions know would never be freed."""
-        mbs: Any = self.mbs
-        mbs.SetPreStepUserFunction(0)
-        mbs.SetPostNewtonUserFunction(0)
-        mbs.SetPostStepUserFunction(0)
-        self.container.Reset()
-
-    def drive_to(self, t: float) -> None:
-        """Set every column, crank and valve to where it is at time t [s]."""
-        for parts in self.driven:
-            parts.move_to(t)
-        for cylinder in self.cylinders.values():
-            cylinder.open_to(t)
-
-
-class Massive(Protocol):
-    """A body that has a mass."""
-
-    @property
-    def mass(self) -> float:
-        """[kg]."""
-        ...
-
-
-class MassiveItem(Protocol):
-    """A body in the engine."""
-
-    @property
-    def body(self) -> Massive:
-        """Its data."""
-        ...
 
 
 class CompliantItem(Protocol):
@@ -89,85 +46,88 @@ class CompliantItem(Protocol):
         ...
 
 
-class EngineScene(Protocol):
-    """The model of one scenario, assembled and ready for the solver."""
+class EngineScene(ABC):
+    """The model of one scenario, assembled and ready for the solver.
 
-    @property
-    def scenario(self) -> Scenario:
-        """What is modelled."""
-        ...
+    scenario: what is modelled. container: owns the system, and must live as long as it. mbs: the system.
+    bodies: all that move, each an item with its data as `body`. loose_pins: everything that may touch and
+    part. compliant_pins: pins whose force follows from their deflection. frictions: of ideal pins. loads: what
+    presses on the machine. weights: loads of the engine, by body. driven: all columns and cranks, by the drive
+    that they follow. cylinders: the columns that follow none.
+    """
 
-    @property
-    def mbs(self) -> Any:
-        """The engine's system."""
-        ...
-
-    @property
-    def bodies(self) -> Mapping[str, MassiveItem]:
-        """All that move, by name."""
-        ...
-
-    @property
-    def loose_pins(self) -> Mapping[str, LoosePin]:
-        """Everything that may touch and part, by name."""
-        ...
-
-    @property
-    def compliant_pins(self) -> Mapping[str, CompliantItem]:
-        """Pins whose force follows from their deflection, by name."""
-        ...
-
-    @property
-    def frictions(self) -> Mapping[str, PinFriction]:
-        """Friction of ideal pins, by name."""
-        ...
-
-    @property
-    def loads(self) -> Mapping[str, LoadItem]:
-        """What presses on the machine, by name."""
-        ...
-
-    @property
-    def weights(self) -> Mapping[str, Any]:
-        """The engine's loads that are weights, by body."""
-        ...
-
-    @property
-    def driven(self) -> tuple[DrivenParts, ...]:
-        """All columns and cranks, by the drive that they follow."""
-        ...
-
-    @property
-    def cylinders(self) -> Mapping[str, CylinderItem]:
-        """Columns that are hydraulic cylinders, by name."""
-        ...
-
-    def drive_to(self, t: float) -> None:
-        """Set every column and crank to where its drive has it at time t [s]."""
+    scenario: Scenario
+    container: Any
+    mbs: Any
+    bodies: Mapping[str, Any]
+    loose_pins: Mapping[str, LoosePin]
+    compliant_pins: Mapping[str, CompliantItem]
+    frictions: Mapping[str, PinFriction]
+    loads: Mapping[str, LoadItem]
+    weights: Mapping[str, Any]
+    driven: tuple[DrivenParts, ...]
+    cylinders: Mapping[str, CylinderItem]
 
     def release(self) -> None:
-        """Let go of the engine's model."""
+        """Let go of the engine's model: what its user functions know would never be freed."""
+        mbs: Any = self.mbs
+        mbs.SetPreStepUserFunction(0)
+        mbs.SetPostNewtonUserFunction(0)
+        mbs.SetPostStepUserFunction(0)
+        self.container.Reset()
 
+    def drive_to(self, t: float) -> None:
+        """Set every column, crank and valve to where it is at time t [s]."""
+        for parts in self.driven:
+            parts.move_to(t)
+        for cylinder in self.cylinders.values():
+            cylinder.open_to(t)
+
+    @abstractmethod
     def jump(self, time: float) -> Impulse | None:
-        """Give the bodies the velocities that belong to drives whose speed has jumped at a break [s]."""
+        """Give the bodies the velocities that belong to drives whose speed has jumped at a break [s].
 
+        With rigid columns the bodies' velocities jump too, see `kinetics`. Clearance pins and oil columns
+        transmit no impulse: their force is finite. None if all that jumps is compliant.
+        """
+
+    @abstractmethod
     def align(self, time: float) -> float:
-        """Give the bodies velocities that the constraints have at a time [s]; work of the drives in it [J]."""
-        ...
+        """Give the bodies velocities that the constraints have at a time [s]; work of the drives in it [J].
+
+        Constraints of index 3 hold positions: velocities at the end of a long step are off by second order in
+        it. A short step that follows would make up for it within itself, by accelerations a thousand times too
+        large.
+        """
+
+    @abstractmethod
+    def reset_memory(self) -> None:
+        """Give every clearance pin the memory that belongs to the initial state of the bodies."""
+
+    @abstractmethod
+    def contact(self, name: str, state: Any) -> ContactForce:
+        """What the laws say of one of `loose_pins` in a state of the engine, its surfaces being apart."""
 
     def refresh_memory(self) -> None:
-        """Tell every loose pin that velocities have jumped."""
+        """Tell every clearance pin that velocities have jumped; contacts that go on go on."""
+        for name, pin in self.loose_pins.items():
+            state = self.contact(name, CURRENT)
+            pin.jumped(pin.kept._replace(depth=state.depth, rate=state.rate, slip=state.slip))
 
-    def reset_memory(self) -> None:
-        """Give every loose pin the memory that belongs to the initial state of the bodies."""
-
+    @abstractmethod
     def spins(self) -> dict[str, float]:
         """Angular velocity of every body [rad/s]."""
-        ...
 
+    @abstractmethod
     def coordinate_masses(self) -> Series:
-        """A mass for each of the engine's coordinates [kg], [kg m^2]."""
-        ...
+        """A mass for each of the engine's coordinates [kg], [kg m^2], by which accelerations are weighed."""
+
+
+def first_memory(force: ContactForce) -> PinMemory:
+    """The memory of a pin at the start, from what its laws say: a journal that is pressed touches just now."""
+    touching = force.depth > 0.0
+    speed = max(0.0, force.rate) if touching else 0.0
+    return PinMemory(touching, speed, depth=force.depth, rate=force.rate, slip=force.slip)
 
 
 def slide(scene: EngineScene, rest: float) -> None:

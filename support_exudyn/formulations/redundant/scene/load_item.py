@@ -1,3 +1,4 @@
+# ruff: noqa: N803 - the engine goes by the names of arguments
 """Loads in the engine: a connector between the loaded point and what it is loaded from."""
 
 from __future__ import annotations
@@ -6,14 +7,14 @@ import math
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import Any, cast
+from typing import Any
 
 import exudyn
 import numpy as np
 from exudyn.advancedUtilities import CreateSymbolicUserFunction
 from exudyn.itemInterface import ObjectConnectorCartesianSpringDamper
 
-from support_exudyn.formulations.redundant.clearance.symbolic_force import Symbol, engine
+from support_exudyn.formulations.redundant.clearance.symbolic_force import engine, is_formula, real, unknown
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.trajectory import LoadSeries, Series
 from support_exudyn.model.loads.load import Load, LoadedPoint, Powers
@@ -88,7 +89,7 @@ def add_load(mbs: Any, load: Load, origin: Any, point: Any) -> LoadItem:
     """
     connector = mbs.AddObject(ObjectConnectorCartesianSpringDamper(markerNumbers=[origin, point]))
     function: Any = _pull(load)
-    if _is_formula(load):
+    if is_formula(lambda *known: load.force(LoadedPoint(*known)), len(LoadedPoint._fields)):
         function = CreateSymbolicUserFunction(mbs, _expression(load), NAME, connector)
     mbs.SetObjectParameter(connector, NAME, function)
     return LoadItem(mbs, load, connector, function)
@@ -109,34 +110,14 @@ def _pull(load: Load) -> Callable[..., list[float]]:
 def _expression(load: Load) -> Callable[..., Any]:
     """The same to be called once with the engine's symbols; it goes by the names of the arguments."""
 
-    def expression(  # type: ignore[no-untyped-def]
-        mbs,
-        t,
-        itemNumber,  # noqa: N803
-        displacement,
-        velocity,
-        stiffness,
-        damping,
-        offset,
-    ):
+    def pull(t: Any, displacement: Any, velocity: Any) -> Any:
         known = (t, displacement[0], displacement[1], velocity[0], velocity[1])
-        fx, fy = load.force(LoadedPoint(*(cast(float, Symbol(item)) for item in known)))
-        return engine.Vector([_real(-fx), _real(-fy), engine.Real(0.0)])
+        fx, fy = load.force(LoadedPoint(*map(unknown, known)))
+        return engine.Vector([real(-fx), real(-fy), engine.Real(0.0)])
 
-    return expression
-
-
-def _real(number: Any) -> Any:
-    return number.real if isinstance(number, Symbol) else engine.Real(number)
-
-
-def _is_formula(load: Load) -> bool:
-    """Whether a load's force takes expressions, see `scalar.Expression`."""
-    try:
-        load.force(LoadedPoint(*(cast(float, Symbol(engine.Real(0.0))) for _ in LoadedPoint._fields)))
-    except TypeError:
-        return False
-    return True
+    return lambda mbs, t, itemNumber, displacement, velocity, stiffness, damping, offset: pull(
+        t, displacement, velocity
+    )
 
 
 def load_series(name: str, load: Load, motion: BodyMotion, time: Series) -> LoadSeries:

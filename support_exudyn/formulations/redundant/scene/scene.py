@@ -14,11 +14,16 @@ from support_exudyn.formulations.redundant.clearance.clearance_pin import LooseP
 from support_exudyn.formulations.redundant.clearance.pin_motion import PinEnd, PinMotion
 from support_exudyn.formulations.redundant.scene.cylinder_item import CylinderItem
 from support_exudyn.formulations.redundant.scene.driven_parts import DrivenParts, OilColumnItem
-from support_exudyn.formulations.redundant.scene.engine_scene import CURRENT, INITIAL, CompliantItem, InEngine
+from support_exudyn.formulations.redundant.scene.engine_scene import (
+    CURRENT,
+    INITIAL,
+    CompliantItem,
+    EngineScene,
+    first_memory,
+)
 from support_exudyn.formulations.redundant.scene.load_item import LoadItem
 from support_exudyn.formulations.redundant.scene.pin_friction import PinFriction
 from support_exudyn.mechanics.body_coordinates import BodyItem, ColumnItem, CrankItem, IdealItem, SlideItem
-from support_exudyn.mechanics.contact_state import PinMemory
 from support_exudyn.mechanics.kinetics import Kinetics, Matrix
 from support_exudyn.mechanics.pressed_pins import Mobilities, mobilities, normal
 from support_exudyn.mechanics.trajectory import Impulse
@@ -30,7 +35,7 @@ FRICTION_ROUNDS = 4  # each with an error smaller by the coefficient of friction
 
 
 @dataclass(frozen=True)
-class Scene(InEngine):
+class Scene(EngineScene):
     """The model of one scenario, assembled and ready for the solver."""
 
     scenario: Scenario
@@ -109,11 +114,7 @@ class Scene(InEngine):
         data.SetODE2Coordinates_t(velocity + change, INITIAL)
 
     def jump(self, time: float) -> Impulse | None:
-        """Give the bodies the velocities that belong to drives whose speed has jumped at a break [s].
-
-        With rigid columns the bodies' velocities jump too, see `kinetics`. Clearance pins and oil columns
-        transmit no impulse: their force is finite. None if all that jumps is compliant.
-        """
+        """See `EngineScene`."""
         data, kinetics = self.mbs.systemData, self.kinetics
         jump = kinetics.rates(lambda name: self.scenario.drive_of(name).speed_jump(time))
         if not jump.any():
@@ -132,12 +133,7 @@ class Scene(InEngine):
         )
 
     def align(self, time: float) -> float:
-        """Give the bodies velocities that the constraints have at a time [s]; work of the drives in it [J].
-
-        Constraints of index 3 hold positions: velocities at the end of a long step are off by second order in
-        it. A short step that follows would make up for it within itself, by accelerations a thousand times too
-        large.
-        """
+        """See `EngineScene`."""
         data, kinetics = self.mbs.systemData, self.kinetics
         position, before = data.GetODE2Coordinates(), data.GetODE2Coordinates_t()
         rates = kinetics.rates(lambda name: self.scenario.drive_of(name).speed(time))
@@ -147,12 +143,12 @@ class Scene(InEngine):
         return -float(impulses @ rates)
 
     def spins(self) -> dict[str, float]:
-        """Angular velocity of every body [rad/s]."""
+        """See `EngineScene`."""
         velocity = self.mbs.systemData.GetODE2Coordinates_t()
         return {name: float(velocity[item.first + 2]) for name, item in self.bodies.items()}
 
     def coordinate_masses(self) -> Matrix:
-        """Mass or inertia of every coordinate [kg], [kg m^2]."""
+        """See `EngineScene`."""
         return self.kinetics.mass()
 
     def start_rubbing(self) -> None:
@@ -182,29 +178,15 @@ class Scene(InEngine):
         data.SetAECoordinates(multipliers, INITIAL)
 
     def reset_memory(self) -> None:
-        """Give every clearance pin the memory that belongs to the initial state of the bodies."""
+        """See `EngineScene`."""
         data = self.mbs.systemData
         position, rates = data.GetODE2Coordinates(INITIAL), data.GetODE2Coordinates_t(INITIAL)
         for name, pin in self.loose_pins.items():
-            state = self._contact_state(name, pin, INITIAL)
-            touching = state.depth > 0.0
-            memory = PinMemory(
-                in_contact=touching,
-                approach_speed=max(0.0, state.rate) if touching else 0.0,
-                depth=state.depth,
-                rate=state.rate,
-                slip=state.slip,
-            )
             bore, journal = self.ends(name)
             turn = self._turn(journal, position) - self._turn(bore, position)
             bore_motion = self.bore_angle(name, position), self._turn(bore, rates)
+            memory = first_memory(self.contact(name, INITIAL))
             pin.start(memory, self.mobilities(name, INITIAL), turn, bore_motion)
-
-    def refresh_memory(self) -> None:
-        """Tell every clearance pin that velocities have jumped; contacts that go on go on."""
-        for name, pin in self.loose_pins.items():
-            state = self._contact_state(name, pin, CURRENT)
-            pin.jumped(pin.kept._replace(depth=state.depth, rate=state.rate, slip=state.slip))
 
     def pin_motion(self, name: str) -> PinMotion:
         """How the journal of a clearance pin moves in its bore."""
@@ -220,7 +202,10 @@ class Scene(InEngine):
 
         return PinMotion(self.mbs.systemData, end(bore), end(journal))
 
-    def _contact_state(self, name: str, pin: LoosePin, state: Any) -> ContactForce:
+    def contact(self, name: str, state: Any) -> ContactForce:
+        """See `EngineScene`."""
+        pin = self.loose_pins[name]
+
         def relative(what: Any) -> tuple[float, float]:
             journal = self.mbs.GetMarkerOutput(pin.connector.journal_marker, what, state)
             bore = self.mbs.GetMarkerOutput(pin.connector.bore_marker, what, state)

@@ -11,6 +11,7 @@ import exudyn
 
 from support_exudyn.formulations.contract import Failure, SimulationError
 from support_exudyn.formulations.engine_settings import quiet_engine
+from support_exudyn.formulations.limits import CENTRING
 from support_exudyn.formulations.redundant.scene.engine_scene import INITIAL, EngineScene
 from support_exudyn.formulations.redundant.scene.load_item import LoadItem
 from support_exudyn.mechanics.body_coordinates import BodyItem
@@ -25,7 +26,6 @@ AT_THE_START = 1e-30  # [s]
 BY_CHANGES = 1  # the engine's number for that
 CLOSE = 1e-11  # [m]
 ROUNDINGS = 64.0  # of the coordinates
-CENTRING = (1.0, 0.3, 0.1, 0.03, 0.01, 1e-3, 1e-4, 1e-6, 0.0)
 
 
 def settle(scene: EngineScene) -> None:

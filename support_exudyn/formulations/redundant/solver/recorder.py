@@ -11,8 +11,7 @@ import numpy as np
 
 from support_exudyn.formulations.redundant.scene.driven_parts import OilColumnItem
 from support_exudyn.formulations.redundant.scene.engine_scene import EngineScene
-from support_exudyn.formulations.redundant.solver.energy import RunningIntegrals
-from support_exudyn.formulations.redundant.solver.record_interpolation import StepEnd, between
+from support_exudyn.formulations.redundant.solver.within_steps import RunningIntegrals, StepEnd, between
 from support_exudyn.mechanics.channels import EVERYTHING, Part
 from support_exudyn.mechanics.contact_state import PinMemory
 from support_exudyn.mechanics.trajectory import Series

@@ -259,7 +259,8 @@ class Run:
         if not breaks and self._is_to_be_cut(taken, goal - t):
             self.recorder.energies.totals[0] += self.scene.align(t)
             self.scene.refresh_memory()
-            self._tell_rates()
+            for cylinder in self.cylinders:
+                cylinder.tell_rates()
         if self.smooth is not None:
             self.recorder.begin_step(t)
         self.solver.it.currentStepSize = max(SMALLEST_STEP, goal - t)
@@ -281,7 +282,9 @@ class Run:
         self.time = t
         if (asked := self.plan.record_at(t)) is not None:
             self.recorder.record(asked)
-            self._check_finite()
+            velocity = self.data.GetODE2Coordinates_t()
+            if not math.isfinite(velocity @ velocity):
+                raise ArithmeticError("a velocity is no longer a finite number")
             self.progress(t / self.plan.duration)
         if breaks := self.plan.breaks_at(t):
             self._jump(t, breaks)
@@ -357,14 +360,9 @@ class Run:
         for cylinder in self.cylinders:
             for b in breaks:
                 cylinder.switch(b)
-        self._tell_rates()
+            cylinder.tell_rates()
         if self.cylinders and not jumps:
             self.recorder.switch(t)
-
-    def _tell_rates(self) -> None:
-        """Velocities or valves have jumped: pressures change at other rates."""
-        for cylinder in self.cylinders:
-            cylinder.tell_rates()
 
     def _longest_step(self, t: float) -> float:
         """How long a step from t [s] on may be [s]; infinite: as the plan says."""
@@ -388,11 +386,6 @@ class Run:
             if t + SHARE * (goal - t) < pin.landing < goal:
                 goal = pin.landing
         return goal
-
-    def _check_finite(self) -> None:
-        velocity = self.data.GetODE2Coordinates_t()
-        if not math.isfinite(velocity @ velocity):
-            raise ArithmeticError("a velocity is no longer a finite number")
 
     def _failure(self, reason: str, advice: str = ADVICE) -> Failure:
         state: dict[str, float] = {"step": float(self.solver.it.currentStepSize)}

@@ -7,11 +7,11 @@ a parameter, which Python sets before every step.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, cast
+from typing import Any
 
 from exudyn.advancedUtilities import CreateSymbolicUserFunction
 
-from support_exudyn.formulations.redundant.clearance.symbolic_force import Symbol, engine
+from support_exudyn.formulations.redundant.clearance.symbolic_force import is_formula, real, unknown
 from support_exudyn.formulations.redundant.scene.engine_scene import EngineScene
 from support_exudyn.model.drives.drive import Drive
 
@@ -30,7 +30,7 @@ def turns_by_itself(scene: EngineScene) -> bool:
     if any(cylinder.moves for cylinder in scene.cylinders.values()):
         return False
     if any(parts.rigid or parts.oil for parts in moving) or not all(
-        _is_formula(parts.drive) for parts in moving
+        is_formula(parts.drive.extension, 1) for parts in moving
     ):
         return False
     for parts in moving:
@@ -42,18 +42,4 @@ def turns_by_itself(scene: EngineScene) -> bool:
 
 def _angle(drive: Drive) -> Callable[..., Any]:
     """The angle of a crank over time, of the engine's signature."""
-
-    def angle(mbs: Any, t: Any, item: Any, offset: Any) -> Any:
-        found: Any = drive.extension(cast(float, Symbol(t)))
-        return found.real if isinstance(found, Symbol) else engine.Real(found)
-
-    return angle
-
-
-def _is_formula(drive: Drive) -> bool:
-    """Whether a drive takes expressions, see `scalar.Expression`."""
-    try:
-        _angle(drive)(None, engine.Real(0.0), None, None)
-    except TypeError:
-        return False
-    return True
+    return lambda mbs, t, item, offset: real(drive.extension(unknown(t)))

@@ -11,13 +11,19 @@ import numpy as np
 
 from support_exudyn.formulations.redundant.scene.cylinder_item import CylinderItem
 from support_exudyn.formulations.redundant.scene.driven_parts import DrivenParts, OilColumnItem
-from support_exudyn.formulations.redundant.scene.engine_scene import CURRENT, INITIAL, CompliantItem, InEngine
+from support_exudyn.formulations.redundant.scene.engine_scene import (
+    CURRENT,
+    INITIAL,
+    CompliantItem,
+    EngineScene,
+    first_memory,
+)
 from support_exudyn.formulations.redundant.scene.load_item import LoadItem
 from support_exudyn.formulations.redundant.scene.pin_friction import PinFriction
 from support_exudyn.formulations.redundant.space.section_pin import SectionPin
 from support_exudyn.formulations.redundant.space.sections import ends
 from support_exudyn.mechanics.body_coordinates import ColumnItem
-from support_exudyn.mechanics.contact_state import Mobility, PinMemory
+from support_exudyn.mechanics.contact_state import Mobility
 from support_exudyn.mechanics.pressed_pins import Mobilities, held, normal
 from support_exudyn.mechanics.space.constraints import End, Row, all_rows, independent, matrix
 from support_exudyn.mechanics.space.kinetics import SpatialKinetics
@@ -26,6 +32,7 @@ from support_exudyn.mechanics.space.reactions import reactions
 from support_exudyn.mechanics.trajectory import Impulse, Series
 from support_exudyn.model.spatial_linkage import SpatialBody, SpatialLinkage
 from support_exudyn.scenario.scenario import Scenario
+from user_forces.contact import ContactForce
 from user_forces.values.value import Vector3
 
 
@@ -40,7 +47,7 @@ class BodyItem:
 
 
 @dataclass(frozen=True)
-class SpatialScene(InEngine):
+class SpatialScene(EngineScene):
     """The model of one scenario in space, assembled and ready for the solver.
 
     rows: the constraints that are in the model. all_rows: those and the ones that repeat them.
@@ -70,7 +77,7 @@ class SpatialScene(InEngine):
         return (*self.scenario.gravity, 0.0)
 
     def coordinate_masses(self) -> Series:
-        """A mass for each of the engine's coordinates [kg], [kg m^2], by which accelerations are weighed."""
+        """See `EngineScene`."""
         found = np.zeros(COORDINATES * len(self.bodies))
         for item in self.bodies.values():
             found[item.first : item.first + 3] = item.body.mass
@@ -79,7 +86,7 @@ class SpatialScene(InEngine):
         return found
 
     def spins(self) -> dict[str, float]:
-        """Angular velocity of every body [rad/s]."""
+        """See `EngineScene`."""
         motion = self.motion()
         return {name: float(np.linalg.norm(motion.spin[0, n])) for n, name in enumerate(self.bodies)}
 
@@ -161,7 +168,7 @@ class SpatialScene(InEngine):
         self.set_velocities(before + closed.respond(np.zeros_like(before), wanted)[0], INITIAL)
 
     def align(self, time: float) -> float:
-        """Give the bodies velocities that the constraints have at a time [s]; work of the drives in it [J]."""
+        """See `EngineScene`."""
         kinetics = self.kinetics()
         before = velocities(kinetics.motion)
         speeds = {name: self.scenario.drive_of(name).speed(time) for name in self.rigid_columns}
@@ -172,10 +179,7 @@ class SpatialScene(InEngine):
         return -float(impulses @ wanted)
 
     def jump(self, time: float) -> Impulse | None:
-        """Give the bodies the velocities that belong to drives whose speed has jumped at a break [s].
-
-        None if nothing is struck, because all that jumps gives.
-        """
+        """See `EngineScene`."""
         kinetics = self.kinetics()
         speeds = {name: self.scenario.drive_of(name).speed_jump(time) for name in self.rigid_columns}
         if not any(speeds.values()):
@@ -193,36 +197,23 @@ class SpatialScene(InEngine):
         )
 
     def reset_memory(self) -> None:
-        """Give every section the memory that belongs to the initial state of the bodies."""
+        """See `EngineScene`."""
         data = self.mbs.systemData
         at = data.GetODE2Coordinates(INITIAL).tolist(), data.GetODE2Coordinates_t(INITIAL).tolist()
         for pin in self.loose_pins.values():
             pin.look_beside(*at)
         for name, group in self.sections.items():
             mobilities = self.mobilities(name, INITIAL)
-            for pin in group:
-                force = self._force(pin, *at)
-                touching = force.depth > 0.0
-                memory = PinMemory(
-                    in_contact=touching,
-                    approach_speed=max(0.0, force.rate) if touching else 0.0,
-                    depth=force.depth,
-                    rate=force.rate,
-                    slip=force.slip,
-                )
+            for n, pin in enumerate(group):
                 bore, journal = pin.moving.when(*at)
+                memory = first_memory(self.contact(f"{name}[{n}]", INITIAL))
                 pin.start(memory, mobilities, journal[4], (0.0, bore[5]))
 
-    def refresh_memory(self) -> None:
-        """Tell every section that velocities have jumped; contacts that go on go on."""
-        data = self.mbs.systemData
-        at = data.GetODE2Coordinates().tolist(), data.GetODE2Coordinates_t().tolist()
-        for pin in self.loose_pins.values():
-            force = self._force(pin, *at)
-            pin.jumped(pin.kept._replace(depth=force.depth, rate=force.rate, slip=force.slip))
-
-    def _force(self, pin: SectionPin, position: list[float], velocity: list[float]) -> Any:
-        bore, (x, y, vx, vy, _, spin) = pin.moving.when(position, velocity)
+    def contact(self, name: str, state: Any) -> ContactForce:
+        """See `EngineScene`."""
+        pin, data = self.loose_pins[name], self.mbs.systemData
+        at = data.GetODE2Coordinates(state).tolist(), data.GetODE2Coordinates_t(state).tolist()
+        bore, (x, y, vx, vy, _, spin) = pin.moving.when(*at)
         return pin.contact.force(x, y, vx, vy, bore[5], spin, None)
 
 

@@ -2,26 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import replace
-from functools import cached_property, partial
+from functools import partial
 from typing import Any
 
 import exudyn
 import numpy as np
 from exudyn.itemInterface import (
-    LoadForceVector,
     MarkerBodyPosition,
     MarkerBodyRigid,
     NodeRigidBodyEP,
-    ObjectConnectorDistance,
-    ObjectConnectorSpringDamper,
-    ObjectGround,
+    ObjectJointGeneric,
+    ObjectJointRevoluteZ,
+    ObjectJointSpherical,
     ObjectRigidBody,
 )
 
 from support_exudyn.formulations.redundant.clearance.connector import Mount, PinConnector
 from support_exudyn.formulations.redundant.scene.driven_parts import OilColumnItem, by_drive
-from support_exudyn.formulations.redundant.space.joints import joint
+from support_exudyn.formulations.redundant.scene.engine_builder import EngineBuilder
 from support_exudyn.formulations.redundant.space.scene import BodyItem, SpatialScene
 from support_exudyn.formulations.redundant.space.section_pin import (
     Journal,
@@ -34,28 +34,23 @@ from support_exudyn.formulations.redundant.space.section_pin import (
 from support_exudyn.formulations.redundant.space.sections import ends, sections
 from support_exudyn.mechanics.body_coordinates import ColumnItem
 from support_exudyn.mechanics.oil_column import FilledColumn, fill
-from support_exudyn.mechanics.space.constraints import End, Kind, all_rows, independent, matrix
+from support_exudyn.mechanics.space.constraints import End, Kind, all_rows, frame_of, independent, matrix
 from support_exudyn.mechanics.space.motion import COORDINATES, motion_of, parameter_rates
 from support_exudyn.model.columns import OilColumn
 from support_exudyn.model.linkage import GROUND
-from support_exudyn.model.spatial_linkage import Bearing, SpatialBody, SpatialColumn, SpatialLinkage
+from support_exudyn.model.spatial_linkage import Bearing, SpatialBody, SpatialLinkage
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.values.value import Vector3
 
+SHIFTS: tuple[Kind, ...] = ("across_1", "across_2", "along")
+TILTS: tuple[Kind, ...] = ("tilt_1", "tilt_2")
 
-class _Builder:
+
+class _Builder(EngineBuilder):
     def __init__(self, scenario: Scenario, linkage: SpatialLinkage) -> None:
-        self.scenario = scenario
+        super().__init__(scenario)
         self.linkage = linkage
-        self.container = exudyn.SystemContainer()
-        self.mbs = self.container.AddSystem()
-        self._markers: dict[tuple[str, Vector3], Any] = {}  # by body and point of the start posture
         self.bodies = {name: self.add_body(body) for name, body in linkage.bodies.items()}
-
-    @cached_property
-    def ground(self) -> Any:
-        """The engine's body that does not move, made if something stands on it."""
-        return self.mbs.AddObject(ObjectGround())
 
     def add_body(self, body: SpatialBody) -> BodyItem:
         rates = parameter_rates(np.array([1.0, 0.0, 0.0, 0.0]), np.array(body.spin))
@@ -68,27 +63,13 @@ class _Builder:
         item = self.mbs.AddObject(ObjectRigidBody(mass=body.mass, inertia=body.inertia, nodeNumber=node))
         return BodyItem(body, node, item, first=-1)
 
-    def add_weight(self, name: str, body: SpatialBody) -> None:
-        load = [body.mass * g for g in (*self.scenario.gravity, 0.0)]
-        marker = self.point_marker(name, body.centre)
-        self.mbs.AddLoad(LoadForceVector(markerNumber=marker, loadVector=load))
-
-    def item(self, body: str) -> Any:
-        return self.ground if body == GROUND else self.bodies[body].object
-
-    def node(self, body: str) -> Any:
-        return None if body == GROUND else self.bodies[body].node
-
     def centre(self, body: str) -> Vector3:
         return (0.0, 0.0, 0.0) if body == GROUND else self.linkage.bodies[body].centre
 
-    def point_marker(self, body: str, point: Vector3) -> Any:
-        """A marker at a point of the start posture."""
-        if (body, point) not in self._markers:
-            local = np.array(point) - np.array(self.centre(body))
-            marker = MarkerBodyPosition(bodyNumber=self.item(body), localPosition=local)
-            self._markers[body, point] = self.mbs.AddMarker(marker)
-        return self._markers[body, point]
+    def new_marker(self, body: str, point: Vector3) -> Any:
+        """See `EngineBuilder`."""
+        local = np.array(point) - np.array(self.centre(body))
+        return MarkerBodyPosition(bodyNumber=self.item(body), localPosition=local)
 
     def frame_marker(self, end: End) -> Any:
         """A marker in the middle of a bore or journal, its z along the axis."""
@@ -151,25 +132,6 @@ class _Builder:
             for section, connector in zip(places, connectors, strict=True)
         ]
 
-    def add_rigid(self, column: SpatialColumn) -> Any:
-        return self.mbs.AddObject(
-            ObjectConnectorDistance(markerNumbers=self.column_ends(column), distance=column.start_length)
-        )
-
-    def add_oil(self, column: SpatialColumn) -> Any:
-        return self.mbs.AddObject(
-            ObjectConnectorSpringDamper(
-                markerNumbers=self.column_ends(column), referenceLength=column.start_length
-            )
-        )
-
-    def column_ends(self, column: SpatialColumn) -> list[Any]:
-        """Markers of foot and head."""
-        return [
-            self.point_marker(column.foot, column.foot_point),
-            self.point_marker(column.head, column.head_point),
-        ]
-
     def build(self) -> SpatialScene:
         scenario, linkage = self.scenario, self.linkage
         loose = [name for name, bearing in linkage.bearings.items() if bearing.pin in scenario.clearance_pins]
@@ -184,8 +146,10 @@ class _Builder:
             held: set[Kind] = {row.kind for row in rows if row.name == name}
             if held:
                 self.add_joint(bearing, held)
-        rigid = {row.name: self.add_rigid(linkage.columns[row.name]) for row in rows if row.kind == "column"}
-        oil = {name: self.add_oil(linkage.columns[name]) for name in on_oil}
+        rigid = {
+            row.name: self.add_rigid_column(linkage.columns[row.name]) for row in rows if row.kind == "column"
+        }
+        oil = {name: self.add_oil_column(linkage.columns[name]) for name in on_oil}
         connectors = {name: self.add_connectors(linkage.bearings[name]) for name in loose}
         if any(scenario.gravity):
             for name, body in linkage.bodies.items():
@@ -197,8 +161,7 @@ class _Builder:
             for name, item in self.bodies.items()
         }
         rigid_items: dict[str, ColumnItem] = {
-            name: ColumnItem(linkage.columns[name], item, int(data.GetObjectLTGAE(item)[0]))
-            for name, item in rigid.items()
+            name: ColumnItem(linkage.columns[name], item, self.multiplier(item)) for name, item in rigid.items()
         }
         oil_items = {name: OilColumnItem(filled, oil[name]) for name, filled in self.filled(oil).items()}
         scene = SpatialScene(
@@ -240,6 +203,31 @@ class _Builder:
         first = None if end.body == GROUND else scene.bodies[end.body].first
         arm, *axes = (tuple(frame[:3, k].tolist()) for k in (3, 0, 1, 2))
         return SectionEnd(first, self.centre(end.body), arm, (axes[0], axes[1]), axes[2])
+
+
+def joint(bearing: Bearing, held: Collection[Kind], markers: list[Any]) -> Any:
+    """The engine's joint with the fewest constraints that holds these.
+
+    markers: of both bodies, their z along the bearing.
+    """
+    if all(kind in held for kind in SHIFTS + TILTS):
+        return ObjectJointRevoluteZ(markerNumbers=markers)
+    shifts = [int(kind in held) for kind in SHIFTS]
+    tilts = [int(kind in held) for kind in TILTS]
+    if not any(tilts) and _in_ground_axes(bearing, held):
+        return ObjectJointSpherical(markerNumbers=markers, constrainedAxes=shifts)
+    return ObjectJointGeneric(markerNumbers=markers, constrainedAxes=[*shifts, *tilts, 0])
+
+
+def _in_ground_axes(bearing: Bearing, held: Collection[Kind]) -> bool:
+    """Whether its directions may be those of the ground, in which the spherical joint counts.
+
+    They are if the first body is the ground; if it turns, both directions across z span the same plane as long
+    as it turns about z, which a body does whose bearing has nothing to hold along it.
+    """
+    if not np.array_equal(frame_of(bearing.first_axis), np.eye(3)):
+        return False
+    return bearing.first == GROUND or "along" not in held
 
 
 def build(scenario: Scenario) -> SpatialScene:

@@ -10,10 +10,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from support_exudyn.formulations.impact_steps import ImpactSteps
+from support_exudyn.formulations.peak_force import NEAR_PEAK, has_a_top, peak
 from support_exudyn.formulations.redundant.clearance.clearance_pin import LoosePin
 from support_exudyn.formulations.redundant.clearance.connector import PinConnector
 from support_exudyn.formulations.redundant.clearance.connector_force import Attachment
-from support_exudyn.formulations.redundant.clearance.force_in_step import NEAR_PEAK, has_a_top, peak
 from support_exudyn.formulations.redundant.clearance.pin_motion import Motion, in_plane
 from support_exudyn.formulations.redundant.space.sections import ON_LINE, Section
 from support_exudyn.mechanics.contact_state import Onset, PinMemory

@@ -1,4 +1,4 @@
-"""The contact force inside a step whose ends are known, and its largest value there.
+"""The largest contact force inside a step whose ends are known.
 
 Laws have corners, where what limits the damping changes: between the ends of steps a force can be larger than
 at either, by a share of the step and not of its square.
@@ -8,10 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import NamedTuple
-
-from support_exudyn.formulations.contact_events import DepthPath
-from support_exudyn.formulations.redundant.clearance.connector_force import Relative
 
 PEAK_SAMPLES = 8  # parts of a step between which the force is looked at
 NEAR_PEAK = 0.8  # share of the largest force so far from which a step is looked at more closely
@@ -19,33 +15,6 @@ NEAR_TOP = 0.98  # and of which its largest sample is, if the top between two is
 GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)  # by golden section: share that is left of an interval
 NARROWINGS = 24  # to 1e-5 of it
 NEXT_TO_END, ABOVE = 1e-3, 1e-10  # share of a step; and of a force, that is more than rounding
-
-
-class Course(NamedTuple):
-    """How a journal moves in its bore within a step.
-
-    path: its depth, a cubic. slip: at the start [m/s]. angle: of its place in the bore at the start [rad].
-    end: its motion at the end; slip_end, angle_end: the same there. clearance: [m].
-    """
-
-    path: DepthPath
-    slip: float
-    angle: float
-    end: Relative
-    slip_end: float
-    angle_end: float
-    clearance: float
-
-    def at(self, x: float) -> Relative:
-        """The motion at a fraction of the step: slip and angle change evenly, spins are those of the end."""
-        path, end = self.path, self.end
-        size = math.hypot(end.x, end.y)
-        across = (end.x * end.vy - end.y * end.vx) / size if size else 0.0
-        across += (1.0 - x) * (self.slip - self.slip_end)
-        # in the axes of the end
-        angle = math.atan2(end.y, end.x) - (1.0 - x) * math.remainder(self.angle_end - self.angle, math.tau)
-        away, rate, c, s = self.clearance + path.depth(x), path.rate(x), math.cos(angle), math.sin(angle)
-        return Relative(away * c, away * s, rate * c - across * s, rate * s + across * c, end[4], end[5])
 
 
 def has_a_top(size: Callable[[float], float], first: float, last: float) -> bool:

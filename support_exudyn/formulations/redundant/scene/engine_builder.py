@@ -1,0 +1,79 @@
+"""What builders of models in the engine share, in the plane and in space."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from functools import cached_property
+from typing import Any
+
+import exudyn
+from exudyn.itemInterface import (
+    LoadForceVector,
+    ObjectConnectorDistance,
+    ObjectConnectorSpringDamper,
+    ObjectGround,
+)
+
+from support_exudyn.model.linkage import GROUND
+from support_exudyn.scenario.scenario import Scenario
+
+
+class EngineBuilder(ABC):
+    """Nothing is made in the engine that was not asked for. bodies: items of all that move, by name."""
+
+    bodies: Mapping[str, Any]
+
+    def __init__(self, scenario: Scenario) -> None:
+        self.scenario = scenario
+        self.container = exudyn.SystemContainer()
+        self.mbs = self.container.AddSystem()
+        self._markers: dict[tuple[str, Any], Any] = {}  # by body and point of the start posture
+
+    @cached_property
+    def ground(self) -> Any:
+        """The engine's body that does not move, made if something stands on it."""
+        return self.mbs.AddObject(ObjectGround())
+
+    def item(self, body: str) -> Any:
+        """The engine's object of a body."""
+        return self.ground if body == GROUND else self.bodies[body].object
+
+    def node(self, body: str) -> Any:
+        """The engine's node of a body; None for the ground."""
+        return None if body == GROUND else self.bodies[body].node
+
+    def marker(self, body: str, point: Any) -> Any:
+        """The marker on a body at a point of the start posture; parts that meet there share it."""
+        if (body, point) not in self._markers:
+            self._markers[body, point] = self.mbs.AddMarker(self.new_marker(body, point))
+        return self._markers[body, point]
+
+    @abstractmethod
+    def new_marker(self, body: str, point: Any) -> Any:
+        """A marker on a body at a point of the start posture, not yet in the engine."""
+
+    def add_weight(self, name: str, body: Any) -> Any:
+        """Let gravity act on a body."""
+        gx, gy = self.scenario.gravity
+        weight = [body.mass * gx, body.mass * gy, 0.0]
+        return self.mbs.AddLoad(LoadForceVector(markerNumber=self.marker(name, body.centre), loadVector=weight))
+
+    def add_rigid_column(self, column: Any) -> Any:
+        """Hold the ends of a column apart."""
+        ends = self.ends(column)
+        return self.mbs.AddObject(ObjectConnectorDistance(markerNumbers=ends, distance=column.start_length))
+
+    def add_oil_column(self, column: Any) -> Any:
+        """Put a spring in place of a column; what it carries and how stiff it is follows when all is whole."""
+        ends = self.ends(column)
+        spring = ObjectConnectorSpringDamper(markerNumbers=ends, referenceLength=column.start_length)
+        return self.mbs.AddObject(spring)
+
+    def ends(self, column: Any) -> list[Any]:
+        """The markers of foot and head."""
+        return [self.marker(column.foot, column.foot_point), self.marker(column.head, column.head_point)]
+
+    def multiplier(self, item: Any) -> int:
+        """The first multiplier of a constraint, once all is assembled."""
+        return int(self.mbs.systemData.GetObjectLTGAE(item)[0])
