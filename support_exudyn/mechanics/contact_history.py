@@ -54,7 +54,7 @@ def contact_series(
 
 
 def series(pin: ClearancePin, moving: RelativeMotion, memories: Series | Sequence[PinMemory]) -> ContactSeries:
-    """The same from the journal's motion in its bore."""
+    """The contact at every record from the journal's motion in its bore, see `contact_series`."""
     remembered = np.asarray(memories, dtype=np.float64)
     memory = dict(zip(PinMemory._fields, remembered.T, strict=True))
     touching = memory["in_contact"] > 0.5
@@ -114,7 +114,7 @@ def of_depth(function: Callable[[float], float], depth: Series) -> Series:
 
 
 def _one_by_one(pin: ClearancePin, moving: RelativeMotion, memory: dict[str, Series]) -> ContactForce:
-    """The same, record by record."""
+    """The contact's force, record by record."""
     remembered = np.column_stack([memory[name] for name in PinMemory._fields]).tolist()
     found = []
     for row, (x, y, vx, vy, bore_spin, journal_spin, c, s) in zip(
@@ -128,7 +128,7 @@ def _one_by_one(pin: ClearancePin, moving: RelativeMotion, memory: dict[str, Ser
 
 
 def _at_once(pin: ClearancePin, moving: RelativeMotion, memory: dict[str, Series]) -> ContactForce:
-    """The same, for all records at once."""
+    """The contact's force, for all records at once."""
     x, y, vx, vy, bore_spin, journal_spin, c, s = moving
     mobility = Mobility(*(as_number(memory[f"mobility_{axes}"]) for axes in ("xx", "xy", "yy")))
     mass = mobility.mass(as_number(c * x + s * y), as_number(c * y - s * x))  # in the bore's axes

@@ -27,7 +27,7 @@ SAME = 1e-9  # what a direction must hold besides the others, as a share of its 
 
 
 class Mobilities(NamedTuple):
-    """Of a loose pin's journal, in the axes of its bore.
+    """How a clearance pin's journal answers impulses, in the axes of its bore.
 
     alone: with all other loose pins open; the lightest that can move, which steps have to follow.
     held: with those closed that are pressed; what the laws are told.
@@ -41,7 +41,7 @@ NOT_KNOWN = Mobilities(*2 * (Mobility(math.nan, math.nan, math.nan),))
 
 
 def mobilities(answers: Matrix, axes: Matrix) -> Mobilities:
-    """Of a pin from the answers of all that is pressed.
+    """The mobilities of a pin from the answers of all that is pressed.
 
     Arguments:
         answers: velocities by impulses (2 + m, 2 + m) [1/kg]: both components of the eccentricity, then those

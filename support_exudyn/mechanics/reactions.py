@@ -57,7 +57,7 @@ class _Rows:
         self.shape = motion.position.shape
 
     def point(self, body: str, point: Vector2, along: Series) -> Series:
-        """Of a point of a body in a direction (n, 2)."""
+        """The rate of a point of a body in a direction (n, 2)."""
         row = np.zeros(self.shape)
         if body != GROUND:
             i, arm = self.motion.first(body), self.motion.arm(body, point)
@@ -66,14 +66,14 @@ class _Rows:
         return row
 
     def turn(self, body: str) -> Series:
-        """Of a body's angle."""
+        """The rate of a body's angle."""
         row = np.zeros(self.shape)
         if body != GROUND:
             row[:, self.motion.first(body) + 2] = 1.0
         return row
 
     def pin(self, place: PinPlace) -> list[Series]:
-        """Of the second body's centre of a pin against the first's, forward and up."""
+        """The rates of a pin's centre on its second body against that on its first, forward and up."""
         return [
             self.point(place.second, place.second_point, along)
             - self.point(place.first, place.first_point, along)
@@ -81,13 +81,13 @@ class _Rows:
         ]
 
     def column(self, column: Column) -> Series:
-        """Of a column's length."""
+        """The rate of a column's length."""
         along = direction(self.motion, column)
         head = self.point(column.head, column.head_point, along)
         return head - self.point(column.foot, column.foot_point, along)
 
     def slide(self, slide: Slide) -> list[Series]:
-        """Of the distance of a guide's point from its line, which may turn, and of the angle."""
+        """The rates of a guide: of its point's distance from the line, which may turn, and of the angle."""
         turned = slide.direction + self.motion.turn(slide.against)
         along = np.column_stack([np.cos(turned), np.sin(turned)])
         across = np.column_stack([-along[:, 1], along[:, 0]])
@@ -100,7 +100,7 @@ class _Rows:
 
 
 def direction(motion: BodyMotion, column: Column) -> Series:
-    """From foot to head of a column (n, 2)."""
+    """The direction from foot to head of a column (n, 2)."""
     foot, head = motion.place(column.foot, column.foot_point), motion.place(column.head, column.head_point)
     span = head - foot
     along: Series = span / np.linalg.norm(span, axis=1)[:, None]

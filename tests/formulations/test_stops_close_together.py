@@ -170,7 +170,7 @@ def test_a_rest_is_moved_over_by_the_rates(rest: float) -> None:
     np.testing.assert_allclose(data.GetODE1Coordinates(), pressures + flows * rest, rtol=1e-14)
     # what the pin remembers is of where it is now
     pin = scene.loose_pins[PIN]
-    (bx, by, bvx, bvy, *_), (x, y, vx, vy, *_) = pin.moving.now()
+    (bx, by, bvx, bvy, *_), (x, y, vx, vy, *_) = pin.frames.moving.now()
     x, y, vx, vy = x - bx, y - by, vx - bvx, vy - bvy
     distance = float(np.hypot(x, y))
     assert pin.kept.depth == pytest.approx(distance - pin.contact.bearing.clearance, abs=1e-13)

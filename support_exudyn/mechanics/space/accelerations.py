@@ -19,7 +19,7 @@ from support_exudyn.mechanics.trajectory import Series
 
 
 def accelerations(motion: SpatialMotion, rows: Sequence[Row], driven: Series, forces: Series) -> Series:
-    """Of the centres [m/s^2], and rates of the spins [rad/s^2], (n, b, 6).
+    """Accelerations of the centres [m/s^2], and rates of the spins [rad/s^2], (n, b, 6).
 
     Arguments:
         motion: of all bodies.

@@ -58,7 +58,7 @@ class Observation(Protocol):
         """The force that pushes a column's ends apart (n,) [N]."""
 
     def span(self, column: str) -> tuple[Series, Series]:
-        """From foot to head of a column (n, 3) [m], and its rate."""
+        """The vector from foot to head of a column (n, 3) [m], and its rate."""
 
 
 def recipes(linkage: SpatialLinkage, loose: Collection[str], oil: Collection[str]) -> Recipes:
@@ -188,7 +188,7 @@ def _of_column(name: str, oil: bool) -> Recipes:
 
 
 def _of_pair(whole: str, parts: Iterable[str], known: Recipes) -> Recipes:
-    """Of a pair of columns, from the channels of each."""
+    """The channels of a pair of columns, from those of each."""
 
     def together(what: str, unite: Callable[..., Series], said: str) -> Recipes:
         each = [known[f"{part}.{what}"] for part in parts]
@@ -216,7 +216,7 @@ def _sum_of_bearings(parts: Iterable[str]) -> Callable[[Observation], Series]:
 
 
 def _forces(prefix: str, needs: Part, force: Callable[[Observation], Series]) -> Recipes:
-    """Of a pin; force: of the first body on the second (n, 3) [N]."""
+    """The channels of a pin's force; force: of the first body on the second (n, 3) [N]."""
     found = {
         f"{prefix}.force": _recipe(
             "N", "magnitude of the pin force", needs, lambda seen: np.linalg.norm(force(seen), axis=1)

@@ -107,13 +107,13 @@ class LoosePin:
 
     @property
     def longest_step(self) -> float:
-        """For the impact going on, or for what friction holds at the end of the last step [s]."""
+        """The longest step [s] for the impact going on, or for what friction holds at the end of the last."""
         return min(self.impact.step, self._swing_step)
 
     # --- called by the solver ---
 
     def start(self, memory: PinMemory, mobilities: Mobilities, turn: float, bore: tuple[float, float]) -> None:
-        """Before the first step.
+        """Begin the run.
 
         Arguments:
             memory: of the pin.
@@ -155,7 +155,7 @@ class LoosePin:
         self.frames.jumped()
 
     def begin_try(self, step: float) -> None:
-        """Before a step of this length [s] is tried: go back to the last accepted one, line up the frames."""
+        """Begin to try a step of this length [s]: go back to the last accepted one, line up the frames."""
         self.onset = None
         self.wants_cut = False
         self._step = step
@@ -164,7 +164,7 @@ class LoosePin:
         self._recall(self.kept)
 
     def accept(self, t: float) -> None:
-        """After a step that ends at t [s] has been accepted: keep what happened in it."""
+        """Keep what happened in a step that ends at t [s] and stands."""
         was_in_contact = self.kept.in_contact
         self.course = self._course() if self.memory.in_contact and self.onset is None else None
         self.kept = reached = self.reached
@@ -192,7 +192,7 @@ class LoosePin:
             self.largest_force = peak(self._size_within, self.largest_force)
 
     def _course(self) -> Course:
-        """Of the step that has been tried, from the last accepted one to its end."""
+        """The course of the step that has been tried, from the last accepted one to its end."""
         start, end, angle = self.kept, self.force, self._place_angle()
         path = DepthPath(start.depth, start.rate, end.depth, end.rate, self._step)
         before = angle if self._angle is None else self._angle
@@ -235,7 +235,7 @@ class LoosePin:
             look(contact, depth, memory.rate, slip, normal, friction, pin=name)
 
     def _swing_time(self) -> float:
-        """Of what friction holds, with the least mass that moves along the surface [s].
+        """The time of the swing of what friction holds, with the least mass that moves along the surface [s].
 
         It is that of the journal's centre. Its turning adds little: pins are thin beside what they join.
         """
@@ -246,7 +246,7 @@ class LoosePin:
         return friction.swing_time(self._alone_here.mass(-y, x), force / self.share)
 
     def begin_impact(self) -> None:
-        """At the start, or when the drive's speed has jumped: the depth of a closed pin swings from now on."""
+        """Let the depth of a closed pin swing from now on: at the start, or after a jump of the drive's speed."""
         if self.locates and self.kept.depth > 0.0:
             self.impact.begin(self.kept.depth, self.kept.rate, self._find_least_mass())
 
@@ -259,7 +259,7 @@ class LoosePin:
         return self.frames.place()
 
     def after_newton(self, t: float) -> float | None:
-        """A step that would end at t [s] has been solved: None if it may stand.
+        """Decide on a solved step that would end at t [s]: None if it may stand.
 
         Else with which length [s] it is to be repeated; infinite: with the same, for the force has changed.
         """
@@ -290,7 +290,7 @@ class LoosePin:
         return True
 
     def rounding(self, step: float, size: float) -> float:
-        """By how much friction scatters in a step [N], see `FrictionLine.rounding`."""
+        """The scatter of friction in a step [N], see `FrictionLine.rounding`."""
         return self._friction.rounding(self.force.normal_force, size, step)
 
     def _let_act(self) -> None:

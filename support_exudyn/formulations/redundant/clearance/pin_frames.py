@@ -75,7 +75,7 @@ class PinFrames:
             self._bore = self.moving.now()[0][4:]
 
     def begin(self, step: float) -> None:
-        """Before a step of this length [s] is tried: guess what the connector does not know of its end."""
+        """Begin to try a step of this length [s]: guess what the connector does not know of its end."""
         self._step = step
         if self.turns:
             self._bore_angle = self._bore[0] + step * self._bore[1]

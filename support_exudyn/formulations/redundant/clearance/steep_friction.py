@@ -86,7 +86,7 @@ class SteepFriction:
             self._straight.lay(self._line.offset, self._line.slope)
 
     def after_newton(self, force: ContactForce, step: float, mass: float) -> float | None:
-        """A step has been solved: None if the force was that of the law, which is given.
+        """Decide on a solved step: None if the force was that of the law, which is given.
 
         Else with which length [s] it is to be repeated; infinite: with the same and another line.
 
@@ -122,7 +122,7 @@ class FrictionLine:
         return self._tries >= TRIES
 
     def begin(self) -> None:
-        """A step begins, with the line of the last one."""
+        """Begin a step with the line of the last one."""
         self._tries = 0
         self._solved = None
 
@@ -154,7 +154,7 @@ class FrictionLine:
         return False
 
     def rounding(self, normal_force: float, size: float, step: float) -> float:
-        """By how much rounding of positions of a size [m] lets friction scatter in a step [s], [N].
+        """The scatter of friction [N] in a step [s] by rounding of positions of a size [m].
 
         Newton's method cannot become closer than that.
         """

@@ -116,7 +116,7 @@ class CylinderItem:
         return length, float(between @ apart(output.Velocity)) / length
 
     def pressures(self, state: Any = CURRENT) -> tuple[float, float]:
-        """Of piston side and rod side [Pa]."""
+        """The pressures of piston side and rod side [Pa]."""
         piston, rod = self._data.GetODE1Coordinates(state)[self.first : self.first + 2].tolist()
         return UNIT * piston, UNIT * rod
 

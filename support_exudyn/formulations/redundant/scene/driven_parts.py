@@ -41,7 +41,7 @@ class DrivenParts:
 
     @property
     def multipliers(self) -> tuple[int, ...]:
-        """Of rigid columns and cranks."""
+        """The multipliers of rigid columns and cranks."""
         return (*(item.multiplier for item in self.rigid), *(item.multiplier for item in self.cranks))
 
     def moves(self, duration: float) -> bool:

@@ -108,7 +108,7 @@ def _pull(load: Load) -> Callable[..., list[float]]:
 
 
 def _expression(load: Load) -> Callable[..., Any]:
-    """The same to be called once with the engine's symbols; it goes by the names of the arguments."""
+    """The pull as a function that the engine calls once with its symbols; it goes by the names of arguments."""
 
     def pull(t: Any, displacement: Any, velocity: Any) -> Any:
         known = (t, displacement[0], displacement[1], velocity[0], velocity[1])

@@ -89,7 +89,7 @@ class PinFriction:
                 forces[number] += sign * moment
 
     def _spin(self, rates: Series) -> float:
-        """Of the second body against the first [rad/s]."""
+        """The spin of the second body against the first [rad/s]."""
         first, second = (0.0 if n is None else float(rates[n]) for n in self._coordinates)
         return second - first
 
@@ -99,7 +99,7 @@ class PinFriction:
         return np.array([self.moment(size, spin) for size, spin in pairs])
 
     def accept(self) -> None:
-        """A step has ended: remember the force in the pin."""
+        """Remember the force in the pin at the end of a step."""
         self._kept = self._present()
 
     def _force(self) -> float:

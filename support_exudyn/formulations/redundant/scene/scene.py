@@ -63,11 +63,11 @@ class Scene(EngineScene):
 
     @cached_property
     def closed_kinetics(self) -> Kinetics:
-        """The same with all pins ideal and all columns rigid."""
+        """Masses and constraints as matrices with all pins ideal and all columns rigid."""
         return Kinetics(self.linkage, self.bodies, tuple(self.linkage.pins), tuple(self.linkage.columns))
 
     def mobilities(self, name: str, state: Any = CURRENT) -> Mobilities:
-        """Of a clearance pin's journal, by itself and with the other ones as they are pressed."""
+        """How a clearance pin's journal answers impulses, by itself and with the other pins as pressed."""
         position = self.mbs.systemData.GetODE2Coordinates(state)
         answers = self.kinetics.pin_mobility(position, name, self._pressed(name, position))
         angle = self.bore_angle(name, position)

@@ -47,7 +47,7 @@ class NewtonMethod:
         self.failures = NewtonFailures(scenario.step)
 
     def begin(self, step: float) -> None:
-        """A step of this length [s] is tried: steep friction comes no closer than rounding lets it."""
+        """Begin to try a step of this length [s]: steep friction comes no closer than rounding lets it."""
         rounding = sum(pin.rounding(step, self._size) for pin in self._pins)
         if rounding > 0.0 or self._scatters:
             self._scatters = rounding > 0.0
@@ -55,7 +55,7 @@ class NewtonMethod:
             self._solver.newton.absoluteTolerance = asked
 
     def failed(self) -> None:
-        """It has not converged: lines stand for friction from now on, or else steps become shorter."""
+        """Take note of a failure: lines stand for friction from now on, or else steps become shorter."""
         straightened = [pin.straighten() for pin in self._pins]
         if not any(straightened):
             self.failures.failed()
@@ -63,7 +63,7 @@ class NewtonMethod:
             self._solver.newton.useModifiedNewton = False
 
     def solved(self, taken: float) -> None:
-        """A step of this length [s] has been solved."""
+        """Take note of a solved step of this length [s]."""
         if self.failures.wants_new_jacobians:
             self._solver.newton.useModifiedNewton = self._settings.useModifiedNewton
         self.failures.solved(taken, any(pin.impact.begins_with_a_jump for pin in self._pins))
@@ -95,12 +95,12 @@ class NewtonFailures:
         return self.more > MOST_MORE or self.crawled > MOST_CRAWLED
 
     def failed(self) -> None:
-        """The step that is being tried has not converged."""
+        """Take note that the step being tried has not converged."""
         self.of_step += 1
         self.more += 1
 
     def solved(self, taken: float, jumps: bool) -> None:
-        """A step of this length [s] has been solved; jumps: a force has jumped just now.
+        """Take note of a solved step of this length [s]; jumps: a force has jumped just now.
 
         Steps are tiny then already, and shorter ones meet rounding: nothing is learned from them.
         """

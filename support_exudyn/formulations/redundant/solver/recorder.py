@@ -99,7 +99,7 @@ class Recorder:
             self.energies.add(t, self._powers(t))
 
     def begin_step(self, t: float) -> None:
-        """A step that may pass over records begins at t [s]."""
+        """Begin a step at t [s] that may pass over records."""
         self._start = self._state(t)
 
     def record_between(self, t: float, end: float) -> None:

@@ -183,7 +183,7 @@ class Run:
     # --- called by the engine ---
 
     def _before_try(self, mbs: Any, t: float) -> bool:
-        """Before every attempt at a step that would end at t."""
+        """Prepare every attempt at a step that would end at t."""
         if self.trying:
             self.repeated = True
             if any(pin.wants_cut for pin in self.pins):
@@ -206,14 +206,14 @@ class Run:
         return True
 
     def _audit(self, mbs: Any, t: float) -> bool:
-        """After a step that is only looked at for its energies; the start of a stretch is told once more."""
+        """Count the energies of a step that nothing else sees; the start of a stretch is told twice."""
         if t > self.audited:
             self.audited = t
             self.recorder.after_step(t, bool(self.plan.breaks_at(t)))
         return True
 
     def _after_newton(self, mbs: Any, t: float) -> list[float]:
-        """After a step that would end at t has been solved: [error, recommended step]."""
+        """Tell whether a solved step that would end at t may stand: [error, recommended step]."""
         again, shortest = False, math.inf
         name = ""
         try:
@@ -233,7 +233,7 @@ class Run:
         return [REPEAT_ERROR, exact if exact > SMALLEST_IMPACT_STEP else shortest]
 
     def _after_step(self, mbs: Any, t: float) -> bool:
-        """After every accepted step, and once at the start."""
+        """Keep what happened in an accepted step, and choose the next; called once at the start, too."""
         taken = t - self.time
         breaks = self.plan.breaks_at(t)
         kink = bool(breaks)
@@ -267,7 +267,7 @@ class Run:
         return True
 
     def _arrived(self, t: float) -> float:
-        """A step has ended at t [s]; stops may follow that are not worth one. From when the run goes on [s]."""
+        """From when the run goes on [s] after a step to t [s]: stops may follow that are not worth one."""
         self._at_stop(t)
         while self.plan.rest(t) and (stop := self.plan.rest(t, self._longest_step(t))):
             slide(self.scene, stop - t)
@@ -334,7 +334,7 @@ class Run:
                 raise SimulationError(self._failure(too_deep(name, pin.reached.depth, bearing), SOFT))
 
     def _look_for_smoothness(self, t: float, smooth: SmoothSteps) -> None:
-        """A step has ended at t: may the next be longer? And the records that it has passed over."""
+        """See whether steps after t may be longer, and keep the records that the last has passed over."""
         for passed in self.plan.records_between(self.time, t):
             self.recorder.record_between(passed, t)
         at_rest = all(pin.impact.step == math.inf and pin.reached.depth > 0.0 for pin in self.pins)

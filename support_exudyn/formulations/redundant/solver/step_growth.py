@@ -49,7 +49,7 @@ class SmoothSteps:
         self._last = None
 
     def follow(self, taken: float, acceleration: Series) -> None:
-        """A step of this length [s] has been accepted, with these accelerations (n,) at its end."""
+        """Take note of an accepted step of this length [s], with these accelerations (n,) at its end."""
         last, self._last = self._last, acceleration
         if last is None:
             return

@@ -58,12 +58,12 @@ class Observation:
 
     @property
     def time(self) -> Series:
-        """Of the records [s]."""
+        """The time of the records [s]."""
         return self.history.time
 
     @cached_property
     def motion(self) -> SpatialMotion:
-        """Of all bodies; velocities are zero if they have not been kept."""
+        """The motion of all bodies; velocities are zero if they have not been kept."""
         order, history = self.scene.order, self.history
         position = history.position[:, order]
         velocity = history.velocity[:, order] if history.velocity.shape[1] else np.zeros_like(position)
@@ -71,7 +71,7 @@ class Observation:
 
     @cached_property
     def sections(self) -> dict[str, list[SectionSeries]]:
-        """Of every loose bearing."""
+        """The sections of every clearance bearing."""
         memories = iter(np.moveaxis(self.history.memory, 1, 0))
         return {
             name: [self._section(pin, memory) for pin, memory in zip(group, memories, strict=False)]
@@ -79,7 +79,7 @@ class Observation:
         }
 
     def contacts_of(self, pin: str) -> list[ContactSeries]:
-        """Of all sections of the bearings that make up a loose pin."""
+        """The contacts of all sections of the bearings that make up a clearance pin."""
         bearings = self.scene.linkage.bearings
         groups = [group for name, group in self.sections.items() if bearings[name].pin == pin]
         return [section.contact for group in groups for section in group]
@@ -105,7 +105,7 @@ class Observation:
 
     @cached_property
     def oil(self) -> dict[str, OilSeries]:
-        """Of every column of oil."""
+        """Every column of oil over time."""
         return {name: self._oil(name) for name in self.scene.oil_columns}
 
     def _oil(self, name: str) -> OilSeries:
@@ -119,7 +119,7 @@ class Observation:
         return OilSeries(filled.force(*moving), filled.energy(length, extension), *filled.powers(*moving))
 
     def span(self, column: str) -> tuple[Series, Series]:
-        """From foot to head of a column, and its rate, (n, 3) each."""
+        """The vector from foot to head of a column, and its rate, (n, 3) each."""
         strut = self.scene.linkage.columns[column]
         foot = self.motion.point(strut.foot, strut.foot_point)
         head = self.motion.point(strut.head, strut.head_point)
@@ -127,7 +127,7 @@ class Observation:
 
     @cached_property
     def accelerations(self) -> Series:
-        """Of the centres and rates of the spins of all bodies, (n, b, 6) [m/s^2], [rad/s^2]."""
+        """Accelerations of centres and rates of spins of all bodies, (n, b, 6) [m/s^2], [rad/s^2]."""
         scenario = self.scene.scenario
         driven = np.zeros((self.motion.count, len(self.scene.rows)))
         for place, row in enumerate(self.scene.rows):
@@ -210,13 +210,13 @@ class Observation:
 
     @cached_property
     def potential(self) -> Series:
-        """Of weight [J], zero in the start posture."""
+        """Potential energy of weight [J], zero in the start posture."""
         forces = weight(self.scene.linkage, self.scene.gravity).reshape(-1, 6)[:, :3]
         return np.asarray(-np.einsum("bi,nbi->n", forces, self.motion.displacement))
 
     @cached_property
     def stored(self) -> Series:
-        """In contacts and oil [J]."""
+        """Energy stored in contacts and oil [J]."""
         found = np.zeros_like(self.time)
         for oil in self.oil.values():
             found = found + oil.energy

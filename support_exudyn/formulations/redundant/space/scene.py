@@ -96,7 +96,7 @@ class SpatialScene(EngineScene):
         return np.concatenate([np.arange(b.first, b.first + COORDINATES) for b in self.bodies.values()])
 
     def motion(self, state: Any = CURRENT) -> SpatialMotion:
-        """Of all bodies now."""
+        """The motion of all bodies in a state of the engine."""
         data = self.mbs.systemData
         position, velocity = data.GetODE2Coordinates(state), data.GetODE2Coordinates_t(state)
         return motion_of(self.linkage, position[self.order], velocity[self.order])
@@ -106,7 +106,7 @@ class SpatialScene(EngineScene):
         return SpatialKinetics(self.motion(state), self.rows)
 
     def mobilities(self, name: str, state: Any = CURRENT) -> Mobilities:
-        """Of the middle of a loose bearing's journal, in the axes of its bore, for the law of its whole pin.
+        """How the middle of a bearing's journal answers impulses, in its bore's axes, for its pin's law.
 
         A bearing of a pair has a share of its pin's force and energy, so the law of the pin is told the mass
         over that share. Bearings of the pin that are pressed move together: with both, it is the whole energy

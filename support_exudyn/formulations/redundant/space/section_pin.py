@@ -38,7 +38,7 @@ class BodyState(NamedTuple):
 
     @staticmethod
     def of(centre: Vector3, q: list[float], v: list[float]) -> BodyState:
-        """From where the centre is at the start [m] and the body's seven coordinates and their rates."""
+        """The state that follows from the start [m] of the centre, and the body's coordinates and rates (7)."""
         a, b, c, d = 1.0 + q[3], q[4], q[5], q[6]
         ta, tb, tc, td = v[3:7]
         rows = (
@@ -94,7 +94,7 @@ class SectionEnd(NamedTuple):
         return x + shift * ax, y + shift * ay, z + shift * az
 
     def state(self, position: list[float], velocity: list[float]) -> BodyState:
-        """Of its body."""
+        """The state of its body."""
         if self.first is None:
             return GROUND_STATE
         which = slice(self.first, self.first + 7)
@@ -124,7 +124,7 @@ class SectionMover:
         return self.data.GetODE2Coordinates().tolist(), self.data.GetODE2Coordinates_t().tolist()
 
     def when(self, position: list[float], velocity: list[float]) -> tuple[Motion, Motion]:
-        """The same at other coordinates."""
+        """The motions of bore and journal at these coordinates and rates."""
         bore, journal = self.bore.state(position, velocity), self.journal.state(position, velocity)
         apart, rates = self._apart(bore, journal)
         along = bore.turned(self.bore.along)
@@ -138,7 +138,7 @@ class SectionMover:
         return (0.0, 0.0, 0.0, 0.0, 0.0, spin), (x, y, vx, vy, turn, spin + turning)
 
     def _apart(self, bore: BodyState, journal: BodyState) -> tuple[Vector, Vector]:
-        """From the bore's section to the journal's, and its rate, ground's axes."""
+        """The vector from the bore's section to the journal's, and its rate, ground's axes."""
         (bx, by, bz), (bvx, bvy, bvz) = bore.point(self.bore.beside(self.shifts[0]))
         (jx, jy, jz), (jvx, jvy, jvz) = journal.point(self.journal.beside(self.shifts[1]))
         return (jx - bx, jy - by, jz - bz), (jvx - bvx, jvy - bvy, jvz - bvz)
@@ -213,13 +213,13 @@ class Journal:
         self._mobilities = self._place = None
 
     def mobilities(self) -> Mobilities:
-        """Of the middle of the journal, in the axes of its bore."""
+        """How the middle of the journal answers impulses, in the axes of its bore."""
         if self._mobilities is None:
             self._mobilities = self._find_mobilities()
         return self._mobilities
 
     def place(self) -> Vector2:
-        """Of the middle of the journal in its bore, in the bore's axes [m]."""
+        """The place of the journal's middle in its bore, in the bore's axes [m]."""
         if self._place is None:
             _, (x, y, *_) = self.moving.now()
             self._place = x, y
