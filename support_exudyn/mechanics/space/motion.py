@@ -111,7 +111,7 @@ class SpatialMotion:
 
 
 def motion_of(linkage: SpatialLinkage, position: Series, velocity: Series) -> SpatialMotion:
-    """The motion from the engine's coordinates, shape (n, 7 bodies) or (7 bodies,), in the order of the linkage."""
+    """The motion from coordinates of shape (n, 7 bodies) or (7 bodies,), in the order of the linkage."""
     shape = (-1, len(linkage.bodies), COORDINATES)
     q, v = np.reshape(position, shape), np.reshape(velocity, shape)
     p = q[..., 3:] + UNTURNED

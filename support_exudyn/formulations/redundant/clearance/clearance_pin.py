@@ -246,7 +246,7 @@ class LoosePin:
         return friction.swing_time(self._alone_here.mass(-y, x), force / self.share)
 
     def begin_impact(self) -> None:
-        """Let the depth of a closed pin swing from now on: at the start, or after a jump of the drive's speed."""
+        """Let the depth of a closed pin swing from now on: at the start, or after a jump of speed."""
         if self.locates and self.kept.depth > 0.0:
             self.impact.begin(self.kept.depth, self.kept.rate, self._find_least_mass())
 
