@@ -5,6 +5,13 @@ from __future__ import annotations
 import math
 
 from support_exudyn.formulations.compiled import compiled
+from support_exudyn.formulations.peak_force import (
+    GOLDEN,
+    NARROWINGS,
+    NEAR_PEAK,
+    NEAR_TOP,
+    PEAK_SAMPLES,
+)
 from support_exudyn.formulations.reduced.equations import observe, within
 from support_exudyn.formulations.reduced.layout import (
     ACCELERATION,
@@ -20,13 +27,6 @@ from support_exudyn.formulations.reduced.layout import (
     Matrix,
     Vector,
     driven,
-)
-from support_exudyn.formulations.peak_force import (
-    GOLDEN,
-    NARROWINGS,
-    NEAR_PEAK,
-    NEAR_TOP,
-    PEAK_SAMPLES,
 )
 
 
