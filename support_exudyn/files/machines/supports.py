@@ -70,13 +70,13 @@ def masses(columns: Mapping[str, str]) -> Names:
 
 def widths(columns: Mapping[str, str]) -> Names:
     """The lateral dimensions that a support has; columns: names, with what they are."""
-    cylinders = {
-        f"{name}_{part}": f"{part} of the {columns[name]}" for name in columns for part in ("cylinder", "rod")
-    }
+    bodies = {**BODY_NAMES, TAIL: "tail beam"}
+    for name, told in columns.items():
+        bodies |= {f"{name}_{part}": f"{part} of the {told}" for part in ("cylinder", "rod")}
+    evenly = "width over which its mass is spread evenly; of a pair, of each"
     return Names(
         {
-            # widths over which masses are spread evenly; of a pair, of each
-            "bodies": {**BODY_NAMES, TAIL: "tail beam", **cylinders},
+            "bodies": {name: f"{told}: {evenly}" for name, told in bodies.items()},
             "pairs": {"front_link": "distance of the two front links"},
             "columns": {name: f"distance of the two {told}" for name, told in columns.items()},
             "pins": dict.fromkeys((*PINS, "shield_tail"), "length of the pin"),
