@@ -14,6 +14,7 @@ from studies.claims.plausible import REFERENCE, Sample
 from studies.claims.plausible_runs import LOOSE
 from studies.claims.verdicts import NEARLY_ALL, Ruling
 from studies.common import paper_machine
+from studies.common.panels import legend
 from studies.common.paper_machine import SIZES_MM
 from support_exudyn.postprocessing.figures import style
 
@@ -115,7 +116,7 @@ def ripple_figure(reference: Evidence, machines: Machines) -> Figure:
     right.xaxis.set_major_locator(LogLocator(subs=(1.0, 3.0)))
     right.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
     right.xaxis.set_minor_formatter(NullFormatter())
-    drawing.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=3)
+    legend(drawing, left, 3)
     drawing.suptitle("What shakes the pin during the rise, 1.5 mm")
     return drawing
 

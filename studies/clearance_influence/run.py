@@ -15,6 +15,7 @@ from matplotlib.figure import Figure
 
 from studies.common import paper_machine, rise
 from studies.common.numbers import Number, by_case, compared, counted, measured, printed, rounded
+from studies.common.panels import WINDOWS, fit_height, legend
 from studies.common.runs import run_cases, touches
 from studies.common.study import Options, Outcome, Study
 from studies.common.words import Table
@@ -27,7 +28,6 @@ DRY = f"{CLEARANCE_MM} mm, mu_d = {paper_machine.SLIDING_COEFFICIENT}"
 SMOOTH = f"{CLEARANCE_MM} mm, mu_d = 0"
 CASES = (IDEAL, SMOOTH, DRY)
 STEP = 1e-3  # [s], which the accuracy does not use
-WINDOWS = {"early": (3.0, 3.12), "middle": (4.0, 4.12), "late": (4.6, 4.72)}  # enlarged in Fig. 3 [s]
 
 
 def scenarios(quick: bool) -> dict[str, Scenario]:
@@ -190,9 +190,9 @@ def _velocity_figure(results: Mapping[str, Result]) -> Figure:
     panels[0, 0].set_xlim(0.0, 5.0)
     for axes, window in zip(list(panels.flat)[1:], WINDOWS.values(), strict=True):
         axes.set_xlim(*window)
-        _fit_height(axes, window, [velocity_deg(results[c]) for c in CASES], results[IDEAL].time)
+        fit_height(axes, (velocity_deg(r)[rise.between(r, *window)] for r in results.values()))
         panels[0, 0].axvspan(*window, color="#eeeeee", zorder=0)
-    _legend(drawing, panels[0, 0])
+    legend(drawing, panels[0, 0], 3)
     drawing.suptitle("Angular velocity of the rear link (paper: Fig. 3). Grey in a): enlarged in b) to d)")
     return drawing
 
@@ -208,26 +208,11 @@ def _line_figure(
         axes.set(xlabel="time [s]", ylabel=label)
     whole.set(xlim=(0.0, 5.0), title="a) 0 to 5 s, start with the journal in the middle of its bore")
     part.set(xlim=(rise.START, rise.END), title="b) the rise, 3 to 5 s")
-    values = [scale * get(results[c]) for c in CASES]
-    _fit_height(part, (rise.START + 1e-3, rise.END - 1e-3), values, results[IDEAL].time)
-    _legend(drawing, whole)
+    inside = rise.START + 1e-3, rise.END - 1e-3
+    fit_height(part, (scale * get(r)[rise.between(r, *inside)] for r in results.values()))
+    legend(drawing, whole, 3)
     drawing.suptitle(title)
     return drawing
-
-
-def _legend(drawing: Figure, axes: Axes) -> None:
-    """One legend for all panels, below them."""
-    drawing.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=3)
-
-
-def _fit_height(
-    axes: Axes, window: tuple[float, float], curves: Sequence[rise.Series], times: rise.Series
-) -> None:
-    inside = (times >= window[0]) & (times <= window[1])
-    low = min(curve[inside].min() for curve in curves)
-    high = max(curve[inside].max() for curve in curves)
-    margin = 0.05 * (high - low)
-    axes.set_ylim(low - margin, high + margin)
 
 
 # --- table ---

@@ -4,19 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from studies.common import paper_machine, rise
 from studies.common.numbers import Number, by_case
+from studies.common.panels import WINDOWS, fit_height, legend
 from studies.common.paper_machine import SIZES_MM, case_name
 from support_exudyn import Result
 from support_exudyn.postprocessing.figures import style
 
 COLOURS = {0.5: "#009E73", 1.0: "#E69F00", 1.5: "#0072B2", 2.0: "#CC79A7"}  # Okabe and Ito
 DASHES = {0.5: "-", 1.0: (0, (5, 1)), 1.5: (0, (3, 1, 1, 1)), 2.0: (0, (1, 1))}  # for grey prints
-WINDOWS = {"early": (3.0, 3.12), "middle": (4.0, 4.12), "late": (4.6, 4.72)}  # enlarged in Fig. 6 [s]
 MU = paper_machine.SLIDING_COEFFICIENT
 
 
@@ -48,7 +47,7 @@ def velocity_figure(results: Mapping[str, Result]) -> Figure:
         axes.set(title=f"{letter}) {name}", xlabel="time [s]", ylabel="angular velocity [deg/s]")
     for span in WINDOWS.values():
         panels[0, 0].axvspan(*span, color="#eeeeee", zorder=0)
-    _legend(drawing, panels[0, 0])
+    legend(drawing, panels[0, 0], 5)
     drawing.suptitle(f"Angular velocity of the rear link, friction {MU} (paper: Fig. 6)")
     return drawing
 
@@ -97,7 +96,7 @@ def tip_path_figure(results: Mapping[str, Result]) -> Figure:
     near.set(xlim=(x.min() - 7.0, x.max() + 1.0), ylim=(y.min(), y.max()))
     whole.set_title("a) the rise")
     near.set_title("b) 3.9 to 4.1 s")
-    _legend(drawing, whole)
+    legend(drawing, whole, 5)
     drawing.suptitle(f"Path of the canopy's tip, friction {MU} (paper: Fig. 9)")
     return drawing
 
@@ -117,7 +116,7 @@ def tip_shift_figure(results: Mapping[str, Result]) -> Figure:
         title="b) against the ideal pin (minus: towards the rear link)", ylabel="shift [mm]", xlabel="time [s]"
     )
     shift.set(xlim=(rise.START, rise.END), ylim=(None, 0.0))
-    _legend(drawing, place)
+    legend(drawing, place, 5)
     drawing.suptitle(f"Horizontal position of the canopy's tip, friction {MU} (paper: Fig. 10)")
     return drawing
 
@@ -140,7 +139,7 @@ def angle_figure(results: Mapping[str, Result]) -> Figure:
         whole.set(title=f"{'ab'[n]}) {name}", ylabel="angle [deg]")
         change.set(title=f"{'cd'[n]}) {name}, against the ideal pin", ylabel="change of angle [deg]")
         change.set(xlabel="time [s]", ylim=(None, 0.0), xlim=(rise.START, rise.END))
-    _legend(drawing, panels[0, 0])
+    legend(drawing, panels[0, 0], 5)
     drawing.suptitle(f"Columns' angles from the rearward horizontal, friction {MU} (paper: Fig. 11, 12)")
     return drawing
 
@@ -174,7 +173,7 @@ def trend_figure(numbers: Sequence[Number]) -> Figure:
         axes.set_title(f"{letter}) {label}", fontsize=8)
         axes.set_xticks(SIZES_MM)
         axes.margins(y=0.15)
-    drawing.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
+    legend(drawing, panels[0, 0], 3)
     for axes in panels[1]:
         axes.set_xlabel("clearance [mm]")
     drawing.suptitle("The rise over the clearance (paper: Table 3)")
@@ -192,15 +191,8 @@ def _cases() -> list[tuple[str, str, object, str]]:
 def _curves(
     axes: Axes, results: Mapping[str, Result], channel: str, scale: float, span: tuple[float, float]
 ) -> None:
-    low, high = np.inf, -np.inf
     for case, colour, dashes, label in _cases():
         run = results[case]
-        values = scale * run[channel]
-        axes.plot(run.time, values, color=colour, ls=dashes, lw=0.9, label=label)
-        inside = values[rise.between(run, *span)]
-        low, high = min(low, inside.min()), max(high, inside.max())
-    axes.set(xlim=span, ylim=(low - 0.05 * (high - low), high + 0.05 * (high - low)))
-
-
-def _legend(drawing: Figure, axes: Axes) -> None:
-    drawing.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=5)
+        axes.plot(run.time, scale * run[channel], color=colour, ls=dashes, lw=0.9, label=label)
+    axes.set(xlim=span)
+    fit_height(axes, (scale * results[c][channel][rise.between(results[c], *span)] for c, *_ in _cases()))

@@ -6,12 +6,12 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 import numpy.typing as npt
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
 from studies.common import rise
 from studies.common.numbers import Number, by_case
+from studies.common.panels import fit_height, legend
 from studies.contact_laws.cases import ASKED, LOOP_RESTITUTION, SPEED, TEXTBOOK
 from studies.contact_laws.catalogue import POWER_LAWS, title
 from studies.contact_laws.free_impact import PIN
@@ -119,17 +119,12 @@ def permanent_figure(results: Mapping[str, Result]) -> Figure:
             axes.plot(result.time, 1e-3 * result[rise.FORCE], color=colour, ls=dashes, lw=0.9, label=label)
         axes.set(xlim=(begin, end), xlabel="time [s]", ylabel="pin force [kN]")
     inside = [results[c][rise.FORCE][(results[c].time > 0.5) & (results[c].time < 1.5)] for c, *_ in curves]
-    _fit(rest, [1e-3 * force for force in inside])
+    fit_height(rest, (1e-3 * force for force in inside))
     whole.set_title("a) the fall into the bore")
     rest.set_title("b) what is left of it")
-    drawing.legend(*whole.get_legend_handles_labels(), loc="outside lower center", ncols=1)
+    legend(drawing, whole, 1)
     drawing.suptitle("Lankarani-Nikravesh in the support: a contact that does not part, three ways to damp it")
     return drawing
-
-
-def _fit(axes: Axes, curves: Sequence[Series]) -> None:
-    low, high = min(c.min() for c in curves), max(c.max() for c in curves)
-    axes.set_ylim(low - 0.05 * (high - low), high + 0.05 * (high - low))
 
 
 def row_title(case: str) -> str:

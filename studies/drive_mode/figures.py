@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from studies.common import rise
+from studies.common.panels import legend
 from studies.drive_mode.cases import END, PINS, case_name
 from studies.drive_mode.cases import MODES as DRIVES
 from studies.drive_mode.measures import extension
@@ -82,7 +83,7 @@ def start_figure(results: Mapping[str, Result]) -> Figure:
             inside = rise.between(run, 2.95, 3.4)
             axes.plot(run.time[inside], 1e-3 * run[channel][inside], color=colour, ls=dashes, lw=0.9, label=pin)
         axes.set(title=f"{letter}) {name}", xlabel="time [s]", ylabel="force [kN]", xlim=(2.95, 3.4))
-    drawing.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=2)
+    legend(drawing, panels[0], 2)
     drawing.suptitle("Mode 1 starts: forces on columns of oil")
     return drawing
 

@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from studies.common import rise
+from studies.common.panels import legend
 from studies.scene_detail.measures import Change, Measured, times_as_long
 from studies.scene_detail.scenes import (
     CLEARANCE_MM,
@@ -210,5 +211,5 @@ def space_figure(runs: Mapping[str, Result]) -> Figure:
         below.set_xlabel("time [s]")
     panels[0, 0].set_ylabel("rear pin force [kN]")
     panels[1, 0].set_ylabel("apart [N]")
-    drawing.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=2)
+    legend(drawing, panels[0, 0], 2)
     return drawing

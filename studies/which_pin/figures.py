@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 
 from studies.common import paper_machine
 from studies.common.numbers import Found
+from studies.common.panels import legend
 from studies.which_pin.cases import ALL
 from studies.which_pin.posture import UnderLoad
 from support_exudyn.machines.four_bar_shield import PINS
@@ -153,7 +154,7 @@ def shaking_figure(found: Found) -> Figure:
         axes.axhline(scale * found[name, "ideal"].value, color=style.IDEAL, ls=(0, (4, 2)), label="ideal pins")
         axes.set_yscale("log")
         axes.set_title(title)
-    drawing.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
+    legend(drawing, panels[0], 3)
     drawing.suptitle("Ripple in the rise with 1.5 mm in a pin")
     return drawing
 
@@ -173,6 +174,6 @@ def load_figure(under_loads: Mapping[str, UnderLoad]) -> Figure:
     for axes in panels[1]:
         axes.set_xlabel("extension [mm]")
     drawing.supylabel("tip forward [mm]", fontsize=9)
-    drawing.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=5)
+    legend(drawing, panels[0, 0], 5)
     drawing.suptitle("Shift of the tip by 1.5 mm in a pin under other loads (virtual work)")
     return drawing
