@@ -251,7 +251,7 @@ def test_an_interruption_while_libraries_load_is_said_in_a_line(
     def interrupted() -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("support_exudyn.commands.parser", interrupted)
+    monkeypatch.setattr("support_exudyn.commands.parser.parser", interrupted)
     assert main(["show", "run.h5"]) == 130
     assert capsys.readouterr().err.startswith("interrupted")
 

@@ -35,12 +35,8 @@ class Layout:
         self.line: Box = (margin, 0, right, top)
         self.picture: Box = (0, top, right - aside - margin if has_panel else width, bottom)
         self.panel: Box = (right - aside, top, right, bottom)
-        self.strip: Box = (
-            margin + round(58 * u),
-            bottom + round(28 * u),
-            right - margin,
-            height - round(30 * u),
-        )
+        left = margin + round(58 * u)
+        self.strip: Box = (left, bottom + round(28 * u), right - margin, height - round(30 * u))
 
 
 class Painter:
