@@ -1,9 +1,9 @@
 """A hypercube in processes that are there to be killed: the script of test_hypercube.py.
 
-It reads lines "METHOD FOLDER". For each it starts a process with a session of its own that runs the hypercube
-into that folder, and prints the process's id and, when it has ended, its exit code. METHOD is how that process
-starts its workers: "spawn", as every run does, or "fork", which spares them the seconds of importing everything
-again. The process itself is forked for the same reason; it ends by SIGKILL as any other.
+It reads lines "METHOD MACHINES FOLDER". For each it starts a process with a session of its own that runs the
+hypercube into that folder, and prints the process's id and, when it has ended, its exit code. METHOD is how
+that process starts its workers: "spawn", as every run does, or "fork", which spares them the seconds of
+importing everything again. The process itself is forked for the same reason; it ends by SIGKILL as any other.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import os
 import sys
 from pathlib import Path
 
-MACHINES, SEED = 12, 1
+SEED = 1
 WORKERS = 2
 PROGRAM = "this program"  # in place of the digest of its sources, which may be edited while the tests run
 
@@ -26,9 +26,9 @@ def main() -> None:
 
     hypercube._program = lambda: PROGRAM  # type: ignore[assignment]
     warm_up()
-    machines = plausible.samples(MACHINES, SEED)
     for line in sys.stdin:
-        method, _, folder = line.rstrip("\n").partition(" ")
+        method, count, folder = line.rstrip("\n").split(" ", 2)
+        machines = plausible.samples(int(count), SEED)
         process = os.fork()
         if not process:
             os.setsid()

@@ -12,13 +12,12 @@ import pytest
 from studies.claims import run as study
 from studies.claims.claim_list import CLAIMS
 from studies.common.chapter import Chapter
+from tests.studies.forms import FORMS, ROUGH, written
 
 
-@pytest.fixture(scope="module")
-def out(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("results")
-    assert study.main(["--quick", "--out", str(folder), "--workers", "2"]) == 0
-    return folder
+@pytest.fixture(scope="module", params=FORMS)
+def out(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return written("claims", request.param, tmp_path_factory.mktemp("results"))
 
 
 @pytest.fixture(scope="module")
@@ -85,14 +84,13 @@ def test_every_machine_is_a_row_with_its_data_and_judgements(out: Path) -> None:
 def test_a_finished_hypercube_is_not_run_again(out: Path, capsys: pytest.CaptureFixture[str]) -> None:
     before = {path: path.stat().st_mtime_ns for path in (out / "machines").iterdir()}
     text = (out / "table.txt").read_text(encoding="utf-8")
-    assert study.main(["--quick", "--out", str(out), "--workers", "1"]) == 0
+    written("claims", ROUGH, out)
     assert {path: path.stat().st_mtime_ns for path in (out / "machines").iterdir()} == before
     assert (out / "table.txt").read_text(encoding="utf-8") == text
 
 
 def test_the_number_of_machines_is_a_parameter(tmp_path: Path) -> None:
-    arguments = ["--quick", "--machines", "2", "--out", str(tmp_path), "--workers", "1"]
-    assert study.main(arguments) == 0
+    written("claims", ROUGH, tmp_path, machines=2)
     assert len(list((tmp_path / "machines").iterdir())) == 2
 
 

@@ -135,6 +135,7 @@ def test_impacts_at_the_start_exceed_the_load_several_times(
         assert numbers["largest_pin_force", case]["value"] > 7.0 * 58778.944
 
 
+@pytest.mark.slow  # the engine takes seconds a run; formulations are compared by short runs elsewhere
 def test_printed_errors_cover_the_distance_from_another_formulation(
     out: Path, numbers: dict[tuple[str, str], dict[str, Any]]
 ) -> None:

@@ -15,6 +15,7 @@ from studies.common import rise
 from studies.common.chapter import Chapter
 from support_exudyn import Result
 from tests.studies.another_way import by_a_tight_run, off
+from tests.studies.forms import FORMS, written
 
 DRY = [study.case_name(size, study.FRICTIONS[0]) for size in study.SIZES_MM]
 SMOOTH = [study.case_name(size, 0.0) for size in study.QUICK_SMOOTH_MM]
@@ -22,11 +23,9 @@ SMOOTH = [study.case_name(size, 0.0) for size in study.QUICK_SMOOTH_MM]
 Numbers = dict[tuple[str, str], dict[str, Any]]
 
 
-@pytest.fixture(scope="module")
-def out(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("results")
-    assert study.main(["--quick", "--out", str(folder), "--workers", "2"]) == 0
-    return folder
+@pytest.fixture(scope="module", params=FORMS)
+def out(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return written("clearance_size", request.param, tmp_path_factory.mktemp("results"))
 
 
 @pytest.fixture(scope="module")

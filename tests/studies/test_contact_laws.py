@@ -17,19 +17,18 @@ from studies.contact_laws import catalogue
 from studies.contact_laws import run as study
 from studies.contact_laws.free_impact import delivered_restitution, free_impact
 from support_exudyn import Result, simulate
+from tests.studies.forms import FORMS, on_the_quick_form, written
 from user_forces import FrictionLaw, Frictionless, NormalLaw, TouchSpeed
 
 RISES = ("exact", "lankarani_nikravesh")
 
 
-@pytest.fixture(scope="module")
-def out(tmp_path_factory: pytest.TempPathFactory) -> Path:
+@pytest.fixture(scope="module", params=FORMS)
+def out(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The quick form with four rises."""
-    folder = tmp_path_factory.mktemp("results")
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(contact_law_cases, "QUICK_RISE", RISES)
-        assert study.main(["--quick", "--out", str(folder), "--workers", "2"]) == 0
-    return folder
+        return written("contact_laws", request.param, tmp_path_factory.mktemp("results"))
 
 
 @pytest.fixture(scope="module")
@@ -68,6 +67,7 @@ def test_every_law_rises_in_the_full_form_and_is_tried_in_impacts() -> None:
     assert textbook == [TouchSpeed(floor=1e-3), TouchSpeed(floor=0.1)]
 
 
+@on_the_quick_form
 def test_restitution_cases_are_named_as_agreed_and_right(
     numbers: dict[tuple[str, str], dict[str, Any]],
 ) -> None:

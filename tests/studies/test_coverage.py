@@ -19,7 +19,7 @@ from studies.benchmarking.fresh_scenes import KINDS, RECORDS, Fresh, fresh
 from support_exudyn import Estimate, Failure, Result, Scenario, SimulationError, simulate
 from support_exudyn.simulation.reported_numbers import measures
 from support_exudyn.sweeps.workers import Workers
-from tests.studies.test_hypercube import Here
+from tests.at_once import AtOnce
 
 FORCE = "pin.rear_base.force.mean"
 CRANK = fresh(19, list(KINDS).index("slider-crank"))  # an eighth of a turn, without friction
@@ -177,7 +177,7 @@ def test_offenders_are_told_with_their_scene_the_worst_first() -> None:
 
 @pytest.fixture
 def chosen(tmp_path: Path) -> Chosen:
-    return Chosen(3, 2, None, tmp_path, Workers(Here(), [0.0] * 10))
+    return Chosen(3, 2, None, tmp_path, Workers(AtOnce(), [0.0] * 10))
 
 
 @pytest.fixture

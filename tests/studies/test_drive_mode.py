@@ -10,20 +10,18 @@ from typing import Any
 import pytest
 
 from studies.common.chapter import Chapter
-from studies.drive_mode import run as study
 from studies.drive_mode.cases import COLUMNS, MODES, PINS, case_name, naive_peaks
 from studies.drive_mode.tables import CONVERGES, verdict
+from tests.studies.forms import FORMS, written
 
 IDEAL, LOOSE = PINS
 
 Numbers = dict[tuple[str, str], dict[str, Any]]
 
 
-@pytest.fixture(scope="module")
-def out(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("results")
-    assert study.main(["--quick", "--out", str(folder), "--workers", "2"]) == 0
-    return folder
+@pytest.fixture(scope="module", params=FORMS)
+def out(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return written("drive_mode", request.param, tmp_path_factory.mktemp("results"))
 
 
 @pytest.fixture(scope="module")

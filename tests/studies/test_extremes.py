@@ -29,8 +29,8 @@ from support_exudyn.simulation.contact_ringing import ringing_step
 from support_exudyn.simulation.reported_numbers import measured
 from support_exudyn.sweeps import workers
 from support_exudyn.sweeps.workers import CONTEXT, Workers, worker_pool
+from tests.at_once import AtOnce
 from tests.hostile import posix_only
-from tests.studies.test_hypercube import Here
 from user_forces import InputError
 
 Run = Callable[[Scenario], Result]
@@ -458,7 +458,7 @@ def out(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
     @contextmanager
     def here(workers: int | Workers) -> Iterator[Workers]:
         assert workers == 2
-        yield Workers(Here(), CONTEXT.Array("d", 4096, lock=False))
+        yield Workers(AtOnce(), CONTEXT.Array("d", 4096, lock=False))
 
     folder = tmp_path_factory.mktemp("results")
     with pytest.MonkeyPatch.context() as patch:

@@ -11,13 +11,12 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator, Mapping
-from concurrent.futures import Executor, Future
 from contextlib import contextmanager
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any
+from typing import Any, NamedTuple
 
 import pytest
 
@@ -28,7 +27,8 @@ from studies.claims.plausible import FACTORS, REFERENCE, Choice, samples
 from studies.claims.plausible_runs import CASES, measures
 from studies.common.words import Words
 from support_exudyn import Failure, SimulationError
-from support_exudyn.sweeps.workers import CONTEXT, Workers
+from support_exudyn.sweeps.workers import Workers
+from tests.at_once import at_once
 from tests.cases.evidence_cases import data, right
 from tests.hostile import left_behind, with_own_files
 from tests.processes import ROOT, environment, linux_only, session_of, wait_until
@@ -36,11 +36,7 @@ from tests.studies import hypercube_main
 from user_forces import InputError
 
 SOON = 10.0  # [s]; what ends at once has ended by then, on a busy machine too
-KILLS, SPAWNED = (
-    10,
-    4,
-)  # the first have spawned workers, as every run does; the others forked ones, in less time
-SEED = 2026  # of the moments
+SEED = 2031  # of the moments
 
 Marks = dict[str, tuple[int, int]]  # of files: what changes if one is written again
 
@@ -70,9 +66,9 @@ class Starter:
         assert process.stdout is not None
         self._say, self._hear = process.stdin, process.stdout
 
-    def start(self, out: Path, method: str = "spawn") -> int:
+    def start(self, out: Path, machines: int, method: str = "spawn") -> int:
         """A process that runs into this folder, and starts its workers so."""
-        self._say.write(f"{method} {out}\n")
+        self._say.write(f"{method} {machines} {out}\n")
         self._say.flush()
         return int(self._hear.readline())
 
@@ -92,10 +88,22 @@ def starter() -> Iterator[Starter]:
             process.kill()
 
 
+class Often(NamedTuple):
+    """How many machines there are, and how often they are killed.
+
+    The first runs have spawned workers, as every run does; the others forked ones, in less time.
+    """
+
+    machines: int
+    kills: int
+    spawned: int
+
+
 @dataclass(frozen=True)
 class Story:
     """What became of a run that was killed again and again, and of one that was left alone."""
 
+    often: Often
     whole: Path
     killed: Path
     exit_codes: list[int]
@@ -103,25 +111,26 @@ class Story:
     finished: list[Marks]  # what was there after each kill
 
 
-@pytest.fixture(scope="module")
-def story(tmp_path_factory: pytest.TempPathFactory) -> Story:
+@pytest.fixture(scope="module", params=[Often(6, 4, 1), pytest.param(Often(12, 10, 4), marks=pytest.mark.slow)])
+def story(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Story:
+    often: Often = request.param
     whole, killed = tmp_path_factory.mktemp("whole"), tmp_path_factory.mktemp("killed")
     machines = killed / hypercube.FOLDER
     chance = random.Random(SEED)
-    found = Story(whole, killed, [], [], [])
+    found = Story(often, whole, killed, [], [], [])
     processes: list[int] = []
     with starter() as script:
         try:
             began = time.monotonic()
-            processes.append(script.start(whole))
+            processes.append(script.start(whole, often.machines))
             assert wait_until(lambda: bool(marks(whole / hypercube.FOLDER)), 60.0)
             work_began = time.monotonic()
             assert script.exit_code() == 0
-            few = 4.0 * (time.monotonic() - work_began) / hypercube_main.MACHINES  # time for so many machines
+            few = 4.0 * (time.monotonic() - work_began) / often.machines  # time for so many machines
             latest = {"spawn": work_began - began + few, "fork": few}
-            for n in range(KILLS):
-                method = "spawn" if n < SPAWNED else "fork"
-                processes.append(script.start(killed, method))
+            for n in range(often.kills):
+                method = "spawn" if n < often.spawned else "fork"
+                processes.append(script.start(killed, often.machines, method))
                 # at a moment that is drawn, or as soon as so many are finished that the last might be too
                 enough = n + 1
                 wait_until(lambda: len(marks(machines)) >= enough, chance.uniform(0.0, latest[method]))  # noqa: B023
@@ -130,7 +139,7 @@ def story(tmp_path_factory: pytest.TempPathFactory) -> Story:
                 wait_until(lambda: not session_of(processes[-1]), SOON)
                 found.left_over.append(session_of(processes[-1]))
                 found.finished.append(marks(machines))
-            processes.append(script.start(killed, "fork"))
+            processes.append(script.start(killed, often.machines, "fork"))
             found.exit_codes.append(script.exit_code())
         finally:
             for process in processes:
@@ -141,22 +150,22 @@ def story(tmp_path_factory: pytest.TempPathFactory) -> Story:
 
 @linux_only
 class TestKilled:
-    """Ten times, at moments that are drawn."""
+    """Several times, at moments that are drawn."""
 
     def test_it_gives_the_same_bytes_as_if_left_alone(self, story: Story) -> None:
-        assert story.exit_codes == [-signal.SIGKILL] * KILLS + [0]
+        assert story.exit_codes == [-signal.SIGKILL] * story.often.kills + [0]
         whole, killed = contents(story.whole / hypercube.FOLDER), contents(story.killed / hypercube.FOLDER)
-        assert len(whole) == hypercube_main.MACHINES
+        assert len(whole) == story.often.machines
         assert killed == whole
 
     def test_no_process_survives_its_parent(self, story: Story) -> None:
-        assert story.left_over == [set()] * KILLS
+        assert story.left_over == [set()] * story.often.kills
 
     def test_finished_machines_are_not_run_again(self, story: Story) -> None:
         finished = [*story.finished, marks(story.killed / hypercube.FOLDER)]
         counts = [len(found) for found in finished]
         assert counts == sorted(counts)
-        assert 0 < counts[-2] < counts[-1] == hypercube_main.MACHINES  # some before the last start, some after
+        assert 0 < counts[-2] < counts[-1] == story.often.machines  # some before the last start, some after
         for earlier, later in pairwise(finished):
             assert earlier.items() <= later.items()
 
@@ -165,7 +174,7 @@ class TestKilled:
     ) -> None:
         monkeypatch.setattr(hypercube, "_program", lambda: hypercube_main.PROGRAM)
         monkeypatch.setattr(hypercube, "worker_pool", lambda *_: pytest.fail("all is there"))
-        machines = samples(hypercube_main.MACHINES, hypercube_main.SEED)
+        machines = samples(story.often.machines, hypercube_main.SEED)
         told: list[tuple[int, int]] = []
         tables = []
         for out in (story.whole, story.killed):
@@ -174,29 +183,17 @@ class TestKilled:
             claims.write_machines(tmp_path / "machines.csv", rows)
             tables.append((tmp_path / "machines.csv").read_bytes())
         assert tables[0] == tables[1]
-        assert set(told) == {(hypercube_main.MACHINES, hypercube_main.MACHINES)}
+        assert set(told) == {(story.often.machines, story.often.machines)}
 
     def test_a_machine_is_the_same_in_any_process(self, story: Story, monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.setattr(hypercube, "_program", lambda: hypercube_main.PROGRAM)
-        for sample in samples(hypercube_main.MACHINES, hypercube_main.SEED)[:2]:
+        for sample in samples(story.often.machines, hypercube_main.SEED)[:2]:
             kept = json.loads((story.whole / hypercube.FOLDER / f"{hypercube.key(sample)}.json").read_bytes())
             assert kept["sample"] == sample
             assert kept["measures"] == measures(sample)  # to the last bit
 
 
 # --- in this process ---
-
-
-class Here(Executor):
-    """Does the work at once, where it is asked for."""
-
-    def submit(self, work: Callable[..., Any], /, *given: Any, **named: Any) -> Future[Any]:
-        future: Future[Any] = Future()
-        try:
-            future.set_result(work(*given, **named))
-        except Exception as error:
-            future.set_exception(error)
-        return future
 
 
 @pytest.fixture
@@ -214,7 +211,7 @@ def ran(monkeypatch: pytest.MonkeyPatch) -> list[float]:
     @contextmanager
     def here(workers: int) -> Iterator[Workers]:
         assert workers >= 1
-        yield Workers(Here(), CONTEXT.Array("d", 4096, lock=False))  # type: ignore[arg-type]
+        yield at_once()
 
     monkeypatch.setattr(hypercube, "measures", cheap)
     monkeypatch.setattr(hypercube, "worker_pool", here)

@@ -26,15 +26,14 @@ from studies.scene_detail.scenes import (
 from support_exudyn import Estimate, recommend
 from support_exudyn.simulation.evidence.table import Table, check_replaceable, committed, fields_of
 from support_exudyn.simulation.recommend import QUESTIONS, comparisons
+from tests.studies.forms import FORMS, on_the_quick_form, written
 
 Numbers = dict[tuple[str, str], dict[str, Any]]
 
 
-@pytest.fixture(scope="module")
-def out(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("results")
-    assert study.main(["--quick", "--out", str(folder), "--workers", "2"]) == 0
-    return folder
+@pytest.fixture(scope="module", params=FORMS)
+def out(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return written("scene_detail", request.param, tmp_path_factory.mktemp("results"))
 
 
 @pytest.fixture(scope="module")
@@ -43,6 +42,7 @@ def numbers(out: Path) -> Numbers:
     return {(n["name"], n["case"]): n for n in summary["numbers"]}
 
 
+@on_the_quick_form
 def test_every_number_is_finite_and_has_an_error(numbers: Numbers) -> None:
     for number in numbers.values():
         assert math.isfinite(number["value"])
@@ -90,6 +90,7 @@ def test_both_forms_have_the_same_scenes() -> None:
         assert fields_of(quick[name].scenario) == fields_of(full[name].scenario)
 
 
+@on_the_quick_form
 def test_what_changes_nothing_is_said_to_be_below_the_error(numbers: Numbers, out: Path) -> None:
     # a rigid jack holds the tail beam as the shield beam does; space is symmetric
     for name in (f"{PLAINEST} + tail beam, rigid jack", f"{PLAINEST} + space"):

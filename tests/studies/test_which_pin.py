@@ -14,11 +14,11 @@ from studies.common import rise
 from studies.common.chapter import Chapter
 from studies.which_pin import cases as which_pin_cases
 from studies.which_pin import closed_form as slack
-from studies.which_pin import run as which_pin
 from studies.which_pin.posture import loads, mean_shift
 from studies.which_pin.tables import in_order
 from support_exudyn import ClearancePin, CubicStep, Result, SolverSettings, reference_support, simulate
 from support_exudyn.mechanics.initial_eccentricity import eccentric
+from tests.studies.forms import FORMS, on_the_quick_form, written
 from user_forces import Ambrosio, Exact, Hertz, JournalBearing, JournalContact, KelvinVoigt, Threlfall
 
 PINS = tuple(reference_support().linkage().pins)
@@ -28,11 +28,9 @@ SUPPORT = reference_support()
 Numbers = dict[tuple[str, str], dict[str, Any]]
 
 
-@pytest.fixture(scope="module")
-def out(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("results")
-    assert which_pin.main(["--quick", "--out", str(folder), "--workers", "2"]) == 0
-    return folder
+@pytest.fixture(scope="module", params=FORMS)
+def out(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return written("which_pin", request.param, tmp_path_factory.mktemp("results"))
 
 
 @pytest.fixture(scope="module")
@@ -64,6 +62,7 @@ def test_virtual_work_tells_where_the_worn_support_stands(numbers: Numbers, axis
         )
 
 
+@on_the_quick_form
 @pytest.mark.parametrize("friction", which_pin_cases.FRICTIONS)
 def test_shifts_add_up_and_shaking_does_so_only_without_friction(numbers: Numbers, friction: float) -> None:
     whole = which_pin_cases.case_name(PINS, friction)

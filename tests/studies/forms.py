@@ -1,0 +1,56 @@
+"""Studies as tests run them: in the quick form, and in a rough one that costs a seventh of it.
+
+The rough form does all that the quick one does, but runs each case once where that has it at half and at a
+quarter of its steps, too: the three are then the same run. Findings are there; of the errors one sees only that
+there are some. Tests of a study are made on the rough form by default, on both with the marker `slow`.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping
+from pathlib import Path
+
+import pytest
+
+from studies.catalogue import STUDIES
+from studies.common import runs
+from studies.common.runs import with_coarser
+from studies.common.study import Options, run_main
+from studies.scene_detail import run as scene_detail
+from studies.scene_detail.runs import Timed
+from support_exudyn import Result, Scenario, simulate
+from support_exudyn.sweeps.workers import Workers
+from tests.at_once import at_once
+
+ROUGH, QUICK = "rough", "quick"
+FORMS = [ROUGH, pytest.param(QUICK, marks=pytest.mark.slow)]
+on_the_quick_form = pytest.mark.parametrize("out", FORMS[1:], indirect=True)  # where errors are looked at
+
+_run_cases = runs.run_cases
+
+
+def _once(cases: Mapping[str, Scenario], workers: int | Workers) -> dict[str, Result]:
+    first = {name.partition(", steps / ")[0]: case for name, case in cases.items()}  # the coarsest come last
+    found = _run_cases(first, workers)
+    return {name: found[name.partition(", steps / ")[0]] for name in cases}
+
+
+def _once_timed(cases: Mapping[str, Scenario], workers: int | Workers) -> dict[str, Timed]:
+    found = {}
+    for name, case in cases.items():
+        began = time.process_time()
+        run = simulate(case)
+        seconds = time.process_time() - began
+        found[name] = Timed(with_coarser([run, run, run]), seconds, seconds)
+    return found
+
+
+def written(study: str, form: str, folder: Path, machines: int | None = None) -> Path:
+    """The folder into which a study has written its results, in one of the forms."""
+    with pytest.MonkeyPatch.context() as patch:
+        if form == ROUGH:
+            patch.setattr(runs, "run_cases", _once)
+            patch.setattr(scene_detail, "run_timed", _once_timed)
+        assert run_main(STUDIES[study], Options(folder, quick=True, workers=at_once(), machines=machines)) == 0
+    return folder
