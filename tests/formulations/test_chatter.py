@@ -67,7 +67,7 @@ def bounce(law: NormalLaw, duration: float, **changes: Any) -> Result:
 
 LAWS = [
     Exact(stiffness=STIFFNESS, restitution=0.5),
-    Exact(stiffness=STIFFNESS, restitution=0.8),
+    pytest.param(Exact(stiffness=STIFFNESS, restitution=0.8), marks=pytest.mark.slow),
     Exact(stiffness=STIFFNESS, restitution=0.05),
     LankaraniNikravesh(stiffness=STIFFNESS, restitution=0.3, damping_speed=TouchSpeed()),
     KelvinVoigt(stiffness=1e7, damping=1e3),
@@ -102,7 +102,7 @@ def test_speeds_of_bounces_fall_by_the_restitution_till_the_weight_matters() -> 
         assert other.speed / one.speed == pytest.approx(0.8, abs=GRAVITY * depth / one.speed**2)
 
 
-@pytest.mark.parametrize("backend", ["python", "symbolic"])
+@pytest.mark.parametrize("backend", ["python", pytest.param("symbolic", marks=pytest.mark.slow)])
 def test_rejected_steps_leave_no_trace(backend: str) -> None:
     # grids that reject different steps give the same touches
     law = Exact(stiffness=STIFFNESS, restitution=0.6)

@@ -221,8 +221,14 @@ def test_on_a_spring_it_converges_to_an_independent_solution_with_second_order()
     assert errors[1] < 2e-3  # of 2 m/s
 
 
-@pytest.mark.parametrize("pins", ["ideal", "loose"])
-@pytest.mark.parametrize("place", PLACES)
+@pytest.mark.parametrize(
+    ("place", "pins"),
+    [
+        *((place, "ideal") for place in PLACES),
+        ("tip", "loose"),
+        *(pytest.param(place, "loose", marks=pytest.mark.slow) for place in ("middle", "rear")),
+    ],
+)
 def test_on_the_support_energies_add_up_and_half_the_steps_give_the_same(place: str, pins: str) -> None:
     loose = {paper_machine.LOOSE_PIN: paper_machine.loose_pin(1.5, 0.25)} if pins == "loose" else {}
     scene = on_the_held(

@@ -354,12 +354,15 @@ def off(run: Result, tight: Result) -> float:
     return max(wrong)
 
 
-@pytest.fixture(scope="module")
-def checked() -> list[Case]:
-    """All scenes run to all goals, compared with a tolerance of 1e-12."""
+ALL = pytest.param(1, marks=pytest.mark.slow)
+
+
+@pytest.fixture(scope="module", params=[6, ALL])
+def checked(request: pytest.FixtureRequest) -> list[Case]:
+    """Every so many-th scene run to all goals, compared with a tolerance of 1e-12."""
     found = []
     for kind, scenes in cases().items():
-        for scene in scenes:
+        for scene in scenes[:: request.param]:
             tight = simulate(replace(scene, formulation="reduced", solver=TIGHT))
             known = {n: kind_.measure(tight) for n, kind_ in measures(tight, 0.0, math.inf).items()}
             for goal in GOALS:
@@ -391,7 +394,7 @@ def test_estimates_cover_the_true_errors_without_much_overstatement(checked: lis
         print(goal, figures([case for case in checked if case.goal == goal]))
     everything = figures(checked)
     print("all", everything)
-    assert everything["numbers"] > 10_000
+    assert everything["numbers"] > 1_500
     # what is promised
     assert everything["covered"] >= 0.98
     assert everything["worst"] < 5.0  # measured: 3.1
@@ -400,6 +403,7 @@ def test_estimates_cover_the_true_errors_without_much_overstatement(checked: lis
     assert everything["overstated"] <= 12.0  # measured: 11.5
 
 
+@pytest.mark.parametrize("checked", [ALL], indirect=True)  # of a few scenes it would be chance
 def test_no_kind_of_scene_and_no_goal_is_much_worse_than_all(checked: list[Case]) -> None:
     chosen = [[case for case in checked if case.kind == kind] for kind in cases()]
     chosen += [[case for case in checked if case.goal == goal] for goal in GOALS]

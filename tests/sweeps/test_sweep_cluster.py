@@ -65,6 +65,7 @@ def started(tmp_path: Path) -> Iterator[Started]:
             process.wait()
 
 
+@pytest.mark.slow  # five processes, each of which imports all
 @needs_dask
 @linux_only
 def test_with_a_worker_killed_midway_it_gives_the_same_table_as_here(
