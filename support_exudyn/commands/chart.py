@@ -13,14 +13,11 @@ NO_NAME = re.compile(r"[^\w.-]+")  # what is left out of a file's name
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The sweep's store, and what is drawn."""
-    parser.add_argument(
-        "store", type=folder, metavar="STORE", help="folder of a sweep, or the table.parquet in it"
-    )
-    parser.add_argument("x", metavar="X", help="what was varied, such as pins.rear_base.clearance_mm")
-    parser.add_argument("y", metavar="Y", help="a number of the table, such as pin.rear_base.force.mean")
-    parser.add_argument(
-        "--by", metavar="Z", help="something else that was varied, a curve for each of its values"
-    )
+    add = parser.add_argument
+    add("store", type=folder, metavar="STORE", help="folder of a sweep, or the table.parquet in it")
+    add("x", metavar="X", help="what was varied, such as pins.rear_base.clearance_mm")
+    add("y", metavar="Y", help="a number of the table, such as pin.rear_base.force.mean")
+    add("--by", metavar="Z", help="something else that was varied, a curve for each of its values")
     add_out(parser, "folder of the figure (figures in the store)")
 
 

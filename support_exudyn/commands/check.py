@@ -17,20 +17,21 @@ FARTHEST = 1e5  # [mm]
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The machine's file, and what of it is looked at."""
-    parser.add_argument(
+    add = parser.add_argument
+    add(
         "machine",
         metavar="FILE",
         help="machine data file, a path that ends in .toml; or a machine that comes with the package: "
         "reference, zf18000, two_leg_shield, slider_crank",
     )
     add_out(parser, "where the figure goes; by default beside the file, or here")
-    parser.add_argument(
+    add(
         "--stroke-mm",
         type=partial(number, low=-FARTHEST, high=FARTHEST),
         metavar="S",
         help="by how much the columns extend from the start on [mm]; by default what the file says",
     )
-    parser.add_argument("--json", action="store_true", help="one JSON object, SI units, on standard output")
+    add("--json", action="store_true", help="one JSON object, SI units, on standard output")
 
 
 def run(given: argparse.Namespace) -> None:

@@ -25,11 +25,10 @@ WHOLE = (0.0, math.inf)  # run
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Both files, and which channels."""
+    add = parser.add_argument
     for name in ("first", "second"):
-        parser.add_argument(
-            name, type=folder, metavar=name.upper(), help="file of a run, as Result.save writes it"
-        )
-    parser.add_argument(
+        add(name, type=folder, metavar=name.upper(), help="file of a run, as Result.save writes it")
+    add(
         "channels",
         nargs="*",
         metavar="CHANNEL",

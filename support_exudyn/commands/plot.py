@@ -35,32 +35,27 @@ KINDS = ("orbit", "poincare", "spectrum")  # of figures of a pin
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The run's file, what is drawn, and where to."""
+    add = parser.add_argument
     add_run(parser)
-    parser.add_argument(
+    add(
         "channels", nargs="*", metavar="CHANNEL", help="channels over time: names, or patterns as 'pin.*.force'"
     )  # fmt: skip
-    parser.add_argument("--orbit", action="store_true", help="path of the journal of a loose pin in its bore")
-    parser.add_argument(
-        "--poincare", action="store_true", help="section once in every period of the drive, or by touches"
-    )
-    parser.add_argument("--spectrum", action="store_true", help="spectrum of the force in a pin")
-    parser.add_argument(
-        "--pin", metavar="NAME", help="pin of orbit, section and spectrum (the first loose one)"
-    )
+    add("--orbit", action="store_true", help="path of the journal of a loose pin in its bore")
+    add("--poincare", action="store_true", help="section once in every period of the drive, or by touches")
+    add("--spectrum", action="store_true", help="spectrum of the force in a pin")
+    add("--pin", metavar="NAME", help="pin of orbit, section and spectrum (the first loose one)")
     add_times(parser, -math.inf, math.inf)
-    parser.add_argument(
+    add(
         "--phase",
         type=partial(number, low=0.0, high=1.0),
         default=0.0,
         metavar="SHARE",
         help="of the period at which a section looks, 0 to 1",
     )
-    parser.add_argument(
-        "--section", nargs=2, default=(), metavar="CHANNEL", help="channels of a section once in every period"
-    )
+    add("--section", nargs=2, default=(), metavar="CHANNEL", help="channels of a section once in every period")
     add_out(parser, "folder of the figures (RUN_figures beside the run)")
     add_json(parser)
-    parser.add_argument("--show", action="store_true", help="open them in windows, too")
+    add("--show", action="store_true", help="open them in windows, too")
 
 
 def run(given: argparse.Namespace) -> None:

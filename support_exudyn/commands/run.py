@@ -24,16 +24,17 @@ WHOLE = (0.0, float("inf"))  # run
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The scenario's file, and where the run goes."""
-    parser.add_argument("file", type=folder, metavar="FILE", help="a scenario, as TOML")
+    add = parser.add_argument
+    add("file", type=folder, metavar="FILE", help="a scenario, as TOML")
     add_out(parser, "file of the run (beside the scenario, with the ending .h5)", "RUN")
-    parser.add_argument(
+    add(
         "--accuracy",
         type=accuracy,
         metavar="A",
         help=f"in place of the file's: {', '.join(ACCURACIES)}, or a relative error from {SMALLEST_GOAL:g} to "
         f"{LARGEST_GOAL:g}",
     )
-    parser.add_argument(
+    add(
         "--solution",
         type=folder,
         metavar="FILE",

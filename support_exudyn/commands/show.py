@@ -21,11 +21,10 @@ WHOLE = (0.0, math.inf)  # run
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The run's file, and which channels."""
+    add = parser.add_argument
     add_run(parser)
-    parser.add_argument(
-        "channels", nargs="*", metavar="CHANNEL", help="only these: names or patterns, such as 'pin.*.force'"
-    )
-    parser.add_argument("--all", action="store_true", help="all channels, not only those looked at first")
+    add("channels", nargs="*", metavar="CHANNEL", help="only these: names or patterns, such as 'pin.*.force'")
+    add("--all", action="store_true", help="all channels, not only those looked at first")
     add_json(parser)
     add_times(parser, *WHOLE)
 

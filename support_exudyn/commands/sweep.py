@@ -32,8 +32,9 @@ SHOWN = 12  # first rows and columns that are shown in a terminal
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The sweep's file, where the store is, and who runs it."""
+    add = parser.add_argument
     parser.epilog = EPILOG
-    parser.add_argument("file", type=folder, metavar="FILE", help="what is varied, as TOML")
+    add("file", type=folder, metavar="FILE", help="what is varied, as TOML")
     add_out(parser, "the store; by default FILE_sweep beside FILE")
     where = parser.add_mutually_exclusive_group()
     where.add_argument(
@@ -49,12 +50,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="of a Dask scheduler, such as tcp://10.0.0.5:8786, whose workers have this program, too; needs "
         "pip install 'support-exudyn[cluster]'",
     )
-    parser.add_argument("--retry-failed", action="store_true", help="run again what has failed before")
-    parser.add_argument(
-        "--prune", action="store_true", help="remove runs from the store that FILE no longer asks for"
-    )
-    parser.add_argument("--dry-run", action="store_true", help="only tell how many runs there are to do")
-    parser.add_argument("--json", action="store_true", help="one JSON object instead of text")
+    add("--retry-failed", action="store_true", help="run again what has failed before")
+    add("--prune", action="store_true", help="remove runs from the store that FILE no longer asks for")
+    add("--dry-run", action="store_true", help="only tell how many runs there are to do")
+    add("--json", action="store_true", help="one JSON object instead of text")
 
 
 def run(given: argparse.Namespace) -> None:

@@ -12,14 +12,15 @@ HELP = "open Exudyn's solution viewer on a run"
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The run's file, and what of it is shown."""
+    add = parser.add_argument
     add_run(parser)
-    parser.add_argument(
+    add(
         "--solution",
         type=folder,
         metavar="FILE",
         help="show this solution file of Exudyn, of the same run, in place of its records",
     )
-    parser.add_argument(
+    add(
         "--every",
         type=count,
         metavar="N",
