@@ -103,11 +103,7 @@ def redundant(scene: Scene, family: str, label: str, share: float, **settings: o
     return _way(family, label, scene, scenario)
 
 
-def with_tolerance(
-    scene: Scene,
-    formulation: Literal["tree", "reduced"],
-    tolerance: float,
-) -> Way:
+def with_tolerance(scene: Scene, formulation: Literal["tree", "reduced"], tolerance: float) -> Way:
     """A formulation with error control."""
     solver = SolverSettings(tolerance=tolerance, audit=AUDIT)
     scenario = replace(scene.scenario, formulation=formulation, solver=solver)

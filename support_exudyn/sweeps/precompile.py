@@ -24,9 +24,7 @@ def warm_up() -> None:
         bearing=JournalBearing(bore_radius=0.0655, clearance=0.001), normal=Hertz(stiffness=1e10)
     )
     loose = Scenario(
-        machine=reference_support(),
-        pins={"rear_base": ClearancePin(contact=contact)},
-        duration=1e-3,
+        machine=reference_support(), pins={"rear_base": ClearancePin(contact=contact)}, duration=1e-3
     )
     reduced.run(loose, silent)
     reduced.run(replace(loose, pins={}), silent)

@@ -185,10 +185,7 @@ class Workers:
             return self._pool.submit(_do, job.slot, work, job.number, job.given)
 
     def _ended(
-        self,
-        held: Mapping[Future[T], _Job],
-        tell: Callable[[Mapping[int, float]], None] | None,
-        whole: bool,
+        self, held: Mapping[Future[T], _Job], tell: Callable[[Mapping[int, float]], None] | None, whole: bool
     ) -> set[Future[T]]:
         """Wait until any of the jobs has ended, or all of them, and tell meanwhile how far they are."""
         waiting: set[Future[T]] = set(held)
