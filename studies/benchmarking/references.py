@@ -1,9 +1,8 @@
 """Tight references of the scenes: what is compared with them, how they are made, and where they are kept.
 
 `python -m studies.benchmarking.references` makes them anew, in some minutes. Each is the finest run of one
-formulation; its own error is the distance from another: scipy's DOP853 in plain Python against the compiled
-method of Dormand and Prince, both in free coordinates, or for columns of oil the tree against rigid bodies with
-constraints.
+formulation; its own error is the distance from another run: one at ten times the tolerance, both in free
+coordinates, or for columns of oil the tree against rigid bodies with constraints.
 """
 
 from __future__ import annotations
