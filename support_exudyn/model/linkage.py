@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import field
 from typing import Annotated
 
@@ -218,6 +218,13 @@ class TracePoint(Value):
     point: Metres[Vector2]
 
 
+def check_bodies(used: Iterable[tuple[str, str]], bodies: Collection[str]) -> None:
+    """Raise ValueError unless bodies that are used, each with where, are known or the ground."""
+    for where, body in used:
+        if body != GROUND and body not in bodies:
+            raise ValueError(f"{where} = {body!r}: no such body; allowed: {GROUND}, {', '.join(bodies)}")
+
+
 @value
 class Linkage(Value):
     """A planar mechanism in its start posture; x forward, y up, SI.
@@ -262,11 +269,7 @@ class Linkage(Value):
         used += [(f"points.{k}", p.body) for k, p in self.points.items()]
         moving = [(f"cranks.{k}", c.body) for k, c in self.cranks.items()]
         moving += [(f"slides.{k}", s.body) for k, s in self.slides.items()]
-        for where, body in used:
-            if body != GROUND and body not in self.bodies:
-                raise ValueError(
-                    f"{where} = {body!r}: no such body; allowed: {GROUND}, {', '.join(self.bodies)}"
-                )
+        check_bodies(used, self.bodies)
         for where, body in moving:
             if body not in self.bodies:
                 raise ValueError(f"{where} = {body!r}: no such moving body; allowed: {', '.join(self.bodies)}")

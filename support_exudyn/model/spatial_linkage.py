@@ -9,7 +9,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from support_exudyn.model.linkage import GROUND, ROUNDING
+from support_exudyn.model.linkage import ROUNDING, check_bodies
 from user_forces.values.value import NonNegative, Positive, Real, Share, Value, Vector3, value
 
 FORWARD: Vector3 = (1.0, 0.0, 0.0)
@@ -157,11 +157,7 @@ class SpatialLinkage(Value):
         used = [(f"bearings.{k}", b) for k, p in self.bearings.items() for b in (p.first, p.second)]
         used += [(f"columns.{k}", b) for k, c in self.columns.items() for b in (c.foot, c.head)]
         used += [(f"points.{k}", p.body) for k, p in self.points.items()]
-        for where, body in used:
-            if body != GROUND and body not in self.bodies:
-                raise ValueError(
-                    f"{where} = {body!r}: no such body; allowed: {GROUND}, {', '.join(self.bodies)}"
-                )
+        check_bodies(used, self.bodies)
         return self
 
     def parts_of_column(self, column: str) -> tuple[str, ...]:

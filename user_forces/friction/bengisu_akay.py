@@ -1,7 +1,5 @@
 """Bengisu and Akay's friction."""
 
-from __future__ import annotations
-
 from user_forces.expressions.scalar import exp, magnitude, maximum, where
 from user_forces.friction.law import TwoCoefficients, against
 from user_forces.values.units import MetresPerSecond, SecondsPerMetre

@@ -1,7 +1,5 @@
 """Brown and McPhee's friction."""
 
-from __future__ import annotations
-
 from user_forces.expressions.scalar import tanh
 from user_forces.friction.law import TwoCoefficients
 from user_forces.values.units import MetresPerSecond

@@ -1,7 +1,5 @@
 """Coulomb's friction, made continuous by a cubic STEP."""
 
-from __future__ import annotations
-
 from typing import ClassVar
 
 from user_forces.expressions.scalar import magnitude, step

@@ -1,7 +1,5 @@
 """No friction."""
 
-from __future__ import annotations
-
 from user_forces.friction.law import FrictionLaw
 from user_forces.values.value import value
 

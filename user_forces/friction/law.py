@@ -28,7 +28,7 @@ class FrictionLaw(Value, ABC):
 
     @abstractmethod
     def __call__(self, slip: float, normal_force: float, deflection: float = 0.0) -> float:
-        """Tangential force [N] for a slip [m/s], a normal force [N] >= 0 and a deflection."""
+        """Tangential force [N] for a slip [m/s], a normal force [N] >= 0 and a deflection [m]."""
 
     @property
     def has_state(self) -> bool:

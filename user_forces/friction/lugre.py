@@ -1,7 +1,5 @@
 """The LuGre friction of Canudas de Wit, Olsson, Astrom and Lischinsky."""
 
-from __future__ import annotations
-
 import math
 from typing import ClassVar
 

@@ -1,7 +1,5 @@
 """Coulomb's friction with the Stribeck effect."""
 
-from __future__ import annotations
-
 from user_forces.expressions.scalar import exp, magnitude, step
 from user_forces.friction.law import TwoCoefficients, against
 from user_forces.values.units import MetresPerSecond

@@ -1,7 +1,5 @@
 """Threlfall's friction."""
 
-from __future__ import annotations
-
 import math
 
 from user_forces.expressions.scalar import exp, magnitude, where

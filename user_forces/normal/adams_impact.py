@@ -1,7 +1,5 @@
 """The IMPACT function of ADAMS."""
 
-from __future__ import annotations
-
 from typing import ClassVar
 
 from user_forces.expressions.scalar import step

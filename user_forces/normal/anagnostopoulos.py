@@ -1,7 +1,5 @@
 """Anagnostopoulos's linear spring and dashpot, the dashpot made from a restitution."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import field
 from functools import cached_property

@@ -1,7 +1,5 @@
 """Dubowsky and Freudenstein's line contact."""
 
-from __future__ import annotations
-
 import math
 from typing import ClassVar
 

@@ -1,7 +1,5 @@
 """The line contact of ESDU 78035."""
 
-from __future__ import annotations
-
 import math
 from typing import ClassVar
 

@@ -1,7 +1,5 @@
 """The damped Hertz contact that delivers the restitution asked for."""
 
-from __future__ import annotations
-
 from user_forces.normal.hysteresis import exact_damping_factor
 from user_forces.normal.power_law import PowerLaw
 from user_forces.values.value import Restitution, value

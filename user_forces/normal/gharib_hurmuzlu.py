@@ -1,7 +1,5 @@
 """Gharib and Hurmuzlu's contact for low restitution."""
 
-from __future__ import annotations
-
 from user_forces.normal.power_law import PowerLaw
 from user_forces.values.value import Restitution, value
 

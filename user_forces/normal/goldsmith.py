@@ -1,7 +1,5 @@
 """Goldsmith's line contact."""
 
-from __future__ import annotations
-
 import math
 from typing import ClassVar
 

@@ -1,7 +1,5 @@
 """Hertz's elastic contact."""
 
-from __future__ import annotations
-
 from user_forces.normal.law import Touch
 from user_forces.normal.power_law import ElasticPower
 from user_forces.values.value import value

@@ -1,7 +1,5 @@
 """Hu and Guo's damped Hertz contact."""
 
-from __future__ import annotations
-
 from user_forces.normal.power_law import PowerLaw
 from user_forces.values.value import Restitution, value
 

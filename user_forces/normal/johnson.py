@@ -1,7 +1,5 @@
 """Johnson's line contact."""
 
-from __future__ import annotations
-
 import math
 from typing import ClassVar
 

@@ -1,7 +1,5 @@
 """Spring and dashpot side by side."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import field
 from typing import Annotated

@@ -1,7 +1,5 @@
 """Lankarani and Nikravesh's damped Hertz contact."""
 
-from __future__ import annotations
-
 from user_forces.normal.power_law import PowerLaw
 from user_forces.values.value import value
 

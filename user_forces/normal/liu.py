@@ -1,7 +1,5 @@
 """Liu, Zhang and Yang's conforming contact."""
 
-from __future__ import annotations
-
 import math
 
 from user_forces.expressions.scalar import log, sqrt, where

@@ -1,7 +1,5 @@
 """Radzimovsky's line contact."""
 
-from __future__ import annotations
-
 from typing import Annotated, ClassVar
 
 from pydantic import Field

@@ -1,7 +1,5 @@
 """Zhiying and Qishao's damped Hertz contact."""
 
-from __future__ import annotations
-
 import math
 
 from user_forces.normal.power_law import PowerLaw

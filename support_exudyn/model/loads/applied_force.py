@@ -5,7 +5,7 @@ from __future__ import annotations
 from pydantic import model_validator
 
 from support_exudyn.model.loads.load import Load, LoadedPoint, Observed, Powers
-from user_forces.expressions.scalar import is_number, maximum, minimum
+from user_forces.expressions.scalar import step
 from user_forces.values.units import Newtons, Seconds
 from user_forces.values.value import NonNegative, Vector2, value
 
@@ -40,9 +40,7 @@ class AppliedForce(Load):
         """Share of the force that has come on, from 0 to 1."""
         if self.end == 0.0:
             return 1.0
-        x = (t - self.start) / (self.end - self.start)
-        x = min(1.0, max(0.0, x)) if is_number(x) else minimum(1.0, maximum(0.0, x))
-        return x * x * (3.0 - 2.0 * x)
+        return step((t - self.start) / (self.end - self.start))
 
     def force(self, at: LoadedPoint) -> Vector2:
         """Force on the point, forward and up [N]."""
