@@ -17,33 +17,26 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import ClassVar, NamedTuple
+from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
 from support_exudyn.machines.four_bar_shield import PRECISE, FourBarShield
-from support_exudyn.machines.shield_layout import BODIES, TAIL, Strut, turn
+from support_exudyn.machines.shield_layout import BODIES, TAIL, ShieldPosture, Strut
 from support_exudyn.model.linkage import GROUND
-from support_exudyn.model.plane_geometry import direction, moved
 from user_forces.values.units import Metres
 from user_forces.values.value import Vector2, value
 
 __all__ = ["BODIES", "PIVOTS", "TAIL", "HydraulicSupport", "Posture"]
 
 
-class Posture(NamedTuple):
-    """Where everything is with ideal pins. Angles [rad] are turns from the reference posture."""
+@dataclass(frozen=True)
+class Posture(ShieldPosture):
+    """Where everything is with ideal pins, the moving ends of the columns too."""
 
-    rear_link: float
-    front_link: float
-    shield: float
-    canopy: float
-    rear_shield: Metres[Vector2]  # C [m]
-    front_shield: Metres[Vector2]  # D
-    hinge: Metres[Vector2]  # I
-    front_head: Metres[Vector2]  # E
-    rear_head: Metres[Vector2]  # G
-    tip: Metres[Vector2]
+    front_head: Vector2  # E [m]
+    rear_head: Vector2  # G
 
 
 @value
@@ -55,6 +48,7 @@ class HydraulicSupport(FourBarShield[Posture]):
         rear_foot, rear_head: H and G, ends of the rear column [m].
     """
 
+    POSTURE: ClassVar[type[Posture]] = Posture
     STRUTS: ClassVar[Mapping[str, Strut]] = {
         "front_column": Strut(foot=(GROUND, "front_foot"), head=("canopy", "front_head")),
         "rear_column": Strut(foot=(GROUND, "rear_foot"), head=("canopy", "rear_head")),
@@ -64,29 +58,6 @@ class HydraulicSupport(FourBarShield[Posture]):
     front_head: Metres[Vector2]
     rear_foot: Metres[Vector2]
     rear_head: Metres[Vector2]
-
-    def posture(self, rear_link: float, canopy: float) -> Posture | None:
-        """Posture for turns of rear link and canopy [rad]; None where the four-bar does not close."""
-        closed = self.four_bar(rear_link)
-        if closed is None:
-            return None
-        c, d, i = closed
-
-        def on_canopy(point: Vector2) -> Vector2:
-            return moved(point, self.hinge, i, canopy)
-
-        return Posture(
-            rear_link,
-            turn(direction(self.front_base, self.front_shield), direction(self.front_base, d)),
-            turn(direction(self.rear_shield, self.front_shield), direction(c, d)),
-            canopy,
-            c,
-            d,
-            i,
-            on_canopy(self.front_head),
-            on_canopy(self.rear_head),
-            on_canopy(self.tip),
-        )
 
     def extended(self, extension: float, near: Posture | None = None) -> Posture | None:
         """Posture with both columns longer than at the start by `extension` [m]; None if there is none.

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from abc import ABC, abstractmethod
+from abc import ABC
 from collections.abc import Collection, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import ClassVar, Generic, NamedTuple, Protocol, TypeVar
+from typing import Any, ClassVar, Generic, NamedTuple, TypeVar
 
 import numpy as np
 from pydantic import model_validator
@@ -40,40 +40,22 @@ FRAME = ("rear_base", "front_base", "rear_shield", "front_shield", "hinge", "tip
 FARTHEST = 1000.0  # [m] from the origin
 
 
-class ShieldPosture(Protocol):
-    """Where everything is with ideal pins. Angles [rad] are turns from the reference posture, points in m."""
+@dataclass(frozen=True)
+class ShieldPosture:
+    """Where everything is with ideal pins: turns from the reference posture [rad], and pivots [m].
 
-    @property
-    def rear_link(self) -> float:
-        """Turn of the rear link."""
+    Turns are those of rear link, front link, shield beam and canopy; pivots are C, D, I and T. A kind of
+    support adds the ends of its columns that move.
+    """
 
-    @property
-    def front_link(self) -> float:
-        """Turn of the front link."""
-
-    @property
-    def shield(self) -> float:
-        """Turn of the shield beam."""
-
-    @property
-    def canopy(self) -> float:
-        """Turn of the canopy."""
-
-    @property
-    def rear_shield(self) -> Vector2:
-        """C."""
-
-    @property
-    def front_shield(self) -> Vector2:
-        """D."""
-
-    @property
-    def hinge(self) -> Vector2:
-        """I."""
-
-    @property
-    def tip(self) -> Vector2:
-        """T."""
+    rear_link: float
+    front_link: float
+    shield: float
+    canopy: float
+    rear_shield: Vector2
+    front_shield: Vector2
+    hinge: Vector2
+    tip: Vector2
 
 
 P = TypeVar("P", bound=ShieldPosture)
@@ -88,7 +70,8 @@ class Strut(NamedTuple):
 
 @value
 class ShieldLayout(Machine, ABC, Generic[P]):
-    """Pivots, parts and start posture of four-bar shield supports; `STRUTS`: its two columns by name.
+    """Pivots, parts and start posture of four-bar shield supports; `STRUTS`: its two columns by name;
+    `POSTURE`: its class of postures.
 
     All points are those of one reference posture. Arguments:
         rear_base, front_base: B and A, pivots of rear and front link on the base [m].
@@ -106,6 +89,7 @@ class ShieldLayout(Machine, ABC, Generic[P]):
     """
 
     STRUTS: ClassVar[Mapping[str, Strut]]
+    POSTURE: ClassVar[type[Any]]
 
     rear_base: Metres[Vector2]
     front_base: Metres[Vector2]
@@ -185,9 +169,30 @@ class ShieldLayout(Machine, ABC, Generic[P]):
         turned = turn(direction(self.rear_shield, self.front_shield), direction(c, d))
         return c, d, moved(self.hinge, self.rear_shield, c, turned)
 
-    @abstractmethod
     def posture(self, rear_link: float, canopy: float) -> P | None:
         """Posture for turns of rear link and canopy [rad]; None where the four-bar does not close."""
+        closed = self.four_bar(rear_link)
+        if closed is None:
+            return None
+        c, d, i = closed
+        known = ShieldPosture(
+            rear_link=rear_link,
+            front_link=turn(direction(self.front_base, self.front_shield), direction(self.front_base, d)),
+            shield=turn(direction(self.rear_shield, self.front_shield), direction(c, d)),
+            canopy=canopy,
+            rear_shield=c,
+            front_shield=d,
+            hinge=i,
+            tip=moved(self.tip, self.hinge, i, canopy),
+        )
+        ends = {
+            pivot: self.place(body, pivot, known)
+            for strut in self.STRUTS.values()
+            for body, pivot in strut
+            if body != GROUND
+        }
+        found: P = self.POSTURE(**vars(known), **ends)
+        return found
 
     def start(self) -> P:
         """Posture with a level canopy and the hinge at its start height.
@@ -231,7 +236,7 @@ class ShieldLayout(Machine, ABC, Generic[P]):
             )
         return found
 
-    def place(self, body: str, pivot: str, posture: P) -> Vector2:
+    def place(self, body: str, pivot: str, posture: ShieldPosture) -> Vector2:
         """Place of a pivot of a body, or of the ground, in a posture [m]."""
         point: Vector2 = getattr(self, pivot)
         if body == GROUND:

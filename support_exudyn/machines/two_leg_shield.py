@@ -17,17 +17,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import dataclass
 from functools import cached_property
-from typing import ClassVar, NamedTuple
+from typing import ClassVar
 
 import numpy as np
 
 from support_exudyn.machines.four_bar_shield import LONGEST_STEP, MOST_REMEMBERED, PRECISE, FourBarShield
-from support_exudyn.machines.shield_layout import Strut, turn
+from support_exudyn.machines.shield_layout import ShieldPosture, Strut
 from support_exudyn.model.drives.coupled_drive import following
 from support_exudyn.model.drives.drive import Drive, Held
 from support_exudyn.model.linkage import GROUND
-from support_exudyn.model.plane_geometry import direction, moved
 from user_forces.values.units import Metres
 from user_forces.values.value import InputError, Vector2, value
 
@@ -35,20 +35,13 @@ MOST_CORRECTIONS = 50  # of Newton's method; five do
 STRIDE = 0.02  # [m] from one level posture to the next
 
 
-class LegPosture(NamedTuple):
-    """Where everything is with ideal pins. Angles [rad] are turns from the reference posture."""
+@dataclass(frozen=True)
+class LegPosture(ShieldPosture):
+    """Where everything is with ideal pins, the moving ends of the columns too."""
 
-    rear_link: float
-    front_link: float
-    shield: float
-    canopy: float
-    rear_shield: Metres[Vector2]  # C [m]
-    front_shield: Metres[Vector2]  # D
-    hinge: Metres[Vector2]  # I
-    leg_head: Metres[Vector2]  # L
-    ram_foot: Metres[Vector2]  # P
-    ram_head: Metres[Vector2]  # Q
-    tip: Metres[Vector2]
+    leg_head: Vector2  # L [m]
+    ram_foot: Vector2  # P
+    ram_head: Vector2  # Q
 
 
 @value
@@ -60,6 +53,7 @@ class TwoLegShield(FourBarShield[LegPosture]):
         ram_foot, ram_head: P and Q, ends of the stabilising ram on shield beam and canopy [m].
     """
 
+    POSTURE: ClassVar[type[LegPosture]] = LegPosture
     STRUTS: ClassVar[Mapping[str, Strut]] = {
         "leg": Strut(foot=(GROUND, "leg_foot"), head=("canopy", "leg_head")),
         "ram": Strut(foot=("shield", "ram_foot"), head=("canopy", "ram_head")),
@@ -69,27 +63,6 @@ class TwoLegShield(FourBarShield[LegPosture]):
     leg_head: Metres[Vector2]
     ram_foot: Metres[Vector2]
     ram_head: Metres[Vector2]
-
-    def posture(self, rear_link: float, canopy: float) -> LegPosture | None:
-        """Posture for turns of rear link and canopy [rad]; None where the four-bar does not close."""
-        closed = self.four_bar(rear_link)
-        if closed is None:
-            return None
-        c, d, i = closed
-        shield = turn(direction(self.rear_shield, self.front_shield), direction(c, d))
-        return LegPosture(
-            rear_link,
-            turn(direction(self.front_base, self.front_shield), direction(self.front_base, d)),
-            shield,
-            canopy,
-            c,
-            d,
-            i,
-            moved(self.leg_head, self.hinge, i, canopy),
-            moved(self.ram_foot, self.rear_shield, c, shield),
-            moved(self.ram_head, self.hinge, i, canopy),
-            moved(self.tip, self.hinge, i, canopy),
-        )
 
     def extended(self, extension: float, near: LegPosture | None = None) -> LegPosture | None:
         """Posture with a level canopy and the leg longer than at the start by `extension` [m]; None if none.
