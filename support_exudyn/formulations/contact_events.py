@@ -49,7 +49,10 @@ class Verdict(NamedTuple):
 
 
 class DepthPath(NamedTuple):
-    """Depth over a step as a cubic of the fraction x of the step, from 0 to 1."""
+    """Depth over a step as a cubic of the fraction x of the step, from 0 to 1.
+
+    `depth`, `turn`, `may_turn` and `doubt` are compiled too (reduced), so they call no other method.
+    """
 
     depth0: float
     rate0: float
@@ -77,58 +80,54 @@ class DepthPath(NamedTuple):
 
     def turns_up(self) -> float | None:
         """The fraction within the step at which the rate passes zero on its way up; None if it does not."""
-        return self._turn(1.0)
+        x = self.turn(1.0)
+        return x if x <= 1.0 else None
 
     def turns_down(self) -> float | None:
-        """The same on its way down."""
-        return self._turn(-1.0)
+        """The fraction within the step at which the rate passes zero on its way down; None if it does not."""
+        x = self.turn(-1.0)
+        return x if x <= 1.0 else None
 
-    def _turn(self, sign: float) -> float | None:
-        """The root of the rate, rate0 + slope x + bend x^2, at which it has a slope of this sign."""
-        bend = self._bend
+    def turn(self, sign: float) -> float:
+        """The fraction at which the rate passes zero with a slope of this sign; infinite if it does not.
+
+        It is the root of rate0 + slope x + bend x^2.
+        """
+        bend = 3.0 * (self.rate0 + self.rate1) - 6.0 * (self.depth1 - self.depth0) / self.step
         slope = self.rate1 - self.rate0 - bend
         square = slope * slope - 4.0 * bend * self.rate0
         surely = sign * self.rate0 < 0.0 <= sign * self.rate1
         if not (square > 0.0 or surely):
-            return None
+            return math.inf
         there = sign * math.sqrt(max(0.0, square))  # the slope at the root
         # without cancellation
         if slope * there > 0.0:
             x = -2.0 * self.rate0 / (slope + there)
         else:
-            x = (there - slope) / (2.0 * bend) if bend else math.inf
+            x = (there - slope) / (2.0 * bend) if bend != 0.0 else math.inf
         if surely:  # whatever rounding says
             return min(max(x, 0.0), 1.0)
-        return x if 0.0 < x <= 1.0 else None
+        return x if 0.0 < x <= 1.0 else math.inf
 
-    def may_turn(self, doubt: float = DOUBT) -> bool:
+    def may_turn(self) -> bool:
         """Whether the rate, of one sign at both ends, may pass zero in between, if the pin moves at all.
 
-        doubt: how far it may be off this cubic's, see `DOUBT`.
+        The true rate may be off this cubic's by `DOUBT`.
         """
         if self.step * max(abs(self.rate0), abs(self.rate1)) < STILL:
             return False
         sign = -1.0 if self.rate0 + self.rate1 < 0.0 else 1.0
-        rate0, rate1, bend = sign * self.rate0, sign * self.rate1, sign * self._bend
-        off = doubt * self._swing
+        bend = 3.0 * (self.rate0 + self.rate1) - 6.0 * (self.depth1 - self.depth0) / self.step
+        off = DOUBT * (abs(self.rate1 - self.rate0) + abs(bend))
+        rate0, rate1, bend = sign * self.rate0, sign * self.rate1, sign * bend
         slope, bend = rate1 - rate0 - bend - off, bend + off
         # the lowest point of rate0 + slope x + bend x^2, if it lies between the ends
         return slope < 0.0 < slope + 2.0 * bend and 4.0 * bend * rate0 <= slope * slope
 
-    @property
     def doubt(self) -> float:
-        """How far the true depth may be off this cubic [m]."""
-        return DOUBT_OF_DEPTH * self.step * self._swing
-
-    @property
-    def _bend(self) -> float:
-        """Second coefficient of the rate as a polynomial of the fraction [m/s]."""
-        return 3.0 * (self.rate0 + self.rate1) - 6.0 * (self.depth1 - self.depth0) / self.step
-
-    @property
-    def _swing(self) -> float:
-        """By how much the rate changes within the step, and back [m/s]."""
-        return abs(self.rate1 - self.rate0) + abs(self._bend)
+        """How far the true depth may be off this cubic [m]: a share of how the rate changes within the step."""
+        bend = 3.0 * (self.rate0 + self.rate1) - 6.0 * (self.depth1 - self.depth0) / self.step
+        return DOUBT_OF_DEPTH * self.step * (abs(self.rate1 - self.rate0) + abs(bend))
 
     def crossing(self, a: float, b: float) -> float:
         """The fraction between a and b at which the depth passes zero, its signs there being different."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 
 from support_exudyn.formulations.compiled import compiled
-from support_exudyn.formulations.contact_events import DOUBT, DOUBT_OF_DEPTH, STILL
+from support_exudyn.formulations.contact_events import DepthPath
 from support_exudyn.formulations.reduced.equations import observe, within
 from support_exudyn.formulations.reduced.layout import (
     CLEARANCE,
@@ -34,70 +34,26 @@ CUT_MET = 1e-9  # PUSH, of the order of 1, at which a cut of tension is met; the
 NEAR_CUT = 0.5  # PUSH below which a step is looked at for two cuts,
 CUT_SAMPLES = 4  # in so many parts
 AT_ZERO = 1e-13  # depth [m] that is a touch or parting just made; those are met to a tenth of it
+EARLIEST = 2.0**-31  # share of a step at which its cubic turns: one that ends there must have a length
 Found = tuple[int, float, float]  # what, and fractions of the step between which it happens
 
 
-@compiled
-def cubic(d0: float, r0: float, d1: float, r1: float, h: float, x: float) -> float:
-    """Depth [m] at fraction x of a time h [s] from depths [m] and rates [m/s] at both ends."""
-    z = 1.0 - x
-    return d0 * (1.0 + 2.0 * x) * z * z + h * r0 * x * z * z + d1 * x * x * (3.0 - 2.0 * x) - h * r1 * x * x * z
+# the one cubic of all formulations, compiled
+depth_of, turn_of = compiled(DepthPath.depth), compiled(DepthPath.turn)
+may_turn, doubt_of = compiled(DepthPath.may_turn), compiled(DepthPath.doubt)
 
 
 @compiled
-def turning_point(d0: float, r0: float, d1: float, r1: float, h: float) -> float:
-    """Fraction at which the cubic's rate passes zero, its signs at both ends being different."""
-    low, high = 0.0, 1.0
-    for _ in range(30):
-        x = 0.5 * (low + high)
-        slope = (
-            6.0 * x * (1.0 - x) * (d1 - d0) / h + r0 * (1.0 - x) * (1.0 - 3.0 * x) + r1 * x * (3.0 * x - 2.0)
-        )
-        if (slope > 0.0) == (r0 > 0.0):
-            low = x
-        else:
-            high = x
-    return 0.5 * (low + high)
-
-
-@compiled
-def bend(r0: float, r1: float, mean: float) -> float:
-    """Second coefficient of the cubic's rate as a polynomial of the fraction, from both ends and the mean."""
-    return 3.0 * (r0 + r1) - 6.0 * mean
-
-
-@compiled
-def may_turn(d0: float, r0: float, d1: float, r1: float, h: float) -> bool:
-    """Whether a rate [m/s] of one sign at both ends may pass zero in between, see `DepthPath.may_turn`."""
-    if h * max(abs(r0), abs(r1)) < STILL:
-        return False
-    mean = (d1 - d0) / h
-    if r0 + r1 < 0.0:
-        r0, r1, mean = -r0, -r1, -mean
-    curved = bend(r0, r1, mean)
-    doubt = DOUBT * (abs(r1 - r0) + abs(curved))
-    slope, curved = r1 - r0 - curved - doubt, curved + doubt
-    # lowest point of r0 + slope x + curved x^2, if it lies between the ends
-    return slope < 0.0 < slope + 2.0 * curved and 4.0 * curved * r0 <= slope * slope
-
-
-@compiled
-def depth_doubt(d0: float, r0: float, d1: float, r1: float, h: float) -> float:
-    """How far the depth may be off the cubic [m]."""
-    return DOUBT_OF_DEPTH * h * (abs(r1 - r0) + abs(bend(r0, r1, (d1 - d0) / h)))
-
-
-@compiled
-def parting(d0: float, r0: float, d1: float, r1: float, h: float) -> Found:
+def parting(path: DepthPath) -> Found:
     """The first way out of a contact that is open at the end of a part."""
-    inside = 0.0 if d0 > AT_ZERO or r0 < 0.0 else -1.0
+    inside = 0.0 if path.depth0 > AT_ZERO or path.rate0 < 0.0 else -1.0
     for n in range(1, SAMPLES + 1):
         x = n / SAMPLES
-        if cubic(d0, r0, d1, r1, h, x) > 0.0:
+        if depth_of(path, x) > 0.0:
             inside = x
         elif inside >= 0.0:
             return PARTING, inside, x
-    return (PARTING, 1.0, 1.0) if h <= SHORT else (TOO_LONG, 0.0, 0.0)
+    return (PARTING, 1.0, 1.0) if path.step <= SHORT else (TOO_LONG, 0.0, 0.0)
 
 
 @compiled
@@ -109,17 +65,18 @@ def in_contact(renews: bool, d0: float, r0: float, d1: float, r1: float, h: floa
         d0, r0, d1, r1: depth [m] and rate [m/s] at both ends.
         h: length of the part [s].
     """
+    path = DepthPath(d0, r0, d1, r1, h)
     turns = r0 < 0.0 <= r1
     if h > SHORT and not turns and not r0 > 0.0 > r1:
         lowest = min(d0, d1) - h * max(abs(r0), abs(r1))
-        if (renews or lowest <= 0.0 < d1) and may_turn(d0, r0, d1, r1, h):
+        if (renews or lowest <= 0.0 < d1) and may_turn(path):
             return TOO_LONG, 0.0, 0.0
     if d1 <= 0.0:
-        return parting(d0, r0, d1, r1, h)
+        return parting(path)
     if turns:
-        x = turning_point(d0, r0, d1, r1, h)
-        lowest = cubic(d0, r0, d1, r1, h, x)
-        if h > SHORT and abs(lowest) < depth_doubt(d0, r0, d1, r1, h):
+        x = max(EARLIEST, turn_of(path, 1.0))
+        lowest = depth_of(path, x)
+        if h > SHORT and abs(lowest) < doubt_of(path):
             return TOO_LONG, 0.0, 0.0
         if lowest <= 0.0:
             return PARTING, 0.0, x
@@ -131,15 +88,15 @@ def in_contact(renews: bool, d0: float, r0: float, d1: float, r1: float, h: floa
 @compiled
 def rise(d0: float, r0: float, d1: float, r1: float, h: float) -> Found:
     """The first touch of a journal that is free at the start of a part of a step; fractions of that part."""
-    top = 1.0
+    path, top = DepthPath(d0, r0, d1, r1, h), 1.0
     if d1 <= 0.0:
         if not r0 > 0.0 > r1:
             unseen = h > SHORT and max(d0, d1) + h * max(abs(r0), abs(r1)) > 0.0 and not r0 < 0.0 < r1
-            unclear = unseen and may_turn(d0, r0, d1, r1, h)
+            unclear = unseen and may_turn(path)
             return (TOO_LONG, 0.0, 0.0) if unclear else (NOTHING, 1.0, 1.0)
-        top = turning_point(d0, r0, d1, r1, h)
-        highest = cubic(d0, r0, d1, r1, h, top)
-        if h > SHORT and abs(highest) < depth_doubt(d0, r0, d1, r1, h):
+        top = max(EARLIEST, turn_of(path, -1.0))
+        highest = depth_of(path, top)
+        if h > SHORT and abs(highest) < doubt_of(path):
             return TOO_LONG, 0.0, 0.0
         if highest <= 0.0:
             return NOTHING, 1.0, 1.0
@@ -147,7 +104,7 @@ def rise(d0: float, r0: float, d1: float, r1: float, h: float) -> Found:
     apart = d0 < -AT_ZERO or r0 > 0.0  # else the surfaces have just parted and must be seen apart first
     for n in range(1, SAMPLES + 1):
         x = top * n / SAMPLES
-        if cubic(d0, r0, d1, r1, h, x) > 0.0:
+        if depth_of(path, x) > 0.0:
             return (TOUCH, low, x) if apart or h <= SHORT else (TOO_LONG, 0.0, 0.0)
         low, apart = x, True
     return TOUCH, low, top

@@ -73,7 +73,7 @@ def _in_contact(renews: bool, start: Place, end: Place, step: float, met: float)
     turn = path.turns_up() if turns else None
     if turn is not None:
         lowest = path.depth(turn)
-        if step > SHORT and met < abs(lowest) < path.doubt:
+        if step > SHORT and met < abs(lowest) < path.doubt():
             return Event(Kind.UNCLEAR, 0.0)
         if lowest < -met:
             return Event(Kind.PARTING, path.crossing(0.0, turn))
