@@ -86,7 +86,7 @@ def test_no_number_of_a_met_run_is_far_off(number: int, accuracy: str) -> None:
 def test_a_turn_that_is_met_is_not_met_again(number: int, onsets: int) -> None:
     # rounding leaves the rate a little below zero where it has turned: the run stood still there; in the second
     # scene the step that followed was made again shorter
-    result = simulate_reduced(drawn(1, number), 1e-8, most_steps=1000)
+    result = simulate_reduced(drawn(1, number), 1e-8, most_steps=10_000)
     assert len(result.onsets[PIN]) == onsets
 
 

@@ -34,13 +34,28 @@ CUT_MET = 1e-9  # PUSH, of the order of 1, at which a cut of tension is met; the
 NEAR_CUT = 0.5  # PUSH below which a step is looked at for two cuts,
 CUT_SAMPLES = 4  # in so many parts
 AT_ZERO = 1e-13  # depth [m] that is a touch or parting just made; those are met to a tenth of it
-EARLIEST = 2.0**-31  # share of a step at which its cubic turns: one that ends there must have a length
 Found = tuple[int, float, float]  # what, and fractions of the step between which it happens
 
 
 # the one cubic of all formulations, compiled
-depth_of, turn_of = compiled(DepthPath.depth), compiled(DepthPath.turn)
+depth_of, rate_of = compiled(DepthPath.depth), compiled(DepthPath.rate)
 may_turn, doubt_of = compiled(DepthPath.may_turn), compiled(DepthPath.doubt)
+
+
+@compiled
+def turning_point(path: DepthPath) -> float:
+    """Fraction at which the cubic's rate passes zero, its signs at both ends being different.
+
+    By bisection, which never gives the start itself: a step that ends there would have no length.
+    """
+    low, high = 0.0, 1.0
+    for _ in range(30):
+        x = 0.5 * (low + high)
+        if (rate_of(path, x) > 0.0) == (path.rate0 > 0.0):
+            low = x
+        else:
+            high = x
+    return 0.5 * (low + high)
 
 
 @compiled
@@ -74,7 +89,7 @@ def in_contact(renews: bool, d0: float, r0: float, d1: float, r1: float, h: floa
     if d1 <= 0.0:
         return parting(path)
     if turns:
-        x = max(EARLIEST, turn_of(path, 1.0))
+        x = turning_point(path)
         lowest = depth_of(path, x)
         if h > SHORT and abs(lowest) < doubt_of(path):
             return TOO_LONG, 0.0, 0.0
@@ -94,7 +109,7 @@ def rise(d0: float, r0: float, d1: float, r1: float, h: float) -> Found:
             unseen = h > SHORT and max(d0, d1) + h * max(abs(r0), abs(r1)) > 0.0 and not r0 < 0.0 < r1
             unclear = unseen and may_turn(path)
             return (TOO_LONG, 0.0, 0.0) if unclear else (NOTHING, 1.0, 1.0)
-        top = max(EARLIEST, turn_of(path, -1.0))
+        top = turning_point(path)
         highest = depth_of(path, top)
         if h > SHORT and abs(highest) < doubt_of(path):
             return TOO_LONG, 0.0, 0.0
