@@ -54,14 +54,14 @@ class Runs:
         return run_cases(clearance_influence.scenarios(quick=False), self.workers)
 
     @property
-    def loose(self) -> Result:
+    def with_clearance(self) -> Result:
         """The rise with 1.5 mm in the rear pin, with friction."""
         return self.paper[clearance_influence.DRY]
 
 
 def machine(runs: Runs, path: Path) -> None:
     """The support in mid-rise."""
-    picture = Image.fromarray(still(runs.loose, MIDDLE))
+    picture = Image.fromarray(still(runs.with_clearance, MIDDLE))
     with whole_file(path) as temporary:
         picture.save(temporary, format="PNG", optimize=True)
 
@@ -70,7 +70,7 @@ def rise(runs: Runs, path: Path) -> None:
     """The whole run as a movie."""
     with TemporaryDirectory() as frames:
         render(
-            runs.loose,
+            runs.with_clearance,
             Path(frames) / "frames",
             frames_per_second=MOVIE_RATE,
             speed=MOVIE_SPEED,
@@ -80,18 +80,18 @@ def rise(runs: Runs, path: Path) -> None:
 
 
 def pin_force(runs: Runs, path: Path) -> None:
-    """The force in the pin, ideal and loose."""
+    """The force in the pin, ideal and with clearance."""
     _save(clearance_influence.figures(runs.paper)["fig5_pin_force"], path)
 
 
 def journal_orbit(runs: Runs, path: Path) -> None:
     """The path of the journal in its bore."""
-    _save(orbit(runs.loose, paper_machine.LOOSE_PIN), path)
+    _save(orbit(runs.with_clearance, paper_machine.CLEARANCE_PIN), path)
 
 
 def spectrum(runs: Runs, path: Path) -> None:
     """Frequencies of the force during the rise."""
-    _save(force_spectrum(runs.loose, paper_machine.LOOSE_PIN, *RISE), path)
+    _save(force_spectrum(runs.with_clearance, paper_machine.CLEARANCE_PIN, *RISE), path)
 
 
 def map_step_stiffness(runs: Runs, path: Path) -> None:

@@ -11,14 +11,14 @@ from pathlib import Path
 
 from studies.catalogue import STUDIES
 from studies.common.chapter import FILE
-from studies.reporting.content import Section, content
+from studies.reporting.content import ReportSection, content
 from studies.reporting.pages import page, text
 from support_exudyn.commands.command_line import Parser, folder, warn
 from support_exudyn.files.whole_file import whole_file
 from user_forces.values.value import InputError
 
 
-def write_report(out: Path, chapters: Sequence[Section], quick: bool) -> Path:
+def write_report(out: Path, chapters: Sequence[ReportSection], quick: bool) -> Path:
     """Write report.html and report.md into `out`, each whole or not at all; returns the page's path.
 
     Arguments:
@@ -36,7 +36,7 @@ def write_report(out: Path, chapters: Sequence[Section], quick: bool) -> Path:
     return out / "report.html"
 
 
-def sections(out: Path, order: Sequence[str]) -> list[Section]:
+def sections(out: Path, order: Sequence[str]) -> list[ReportSection]:
     """Chapters of all studies in the folders below `out`: those of `order` first, then others by name.
 
     Raises InputError if there is none, or if something in one of them is wrong.
@@ -45,7 +45,7 @@ def sections(out: Path, order: Sequence[str]) -> list[Section]:
     if not there:
         raise InputError(f"{out}: no folder with a {FILE} in it; run python -m studies first")
     names = [name for name in order if name in there] + [name for name in there if name not in order]
-    return [Section.load(out / name) for name in names]
+    return [ReportSection.load(out / name) for name in names]
 
 
 def rebuild(out: Path, order: Sequence[str], quick: bool = False) -> int:

@@ -16,7 +16,7 @@ from support_exudyn.simulation import at_start as at_start
 
 # isort: split
 
-from support_exudyn.files.machines import load_support, reference_support, two_body_columns
+from support_exudyn.files.machines import cylinders_and_rods, load_support, reference_support
 from support_exudyn.formulations.contract import Failure, SimulationError
 from support_exudyn.machines.four_column_support import HydraulicSupport
 from support_exudyn.machines.free_impact import ImpactStand
@@ -27,12 +27,12 @@ from support_exudyn.mechanics.trajectory import Impulse
 from support_exudyn.model.bushing_pin import BushingPin
 from support_exudyn.model.columns import (
     ColumnModel,
+    CylinderAndRod,
     Lumped,
     OilColumn,
     OwnBody,
     PartModel,
     RigidColumn,
-    TwoBodyColumn,
     bore_area,
 )
 from support_exudyn.model.drives.drive import (
@@ -79,6 +79,7 @@ __all__ = [
     "ColumnModel",
     "Crank",
     "CubicStep",
+    "CylinderAndRod",
     "Drive",
     "Estimate",
     "Failure",
@@ -118,18 +119,17 @@ __all__ = [
     "SuddenOpening",
     "TableDrive",
     "TracePoint",
-    "TwoBodyColumn",
     "TwoLegShield",
     "UniformSpeed",
     "Width",
     "bore_area",
+    "cylinders_and_rods",
     "load_support",
     "ravn_slider_crank",
     "recommend",
     "reference_support",
     "save_solution",
     "simulate",
-    "two_body_columns",
 ]
 
 

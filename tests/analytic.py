@@ -21,10 +21,10 @@ def adams_step(x: float, x0: float, h0: float, x1: float, h1: float) -> float:
 
 
 def delivered_restitution(damping: float) -> float:
-    """Restitution of a free two-body impact with F = K depth^n (1 + damping rate / approach speed).
+    """Restitution of a free two-body impact with F = K depth^n (1 + damping rate / initial impact velocity).
 
     With u = rate/v0 the motion obeys m v0^2 u du = -K depth^n (1 + damping u) d(depth). Depth is the same
-    at touch (u = 1) and at parting (u = -e), so the integral of u/(1 + damping u) from -e to 1 is zero:
+    at impact (u = 1) and at separation (u = -e), so the integral of u/(1 + damping u) from -e to 1 is zero:
     damping (1 + e) = ln((1 + damping)/(1 - damping e)). Lambert's W0 solves it for e. Exponent,
     stiffness, masses and speed have dropped out.
 

@@ -37,13 +37,13 @@ def _unseen(axes: Axes) -> list[Text]:
     found: list[Text] = []
     for axis in (axes.xaxis, axes.yaxis):
         low, high = sorted(axis.get_view_interval())
-        slack = 1e-9 * (high - low)
-        seen = [
+        clearance = 1e-9 * (high - low)
+        context = [
             tick
             for tick in (*axis.get_major_ticks(), *axis.get_minor_ticks())
-            if low - slack <= tick.get_loc() <= high + slack
+            if low - clearance <= tick.get_loc() <= high + clearance
         ]
-        kept = {id(text) for tick in seen for text in (tick.label1, tick.label2)}
+        kept = {id(text) for tick in context for text in (tick.label1, tick.label2)}
         kept |= {id(axis.label), id(axis.offsetText)}
         found += [text for text in axis.findobj(Text) if id(text) not in kept]
     return found

@@ -102,14 +102,14 @@ def sound_drive(item: Drive) -> None:
         assert -math.inf < low <= 0.0 <= high < math.inf
         for t in times:
             if t <= duration:  # rounding of three products
-                slack = 1e-14 * max(high, -low) + 1e-300
-                assert low - slack <= item.extension(t) <= high + slack
+                clearance = 1e-14 * max(high, -low) + 1e-300
+                assert low - clearance <= item.extension(t) <= high + clearance
 
 
 def sound_scenario(item: Scenario) -> None:
     """All that a scenario is asked for before it runs."""
     assert item.linkage.bodies
-    assert "time" in item.recipes
+    assert "time" in item.channel_definitions
     assert list(item.breaks) == sorted(set(item.breaks))
     assert item.drives_in_use
     assert item.jumps in (True, False)

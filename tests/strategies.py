@@ -46,9 +46,9 @@ from support_exudyn import (
     Steady,
     TableDrive,
     UniformSpeed,
+    cylinders_and_rods,
     ravn_slider_crank,
     reference_support,
-    two_body_columns,
 )
 from tests.cases.machine_cases import contact
 from user_forces import CubicCoulomb, InputError, LuGre, Value
@@ -261,17 +261,17 @@ def fields_of(kind: type) -> dict[str, FieldInfo]:
 @cache
 def seeds() -> tuple[Value, ...]:
     """Values whose parts fit each other, of which drawn ones are made by changing something."""
-    loose = ClearancePin(contact=contact())
+    with_clearance = ClearancePin(contact=contact())
     lugre = LuGre(static_coefficient=0.3, sliding_coefficient=0.2)
     rubbing = IdealPin(friction=CubicCoulomb(sliding_coefficient=0.1), radius=0.06)
     support, crank = reference_support(), ravn_slider_crank()
     stand = ImpactStand(bore_mass=3.0, journal_mass=1.0, speed=0.5)
     oil = OilColumn(bore_area=0.05, oil_length=0.8, bulk_modulus=1.5e9)
     rise = Scenario(
-        machine=support, pins={"rear_base": loose}, drive=CubicStep(), duration=5.0, record_period=0.01
+        machine=support, pins={"rear_base": with_clearance}, drive=CubicStep(), duration=5.0, record_period=0.01
     )
     heavy = dataclasses.replace(
-        rise, columns=two_body_columns(), pins={"front_base": rubbing}, solver=SolverSettings(sections=7)
+        rise, columns=cylinders_and_rods(), pins={"front_base": rubbing}, solver=SolverSettings(sections=7)
     )
     space = dataclasses.replace(rise, dimensions=3, columns={"front_column": oil}, channels=("tip.*",))
     apart = dataclasses.replace(
@@ -289,7 +289,7 @@ def seeds() -> tuple[Value, ...]:
         step=1e-5,
         record_period=1e-4,
     )
-    impact = Scenario(machine=stand, pins={"pin": loose}, duration=0.01, gravity=(0.0, 0.0))
+    impact = Scenario(machine=stand, pins={"pin": with_clearance}, duration=0.01, gravity=(0.0, 0.0))
     linkages = [crank.linkage(), support.detailed(("front_column",), ()), support.in_space(support.linkage())]
     table = TableDrive(times=(0.0, 1.0, 2.5), extensions=(0.0, 0.1, 0.05))
     return (rise, heavy, space, apart, turning, impact, *linkages, OwnBody(jack=oil), table)

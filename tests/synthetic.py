@@ -21,12 +21,12 @@ def result(
 ) -> Result:
     """A run with these channels: values and unit, by name."""
     made = {name: Channel(values, unit, f"meaning of {name}") for name, (values, unit) in channels.items()}
-    touches = {pin: tuple(found) for pin, found in (onsets or {}).items()}
+    impacts = {pin: tuple(found) for pin, found in (onsets or {}).items()}
     return Result(
         scenario=scenario,
         channels={"time": Channel(time, "s", "time"), **made},
-        onsets=touches,
-        largest_force=dict.fromkeys(touches, 0.0),
+        onsets=impacts,
+        largest_force=dict.fromkeys(impacts, 0.0),
         impulses=(),
         counts=Counts(steps=1),
         wall_time=1.0,

@@ -29,8 +29,8 @@ from user_forces.normal.anagnostopoulos import Anagnostopoulos as Anagnostopoulo
 from user_forces.normal.carvalho_martins import CarvalhoMartins as CarvalhoMartins
 from user_forces.normal.cylinder import CylinderLaw as CylinderLaw
 from user_forces.normal.damping_speed import DampingSpeed as DampingSpeed
-from user_forces.normal.damping_speed import DepthSpeed as DepthSpeed
-from user_forces.normal.damping_speed import TouchSpeed as TouchSpeed
+from user_forces.normal.damping_speed import ImpactVelocity as ImpactVelocity
+from user_forces.normal.damping_speed import IndentationVelocity as IndentationVelocity
 from user_forces.normal.dubowsky_freudenstein import DubowskyFreudenstein as DubowskyFreudenstein
 from user_forces.normal.esdu_78035 import Esdu78035 as Esdu78035
 from user_forces.normal.exact import Exact as Exact
@@ -48,9 +48,9 @@ from user_forces.normal.hysteresis import exact_damping_factor as exact_damping_
 from user_forces.normal.johnson import Johnson as Johnson
 from user_forces.normal.kelvin_voigt import KelvinVoigt as KelvinVoigt
 from user_forces.normal.lankarani_nikravesh import LankaraniNikravesh as LankaraniNikravesh
+from user_forces.normal.law import Impact as Impact
 from user_forces.normal.law import LoadError as LoadError
 from user_forces.normal.law import NormalLaw as NormalLaw
-from user_forces.normal.law import Touch as Touch
 from user_forces.normal.lee_wang import LeeWang as LeeWang
 from user_forces.normal.liu import Liu as Liu
 from user_forces.normal.pereira import Pereira as Pereira

@@ -8,7 +8,7 @@ from user_forces.expressions.scalar import hypot, is_number, maximum, where
 from user_forces.friction.frictionless import Frictionless
 from user_forces.friction.law import FrictionLaw
 from user_forces.journal import JournalBearing
-from user_forces.normal.law import NormalLaw, Touch
+from user_forces.normal.law import Impact, NormalLaw
 from user_forces.values.value import Value, value
 
 SMALLEST = 1e-300  # [m], only so that nothing is divided by zero
@@ -74,7 +74,7 @@ class JournalContact(Value):
         vy: float,
         bore_spin: float,
         journal_spin: float,
-        touch: Touch | None,
+        impact: Impact | None,
         history: SlipHistory = AT_REST,
     ) -> ContactForce:
         """Force of the bore on the journal. Takes floats or expressions (`user_forces.expressions.scalar`).
@@ -84,7 +84,7 @@ class JournalContact(Value):
             vx, vy: velocity of the journal's centre minus that of the bore's centre [m/s], same axes;
                 the plain difference, not the rate seen by an observer who turns with the bore.
             bore_spin, journal_spin: angular velocities of both bodies [rad/s].
-            touch: what began the contact going on; None while the surfaces are apart, and then there is no
+            impact: what began the contact going on; None while the surfaces are apart, and then there is no
                 force whatever the depth.
             history: for friction laws with a state, the step whose end this is.
 
@@ -102,11 +102,11 @@ class JournalContact(Value):
         bore_arm, journal_arm = bearing.contact_arms(depth)
         slip = nx * vy - ny * vx + journal_spin * journal_arm - bore_spin * bore_arm
         rate = nx * vx + ny * vy
-        if touch is None or (is_number(depth) and depth <= 0.0):
+        if impact is None or (is_number(depth) and depth <= 0.0):
             if is_number(eccentricity) and eccentricity == 0.0:
                 rate = hypot(vx, vy)
             return ContactForce(depth, rate, slip, 0.0, 0.0, 0.0, 0.0, journal_arm, False, 0.0)
-        asked = self.normal(maximum(depth, SHALLOWEST), rate, touch)
+        asked = self.normal(maximum(depth, SHALLOWEST), rate, impact)
         normal = where(depth > 0.0, maximum(asked, 0.0), 0.0)
         deflection = 0.0
         if self.friction.has_state:

@@ -78,7 +78,7 @@ def external_contact_stiffness(
 def internal_contact_stiffness(
     bearing: JournalBearing, bore_material: Material, journal_material: Material
 ) -> float:
-    """Hertz stiffness K of a sphere that touches a hollow sphere from inside.
+    """Hertz stiffness K of a sphere that makes contact a hollow sphere from inside.
 
         K = 4 / (3 pi (h1 + h2)) sqrt(R1 R2 / (R2 - R1))
 

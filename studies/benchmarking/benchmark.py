@@ -46,7 +46,7 @@ RESTLESS_STEP = 2e-4
 
 
 @dataclass(frozen=True)
-class Line:
+class BenchmarkLine:
     """A line of the table: what against what, how, seconds of both, their ratio, and what was asked for.
 
     refused: why there is no ratio, if a run was not finished; seconds are then not a number.
@@ -79,18 +79,18 @@ def _brief(ratio: float) -> str:
     return f"{ratio:.3g}" if ratio < 100.0 else f"{ratio:.0f}"
 
 
-def refused_line(what: str, how: str, against: str, asked: str, reason: str) -> Line:
+def refused_line(what: str, how: str, against: str, asked: str, reason: str) -> BenchmarkLine:
     """A line of runs one of which was not finished."""
-    return Line(what, how, math.nan, against, math.nan, asked, f"refused: {reason}")
+    return BenchmarkLine(what, how, math.nan, against, math.nan, asked, f"refused: {reason}")
 
 
-def versus(what: str, how: str, ours: Scenario, against: str, other: Scenario, asked: str) -> Line:
+def versus(what: str, how: str, ours: Scenario, against: str, other: Scenario, asked: str) -> BenchmarkLine:
     """A line of two runs of ours, timed in turns."""
     try:
         seconds = in_turns(partial(simulate, ours), partial(simulate, other), turns=2)
     except SimulationError as error:
         return refused_line(what, how, against, asked, error.failure.reason)
-    return Line(what, how, seconds[0], against, seconds[1], asked)
+    return BenchmarkLine(what, how, seconds[0], against, seconds[1], asked)
 
 
 def in_turns(*runs: Callable[[], object], turns: int = TURNS) -> list[float]:
@@ -118,7 +118,7 @@ def cheapest_way(scene: str, tried: Sequence[Way]) -> Way | None:
     return min(good, key=lambda item: item[0])[1] if good else None
 
 
-def rise_lines() -> Iterator[Line]:
+def rise_lines() -> Iterator[BenchmarkLine]:
     """The stock recipe's time to the goal against ours; compiled against the yardstick in C."""
     smooth, oil = SCENES[RISE], SCENES[OIL]
     stock_ways = [peer("stock recipe", f"step {h:g} s", smooth, run_stock, h) for h in STOCK_STEPS]
@@ -141,19 +141,19 @@ def rise_lines() -> Iterator[Line]:
             yield refused_line(what, "", "", asked, "no setting meets the goal")
             continue
         ours, others, finest = in_turns(way.bare, stock.bare, stock_ways[-1].bare, turns=2)
-        yield Line(what, way.label, ours, f"stock recipe, {stock.label}", others, asked)
-        yield Line(what, way.label, ours, f"stock recipe, {stock_ways[-1].label}", finest, "")
+        yield BenchmarkLine(what, way.label, ours, f"stock recipe, {stock.label}", others, asked)
+        yield BenchmarkLine(what, way.label, ours, f"stock recipe, {stock_ways[-1].label}", finest, "")
         if name == "reduced":
             yield from _against_the_yardstick(what, way)
 
 
-def _against_the_yardstick(what: str, way: Way) -> Iterator[Line]:
+def _against_the_yardstick(what: str, way: Way) -> Iterator[BenchmarkLine]:
     scenario = SCENES[RISE].scenario
     try:
         with yardstick.compiled() as program:
             ours = min(timed(way.bare) for _ in range(20))
             found = yardstick.run_yardstick(scenario, 1e-5, program=program, runs=20)
-            yield Line(what, way.label, ours, "C yardstick, 1e-5", found.seconds, "5")
+            yield BenchmarkLine(what, way.label, ours, "C yardstick, 1e-5", found.seconds, "5")
     except yardstick.YardstickError as error:
         print(f"no yardstick: {error}", file=sys.stderr)
 
@@ -161,7 +161,7 @@ def _against_the_yardstick(what: str, way: Way) -> Iterator[Line]:
 # --- the connector ---
 
 
-def connector_lines() -> Iterator[Line]:
+def connector_lines() -> Iterator[BenchmarkLine]:
     """Our connector against the engine's own contact in the same bare solver, fixed steps."""
     crank = SCENES["slider-crank"].scenario
     cases = {
@@ -170,18 +170,18 @@ def connector_lines() -> Iterator[Line]:
     }
     kinds: tuple[Evaluator, ...] = ("built_in", "symbolic", "python")
     for case, (scenario, step) in cases.items():
-        run = partial(run_built_in, scenario, step, watch_steps=False)
+        run = partial(run_built_in, scenario, step, step_callbacks=False)
         turns = [[run(contact=kind).solve_time for kind in kinds] for _ in range(5)]
         built_in, *ours = (min(times) for times in zip(*turns, strict=True))
         for name, seconds, asked in zip(("symbolic", "Python"), ours, ("1.1", "1.6"), strict=True):
             what = f"connector, {name}: {case}"
-            yield Line(what, "generalised alpha", seconds, "built-in", built_in, asked)
+            yield BenchmarkLine(what, "generalised alpha", seconds, "built-in", built_in, asked)
 
 
 # --- the slider-crank ---
 
 
-def slider_crank_lines() -> Iterator[Line]:
+def slider_crank_lines() -> Iterator[BenchmarkLine]:
     """Two revolutions, each as coarse as keeps the slider within 1e-6 m over the first half."""
     half = SCENES["slider-crank"].scenario
     two = replace(half, duration=2.0 * slider_crank.REVOLUTION)
@@ -196,21 +196,21 @@ def slider_crank_lines() -> Iterator[Line]:
     tree_tolerance = next(t for t in (1e-6, 1e-7, 1e-8) if off(run_tree(half, t).x) <= SMALL_ERROR)
     tree = partial(run_tree, two, tree_tolerance)
     for t in (1e-4, 1e-5, 1e-6, 1e-7):
-        solver = SolverSettings(tolerance=t, audit=False)  # how wrong it is is measured
+        solver = SolverSettings(tolerance=t, result_checks=False)  # how wrong it is is measured
         run = replace(half, formulation="reduced", solver=solver)
         if off(simulate(run)["slider.x"]) <= SMALL_ERROR:
             break
-    ours = partial(simulate, replace(run, duration=two.duration, solver=replace(solver, audit=True)))
+    ours = partial(simulate, replace(run, duration=two.duration, solver=replace(solver, result_checks=True)))
     mine, theirs, engine = in_turns(ours, lsoda, tree)
     what, how = "slider-crank, two revolutions: reduced", f"tolerance {t:.0e}"
-    yield Line(what, how, mine, f"LSODA, {tolerance:.0e}", theirs, "1")
-    yield Line(what, how, mine, f"built-in contact, DOPRI5, {tree_tolerance:.0e}", engine, "1.5")
+    yield BenchmarkLine(what, how, mine, f"LSODA, {tolerance:.0e}", theirs, "1")
+    yield BenchmarkLine(what, how, mine, f"built-in contact, DOPRI5, {tree_tolerance:.0e}", engine, "1.5")
 
 
 # --- long runs and the import ---
 
 
-def long_lines() -> Iterator[Line]:
+def long_lines() -> Iterator[BenchmarkLine]:
     """Wall time of a run four times as long."""
     for name in ("redundant", "reduced"):
         short = restless(name, 5.0)
@@ -221,13 +221,13 @@ def long_lines() -> Iterator[Line]:
 def restless(name: str, duration: float) -> Scenario:
     """A support whose pin bounces all the time: held columns, elastic contact, no friction."""
     scenario = SCENES["drop"].scenario
-    ((pin, loose),) = scenario.clearance_pins.items()
-    law = loose.contact.normal
+    ((pin, with_clearance),) = scenario.clearance_pins.items()
+    law = with_clearance.contact.normal
     assert isinstance(law, PowerLaw)
-    elastic = replace(loose.contact, normal=Hertz(stiffness=law.stiffness, exponent=law.exponent))
+    elastic = replace(with_clearance.contact, normal=Hertz(stiffness=law.stiffness, exponent=law.exponent))
     return replace(
         scenario,
-        pins={pin: replace(loose, contact=elastic)},
+        pins={pin: replace(with_clearance, contact=elastic)},
         duration=duration,
         record_period=0.01,
         step=RESTLESS_STEP,
@@ -239,13 +239,13 @@ def restless(name: str, duration: float) -> Scenario:
 # --- space ---
 
 
-def space_lines() -> Iterator[Line]:
+def space_lines() -> Iterator[BenchmarkLine]:
     """The rise of 5 s in space against the same in the plane, both in redundant coordinates."""
     cases = {
-        "1.5 mm, no friction": paper_machine.loose_rise(1.5, 0.0, 5e-4),
-        "1.5 mm, friction": paper_machine.loose_rise(1.5, 0.25, 5e-4),
+        "1.5 mm, no friction": paper_machine.clearance_rise(1.5, 0.0, 5e-4),
+        "1.5 mm, friction": paper_machine.clearance_rise(1.5, 0.25, 5e-4),
         "1.5 mm, friction, oil columns": replace(
-            paper_machine.loose_rise(1.5, 0.25, 5e-4), columns=paper_machine.oil_columns()
+            paper_machine.clearance_rise(1.5, 0.25, 5e-4), columns=paper_machine.oil_columns()
         ),
         "ideal pins": paper_machine.ideal_rise(1e-3),
     }
@@ -260,7 +260,7 @@ def space_lines() -> Iterator[Line]:
 PARTS = (rise_lines, connector_lines, slider_crank_lines, long_lines, space_lines)
 
 
-def whole(part: Callable[[], Iterator[Line]]) -> Iterator[Line]:
+def whole(part: Callable[[], Iterator[BenchmarkLine]]) -> Iterator[BenchmarkLine]:
     """The lines of a part of the table; one that says why, if a run ends the part before its end."""
     try:
         yield from part()
@@ -269,7 +269,7 @@ def whole(part: Callable[[], Iterator[Line]]) -> Iterator[Line]:
         yield refused_line(words, "", "", "", error.failure.reason)
 
 
-def sheet(lines: Sequence[Line]) -> Sheet:
+def sheet(lines: Sequence[BenchmarkLine]) -> Sheet:
     """All lines as a table."""
     return Sheet(
         title="Benchmark: ratios of times taken in turns in one run on one core",
@@ -283,7 +283,7 @@ def sheet(lines: Sequence[Line]) -> Sheet:
         ),
         caption=(
             "Goal of the rise (1.5 mm, no friction, 5 s): mean 1e-4, spread and peak 1e-3, speeds of the first "
-            "three touches 1e-3, 1e-3, 1e-2 of a tight reference of the same model, with the fastest setting "
+            "three impacts 1e-3, 1e-3, 1e-2 of a tight reference of the same model, with the fastest setting "
             "tried that meets it. Compilation is not counted."
         ),
         left=2,

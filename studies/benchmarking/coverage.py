@@ -24,7 +24,7 @@ from pathlib import Path
 import numpy as np
 
 from studies.benchmarking import covered
-from studies.benchmarking.covered import Judged, Row
+from studies.benchmarking.covered import CoveredRun, Judged
 from studies.benchmarking.fresh_scenes import KINDS, fresh
 from studies.common.chapter import Sheet
 from studies.common.numbers import Number, write_summary
@@ -56,14 +56,14 @@ class Chosen:
 # --- a scene, in a worker ---
 
 
-def judged_scene(place: int, seed: int, number: int) -> list[Row]:
+def judged_scene(place: int, seed: int, number: int) -> list[CoveredRun]:
     """Make and judge all runs of a scene; one that fails unexplained is a row with its reason."""
     report(0.0)
     scene = fresh(seed, number)
     try:
         return list(covered.rows(scene))
     except Exception as error:
-        return [Row(scene.kind, number, ALL, refused=f"{type(error).__name__}: {error}")]
+        return [CoveredRun(scene.kind, number, ALL, refused=f"{type(error).__name__}: {error}")]
 
 
 def kept(out: Path, seed: int, number: int) -> Path:
@@ -72,22 +72,22 @@ def kept(out: Path, seed: int, number: int) -> Path:
     return out / "scenes" / f"{seed}-{number}-{key(scene.scenario)[:16]}{covered.digest()[:8]}.json"
 
 
-def load(path: Path) -> list[Row] | None:
+def load(path: Path) -> list[CoveredRun] | None:
     """Read what is kept of a scene; return None if that is nothing, or damaged."""
     try:
         data = json.loads(path.read_text(encoding="utf-8"))
-        return [Row(**row | {"judged": tuple(Judged(**one) for one in row["judged"])}) for row in data]
+        return [CoveredRun(**row | {"judged": tuple(Judged(**one) for one in row["judged"])}) for row in data]
     except (OSError, ValueError, TypeError, KeyError):
         return None
 
 
-def save(path: Path, rows: Sequence[Row]) -> None:
+def save(path: Path, rows: Sequence[CoveredRun]) -> None:
     """Keep what came of a scene; errors without end stand as Infinity."""
     with whole_file(path) as temporary:
         temporary.write_text(json.dumps([asdict(row) for row in rows]), encoding="utf-8")
 
 
-def run_scenes(chosen: Chosen, numbers: Sequence[int]) -> list[Row]:
+def run_scenes(chosen: Chosen, numbers: Sequence[int]) -> list[CoveredRun]:
     """Return the rows of all scenes in their order; those that are not kept are made under a progress bar."""
     (chosen.out / "scenes").mkdir(exist_ok=True)
     paths = {number: kept(chosen.out, chosen.seed, number) for number in numbers}
@@ -98,7 +98,7 @@ def run_scenes(chosen: Chosen, numbers: Sequence[int]) -> list[Row]:
         for place, made in pool.stream([(chosen.seed, number) for number in jobs], judged_scene):
             number = jobs[place]
             if isinstance(made, ProcessEndedError):
-                made = [Row(fresh(chosen.seed, number).kind, number, ALL, refused=made.reason)]
+                made = [CoveredRun(fresh(chosen.seed, number).kind, number, ALL, refused=made.reason)]
             save(paths[number], made)
             found[number] = made
             told([len(found) / len(numbers)])
@@ -126,7 +126,7 @@ class Share:
     overstated: float
 
 
-def share(rows: Sequence[Row]) -> Share:
+def share(rows: Sequence[CoveredRun]) -> Share:
     """Sum up what was judged of some runs."""
     numbers = [one for row in rows for one in row.judged]
     told = [one for one in numbers if not one.apart]
@@ -143,7 +143,7 @@ def share(rows: Sequence[Row]) -> Share:
     )
 
 
-def groups(rows: Sequence[Row]) -> Iterator[tuple[str, str, Share]]:
+def groups(rows: Sequence[CoveredRun]) -> Iterator[tuple[str, str, Share]]:
     """Sum up the rows by kind and accuracy, by accuracy, and all together."""
     accuracies = list(dict.fromkeys(row.accuracy for row in rows))
     for kind in (*KINDS, ALL):
@@ -153,7 +153,7 @@ def groups(rows: Sequence[Row]) -> Iterator[tuple[str, str, Share]]:
                 yield kind, accuracy, share(some)
 
 
-def coverage_sheet(rows: Sequence[Row]) -> Sheet:
+def coverage_sheet(rows: Sequence[CoveredRun]) -> Sheet:
     """Lay out the table of kinds and accuracies."""
     header = (
         "scenes", "accuracy", "runs", "refused", "met", "numbers", "set apart", "covered [%]",
@@ -171,7 +171,7 @@ def coverage_sheet(rows: Sequence[Row]) -> Sheet:
     return Sheet("Errors claimed and true, on fresh scenes", header, lines, caption, left=2)
 
 
-def offender_sheet(rows: Sequence[Row]) -> Sheet:
+def offender_sheet(rows: Sequence[CoveredRun]) -> Sheet:
     """Lay out the numbers that are not covered, the worst first."""
     found = [(row, one) for row in rows for one in row.judged if not one.apart and one.ratio > 1.0]
     found.sort(key=lambda item: -item[1].ratio)
@@ -187,13 +187,13 @@ def offender_sheet(rows: Sequence[Row]) -> Sheet:
     return Sheet(f"The worst of {len(found)} numbers that are not covered", header, lines, left=5)
 
 
-def refusal_sheet(rows: Sequence[Row]) -> Sheet:
+def refusal_sheet(rows: Sequence[CoveredRun]) -> Sheet:
     """Lay out the runs that were refused, and why."""
     lines = tuple((str(row.number), row.kind, row.accuracy, row.refused) for row in rows if row.refused)
     return Sheet("Refused", ("scene", "kind", "accuracy", "reason"), lines, wide=True)
 
 
-def numbers(rows: Sequence[Row]) -> list[Number]:
+def numbers(rows: Sequence[CoveredRun]) -> list[Number]:
     """Return what summary.json holds."""
     return [
         Number(field.name, f"{kind}, {accuracy}", float(value), "1", 0.0)
@@ -203,7 +203,7 @@ def numbers(rows: Sequence[Row]) -> list[Number]:
     ]
 
 
-def save_rows(path: Path, rows: Sequence[Row]) -> None:
+def save_rows(path: Path, rows: Sequence[CoveredRun]) -> None:
     """Write all numbers of all runs as CSV, in SI."""
     names = [field.name for field in fields(Judged)]
     with whole_file(path) as temporary, temporary.open("w", newline="", encoding="utf-8") as file:
@@ -223,7 +223,10 @@ def study(chosen: Chosen) -> None:
     started = time.perf_counter()
     wanted = range(chosen.scenes) if chosen.only is None else [chosen.only]
     rows = run_scenes(chosen, wanted)
-    tables: dict[str, Callable[[Sequence[Row]], Sheet]] = {"coverage": coverage_sheet, "worst": offender_sheet}
+    tables: dict[str, Callable[[Sequence[CoveredRun]], Sheet]] = {
+        "coverage": coverage_sheet,
+        "worst": offender_sheet,
+    }
     if any(row.refused for row in rows):
         tables["refused"] = refusal_sheet
     for name, sheet in tables.items():

@@ -139,7 +139,7 @@ class Judged:
 
 
 @dataclass(frozen=True)
-class Row:
+class CoveredRun:
     """A run of a scene to an accuracy. refused: why, else empty. met: whether it says that it was reached."""
 
     kind: str
@@ -157,7 +157,7 @@ def digest() -> str:
     return hashlib.sha256(Path(__file__).read_bytes()).hexdigest()
 
 
-def rows(scene: Fresh) -> Iterator[Row]:
+def rows(scene: Fresh) -> Iterator[CoveredRun]:
     """A scene run to all of its accuracies, and judged.
 
     Runs that take too long are refused. References that do are none: a run that a user waits for in vain is one
@@ -177,7 +177,7 @@ def rows(scene: Fresh) -> Iterator[Row]:
         for reference in references(scene, good) if good else ():
             known.append(reference)  # noqa: PERF402  # as far as it comes
     for accuracy, run in runs.items():
-        row = Row(scene.kind, scene.number, str(accuracy))
+        row = CoveredRun(scene.kind, scene.number, str(accuracy))
         if isinstance(run, Failure):
             yield replace(row, refused=run.reason)
             continue

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from studies.benchmarking.references import tight_runs
-from studies.benchmarking.scenes import SCENES, Scene
+from studies.benchmarking.scenes import SCENES, BenchmarkScene
 from support_exudyn import Estimate, Result, Scenario, SolverSettings, simulate
 from support_exudyn.scenario.scenario_data import Accuracy
 from support_exudyn.simulation.reported_numbers import measures
@@ -110,7 +110,7 @@ def numbers_of_records(run: Result, after: float = 0.0) -> Mapping[str, Estimate
     }
 
 
-def tight(scene: Scene) -> Result:
+def tight(scene: BenchmarkScene) -> Result:
     """A run of a scene that is far closer than any accuracy that is asked for here."""
     if scene.scenario.oil_columns:
         return simulate(replace(scene.scenario, formulation="tree", solver=SolverSettings(tolerance=1e-9)))

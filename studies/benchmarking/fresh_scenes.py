@@ -107,7 +107,7 @@ def _pick(random: np.random.Generator, items: Sequence[T]) -> T:
 def _some_pin(random: np.random.Generator, rear: float = 0.0) -> str:
     """Draw the name of a pin of the support; with this chance the rear-link pin before all."""
     if rear and random.uniform() < rear:
-        return paper_machine.LOOSE_PIN
+        return paper_machine.CLEARANCE_PIN
     return _pick(random, list(reference_support().linkage().pins))
 
 
@@ -132,7 +132,9 @@ def _contact(random: np.random.Generator, size: float, stiffness: float) -> forc
 
 def _damping_speed(random: np.random.Generator) -> forces.DampingSpeed:
     return (
-        forces.DepthSpeed() if random.uniform() < 0.6 else forces.TouchSpeed(floor=_between(random, 1e-4, 1e-2))
+        forces.IndentationVelocity()
+        if random.uniform() < 0.6
+        else forces.ImpactVelocity(floor=_between(random, 1e-4, 1e-2))
     )
 
 
@@ -224,7 +226,7 @@ def _columns(oil: OilColumn) -> dict[str, OilColumn]:
 
 def _rear_pin(random: np.random.Generator) -> Scenario:
     """A rear pin; a third of these scenes ask for the engine's formulation."""
-    scene = _scene(random, reference_support(), {paper_machine.LOOSE_PIN: _pin(random)}, 0.4)
+    scene = _scene(random, reference_support(), {paper_machine.CLEARANCE_PIN: _pin(random)}, 0.4)
     return replace(scene, formulation="redundant", start="concentric") if random.uniform() < 0.33 else scene
 
 
@@ -259,13 +261,13 @@ def _on_cylinders(random: np.random.Generator) -> Scenario:
     cylinder = paper_machine.hydraulic_cylinders(_pick(random, inlets))["front_column"]
     cylinder = replace(cylinder, bulk_modulus=_between(random, 7e8, 2e9))
     columns: dict[str, HydraulicCylinder] = {"front_column": cylinder, "rear_column": cylinder}
-    pins = {paper_machine.LOOSE_PIN: _pin(random)} if random.uniform() < 0.8 else {}
+    pins = {paper_machine.CLEARANCE_PIN: _pin(random)} if random.uniform() < 0.8 else {}
     scene = _scene(random, reference_support(), pins, 0.3, columns=columns, drive=Held())
     return replace(scene, duration=duration, record_period=duration / RECORDS, start="concentric")
 
 
 def _under_block(random: np.random.Generator) -> Scenario:
-    """A rock on the canopy, with and without a loose pin, columns rigid or on oil."""
+    """A rock on the canopy, with and without a clearance pin, columns rigid or on oil."""
     machine = reference_support()
     tip = machine.linkage().points["tip"].point
     hinge = machine.start().hinge
@@ -289,7 +291,7 @@ def _under_block(random: np.random.Generator) -> Scenario:
 def _tail_beam(random: np.random.Generator) -> Scenario:
     jack = _oil(random, (0.1, 0.18), (0.15, 0.5), 1)
     columns = _columns(_oil(random)) if random.uniform() < 0.5 else {}
-    pins = {paper_machine.LOOSE_PIN: _pin(random)}
+    pins = {paper_machine.CLEARANCE_PIN: _pin(random)}
     parts = {"tail_beam": OwnBody(jack=jack)}
     return _scene(random, reference_support(), pins, 0.15, parts=parts, columns=columns)
 

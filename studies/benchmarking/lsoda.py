@@ -1,8 +1,8 @@
-"""The slider-crank with a loose slider pin as anyone with scipy would do it: LSODA and its events.
+"""The slider-crank with a clearance slider pin as anyone with scipy would do it: LSODA and its events.
 
-The crank is prescribed; the turn of the rod and the place of the slider are free. Between touches and
-partings, which `solve_ivp` locates, the equations are smooth and the approach speed is a constant. No friction,
-no gravity.
+The crank is prescribed; the turn of the rod and the place of the slider are free. Between impacts and
+separations, which `solve_ivp` locates, the equations are smooth and the initial impact velocity is a constant.
+No friction, no gravity.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from user_forces.values.value import InputError
 
 PIN = "slider_pin"
 LOOSEST, TIGHTEST = -5, -11  # decimal exponents of tolerances that are tried
-MOST_PIECES = 2000  # of a run, each ends with a touch or parting
+MOST_PIECES = 2000  # of a run, each ends with an impact or separation
 Series = npt.NDArray[np.float64]
 Rates = Callable[[float, Any], list[float]]
 
@@ -40,15 +40,15 @@ class Numbers(NamedTuple):
     clearance: float  # [m]
     stiffness: float  # [N/m^1.5]
     factor: float  # chi [-]
-    floor: float  # of the approach speed [m/s]
+    floor: float  # of the initial impact velocity [m/s]
 
 
 def run_lsoda(scenario: Scenario, tolerance: float, times: Series | None = None) -> Series:
     """Integrate a scenario; return the slider's place [m] at the times.
 
     Arguments:
-        scenario: SliderCrank driven by Steady, slider pin loose with its bore in the slider, no gravity, start
-            "concentric", LankaraniNikravesh with exponent 1.5 and TouchSpeed, no friction.
+        scenario: SliderCrank driven by Steady, slider pin with clearance with its bore in the slider, no
+            gravity, start "concentric", LankaraniNikravesh with exponent 1.5 and ImpactVelocity, no friction.
         tolerance: of LSODA, relative and absolute, for angle [rad], place [m] and their rates alike.
         times: where the slider's place is wanted [s]; the scenario's records by default.
 
@@ -57,23 +57,23 @@ def run_lsoda(scenario: Scenario, tolerance: float, times: Series | None = None)
     numbers, end = _numbers(scenario), scenario.duration
     count = round(end / scenario.record_period)
     wanted: Series = np.arange(float(count + 1)) * scenario.record_period if times is None else times
-    t, state, touching, speed = 0.0, _start(numbers), False, 0.0
+    t, state, closed, speed = 0.0, _start(numbers), False, 0.0
     pieces: list[Series] = []
     while t < end:
         if len(pieces) > MOST_PIECES:
             raise RuntimeError(
-                f"more than {MOST_PIECES} touches and partings by {t} s: the tolerance is too loose"
+                f"more than {MOST_PIECES} impacts and separations by {t} s: the tolerance is too loose"
             )
         inside = wanted[(wanted > t if pieces else wanted >= t) & (wanted <= end)]
-        found = _smooth(numbers, t, end, state, touching, speed, inside, tolerance)
+        found = _smooth(numbers, t, end, state, closed, speed, inside, tolerance)
         if not found.success:
             raise RuntimeError(f"LSODA gave up at {t} s: {found.message}")
         pieces.append(found.y[1] if len(found.y) else inside[:0])
         if found.status == 0:
             break
         t, state = float(found.t_events[0][0]), found.y_events[0][0].tolist()
-        touching = not touching
-        if touching:
+        closed = not closed
+        if closed:
             speed = max(0.0, _pin(numbers, t, state)[1])
     return np.concatenate(pieces)
 
@@ -104,13 +104,13 @@ def _smooth(
     begin: float,
     end: float,
     state: list[float],
-    touching: bool,
+    closed: bool,
     speed: float,
     inside: Series,
     tolerance: float,
 ) -> Any:
-    """The motion up to the next touch or parting, as `solve_ivp` gives it, at the times inside."""
-    side = -1.0 if touching else 1.0
+    """The motion up to the next impact or separation, as `solve_ivp` gives it, at the times inside."""
+    side = -1.0 if closed else 1.0
 
     # just after a change the depth is zero but for rounding: it must not be seen as the next change
     def change(t: float, y: Any) -> float:
@@ -121,7 +121,7 @@ def _smooth(
     change.terminal = True  # type: ignore[attr-defined]
     change.direction = side  # type: ignore[attr-defined]
     return solve_ivp(
-        rates(numbers, max(speed, numbers.floor) if touching else 0.0),
+        rates(numbers, max(speed, numbers.floor) if closed else 0.0),
         (begin, end),
         np.array(state),
         method="LSODA",
@@ -133,7 +133,7 @@ def _smooth(
 
 
 def rates(n: Numbers, speed: float) -> Rates:
-    """Right-hand side for rod's angle, slider's place and their rates; speed of approach 0: apart."""
+    """Right-hand side for rod's angle, slider's place and their rates; initial impact velocity 0: apart."""
     half, end_inertia = 0.5 * n.rod * n.rod_mass, n.rod_inertia
     square = n.speed * n.speed
     damping = n.factor / speed if speed else 0.0
@@ -188,7 +188,7 @@ def _numbers(scenario: Scenario) -> Numbers:
     if not isinstance(machine, SliderCrank) or not isinstance(drive, Steady):
         raise InputError("this takes a SliderCrank and a Steady drive")
     if tuple(scenario.clearance_pins) != (PIN,) or any(scenario.gravity) or scenario.start != "concentric":
-        raise InputError(f"this takes one loose pin, {PIN}, no gravity and start = 'concentric'")
+        raise InputError(f"this takes one clearance pin, {PIN}, no gravity and start = 'concentric'")
     contact = scenario.clearance_pins[PIN].contact
     if not isinstance(contact.friction, Frictionless):
         raise InputError("friction: allowed here: Frictionless")

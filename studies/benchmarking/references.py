@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from studies.benchmarking.scenes import SCENES, Scene
+from studies.benchmarking.scenes import SCENES, BenchmarkScene
 from support_exudyn import Result, Scenario, SolverSettings, simulate
 from support_exudyn.files.whole_file import whole_file
 from support_exudyn.simulation.provenance import versions
@@ -26,7 +26,7 @@ FILE = Path(__file__).with_name("references.json")
 TIGHTEST = 1e-12
 DIGITS = 13  # kept of a number
 Series = npt.NDArray[np.float64]
-ONSETS = 3  # each touch multiplies the errors of those before
+ONSETS = 3  # each impact multiplies the errors of those before
 # what each error is of, and how small it is to be: the goal of the benchmark. Relative, the path's in metres.
 GOALS = {
     "mean": 1e-4,
@@ -54,7 +54,7 @@ class Sample:
 
 
 def sample(
-    scene: Scene,
+    scene: BenchmarkScene,
     time: Series,
     force: Series,
     acceleration: Series,
@@ -65,8 +65,9 @@ def sample(
     """What is looked at, from series at the scene's records.
 
     Arguments:
-        time: [s]. force: in the loose pin [N]. acceleration: of the scene's body [rad/s^2]. path: of its point.
-        speeds: of approach of the touches [m/s]. peak: largest force at any time [N].
+        time: [s]. force: in the clearance pin [N]. acceleration: of the scene's body [rad/s^2]. path: of its
+            point.
+        speeds: of approach of the impacts [m/s]. peak: largest force at any time [N].
     """
     inside = time >= scene.after - 1e-9
     numbers = {
@@ -85,7 +86,7 @@ def thinned(path: Series) -> Series:
     return path[..., :: max(1, path.shape[-1] // PATH_POINTS)]
 
 
-def of_result(scene: Scene, result: Result) -> Sample:
+def of_result(scene: BenchmarkScene, result: Result) -> Sample:
     """What is looked at of a run of ours."""
     return sample(
         scene,
@@ -117,7 +118,7 @@ def times_the_goal(off: Mapping[str, float]) -> float:
 # --- made and kept ---
 
 
-def tight_runs(scene: Scene) -> tuple[Scenario, Scenario]:
+def tight_runs(scene: BenchmarkScene) -> tuple[Scenario, Scenario]:
     """The scene as the reference has it, and as its own error is found."""
     if scene.scenario.oil_columns:
         tree = replace(scene.scenario, formulation="tree", solver=SolverSettings(tolerance=1e-11))

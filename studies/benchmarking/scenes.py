@@ -15,10 +15,11 @@ DROP_TIME = 0.6  # [s]; the journal has come to rest in its bore
 
 
 @dataclass(frozen=True)
-class Scene:
+class BenchmarkScene:
     """A scenario without settings, and what is looked at.
 
-    label: for people. scenario: what is run. pin: the loose pin. body: whose angular acceleration is looked at.
+    label: for people. scenario: what is run. pin: the clearance pin. body: whose angular acceleration is looked
+        at.
     point: whose path. after: from when on force and acceleration are averaged [s]. step: default of the
     redundant formulation [s].
     """
@@ -37,13 +38,13 @@ class Scene:
         return self.scenario.duration < 1.0
 
 
-def _support(label: str, scenario: Scenario, after: float) -> Scene:
-    return Scene(label, scenario, paper_machine.LOOSE_PIN, "rear_link", "tip", after, 5e-4)
+def _support(label: str, scenario: Scenario, after: float) -> BenchmarkScene:
+    return BenchmarkScene(label, scenario, paper_machine.CLEARANCE_PIN, "rear_link", "tip", after, 5e-4)
 
 
-def _scenes() -> dict[str, Scene]:
-    smooth = replace(paper_machine.loose_rise(CLEARANCE_MM, 0.0, 5e-4), solver=SolverSettings())
-    dry = replace(smooth, pins=paper_machine.loose_rise(CLEARANCE_MM, FRICTION, 5e-4).pins)
+def _scenes() -> dict[str, BenchmarkScene]:
+    smooth = replace(paper_machine.clearance_rise(CLEARANCE_MM, 0.0, 5e-4), solver=SolverSettings())
+    dry = replace(smooth, pins=paper_machine.clearance_rise(CLEARANCE_MM, FRICTION, 5e-4).pins)
     crank = slider_crank.scenarios(quick=False)[slider_crank.SMOOTH]
     half = replace(
         crank,
@@ -62,10 +63,10 @@ def _scenes() -> dict[str, Scene]:
             replace(smooth, columns=paper_machine.oil_columns()),
             3.0,
         ),
-        "slider-crank": Scene(
+        "slider-crank": BenchmarkScene(
             "slider-crank: half a revolution at 5000 rpm", half, slider_crank.PIN, "rod", "slider", 0.0, 1e-6
         ),
     }
 
 
-SCENES: Mapping[str, Scene] = _scenes()
+SCENES: Mapping[str, BenchmarkScene] = _scenes()

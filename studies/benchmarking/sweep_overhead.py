@@ -29,7 +29,7 @@ from support_exudyn.files.whole_file import whole_file
 from support_exudyn.sweeps import Plan, grid, read_table, sweep
 from support_exudyn.sweeps.key import key
 from support_exudyn.sweeps.plan import Inputs
-from support_exudyn.sweeps.run import Outcome
+from support_exudyn.sweeps.run import SweepOutcome
 from support_exudyn.sweeps.store import Store
 from support_exudyn.sweeps.work import Task, row_of
 
@@ -45,8 +45,8 @@ def short_rise(point: Inputs) -> Scenario:
 
 
 def long_rise(point: Inputs) -> Scenario:
-    """A rise of 0.3 s with a loose pin, some tenths of a second of work."""
-    return replace(paper_machine.loose_rise(float(point["clearance_mm"]), 0.0, 5e-4), duration=0.3)
+    """A rise of 0.3 s with a clearance pin, some tenths of a second of work."""
+    return replace(paper_machine.clearance_rise(float(point["clearance_mm"]), 0.0, 5e-4), duration=0.3)
 
 
 PLANS = {
@@ -80,7 +80,7 @@ def timed(plan: Plan, workers: int) -> Timing:
     with tempfile.TemporaryDirectory() as folder:
         began = time.perf_counter()
 
-        def note(outcome: Outcome) -> None:
+        def note(outcome: SweepOutcome) -> None:
             if not first:
                 first.append(time.perf_counter() - began)
 

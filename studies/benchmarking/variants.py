@@ -12,7 +12,7 @@ from studies.benchmarking.peers.built_in import run_built_in
 from studies.benchmarking.peers.peer_run import PeerRun
 from studies.benchmarking.peers.stock import run_stock
 from studies.benchmarking.references import ONSETS, Sample, of_result, sample, times_the_goal
-from studies.benchmarking.scenes import Scene
+from studies.benchmarking.scenes import BenchmarkScene
 from support_exudyn import Scenario, SolverSettings, simulate
 from user_forces import Frictionless
 
@@ -22,7 +22,7 @@ TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
 IMPACT_STEPS = 512  # at the default step
 FIXED_STEPS = (2.0, 0.4, 0.1)  # times the default, of runs in which nothing is located
 FINEST_FIXED_STEP = 0.04  # tried besides where time allows
-AUDIT = False  # how wrong a way can be is what is looked at
+RESULT_CHECKS = False  # how wrong a way can be is what is looked at
 KNOBS: tuple[tuple[str, str, Mapping[str, object]], ...] = (  # turned at the default step
     *(("spectral radius", f"spectral radius {x:g}", {"spectral_radius": x}) for x in (0.0, 0.3, 0.7, 0.9)),
     *(("Newton's method", f"Newton tolerance {x:.0e}", {"newton_tolerance": x}) for x in (1e-5, 1e-6, 1e-10)),
@@ -54,7 +54,7 @@ class Way:
     bare: Callable[[], object]
 
 
-def ways(scene: Scene, quick: bool) -> list[Way]:
+def ways(scene: BenchmarkScene, quick: bool) -> list[Way]:
     """All ways to compute a scene; what costs much is done on short scenes only, and not if quick."""
     short = scene.is_short
     if quick:
@@ -81,21 +81,23 @@ def ways(scene: Scene, quick: bool) -> list[Way]:
     return found
 
 
-def _error_controlled(scene: Scene, tolerances: Sequence[float]) -> Iterator[Way]:
+def _error_controlled(scene: BenchmarkScene, tolerances: Sequence[float]) -> Iterator[Way]:
     """The formulation that chooses its steps by a tolerance."""
     formulation: Literal["tree", "reduced"] = "tree" if scene.scenario.oil_columns else "reduced"
     yield from (with_tolerance(scene, formulation, tolerance) for tolerance in tolerances)
 
 
-def _steps(scene: Scene, family: str, label: str, shares: Sequence[float], **settings: object) -> Iterator[Way]:
+def _steps(
+    scene: BenchmarkScene, family: str, label: str, shares: Sequence[float], **settings: object
+) -> Iterator[Way]:
     """The redundant formulation by several lengths of its steps."""
     for share in shares:
         yield redundant(scene, family, f"{label} x {share:g}", share, **settings)
 
 
-def redundant(scene: Scene, family: str, label: str, share: float, **settings: object) -> Way:
+def redundant(scene: BenchmarkScene, family: str, label: str, share: float, **settings: object) -> Way:
     """The redundant formulation at so many times the default step."""
-    chosen = {"impact_steps": round(IMPACT_STEPS / share), "audit": AUDIT, **settings}
+    chosen = {"impact_steps": round(IMPACT_STEPS / share), "result_checks": RESULT_CHECKS, **settings}
     solver = SolverSettings(**chosen)  # type: ignore[arg-type]
     step = min(scene.step * share, scene.scenario.record_period)
     scenario = replace(scene.scenario, formulation="redundant", step=step, solver=solver)
@@ -103,14 +105,14 @@ def redundant(scene: Scene, family: str, label: str, share: float, **settings: o
     return _way(family, label, scene, scenario)
 
 
-def with_tolerance(scene: Scene, formulation: Literal["tree", "reduced"], tolerance: float) -> Way:
+def with_tolerance(scene: BenchmarkScene, formulation: Literal["tree", "reduced"], tolerance: float) -> Way:
     """A formulation with error control."""
-    solver = SolverSettings(tolerance=tolerance, audit=AUDIT)
+    solver = SolverSettings(tolerance=tolerance, result_checks=RESULT_CHECKS)
     scenario = replace(scene.scenario, formulation=formulation, solver=solver)
     return _way(formulation, f"tolerance {tolerance:.0e}", scene, scenario)
 
 
-def _peers(scene: Scene, shares: Sequence[float]) -> Iterator[Way]:
+def _peers(scene: BenchmarkScene, shares: Sequence[float]) -> Iterator[Way]:
     """The stock recipe, and the engine's own contact in its place."""
     for share in shares:
         step = scene.step * share
@@ -119,12 +121,14 @@ def _peers(scene: Scene, shares: Sequence[float]) -> Iterator[Way]:
             yield peer(BUILT_IN, f"fixed step x {share:g}", scene, run_built_in, step)
 
 
-def peer(family: str, label: str, scene: Scene, run: Callable[[Scenario, float], PeerRun], step: float) -> Way:
+def peer(
+    family: str, label: str, scene: BenchmarkScene, run: Callable[[Scenario, float], PeerRun], step: float
+) -> Way:
     """A competitor at a step [s]."""
 
     def done() -> Done:
         found = run(scene.scenario, step)
-        speeds = [touch.speed for touch in found.onsets[:ONSETS]]
+        speeds = [impact.speed for impact in found.onsets[:ONSETS]]
         path = found.x, found.y
         taken = sample(
             scene, found.time, found.force, found.angular_acceleration, path, speeds, found.largest_force
@@ -134,7 +138,7 @@ def peer(family: str, label: str, scene: Scene, run: Callable[[Scenario, float],
     return Way(family, label, done, partial(run, scene.scenario, step))
 
 
-def _way(family: str, label: str, scene: Scene, scenario: Scenario) -> Way:
+def _way(family: str, label: str, scene: BenchmarkScene, scenario: Scenario) -> Way:
     """A run of ours."""
 
     def done() -> Done:
@@ -148,7 +152,7 @@ def _way(family: str, label: str, scene: Scene, scenario: Scenario) -> Way:
 
 
 @dataclass(frozen=True)
-class Row:
+class WayRun:
     """A run.
 
     scene, family, label: what was run and how. seconds: wall time, the least if it was timed more than once.
@@ -172,7 +176,7 @@ class Row:
         return times_the_goal(self.errors) if self.errors else float("inf")
 
 
-def front(rows: Sequence[Row]) -> list[Row]:
+def front(rows: Sequence[WayRun]) -> list[WayRun]:
     """The rows than which no other is both faster and more accurate, the fastest first."""
     best, least = [], float("inf")
     for row in sorted(rows, key=lambda row: (row.seconds, row.overall)):
@@ -182,7 +186,7 @@ def front(rows: Sequence[Row]) -> list[Row]:
     return best
 
 
-def cheapest(rows: Sequence[Row], most: float = 1.0) -> Row | None:
+def cheapest(rows: Sequence[WayRun], most: float = 1.0) -> WayRun | None:
     """The fastest row whose errors are within the goal, or so many times it; None if there is none."""
     good = [row for row in rows if row.overall <= most]
     return min(good, key=lambda row: row.seconds) if good else None

@@ -62,8 +62,8 @@ def run_yardstick(scenario: Scenario, tolerance: float, *, program: Path, runs: 
     """Run the yardstick.
 
     Arguments:
-        scenario: HydraulicSupport, rear-link pin loose, its bore in the base, CubicStep, start "concentric",
-            LankaraniNikravesh with exponent 1.5 and TouchSpeed, no friction or Ambrosio's.
+        scenario: HydraulicSupport, rear-link pin with clearance, its bore in the base, CubicStep, start
+            "concentric", LankaraniNikravesh with exponent 1.5 and ImpactVelocity, no friction or Ambrosio's.
         tolerance: largest error of a step as a share of the clearance.
         program: from `compiled`.
         runs: of which the fastest is reported.
@@ -75,7 +75,7 @@ def run_yardstick(scenario: Scenario, tolerance: float, *, program: Path, runs: 
     if done.returncode != 0:
         raise YardstickError(done.stderr.strip() or f"the program ended with {done.returncode}")
     found = json.loads(done.stdout)
-    return Yardstick(found["seconds"], found["mean"], tuple(Onset(*touch) for touch in found["onsets"]))
+    return Yardstick(found["seconds"], found["mean"], tuple(Onset(*impact) for impact in found["onsets"]))
 
 
 # --- the machine in numbers, in the order of the C program ---
@@ -88,7 +88,7 @@ def _numbers(scenario: Scenario, tolerance: float) -> list[float]:
     if scenario.columns or scenario.drives or scenario.own_bodies or scenario.friction_pins:
         raise InputError("the yardstick takes rigid columns and one drive")
     if tuple(scenario.clearance_pins) != (PIN,) or scenario.start != "concentric":
-        raise InputError(f"the yardstick takes one loose pin, {PIN}, and start = 'concentric'")
+        raise InputError(f"the yardstick takes one clearance pin, {PIN}, and start = 'concentric'")
     pin = scenario.clearance_pins[PIN]
     if pin.bore != "first":
         raise InputError(f"pins.{PIN}.bore = {pin.bore!r}: allowed: 'first'")

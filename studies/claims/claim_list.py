@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from studies.claims.evidence import Evidence, Measured, Verdict, every, opposite, rising, some, within
-from studies.claims.plausible_runs import IDEAL, LOOSE, MODE_1, MODE_1_IDEAL, OIL, OIL_IDEAL
+from studies.claims.plausible_runs import CLEARANCES, IDEAL, MODE_1, MODE_1_IDEAL, OIL, OIL_IDEAL
 from studies.common import paper_machine, rise
 from studies.common.data import rows
 
@@ -17,7 +17,7 @@ LITTLE = 0.05  # of a number
 SMALL = 0.02  # of the mean force
 NOTICED = 1e-3  # of the vertical share of a column's force
 A_BLOW = 1.0  # [N s]
-MIDDLE = LOOSE[2]  # 1.5 mm, the clearance of section 3
+MIDDLE = CLEARANCES[2]  # 1.5 mm, the clearance of section 3
 LAST_DIGIT = 5.1e-4  # of a printed stiffness [N/mm^1.5]
 SIDES = ("front", "rear")
 
@@ -52,14 +52,19 @@ def _range(e: Evidence, quantity: str) -> Measured:
     return e[IDEAL, f"range_{quantity}"]
 
 
+def _growth(e: Evidence, quantity: str) -> float:
+    """By how much a quantity grows from the smallest to the largest clearance [%]."""
+    return 100.0 * (e[CLEARANCES[3], quantity].value / e[CLEARANCES[0], quantity].value - 1.0)
+
+
 def _fluctuates(quantity: str, share: float, cases: tuple[str, ...] = (MIDDLE,)) -> Judge:
-    return lambda e: every(e[c, f"ripple_{quantity}"].above(_range(e, quantity).times(share)) for c in cases)
+    return lambda e: every(e[c, f"rms_{quantity}"].above(_range(e, quantity).times(share)) for c in cases)
 
 
-def _ripple_said(quantity: str, unit: str, digits: int = 3) -> Tell:
+def _fluctuation_said(quantity: str, unit: str, digits: int = 3) -> Tell:
     def tell(e: Evidence) -> str:
-        share = 100.0 * e[MIDDLE, f"ripple_{quantity}"].value / _range(e, quantity).value
-        return f"ripple {e[MIDDLE, f'ripple_{quantity}'].said(digits)} {unit}, {share:.3g} % of the range"
+        share = 100.0 * e[MIDDLE, f"rms_{quantity}"].value / _range(e, quantity).value
+        return f"RMS fluctuation {e[MIDDLE, f'rms_{quantity}'].said(digits)} {unit}, {share:.3g} % of the range"
 
     return tell
 
@@ -73,7 +78,7 @@ def _alike_said(quantity: str, cases: tuple[str, ...] = (MIDDLE,)) -> Tell:
 
 
 def _row_said(name: str, unit: str, digits: int = 4, scale: float = 1.0) -> Tell:
-    return lambda e: ", ".join(m.times(scale).said(digits) for m in e.row(name, LOOSE)) + f" {unit}"
+    return lambda e: ", ".join(m.times(scale).said(digits) for m in e.row(name, CLEARANCES)) + f" {unit}"
 
 
 def _value(measured: Measured) -> float:
@@ -89,20 +94,20 @@ def _all(*judges: Judge) -> Judge:
 
 
 def _grows(name: str) -> Judge:
-    return lambda e: rising(e.row(name, LOOSE))
+    return lambda e: rising(e.row(name, CLEARANCES))
 
 
-def _falls(name: str, cases: tuple[str, ...] = LOOSE) -> Judge:
+def _falls(name: str, cases: tuple[str, ...] = CLEARANCES) -> Judge:
     return lambda e: rising([m.times(-1.0) for m in e.row(name, cases)])
 
 
 def _falls_then_grows(e: Evidence) -> Verdict:
-    first, *inner, last = e.row("std_force", LOOSE)
+    first, *inner, last = e.row("std_force", CLEARANCES)
     return some(every([m.below(first), m.below(last)]) for m in inner)
 
 
 def _jump_between_1_and_1p5(e: Evidence) -> Verdict:
-    half, one, one_and_half, two = e.row("ripple_acceleration", LOOSE)
+    half, one, one_and_half, two = e.row("rms_acceleration", CLEARANCES)
     return every(big.above(small.times(1.5)) for big in (one_and_half, two) for small in (half, one))
 
 
@@ -145,14 +150,16 @@ JUDGES: dict[str, tuple[Judge, Tell]] = {
         lambda e: f"{_STIFFNESSES[2]:.3f}",
     ),
     "velocity alike": (_alike("speed"), _alike_said("speed")),
-    "velocity fluctuates": (_fluctuates("speed", VISIBLE), _ripple_said("speed", "deg/s")),
+    "velocity fluctuates": (_fluctuates("speed", VISIBLE), _fluctuation_said("speed", "deg/s")),
     "velocity higher in the middle": (
         lambda e: e[MIDDLE, "speed_middle"].above(e[IDEAL, "speed_middle"]),
         lambda e: f"{e[MIDDLE, 'speed_middle'].said(6)} against {e[IDEAL, 'speed_middle'].said(6)} deg/s",
     ),
-    "acceleration fluctuates": (_fluctuates("acceleration", GREAT), _ripple_said("acceleration", "deg/s²")),
+    "acceleration fluctuates": (
+        _fluctuates("acceleration", GREAT), _fluctuation_said("acceleration", "deg/s²"),
+    ),
     "acceleration alike": (_alike("acceleration"), _alike_said("acceleration")),
-    "force fluctuates": (_fluctuates("force", GREAT), _ripple_said("force", "N")),
+    "force fluctuates": (_fluctuates("force", GREAT), _fluctuation_said("force", "N")),
     "force alike": (_alike("force"), _alike_said("force")),
     "movement alike": (
         _all(_alike("speed"), _alike("tip")),
@@ -163,60 +170,62 @@ JUDGES: dict[str, tuple[Judge, Tell]] = {
         lambda e: all(abs(a - b) < LAST_DIGIT for a, b in zip(_STIFFNESSES, _PRINTED, strict=True)),
         lambda e: ", ".join(f"{k:.3f}" for k in _STIFFNESSES),
     ),
-    "velocity alike for all": (_alike("speed", LOOSE), _alike_said("speed", LOOSE)),
+    "velocity alike for all": (_alike("speed", CLEARANCES), _alike_said("speed", CLEARANCES)),
     "size matters little for the velocity": (
-        lambda e: every(within(e.row(f"speed_{stage}", LOOSE), LITTLE) for stage in rise.STAGES),
+        lambda e: every(within(e.row(f"speed_{stage}", CLEARANCES), LITTLE) for stage in rise.STAGES),
         _row_said("speed_middle", "deg/s in the middle", 6),
     ),
     "velocity alike early and late": (
-        lambda e: every(within(e.row(f"speed_{stage}", LOOSE), 0.01) for stage in ("early", "late")),
+        lambda e: every(within(e.row(f"speed_{stage}", CLEARANCES), 0.01) for stage in ("early", "late")),
         _both_said(_row_said("speed_early", "deg/s early", 5), _row_said("speed_late", "late", 5)),
     ),
-    "velocity ripple grows early and late": (
-        _all(_grows("ripple_speed_early"), _grows("ripple_speed_late")),
+    "velocity RMS fluctuation grows early and late": (
+        _all(_grows("rms_speed_early"), _grows("rms_speed_late")),
         _both_said(
-            _row_said("ripple_speed_early", "deg/s early", 2), _row_said("ripple_speed_late", "late", 2)
+            _row_said("rms_speed_early", "deg/s early", 2), _row_said("rms_speed_late", "late", 2)
         ),
     ),
     "velocity grows in the middle": (_grows("speed_middle"), _row_said("speed_middle", "deg/s", 6)),
-    "velocity ripple grows in the middle": (
-        _grows("ripple_speed_middle"), _row_said("ripple_speed_middle", "deg/s", 3),
+    "velocity RMS fluctuation grows in the middle": (
+        _grows("rms_speed_middle"), _row_said("rms_speed_middle", "deg/s", 3),
     ),
-    "acceleration alike for all": (_alike("acceleration", LOOSE), _alike_said("acceleration", LOOSE)),
-    "acceleration jumps after 1 mm": (_jump_between_1_and_1p5, _row_said("ripple_acceleration", "deg/s²", 3)),
+    "acceleration alike for all": (
+        _alike("acceleration", CLEARANCES), _alike_said("acceleration", CLEARANCES),
+    ),
+    "acceleration jumps after 1 mm": (_jump_between_1_and_1p5, _row_said("rms_acceleration", "deg/s²", 3)),
     "mean acceleration falls": (_falls("mean_acceleration"), _row_said("mean_acceleration", "deg/s²", 3)),
     "mean acceleration alike": (
-        lambda e: within(e.row("mean_acceleration", LOOSE), 0.01, _range(e, "acceleration")),
+        lambda e: within(e.row("mean_acceleration", CLEARANCES), 0.01, _range(e, "acceleration")),
         _row_said("mean_acceleration", "deg/s²", 3),
     ),
-    "movement ripple grows": (
-        _all(_grows("ripple_speed"), _grows("ripple_acceleration")),
-        _both_said(_row_said("ripple_speed", "deg/s", 3), _row_said("ripple_acceleration", "deg/s²", 3)),
+    "movement RMS fluctuation grows": (
+        _all(_grows("rms_speed"), _grows("rms_acceleration")),
+        _both_said(_row_said("rms_speed", "deg/s", 3), _row_said("rms_acceleration", "deg/s²", 3)),
     ),
     # section 4.2: force over the clearance
-    "force alike for all": (_alike("force", LOOSE), _alike_said("force", LOOSE)),
-    "force ripple differs": (
-        lambda e: opposite(within(e.row("ripple_force", LOOSE), 0.1)), _row_said("ripple_force", "N", 3),
+    "force alike for all": (_alike("force", CLEARANCES), _alike_said("force", CLEARANCES)),
+    "force RMS fluctuation differs": (
+        lambda e: opposite(within(e.row("rms_force", CLEARANCES), 0.1)), _row_said("rms_force", "N", 3),
     ),
     "mean force grows": (_grows("mean_force"), _row_said("mean_force", "kN", 5, 1e-3)),
     "mean force grows little": (
-        lambda e: within(e.row("mean_force", LOOSE), SMALL),
-        lambda e: f"{100 * (e[LOOSE[3], 'mean_force'].value / e[LOOSE[0], 'mean_force'].value - 1):+.2f} %",
+        lambda e: within(e.row("mean_force", CLEARANCES), SMALL),
+        lambda e: f"{_growth(e, 'mean_force'):+.2f} %",
     ),
     "spread falls and grows": (_falls_then_grows, _row_said("std_force", "N", 5)),
     "spread does not only grow": (lambda e: opposite(_grows("std_force")(e)), _row_said("std_force", "N", 5)),
     "size matters little for the force": (
-        lambda e: every(within(e.row(name, LOOSE), LITTLE) for name in ("mean_force", "std_force")),
+        lambda e: every(within(e.row(name, CLEARANCES), LITTLE) for name in ("mean_force", "std_force")),
         _row_said("std_force", "N", 5),
     ),
     # section 4.3: posture
     "tip to the rear": (
-        lambda e: every(m.below(0.0) for m in e.row("mean_tip_shift", LOOSE)),
+        lambda e: every(m.below(0.0) for m in e.row("mean_tip_shift", CLEARANCES)),
         _row_said("mean_tip_shift", "mm"),
     ),
     "tip shift grows": (_falls("mean_tip_shift"), _row_said("mean_tip_shift", "mm")),
     "tip range alike": (
-        lambda e: within(e.row("tip_range", (IDEAL, *LOOSE)), 2.0 * LITTLE),
+        lambda e: within(e.row("tip_range", (IDEAL, *CLEARANCES)), 2.0 * LITTLE),
         lambda e: f"{e[IDEAL, 'tip_range'].said(4)} mm ideal; {_row_said('tip_range', 'mm')(e)}",
     ),
     "columns tilt": (
@@ -224,7 +233,7 @@ JUDGES: dict[str, tuple[Judge, Tell]] = {
         lambda e: f"front {_tilt_said('front', 'angle')(e)}; rear {_tilt_said('rear', 'angle')(e)}",
     ),
     "angles fall with size": (
-        _all(*(_falls(f"{side}_angle", (IDEAL, *LOOSE)) for side in SIDES)),
+        _all(*(_falls(f"{side}_angle", (IDEAL, *CLEARANCES)) for side in SIDES)),
         lambda e: f"front {_row_said('front_angle', 'deg', 6)(e)}; rear {_row_said('rear_angle', 'deg', 6)(e)}",
     ),
     "front nearer to the vertical": (
@@ -246,18 +255,21 @@ JUDGES: dict[str, tuple[Judge, Tell]] = {
             f"{e[OIL_IDEAL, 'largest_force'].times(1e-3).said(4)} kN ideal"
         ),
     ),
-    "force ripple in mode 1": (
-        lambda e: e[MODE_1, "shaking_force"].above(e[MODE_1_IDEAL, "shaking_force"]),
-        lambda e: f"{e[MODE_1, 'shaking_force'].said(3)} against {e[MODE_1_IDEAL, 'shaking_force'].said(2)} N",
+    "force RMS fluctuation in mode 1": (
+        lambda e: e[MODE_1, "rms_from_start_force"].above(e[MODE_1_IDEAL, "rms_from_start_force"]),
+        lambda e: (
+            f"{e[MODE_1, 'rms_from_start_force'].said(3)} against "
+            f"{e[MODE_1_IDEAL, 'rms_from_start_force'].said(2)} N"
+        ),
     ),
     "modes differ": (
-        lambda e: opposite(within([e[MODE_1, "shaking_force"], e[MIDDLE, "shaking_force"]], 0.1)),
-        _mode_said("shaking_force", "N"),
+        lambda e: opposite(within([e[MODE_1, "rms_from_start_force"], e[MIDDLE, "rms_from_start_force"]], 0.1)),
+        _mode_said("rms_from_start_force", "N"),
     ),
-    "gentle force": (_mode_saves("shaking_force"), _mode_said("shaking_force", "N")),
+    "gentle force": (_mode_saves("rms_from_start_force"), _mode_said("rms_from_start_force", "N")),
     "gentle motion": (
-        _all(_mode_saves("shaking_speed"), _mode_saves("shaking_acceleration")),
-        _mode_said("shaking_acceleration", "deg/s²"),
+        _all(_mode_saves("rms_from_start_speed"), _mode_saves("rms_from_start_acceleration")),
+        _mode_said("rms_from_start_acceleration", "deg/s²"),
     ),
     "gentle peak": (_mode_saves("largest_force"), _mode_said("largest_force", "kN", 1e-3)),
 }  # fmt: skip

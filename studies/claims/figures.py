@@ -11,7 +11,7 @@ from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
 from studies.claims.evidence import Evidence
 from studies.claims.plausible import REFERENCE, Sample
-from studies.claims.plausible_runs import LOOSE
+from studies.claims.plausible_runs import CLEARANCES
 from studies.claims.verdicts import NEARLY_ALL, Ruling
 from studies.common import paper_machine
 from studies.common.panels import legend
@@ -30,7 +30,7 @@ def figures(rulings: Sequence[Ruling], reference: Evidence, machines: Machines) 
     drawn = {"claims_shares": share_figure(rulings)}
     if machines:
         drawn["force_over_clearance"] = force_figure(reference, machines)
-        drawn["ripple_and_friction"] = ripple_figure(reference, machines)
+        drawn["rms_and_friction"] = rms_figure(reference, machines)
     return drawn
 
 
@@ -75,12 +75,15 @@ def force_figure(reference: Evidence, machines: Machines) -> Figure:
     for axes, letter, (name, paper) in zip(panels, "ab", printed.items(), strict=True):
         rises = []
         for sample, evidence in machines:
-            line = _against_first([m.value for m in evidence.row(name, LOOSE)])
+            line = _against_first([m.value for m in evidence.row(name, CLEARANCES)])
             in_rise = sample["window"] == "rise"
             axes.plot(SIZES_MM, line, color="#999999" if in_rise else OTHER_WINDOW, lw=0.5, alpha=0.5)
             rises += list(line) if in_rise else []
         axes.plot(
-            SIZES_MM, _against_first([m.value for m in reference.row(name, LOOSE)]), color="black", lw=1.4
+            SIZES_MM,
+            _against_first([m.value for m in reference.row(name, CLEARANCES)]),
+            color="black",
+            lw=1.4,
         )
         axes.plot(SIZES_MM, _against_first(list(paper.values())), "x", color=style.PAPER, ms=6, mew=1.5)
         # a few that shake would dwarf the rest
@@ -101,17 +104,19 @@ def _against_first(values: Sequence[float]) -> np.ndarray:
     return 100.0 * (np.array(values) / values[0] - 1.0)
 
 
-def ripple_figure(reference: Evidence, machines: Machines) -> Figure:
+def rms_figure(reference: Evidence, machines: Machines) -> Figure:
     """What decides whether the pin shakes."""
     drawing = Figure(figsize=style.size(170, 85))
     left, right = drawing.subplots(1, 2, sharey=True)
     for axes, factor in ((left, "sliding_coefficient"), (right, "dynamic_speed")):
-        for bore, look in (("base", (style.LOOSE, "o")), ("rear link", (style.SMOOTH, "^"))):
+        for bore, look in (("base", (style.WITH_CLEARANCE, "o")), ("rear link", (style.SMOOTH, "^"))):
             _scatter(axes, [m for m in machines if m[0]["bore"] == bore], factor, look, f"bore in the {bore}")
-        shown = reference[LOOSE[2], "ripple_force"].over(reference[LOOSE[2], "mean_force"]).value
+        shown = reference[CLEARANCES[2], "rms_force"].over(reference[CLEARANCES[2], "mean_force"]).value
         axes.plot(float(REFERENCE[factor]), 100.0 * shown, "s", color="black", ms=5, label="reference support")
         axes.set_yscale("log")
-    left.set(title="a)", xlabel="friction coefficient [-]", ylabel="ripple of the pin force [% of its mean]")
+    left.set(
+        title="a)", xlabel="friction coefficient [-]", ylabel="RMS fluctuation of the pin force [% of its mean]"
+    )
     right.set(title="b)", xlabel="v_d [m/s]", xscale="log")
     right.xaxis.set_major_locator(LogLocator(subs=(1.0, 3.0)))
     right.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
@@ -124,7 +129,7 @@ def ripple_figure(reference: Evidence, machines: Machines) -> Figure:
 def _scatter(axes: Axes, machines: Machines, factor: str, look: tuple[str, str], label: str) -> None:
     x = [float(sample[factor]) for sample, _ in machines]
     y = [
-        100.0 * evidence[LOOSE[2], "ripple_force"].over(evidence[LOOSE[2], "mean_force"]).value
+        100.0 * evidence[CLEARANCES[2], "rms_force"].over(evidence[CLEARANCES[2], "mean_force"]).value
         for _, evidence in machines
     ]
     colour, marker = look

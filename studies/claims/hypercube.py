@@ -25,7 +25,7 @@ from support_exudyn import SimulationError
 from support_exudyn.files.temporary import remove_leftovers
 from support_exudyn.files.whole_file import contents, whole_file
 from support_exudyn.simulation.provenance import installed
-from support_exudyn.sweeps.precompile import warm_up
+from support_exudyn.sweeps.precompile import precompile
 from support_exudyn.sweeps.workers import ProcessEndedError, Workers, worker_pool
 from user_forces.values.value import InputError
 
@@ -37,7 +37,7 @@ Data = dict[str, dict[str, list[float]]]  # measures: case, name, [value, numeri
 
 
 @dataclass(frozen=True)
-class Row:
+class MachineRow:
     """A machine: its factors, and its measures or why there are none."""
 
     sample: Sample
@@ -47,7 +47,7 @@ class Row:
 
 def run(
     samples: Sequence[Sample], out: Path, workers: int | Workers, progress: Callable[[int, int], None]
-) -> list[Row]:
+) -> list[MachineRow]:
     """Rows of all samples, in their order; only those are run that DIR does not hold yet.
 
     Arguments:
@@ -63,14 +63,16 @@ def run(
     missing = [(place, s) for place, s in zip(places, samples, strict=True) if _read(place) is None]
     before = len(samples) - len(missing)
     progress(before, len(samples))
-    ended: dict[Path, Row] = {}  # whose process was killed or crashed; not kept, so that they are tried again
+    ended: dict[
+        Path, MachineRow
+    ] = {}  # whose process was killed or crashed; not kept, so that they are tried again
 
     def note(error: ProcessEndedError) -> None:
         place, sample = missing[error.place]
-        ended[place] = Row(sample, None, error.reason)
+        ended[place] = MachineRow(sample, None, error.reason)
 
     if missing:
-        warm_up()  # compile once, for all processes
+        precompile()  # compile once, for all processes
         with worker_pool(workers) as pool:
             pool.run(missing, _run_one, lambda shares: progress(before + int(sum(shares)), len(samples)), note)
     rows = [ended.get(place) or _read(place) for place in places]
@@ -116,10 +118,10 @@ def _run_one(number: int, place: Path, sample: Sample) -> None:
         temporary.write_text(json.dumps(row, sort_keys=True, allow_nan=False) + "\n", encoding="utf-8")
 
 
-def _read(place: Path) -> Row | None:
+def _read(place: Path) -> MachineRow | None:
     """A row; None if it is not there or not whole."""
     try:
         data = json.loads(contents(place, LARGEST_FILE).decode("utf-8"))
-        return Row(data["sample"], data["measures"], data["failure"])
+        return MachineRow(data["sample"], data["measures"], data["failure"])
     except (FileNotFoundError, json.JSONDecodeError, KeyError, TypeError, UnicodeDecodeError):
         return None

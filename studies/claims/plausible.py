@@ -22,9 +22,9 @@ from user_forces import (
     STEEL,
     STEEL_35CRMO,
     Ambrosio,
-    DepthSpeed,
+    ImpactVelocity,
+    IndentationVelocity,
     JournalContact,
-    TouchSpeed,
     external_contact_stiffness,
     internal_contact_stiffness,
 )
@@ -176,14 +176,16 @@ def _scaled(point: Vector2, scale: float) -> Vector2:
 
 
 def pin(sample: Sample, clearance_mm: float) -> ClearancePin:
-    """The loose rear-link pin of a sample; the pin's size is the paper's."""
+    """The clearance rear-link pin of a sample; the pin's size is the paper's."""
     bearing = paper_machine.bearing(clearance_mm)
     form = external_contact_stiffness if sample["stiffness"] == "external" else internal_contact_stiffness
     law = POWER_LAWS[str(sample["law"])]
     normal = law(
         stiffness=form(bearing, STEEL, STEEL_35CRMO),
         restitution=number(sample, "restitution"),
-        damping_speed=TouchSpeed(floor=1e-3) if sample["damping_speed"] == "last touch" else DepthSpeed(),
+        damping_speed=ImpactVelocity(floor=1e-3)
+        if sample["damping_speed"] == "last impact"
+        else IndentationVelocity(),
     )
     friction = Ambrosio(
         sliding_coefficient=number(sample, "sliding_coefficient"),

@@ -30,10 +30,10 @@ from support_exudyn import (
 from support_exudyn.mechanics.trajectory import Impulse
 
 IDEAL = "ideal"
-LOOSE = tuple(f"{size:.1f} mm" for size in paper_machine.SIZES_MM)
+CLEARANCES = tuple(f"{size:.1f} mm" for size in paper_machine.SIZES_MM)
 MODE_1, MODE_1_IDEAL = "1.5 mm, mode 1", "ideal, mode 1"
 OIL, OIL_IDEAL = "1.5 mm, mode 1, oil", "ideal, mode 1, oil"
-CASES = (IDEAL, *LOOSE, MODE_1_IDEAL, MODE_1)
+CASES = (IDEAL, *CLEARANCES, MODE_1_IDEAL, MODE_1)
 OIL_START = 0.8  # of mode 1 on columns of oil, when the journal has come to rest [s]
 TOLERANCE = 1e-6  # of the reduced formulation in the first of three runs
 Values = dict[str, float]
@@ -44,7 +44,7 @@ def scenario(sample: Sample, case: str, support: HydraulicSupport) -> Scenario:
     drive: Drive = UniformSpeed() if "mode 1" in case else CubicStep()
     pins = {}
     if not case.startswith("ideal"):
-        pins = {paper_machine.LOOSE_PIN: pin(sample, float(case.split()[0]))}
+        pins = {paper_machine.CLEARANCE_PIN: pin(sample, float(case.split()[0]))}
     return Scenario(machine=support, drive=drive, duration=rise.END, pins=pins)
 
 
@@ -125,7 +125,7 @@ def _struck(impulse: Impulse) -> float:
     return sum(abs(value) for value in impulse.columns.values())
 
 
-def _run_measures(run: rise.Run, ideal: rise.Run, window: str) -> Values:
+def _run_measures(run: rise.MeasuredRun, ideal: rise.MeasuredRun, window: str) -> Values:
     """All measures of one run; forces in N, angles in degrees, lengths in mm."""
     averaged = rise.in_rise(run) if window == "rise" else rise.between(run, 0.0, rise.END)
     force, acceleration = run[rise.FORCE], rise.DEGREES * run[rise.ACCELERATION]
@@ -143,13 +143,13 @@ def _run_measures(run: rise.Run, ideal: rise.Run, window: str) -> Values:
         ("speed", rise.SPEED, rise.DEGREES),
         ("acceleration", rise.ACCELERATION, rise.DEGREES),
     ):
-        found[f"ripple_{name}"] = scale * rise.ripple(run, run[channel])
-        found[f"shaking_{name}"] = scale * rise.ripple(run, run[channel], rise.START)
+        found[f"rms_{name}"] = scale * rise.rms_fluctuation(run, run[channel])
+        found[f"rms_from_start_{name}"] = scale * rise.rms_fluctuation(run, run[channel], rise.START)
         found[f"range_{name}"] = scale * float(np.ptp(run[channel][inside]))
         found[f"likeness_{name}"] = rise.likeness(run, ideal, channel)
     found["likeness_tip"] = min(rise.likeness(run, ideal, name) for name in ("tip.x", "tip.y"))
     for stage, times in rise.STAGES.items():
-        found[f"ripple_speed_{stage}"] = rise.DEGREES * rise.ripple(run, run[rise.SPEED], *times)
+        found[f"rms_speed_{stage}"] = rise.DEGREES * rise.rms_fluctuation(run, run[rise.SPEED], *times)
         found[f"speed_{stage}"] = rise.DEGREES * rise.stage_mean(run, rise.SPEED, stage)
     for side in ("front", "rear"):
         column = f"{side}_column"

@@ -23,8 +23,8 @@ from studies.claims.plausible_runs import CASES, LARGEST_FORCE, TOLERANCE, evide
 from studies.claims.verdicts import Ruling, percent, rule
 from studies.common.numbers import Number, measured
 from studies.common.runs import run_with_errors
-from studies.common.study import Options, Outcome, Study
-from studies.common.words import Table
+from studies.common.study import Options, Study, StudyOutcome
+from studies.common.words import TextTable
 from support_exudyn.files.whole_file import whole_file
 
 MACHINES, QUICK_MACHINES = 256, 8
@@ -37,7 +37,7 @@ Machines = list[tuple[Sample, Evidence]]
 # --- tables ---
 
 
-def claim_table(rulings: Sequence[Ruling]) -> Table:
+def claim_table(rulings: Sequence[Ruling]) -> TextTable:
     """One row a claim."""
     rows = []
     for n, ruling in enumerate(rulings, 1):
@@ -46,7 +46,7 @@ def claim_table(rulings: Sequence[Ruling]) -> Table:
         what = f"{claim.text} ({claim.where})"
         rows.append((str(n), what, ruling.verdict, _share(ruling), numbers, _error(ruling), claim.reading))
     header = ("no.", "claim (where)", "verdict", "machines", "reference support (paper)", "error", "read as")
-    return Table(header, tuple(rows), wide=True, width=200)
+    return TextTable(header, tuple(rows), wide=True, width=200)
 
 
 def _error(ruling: Ruling) -> str:
@@ -63,7 +63,7 @@ def _share(ruling: Ruling) -> str:
     return f"{percent(ruling.share)} % ({low:.0f} to {high:.0f}){left}"
 
 
-def factor_table() -> Table:
+def factor_table() -> TextTable:
     """What is varied."""
     rows = []
     for factor in FACTORS:
@@ -71,20 +71,20 @@ def factor_table() -> Table:
         said = assumed if isinstance(assumed, str) else f"{assumed:g}"
         rows.append((factor.said, factor.meaning, factor.span, said, factor.reason))
     header = ("datum", "meaning", "range", "reference support", "reason")
-    return Table(header, tuple(rows), wide=True, width=160)
+    return TextTable(header, tuple(rows), wide=True, width=160)
 
 
-def failure_table(rows: Sequence[hypercube.Row]) -> Table:
+def failure_table(rows: Sequence[hypercube.MachineRow]) -> TextTable:
     """Machines that could not be run."""
     failed = tuple(
         (str(n), f"{row.sample['scale']:.3g}", f"{row.sample['start_height']:.3g}", row.failure)
         for n, row in enumerate(rows, 1)
         if row.failure is not None
     )
-    return Table(("machine", "scale", "start height", "reason"), failed, wide=True, width=160)
+    return TextTable(("machine", "scale", "start height", "reason"), failed, wide=True, width=160)
 
 
-def write_machines(path: Path, rows: Sequence[hypercube.Row]) -> None:
+def write_machines(path: Path, rows: Sequence[hypercube.MachineRow]) -> None:
     """One row a machine: its data, what went wrong, and how it judges every claim, by the claim's number."""
     judged = [(n, claim) for n, claim in enumerate(CLAIMS, 1) if claim.judge is not None and not claim.alone]
     with whole_file(path) as temporary, temporary.open("w", encoding="utf-8", newline="") as file:
@@ -144,7 +144,7 @@ def _kind(ruling: Ruling) -> str:
 # --- the study ---
 
 
-def work(chosen: Options) -> Outcome:
+def work(chosen: Options) -> StudyOutcome:
     """The plausible machines and the reference support, and the verdicts on all claims."""
     number = chosen.machines or (QUICK_MACHINES if chosen.quick else MACHINES)
     rows = _run(samples(number, SEED), chosen)
@@ -153,17 +153,19 @@ def work(chosen: Options) -> Outcome:
     reference = reference_evidence(chosen)
     rulings = [rule(claim, reference, machines) for claim in CLAIMS]
     numbers = measure(rulings, reference, len(machines), len(rows) - len(machines))
-    return Outcome(numbers, words(rulings, rows), figures(rulings, reference, machines), tables(rulings, rows))
+    return StudyOutcome(
+        numbers, words(rulings, rows), figures(rulings, reference, machines), tables(rulings, rows)
+    )
 
 
-def tables(rulings: Sequence[Ruling], rows: Sequence[hypercube.Row]) -> dict[str, Table]:
+def tables(rulings: Sequence[Ruling], rows: Sequence[hypercube.MachineRow]) -> dict[str, TextTable]:
     """All tables by name; that of failures only if there are some."""
     failures = failure_table(rows)
     found = {"table": claim_table(rulings), "factors": factor_table()}
     return found | {"failures": failures} if failures.rows else found
 
 
-def words(rulings: Sequence[Ruling], rows: Sequence[hypercube.Row]) -> dict[str, object]:
+def words(rulings: Sequence[Ruling], rows: Sequence[hypercube.MachineRow]) -> dict[str, object]:
     """What the sentences are filled with."""
     told = [(n, ruling, _kind(ruling)) for n, ruling in enumerate(rulings, 1)]
     return {
@@ -190,7 +192,7 @@ def reference_evidence(chosen: Options) -> Evidence:
     return Evidence(dict(evidence(measures(REFERENCE)).measures) | known)
 
 
-def _run(chosen_samples: Sequence[Sample], chosen: Options) -> list[hypercube.Row]:
+def _run(chosen_samples: Sequence[Sample], chosen: Options) -> list[hypercube.MachineRow]:
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
     with Progress(*columns, console=Console(stderr=True)) as bars:
         task = bars.add_task("plausible machines", total=len(chosen_samples))

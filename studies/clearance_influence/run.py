@@ -16,9 +16,9 @@ from matplotlib.figure import Figure
 from studies.common import paper_machine, rise
 from studies.common.numbers import Number, by_case, compared, counted, measured, printed, rounded
 from studies.common.panels import WINDOWS, fit_height, legend
-from studies.common.runs import run_cases, touches
-from studies.common.study import Options, Outcome, Study
-from studies.common.words import Table
+from studies.common.runs import impacts, run_cases
+from studies.common.study import Options, Study, StudyOutcome
+from studies.common.words import TextTable
 from support_exudyn import Result, Scenario
 from support_exudyn.postprocessing.figures import style
 
@@ -33,8 +33,8 @@ STEP = 1e-3  # [s], which the accuracy does not use
 def scenarios(quick: bool) -> dict[str, Scenario]:
     """The three cases."""
     rises = {
-        SMOOTH: paper_machine.loose_rise(CLEARANCE_MM, 0.0, STEP),
-        DRY: paper_machine.loose_rise(CLEARANCE_MM, paper_machine.SLIDING_COEFFICIENT, STEP),
+        SMOOTH: paper_machine.clearance_rise(CLEARANCE_MM, 0.0, STEP),
+        DRY: paper_machine.clearance_rise(CLEARANCE_MM, paper_machine.SLIDING_COEFFICIENT, STEP),
         IDEAL: paper_machine.ideal_rise(STEP),
     }
     return {case: paper_machine.to_accuracy(rise, quick) for case, rise in rises.items()}
@@ -116,13 +116,13 @@ def _comparison_numbers(case: str, result: Result, ideal: Result) -> list[Number
 
 
 def _impact_numbers(case: str, result: Result) -> list[Number]:
-    """The first three touches, and how many there are."""
-    pin = paper_machine.LOOSE_PIN
-    numbers = [counted("touches", case, result, lambda r: len(r.onsets[pin]))]
+    """The first three impacts, and how many there are."""
+    pin = paper_machine.CLEARANCE_PIN
+    numbers = [counted("impacts", case, result, lambda r: len(r.onsets[pin]))]
     numbers.append(
         measured("largest_pin_force_any_step", case, "N", result, lambda r: float(r.largest_force[pin]))
     )
-    for n in range(min(3, touches(result, pin))):
+    for n in range(min(3, impacts(result, pin))):
         numbers += [
             measured(f"onset_{n + 1}_time", case, "s", result, rise.onset(pin, n, "time")),
             measured(f"onset_{n + 1}_speed", case, "m/s", result, rise.onset(pin, n, "speed")),
@@ -171,7 +171,13 @@ def _draw(
 ) -> None:
     """The three cases, the most restless one undermost."""
     curves = [
-        (DRY, style.LOOSE, 0.9, "-", f"{CLEARANCE_MM} mm, friction {paper_machine.SLIDING_COEFFICIENT}"),
+        (
+            DRY,
+            style.WITH_CLEARANCE,
+            0.9,
+            "-",
+            f"{CLEARANCE_MM} mm, friction {paper_machine.SLIDING_COEFFICIENT}",
+        ),
         (SMOOTH, style.SMOOTH, 1.2, "-", f"{CLEARANCE_MM} mm, no friction"),
         (IDEAL, style.IDEAL, 1.0, (0, (4, 2)), "ideal pin"),
     ]
@@ -218,13 +224,13 @@ def _line_figure(
 # --- table ---
 
 
-def table(numbers: Sequence[Number]) -> Table:
+def table(numbers: Sequence[Number]) -> TextTable:
     """All numbers, a row a name, a column a case."""
     by_name: dict[str, dict[str, Number]] = {}
     for number in numbers:
         by_name.setdefault(number.name, {})[number.case] = number
     rows = tuple(_row(name, row) for name, row in by_name.items())
-    return Table(("quantity", "unit", *CASES, "paper"), rows, left=2)
+    return TextTable(("quantity", "unit", *CASES, "paper"), rows, left=2)
 
 
 def _row(name: str, row: Mapping[str, Number]) -> tuple[str, ...]:
@@ -239,7 +245,7 @@ def _row(name: str, row: Mapping[str, Number]) -> tuple[str, ...]:
 # --- the study ---
 
 
-def work(chosen: Options) -> Outcome:
+def work(chosen: Options) -> StudyOutcome:
     """The three rises, their numbers, figures and table."""
     cases = scenarios(chosen.quick)
     results = run_cases(cases, chosen.workers)
@@ -248,7 +254,7 @@ def work(chosen: Options) -> Outcome:
         "found": by_case(numbers), "goal": cases[DRY].goal, "run": sys.modules[__name__],
         "paper": paper_machine,
     }  # fmt: skip
-    return Outcome(numbers, words, figures(results), {"table": table(numbers)}, results)
+    return StudyOutcome(numbers, words, figures(results), {"table": table(numbers)}, results)
 
 
 study = Study("clearance_influence", __doc__, work)

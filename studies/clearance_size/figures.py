@@ -152,13 +152,13 @@ def trend_figure(numbers: Sequence[Number]) -> Figure:
     shown = [
         ("mean_pin_force", 1e-3, "mean pin force [kN]"),
         ("std_pin_force", 1e-3, "its standard deviation [kN]"),
-        ("ripple_pin_force", 1e-3, "its ripple [kN]"),
-        ("ripple_angular_velocity", 1.0, "ripple of angular velocity [deg/s]"),
-        ("ripple_angular_acceleration", 1.0, "ripple of ang. acceleration [deg/s²]"),
+        ("rms_pin_force", 1e-3, "its RMS fluctuation [kN]"),
+        ("rms_angular_velocity", 1.0, "RMS fluctuation of angular velocity [deg/s]"),
+        ("rms_angular_acceleration", 1.0, "RMS fluctuation of ang. acceleration [deg/s²]"),
         ("mean_tip_shift", 1.0, "tip shift [mm]"),
     ]
     for axes, letter, (name, scale, label) in zip(panels.flat, "abcdef", shown, strict=True):
-        for friction, colour, mark in ((MU, style.LOOSE, "o"), (0.0, "#777777", "s")):
+        for friction, colour, mark in ((MU, style.WITH_CLEARANCE, "o"), (0.0, "#777777", "s")):
             sizes = [size for size in SIZES_MM if (name, case_name(size, friction)) in found]
             row = [found[name, case_name(size, friction)] for size in sizes]
             label_here = f"friction {friction:g}" if friction else "no friction"
@@ -182,10 +182,10 @@ def trend_figure(numbers: Sequence[Number]) -> Figure:
 
 def _cases() -> list[tuple[str, str, object, str]]:
     """Case, colour, dashes and label of the curves, the largest clearance undermost."""
-    loose = [
+    with_clearance = [
         (case_name(size, MU), COLOURS[size], DASHES[size], f"{size:.1f} mm") for size in reversed(SIZES_MM)
     ]
-    return [*loose, ("ideal", style.IDEAL, (0, (4, 2)), "ideal pin")]
+    return [*with_clearance, ("ideal", style.IDEAL, (0, (4, 2)), "ideal pin")]
 
 
 def _curves(

@@ -16,8 +16,8 @@ from studies.common import paper_machine, rise
 from studies.common.numbers import Found, Number, by_case, cell, compared, measured, printed
 from studies.common.paper_machine import SIZES_MM, case_name
 from studies.common.runs import run_cases, run_with_errors
-from studies.common.study import Options, Outcome, Study
-from studies.common.words import Table
+from studies.common.study import Options, Study, StudyOutcome
+from studies.common.words import TextTable
 from support_exudyn import Result, Scenario, SolverSettings
 
 IDEAL = "ideal"
@@ -28,12 +28,12 @@ STEP = 1e-3  # [s] of the engine's first runs; accuracies do not use it
 
 def scenarios(quick: bool) -> dict[str, Scenario]:
     """The ideal pin, and every clearance with and without friction; the quick form has fewer without."""
-    loose = {
-        case_name(size, friction): paper_machine.loose_rise(size, friction, STEP)
+    with_clearance = {
+        case_name(size, friction): paper_machine.clearance_rise(size, friction, STEP)
         for friction in FRICTIONS
         for size in (QUICK_SMOOTH_MM if quick and not friction else SIZES_MM)
     }
-    rises = loose | {IDEAL: paper_machine.ideal_rise(STEP)}
+    rises = with_clearance | {IDEAL: paper_machine.ideal_rise(STEP)}
     return {case: paper_machine.to_accuracy(rise, quick) for case, rise in rises.items()}
 
 
@@ -50,15 +50,15 @@ def by_the_engine(quick: bool) -> dict[str, Scenario]:
 
 # --- measures ---
 
-Against = Callable[[rise.Run, rise.Run], float]  # of a run and that of the ideal pin
+Against = Callable[[rise.MeasuredRun, rise.MeasuredRun], float]  # of a run and that of the ideal pin
 
 
 def _of_rise(channel: str, statistic: Callable[[rise.Series], float], scale: float = 1.0) -> Against:
     return lambda run, ideal: scale * float(statistic(run[channel][rise.in_rise(run)]))
 
 
-def _ripple(channel: str, scale: float, *times: float) -> Against:
-    return lambda run, ideal: scale * rise.ripple(run, run[channel], *times)
+def _rms_fluctuation(channel: str, scale: float, *times: float) -> Against:
+    return lambda run, ideal: scale * rise.rms_fluctuation(run, run[channel], *times)
 
 
 def _stage_mean(stage: str) -> Against:
@@ -76,13 +76,13 @@ def _angle(column: str) -> Against:
 MEASURES: dict[str, tuple[str, Against]] = {
     "mean_pin_force": ("N", _of_rise(rise.FORCE, np.mean)),
     "std_pin_force": ("N", _of_rise(rise.FORCE, np.std)),
-    "ripple_pin_force": ("N", _ripple(rise.FORCE, 1.0)),
+    "rms_pin_force": ("N", _rms_fluctuation(rise.FORCE, 1.0)),
     "mean_angular_acceleration": ("deg/s^2", _of_rise(rise.ACCELERATION, np.mean, rise.DEGREES)),
     "std_angular_acceleration": ("deg/s^2", _of_rise(rise.ACCELERATION, np.std, rise.DEGREES)),
-    "ripple_angular_acceleration": ("deg/s^2", _ripple(rise.ACCELERATION, rise.DEGREES)),
-    "ripple_angular_velocity": ("deg/s", _ripple(rise.SPEED, rise.DEGREES)),
+    "rms_angular_acceleration": ("deg/s^2", _rms_fluctuation(rise.ACCELERATION, rise.DEGREES)),
+    "rms_angular_velocity": ("deg/s", _rms_fluctuation(rise.SPEED, rise.DEGREES)),
     **{
-        f"ripple_angular_velocity_{stage}": ("deg/s", _ripple(rise.SPEED, rise.DEGREES, *times))
+        f"rms_angular_velocity_{stage}": ("deg/s", _rms_fluctuation(rise.SPEED, rise.DEGREES, *times))
         for stage, times in rise.STAGES.items()
     },
     **{f"mean_angular_speed_{stage}": ("deg/s", _stage_mean(stage)) for stage in rise.STAGES},
@@ -111,7 +111,7 @@ def measure(results: Mapping[str, Result]) -> list[Number]:
 
 
 def _largest_at_any_step(result: Result) -> float:
-    return float(result.largest_force[paper_machine.LOOSE_PIN])
+    return float(result.largest_force[paper_machine.CLEARANCE_PIN])
 
 
 def of_paper(name: str, case: str) -> float | None:
@@ -128,24 +128,24 @@ def of_paper(name: str, case: str) -> float | None:
 # --- tables ---
 
 
-def stiffness_table(numbers: Sequence[Number]) -> Table:
+def stiffness_table(numbers: Sequence[Number]) -> TextTable:
     """Counterpart of Table 2."""
     rows = []
     for n in numbers:
         if n.name == "stiffness_coefficient" and n.paper is not None:
             shaft = 1e3 * paper_machine.BORE_RADIUS - float(n.case.split()[0])
             rows.append((n.case, f"{shaft:.1f}", f"{n.value:.3f}", f"{n.paper:.3f}"))
-    return Table(("clearance", "shaft radius [mm]", "here [N/mm^1.5]", "paper"), tuple(rows))
+    return TextTable(("clearance", "shaft radius [mm]", "here [N/mm^1.5]", "paper"), tuple(rows))
 
 
-def force_table(found: Found) -> Table:
+def force_table(found: Found) -> TextTable:
     """Counterpart of Table 3."""
     rows = []
     for case in (IDEAL, *(case for mu in FRICTIONS for case in _cases(found, mu))):
-        mean, spread, shaking = (found[f"{n}_pin_force", case] for n in ("mean", "std", "ripple"))
+        mean, spread, shaking = (found[f"{n}_pin_force", case] for n in ("mean", "std", "rms_fluctuation"))
         rows.append((case, cell(mean), printed(mean), cell(spread), printed(spread), cell(shaking)))
-    header = ("case", "mean [N]", "paper", "standard deviation [N]", "paper", "ripple [N]")
-    return Table(header, tuple(rows))
+    header = ("case", "mean [N]", "paper", "standard deviation [N]", "paper", "RMS fluctuation [N]")
+    return TextTable(header, tuple(rows))
 
 
 def _cases(found: Found, friction: float) -> list[str]:
@@ -154,35 +154,35 @@ def _cases(found: Found, friction: float) -> list[str]:
     return [name for name in names if ("mean_pin_force", name) in found]
 
 
-def number_table(found: Found, friction: float) -> Table:
+def number_table(found: Found, friction: float) -> TextTable:
     """All measures, a column a clearance."""
     cases = [IDEAL, *_cases(found, friction)]
     rows = tuple(
         (name.replace("_", " "), unit, *(cell(found[name, case]) for case in cases))
         for name, (unit, _) in MEASURES.items()
     )
-    return Table(("quantity", "unit", *(case.split(",")[0] for case in cases)), rows, left=2)
+    return TextTable(("quantity", "unit", *(case.split(",")[0] for case in cases)), rows, left=2)
 
 
-def formulation_table(results: Mapping[str, Result], engines: Mapping[str, Result]) -> Table:
+def formulation_table(results: Mapping[str, Result], engines: Mapping[str, Result]) -> TextTable:
     """The engine's statistics of the same scenes, beside those of the study."""
     rows = []
     for case, engine in engines.items():
         cells = []
-        for name in ("mean_pin_force", "std_pin_force", "ripple_pin_force"):
+        for name in ("mean_pin_force", "std_pin_force", "rms_pin_force"):
             unit, get = MEASURES[name]
             its = compared(name, case, unit, engine, engine, get)
             ours = compared(name, case, unit, results[case], results[case], get)
             cells += [cell(its), f"{its.value - ours.value:+.1g}"]
         rows.append((case, *cells))
-    header = ("case", "mean [N]", "off by", "standard deviation [N]", "off by", "ripple [N]", "off by")
-    return Table(header, tuple(sorted(rows)))
+    header = ("case", "mean [N]", "off by", "standard deviation [N]", "off by", "RMS fluctuation [N]", "off by")
+    return TextTable(header, tuple(sorted(rows)))
 
 
 # --- the study ---
 
 
-def work(chosen: Options) -> Outcome:
+def work(chosen: Options) -> StudyOutcome:
     """All rises, their numbers, figures and tables, and some of them by the engine."""
     cases = scenarios(chosen.quick)
     results = run_cases(cases, chosen.workers)
@@ -200,7 +200,7 @@ def work(chosen: Options) -> Outcome:
         "found": found, "goal": cases[IDEAL].goal, "mu": FRICTIONS[0], "frictions": FRICTIONS,
         "sizes": SIZES_MM, "case_name": case_name, "all_measures": measures,
     }  # fmt: skip
-    return Outcome(numbers, words, figures(results, numbers), tables, results)
+    return StudyOutcome(numbers, words, figures(results, numbers), tables, results)
 
 
 study = Study("clearance_size", __doc__, work)

@@ -1,4 +1,4 @@
-"""The paper's case: the reference support with a loose rear-link pin, and what the paper prints of it."""
+"""The paper's case: the reference support with a clearance rear-link pin, and what the paper prints of it."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ from user_forces import (
     STEEL_35CRMO,
     Ambrosio,
     Frictionless,
+    ImpactVelocity,
     JournalBearing,
     JournalContact,
     LankaraniNikravesh,
-    TouchSpeed,
     external_contact_stiffness,
 )
 
-LOOSE_PIN = "rear_base"
+CLEARANCE_PIN = "rear_base"
 BORE_RADIUS = 0.0655  # [m], implied by Table 2
 RESTITUTION = 0.9  # assumed; the paper gives none
 SLIDING_COEFFICIENT = 0.25  # assumed: dry steel on steel
@@ -76,10 +76,10 @@ def stiffness(clearance_mm: float) -> float:
     return external_contact_stiffness(bearing(clearance_mm), STEEL, STEEL_35CRMO)
 
 
-def loose_pin(clearance_mm: float, sliding_coefficient: float) -> ClearancePin:
+def clearance_joint(clearance_mm: float, sliding_coefficient: float) -> ClearancePin:
     """The rear-link pin as a clearance pin; the bore is in the base."""
     normal = LankaraniNikravesh(
-        stiffness=stiffness(clearance_mm), restitution=RESTITUTION, damping_speed=TouchSpeed(floor=1e-3)
+        stiffness=stiffness(clearance_mm), restitution=RESTITUTION, damping_speed=ImpactVelocity(floor=1e-3)
     )
     friction = Ambrosio(sliding_coefficient=sliding_coefficient) if sliding_coefficient else Frictionless()
     return ClearancePin(contact=JournalContact(bearing=bearing(clearance_mm), normal=normal, friction=friction))
@@ -90,7 +90,7 @@ def ideal_rise(step: float) -> Scenario:
     return Scenario(machine=reference_support(), drive=CubicStep(), duration=5.0, step=step)
 
 
-def loose_rise(
+def clearance_rise(
     clearance_mm: float,
     sliding_coefficient: float,
     step: float,
@@ -103,7 +103,7 @@ def loose_rise(
     symbolic: let the engine evaluate the contact, a quarter faster, the same within rounding.
     """
     settings = SolverSettings(impact_steps=impact_steps, backend="symbolic" if symbolic else "python")
-    pins = {LOOSE_PIN: loose_pin(clearance_mm, sliding_coefficient)}
+    pins = {CLEARANCE_PIN: clearance_joint(clearance_mm, sliding_coefficient)}
     return replace(ideal_rise(step), pins=pins, solver=settings)
 
 

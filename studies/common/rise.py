@@ -22,7 +22,7 @@ Series = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 
 DEGREES = 180.0 / np.pi
-FORCE = f"pin.{paper_machine.LOOSE_PIN}.force"
+FORCE = f"pin.{paper_machine.CLEARANCE_PIN}.force"
 SPEED = "rear_link.angular_velocity"
 ACCELERATION = "rear_link.angular_acceleration"
 START, END = 3.0, 5.0  # of the rise [s]
@@ -33,7 +33,7 @@ EDGE = TREND_WINDOW  # left out at both ends of the rise, where no window fits [
 STAGES = {"early": (3.1, 3.6), "middle": (3.75, 4.25), "late": (4.4, 4.9)}  # thirds of the rise, less edges [s]
 
 
-class Run(Protocol):
+class MeasuredRun(Protocol):
     """What a measure needs of a run."""
 
     @property
@@ -46,7 +46,7 @@ class Run(Protocol):
         ...
 
 
-Measure = Callable[[Run], float]
+Measure = Callable[[MeasuredRun], float]
 
 
 TAKEN: dict[str, Callable[[Series], float]] = {
@@ -69,7 +69,7 @@ class Peak:
     end: float = END
     extreme: Literal["largest", "max", "min"] = "largest"
 
-    def __call__(self, run: Run) -> float:
+    def __call__(self, run: MeasuredRun) -> float:
         """The extreme, in the unit of the number."""
         return self.scale * TAKEN[self.extreme](run[self.channel][between(run, self.begin, self.end)])
 
@@ -81,27 +81,29 @@ class Peak:
 
 
 def onset(pin: str, n: int, what: Literal["time", "speed"], scale: float = 1.0) -> Callable[[Result], float]:
-    """The measure of a touch of a pin, the n-th from 0 on: its time [s] or its speed [m/s], scaled."""
+    """The measure of an impact of a pin, the n-th from 0 on: its time [s] or its speed [m/s], scaled."""
     return lambda run: scale * float(getattr(run.onsets[pin][n], what))
 
 
-def between(run: Run, begin: float, end: float) -> Mask:
+def between(run: MeasuredRun, begin: float, end: float) -> Mask:
     """Mask of the records between two times [s]."""
     return (run.time >= begin - 1e-9) & (run.time <= end + 1e-9)
 
 
-def in_rise(run: Run) -> Mask:
+def in_rise(run: MeasuredRun) -> Mask:
     """Mask of the records of the rise."""
     return between(run, START, END)
 
 
-def trend(run: Run, values: Series) -> Series:
+def trend(run: MeasuredRun, values: Series) -> Series:
     """Moving mean over TREND_WINDOW, centred, shape (n,)."""
     period = float(run.time[1] - run.time[0])
     return uniform_filter1d(values, 2 * round(0.5 * TREND_WINDOW / period) + 1, mode="nearest")
 
 
-def ripple(run: Run, values: Series, begin: float = START + EDGE, end: float = END - EDGE) -> float:
+def rms_fluctuation(
+    run: MeasuredRun, values: Series, begin: float = START + EDGE, end: float = END - EDGE
+) -> float:
     """Fluctuation: root mean square of a quantity less its trend, between two times, in its unit.
 
     Within EDGE of the ends of the rise the trend leans on what is inside it.
@@ -111,14 +113,14 @@ def ripple(run: Run, values: Series, begin: float = START + EDGE, end: float = E
     return float(np.sqrt(np.mean(fast**2)))
 
 
-def likeness(run: Run, other: Run, channel: str) -> float:
+def likeness(run: MeasuredRun, other: MeasuredRun, channel: str) -> float:
     """Correlation of the trends of two runs over the rise: 1 if they have the same course."""
     mine = _trend_of_rise(run, run[channel])[between(run, START + EDGE, END - EDGE)]
     its = _trend_of_rise(other, other[channel])[between(other, START + EDGE, END - EDGE)]
     return float(np.corrcoef(mine, its)[0, 1])
 
 
-def _trend_of_rise(run: Run, values: Series) -> Series:
+def _trend_of_rise(run: MeasuredRun, values: Series) -> Series:
     """Trend of what happens in the rise: what was before it does not enter."""
     rise = in_rise(run)
     result = np.zeros_like(values)
@@ -126,17 +128,17 @@ def _trend_of_rise(run: Run, values: Series) -> Series:
     return result
 
 
-def stage_mean(run: Run, channel: str, stage: str) -> float:
+def stage_mean(run: MeasuredRun, channel: str, stage: str) -> float:
     """Mean magnitude of a channel over a stage of the rise, in its unit."""
     return float(np.abs(run[channel][between(run, *STAGES[stage])]).mean())
 
 
-def departure(run: Run, ideal: Run, channel: str) -> Series:
+def departure(run: MeasuredRun, ideal: MeasuredRun, channel: str) -> Series:
     """A channel less that of the ideal pin, record by record over the rise."""
     return run[channel][in_rise(run)] - ideal[channel][in_rise(ideal)]
 
 
-def rearward_angle(run: Run, column: str) -> Series:
+def rearward_angle(run: MeasuredRun, column: str) -> Series:
     """Angle of a column as in Fig. 12 of the paper [rad]: between the column and the rearward horizontal.
 
     The only reading of its words that fits itself: tilting to the rear makes it smaller for both columns,
@@ -145,6 +147,6 @@ def rearward_angle(run: Run, column: str) -> Series:
     return np.pi - run[f"{column}.angle"]
 
 
-def lean(run: Run, column: str) -> Series:
+def lean(run: MeasuredRun, column: str) -> Series:
     """How far a column is from the vertical [rad], >= 0."""
     return np.abs(run[f"{column}.angle"] - 0.5 * np.pi)

@@ -57,8 +57,8 @@ def halvings(result: Result) -> tuple[Result, ...]:
     return (*(halvings(result.coarser) if result.coarser else ()), result)
 
 
-def touches(result: Result, pin: str) -> int:
-    """How many touches of a pin a run and all its coarser ones have: that of others has no error."""
+def impacts(result: Result, pin: str) -> int:
+    """How many impacts of a pin a run and all its coarser ones have: that of others has no error."""
     return min(len(run.onsets.get(pin, ())) for run in halvings(result))
 
 

@@ -19,7 +19,7 @@ from rich.console import Console
 from studies.common.chapter import Sheet
 from studies.common.numbers import Number, write_summary
 from studies.common.runs import file_name, save_run
-from studies.common.words import Table, Words
+from studies.common.words import TextTable, Words
 from support_exudyn import Result
 from support_exudyn.commands.command_line import Parser, answered, count, folder
 from support_exudyn.files.temporary import remove_leftovers
@@ -47,7 +47,7 @@ class Options:
 
 
 @dataclass(frozen=True)
-class Outcome:
+class StudyOutcome:
     """What a study found.
 
     numbers: of summary.json. words: what the sentences of words.md.j2 are filled with, by name. figures,
@@ -57,7 +57,7 @@ class Outcome:
     numbers: Sequence[Number]
     words: Mapping[str, object]
     figures: Mapping[str, Figure]
-    tables: Mapping[str, Table]
+    tables: Mapping[str, TextTable]
     runs: Mapping[str, Result] = field(default_factory=dict)
     counts: Mapping[str, int] = field(default_factory=dict)
 
@@ -72,7 +72,7 @@ class Study:
 
     name: str
     asks: str | None
-    work: Callable[[Options], Outcome]
+    work: Callable[[Options], StudyOutcome]
     taken: Sequence[str] = ALL_OPTIONS
 
     @property

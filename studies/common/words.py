@@ -20,7 +20,7 @@ TEMPLATE = "words.md.j2"
 
 
 @dataclass(frozen=True)
-class Table:
+class TextTable:
     """The cells of a table; title and caption stand in the template.
 
     left, wide: see `Sheet`. width: of the file, in characters. in_file, in_chapter: where it is shown.
@@ -85,7 +85,7 @@ class Words:
         return found
 
     def chapter(
-        self, told: Mapping[str, object], tables: Mapping[str, Table], quick: bool
+        self, told: Mapping[str, object], tables: Mapping[str, TextTable], quick: bool
     ) -> tuple[Chapter, dict[str, Sheet]]:
         """The study as a chapter of the report, and all tables by name, those that are not in it among them.
 

@@ -18,18 +18,18 @@ FEW = (0.1, 0.3, 0.5, 0.7, 0.9)  # for laws whose damping factor is another's
 QUICK_ASKED = (0.1, 0.5, 0.9)  # of all laws in the quick form
 SPEED = 0.2  # of free impacts [m/s]
 # of the coarsest of the three runs of a case; the quick form has fewer cases, and in a rise coarser impacts
-IMPACT_STEPS = 96  # of a free impact: where a force jumps at the touch, fewer tell no error
+IMPACT_STEPS = 96  # of a free impact: where a force jumps at the impact, fewer tell no error
 RISE_IMPACT_STEPS = {False: 32, True: 16}  # of an impact in a rise, by whether the form is the quick one
 RISE_STEP = 2e-3  # of a rise between impacts, and time between records: twice that is off by 1 N [s]
 LOOP_RESTITUTION = 0.5
 CLEARANCE_MM = 1.5
 RESTITUTION = paper_machine.RESTITUTION
 FRICTION = paper_machine.SLIDING_COEFFICIENT
-LOOSE = paper_machine.LOOSE_PIN
+WITH_CLEARANCE = paper_machine.CLEARANCE_PIN
 QUICK_RISE = ("exact", "lankarani_nikravesh", "anagnostopoulos", "friction ambrosio")
 TEXTBOOK = {
-    "lankarani_nikravesh, last touch, floor 1 mm/s": 1e-3,
-    "lankarani_nikravesh, last touch, floor 100 mm/s": 0.1,
+    "lankarani_nikravesh, last impact, floor 1 mm/s": 1e-3,
+    "lankarani_nikravesh, last impact, floor 100 mm/s": 0.1,
 }
 REDUCED_MASS = BORE_MASS * JOURNAL_MASS / (BORE_MASS + JOURNAL_MASS)  # of free impacts [kg]
 STIFFNESS = 1e8  # K of free impacts [N/m^1.5], or [N/m] of linear laws
@@ -90,7 +90,7 @@ def rises(quick: bool) -> dict[str, Scenario]:
     if quick:
         laws = {name: laws[name] for name in QUICK_RISE}
     for name, floor in TEXTBOOK.items():
-        speed = forces.TouchSpeed(floor=floor)
+        speed = forces.ImpactVelocity(floor=floor)
         law = forces.LankaraniNikravesh(stiffness=stiffness, restitution=RESTITUTION, damping_speed=speed)
         laws[name] = (law, forces.Frictionless())
     base = replace(paper_machine.ideal_rise(RISE_STEP), record_period=RISE_STEP)
@@ -101,7 +101,7 @@ def rises(quick: bool) -> dict[str, Scenario]:
         name: replace(
             base,
             pins={
-                LOOSE: ClearancePin(
+                WITH_CLEARANCE: ClearancePin(
                     contact=forces.JournalContact(bearing=bearing, normal=normal, friction=tangential)
                 )
             },

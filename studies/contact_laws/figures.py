@@ -32,7 +32,7 @@ def restitution_figure(numbers: Sequence[Number]) -> Figure:
         measured = {e: values.get(("delivered_restitution", f"{name} e={e:g}")) for e in ASKED}
         shown = [(e, value) for e, value in measured.items() if value is not None]
         axes.plot([0, 1], [0, 1], color="#999999", lw=0.8, ls=(0, (4, 2)), label="as asked")
-        axes.plot(fine, curve, color=style.LOOSE, label="closed form")
+        axes.plot(fine, curve, color=style.WITH_CLEARANCE, label="closed form")
         axes.plot(
             *zip(*shown, strict=True), "o", ms=2.6, color=style.SMOOTH, mec="black", mew=0.3, label="engine"
         )
@@ -51,9 +51,9 @@ def loop_figure(results: Mapping[str, Result]) -> Figure:
     panels = drawing.subplots(4, 4)
     for axes, (name, result) in zip(panels.flat, results.items(), strict=True):
         depth, force = result[f"pin.{PIN}.depth"], result[f"pin.{PIN}.normal_force"]
-        touching = depth > 0.0
-        ends = np.concatenate([[0.0], depth[touching], [0.0]])
-        axes.plot(1e3 * ends, 1e-3 * np.concatenate([[0.0], force[touching], [0.0]]), color=style.LOOSE)
+        closed = depth > 0.0
+        ends = np.concatenate([[0.0], depth[closed], [0.0]])
+        axes.plot(1e3 * ends, 1e-3 * np.concatenate([[0.0], force[closed], [0.0]]), color=style.WITH_CLEARANCE)
         elastic = np.linspace(0.0, ends.max(), 60)
         law = result.scenario.clearance_pins[PIN].contact.normal
         held = [law.elastic_force(float(d)) if d > 0.0 else 0.0 for d in elastic]
@@ -86,7 +86,7 @@ def rise_figure(numbers: Sequence[Number]) -> Figure:
     for axes, (name, scale, label) in zip(panels, shown, strict=True):
         values = np.array([scale * found[name, case].value for case in cases])
         errors = np.array([scale * found[name, case].numerical_error for case in cases])
-        axes.errorbar(values, rows, xerr=errors, fmt="o", ms=3, color=style.LOOSE, capsize=2, lw=0.8)
+        axes.errorbar(values, rows, xerr=errors, fmt="o", ms=3, color=style.WITH_CLEARANCE, capsize=2, lw=0.8)
         axes.set(xlabel=label)
         if values.max() > 4.0 * np.median(values) and values.min() > 0.0:
             axes.set_xscale("log")
@@ -104,12 +104,12 @@ def permanent_figure(results: Mapping[str, Result]) -> Figure:
     drawing = Figure(figsize=style.size(170, 125))
     whole, rest = drawing.subplots(2, 1)
     curves = [
-        ("lankarani_nikravesh", style.LOOSE, "-", "damped by the depth (DepthSpeed)"),
+        ("lankarani_nikravesh", style.WITH_CLEARANCE, "-", "damped by the depth (IndentationVelocity)"),
         *zip(
             TEXTBOOK,
             (style.SMOOTH, style.THIRD),
             ("-", (0, (5, 1.5))),  # for grey prints
-            (f"textbook: by the last touch, not below {floor:g} m/s" for floor in TEXTBOOK.values()),
+            (f"textbook: by the last impact, not below {floor:g} m/s" for floor in TEXTBOOK.values()),
             strict=True,
         ),
     ]

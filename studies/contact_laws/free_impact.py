@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 
 from support_exudyn import ClearancePin, ImpactStand, Result, Scenario, SolverSettings
 from user_forces import JournalBearing, JournalContact, NormalLaw
-from user_forces.normal.law import Touch
+from user_forces.normal.law import Impact
 
 PIN = "pin"
 BORE_MASS, JOURNAL_MASS = 3.0, 2.0  # [kg]
@@ -21,7 +21,7 @@ Series = npt.NDArray[np.float64]
 def free_impact(law: NormalLaw, speed: float, impact_steps: int, records: int = 10) -> Scenario:
     """A journal of 2 kg flies at a speed [m/s] against the wall of a free bore of 3 kg; nothing else acts.
 
-    The run begins shortly before the touch and ends before the far wall can be reached.
+    The run begins shortly before the impact and ends before the far wall can be reached.
     """
     stand = ImpactStand(bore_mass=BORE_MASS, journal_mass=JOURNAL_MASS, speed=speed)
     depth = law.turning_depth(0.5 * stand.reduced_mass * speed**2)
@@ -43,29 +43,29 @@ def free_impact(law: NormalLaw, speed: float, impact_steps: int, records: int = 
 
 
 def delivered_restitution(result: Result) -> float:
-    """Speed of parting over speed of approach."""
-    parting = result["bore.velocity_x"][-1] - result["journal.velocity_x"][-1]
+    """Speed of separation over initial impact velocity."""
+    separation = result["bore.velocity_x"][-1] - result["journal.velocity_x"][-1]
     machine: Any = result.scenario.machine
-    return float(parting / machine.speed)
+    return float(separation / machine.speed)
 
 
 def one_dimensional_restitution(law: NormalLaw, mass: float, speed: float) -> float:
     """Restitution of a free impact by scipy: m depth'' = -F, tension cut, until the depth is zero again."""
-    touch = Touch(speed, mass)
+    impact = Impact(speed, mass)
     scale = law.turning_depth(0.5 * mass * speed**2)  # so that tolerances mean something
     time = scale / speed
 
     def motion(_: float, state: Series) -> list[float]:
         depth = state[0] * scale
-        force = max(0.0, law(float(depth), float(state[1] * speed), touch)) if depth > 0.0 else 0.0
+        force = max(0.0, law(float(depth), float(state[1] * speed), impact)) if depth > 0.0 else 0.0
         return [state[1], -force * time / (mass * speed)]
 
-    def parting(_: float, state: Series) -> float:
+    def separation(_: float, state: Series) -> float:
         return float(state[0])
 
-    parting.terminal, parting.direction = True, -1.0  # type: ignore[attr-defined]
+    separation.terminal, separation.direction = True, -1.0  # type: ignore[attr-defined]
     found = solve_ivp(
-        motion, (0.0, 1e4), [0.0, 1.0], "LSODA", events=parting, rtol=1e-10, atol=1e-12, max_step=0.05
+        motion, (0.0, 1e4), [0.0, 1.0], "LSODA", events=separation, rtol=1e-10, atol=1e-12, max_step=0.05
     )
     ends: Any = found.y_events
     return float(-ends[0][0][1])

@@ -12,10 +12,10 @@ from collections.abc import Callable, Mapping, Sequence
 from studies.common import paper_machine, rise
 from studies.common.numbers import Found, Number, by_case, counted, measured, measured_all, rounded
 from studies.common.runs import run_cases, run_with_errors
-from studies.common.study import Options, Outcome, Study
-from studies.common.words import Table
+from studies.common.study import Options, Study, StudyOutcome
+from studies.common.words import TextTable
 from studies.contact_laws import cases, catalogue, free_impact
-from studies.contact_laws.cases import FEW, IMPACT_STEPS, LOOSE, SPEED
+from studies.contact_laws.cases import FEW, IMPACT_STEPS, SPEED, WITH_CLEARANCE
 from studies.contact_laws.catalogue import POWER_LAWS, title
 from studies.contact_laws.figures import (
     loop_figure,
@@ -45,12 +45,12 @@ def restitution_numbers(results: Mapping[str, Result], expected: Mapping[str, fl
 RISE_MEASURES: dict[str, tuple[str, Callable[[Result], float]]] = {
     "mean_pin_force": ("N", lambda r: float(r[rise.FORCE][rise.in_rise(r)].mean())),
     "std_pin_force": ("N", lambda r: float(r[rise.FORCE][rise.in_rise(r)].std())),
-    "largest_pin_force_any_step": ("N", lambda r: float(r.largest_force[LOOSE])),
+    "largest_pin_force_any_step": ("N", lambda r: float(r.largest_force[WITH_CLEARANCE])),
     "energy_dissipated": ("J", lambda r: r.dissipated),
     "energy_error": ("J", lambda r: r.energy_error),
 }
 RISE_COUNTS: dict[str, Callable[[Result], int]] = {
-    "touches": lambda r: len(r.onsets[LOOSE]),
+    "impacts": lambda r: len(r.onsets[WITH_CLEARANCE]),
     "clamped_steps": lambda r: r.counts.clamped_steps,
 }
 RISE_UNITS = {name: unit for name, (unit, _) in RISE_MEASURES.items()} | dict.fromkeys(RISE_COUNTS, "1")
@@ -68,7 +68,7 @@ def rise_numbers(results: Mapping[str, Result]) -> list[Number]:
 # --- tables ---
 
 
-def restitution_table(numbers: Sequence[Number]) -> Table:
+def restitution_table(numbers: Sequence[Number]) -> TextTable:
     """Delivered restitution, a row a law; and the largest distance from the closed form."""
     found = by_case(numbers)
     asked = [e for e in FEW if (DELIVERED, f"exact e={e:g}") in found]
@@ -78,7 +78,7 @@ def restitution_table(numbers: Sequence[Number]) -> Table:
         off = max(_off(found, case) for case in own)
         rows.append((title(name), *("" if n is None else f"{n.value:.4f}" for n in cells), f"{off:.0e}"))
     header = ("law", *(f"e = {e:g}" for e in asked), "off the closed form, at most")
-    return Table(header, tuple(rows), width=200)
+    return TextTable(header, tuple(rows), width=200)
 
 
 def _impacts(numbers: Sequence[Number]) -> dict[str, list[str]]:
@@ -95,7 +95,7 @@ def _off(found: Found, case: str) -> float:
     return abs(found[DELIVERED, case].value - found["closed_form_restitution", case].value)
 
 
-def rise_table(numbers: Sequence[Number]) -> Table:
+def rise_table(numbers: Sequence[Number]) -> TextTable:
     """The rise under each law, a row a law."""
     found = by_case(numbers)
     rows = []
@@ -103,13 +103,13 @@ def rise_table(numbers: Sequence[Number]) -> Table:
         row = [found[name, case] for name in RISE_UNITS]
         rows.append((row_title(case), *(rounded(n.value, n.numerical_error) for n in row)))
     header = ("law", *(f"{name.replace('_', ' ')} [{unit}]" for name, unit in RISE_UNITS.items()))
-    return Table(header, tuple(rows), width=200)
+    return TextTable(header, tuple(rows), width=200)
 
 
 # --- the study ---
 
 
-def work(chosen: Options) -> Outcome:
+def work(chosen: Options) -> StudyOutcome:
     """Free impacts and the rise under every law."""
     laws = cases.impact_laws(chosen.quick)
     impacts = {case: free_impact.free_impact(law, SPEED, IMPACT_STEPS) for case, (law, _) in laws.items()}
@@ -131,7 +131,7 @@ def work(chosen: Options) -> Outcome:
     }
     tables = {"restitution_table": restitution_table(restitutions), "rise_table": rise_table(numbers)}
     words = _of_impacts(restitutions) | _of_rises(numbers)
-    return Outcome([*restitutions, *numbers], words, drawings, tables, risen)
+    return StudyOutcome([*restitutions, *numbers], words, drawings, tables, risen)
 
 
 def _of_impacts(numbers: Sequence[Number]) -> dict[str, object]:

@@ -30,7 +30,7 @@ def scenarios(quick: bool) -> dict[str, Scenario]:
     step, steps = (2e-3, 16) if quick else (1e-3, 64)
     bases = {
         PINS[0]: paper_machine.ideal_rise(step),
-        PINS[1]: paper_machine.loose_rise(CLEARANCE_MM, FRICTION, step, steps, symbolic=True),
+        PINS[1]: paper_machine.clearance_rise(CLEARANCE_MM, FRICTION, step, steps, symbolic=True),
     }
 
     def run(mode: str, pin: str, columns: str) -> Scenario:

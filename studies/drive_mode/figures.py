@@ -17,8 +17,8 @@ from studies.drive_mode.measures import extension
 from support_exudyn import Result
 from support_exudyn.postprocessing.figures import style
 
-MODES = {"mode 1": style.SMOOTH, "mode 2": style.LOOSE}
-PAIRS = {"front": style.SMOOTH, "rear": style.LOOSE}
+MODES = {"mode 1": style.SMOOTH, "mode 2": style.WITH_CLEARANCE}
+PAIRS = {"front": style.SMOOTH, "rear": style.WITH_CLEARANCE}
 DASHES = (0, (4, 2))
 BEFORE, AFTER = 2.9, 5.0  # shown [s]
 
@@ -78,7 +78,7 @@ def start_figure(results: Mapping[str, Result]) -> Figure:
     panels = drawing.subplots(1, 3, sharex=True)
     channels = {"pin": rise.FORCE, "front columns": "front_column.force", "rear columns": "rear_column.force"}
     for axes, letter, (name, channel) in zip(panels, "abc", channels.items(), strict=True):
-        for pin, colour, dashes in ((PINS[1], style.LOOSE, "-"), (PINS[0], style.IDEAL, DASHES)):
+        for pin, colour, dashes in ((PINS[1], style.WITH_CLEARANCE, "-"), (PINS[0], style.IDEAL, DASHES)):
             run = results[case_name("mode 1", pin, "oil")]
             inside = rise.between(run, 2.95, 3.4)
             axes.plot(run.time[inside], 1e-3 * run[channel][inside], color=colour, ls=dashes, lw=0.9, label=pin)

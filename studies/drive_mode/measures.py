@@ -16,15 +16,15 @@ Get = Callable[[Result], float]
 EXTREMES: tuple[Literal["largest", "max", "min"], ...] = ("largest", "max", "min")
 
 
-def _ripple(channel: str, scale: float = 1.0) -> Get:
+def _rms_fluctuation(channel: str, scale: float = 1.0) -> Get:
     # from the very start on, which is where mode 1 strikes
-    return lambda r: scale * rise.ripple(r, r[channel], rise.START)
+    return lambda r: scale * rise.rms_fluctuation(r, r[channel], rise.START)
 
 
 MEASURES: dict[str, tuple[str, Get]] = {
     "mean_pin_force": ("N", lambda r: float(r[rise.FORCE][rise.in_rise(r)].mean())),
     "std_pin_force": ("N", lambda r: float(r[rise.FORCE][rise.in_rise(r)].std())),
-    "ripple_pin_force": ("N", _ripple(rise.FORCE)),
+    "rms_pin_force": ("N", _rms_fluctuation(rise.FORCE)),
     "largest_pin_force_in_rise": ("N", rise.Peak(rise.FORCE)),
     # the largest is of the magnitude; a push is positive, a pull negative
     **{
@@ -37,7 +37,7 @@ MEASURES: dict[str, tuple[str, Get]] = {
         "deg/s^2",
         lambda r: rise.DEGREES * float(r[rise.ACCELERATION][rise.in_rise(r)].std()),
     ),
-    "ripple_angular_velocity": ("deg/s", _ripple(rise.SPEED, rise.DEGREES)),
+    "rms_angular_velocity": ("deg/s", _rms_fluctuation(rise.SPEED, rise.DEGREES)),
 }
 
 

@@ -11,8 +11,8 @@ from collections.abc import Mapping
 
 from studies.common.numbers import Found, by_case
 from studies.common.runs import halvings, run_with_errors
-from studies.common.study import Options, Outcome, Study
-from studies.common.words import Table
+from studies.common.study import Options, Study, StudyOutcome
+from studies.common.words import TextTable
 from studies.drive_mode import cases, tables
 from studies.drive_mode.cases import COLUMNS, MODES, PINS, case_name, naive_peaks, scenarios
 from studies.drive_mode.figures import figures
@@ -20,7 +20,7 @@ from studies.drive_mode.measures import measure
 from support_exudyn import Result
 
 
-def work(chosen: Options) -> Outcome:
+def work(chosen: Options) -> StudyOutcome:
     """Both modes on all kinds of columns, and the peaks of the recipe that has no limit."""
     results = run_with_errors(scenarios(chosen.quick), chosen.workers)
     numbers = measure(results)
@@ -33,13 +33,13 @@ def work(chosen: Options) -> Outcome:
         "step_halving": tables.halving_table(results, naive),
         "table_convergence": tables.convergence_table(results),
     }
-    return Outcome(numbers, _words(found, results, naive, sheets), figures(results), sheets, results)
+    return StudyOutcome(numbers, _words(found, results, naive, sheets), figures(results), sheets, results)
 
 
 def _words(
-    found: Found, results: Mapping[str, Result], naive: str, sheets: Mapping[str, Table]
+    found: Found, results: Mapping[str, Result], naive: str, sheets: Mapping[str, TextTable]
 ) -> dict[str, object]:
-    ideal, loose = PINS
+    ideal, with_clearance = PINS
 
     def value(name: str, mode: str, pin: str, columns: str) -> float:
         return found[name, case_name(mode, pin, columns)].value
@@ -52,7 +52,7 @@ def _words(
     return {
         "cases": cases,
         "ideal": ideal,
-        "loose": loose,
+        "with_clearance": with_clearance,
         "value": value,
         "step": halvings(next(iter(results.values())))[0].scenario.step,
         "heat": {mode: heat(mode) for mode in MODES},

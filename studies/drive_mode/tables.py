@@ -7,7 +7,7 @@ from itertools import pairwise
 
 from studies.common.numbers import Found, cell
 from studies.common.runs import halvings
-from studies.common.words import Table
+from studies.common.words import TextTable
 from studies.drive_mode.cases import COLUMNS, MODES, NAIVE, PINS, case_name
 from studies.drive_mode.measures import IMPULSES, MEASURES, ON_CYLINDERS, measures_of
 from support_exudyn import Result
@@ -15,7 +15,7 @@ from support_exudyn import Result
 SAVED = (
     "largest_pin_force_in_rise",
     "std_pin_force",
-    "ripple_pin_force",
+    "rms_pin_force",
     "largest_front_column_force",
     "largest_rear_column_force",
     "largest_angular_acceleration",
@@ -23,22 +23,22 @@ SAVED = (
 )
 CONVERGES = "converges"
 DIVERGES = "does not converge"
-VELOCITY = "ripple angular velocity"  # as the table of step halving has it
+VELOCITY = "RMS fluctuation angular velocity"  # as the table of step halving has it
 Rows = Sequence[Sequence[str]]  # of that table
 
 
-def mode_table(found: Found, columns: str) -> Table:
+def mode_table(found: Found, columns: str) -> TextTable:
     """Both modes side by side."""
     units = {name: unit for name, (unit, _) in MEASURES.items()} | dict.fromkeys(IMPULSES, "N s")
     return _side_by_side(found, units, columns)
 
 
-def valve_table(found: Found) -> Table:
+def valve_table(found: Found) -> TextTable:
     """What there is on cylinders only."""
     return _side_by_side(found, {name: unit for name, (unit, _) in ON_CYLINDERS.items()}, "cylinder")
 
 
-def _side_by_side(found: Found, units: Mapping[str, str], columns: str) -> Table:
+def _side_by_side(found: Found, units: Mapping[str, str], columns: str) -> TextTable:
     """A row a quantity that is known of any case."""
     cases = [case_name(mode, pin, columns) for pin in PINS for mode in MODES]
     rows = []
@@ -46,12 +46,12 @@ def _side_by_side(found: Found, units: Mapping[str, str], columns: str) -> Table
         cells = [cell(found.get((name, case))) for case in cases]
         if any(cells):
             rows.append((name.replace("_", " "), unit, *cells))
-    return Table(
+    return TextTable(
         ("quantity", "unit", *(f"{mode}, {pin}" for pin in PINS for mode in MODES)), tuple(rows), left=2
     )
 
 
-def saving_table(found: Found) -> Table:
+def saving_table(found: Found) -> TextTable:
     """What the gentle drive saves."""
     headings = [(pin, columns) for columns in COLUMNS for pin in PINS]
     rows = []
@@ -62,10 +62,10 @@ def saving_table(found: Found) -> Table:
             struck = (pin, columns) == (PINS[0], "rigid")  # nothing gives: all of it is in the impulse
             cells.append("impulse" if struck else f"{100.0 * (gentle / sudden - 1.0):+.0f} %")
         rows.append((name.replace("_", " "), *cells))
-    return Table(("quantity", *(f"{pin}, {columns}" for pin, columns in headings)), tuple(rows))
+    return TextTable(("quantity", *(f"{pin}, {columns}" for pin, columns in headings)), tuple(rows))
 
 
-def convergence_table(results: Mapping[str, Result]) -> Table:
+def convergence_table(results: Mapping[str, Result]) -> TextTable:
     """Every number at every step."""
     rows = []
     for case, result in results.items():
@@ -73,10 +73,10 @@ def convergence_table(results: Mapping[str, Result]) -> Table:
             values = [get(run) for run in halvings(result)]
             rows.append((case, name.replace("_", " "), unit, *(f"{v:.7g}" for v in values), verdict(values)))
     header = ("case", "quantity", "unit", "step h", "step h/2", "step h/4", "verdict")
-    return Table(header, tuple(rows), left=3, width=170, in_chapter=False)
+    return TextTable(header, tuple(rows), left=3, width=170, in_chapter=False)
 
 
-def halving_table(results: Mapping[str, Result], naive: str) -> Table:
+def halving_table(results: Mapping[str, Result], naive: str) -> TextTable:
     """How far the numbers of each case still move; and the peaks that are no numbers."""
     rows = []
     for case, result in results.items():
@@ -85,7 +85,9 @@ def halving_table(results: Mapping[str, Result], naive: str) -> Table:
         good = sum(verdict(values) == CONVERGES for values in columns)
         rows.append((case, f"{100.0 * last:.1g} %", f"{good} of {len(columns)}", ""))
     rows.append((NAIVE, "", "0 of 1", f"peak angular acceleration {naive}"))
-    return Table(("case", "largest last change", "converge", "remark"), tuple(rows), wide=True, in_file=False)
+    return TextTable(
+        ("case", "largest last change", "converge", "remark"), tuple(rows), wide=True, in_file=False
+    )
 
 
 def naive_said(peaks: Mapping[float, float]) -> str:

@@ -26,7 +26,7 @@ BOX = "box"
 LONG_OF, SHORT_OF = 500, 50  # records of a stroke, full and quick
 PACE = (0.5, 0.1)  # full and quick
 STROKE = 0.05  # [m]
-STARTS = ("concentric", "touching", "overlapping", "settled")
+STARTS = ("concentric", "closed", "overlapping", "settled")
 BODIES = ("rear_link", "front_link", "shield", "canopy")
 # how many of each kind, full and quick; grids: lines and columns
 GRIDS = {STEP_STIFFNESS: (13, 4), CLEARANCE_SPEED: (12, 3), FRICTION_STEP: (13, 4)}
@@ -173,9 +173,13 @@ def _of_masses(point: Point, i: int, random: np.random.Generator) -> Made:
 
 def _of_posture(point: Point, i: int, random: np.random.Generator) -> Made:
     height, stroke = float(random.uniform(1.0, 3.6)), float(random.uniform(-1.0, 1.5))
-    loose = bool(i % 2)
-    more: dict[str, float | str] = {"height_m": height, "stroke_m": stroke, "loose": str(loose)}
-    return more, partial(scenes.of_posture, point, height, stroke, loose)
+    with_clearance = bool(i % 2)
+    more: dict[str, float | str] = {
+        "height_m": height,
+        "stroke_m": stroke,
+        "with_clearance": str(with_clearance),
+    }
+    return more, partial(scenes.of_posture, point, height, stroke, with_clearance)
 
 
 def _past_dead_centre(point: Point, i: int, random: np.random.Generator) -> Made:

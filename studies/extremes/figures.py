@@ -13,17 +13,17 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from studies.extremes.cases import CLEARANCE_SPEED, FRICTION_STEP, STEP_STIFFNESS
-from studies.extremes.judge import GOOD, SILENT, Case, Verdict
+from studies.extremes.judge import GOOD, SILENT, Case, Judgement
 from studies.extremes.ranges import Point
 from studies.extremes.scenes import IMPACT_STEPS, fallen
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.scenario.timescales import timescales
-from user_forces import Touch
+from user_forces import Impact
 
 SMALLEST, LARGEST = 1e-6, 1.0  # of the colours
 PULL = 9.81  # [m/s^2]
-MASS = 3000.0  # [kg] that moves with the journal of the rear pin, see `moving_mass`
-Judged = Sequence[tuple[Case, Verdict]]
+MASS = 3000.0  # [kg] that moves with the journal of the rear pin, see `effective_mass`
+Judged = Sequence[tuple[Case, Judgement]]
 Curve = tuple[str, Callable[[float], float]]
 
 
@@ -125,15 +125,15 @@ def _edges(values: Sequence[float]) -> np.ndarray:
 # --- limits ---
 
 
-def _first_touch(point: Point) -> Touch:
-    """The first touch of a fall through the clearance."""
-    return Touch(math.sqrt(2.0 * PULL * point.clearance_m), MASS)
+def _first_impact(point: Point) -> Impact:
+    """The first impact of a fall through the clearance."""
+    return Impact(math.sqrt(2.0 * PULL * point.clearance_m), MASS)
 
 
 def _of_contact() -> list[Curve]:
     def duration(stiffness: float) -> float:
         point = Point(stiffness=stiffness)
-        return point.normal.impact_time(_first_touch(point))
+        return point.normal.impact_time(_first_impact(point))
 
     return [
         ("duration of the first contact", duration),

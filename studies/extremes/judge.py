@@ -3,7 +3,7 @@
 A run is good if it has finished and what can be asked of it is so:
 
 - all of its numbers are finite, energy adds up, no journal is deeper in its bore than a stated share of the
-  radius (`simulation.audit` looks at that in every run; here it is looked at once more);
+  radius (`simulation.result_checks` looks at that in every run; here it is looked at once more);
 - no free impact gives back more than the law does;
 - a run of half its steps agrees with it within the error that it reports;
 - so does, where there is one, an independent formulation of the same scene.
@@ -25,9 +25,9 @@ from support_exudyn.formulations.limits import DEEPEST
 from support_exudyn.formulations.registry import formulation
 from support_exudyn.scenario.scenario_data import LARGEST_STEP
 from support_exudyn.scenario.timescales import timescales
-from support_exudyn.simulation.audit import OPEN, energy_open
 from support_exudyn.simulation.contact_ringing import ringing_step
 from support_exudyn.simulation.estimate import disagreement, rounding_share
+from support_exudyn.simulation.result_checks import OPEN, energy_open
 from user_forces import Frictionless, InputError
 from user_forces.normal.hysteresis import Hysteresis
 
@@ -66,7 +66,7 @@ class Case:
 
 
 @dataclass(frozen=True)
-class Verdict:
+class Judgement:
     """How a case ended.
 
     outcome: good, refused or silent. reason: why not good. error: reported, relative, of the worst number.
@@ -100,7 +100,7 @@ def run_with_its_error(scenario: Scenario) -> Result:
     return simulate(scenario, errors=True)
 
 
-def judge(make: Callable[[], Scenario], run: Run = run_with_its_error) -> Verdict:
+def judge(make: Callable[[], Scenario], run: Run = run_with_its_error) -> Judgement:
     """Make a scene, run it and look at what comes out; warnings are errors."""
     began = time.perf_counter()
     try:
@@ -110,19 +110,19 @@ def judge(make: Callable[[], Scenario], run: Run = run_with_its_error) -> Verdic
     except Exception as error:  # whatever it is: nobody has explained it
         where = traceback.extract_tb(error.__traceback__)[-1]
         said = f"{type(error).__name__}: {error} ({where.filename.rpartition('/')[2]}:{where.lineno})"
-        verdict = Verdict(SILENT, said[:400])
+        verdict = Judgement(SILENT, said[:400])
     return replace(verdict, wall_s=time.perf_counter() - began)
 
 
-def _judged(make: Callable[[], Scenario], run: Run) -> Verdict:
+def _judged(make: Callable[[], Scenario], run: Run) -> Judgement:
     try:
         scenario = make()
         result = run(scenario)
     except InputError as error:
-        return Verdict(REFUSED, f"before the run: {error}"[:400])
+        return Judgement(REFUSED, f"before the run: {error}"[:400])
     except SimulationError as error:
         return _refused(error)
-    found = Verdict(
+    found = Judgement(
         GOOD,
         error=result.worst_error,
         energy=_energy(result),
@@ -133,15 +133,15 @@ def _judged(make: Callable[[], Scenario], run: Run) -> Verdict:
     return _compared(result, found)
 
 
-def _refused(error: SimulationError) -> Verdict:
+def _refused(error: SimulationError) -> Judgement:
     """A failure has to say why, when, and what to change."""
     failure = error.failure
     if failure.reason and failure.advice and math.isfinite(failure.time):
-        return Verdict(REFUSED, f"at {failure.time:.6g} s: {failure.reason}"[:400])
-    return Verdict(SILENT, f"refused without cause, time or advice: {failure}")
+        return Judgement(REFUSED, f"at {failure.time:.6g} s: {failure.reason}"[:400])
+    return Judgement(SILENT, f"refused without cause, time or advice: {failure}")
 
 
-def _compared(result: Result, found: Verdict) -> Verdict:
+def _compared(result: Result, found: Judgement) -> Judgement:
     """The verdict after what is asked of a run by itself and beside others."""
     faults = []
     if not all(np.isfinite(channel.values).all() for channel in result.channels.values()):
@@ -189,7 +189,7 @@ def largest_restitution(result: Result) -> float:
     found = [math.nan]
     pull = _pull(result.scenario)
     contacts = {
-        name: [(touch.time, touch.parting_time) for touch in result.onsets.get(name, ())]
+        name: [(impact.time, impact.separation_time) for impact in result.onsets.get(name, ())]
         for name in result.scenario.clearance_pins
     }
     for name, pin in result.scenario.clearance_pins.items():
@@ -197,15 +197,17 @@ def largest_restitution(result: Result) -> float:
         if not isinstance(law, Hysteresis) or not isinstance(pin.contact.friction, Frictionless):
             continue
         others = [span for other, spans in contacts.items() if other != name for span in spans]
-        for touch in result.onsets.get(name, ()):
-            lasted = touch.parting_time - touch.time
-            if not pull * lasted < FREE * touch.speed:
+        for impact in result.onsets.get(name, ()):
+            lasted = impact.separation_time - impact.time
+            if not pull * lasted < FREE * impact.speed:
                 continue
-            if any(begin - ALONE < touch.parting_time and touch.time < end + ALONE for begin, end in others):
+            if any(
+                begin - ALONE < impact.separation_time and impact.time < end + ALONE for begin, end in others
+            ):
                 continue
-            if any(touch.time - ALONE <= one.time <= touch.parting_time for one in result.impulses):
+            if any(impact.time - ALONE <= one.time <= impact.separation_time for one in result.impulses):
                 continue
-            found.append(touch.parting_speed / (law.delivered_restitution * touch.speed))
+            found.append(impact.separation_velocity / (law.delivered_restitution * impact.speed))
     return float(np.nanmax(found)) if len(found) > 1 else math.nan
 
 

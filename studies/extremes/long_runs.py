@@ -1,7 +1,7 @@
 """Do runs stay right for long? Joints, energy and memory over a thousand seconds.
 
 The reference support raised and lowered by 100 mm every 4 s, with ideal pins, with 1.5 mm in the rear-link pin,
-with friction there, and on oil columns; held at rest; and a slider-crank with a loose slider pin that turns for
+with friction there, and on oil columns; held at rest; and a slider-crank with clearance that turns for
 as long. A run is measured in the process that calls; for memory that should be a fresh one.
 """
 
@@ -33,7 +33,7 @@ from support_exudyn.formulations.progress import Progress, silent
 from support_exudyn.formulations.registry import formulation
 from support_exudyn.mechanics.trajectory import Outcome
 from support_exudyn.scenario.recorded_channels import Channel, channels
-from support_exudyn.simulation.audit import audit, energy_open, joints_apart, turned_over
+from support_exudyn.simulation.result_checks import energy_open, joints_apart, result_checks, turned_over
 from support_exudyn.simulation.single_run import paused_collector
 
 Series = npt.NDArray[np.float64]
@@ -51,7 +51,7 @@ IDEAL, SMOOTH, DRY, OIL, REST = "ideal pins", "1.5 mm", "friction", "oil columns
 CRANK = "crank"
 PARTS = 10  # of a run: the first is compared with the last
 NUMBER = 8  # [bytes]
-TOUCH = 168  # an Onset of four numbers in a list of CPython [bytes]
+IMPACT = 168  # an Onset of four numbers in a list of CPython [bytes]
 STATUS = Path("/proc/self/status")
 
 
@@ -59,12 +59,12 @@ STATUS = Path("/proc/self/status")
 class LongRun:
     """What a long run came to.
 
-    scene, simulated, wall: name, [s], [s]. steps, touches: numbers. gap_first, gap_last: largest distance of
+    scene, simulated, wall: name, [s], [s]. steps, impacts: numbers. gap_first, gap_last: largest distance of
     what is joined, in the first and the last tenth of the run [m]. gap_slope: of the line through all [m/s].
     energy_first, energy_open: by how much the balance is open after the first tenth and at the end [J].
     turned_over: kinetic, potential and elastic energy, losses and work that changed hands [J].
     memory_first, memory_end: resident after a tenth and at the end [bytes]. memory_slope: their difference less
-    what records and touches take, by simulated time [bytes/s]; nan where the system does not tell.
+    what records and impacts take, by simulated time [bytes/s]; nan where the system does not tell.
     late: largest distance of a record from its time [s].
     """
 
@@ -72,7 +72,7 @@ class LongRun:
     simulated: float
     wall: float
     steps: int
-    touches: int
+    impacts: int
     gap_first: float
     gap_last: float
     gap_slope: float
@@ -99,13 +99,15 @@ def scene(name: str, duration: float) -> Scenario:
 
 
 def _support(duration: float, sliding_coefficient: float | None = None, drive: Drive | None = None) -> Scenario:
-    pin = paper_machine.LOOSE_PIN
-    loose = (
-        {} if sliding_coefficient is None else {pin: paper_machine.loose_pin(CLEARANCE_MM, sliding_coefficient)}
+    pin = paper_machine.CLEARANCE_PIN
+    with_clearance = (
+        {}
+        if sliding_coefficient is None
+        else {pin: paper_machine.clearance_joint(CLEARANCE_MM, sliding_coefficient)}
     )
     return Scenario(
         machine=reference_support(),
-        pins=loose,
+        pins=with_clearance,
         drive=drive or Reciprocating(stroke=STROKE, period=PERIOD),
         duration=duration,
         formulation="redundant",
@@ -126,7 +128,7 @@ def _on_oil(duration: float) -> Scenario:
 
 
 def _crank(duration: float) -> Scenario:
-    """The slider-crank of the field with a loose slider pin with friction, turning slowly, with its weight.
+    """The slider-crank of the field with a clearance slider pin with friction, turning slowly, with its weight.
 
     It rattles for seconds and stays closed from then on.
     """
@@ -160,7 +162,7 @@ SCENES: dict[str, Callable[[float], Scenario]] = {
 def run(scenario: Scenario, name: str = "", progress: Progress = silent) -> LongRun:
     """Run a scenario and measure it.
 
-    Raises SimulationError if it fails or does not stand up to the audit, as `simulate` does.
+    Raises SimulationError if it fails or does not stand up to the result checks, as `simulate` does.
     """
     memory = [resident(), math.nan, math.nan]  # before, after a tenth, at the end [bytes]
 
@@ -178,7 +180,7 @@ def run(scenario: Scenario, name: str = "", progress: Progress = silent) -> Long
         outcome = chosen.run(scenario, watch)
     wall = time.perf_counter() - began
     found = channels(scenario, outcome.trajectory)
-    if (failure := audit(scenario, outcome, found)) is not None:
+    if (failure := result_checks(scenario, outcome, found)) is not None:
         raise SimulationError(failure)
     return _measured(scenario, name, outcome, found, wall, memory)
 
@@ -199,14 +201,14 @@ def _measured(
     open_by, _ = energy_open(scenario, found)
     begun = [onset.time for pin in outcome.onsets.values() for onset in pin]
     later = sum(t > scenario.duration / PARTS for t in begun)
-    kept = (times.size - first.sum()) * record_bytes(scenario) + later * TOUCH
+    kept = (times.size - first.sum()) * record_bytes(scenario) + later * IMPACT
     nominal = np.minimum(np.arange(times.size) * scenario.record_period, scenario.duration)
     return LongRun(
         scene=name,
         simulated=scenario.duration,
         wall=wall,
         steps=outcome.counts.steps,
-        touches=len(begun),
+        impacts=len(begun),
         gap_first=float(gaps[first].max()),
         gap_last=float(gaps[last].max()),
         gap_slope=slope(times, gaps),
@@ -228,7 +230,7 @@ def slope(times: Series, values: Series) -> float:
 
 def record_bytes(scenario: Scenario) -> int:
     """What a record of a scenario in the plane takes while it runs [bytes]."""
-    # time and three integrals; position and velocity; the memory of a loose pin is nine numbers
+    # time and three integrals; position and velocity; the memory of a clearance pin is nine numbers
     return NUMBER * (4 + 6 * len(scenario.linkage.bodies) + 9 * len(scenario.clearance_pins))
 
 

@@ -17,21 +17,21 @@ from types import SimpleNamespace
 import numpy as np
 
 from studies.common.numbers import Number
-from studies.common.study import Options, Outcome, Study
-from studies.common.words import Table
+from studies.common.study import Options, Study, StudyOutcome
+from studies.common.words import TextTable
 from studies.extremes import long_runs
 from studies.extremes.cases import MAPS, RANDOM, cases
 from studies.extremes.figures import figures
-from studies.extremes.judge import FREE, GOOD, MORE, REFUSED, SILENT, Case, Verdict
+from studies.extremes.judge import FREE, GOOD, MORE, REFUSED, SILENT, Case, Judgement
 from studies.extremes.long_runs import LongRun
 from studies.extremes.ranges import SPANS
 from studies.extremes.runs import PATIENCE, run_cases, run_long
 from support_exudyn.files.whole_file import whole_file
 from support_exudyn.formulations.limits import DEEPEST
-from support_exudyn.simulation.audit import OPEN
+from support_exudyn.simulation.result_checks import OPEN
 
 LARGEST_GAP = 1e-8  # [m] in a long run
-Judged = Sequence[tuple[Case, Verdict]]
+Judged = Sequence[tuple[Case, Judgement]]
 Long = Mapping[str, LongRun | str]
 
 
@@ -86,7 +86,7 @@ def counts(judged: Judged) -> dict[str, int]:
 # --- tables ---
 
 
-def group_table(judged: Judged) -> Table:
+def group_table(judged: Judged) -> TextTable:
     """How the runs of every group ended."""
     rows = []
     for group in (*MAPS, *RANDOM):
@@ -104,14 +104,14 @@ def group_table(judged: Judged) -> Table:
         "group", "runs", "good", "refused", "silent", "compared with another formulation",
         "median error", "energy open, largest",
     )  # fmt: skip
-    return Table(header, tuple(rows), width=200)
+    return TextTable(header, tuple(rows), width=200)
 
 
-def reason_table(judged: Judged) -> Table:
+def reason_table(judged: Judged) -> TextTable:
     """Why runs were refused, the commonest first."""
     counted = Counter(_kind(verdict.reason) for _, verdict in judged if verdict.outcome == REFUSED)
     rows = tuple((str(number), reason) for reason, number in counted.most_common())
-    return Table(("runs", "reason"), rows, wide=True, width=200)
+    return TextTable(("runs", "reason"), rows, wide=True, width=200)
 
 
 def _kind(reason: str) -> str:
@@ -122,13 +122,13 @@ def _kind(reason: str) -> str:
     return short[:110] + ("..." if len(short) > 110 else "")
 
 
-def silent_table(judged: Judged) -> Table:
+def silent_table(judged: Judged) -> TextTable:
     """Silent failures, one by one."""
     rows = tuple((case.name, verdict.reason) for case, verdict in judged if verdict.outcome == SILENT)
-    return Table(("run", "what is wrong"), rows or (("none", ""),), wide=True, width=200)
+    return TextTable(("run", "what is wrong"), rows or (("none", ""),), wide=True, width=200)
 
 
-def long_table(long: Long) -> Table:
+def long_table(long: Long) -> TextTable:
     """Long runs."""
     rows = []
     for name, run in long.items():
@@ -137,20 +137,20 @@ def long_table(long: Long) -> Table:
             continue
         memory = f"{run.memory_slope:.0f}" if math.isfinite(run.memory_slope) else ""
         rows.append((
-            name, f"{run.simulated:g}", f"{run.wall:.0f}", f"{run.steps}", f"{run.touches}",
+            name, f"{run.simulated:g}", f"{run.wall:.0f}", f"{run.steps}", f"{run.impacts}",
             f"{run.gap_first:.1e}", f"{run.gap_last:.1e}", f"{run.energy_share:.1e}", memory,
         ))  # fmt: skip
     header = (
-        "scene", "time [s]", "took [s]", "steps", "touches", "gap, first tenth [m]", "gap, last tenth [m]",
+        "scene", "time [s]", "took [s]", "steps", "impacts", "gap, first tenth [m]", "gap, last tenth [m]",
         "energy open / turned over", "memory beyond records [bytes/s]",
     )  # fmt: skip
-    return Table(header, tuple(rows), width=200)
+    return TextTable(header, tuple(rows), width=200)
 
 
 # --- the study ---
 
 
-def work(chosen: Options) -> Outcome:
+def work(chosen: Options) -> StudyOutcome:
     """All scenes and long runs, judged; every verdict is kept as a line of runs.jsonl."""
     found = cases(chosen.quick)
     judged = list(zip(found, run_cases(found, chosen.quick, chosen.workers), strict=True))
@@ -162,7 +162,9 @@ def work(chosen: Options) -> Outcome:
         "table_silent": silent_table(judged),
         "table_long": long_table(long),
     }
-    return Outcome(numbers(judged, long), words(judged, long), figures(judged), tables, counts=counts(judged))
+    return StudyOutcome(
+        numbers(judged, long), words(judged, long), figures(judged), tables, counts=counts(judged)
+    )
 
 
 def words(judged: Judged, long: Long) -> dict[str, object]:
@@ -194,7 +196,7 @@ def save_rows(path: Path, judged: Judged) -> None:
             file.write(json.dumps(row | _known(verdict), allow_nan=False) + "\n")
 
 
-def _known(verdict: Verdict) -> dict[str, object]:
+def _known(verdict: Judgement) -> dict[str, object]:
     """What a verdict says, without what JSON has no word for."""
     said = verdict.row().items()
     return {name: value for name, value in said if not isinstance(value, float) or math.isfinite(value)}

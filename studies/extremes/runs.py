@@ -11,7 +11,7 @@ from typing import Any
 from studies.common.runs import bar
 from studies.extremes import long_runs
 from studies.extremes.cases import cases
-from studies.extremes.judge import SILENT, Case, Verdict, judge
+from studies.extremes.judge import SILENT, Case, Judgement, judge
 from studies.extremes.long_runs import LongRun
 from support_exudyn import SimulationError
 from support_exudyn.sweeps.workers import ProcessEndedError, Workers, report, worker_pool
@@ -48,14 +48,14 @@ def _cases(quick: bool) -> list[Case]:
     return cases(quick)
 
 
-def judged(place: int, quick: bool, number: int) -> Verdict:
+def judged(place: int, quick: bool, number: int) -> Judgement:
     """Judge a case, in a worker."""
     report(0.0)
     try:
         with patience(PATIENCE):
             return judge(_cases(quick)[number].scenario)
     except HangError as error:
-        return Verdict(SILENT, f"hang: {error}")
+        return Judgement(SILENT, f"hang: {error}")
 
 
 def lasted(place: int, name: str, duration: float) -> LongRun | str:
@@ -68,7 +68,7 @@ def lasted(place: int, name: str, duration: float) -> LongRun | str:
 
 def run_cases(
     found: Sequence[Case], quick: bool, workers: int | Workers, places: Sequence[int] | None = None
-) -> list[Verdict]:
+) -> list[Judgement]:
     """Verdicts on cases, in their order, under a progress bar.
 
     Arguments:
@@ -78,8 +78,8 @@ def run_cases(
         places: where each stands among all cases of that form; None: they are all of them.
     """
 
-    def crashed(error: ProcessEndedError) -> Verdict:
-        return Verdict(SILENT, f"crash: {error.reason}")
+    def crashed(error: ProcessEndedError) -> Judgement:
+        return Judgement(SILENT, f"crash: {error.reason}")
 
     jobs = [(quick, number) for number in (range(len(found)) if places is None else places)]
     with worker_pool(workers) as pool, bar(f"{len(found)} scenes") as told:

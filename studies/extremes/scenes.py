@@ -25,17 +25,17 @@ from support_exudyn import (
     SliderCrank,
     SolverSettings,
     Steady,
+    cylinders_and_rods,
     ravn_slider_crank,
     reference_support,
     simulate,
-    two_body_columns,
 )
 from support_exudyn.machines.free_impact import ImpactStand
 from support_exudyn.model.linkage import Part
 from support_exudyn.scenario.scenario_data import Accuracy
 from support_exudyn.simulation.automatic_settings import settings_for
 
-PIN = paper_machine.LOOSE_PIN
+PIN = paper_machine.CLEARANCE_PIN
 SLIDER_PIN = "slider_pin"
 IMPACT_STEPS = 64
 MOST_STEPS, MOST_EXPLICIT = 60_000, 2_000_000  # of every run: none of them is worth more
@@ -45,7 +45,7 @@ SHORTEST, LONGEST, STEPS = 0.005, 0.08, 1000  # [s], [s], steps
 BOXED = 0.3  # [s] of runs in the box
 FALL = 0.03  # [s] that the journal takes to fall through its clearance and bounce
 HALF, LOAD = 0.5, 5e4  # of the depth under this load [N], at which journals start in short runs
-RECORDS = 101.0  # of two free bodies: none of them at the touch
+RECORDS = 101.0  # of two free bodies: none of them at the impact
 MOST_OF_FLIGHT = 10_000.0  # steps of theirs
 SLIDER_BEARING = 0.01  # bore radius at the slider [m]
 
@@ -109,7 +109,7 @@ def rest_direction() -> tuple[float, float]:
 
 
 def fallen(point: Point) -> Scenario:
-    """The support, held, with a loose rear pin whose journal falls and bounces."""
+    """The support, held, with a clearance rear pin whose journal falls and bounces."""
     return Scenario(
         machine=reference_support(), pins={PIN: near(point).pin}, solver=settings(point), **times(point)
     )
@@ -177,7 +177,7 @@ def weightless(point: Point) -> Scenario:
 def started(point: Point, start: str) -> Scenario:
     """The journal in the middle, touching, pressed in, or settled."""
     x, y = rest_direction()
-    share = {"concentric": 0.0, "touching": 1.0, "overlapping": 1.0, "settled": 0.0}[start]
+    share = {"concentric": 0.0, "closed": 1.0, "overlapping": 1.0, "settled": 0.0}[start]
     here = replace(point, bore="first", eccentricity=(share * x, share * y))
     if start == "overlapping":
         deeper = 1.0 + 1e-4 / point.clearance_m  # by 0.1 mm
@@ -232,12 +232,12 @@ def colliding(point: Point, ratio: float, speed: float) -> Scenario:
     )
 
 
-def of_posture(point: Point, height: float, stroke: float, loose: bool) -> Scenario:
+def of_posture(point: Point, height: float, stroke: float, with_clearance: bool) -> Scenario:
     """The support from a height of its hinge [m], through a stroke [m] within a tenth of a second."""
     machine: HydraulicSupport = replace(reference_support(), start_hinge_height=height)
     return Scenario(
         machine=machine,
-        pins={PIN: point.pin if loose else IdealPin()},
+        pins={PIN: point.pin if with_clearance else IdealPin()},
         drive=CubicStep(stroke=stroke, start=0.01, end=0.11),
         solver=settings(point),
         **times(point),
@@ -245,7 +245,7 @@ def of_posture(point: Point, height: float, stroke: float, loose: bool) -> Scena
 
 
 def under_roof(point: Point, force: float, stiffness: float, oil: bool) -> Scenario:
-    """A roof that lands on the canopy and presses with a force [N], with a loose pin below."""
+    """A roof that lands on the canopy and presses with a force [N], with a clearance pin below."""
     machine = reference_support()
     tip = machine.linkage().points["tip"].point
     hinge = machine.start().hinge
@@ -268,7 +268,7 @@ def under_roof(point: Point, force: float, stiffness: float, oil: bool) -> Scena
 
 
 def hung_up(point: Point, angle: float) -> Scenario:
-    """The slider-crank at rest, its rod hung up by friction in the loose slider pin."""
+    """The slider-crank at rest, its rod hung up by friction in the clearance slider pin."""
     machine = replace(ravn_slider_crank(), start_angle=angle)
     pin = _small(point)
     x = pin.contact.bearing.clearance
@@ -324,7 +324,7 @@ def in_space(point: Point) -> Scenario:
 
 def heavy_columns(point: Point) -> Scenario:
     """The fall with columns of two bodies each."""
-    return replace(fallen(point), columns=two_body_columns())
+    return replace(fallen(point), columns=cylinders_and_rods())
 
 
 def rest_angle(random: np.random.Generator) -> float:

@@ -5,14 +5,14 @@ from __future__ import annotations
 from typing import Any
 
 from studies.common import paper_machine
-from studies.common.words import Table
+from studies.common.words import TextTable
 from support_exudyn import CubicStep, HydraulicSupport
 from support_exudyn.model.linkage import Part, lumped
 from user_forces import STEEL, STEEL_35CRMO, Material
 
 PAPER, ASSUMED = "paper", "assumed"
 PIVOTS = {  # with the letters of the sketch in support_exudyn/machines/four_column_support.py
-    "rear_base": "B, rear link on base (the loose pin)",
+    "rear_base": "B, rear link on base (the clearance pin)",
     "front_base": "A, front link on base",
     "rear_shield": "C, rear link on shield beam",
     "front_shield": "D, front link on shield beam",
@@ -26,21 +26,21 @@ PIVOTS = {  # with the letters of the sketch in support_exudyn/machines/four_col
 CLEARANCE_MM = 1.5  # that of section 3; all else in the contact data does not depend on it
 
 
-def tables(support: HydraulicSupport) -> dict[str, Table]:
+def tables(support: HydraulicSupport) -> dict[str, TextTable]:
     """The reference support's pivots and parts, and the data of contact and drive."""
     return {"pivots": pivots(support), "masses": masses(support), "contact_and_drive": contact_and_drive()}
 
 
-def pivots(support: HydraulicSupport) -> Table:
+def pivots(support: HydraulicSupport) -> TextTable:
     """Where the pivots are in the reference posture."""
     rows = tuple(
         (meaning, ASSUMED, *(millimetres(x) for x in getattr(support, name)))
         for name, meaning in PIVOTS.items()
     )
-    return Table(("pivot", "source", "x [mm]", "y [mm]"), rows, left=2)
+    return TextTable(("pivot", "source", "x [mm]", "y [mm]"), rows, left=2)
 
 
-def masses(support: HydraulicSupport) -> Table:
+def masses(support: HydraulicSupport) -> TextTable:
     """What the bodies are made of, and each body as a whole where it has several parts."""
     rows = []
     for body, parts in support.parts.items():
@@ -51,7 +51,7 @@ def masses(support: HydraulicSupport) -> Table:
         else:
             rows.append(_part(name, parts[0]))
     header = ("body", "source", "mass [kg]", "centre x [mm]", "centre y [mm]", "inertia [kg m²]")
-    return Table(header, tuple(rows), left=2)
+    return TextTable(header, tuple(rows), left=2)
 
 
 def _part(name: str, part: Part) -> tuple[str, ...]:
@@ -59,9 +59,9 @@ def _part(name: str, part: Part) -> tuple[str, ...]:
     return name, ASSUMED, f"{part.mass:g}", *centre, f"{part.inertia:.1f}"
 
 
-def contact_and_drive() -> Table:
+def contact_and_drive() -> TextTable:
     """Materials, bearing, laws and drive."""
-    contact = paper_machine.loose_pin(CLEARANCE_MM, paper_machine.SLIDING_COEFFICIENT).contact
+    contact = paper_machine.clearance_joint(CLEARANCE_MM, paper_machine.SLIDING_COEFFICIENT).contact
     normal: Any = contact.normal
     friction: Any = contact.friction
     drive = CubicStep()
@@ -110,7 +110,7 @@ def contact_and_drive() -> Table:
         ("stroke begins and ends", PAPER, "s", f"{drive.start:g}, {drive.end:g}"),
         ("start: journal at rest, off the middle of its bore by", ASSUMED, "mm", "0"),
     )
-    return Table(("quantity", "source", "unit", "value"), rows, left=3)
+    return TextTable(("quantity", "source", "unit", "value"), rows, left=3)
 
 
 def _material(material: Material, part: str) -> tuple[tuple[str, ...], ...]:

@@ -10,7 +10,7 @@ from pathlib import Path
 from pydantic import BaseModel, ValidationError
 
 from studies.common.chapter import LARGEST_FILE, Chapter, Picture, Sheet
-from studies.common.words import Table, Words
+from studies.common.words import TextTable, Words
 from studies.reporting import assumptions
 from support_exudyn import reference_support
 from support_exudyn.files.whole_file import contents
@@ -34,7 +34,7 @@ class Summary(BaseModel, strict=True):
 
 
 @dataclass(frozen=True)
-class Section:
+class ReportSection:
     """A chapter, the folder where its pictures are, and with what it was made in which time."""
 
     folder: Path
@@ -43,7 +43,7 @@ class Section:
     versions: dict[str, str]
 
     @staticmethod
-    def load(folder: Path) -> Section:
+    def load(folder: Path) -> ReportSection:
         """Read chapter.json and summary.json. Raises InputError that says what is wrong in which file."""
         chapter = Chapter.load(folder)
         path = folder / "summary.json"
@@ -56,7 +56,7 @@ class Section:
         for picture in chapter.pictures:
             if not (folder / f"{picture.stem}.png").is_file():
                 raise InputError(f"{folder / picture.stem}.png: no such file; the chapter beside it shows it")
-        return Section(folder, chapter, summary.wall_s, summary.versions)
+        return ReportSection(folder, chapter, summary.wall_s, summary.versions)
 
 
 @dataclass(frozen=True)
@@ -66,7 +66,7 @@ class Report:
     title: str
     made_at: str
     summary: tuple[str, ...]
-    sections: tuple[Section, ...]
+    sections: tuple[ReportSection, ...]
     notes: tuple[str, ...]  # on the assumptions
     assumptions: tuple[Sheet, ...]
     commands: tuple[tuple[str, str], ...]  # what each does
@@ -74,7 +74,7 @@ class Report:
     versions: Sheet
 
 
-def content(sections: Sequence[Section], quick: bool) -> Report:
+def content(sections: Sequence[ReportSection], quick: bool) -> Report:
     """The report on these chapters; quick: how those were run that do not say it."""
     figures, tables = _Numbers("Figure"), _Numbers("Table")
     numbered = tuple(_numbered(section, figures, tables) for section in sections)
@@ -92,7 +92,7 @@ def content(sections: Sequence[Section], quick: bool) -> Report:
     })  # fmt: skip
     title = next(iter(words))
 
-    def sheet(name: str, table: Table) -> Sheet:
+    def sheet(name: str, table: TextTable) -> Sheet:
         return tables.sheet(table.sheet(*words[name]))
 
     return Report(
@@ -126,7 +126,7 @@ class _Numbers:
         return replace(picture, caption=self(picture.caption))
 
 
-def _numbered(section: Section, figures: _Numbers, tables: _Numbers) -> Section:
+def _numbered(section: ReportSection, figures: _Numbers, tables: _Numbers) -> ReportSection:
     chapter = section.chapter
     pictures = tuple(figures.picture(picture) for picture in chapter.pictures)
     sheets = tuple(tables.sheet(sheet) for sheet in chapter.sheets)
@@ -147,7 +147,7 @@ def verdict_column(sheet: Sheet) -> int | None:
     return next((n for n, heading in enumerate(sheet.header) if heading.lower() == VERDICT), None)
 
 
-def _verdict_counts(sections: Iterable[Section]) -> tuple[int, list[str]]:
+def _verdict_counts(sections: Iterable[ReportSection]) -> tuple[int, list[str]]:
     """Of how many claims there are verdicts, and how many of each kind, if the study of the claims is there."""
     claims = [s for section in sections if section.chapter.study == "claims" for s in section.chapter.sheets]
     cells = [row[column] for s in claims if (column := verdict_column(s)) is not None for row in s.rows]
@@ -169,20 +169,20 @@ def _commands(quick: bool) -> tuple[tuple[str, str], ...]:
     )
 
 
-def _times(sections: Sequence[Section], quicks: Sequence[bool]) -> Table:
+def _times(sections: Sequence[ReportSection], quicks: Sequence[bool]) -> TextTable:
     rows = [
         (s.chapter.study, "quick" if quick else "full", f"{s.wall_s:.1f}")
         for s, quick in zip(sections, quicks, strict=True)
     ]
     total = sum(section.wall_s for section in sections)
-    return Table(("study", "form", "wall time [s]"), (*rows, ("together", "", f"{total:.1f}")), left=2)
+    return TextTable(("study", "form", "wall time [s]"), (*rows, ("together", "", f"{total:.1f}")), left=2)
 
 
-def _versions(sections: Sequence[Section]) -> Table:
+def _versions(sections: Sequence[ReportSection]) -> TextTable:
     """Versions recorded by the studies; more than one where the studies were run with different ones."""
     found: dict[str, dict[str, None]] = {}
     for section in sections:
         for name, version in section.versions.items():
             found.setdefault(name, {})[version] = None
     rows = tuple((name, ", ".join(versions)) for name, versions in found.items())
-    return Table(("package", "version"), rows, left=2)
+    return TextTable(("package", "version"), rows, left=2)

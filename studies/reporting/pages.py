@@ -13,7 +13,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from studies.common.chapter import LARGEST_FILE, Sheet
 from studies.common.markdown import bullets, escaped, paragraph, unbroken
-from studies.reporting.content import Report, Section, verdict_class, verdict_column
+from studies.reporting.content import Report, ReportSection, verdict_class, verdict_column
 from support_exudyn.files.whole_file import contents
 
 SHORT = 28  # characters of a cell that is kept in one line, unless the table is wide
@@ -35,7 +35,7 @@ def page(report: Report) -> str:
 def text(report: Report, out: Path) -> str:
     """The whole report as Markdown; pictures are links relative to the folder `out`."""
 
-    def link(section: Section, stem: str) -> str:
+    def link(section: ReportSection, stem: str) -> str:
         return quote((Path(os.path.relpath(section.folder, out)) / f"{stem}.png").as_posix())
 
     written = _templates(autoescape=False).get_template("report.md.j2").render(report=report, link=link)
@@ -76,7 +76,7 @@ def _alignment(sheet: Sheet, column: int) -> str:
     return "text" if column < sheet.left_columns else "number"
 
 
-def picture_data(section: Section, stem: str) -> str:
+def picture_data(section: ReportSection, stem: str) -> str:
     """A picture as a data URI, byte for byte."""
     path: Path = section.folder / f"{stem}.png"
     return "data:image/png;base64," + base64.b64encode(contents(path, LARGEST_FILE)).decode("ascii")

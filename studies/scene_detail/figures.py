@@ -11,17 +11,17 @@ from matplotlib.lines import Line2D
 
 from studies.common import rise
 from studies.common.panels import legend
-from studies.scene_detail.measures import Change, Measured, times_as_long
+from studies.scene_detail.measures import Change, MeasuredScene, times_as_long
 from studies.scene_detail.scenes import (
+    CLEARANCE_IN_SPACE,
     CLEARANCE_MM,
     EQUAL,
-    LOOSE,
-    LOOSE_IN_SPACE,
     PAPERS,
     PAPERS_IN_SPACE,
     REAR,
     UNEQUAL_FULLEST,
     UNEQUAL_IDEAL,
+    WITH_CLEARANCE,
 )
 from studies.scene_detail.tables import FARTHEST, RELATIVE, changes
 from support_exudyn import Result
@@ -37,7 +37,7 @@ PURPLE, OLIVE = "#CC79A7", "#999933"
 # what an element is of by its words, the first that fits; colour
 KINDS = {
     "friction": style.SMOOTH,
-    "clearance": style.LOOSE,
+    "clearance": style.WITH_CLEARANCE,
     "columns": style.THIRD,
     "tail": PURPLE,
     "start": style.IDEAL,
@@ -47,7 +47,7 @@ MARKERS = "osD^vP"
 SMALLEST = 1e-6  # changes below are not told apart from none [%, mm]
 
 
-def figures(measured: Mapping[str, Measured]) -> dict[str, Figure]:
+def figures(measured: Mapping[str, MeasuredScene]) -> dict[str, Figure]:
     """All figures, by file name."""
     runs = {name: one.run for name, one in measured.items()}
     return {
@@ -60,7 +60,7 @@ def figures(measured: Mapping[str, Measured]) -> dict[str, Figure]:
 # --- change and cost ---
 
 
-def change_figure(measured: Mapping[str, Measured]) -> Figure:
+def change_figure(measured: Mapping[str, MeasuredScene]) -> Figure:
     """A dot for each element."""
     drawing = Figure(figsize=style.size(190, 175))
     rows = {
@@ -97,7 +97,7 @@ def _looks(names: Sequence[str]) -> dict[str, tuple[str, str]]:
     used: dict[str, int] = {}
     found = {}
     for name in names:
-        kind = next(kind for kind in KINDS if kind in name.replace(LOOSE, "", name != LOOSE))
+        kind = next(kind for kind in KINDS if kind in name.replace(WITH_CLEARANCE, "", name != WITH_CLEARANCE))
         found[name] = (KINDS[kind], MARKERS[used.get(kind, 0)])
         used[kind] = used.get(kind, 0) + 1
     return found
@@ -133,31 +133,38 @@ def unequal_figure(runs: Mapping[str, Result]) -> Figure:
     """Six panels."""
     drawing = Figure(figsize=style.size(190, 125))
     panels = list(drawing.subplots(2, 3).flat)
-    loose, ideal, equal = (runs[name] for name in (UNEQUAL_FULLEST, UNEQUAL_IDEAL, EQUAL))
-    sides = {"left": style.LOOSE, "right": style.SMOOTH}
+    with_clearance, ideal, equal = (runs[name] for name in (UNEQUAL_FULLEST, UNEQUAL_IDEAL, EQUAL))
+    sides = {"left": style.WITH_CLEARANCE, "right": style.SMOOTH}
     dashes = (0, (4, 2))
     _title(panels[0], "a) canopy", "turn [deg]")
-    _lines(panels[0], loose, ideal, {"canopy.roll": style.THIRD, "canopy.yaw": PURPLE}, rise.DEGREES)
+    _lines(panels[0], with_clearance, ideal, {"canopy.roll": style.THIRD, "canopy.yaw": PURPLE}, rise.DEGREES)
     for name, colour, above in (("roll", style.THIRD, 6), ("yaw", PURPLE, -10)):  # beside their ends
-        last = rise.DEGREES * loose[f"canopy.{name}"][-1]
+        last = rise.DEGREES * with_clearance[f"canopy.{name}"][-1]
         panels[0].annotate(
-            name, (loose.time[-1], last), (-14, above), textcoords="offset points", color=colour, ha="center"
+            name,
+            (with_clearance.time[-1], last),
+            (-14, above),
+            textcoords="offset points",
+            color=colour,
+            ha="center",
         )
     _title(panels[1], "b) edges of the rear pin", "depth [mm]")
     for side, colour in sides.items():
-        panels[1].plot(loose.time, 1e3 * loose[f"pin.{REAR}.{side}_depth"], color=colour)
+        panels[1].plot(with_clearance.time, 1e3 * with_clearance[f"pin.{REAR}.{side}_depth"], color=colour)
     _title(panels[2], "c) front columns", "force [kN]")
-    _lines(panels[2], loose, ideal, {f"front_column_{side}.force": c for side, c in sides.items()}, 1e-3)
+    _lines(
+        panels[2], with_clearance, ideal, {f"front_column_{side}.force": c for side, c in sides.items()}, 1e-3
+    )
     _title(panels[3], "d) moment on the rear pin", "moment [kN m]")
     # with ideal pins rigid bodies do not determine it
-    moment = np.hypot(loose[f"pin.{REAR}.moment_x"], loose[f"pin.{REAR}.moment_y"])
-    panels[3].plot(loose.time, 1e-3 * moment, color=style.IDEAL)
+    moment = np.hypot(with_clearance[f"pin.{REAR}.moment_x"], with_clearance[f"pin.{REAR}.moment_y"])
+    panels[3].plot(with_clearance.time, 1e-3 * moment, color=style.IDEAL)
     for axes in panels[:4]:
         axes.set_xlabel("time [s]")
-    _orbits(panels[4], loose, sides, "e) ends in the bore, apart")
+    _orbits(panels[4], with_clearance, sides, "e) ends in the bore, apart")
     _orbits(panels[5], equal, sides, "f) the same, driven alike")
     handles = [
-        _key("left", style.LOOSE),
+        _key("left", style.WITH_CLEARANCE),
         _key("right", style.SMOOTH),
         _key(f"{CLEARANCE_MM:g} mm and friction", style.IDEAL),
         Line2D([], [], color=style.IDEAL, ls=dashes, label="ideal pins (a, c)"),
@@ -166,14 +173,14 @@ def unequal_figure(runs: Mapping[str, Result]) -> Figure:
     return drawing
 
 
-def _lines(axes: Axes, loose: Result, ideal: Result, colours: Mapping[str, str], scale: float) -> None:
+def _lines(axes: Axes, with_clearance: Result, ideal: Result, colours: Mapping[str, str], scale: float) -> None:
     for channel, colour in colours.items():
         axes.plot(ideal.time, scale * ideal[channel], color=colour, ls=(0, (4, 2)))
-        axes.plot(loose.time, scale * loose[channel], color=colour)
+        axes.plot(with_clearance.time, scale * with_clearance[channel], color=colour)
 
 
 def _orbits(axes: Axes, run: Result, sides: Mapping[str, str], title: str) -> None:
-    """Paths of the journal's ends; grey: where it touches."""
+    """Paths of the journal's ends; grey: where it makes contact."""
     turn = np.linspace(0.0, 2.0 * np.pi, 200)
     axes.plot(CLEARANCE_MM * np.cos(turn), CLEARANCE_MM * np.sin(turn), color="#999999", lw=0.8)
     for side, colour in sides.items():
@@ -198,7 +205,7 @@ def space_figure(runs: Mapping[str, Result]) -> Figure:
     """Forces above, their distance below."""
     drawing = Figure(figsize=style.size(190, 105))
     panels = drawing.subplots(2, 2, sharex=True, sharey="row", height_ratios=(2, 1))
-    pairs = {"no friction": (LOOSE, LOOSE_IN_SPACE), "friction 0.25": (PAPERS, PAPERS_IN_SPACE)}
+    pairs = {"no friction": (WITH_CLEARANCE, CLEARANCE_IN_SPACE), "friction 0.25": (PAPERS, PAPERS_IN_SPACE)}
     force = f"pin.{REAR}.force"
     for column, (title, (plane, space)) in enumerate(pairs.items()):
         above, below = panels[:, column]
@@ -207,7 +214,7 @@ def space_figure(runs: Mapping[str, Result]) -> Figure:
         above.plot(other.time, 1e-3 * other[force], color=style.IDEAL, lw=0.7, label="in space")
         above.set_title(title)
         apart = np.abs(other[force] - one[force])
-        below.semilogy(other.time, np.maximum(apart, 1e-9), color=style.LOOSE, lw=0.7)
+        below.semilogy(other.time, np.maximum(apart, 1e-9), color=style.WITH_CLEARANCE, lw=0.7)
         below.set_xlabel("time [s]")
     panels[0, 0].set_ylabel("rear pin force [kN]")
     panels[1, 0].set_ylabel("apart [N]")

@@ -10,18 +10,18 @@ import numpy.typing as npt
 
 from studies.common import rise
 from studies.common.numbers import Number
-from studies.common.runs import halvings, touches
+from studies.common.runs import halvings, impacts
 from studies.scene_detail.runs import Timed, timed
-from studies.scene_detail.scenes import FULLEST, REAR, Scene
+from studies.scene_detail.scenes import FULLEST, REAR, DetailScene
 from support_exudyn import Estimate, Result
 from support_exudyn.formulations.redundant.inventory import Inventory, inventory
-from support_exudyn.simulation.evidence.table import Table, Tried, fields_of
+from support_exudyn.simulation.evidence.table import EvidenceTable, Tried, fields_of
 from support_exudyn.simulation.recommend import STROKE, UNEQUAL
 
 ROUNDING = 1e-7  # share of a number that no error is below
 # what Newton's tolerance and rounding leave open, below which no error of such a number is put, by its unit
 SMALLEST = {"N": 1e-3, "N m": 1e-3, "m": 1e-9, "m/s": 1e-9, "deg": 1e-8, "deg/s^2": 1e-2}
-TOUCHES = 3
+IMPACTS = 3
 MM, DEGREES = 1e3, rise.DEGREES
 Series = npt.NDArray[np.float64]
 Get = Callable[[Result], float]
@@ -76,10 +76,10 @@ class Cost:
 
 
 @dataclass(frozen=True)
-class Measured:
+class MeasuredScene:
     """A scene that has been run: numbers with errors, cost, and the finer run."""
 
-    scene: Scene
+    scene: DetailScene
     numbers: Numbers
     cost: Cost
     run: Result
@@ -96,23 +96,25 @@ def estimate(run: Result, unit: str, get: Get) -> Estimate:
     return found._replace(error=max(found.error + between_records, rounding))
 
 
-def measure(scenes: Mapping[str, Scene], runs: Mapping[str, Timed], short: float) -> dict[str, Measured]:
+def measure(
+    scenes: Mapping[str, DetailScene], runs: Mapping[str, Timed], short: float
+) -> dict[str, MeasuredScene]:
     """All numbers of all scenes; short: runs that are shorter are timed again, alone [s]."""
     finest = {name: timed.run for name, timed in runs.items()}
     found = {}
     for name, scene in scenes.items():
-        numbers = _of_stroke(scene, finest[name]) | _touches(finest[name])
+        numbers = _of_stroke(scene, finest[name]) | _impacts(finest[name])
         if scene.group == "unequal":
             numbers |= _of_unequal(scene, finest[name])
         elif scene.reference:
             numbers[FROM_REFERENCE] = tip_distance(scene, finest[name], finest[scene.reference])
         if scene.family == STROKE:
             numbers[FROM_FULLEST] = tip_distance(scene, finest[name], finest[FULLEST])
-        found[name] = Measured(scene, numbers, _cost(runs[name], short), finest[name])
+        found[name] = MeasuredScene(scene, numbers, _cost(runs[name], short), finest[name])
     return found
 
 
-def _of_stroke(scene: Scene, result: Result) -> Numbers:
+def _of_stroke(scene: DetailScene, result: Result) -> Numbers:
     force = f"pin.{REAR}.force"
 
     def during(run: Result, channel: str) -> Series:
@@ -137,15 +139,15 @@ def _of_stroke(scene: Scene, result: Result) -> Numbers:
     return {name: estimate(result, unit, get) for name, (unit, get) in measures.items()}
 
 
-def _touches(result: Result) -> Numbers:
-    """Speeds of the first touches of the rear pin, if it is loose; a settled one has none."""
+def _impacts(result: Result) -> Numbers:
+    """Speeds of the first impacts of the rear pin, if it is with clearance; a settled one has none."""
     return {
         f"onset_speed_{n + 1}": estimate(result, "m/s", rise.onset(REAR, n, "speed"))
-        for n in range(min(TOUCHES, touches(result, REAR)))
+        for n in range(min(IMPACTS, impacts(result, REAR)))
     }
 
 
-def _of_unequal(scene: Scene, result: Result) -> Numbers:
+def _of_unequal(scene: DetailScene, result: Result) -> Numbers:
     def largest(*channels: str, scale: float = 1.0) -> Get:
         return lambda run: max(scale * float(np.abs(run[channel]).max()) for channel in channels)
 
@@ -174,7 +176,7 @@ def _deepest(side: str) -> Get:
     return lambda run: float(run[f"pin.{REAR}.{side}_depth"].max())
 
 
-def tip_distance(scene: Scene, run: Result, other: Result) -> Estimate:
+def tip_distance(scene: DetailScene, run: Result, other: Result) -> Estimate:
     """Largest distance of the tip's paths of two scenes during the stroke [m]."""
     if run is other:
         return Estimate(0.0, 0.0, "m")
@@ -186,7 +188,7 @@ def tip_distance(scene: Scene, run: Result, other: Result) -> Estimate:
     return Estimate(_apart(scene, run, other), max(error, SMALLEST["m"]), "m")
 
 
-def _apart(scene: Scene, one: Result, other: Result) -> float:
+def _apart(scene: DetailScene, one: Result, other: Result) -> float:
     inside = rise.between(one, scene.begin, scene.end)
     away = [(one[f"tip.{axis}"] - other[f"tip.{axis}"])[inside] for axis in ("x", "y")]
     return float(np.hypot(*away).max())
@@ -211,7 +213,7 @@ def _cost(run: Timed, short: float) -> Cost:
 # --- for the summary and for advice ---
 
 
-def listed(measured: Mapping[str, Measured]) -> list[Number]:
+def listed(measured: Mapping[str, MeasuredScene]) -> list[Number]:
     """All numbers of all scenes, costs among them."""
     found = []
     for name, one in measured.items():
@@ -243,7 +245,7 @@ def _costs(name: str, cost: Cost) -> Sequence[Number]:
     ]
 
 
-def table(measured: Mapping[str, Measured], said: Mapping[str, str]) -> Table:
+def table(measured: Mapping[str, MeasuredScene], said: Mapping[str, str]) -> EvidenceTable:
     """What advice is taken from."""
     scenes = [
         Tried(
@@ -257,9 +259,9 @@ def table(measured: Mapping[str, Measured], said: Mapping[str, str]) -> Table:
         for name, one in measured.items()
     ]
     unequal = next(name for name, one in measured.items() if one.scene.family == UNEQUAL)
-    return Table(tuple(scenes), {STROKE: FULLEST, UNEQUAL: unequal}, said)
+    return EvidenceTable(tuple(scenes), {STROKE: FULLEST, UNEQUAL: unequal}, said)
 
 
-def times_as_long(one: Measured, other: Measured) -> float:
+def times_as_long(one: MeasuredScene, other: MeasuredScene) -> float:
     """Ratio of the costs."""
     return one.cost.seconds / other.cost.seconds

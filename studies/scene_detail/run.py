@@ -10,15 +10,15 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from studies.common.study import Options, Outcome, Study, add_options, run_main
+from studies.common.study import Options, Study, StudyOutcome, add_options, run_main
 from studies.scene_detail import measures, scenes, tables
 from studies.scene_detail.figures import figures
-from studies.scene_detail.measures import Measured
+from studies.scene_detail.measures import MeasuredScene
 from studies.scene_detail.runs import run_timed
-from studies.scene_detail.scenes import APART, PLAINEST, UNEQUAL_FULLEST, Scene
+from studies.scene_detail.scenes import APART, PLAINEST, UNEQUAL_FULLEST, DetailScene
 from support_exudyn import recommend
 from support_exudyn.commands.command_line import Parser, folder, warn
-from support_exudyn.simulation.evidence.table import Table, check_replaceable
+from support_exudyn.simulation.evidence.table import EvidenceTable, check_replaceable
 from support_exudyn.simulation.recommend import QUESTIONS, STROKE, UNEQUAL
 from support_exudyn.sweeps.workers import Workers
 from user_forces.values.value import InputError
@@ -29,7 +29,7 @@ ORDER = ("unequal", "taken", "combined", "space", "added")  # the longest runs f
 GROUPS = ("added", "taken", "combined", "space")
 
 
-def run(quick: bool, workers: int | Workers) -> dict[str, Measured]:
+def run(quick: bool, workers: int | Workers) -> dict[str, MeasuredScene]:
     """All scenes, each at its steps, at half and at a quarter of them, measured."""
     chosen = scenes.scenes(quick)
     longest_first = sorted(chosen.values(), key=lambda scene: ORDER.index(scene.group))
@@ -37,7 +37,7 @@ def run(quick: bool, workers: int | Workers) -> dict[str, Measured]:
     return measures.measure(chosen, runs, SHORT_RUN_IF_QUICK if quick else SHORT_RUN)
 
 
-def said(chosen: Mapping[str, Scene]) -> dict[str, str]:
+def said(chosen: Mapping[str, DetailScene]) -> dict[str, str]:
     """What machine and drive the numbers are of, by family."""
     return {
         STROKE: f"reference support, {chosen[PLAINEST].drive}",
@@ -46,7 +46,7 @@ def said(chosen: Mapping[str, Scene]) -> dict[str, str]:
     }
 
 
-def work(chosen: Options) -> Outcome:
+def work(chosen: Options) -> StudyOutcome:
     """All scenes, what they change and cost, and the advice that follows; its evidence is kept as a file."""
     measured = run(chosen.quick, chosen.workers)
     tried = measures.table(measured, said({one.scene.name: one.scene for one in measured.values()}))
@@ -66,7 +66,7 @@ def work(chosen: Options) -> Outcome:
         "questions": QUESTIONS,
         "advised": {name: recommend(name, tried) for name in QUESTIONS},
     }
-    return Outcome(measures.listed(measured), words, figures(measured), sheets)
+    return StudyOutcome(measures.listed(measured), words, figures(measured), sheets)
 
 
 study = Study("scene_detail", __doc__, work, taken=("quick", "workers"))
@@ -93,7 +93,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     code = run_main(study, Options(given.out, given.quick, given.workers))
     if code == 0 and given.commit_evidence is not None:
         try:
-            Table.load(given.out / TABLE).save(given.commit_evidence)
+            EvidenceTable.load(given.out / TABLE).save(given.commit_evidence)
         except (OSError, InputError) as error:
             warn(f"error: --commit-evidence {given.commit_evidence}: {error}")
             return 1

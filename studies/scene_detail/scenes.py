@@ -15,15 +15,15 @@ from support_exudyn import (
     Pin,
     Scenario,
     SolverSettings,
+    cylinders_and_rods,
     reference_support,
-    two_body_columns,
 )
 from support_exudyn.simulation.recommend import STROKE, UNEQUAL
 from user_forces import Ambrosio, Frictionless, JournalContact, LankaraniNikravesh
 
 CLEARANCE_MM = 1.5
 FRICTION = paper_machine.SLIDING_COEFFICIENT
-REAR = paper_machine.LOOSE_PIN
+REAR = paper_machine.CLEARANCE_PIN
 TWO = (REAR, "front_base")
 APART = 0.01  # of the stroke: so much less on the left, so much more on the right
 SECTIONS = 9
@@ -33,16 +33,16 @@ NEWTON_TOLERANCE = 1e-10
 Group = Literal["added", "taken", "combined", "space", "unequal"]
 
 PLAINEST, FULLEST = "plainest", "fullest"
-LOOSE, PAPERS = f"{PLAINEST} + clearance, rear pin", f"{PLAINEST} + clearance and friction, rear pin"
-LOOSE_IN_SPACE, PAPERS_IN_SPACE = "clearance in space", "clearance and friction in space"
-UNEQUAL_IDEAL, UNEQUAL_LOOSE = "unequal, ideal pins", "unequal, clearance"
+WITH_CLEARANCE, PAPERS = f"{PLAINEST} + clearance, rear pin", f"{PLAINEST} + clearance and friction, rear pin"
+CLEARANCE_IN_SPACE, PAPERS_IN_SPACE = "clearance in space", "clearance and friction in space"
+UNEQUAL_IDEAL, UNEQUAL_WITH_CLEARANCE = "unequal, ideal pins", "unequal, clearance"
 UNEQUAL_FULLEST, EQUAL = "unequal, clearance and friction", "equal, clearance and friction"
 CHANNELS = (f"pin.{REAR}.force", "tip.*", "rear_link.angular_acceleration", "canopy.angular_acceleration")
 CHANNELS_UNEQUAL = (*CHANNELS, f"pin.{REAR}.*", "canopy.roll", "canopy.yaw", "front_column_*.force")
 
 
 @dataclass(frozen=True)
-class Scene:
+class DetailScene:
     """A scene that is run.
 
     name. group: where it stands in tables. reference: name of the scene that it differs from by one element,
@@ -94,8 +94,8 @@ def stroke(quick: bool) -> Scenario:
     )
 
 
-def loose_pin(sliding_coefficient: float) -> ClearancePin:
-    """The paper's pin, damped by the depth that it is pressed to (`DepthSpeed`)."""
+def clearance_joint(sliding_coefficient: float) -> ClearancePin:
+    """The paper's pin, damped by the depth that it is pressed to (`IndentationVelocity`)."""
     normal = LankaraniNikravesh(
         stiffness=paper_machine.stiffness(CLEARANCE_MM), restitution=paper_machine.RESTITUTION
     )
@@ -104,14 +104,14 @@ def loose_pin(sliding_coefficient: float) -> ClearancePin:
     return ClearancePin(contact=JournalContact(bearing=bearing, normal=normal, friction=friction))
 
 
-def rubbing_pin() -> IdealPin:
+def friction_pin() -> IdealPin:
     """An ideal pin with friction, as thick as the paper's."""
     return IdealPin(
         friction=Ambrosio(sliding_coefficient=FRICTION), radius=paper_machine.bearing(CLEARANCE_MM).bore_radius
     )
 
 
-def in_plane(quick: bool) -> list[Scene]:
+def in_plane(quick: bool) -> list[DetailScene]:
     """What is added to the plainest and taken from the fullest scene, and cheap combinations."""
     plain = stroke(quick)
     full = fullest(plain)
@@ -123,8 +123,8 @@ def fullest(plain: Scenario) -> Scenario:
     oil = paper_machine.oil_columns()["front_column"]
     return replace(
         plain,
-        pins=_all(plain, loose_pin(FRICTION)),
-        columns=two_body_columns(oil),
+        pins=_all(plain, clearance_joint(FRICTION)),
+        columns=cylinders_and_rods(oil),
         parts={"tail_beam": OwnBody(jack=paper_machine.JACK)},
     )
 
@@ -133,9 +133,9 @@ def _all(plain: Scenario, pin: Pin) -> dict[str, Pin]:
     return dict.fromkeys(plain.machine.linkage().pins, pin)
 
 
-def _added(plain: Scenario) -> Iterable[Scene]:
+def _added(plain: Scenario) -> Iterable[DetailScene]:
     oil = paper_machine.oil_columns()
-    slippery, rubbing = loose_pin(0.0), rubbing_pin()
+    slippery, rubbing = clearance_joint(0.0), friction_pin()
     rear: dict[str, Pin] = {REAR: slippery}
     changes: dict[str, dict[str, Any]] = {
         "clearance, rear pin": {"pins": rear},
@@ -143,63 +143,63 @@ def _added(plain: Scenario) -> Iterable[Scene]:
         "clearance, 5 pins": {"pins": _all(plain, slippery)},
         "friction, rear pin": {"pins": {REAR: rubbing}},
         "friction, 5 pins": {"pins": _all(plain, rubbing)},
-        "clearance and friction, rear pin": {"pins": {REAR: loose_pin(FRICTION)}},
-        "mass of columns": {"columns": two_body_columns()},
+        "clearance and friction, rear pin": {"pins": {REAR: clearance_joint(FRICTION)}},
+        "mass of columns": {"columns": cylinders_and_rods()},
         "oil in columns": {"columns": oil},
-        "mass and oil of columns": {"columns": two_body_columns(oil["front_column"])},
+        "mass and oil of columns": {"columns": cylinders_and_rods(oil["front_column"])},
         "tail beam, rigid jack": {"parts": {"tail_beam": OwnBody()}},
         "tail beam, oil jack": {"parts": {"tail_beam": OwnBody(jack=paper_machine.JACK)}},
         "space": {"dimensions": 3},
     }
-    yield Scene(PLAINEST, "added", "", STROKE, plain)
+    yield DetailScene(PLAINEST, "added", "", STROKE, plain)
     for name, fields in changes.items():
-        yield Scene(f"{PLAINEST} + {name}", "added", PLAINEST, STROKE, replace(plain, **fields))
+        yield DetailScene(f"{PLAINEST} + {name}", "added", PLAINEST, STROKE, replace(plain, **fields))
     settled = replace(plain, pins=rear, start="settled")
-    yield Scene(f"{LOOSE} + settled start", "added", LOOSE, STROKE, settled)
+    yield DetailScene(f"{WITH_CLEARANCE} + settled start", "added", WITH_CLEARANCE, STROKE, settled)
 
 
-def _taken(full: Scenario) -> Iterable[Scene]:
-    loose, rubbing = loose_pin(FRICTION), rubbing_pin()
+def _taken(full: Scenario) -> Iterable[DetailScene]:
+    with_clearance, rubbing = clearance_joint(FRICTION), friction_pin()
     changes: dict[str, dict[str, Any]] = {
-        "friction": {"pins": _all(full, loose_pin(0.0))},
+        "friction": {"pins": _all(full, clearance_joint(0.0))},
         "clearance": {"pins": _all(full, rubbing)},
-        "clearance, but in rear pin": {"pins": _all(full, rubbing) | {REAR: loose}},
-        "clearance, but in 2 pins": {"pins": _all(full, rubbing) | dict.fromkeys(TWO, loose)},
+        "clearance, but in rear pin": {"pins": _all(full, rubbing) | {REAR: with_clearance}},
+        "clearance, but in 2 pins": {"pins": _all(full, rubbing) | dict.fromkeys(TWO, with_clearance)},
         "clearance and friction": {"pins": {}},
         "mass of columns": {"columns": paper_machine.oil_columns()},
-        "oil in columns": {"columns": two_body_columns()},
+        "oil in columns": {"columns": cylinders_and_rods()},
         "mass and oil of columns": {"columns": {}},
         "oil of tail beam's jack": {"parts": {"tail_beam": OwnBody()}},
         "tail beam": {"parts": {}},
         "concentric start": {"start": "settled"},
     }
-    yield Scene(FULLEST, "taken", "", STROKE, full)
+    yield DetailScene(FULLEST, "taken", "", STROKE, full)
     for name, fields in changes.items():
-        yield Scene(f"{FULLEST} - {name}", "taken", FULLEST, STROKE, replace(full, **fields))
+        yield DetailScene(f"{FULLEST} - {name}", "taken", FULLEST, STROKE, replace(full, **fields))
 
 
-def _combined(plain: Scenario) -> Iterable[Scene]:
-    loose = loose_pin(FRICTION)
-    five = replace(plain, pins=_all(plain, loose))
-    rear = replace(plain, pins={REAR: loose}, start="settled")
+def _combined(plain: Scenario) -> Iterable[DetailScene]:
+    with_clearance = clearance_joint(FRICTION)
+    five = replace(plain, pins=_all(plain, with_clearance))
+    rear = replace(plain, pins={REAR: with_clearance}, start="settled")
     settled = replace(five, start="settled")
     both = "clearance and friction"
-    yield Scene(f"{PLAINEST} + {both}, 5 pins", "combined", FULLEST, STROKE, five)
-    yield Scene(f"{PLAINEST} + {both}, 5 pins, settled", "combined", FULLEST, STROKE, settled)
-    yield Scene(f"{PLAINEST} + {both}, rear pin, settled", "combined", FULLEST, STROKE, rear)
+    yield DetailScene(f"{PLAINEST} + {both}, 5 pins", "combined", FULLEST, STROKE, five)
+    yield DetailScene(f"{PLAINEST} + {both}, 5 pins, settled", "combined", FULLEST, STROKE, settled)
+    yield DetailScene(f"{PLAINEST} + {both}, rear pin, settled", "combined", FULLEST, STROKE, rear)
 
 
-def in_space(quick: bool) -> list[Scene]:
+def in_space(quick: bool) -> list[DetailScene]:
     """The paper's pin in space, driven as in the plane."""
     plain = replace(stroke(quick), dimensions=3)
-    pins = {LOOSE_IN_SPACE: (LOOSE, 0.0), PAPERS_IN_SPACE: (PAPERS, FRICTION)}
+    pins = {CLEARANCE_IN_SPACE: (WITH_CLEARANCE, 0.0), PAPERS_IN_SPACE: (PAPERS, FRICTION)}
     return [
-        Scene(name, "space", planar, STROKE, replace(plain, pins={REAR: loose_pin(friction)}))
+        DetailScene(name, "space", planar, STROKE, replace(plain, pins={REAR: clearance_joint(friction)}))
         for name, (planar, friction) in pins.items()
     ]
 
 
-def unequal(quick: bool) -> list[Scene]:
+def unequal(quick: bool) -> list[DetailScene]:
     """The front columns driven apart, on oil, from a settled start; one of equal columns beside them."""
     begin, end, size, step, steps = (0.01, 0.16, 0.0028, 1e-2, 16) if quick else (0.2, 2.2, 0.5, 1e-3, 64)
 
@@ -219,15 +219,21 @@ def unequal(quick: bool) -> list[Scene]:
         solver=SolverSettings(impact_steps=steps, sections=SECTIONS, newton_tolerance=NEWTON_TOLERANCE),
         channels=CHANNELS_UNEQUAL,
     )
-    rubbing = replace(base, pins={REAR: loose_pin(FRICTION)})
+    rubbing = replace(base, pins={REAR: clearance_joint(FRICTION)})
     return [
-        Scene(UNEQUAL_FULLEST, "unequal", "", UNEQUAL, rubbing),
-        Scene(UNEQUAL_LOOSE, "unequal", UNEQUAL_FULLEST, UNEQUAL, replace(base, pins={REAR: loose_pin(0.0)})),
-        Scene(UNEQUAL_IDEAL, "unequal", UNEQUAL_FULLEST, UNEQUAL, base),
-        Scene(EQUAL, "unequal", UNEQUAL_FULLEST, "", replace(rubbing, drives={})),
+        DetailScene(UNEQUAL_FULLEST, "unequal", "", UNEQUAL, rubbing),
+        DetailScene(
+            UNEQUAL_WITH_CLEARANCE,
+            "unequal",
+            UNEQUAL_FULLEST,
+            UNEQUAL,
+            replace(base, pins={REAR: clearance_joint(0.0)}),
+        ),
+        DetailScene(UNEQUAL_IDEAL, "unequal", UNEQUAL_FULLEST, UNEQUAL, base),
+        DetailScene(EQUAL, "unequal", UNEQUAL_FULLEST, "", replace(rubbing, drives={})),
     ]
 
 
-def scenes(quick: bool) -> dict[str, Scene]:
+def scenes(quick: bool) -> dict[str, DetailScene]:
     """All, by name."""
     return {scene.name: scene for scene in (*in_plane(quick), *in_space(quick), *unequal(quick))}

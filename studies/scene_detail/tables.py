@@ -5,20 +5,20 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 
 from studies.common.numbers import brief
-from studies.common.words import Table
+from studies.common.words import TextTable
 from studies.scene_detail.measures import (
     FROM_REFERENCE,
     MM,
     SMALLEST,
     Change,
     Cost,
-    Measured,
+    MeasuredScene,
     change,
     times_as_long,
 )
 from studies.scene_detail.scenes import PLAINEST
 from support_exudyn import Estimate, recommend
-from support_exudyn.simulation.evidence.table import Table as Tried
+from support_exudyn.simulation.evidence.table import EvidenceTable as Tried
 from support_exudyn.simulation.recommend import QUESTIONS
 
 BELOW = "below the error"
@@ -45,7 +45,7 @@ UNEQUAL_ROWS = {  # heading and scale
 }
 
 
-def changes(one: Measured, reference: Measured) -> dict[str, Change]:
+def changes(one: MeasuredScene, reference: MeasuredScene) -> dict[str, Change]:
     """What a scene changes against its reference, by heading: per cent, and millimetres of the tip."""
     found = {
         heading: change(one.numbers[name], reference.numbers[name]).of(reference.numbers[name].value)
@@ -78,7 +78,7 @@ def ratio(times: float) -> str:
     return f"{times:.0f}" if times >= 100.0 else f"{times:.2g}"
 
 
-def change_table(measured: Mapping[str, Measured], group: str) -> Table:
+def change_table(measured: Mapping[str, MeasuredScene], group: str) -> TextTable:
     """What each element of a group changes, and how many times the reference's time the scene takes."""
     rows = []
     for one in measured.values():
@@ -88,7 +88,7 @@ def change_table(measured: Mapping[str, Measured], group: str) -> Table:
             times = ratio(times_as_long(one, reference))
             rows.append((one.scene.element, one.scene.reference, *cells, times))
     header = ("element", "against", *RELATIVE.values(), CANOPY, TIP, FARTHEST, "times the time")
-    return Table(header, tuple(rows), left=2, width=220)
+    return TextTable(header, tuple(rows), left=2, width=220)
 
 
 STROKE_COLUMNS = {  # heading and scale
@@ -100,20 +100,20 @@ STROKE_COLUMNS = {  # heading and scale
     "mean_tip_y": ("tip up, mean [mm]", MM),
     "std_angular_acceleration": ("acceleration, spread [deg/s²]", 1.0),
     "largest_canopy_acceleration": ("canopy, largest [deg/s²]", 1.0),
-    "onset_speed_1": ("1st touch [m/s]", 1.0),
+    "onset_speed_1": ("1st impact [m/s]", 1.0),
     "onset_speed_2": ("2nd [m/s]", 1.0),
     "onset_speed_3": ("3rd [m/s]", 1.0),
 }
 
 
-def value_table(measured: Mapping[str, Measured]) -> Table:
+def value_table(measured: Mapping[str, MeasuredScene]) -> TextTable:
     """The numbers of all scenes of the stroke."""
     rows = tuple(
         (name, *(_cell(one.numbers.get(key), scale) for key, (_, scale) in STROKE_COLUMNS.items()))
         for name, one in measured.items()
         if one.scene.group != "unequal"
     )
-    return Table(("scene", *(heading for heading, _ in STROKE_COLUMNS.values())), rows, width=260)
+    return TextTable(("scene", *(heading for heading, _ in STROKE_COLUMNS.values())), rows, width=260)
 
 
 def _cell(number: Estimate | None, scale: float) -> str:
@@ -124,7 +124,7 @@ def _cell(number: Estimate | None, scale: float) -> str:
     return brief(scale * number.value, scale * number.error)
 
 
-def cost_table(measured: Mapping[str, Measured]) -> Table:
+def cost_table(measured: Mapping[str, MeasuredScene]) -> TextTable:
     """What all scenes cost."""
     plain = measured[PLAINEST]
     columns: dict[str, Callable[[Cost], str]] = {
@@ -141,20 +141,20 @@ def cost_table(measured: Mapping[str, Measured]) -> Table:
         "callbacks a step": lambda c: str(c.held.callbacks),
     }
     rows = tuple((name, *(get(one.cost) for get in columns.values())) for name, one in measured.items())
-    return Table(("scene", *columns), rows, width=220)
+    return TextTable(("scene", *columns), rows, width=220)
 
 
-def unequal_table(measured: Mapping[str, Measured]) -> Table:
+def unequal_table(measured: Mapping[str, MeasuredScene]) -> TextTable:
     """What the plane cannot show."""
     scenes = {name: one for name, one in measured.items() if one.scene.group == "unequal"}
     rows = tuple(
         (heading, *(_cell(one.numbers.get(key), scale) for one in scenes.values()))
         for key, (heading, scale) in UNEQUAL_ROWS.items()
     )
-    return Table(("quantity", *scenes), rows, width=200)
+    return TextTable(("quantity", *scenes), rows, width=200)
 
 
-def advice_table(tried: Tried) -> Table:
+def advice_table(tried: Tried) -> TextTable:
     """Which scene for which question."""
     rows = []
     for question in QUESTIONS:
@@ -167,4 +167,4 @@ def advice_table(tried: Tried) -> Table:
             rows.append((*(first if n == 0 else ("", "", "", "")), *compared))
     asked = ("question", "scene", "time [s]", "fullest [s]")
     header = (*asked, "answer", "here", "fullest", "allowed", "difference")
-    return Table(header, tuple(rows), left=2, width=220)
+    return TextTable(header, tuple(rows), left=2, width=220)

@@ -1,4 +1,4 @@
-"""Does the program agree with others on the field's benchmark, a slider-crank with a loose slider pin?
+"""Does the program agree with others on the field's benchmark, a slider-crank with a clearance slider pin?
 
 Crank 50 mm at 5000 rpm, rod 120 mm, bearing 10 mm, journal 9.5 mm at the slider, steel, Lankarani-Nikravesh
 with restitution 0.9 and the stiffness of internal contact; start with the velocities of the ideal machine and
@@ -18,22 +18,22 @@ from matplotlib.figure import Figure
 
 from studies.common.numbers import Number, by_case, measured, off, printed, rounded
 from studies.common.rise import Peak, onset
-from studies.common.runs import run_with_errors, touches
-from studies.common.study import Options, Outcome, Study
-from studies.common.words import Table
+from studies.common.runs import impacts, run_with_errors
+from studies.common.study import Options, Study, StudyOutcome
+from studies.common.words import TextTable
 from support_exudyn import ClearancePin, Result, Scenario, SolverSettings, Steady, ravn_slider_crank
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.figures.journal import journal
 from support_exudyn.postprocessing.figures.orbit import draw_path
-from support_exudyn.postprocessing.figures.units import Unit
+from support_exudyn.postprocessing.figures.units import DisplayUnit
 from user_forces import (
     Ambrosio,
     Frictionless,
+    ImpactVelocity,
     JournalBearing,
     JournalContact,
     LankaraniNikravesh,
     Material,
-    TouchSpeed,
     internal_contact_stiffness,
 )
 
@@ -44,8 +44,8 @@ BEARING = JournalBearing(bore_radius=0.01, clearance=0.0005)
 STEEL = Material(name="steel", elastic_modulus=207e9, poisson_ratio=0.3, density=7800.0)
 IDEAL, SMOOTH, DRY = "ideal", "no friction", "friction 0.03"
 ONSETS = 12  # reported
-MILLIMETRES = Unit("mm", 1e3)
-# an independent solution with two free coordinates and located onsets: time [us], approach speed [m/s]
+MILLIMETRES = DisplayUnit("mm", 1e3)
+# an independent solution with two free coordinates and located onsets: time [us], initial impact velocity [m/s]
 REFERENCE = (
     (227.286, 4.385783),
     (637.056, 2.756949),
@@ -62,7 +62,7 @@ IDEAL_REFERENCE = {  # channel, unit and largest value
 
 
 def scenarios(quick: bool) -> dict[str, Scenario]:
-    """One revolution of the ideal machine and of both loose ones, at the longest of their steps."""
+    """One revolution of the ideal machine and of both those with clearance, at the longest of their steps."""
     base = Scenario(
         machine=ravn_slider_crank(),
         drive=Steady(rate=SPEED),
@@ -73,16 +73,16 @@ def scenarios(quick: bool) -> dict[str, Scenario]:
         solver=SolverSettings(impact_steps=32 if quick else 128, backend="symbolic"),
     )
     stiffness = internal_contact_stiffness(BEARING, STEEL, STEEL)
-    normal = LankaraniNikravesh(stiffness=stiffness, restitution=0.9, damping_speed=TouchSpeed(floor=1e-3))
+    normal = LankaraniNikravesh(stiffness=stiffness, restitution=0.9, damping_speed=ImpactVelocity(floor=1e-3))
     frictions = {SMOOTH: Frictionless(), DRY: Ambrosio(sliding_coefficient=0.03)}
-    loose = {
+    with_clearance = {
         name: replace(
             base,
             pins={PIN: ClearancePin(contact=JournalContact(bearing=BEARING, normal=normal, friction=friction))},
         )
         for name, friction in frictions.items()
     }
-    return loose | {IDEAL: base}
+    return with_clearance | {IDEAL: base}
 
 
 # --- measures ---
@@ -99,7 +99,7 @@ def measure(results: Mapping[str, Result]) -> list[Number]:
         numbers.append(
             measured("largest_pin_force_any_step", case, "N", result, lambda r: float(r.largest_force[PIN]))
         )
-        for n in range(min(ONSETS, touches(result, PIN))):
+        for n in range(min(ONSETS, impacts(result, PIN))):
             known = REFERENCE[n] if case == SMOOTH and n < len(REFERENCE) else (None, None)
             numbers += [
                 measured(f"onset_{n + 1}_time", case, "us", result, onset(PIN, n, "time", 1e6), known[0]),
@@ -117,7 +117,7 @@ def figure(results: Mapping[str, Result]) -> Figure:
     grid = drawing.add_gridspec(2, 2, height_ratios=(1.0, 1.15))
     paths: list[Axes] = []
     force = drawing.add_subplot(grid[0, :])
-    for case, colour in ((SMOOTH, style.SMOOTH), (DRY, style.LOOSE)):
+    for case, colour in ((SMOOTH, style.SMOOTH), (DRY, style.WITH_CLEARANCE)):
         _over_angle(force, results[case], colour, case)
     _over_angle(force, results[IDEAL], style.IDEAL, "ideal pin")
     force.set(xlim=(0, 360), ylim=(0, None), xlabel="crank angle [deg]", ylabel="pin force [kN]")
@@ -142,20 +142,22 @@ def _path(axes: Axes, result: Result, title: str) -> None:
     axes.set(xlim=(-0.65, 0.65), ylim=(-0.65, 0.65), title=title)
 
 
-def table(numbers: Sequence[Number]) -> Table:
+def table(numbers: Sequence[Number]) -> TextTable:
     """All numbers, a row each, beside the reference."""
     rows = (
         (n.case, n.name.replace("_", " "), n.unit, rounded(n.value, n.numerical_error), printed(n))
         for n in numbers
     )
-    return Table(("case", "quantity", "unit", "here", "independent solution"), tuple(rows), left=3, width=120)
+    return TextTable(
+        ("case", "quantity", "unit", "here", "independent solution"), tuple(rows), left=3, width=120
+    )
 
 
 # --- the study ---
 
 
-def work(chosen: Options) -> Outcome:
-    """A revolution of each machine, its touches beside the independent solution."""
+def work(chosen: Options) -> StudyOutcome:
+    """A revolution of each machine, its impacts beside the independent solution."""
     cases = scenarios(chosen.quick)
     results = run_with_errors(cases, chosen.workers)
     numbers = measure(results)
@@ -171,7 +173,7 @@ def work(chosen: Options) -> Outcome:
         "first": found.get(("onset_1_time", DRY)),
         "last": found.get((f"onset_{ONSETS}_time", DRY)),
     }
-    return Outcome(numbers, words, {"slider_crank": figure(results)}, {"table": table(numbers)}, results)
+    return StudyOutcome(numbers, words, {"slider_crank": figure(results)}, {"table": table(numbers)}, results)
 
 
 study = Study("slider_crank", __doc__, work)

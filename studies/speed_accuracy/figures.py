@@ -9,18 +9,18 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, NullLocator, StrMethodFormatter
 
-from studies.benchmarking.variants import BUILT_IN, STOCK, Row, front
+from studies.benchmarking.variants import BUILT_IN, STOCK, WayRun, front
 from support_exudyn.postprocessing.figures import style
 
-PANELS: dict[str, Callable[[Row], float]] = {
+PANELS: dict[str, Callable[[WayRun], float]] = {
     "mean force": lambda row: row.errors["mean"],
     "spread": lambda row: row.errors["spread"],
     "peak force": lambda row: row.errors["peak"],
-    "touch speeds": lambda row: max(row.errors[f"onset {n}"] for n in (1, 2, 3)),
+    "impact velocitys": lambda row: max(row.errors[f"onset {n}"] for n in (1, 2, 3)),
     "path [m]": lambda row: row.errors["path"],
     "acceleration": lambda row: row.errors["acceleration"],
 }
-COSTS: dict[str, Callable[[Row], float]] = {
+COSTS: dict[str, Callable[[WayRun], float]] = {
     "wall time [s]": lambda row: row.seconds,
     "calls of the contact in Python": lambda row: float(row.calls),
 }
@@ -47,7 +47,7 @@ def stem(scene: str) -> str:
     return f"work_{scene.replace(', ', '_').replace('-', '_').replace(' ', '_')}"
 
 
-def figure(title: str, rows: Sequence[Row]) -> Figure:
+def figure(title: str, rows: Sequence[WayRun]) -> Figure:
     """Errors of all ways of a scene over their costs; a cost that none has is left out."""
     good = [row for row in rows if not row.failure]
     asked = {cost: spent for cost, spent in COSTS.items() if any(spent(row) > 0.0 for row in good)}
@@ -67,7 +67,9 @@ def figure(title: str, rows: Sequence[Row]) -> Figure:
     return drawing
 
 
-def _panel(ax: Axes, rows: Sequence[Row], spent: Callable[[Row], float], error: Callable[[Row], float]) -> None:
+def _panel(
+    ax: Axes, rows: Sequence[WayRun], spent: Callable[[WayRun], float], error: Callable[[WayRun], float]
+) -> None:
     best = front(rows)
     for family, (colour, marker) in LOOKS.items():
         points = sorted(

@@ -17,14 +17,14 @@ from studies.benchmarking.estimates import Check
 from studies.benchmarking.process import timed
 from studies.benchmarking.references import GOALS, Sample, errors, own_errors, references
 from studies.benchmarking.scenes import SCENES
-from studies.benchmarking.variants import STOCK, Row, Way, cheapest, front, ways
+from studies.benchmarking.variants import STOCK, Way, WayRun, cheapest, front, ways
 from studies.common.numbers import Number
 from studies.common.runs import bar
-from studies.common.study import Options, Outcome, Study
-from studies.common.words import Table
+from studies.common.study import Options, Study, StudyOutcome
+from studies.common.words import TextTable
 from studies.speed_accuracy import figures as speed_accuracy_figures
 from support_exudyn import SimulationError
-from support_exudyn.sweeps.precompile import warm_up
+from support_exudyn.sweeps.precompile import precompile
 from user_forces import InputError
 
 # Shorter runs are timed three more times, and the fastest counts [s].
@@ -34,12 +34,12 @@ SHORT_RUN, SHORT_RUN_IF_QUICK = 0.3, 0.03
 # --- runs ---
 
 
-def rows(quick: bool) -> list[Row]:
+def rows(quick: bool) -> list[WayRun]:
     """Cost and errors of all ways, one after the other, under a progress bar."""
-    warm_up()  # compiling is not what is timed
+    precompile()  # compiling is not what is timed
     todo = [(name, way) for name, scene in SCENES.items() for way in ways(scene, quick)]
     known = references()
-    found: list[Row] = []
+    found: list[WayRun] = []
     with bar(f"{len(todo)} runs, one at a time") as told:
         for name, way in todo:
             found.append(_row(name, way, known[name], SHORT_RUN_IF_QUICK if quick else SHORT_RUN))
@@ -47,7 +47,7 @@ def rows(quick: bool) -> list[Row]:
         return _times_of_the_cheapest(found, [way for _, way in todo])
 
 
-def _row(name: str, way: Way, known: Sample, short: float) -> Row:
+def _row(name: str, way: Way, known: Sample, short: float) -> WayRun:
     try:
         began = time.perf_counter()
         done = way.run()
@@ -56,17 +56,17 @@ def _row(name: str, way: Way, known: Sample, short: float) -> Row:
             times += [timed(way.bare) for _ in range(3)]
     except (SimulationError, InputError, RuntimeError) as error:
         reason = str(error).splitlines()[0]
-        return Row(name, way.family, way.label, float("nan"), 0, 0, failure=reason)
+        return WayRun(name, way.family, way.label, float("nan"), 0, 0, failure=reason)
     off = errors(done.sample, known)
-    row = Row(name, way.family, way.label, times[0], done.steps, done.calls, off)
+    row = WayRun(name, way.family, way.label, times[0], done.steps, done.calls, off)
     return _with_times(row, times) if len(times) > 1 else row
 
 
-def _with_times(row: Row, times: Sequence[float]) -> Row:
+def _with_times(row: WayRun, times: Sequence[float]) -> WayRun:
     return replace(row, seconds=min(times), scatter=max(times) - min(times))
 
 
-def _times_of_the_cheapest(found: Sequence[Row], todo: Sequence[Way]) -> list[Row]:
+def _times_of_the_cheapest(found: Sequence[WayRun], todo: Sequence[Way]) -> list[WayRun]:
     """The rows; those that are reported as the cheapest of their family are timed at least twice."""
     again = []
     for row, way in zip(found, todo, strict=True):
@@ -88,7 +88,7 @@ def checks(quick: bool) -> Iterator[Check]:
 # --- numbers ---
 
 
-def numbers(found: Sequence[Row], checked: Sequence[Check]) -> list[Number]:
+def numbers(found: Sequence[WayRun], checked: Sequence[Check]) -> list[Number]:
     """What the summary says: cheapest ways to the goal, and how good the estimates are."""
     said = []
     for name in SCENES:
@@ -110,12 +110,12 @@ def numbers(found: Sequence[Row], checked: Sequence[Check]) -> list[Number]:
 # --- tables ---
 
 
-def table(name: str, found: Sequence[Row]) -> Table:
+def table(name: str, found: Sequence[WayRun]) -> TextTable:
     """All ways of a scene: cost and errors; the front and the stock recipe are marked."""
     of_scene = sorted((row for row in found if row.scene == name), key=lambda row: (row.family, row.label))
     best = front(of_scene)
 
-    def mark(row: Row) -> str:
+    def mark(row: WayRun) -> str:
         marks = ["front"] * (row in best) + ["stock"] * (row.family == STOCK)
         marks += ["goal"] * (row.overall <= 1.0)
         return ", ".join(marks) or ("failed" if row.failure else "")
@@ -125,14 +125,14 @@ def table(name: str, found: Sequence[Row]) -> Table:
         for row in of_scene
     )
     header = ("way", "setting", "", "time [s]", "steps", "calls", *_headings())
-    return Table(header, rows, left=3, width=190)
+    return TextTable(header, rows, left=3, width=190)
 
 
 def _headings() -> tuple[str, ...]:
     return tuple(f"{goal} [m]" if goal == "path" else goal for goal in GOALS)
 
 
-def _cost(row: Row) -> tuple[str, str, str]:
+def _cost(row: WayRun) -> tuple[str, str, str]:
     if row.failure:
         return row.failure[:40], "", ""
     return f"{row.seconds:.3g}", str(row.steps), str(row.calls)
@@ -142,7 +142,7 @@ def _brief(error: float | None) -> str:
     return "" if error is None else f"{error:.0e}"
 
 
-def accuracy_table(checked: Sequence[Check]) -> Table:
+def accuracy_table(checked: Sequence[Check]) -> TextTable:
     """Runs to an accuracy: what they cost, how wrong they are, and what they say of it."""
     columns: dict[str, Callable[[Check], str]] = {
         "scene": lambda c: c.scene,
@@ -156,13 +156,13 @@ def accuracy_table(checked: Sequence[Check]) -> Table:
         "overstated": lambda c: f"{estimates.overstatement([c]).value:.1f}",
     }
     rows = tuple(tuple(get(c) for get in columns.values()) for c in checked)
-    return Table(tuple(columns), rows, left=4, width=130)
+    return TextTable(tuple(columns), rows, left=4, width=130)
 
 
 # --- the study ---
 
 
-def work(chosen: Options) -> Outcome:
+def work(chosen: Options) -> StudyOutcome:
     """Cost and errors of all ways, and of runs that are asked for an accuracy."""
     found = rows(chosen.quick)
     checked = list(checks(chosen.quick))
@@ -181,10 +181,10 @@ def work(chosen: Options) -> Outcome:
         "stated": estimates.overstatement(checked),
         "judged": sum(c.true.size for c in checked),
     }
-    return Outcome(numbers(found, checked), words, drawings, tables)
+    return StudyOutcome(numbers(found, checked), words, drawings, tables)
 
 
-def _reached(found: Sequence[Row]) -> Iterator[dict[str, object]]:
+def _reached(found: Sequence[WayRun]) -> Iterator[dict[str, object]]:
     """Of each scene whose goal is met: the fastest ways to it, and the stock recipe among them."""
     for name, scene in SCENES.items():
         of_scene = [row for row in found if row.scene == name]

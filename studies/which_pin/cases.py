@@ -1,4 +1,4 @@
-"""Which pins are slack, with how much clearance and friction, in the cases of `which_pin`."""
+"""Which pins are clearance, with how much clearance and friction, in the cases of `which_pin`."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from studies.common import paper_machine
 from studies.common.numbers import Found, Number
 from support_exudyn import ClearancePin, Scenario, SolverSettings
 from support_exudyn.machines.four_bar_shield import PINS
-from user_forces import DepthSpeed, LankaraniNikravesh
+from user_forces import IndentationVelocity, LankaraniNikravesh
 
 CLEARANCE_MM = 1.5
 FRICTIONS = (paper_machine.SLIDING_COEFFICIENT, 0.0)
@@ -24,23 +24,23 @@ FORCES = {**{f"pin.{name}.force": name for name in PINS}, **{f"{name}.force": na
 SHAKEN = ("rear_link", "shield", "canopy")  # bodies whose angular acceleration is looked at
 
 
-def slack_pin(friction: float, clearance_mm: float = CLEARANCE_MM) -> ClearancePin:
+def clearance_pin(friction: float, clearance_mm: float = CLEARANCE_MM) -> ClearancePin:
     """The paper's pin, with a damping that forgets how its contact once began.
 
     With the textbook's, which remembers it, a pin that was settled gently shakes eight times as much in the
     same rise as one that was dropped: pins could not be compared.
     """
-    pin = paper_machine.loose_pin(clearance_mm, friction)
+    pin = paper_machine.clearance_joint(clearance_mm, friction)
     law = LankaraniNikravesh(
         stiffness=paper_machine.stiffness(clearance_mm),
         restitution=paper_machine.RESTITUTION,
-        damping_speed=DepthSpeed(),
+        damping_speed=IndentationVelocity(),
     )
     return replace(pin, contact=replace(pin.contact, normal=law))
 
 
 def case_name(pins: Sequence[str], friction: float, clearance_mm: float = CLEARANCE_MM) -> str:
-    """What a case is called: its slack pins, their friction, and their clearance if it is another one."""
+    """What a case is called: its clearance pins, their friction, and their clearance if it is another one."""
     named = ALL if len(pins) == len(PINS) else " + ".join(pins)
     other = "" if clearance_mm == CLEARANCE_MM else f", {clearance_mm:g} mm"
     return f"{named}, mu_d = {friction:g}{other}"
@@ -62,13 +62,15 @@ def scenarios(quick: bool) -> dict[str, Scenario]:
     )
     ideal = replace(paper_machine.ideal_rise(1e-3), record_period=2e-3 if quick else 1e-3)
 
-    def slack(pins: Sequence[str], friction: float, clearance_mm: float = CLEARANCE_MM) -> Scenario:
-        loose = {name: slack_pin(friction, clearance_mm) for name in pins}
-        return replace(ideal, pins=loose, step=2e-3 if quick else 5e-4, solver=settings, start="settled")
+    def clearance(pins: Sequence[str], friction: float, clearance_mm: float = CLEARANCE_MM) -> Scenario:
+        with_clearance = {name: clearance_pin(friction, clearance_mm) for name in pins}
+        return replace(
+            ideal, pins=with_clearance, step=2e-3 if quick else 5e-4, solver=settings, start="settled"
+        )
 
     conditions = [(friction, CLEARANCE_MM) for friction in FRICTIONS] if quick else CONDITIONS
-    cases = {case_name(PINS, friction): slack(PINS, friction) for friction in FRICTIONS} | {IDEAL: ideal}
-    cases |= {case_name((pin,), *how): slack((pin,), *how) for how in conditions for pin in PINS}
+    cases = {case_name(PINS, friction): clearance(PINS, friction) for friction in FRICTIONS} | {IDEAL: ideal}
+    cases |= {case_name((pin,), *how): clearance((pin,), *how) for how in conditions for pin in PINS}
     if not quick:
-        cases |= {case_name(pins, 0.0): slack(pins, 0.0) for pins in combinations(PINS, 2)}
+        cases |= {case_name(pins, 0.0): clearance(pins, 0.0) for pins in combinations(PINS, 2)}
     return cases

@@ -1,4 +1,4 @@
-"""Where slack pins let the support go, in closed form: no run, no engine, no integration.
+"""Where clearance pins let the support go, in closed form: no run, no engine, no integration.
 
 The support with ideal pins is statically determinate: ten components of pin forces and two column forces stand
 against four bodies. Its constraints' matrix C, 12 by 12, gives both ways between them:
@@ -134,7 +134,8 @@ def forces(stand: Stand, rubbing: Mapping[str, ClearancePin], presses: Sequence[
 def openings(
     stand: Stand, pins: Mapping[str, ClearancePin], presses: Sequence[Press] = ()
 ) -> dict[str, Matrix]:
-    """For each slack pin where its journal lies from the bore's centre [m], shape (2,); bore on the first body.
+    """For each clearance pin where its journal lies from the bore's centre [m], shape (2,); bore on the first
+    body.
 
     Its distance is clearance and the depth at which the law holds the load at rest.
     """
@@ -160,7 +161,7 @@ def influence(stand: Stand, name: str) -> Matrix:
 
 
 def shifts(stand: Stand, pins: Mapping[str, ClearancePin], presses: Sequence[Press] = ()) -> dict[str, Matrix]:
-    """What each slack pin moves the tip forward and up [m] and tilts the canopy [rad] by, (3,) each."""
+    """What each clearance pin moves the tip forward and up [m] and tilts the canopy [rad] by, (3,) each."""
     return {name: influence(stand, name) @ opening for name, opening in openings(stand, pins, presses).items()}
 
 

@@ -21,7 +21,9 @@ PLAIN = "#777777"  # without friction, as in the study of the clearance's size
 HATCH = "///"
 CASES = (*PINS, ALL)
 MEMBERS = (*PINS, "front_column", "rear_column")
-COLOURS = dict(zip(PINS, (style.LOOSE, style.SMOOTH, style.THIRD, "#CC79A7", style.IDEAL), strict=True))
+COLOURS = dict(
+    zip(PINS, (style.WITH_CLEARANCE, style.SMOOTH, style.THIRD, "#CC79A7", style.IDEAL), strict=True)
+)
 DASHES = dict(zip(PINS, ("-", (0, (5, 1)), (0, (1, 1)), (0, (3, 1, 1, 1)), "-"), strict=True))
 MARKS = dict(zip(PINS, "osD^x", strict=True))
 
@@ -75,9 +77,9 @@ def _end_to_end(axes: Axes, found: Found) -> None:
 
 
 def _bars(axes: Axes, found: Found, name: str, scale: float) -> None:
-    """A pair of bars for each slack pin, with and without friction."""
+    """A pair of bars for each clearance pin, with and without friction."""
     places = np.arange(len(CASES))
-    for friction, side, colour, hatch in ((MU, -0.2, style.LOOSE, None), (0.0, 0.2, "#cccccc", HATCH)):
+    for friction, side, colour, hatch in ((MU, -0.2, style.WITH_CLEARANCE, None), (0.0, 0.2, "#cccccc", HATCH)):
         row = [found[name, _case(case, friction)] for case in CASES]
         axes.bar(
             places + side, [scale * n.value for n in row], 0.4, color=colour, hatch=hatch,
@@ -117,7 +119,7 @@ def force_figure(found: Found) -> Figure:
     ):
         _shades(axes, values)
         axes.set_title(title)
-        axes.set_ylabel("slack pin")
+        axes.set_ylabel("clearance pin")
     panels[1].set_xlabel("force in")
     drawing.suptitle(f"Forces in the rise with 1.5 mm in a pin, friction {MU}")
     return drawing
@@ -141,13 +143,13 @@ def _shades(axes: Axes, values: np.ndarray) -> None:
 
 
 def shaking_figure(found: Found) -> Figure:
-    """Ripples on logarithmic scales."""
+    """RMS fluctuations on logarithmic scales."""
     drawing = Figure(figsize=style.size(170, 150))
     panels = drawing.subplots(3, 1, sharex=True)
     shown = (
-        ("ripple_pin_forces", 1e-3, "a) pin forces [kN]"),
-        ("ripple_rear_link_angular_acceleration", 1.0, "b) angular acceleration of the rear link [deg/s²]"),
-        ("ripple_canopy_angular_acceleration", 1.0, "c) angular acceleration of the canopy [deg/s²]"),
+        ("rms_pin_forces", 1e-3, "a) pin forces [kN]"),
+        ("rms_rear_link_angular_acceleration", 1.0, "b) angular acceleration of the rear link [deg/s²]"),
+        ("rms_canopy_angular_acceleration", 1.0, "c) angular acceleration of the canopy [deg/s²]"),
     )
     for axes, (name, scale, title) in zip(panels, shown, strict=True):
         _bars(axes, found, name, scale)
@@ -155,7 +157,7 @@ def shaking_figure(found: Found) -> Figure:
         axes.set_yscale("log")
         axes.set_title(title)
     legend(drawing, panels[0], 3)
-    drawing.suptitle("Ripple in the rise with 1.5 mm in a pin")
+    drawing.suptitle("RMS fluctuation in the rise with 1.5 mm in a pin")
     return drawing
 
 

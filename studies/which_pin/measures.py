@@ -36,13 +36,13 @@ def _change(channel: str) -> Get:
     return lambda run, ideal: 100.0 * (_mean(channel)(run, ideal) / _mean(channel)(ideal, ideal) - 1.0)
 
 
-def _ripple(channel: str, scale: float = 1.0) -> Get:
-    return lambda run, ideal: scale * rise.ripple(run, run[channel])
+def _rms_fluctuation(channel: str, scale: float = 1.0) -> Get:
+    return lambda run, ideal: scale * rise.rms_fluctuation(run, run[channel])
 
 
-def _pin_ripple(run: Result, ideal: Result) -> float:
-    """Root mean square of the ripples of all five pin forces [N]."""
-    return float(np.sqrt(np.mean([rise.ripple(run, run[f"pin.{name}.force"]) ** 2 for name in PINS])))
+def _pin_rms_fluctuation(run: Result, ideal: Result) -> float:
+    """Root mean square of the RMS fluctuations of all five pin forces [N]."""
+    return float(np.sqrt(np.mean([rise.rms_fluctuation(run, run[f"pin.{name}.force"]) ** 2 for name in PINS])))
 
 
 def _most_changed(run: Result, ideal: Result) -> float:
@@ -74,19 +74,19 @@ MEASURES: dict[str, tuple[str, Get]] = {
     "mean_canopy_tilt": ("deg", _mean_shift("canopy.angle", rise.DEGREES)),
     "largest_change_of_a_mean_force": ("%", _most_changed),
     OVER_IDEAL: ("1", _peak_over_ideal),
-    "ripple_pin_forces": ("N", _pin_ripple),
+    "rms_pin_forces": ("N", _pin_rms_fluctuation),
     **{
-        f"ripple_{body}_angular_acceleration": (
+        f"rms_{body}_angular_acceleration": (
             "deg/s^2",
-            _ripple(f"{body}.angular_acceleration", rise.DEGREES),
+            _rms_fluctuation(f"{body}.angular_acceleration", rise.DEGREES),
         )
         for body in SHAKEN
     },
-    "ripple_tip_forward": ("mm", _ripple("tip.x", 1e3)),
+    "rms_tip_forward": ("mm", _rms_fluctuation("tip.x", 1e3)),
     "energy_lost_in_rise": ("J", _lost),
     **{f"mean_force_{name}": ("N", _mean(channel)) for channel, name in FORCES.items()},
     **{f"change_of_mean_force_{name}": ("%", _change(channel)) for channel, name in FORCES.items()},
-    **{f"ripple_force_{name}": ("N", _ripple(channel)) for channel, name in FORCES.items()},
+    **{f"rms_force_{name}": ("N", _rms_fluctuation(channel)) for channel, name in FORCES.items()},
 }
 
 

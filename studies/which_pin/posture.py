@@ -1,4 +1,4 @@
-"""What the closed form says of slack pins: over the rise of a run, and under other loads along the stroke."""
+"""What the closed form says of clearance pins: over the rise of a run, and under other loads."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from studies.common.numbers import Number
 from studies.common.rise import DEGREES, END, START
-from studies.which_pin import closed_form as slack
+from studies.which_pin import closed_form as clearance
 from studies.which_pin.closed_form import Press, Stand
 from support_exudyn import ClearancePin, CubicStep, Scenario, Steady, reference_support
 from support_exudyn.machines.four_bar_shield import PINS
@@ -26,12 +26,15 @@ CREEP = 1e-3  # [m/s]: so slow that nothing has inertia
 
 @cache
 def _rise() -> tuple[Stand, ...]:
-    return tuple(slack.stands(reference_support(), CubicStep(), np.linspace(START, END, INSTANTS).tolist()))
+    return tuple(clearance.stands(reference_support(), CubicStep(), np.linspace(START, END, INSTANTS).tolist()))
 
 
 def mean_shift(pins: Mapping[str, ClearancePin]) -> Matrix:
-    """Mean shift over the rise of slack pins together: tip forward and up [m], canopy's tilt [rad], (3,)."""
-    found = np.array([sum(slack.shifts(stand, pins).values()) for stand in _rise()])
+    """Mean shift over the rise, of clearance pins together:
+
+    tip forward and up [m], canopy's tilt [rad], (3,).
+    """
+    found = np.array([sum(clearance.shifts(stand, pins).values()) for stand in _rise()])
     inner = found[1:-1].sum(axis=0) + 0.5 * (found[0] + found[-1])  # the rule of trapezoids
     mean: Matrix = inner / (INSTANTS - 1)
     return mean
@@ -79,12 +82,12 @@ def loads(pin: ClearancePin) -> dict[str, UnderLoad]:
         "100 kN forward": (Press("canopy", over["columns"], (1e5, 0.0)),),
     }
     extension = np.linspace(0.0, STROKE, PLACES)
-    along = slack.stands(support, Steady(rate=CREEP), (extension / CREEP).tolist())
+    along = clearance.stands(support, Steady(rate=CREEP), (extension / CREEP).tolist())
     return {name: _under(pin, along, extension, press) for name, press in presses.items()}
 
 
 def _under(pin: ClearancePin, along: list[Stand], extension: Matrix, presses: tuple[Press, ...]) -> UnderLoad:
     pins = dict.fromkeys(PINS, pin)
-    found = [slack.shifts(stand, pins, presses) for stand in along]
-    thrust = min(-float(slack.forces(stand, {}, presses)[2 * len(PINS) :].max()) for stand in along)
+    found = [clearance.shifts(stand, pins, presses) for stand in along]
+    thrust = min(-float(clearance.forces(stand, {}, presses)[2 * len(PINS) :].max()) for stand in along)
     return UnderLoad(extension, {name: np.array([one[name][0] for one in found]) for name in PINS}, thrust)

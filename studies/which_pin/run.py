@@ -8,19 +8,19 @@ from __future__ import annotations
 
 from studies.common.numbers import by_case
 from studies.common.runs import run_with_errors
-from studies.common.study import Options, Outcome, Study
+from studies.common.study import Options, Study, StudyOutcome
 from studies.which_pin import cases, tables
-from studies.which_pin.cases import FRICTIONS, scenarios, slack_pin
+from studies.which_pin.cases import FRICTIONS, clearance_pin, scenarios
 from studies.which_pin.figures import figures
 from studies.which_pin.measures import measure
 from studies.which_pin.posture import loads
 from support_exudyn.machines.four_bar_shield import PINS
 
 
-def work(chosen: Options) -> Outcome:
-    """The rise with slack pins, and the closed form of where they let the support go."""
+def work(chosen: Options) -> StudyOutcome:
+    """The rise with clearance pins, and the closed form of where they let the support go."""
     results = run_with_errors(scenarios(chosen.quick), chosen.workers)
-    under_loads = loads(slack_pin(0.0))
+    under_loads = loads(clearance_pin(0.0))
     numbers = measure(results)
     found = by_case(numbers)
     rankings = {
@@ -45,11 +45,11 @@ def work(chosen: Options) -> Outcome:
         "found": found,
         "orders": {name: tables.in_order(shifts) for name, shifts in means.items()},
         "shifts": {name: sum(shifts.values()) for name, shifts in means.items()},
-        "shaking_orders": [row for row in conditions.rows if row[0].startswith("ripple")],
+        "rms_from_start_orders": [row for row in conditions.rows if row[0].startswith("rms_fluctuation")],
         "rankings": rankings,
         "forces": forces,
     }
-    return Outcome(numbers, words, figures(found, under_loads), sheets, results)
+    return StudyOutcome(numbers, words, figures(found, under_loads), sheets, results)
 
 
 def _mu(friction: float) -> str:

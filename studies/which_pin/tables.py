@@ -9,7 +9,7 @@ from itertools import combinations
 import numpy as np
 
 from studies.common.numbers import Found, Number, against, cell
-from studies.common.words import Table
+from studies.common.words import TextTable
 from studies.which_pin.cases import ALIKE, CONDITIONS, FORCES, FRICTIONS, IDEAL, SHAKEN, alone, case_name
 from studies.which_pin.posture import UnderLoad
 from support_exudyn.machines.four_bar_shield import PINS
@@ -20,7 +20,7 @@ RANKED = {  # title of a ranking: by what, and what else is shown
     ),
     "by the forces": ("largest_change_of_a_mean_force", "largest_peak_over_ideal"),
     "by the shaking": (
-        "ripple_pin_forces", *(f"ripple_{body}_angular_acceleration" for body in SHAKEN), "energy_lost_in_rise",
+        "rms_pin_forces", *(f"rms_{body}_angular_acceleration" for body in SHAKEN), "energy_lost_in_rise",
     ),
 }  # fmt: skip
 
@@ -31,7 +31,7 @@ def ranked(found: Found, name: str, friction: float) -> list[str]:
     return sorted(PINS, key=lambda pin: -abs(effects[pin].value))
 
 
-def ranking_table(found: Found, title: str, friction: float) -> Table:
+def ranking_table(found: Found, title: str, friction: float) -> TextTable:
     """Pins in the order of an effect, and all together last."""
     names = RANKED[title]
     rows = []
@@ -39,8 +39,8 @@ def ranking_table(found: Found, title: str, friction: float) -> Table:
         case = case_name(pins, friction)
         rows.append((case.split(",")[0], *(cell(found[name, case]) for name in names)))
     rows.append((IDEAL, *(cell(found[name, IDEAL]) for name in names)))
-    header = ("slack pin", *(f"{name.replace('_', ' ')} [{found[name, IDEAL].unit}]" for name in names))
-    return Table(header, tuple(rows))
+    header = ("clearance pin", *(f"{name.replace('_', ' ')} [{found[name, IDEAL].unit}]" for name in names))
+    return TextTable(header, tuple(rows))
 
 
 def in_order(effects: Mapping[str, float], errors: Mapping[str, float] | None = None) -> str:
@@ -75,20 +75,20 @@ def order_of(row: Mapping[str, Number]) -> str:
     return in_order(effects, {pin: number.numerical_error for pin, number in row.items()})
 
 
-def condition_table(found: Found) -> Table:
+def condition_table(found: Found) -> TextTable:
     """Orders by shift and by shaking under other frictions and clearances."""
     rows = []
-    for name in ("mean_tip_shift_forward", "ripple_pin_forces"):
+    for name in ("mean_tip_shift_forward", "rms_pin_forces"):
         what = f"{name.replace('_', ' ')} [{found[name, IDEAL].unit}]"
         for friction, size in CONDITIONS:
             if (name, case_name(PINS[:1], friction, size)) in found:
                 row = alone(found, name, friction, size)
                 numbers = (f"{n.value:.4g}" for n in row.values())
                 rows.append((what, f"{friction:g}, {size:g} mm", *numbers, order_of(row)))
-    return Table(("effect", "friction, clearance", *PINS, "order"), tuple(rows), left=2, width=170)
+    return TextTable(("effect", "friction, clearance", *PINS, "order"), tuple(rows), left=2, width=170)
 
 
-def together_table(found: Found) -> Table:
+def together_table(found: Found) -> TextTable:
     """Whether the whole is the sum of its parts."""
     rows = []
     for friction in FRICTIONS:
@@ -107,13 +107,13 @@ def together_table(found: Found) -> Table:
                         difference,
                     )
                 )
-    header = ("slack pins", "quantity", "unit", "of the single ones", "together", "difference")
-    return Table(header, tuple(rows), left=3)
+    header = ("clearance pins", "quantity", "unit", "of the single ones", "together", "difference")
+    return TextTable(header, tuple(rows), left=3)
 
 
 def _together(found: Found, friction: float) -> list[tuple[str, ...]]:
     sets = [PINS, *combinations(PINS, 2)]
-    return [pins for pins in sets if ("ripple_pin_forces", case_name(pins, friction)) in found]
+    return [pins for pins in sets if ("rms_pin_forces", case_name(pins, friction)) in found]
 
 
 def total(parts: Sequence[float]) -> float:
@@ -129,7 +129,7 @@ def root_of_squares(parts: Sequence[float]) -> float:
 # how effects of single pins make that of several
 ADD: dict[str, Callable[[Sequence[float]], float]] = {
     "mean_tip_shift_forward": total,
-    "ripple_pin_forces": root_of_squares,
+    "rms_pin_forces": root_of_squares,
 }
 
 
@@ -144,12 +144,12 @@ def excess(found: Found, name: str, friction: float) -> float:
     return 100.0 * (found[name, case_name(PINS, friction)].value / _expected(found, name, PINS, friction) - 1.0)
 
 
-def posture_table(found: Found) -> Table:
+def posture_table(found: Found) -> TextTable:
     """The simulated shift beside the closed form."""
     rows = []
     for case, (run, form) in _closed_forms(found).items():
         rows.append((case, cell(run), f"{form.value:.4f}", f"{100.0 * (run.value / form.value - 1.0):+.2f} %"))
-    return Table(("case", "run [mm]", "closed form [mm]", "run is off by"), tuple(rows))
+    return TextTable(("case", "run [mm]", "closed form [mm]", "run is off by"), tuple(rows))
 
 
 def off_closed_form(found: Found) -> list[tuple[str, float]]:
@@ -166,24 +166,24 @@ def _closed_forms(found: Found) -> dict[str, tuple[Number, Number]]:
     }
 
 
-def load_table(under_loads: Mapping[str, UnderLoad]) -> Table:
+def load_table(under_loads: Mapping[str, UnderLoad]) -> TextTable:
     """Shift of the tip by pin and load, and the order that it makes."""
     rows = []
     for name, under in under_loads.items():
         means = {pin: under.mean(pin) for pin in PINS}
         cells = (f"{1e3 * mean:.2f}" for mean in means.values())
         rows.append((name, *cells, f"{under.thrust / 1e3:.0f}", in_order(means)))
-    return Table(
+    return TextTable(
         ("load besides the weight", *PINS, "least column thrust [kN]", "order"), tuple(rows), width=170
     )
 
 
-def force_table(found: Found, friction: float) -> Table:
-    """Mean forces with each slack pin."""
+def force_table(found: Found, friction: float) -> TextTable:
+    """Mean forces with each clearance pin."""
     cases = [IDEAL, *(case_name(pins, friction) for pins in [*((pin,) for pin in PINS), PINS])]
     rows = []
-    for kind in ("mean_force", "ripple_force", "largest_force"):
+    for kind in ("mean_force", "rms_force", "largest_force"):
         for name in FORCES.values():
             cells = (cell(found[f"{kind}_{name}", case]) for case in cases)
             rows.append((kind.replace("_", " "), name.replace("_", " "), *cells))
-    return Table(("what", "where", *(case.split(",")[0] for case in cases)), tuple(rows), left=2, width=170)
+    return TextTable(("what", "where", *(case.split(",")[0] for case in cases)), tuple(rows), left=2, width=170)

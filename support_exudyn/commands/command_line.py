@@ -114,7 +114,7 @@ def say(text: str) -> None:
     try:
         print(cleaned(text), flush=True)
     except BrokenPipeError:
-        hush()
+        silence_output()
 
 
 def warn(text: str) -> None:
@@ -122,7 +122,7 @@ def warn(text: str) -> None:
     print(cleaned(text), file=sys.stderr, flush=True)
 
 
-def hush() -> None:
+def silence_output() -> None:
     """Let what is printed from now on go nowhere: at its end Python would try once more, and complain."""
     nowhere = os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, sys.stdout.fileno())

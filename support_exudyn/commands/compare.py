@@ -10,7 +10,7 @@ from rich.console import Console
 
 from support_exudyn.commands.command_line import add_json, add_times, answer, folder, say
 from support_exudyn.commands.tables import printed, show_table
-from support_exudyn.postprocessing import summary as account
+from support_exudyn.postprocessing import summary as summary
 from support_exudyn.postprocessing.comparison import Difference, compared, same_to_the_bit
 from support_exudyn.postprocessing.figures import selection
 from support_exudyn.postprocessing.figures.selection import matching
@@ -43,7 +43,7 @@ def run(given: argparse.Namespace) -> None:
     first, second = Result.load(given.first), Result.load(given.second)
     names = matching(first.channels, given.channels)
     if not names:
-        names = [name for name in account.telling(first) if name in second.channels]
+        names = [name for name in summary.telling(first) if name in second.channels]
         names = [name for name in names if not name.startswith("energy.")]
     if not names:
         raise InputError(
@@ -91,8 +91,8 @@ def _said(number: Estimate, scale: float) -> str:
     """A number in a unit, with its error if that is known."""
     value, error = scale * number.value, scale * number.error
     if math.isnan(error):
-        return f"{value:.{account.DIGITS}g}"
+        return f"{value:.{summary.DIGITS}g}"
     if not math.isfinite(error) or error <= 0.0:
-        return f"{value:.{account.DIGITS}g} ± {'not known' if error else '0'}"
+        return f"{value:.{summary.DIGITS}g} ± {'not known' if error else '0'}"
     digits = min(max(0, 1 - math.floor(math.log10(error))), 9)
     return f"{value:.{digits}f} ± {error:.1g}"

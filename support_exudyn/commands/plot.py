@@ -20,7 +20,7 @@ from support_exudyn.commands.command_line import (
     say,
     warn,
 )
-from support_exudyn.postprocessing.figures.journal import chosen_pin, loose_pins
+from support_exudyn.postprocessing.figures.journal import chosen_pin, clearance_joints
 from support_exudyn.postprocessing.figures.selection import matching
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
@@ -40,10 +40,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add(
         "channels", nargs="*", metavar="CHANNEL", help="channels over time: names, or patterns as 'pin.*.force'"
     )  # fmt: skip
-    add("--orbit", action="store_true", help="path of the journal of a loose pin in its bore")
-    add("--poincare", action="store_true", help="section once in every period of the drive, or by touches")
+    add("--orbit", action="store_true", help="path of the journal of a clearance pin in its bore")
+    add("--poincare", action="store_true", help="section once in every period of the drive, or by impacts")
     add("--spectrum", action="store_true", help="spectrum of the force in a pin")
-    add("--pin", metavar="NAME", help="pin of orbit, section and spectrum (the first loose one)")
+    add("--pin", metavar="NAME", help="pin of orbit, section and spectrum (the first with clearance)")
     add_times(parser, -math.inf, math.inf)
     add(
         "--phase",
@@ -93,26 +93,28 @@ def _wanted(result: Result, given: argparse.Namespace) -> tuple[dict[str, Draw],
     if not asked and given.pin is None and not given.channels:
         return _overview(result, given)
     if not asked and given.pin is not None:  # all that there is of a pin
-        found = _of_pin(result, given, chosen_pin(result, given.pin, loose=False))
+        found = _of_pin(result, given, chosen_pin(result, given.pin, with_clearance=False))
         return (_of_channels(result, given, given.channels) if given.channels else {}) | found, set(found)
     found = _of_channels(result, given, given.channels) if given.channels else {}
-    loose = chosen_pin(result, given.pin, loose=True) if given.orbit else None
-    pin = loose or (chosen_pin(result, given.pin, loose=False) if given.pin or given.spectrum else None)
+    with_clearance = chosen_pin(result, given.pin, with_clearance=True) if given.orbit else None
+    pin = with_clearance or (
+        chosen_pin(result, given.pin, with_clearance=False) if given.pin or given.spectrum else None
+    )
     kinds = {"orbit": given.orbit, "poincare": given.poincare or given.section, "spectrum": given.spectrum}
     return found | _of_pin(result, given, pin, [kind for kind, wanted in kinds.items() if wanted]), set()
 
 
 def _overview(result: Result, given: argparse.Namespace) -> tuple[dict[str, Draw], set[str]]:
-    """Forces and motion; orbit, section and spectrum of the first loose pin."""
-    loose = loose_pins(result)
+    """Forces and motion; orbit, section and spectrum of the first clearance pin."""
+    with_clearance = clearance_joints(result)
     points = [f"{point}.{axis}" for point in result.scenario.linkage.points for axis in "xy"]
-    names = [f"pin.{loose[0]}.force", f"pin.{loose[0]}.depth"] if loose else []
-    if not loose:
+    names = [f"pin.{with_clearance[0]}.force", f"pin.{with_clearance[0]}.depth"] if with_clearance else []
+    if not with_clearance:
         names = [f"pin.{pin}.force" for pin in result.scenario.linkage.pins]
     names += [*points, *(f"{column}.force" for column in result.scenario.linkage.columns)]
     names = [name for name in names if name in result.channels]
     found = _of_channels(result, given, names or [n for n in result.channels if n != "time"][:8])
-    of_pin = _of_pin(result, given, loose[0]) if loose else {}
+    of_pin = _of_pin(result, given, with_clearance[0]) if with_clearance else {}
     return {"overview": found["channels"]} | of_pin, set(of_pin)
 
 
@@ -132,12 +134,12 @@ def _of_pin(
 
     ends = given.start, given.end
     pair = matching(result.channels, given.section)
-    loose = pin if pin in loose_pins(result) else None
+    with_clearance = pin if pin in clearance_joints(result) else None
     found: dict[str, Draw] = {}
-    if loose is not None:
-        found["orbit"] = lambda: orbit(result, loose, *ends)
-    if loose is not None or given.poincare or pair:
-        found["poincare"] = lambda: poincare(result, loose, *ends, phase=given.phase, channels=pair)
+    if with_clearance is not None:
+        found["orbit"] = lambda: orbit(result, with_clearance, *ends)
+    if with_clearance is not None or given.poincare or pair:
+        found["poincare"] = lambda: poincare(result, with_clearance, *ends, phase=given.phase, channels=pair)
     if pin is not None:
         found["spectrum"] = lambda: force_spectrum(result, pin, *ends)
     return {f"{kind}_{pin}" if pin else kind: draw for kind, draw in found.items() if kind in kinds}

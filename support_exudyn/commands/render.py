@@ -55,7 +55,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="kind of the movie (gif: at most 960 pixels wide); mp4 needs the extra [movie]",
     )
     add("--size", type=size, default=(1280, 720), metavar="WxH", help="of frames in pixels, even (1280x720)")
-    add("--pin", metavar="NAME", help="whose journal and force are shown (the first loose pin)")
+    add("--pin", metavar="NAME", help="whose journal and force are shown (the first clearance pin)")
     add("--still", type=number, metavar="T", help="a single picture at this time [s], and no movie")
     add_json(parser)
 

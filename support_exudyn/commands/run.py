@@ -12,7 +12,7 @@ from support_exudyn.commands.command_line import add_json, add_out, answer, fold
 from support_exudyn.commands.tables import facts, printed, show_numbers, show_table, show_touches
 from support_exudyn.files import ScenarioFile, read_scenario_file
 from support_exudyn.files.whole_file import check_may_be_replaced, named, real_path
-from support_exudyn.postprocessing import summary as account
+from support_exudyn.postprocessing import summary as summary
 from support_exudyn.scenario.scenario_data import ACCURACIES, LARGEST_GOAL, SMALLEST_GOAL
 from support_exudyn.simulation.result import Result
 from support_exudyn.simulation.simulate import simulate
@@ -83,8 +83,8 @@ def run(given: argparse.Namespace) -> None:
     if solution is not None:
         solution_file.save_solution(result, solution)
     if given.json:
-        touches = {pin: len(onsets) for pin, onsets in result.onsets.items()}
-        said = {"run": out, **facts(result, *WHOLE), "touches": touches}
+        impacts = {pin: len(onsets) for pin, onsets in result.onsets.items()}
+        said = {"run": out, **facts(result, *WHOLE), "impacts": impacts}
         answer(said | ({} if solution is None else {"solution": solution}))
     else:
         printed(lambda console: _tell(console, result, file, list(files.values())))
@@ -99,12 +99,12 @@ def _tell(console: Console, result: Result, file: ScenarioFile, written: list[Pa
     """A short account."""
     show_numbers(console, file.name or "what came out", "errors = true", result, *WHOLE)
     linkage = result.scenario.linkage
-    points = [name for name in account.telling(result) if name.rpartition(".")[0] in linkage.points]
+    points = [name for name in summary.telling(result) if name.rpartition(".")[0] in linkage.points]
     if points:
-        paths = [row[:-1] for row in account.of_channels(result, points, *WHOLE)]
+        paths = [row[:-1] for row in summary.of_channels(result, points, *WHOLE)]
         show_table(console, "paths", ("channel", "unit", ">least", ">mean", ">largest"), paths)
     show_touches(console, result)
     assumed = [("assumed", sentence) for sentence in file.assumed]
-    show_table(console, "how", (), [*account.how(result)[:-1], *assumed])
+    show_table(console, "how", (), [*summary.how(result)[:-1], *assumed])
     for path in written:
         print(path)

@@ -10,7 +10,7 @@ from rich.console import Console
 
 from support_exudyn.commands.command_line import add_json, add_run, add_times, answer
 from support_exudyn.commands.tables import NARROWEST, facts, printed, show_numbers, show_table, show_touches
-from support_exudyn.postprocessing import summary as account
+from support_exudyn.postprocessing import summary as summary
 from support_exudyn.postprocessing.figures import selection
 from support_exudyn.postprocessing.figures.selection import matching
 from support_exudyn.simulation.result import Result
@@ -47,13 +47,14 @@ def _object(result: Result, given: argparse.Namespace) -> dict[str, Any]:
         "scenario": result.scenario.to_data(),
         **facts(result, *ends),
         "provenance": dict(result.provenance),
-        "touches": {
+        "impacts": {
             pin: [
-                {"time_s": o.time, "speed_m_per_s": o.speed, "parting_time_s": o.parting_time} for o in onsets
+                {"time_s": o.time, "speed_m_per_s": o.speed, "parting_time_s": o.separation_time}
+                for o in onsets
             ]
             for pin, onsets in result.onsets.items()
         },
-        "channels": {name: account.extent(result, name, *ends) for name in names},
+        "channels": {name: summary.extent(result, name, *ends) for name in names},
     }
 
 
@@ -62,19 +63,19 @@ def _tables(console: Console, result: Result, given: argparse.Namespace) -> None
     ends = given.start, given.end
     piece = "" if ends == WHOLE else f", {selection.said(result, *ends)}"
     if names:
-        _show_channels(console, account.of_channels(result, names, *ends), f"channels{piece}")
+        _show_channels(console, summary.of_channels(result, names, *ends), f"channels{piece}")
         return
-    show_table(console, "what was run", (), account.what_was_run(result))
-    show_table(console, "how", (), account.how(result))
+    show_table(console, "what was run", (), summary.what_was_run(result))
+    show_table(console, "how", (), summary.how(result))
     show_numbers(console, f"what came out{piece}", "no accuracy was asked", result, *ends)
     show_touches(console, result)
-    telling = [name for name in result.channels if name != "time"] if given.all else account.telling(result)
+    telling = [name for name in result.channels if name != "time"] if given.all else summary.telling(result)
     rest = len(result.channels) - 1 - len(telling)
     more = f" ({rest} more: --all)" if rest else ""
-    _show_channels(console, account.of_channels(result, telling, *ends), f"channels{piece}{more}")
+    _show_channels(console, summary.of_channels(result, telling, *ends), f"channels{piece}{more}")
 
 
-def _show_channels(console: Console, rows: list[account.Row], title: str) -> None:
+def _show_channels(console: Console, rows: list[summary.Row], title: str) -> None:
     if not rows:  # nothing was recorded but the time
         return
     header: tuple[str, ...] = ("channel", "unit", ">min", ">mean", ">max", "meaning")

@@ -15,7 +15,7 @@ from support_exudyn.commands.command_line import add_out, count, folder, say, wa
 from user_forces.values.value import cleaned
 
 if TYPE_CHECKING:
-    from support_exudyn.sweeps.run import Outcome, Told
+    from support_exudyn.sweeps.run import SweepOutcome, Told
 
 HELP = "run a scenario with fields of it varied, into a store that can be continued"
 EPILOG = """
@@ -92,7 +92,7 @@ def run(given: argparse.Namespace) -> None:
         raise SystemExit(FAILURES)
 
 
-def _tell(outcome: Outcome, given: argparse.Namespace, words: str) -> None:
+def _tell(outcome: SweepOutcome, given: argparse.Namespace, words: str) -> None:
     if given.json:
         from support_exudyn.commands.command_line import answer
 
@@ -107,7 +107,7 @@ def _tell(outcome: Outcome, given: argparse.Namespace, words: str) -> None:
         _show(outcome.table)
 
 
-def _counts(outcome: Outcome) -> str:
+def _counts(outcome: SweepOutcome) -> str:
     kinds = {"done": outcome.done, "failed": outcome.failed, "killed": outcome.killed}
     said = ", ".join(f"{number} {kind}" for kind, number in kinds.items() if number) or "none done"
     return f"{said} ({outcome.found} of them were in the store)" if outcome.found else said
@@ -126,7 +126,7 @@ def _shown(runs: int) -> Iterator[Told]:
     with Bar(*columns, console=console, transient=True, disable=not console.is_terminal) as bar:
         task = bar.add_task("", total=runs)
 
-        def tell(outcome: Outcome) -> None:
+        def tell(outcome: SweepOutcome) -> None:
             nonlocal said
             if console.is_terminal:
                 bad = outcome.failed + outcome.killed

@@ -16,8 +16,8 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from support_exudyn.commands.command_line import hush
-from support_exudyn.postprocessing import summary as account
+from support_exudyn.commands.command_line import silence_output
+from support_exudyn.postprocessing import summary as summary
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import cleaned
 
@@ -33,7 +33,7 @@ def printed(tables: Callable[[Console], None]) -> None:
         tables(Console(width=None if sys.stdout.isatty() else PIPED, highlight=False))
         sys.stdout.flush()
     except BrokenPipeError:  # `show RUN | head`
-        hush()
+        silence_output()
 
 
 def _unbroken(header: Sequence[str], rows: Sequence[Sequence[str]]) -> int:
@@ -78,15 +78,15 @@ def show_table(console: Console, title: str, header: Sequence[str], rows: Sequen
 def show_numbers(console: Console, title: str, unknown: str, result: Result, start: float, end: float) -> None:
     """The table of the numbers of a run between two times [s]; unknown: why they may have no errors."""
     known = "± estimated numerical error" if result.coarser else f"numerical errors not known: {unknown}"
-    rows = account.came_out(result, start, end)
+    rows = summary.came_out(result, start, end)
     show_table(console, f"{title} ({known})", ("number", ">value", ">±", "unit"), rows)
 
 
 def show_touches(console: Console, result: Result) -> None:
-    """The table of the touches of a run, if there are any."""
-    if rows := account.touches(result):
-        header = ("pin", "touch", ">time", ">lasts", ">approach", ">parting")
-        show_table(console, "touches, and speeds of approach and parting", header, rows)
+    """The table of the impacts of a run, if there are any."""
+    if rows := summary.impacts(result):
+        header = ("pin", "impact", ">time", ">lasts", ">approach", ">parting")
+        show_table(console, "impacts, and speeds of approach and separation", header, rows)
 
 
 def facts(result: Result, start: float, end: float) -> dict[str, Any]:
@@ -95,5 +95,5 @@ def facts(result: Result, start: float, end: float) -> dict[str, Any]:
         "accuracy": {"asked": result.goal, "met": result.met if result.goal is not None else None},
         "counts": asdict(result.counts),
         "wall_time_s": result.wall_time,
-        "numbers": {name: found._asdict() for name, found in account.numbers(result, start, end).items()},
+        "numbers": {name: found._asdict() for name, found in summary.numbers(result, start, end).items()},
     }

@@ -1,4 +1,4 @@
-"""HDF5 files: sealed, read with care, written in little time.
+"""HDF5 files: checksummed, read with care, written in little time.
 
 A file may begin with a block of the user's own, which everything that reads HDF5 passes over. Here it holds the
 format and the SHA-256 digest of all that follows. It is looked at before HDF5 is: that ends the whole process
@@ -29,13 +29,13 @@ TEXT = h5py.string_dtype()
 IN_FILE, IN_MEMORY = h5t.py_create(TEXT, logical=True), h5t.py_create(TEXT)
 
 
-def seal(image: bytes, kind: str) -> bytes:
+def with_checksum(image: bytes, kind: str) -> bytes:
     """The bytes of a file of this kind from those of an HDF5 file, without its block if it has one."""
     return _block(image, kind) + image
 
 
-def check_seal(data: bytes, kind: str) -> None:
-    """Raise ValueError if this is not what `seal` gave for this kind of file."""
+def check_checksum(data: bytes, kind: str) -> None:
+    """Raise ValueError if this is not what `with_checksum` gave for this kind of file."""
     if data[:BLOCK] == _block(memoryview(data)[BLOCK:], kind):
         return
     family = kind.rpartition(" ")[0].encode()

@@ -1,7 +1,7 @@
 """Where within a step a contact begins, and what to do with the step then.
 
 Between the start and the end of a step the depth of a pin is taken as the cubic that fits depth and
-rate at both ends. In free flight its error is of fourth order in the step, and the approach speed at
+rate at both ends. In free flight its error is of fourth order in the step, and the initial impact velocity at
 zero depth is its slope where it crosses zero.
 """
 
@@ -15,11 +15,12 @@ from typing import NamedTuple
 from support_exudyn.mechanics.contact_state import Onset, PinMemory
 from user_forces.expressions.roots import bracketed_root
 
-# A step that ends within this share of an impact's step from a touch or a parting is taken as ending there, and
-# one that starts that close before it as starting there. The force missed or added in between is of the order
-# K (v0 share h)^n, a relative 1e-5 of an impact of a hundred steps even for n = 1; the speed is exact anyway.
+# A step that ends within this share of an impact's step from an impact or a separation is taken as ending
+# there, and one that starts that close before it as starting there. The force missed or added in between is of
+# the order K (v0 share h)^n, a relative 1e-5 of an impact of a hundred steps even for n = 1; the speed is exact
+# anyway.
 SHARE = 0.001
-BEYOND = 0.1  # of that share is a cut step aimed behind the touch or parting, so as not to end before it
+BEYOND = 0.1  # of that share is a cut step aimed behind the impact or separation, so as not to end before it
 # How far the true course of a depth may be off the cubic, as a share of the change of the rate: its rate, in
 # the middle and times four, and the depth, per length of the step. A swing of which the step is a third keeps
 # within both.
@@ -43,7 +44,7 @@ class Verdict(NamedTuple):
     action: Action
     memory: PinMemory
     onset: Onset | None = None
-    anew: bool = False  # the contact has been pressed on again without having parted
+    anew: bool = False  # the contact has been pressed on again without having separated
     step: float = math.inf  # to repeat with, if cut [s]
     landing: float = math.inf  # where steps are to end, if cut [s]
 
@@ -135,7 +136,7 @@ class DepthPath(NamedTuple):
 
 
 def first_rise(path: DepthPath) -> float | None:
-    """Fraction at which a pin that starts the step apart first touches; None if it does not."""
+    """Fraction at which a pin that starts the step apart first impacts; None if it does not."""
     if path.depth0 > 0.0:
         return 0.0
     top = path.turns_down()
@@ -145,7 +146,7 @@ def first_rise(path: DepthPath) -> float | None:
 
 
 def last_return(path: DepthPath) -> float | None:
-    """Fraction at which a pin in contact, having parted within the step, touches again; None if not."""
+    """Fraction at which a pin in contact, having separated in the step, makes contact again; else None."""
     if path.depth0 > 0.0 and path.depth1 > 0.0:
         bottom = path.turns_up()
         if bottom is not None and path.depth(bottom) < 0.0:
@@ -189,19 +190,19 @@ def judge(
     end = start.moved(depth, rate)
     if start.in_contact:
         return _judge_contact(path, start, end, end_time, forgets)
-    touch = first_rise(path)
-    if touch is None:
+    impact = first_rise(path)
+    if impact is None:
         return Verdict(Action.ACCEPT, end)
-    onset = _onset(path, touch, end_time)
+    onset = _onset(path, impact, end_time)
     shorter = impact_step(onset.speed)
     share = SHARE * min(1.0, shorter / step)  # of this step, which may be far longer than those of the impact
-    if touch >= 1.0 - share:
-        return Verdict(Action.ACCEPT, end._replace(in_contact=True, approach_speed=onset.speed), onset)
-    if touch > share:
-        return _cut(touch, share, path, start, end_time, onset)
+    if impact >= 1.0 - share:
+        return Verdict(Action.ACCEPT, end._replace(in_contact=True, impact_velocity=onset.speed), onset)
+    if impact > share:
+        return _cut(impact, share, path, start, end_time, onset)
     if step > 1.01 * shorter:  # the impact must not begin with a long step
         return Verdict(Action.CUT, start, onset, step=shorter)
-    return Verdict(Action.REPEAT, start._replace(in_contact=True, approach_speed=onset.speed), onset)
+    return Verdict(Action.REPEAT, start._replace(in_contact=True, impact_velocity=onset.speed), onset)
 
 
 def _judge_contact(
@@ -211,19 +212,19 @@ def _judge_contact(
     again = last_return(path)
     if again is not None:
         onset = _onset(path, again, end_time)
-        return Verdict(Action.ACCEPT, end._replace(approach_speed=onset.speed), onset)
+        return Verdict(Action.ACCEPT, end._replace(impact_velocity=onset.speed), onset)
     if end.depth <= 0.0:
-        parting = path.crossing(0.0, 1.0) if start.depth > 0.0 else 0.0
-        if SHARE < parting < 1.0 - SHARE:  # else the last step would push too long or too hard
-            return _cut(parting, SHARE, path, start, end_time)
-        return Verdict(Action.ACCEPT, end._replace(in_contact=False, approach_speed=0.0))
+        separation = path.crossing(0.0, 1.0) if start.depth > 0.0 else 0.0
+        if SHARE < separation < 1.0 - SHARE:  # else the last step would push too long or too hard
+            return _cut(separation, SHARE, path, start, end_time)
+        return Verdict(Action.ACCEPT, end._replace(in_contact=False, impact_velocity=0.0))
     return _gone_on(end, path.turns_up() is not None, forgets)
 
 
 def _gone_on(end: PinMemory, anew: bool, forgets: bool) -> Verdict:
     """The verdict on a step over which the contact goes on; anew: it has been pressed on again."""
     if anew and forgets:
-        end = end._replace(approach_speed=0.0)
+        end = end._replace(impact_velocity=0.0)
     return Verdict(Action.ACCEPT, end, anew=anew)
 
 
@@ -232,8 +233,8 @@ def judge_at_ends(
 ) -> Verdict:
     """The same without locating anything, as plain recipes do: every step stands.
 
-    A touch or a parting counts from the end of the step in which it happens, so that a contact begins with some
-    depth, and with the speed it has there. What touches and parts within a step is missed.
+    An impact or a separation counts from the end of the step in which it happens, so that a contact begins with
+    some depth, and with the speed it has there. What impacts and parts within a step is missed.
 
     Arguments: those of `judge`.
     """
@@ -241,12 +242,12 @@ def judge_at_ends(
     if start.in_contact:
         if depth > 0.0:
             return _gone_on(end, start.rate < 0.0 <= end.rate, forgets)
-        return Verdict(Action.ACCEPT, end._replace(in_contact=False, approach_speed=0.0))
+        return Verdict(Action.ACCEPT, end._replace(in_contact=False, impact_velocity=0.0))
     if depth <= 0.0:
         return Verdict(Action.ACCEPT, end)
     before = min(start.depth, 0.0)
     onset = Onset(end_time - step * depth / (depth - before), max(0.0, rate))
-    return Verdict(Action.ACCEPT, end._replace(in_contact=True, approach_speed=onset.speed), onset)
+    return Verdict(Action.ACCEPT, end._replace(in_contact=True, impact_velocity=onset.speed), onset)
 
 
 def _cut(

@@ -1,10 +1,10 @@
-"""How finely a contact is stepped: short steps from a touch on, until what swings in it has become small."""
+"""How finely a contact is stepped: short steps from an impact on, until what swings in it has become small."""
 
 from __future__ import annotations
 
 import math
 
-from user_forces.normal.law import NormalLaw, Touch
+from user_forces.normal.law import Impact, NormalLaw
 
 # An impact that does not part is over after so many swings in a row, deep and back, that were small: by less
 # than this share of the depth. (With a tenth of it the rise takes a third more steps and no number changes.)
@@ -13,13 +13,13 @@ LIVELY = 0.5
 # A contact at rest whose depth changes in a step by more than this share of it is in an impact again.
 QUIET = 0.08
 # One that does not swing (a damped contact under load creeps) is over after so many undamped durations;
-# a free impact that delivers a restitution of 0.03 has parted after five.
+# a free impact that delivers a restitution of 0.03 has separated after five.
 DURATIONS = 20
-# Steps after the parting that are as short as those of the impact: generalised alpha carries a share of old
+# Steps after the separation that are as short as those of the impact: generalised alpha carries a share of old
 # accelerations on, and a long step would turn what is left of the impact's last ones into speed.
 STEPS_APART = 4
-# A force that jumps at the touch is met with steps that begin this many times halved and then double: the first
-# step after a jump sees about half of it. (One more, and Newton's method meets rounding on the support.)
+# A force that jumps at the impact is met with steps that begin this many times halved and then double: the
+# first step after a jump sees about half of it. (One more, and Newton's method meets rounding on the support.)
 HALVINGS = 6
 # A swing of what friction holds, to one side and back, takes this part of the steps of an impact: 16 of 512. A
 # tenth of the loss in stick-slip is gone with a fifth of that; with all of it, 1e-3.
@@ -55,7 +55,7 @@ class ImpactSteps:
 
     @property
     def begins_with_a_jump(self) -> bool:
-        """Whether the force has jumped at a touch just now: steps are shorter than those of the impact."""
+        """Whether the force has jumped at an impact just now: steps are shorter than those of the impact."""
         return self._halvings > 0
 
     def swing_step(self, time: float) -> float:
@@ -68,16 +68,16 @@ class ImpactSteps:
 
     def length(self, speed: float, mass: float) -> float:
         """Length of the steps in an impact of this speed [m/s] and mass [kg], [s]."""
-        return self._law.impact_time(Touch(speed, mass)) / self._number
+        return self._law.impact_time(Impact(speed, mass)) / self._number
 
-    def touch(self, depth: float, rate: float, mass: float) -> None:
-        """The surfaces have touched at the end of the last step; state and moving mass then."""
+    def impact(self, depth: float, rate: float, mass: float) -> None:
+        """The surfaces have been in contact at the end of the last step; state and effective mass then."""
         self.begin(depth, rate, mass)
-        if self._law.touch_force(Touch(self._speed, mass)) > 0.0:
+        if self._law.initial_force(Impact(self._speed, mass)) > 0.0:
             self._halvings = HALVINGS
 
     def begin(self, depth: float, rate: float, mass: float) -> None:
-        """From now on the depth swings: after a touch, or when the drive's speed jumps under a closed pin."""
+        """From now on the depth swings: after an impact, or when the drive's speed jumps under a closed pin."""
         self._steps = self._steps_apart = self._small_swings = 0
         self._opening, self._deepest, self._depth = False, depth, depth
         self._choose(depth, rate, mass)
@@ -87,7 +87,7 @@ class ImpactSteps:
         return self._length == math.inf and not (depth > 0.0 and abs(depth - self._depth) > QUIET * depth)
 
     def follow(self, depth: float, rate: float, mass: float) -> None:
-        """A step has been accepted, without a touch at its end; state and moving mass at its end."""
+        """A step has been accepted, without a impact at its end; state and effective mass at its end."""
         if self._halvings:
             self._halvings -= 1
         calm, self._depth = self.calm(depth), depth

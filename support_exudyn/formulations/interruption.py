@@ -15,14 +15,14 @@ def put_off() -> Iterator[None]:
     if threading.current_thread() is not threading.main_thread() or not callable(before):
         yield
         return
-    seen: list[int] = []
-    signal.signal(signal.SIGINT, lambda number, frame: seen.append(number))
+    context: list[int] = []
+    signal.signal(signal.SIGINT, lambda number, frame: context.append(number))
     try:
         yield
     finally:
         signal.signal(signal.SIGINT, before)
-        if seen:
-            before(seen[0], None)
+        if context:
+            before(context[0], None)
 
 
 @contextmanager

@@ -116,7 +116,7 @@ class StepPlan:
             return None
         return after if after - t < shortest_step(self.rounding, allowed) else None
 
-    def stretch(self, t: float, largest: float = math.inf) -> tuple[float, int]:
+    def run_of_steps(self, t: float, largest: float = math.inf) -> tuple[float, int]:
         """End [s] of the equal steps that begin at t [s], and their number: up to a record or a break.
 
         With steps not larger than so [s], as after a break, up to where the first grid step after it ends.

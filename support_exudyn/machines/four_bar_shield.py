@@ -156,7 +156,7 @@ class FourBarShield(ShieldLayout[P], ABC, Generic[P]):
         """Whether the columns that follow others are driven as they would follow."""
         try:
             return all(
-                drives[name] == self.follower(name, drives[leader], duration)
+                drives[name] == self.coupled_drive(name, drives[leader], duration)
                 for name, leader in self.leaders.items()
             )
         except InputError:  # nothing can follow so far

@@ -23,7 +23,7 @@ from typing import ClassVar
 import numpy as np
 
 from support_exudyn.machines.four_bar_shield import PRECISE, FourBarShield
-from support_exudyn.machines.shield_layout import BODIES, TAIL, ShieldPosture, Strut
+from support_exudyn.machines.shield_layout import BODIES, TAIL, ShieldColumn, ShieldPosture
 from support_exudyn.model.linkage import GROUND
 from user_forces.values.units import Metres
 from user_forces.values.value import Vector2, value
@@ -49,9 +49,9 @@ class HydraulicSupport(FourBarShield[Posture]):
     """
 
     POSTURE: ClassVar[type[Posture]] = Posture
-    STRUTS: ClassVar[Mapping[str, Strut]] = {
-        "front_column": Strut(foot=(GROUND, "front_foot"), head=("canopy", "front_head")),
-        "rear_column": Strut(foot=(GROUND, "rear_foot"), head=("canopy", "rear_head")),
+    STRUTS: ClassVar[Mapping[str, ShieldColumn]] = {
+        "front_column": ShieldColumn(foot=(GROUND, "front_foot"), head=("canopy", "front_head")),
+        "rear_column": ShieldColumn(foot=(GROUND, "rear_foot"), head=("canopy", "rear_head")),
     }
 
     front_foot: Metres[Vector2]

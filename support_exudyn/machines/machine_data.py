@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from support_exudyn.model.columns import TwoBodyColumn
+from support_exudyn.model.columns import CylinderAndRod
 from support_exudyn.model.machine import Machine
 
 
@@ -23,7 +23,7 @@ class MachineData:
     machine: Machine
     name: str = ""
     bore_radii: Mapping[str, float] = field(default_factory=dict)
-    columns: Mapping[str, TwoBodyColumn] = field(default_factory=dict)
+    columns: Mapping[str, CylinderAndRod] = field(default_factory=dict)
     stroke: float | None = None
     sources: Mapping[str, str] = field(default_factory=dict)
     kind: str = ""

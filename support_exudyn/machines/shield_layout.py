@@ -61,7 +61,7 @@ class ShieldPosture:
 P = TypeVar("P", bound=ShieldPosture)
 
 
-class Strut(NamedTuple):
+class ShieldColumn(NamedTuple):
     """A column of a support: the bodies of its foot and its head, each with the name of the pivot on it."""
 
     foot: tuple[str, str]
@@ -88,7 +88,7 @@ class ShieldLayout(Machine, ABC, Generic[P]):
             these and its hinge are only needed where the tail beam is a body of its own.
     """
 
-    STRUTS: ClassVar[Mapping[str, Strut]]
+    STRUTS: ClassVar[Mapping[str, ShieldColumn]]
     POSTURE: ClassVar[type[Any]]
 
     rear_base: Metres[Vector2]

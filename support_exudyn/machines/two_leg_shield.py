@@ -24,7 +24,7 @@ from typing import ClassVar
 import numpy as np
 
 from support_exudyn.machines.four_bar_shield import LONGEST_STEP, MOST_REMEMBERED, PRECISE, FourBarShield
-from support_exudyn.machines.shield_layout import ShieldPosture, Strut
+from support_exudyn.machines.shield_layout import ShieldColumn, ShieldPosture
 from support_exudyn.model.drives.coupled_drive import following
 from support_exudyn.model.drives.drive import Drive, Held
 from support_exudyn.model.linkage import GROUND
@@ -54,9 +54,9 @@ class TwoLegShield(FourBarShield[LegPosture]):
     """
 
     POSTURE: ClassVar[type[LegPosture]] = LegPosture
-    STRUTS: ClassVar[Mapping[str, Strut]] = {
-        "leg": Strut(foot=(GROUND, "leg_foot"), head=("canopy", "leg_head")),
-        "ram": Strut(foot=("shield", "ram_foot"), head=("canopy", "ram_head")),
+    STRUTS: ClassVar[Mapping[str, ShieldColumn]] = {
+        "leg": ShieldColumn(foot=(GROUND, "leg_foot"), head=("canopy", "leg_head")),
+        "ram": ShieldColumn(foot=("shield", "ram_foot"), head=("canopy", "ram_head")),
     }
 
     leg_foot: Metres[Vector2]
@@ -91,10 +91,10 @@ class TwoLegShield(FourBarShield[LegPosture]):
         """The ram follows the leg."""
         return {"ram": "leg"}
 
-    def follower(self, name: str, lead: Drive, duration: float) -> Drive:
+    def coupled_drive(self, name: str, lead: Drive, duration: float) -> Drive:
         """The drive of the ram that keeps the canopy level while the leg is driven."""
         if name != "ram":
-            return super().follower(name, lead, duration)
+            return super().coupled_drive(name, lead, duration)
         for key, found in self._known:
             if key == (lead, duration):
                 return found

@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from support_exudyn.mechanics.body_motion import BodyMotion
-from support_exudyn.mechanics.channels import CONTACT, Recipe, Recipes, Seen
+from support_exudyn.mechanics.channels import CONTACT, ChannelDefinition, ChannelDefinitions, EvaluationContext
 from support_exudyn.mechanics.pin_channels import force_channels, pin_channels
 from support_exudyn.mechanics.trajectory import CompliantSeries, Series
 from support_exudyn.model.bushing_pin import BushingPin
@@ -28,15 +28,19 @@ def bushing_series(pin: BushingPin, place: PinPlace, motion: BodyMotion) -> Comp
 
 
 @pin_channels.register
-def _of_bushing(pin: BushingPin, name: str) -> Recipes:
+def _of_bushing(pin: BushingPin, name: str) -> ChannelDefinitions:
     del pin
 
-    def said(what: str, unit: str, meaning: str, values: Callable[[CompliantSeries], Series]) -> Recipes:
-        recipe = Recipe(unit, meaning, CONTACT, lambda seen: values(seen.run.compliant_pins[name]))
-        return {f"pin.{name}.{what}": recipe}
+    def said(
+        what: str, unit: str, meaning: str, values: Callable[[CompliantSeries], Series]
+    ) -> ChannelDefinitions:
+        definition = ChannelDefinition(
+            unit, meaning, CONTACT, lambda context: values(context.run.compliant_pins[name])
+        )
+        return {f"pin.{name}.{what}": definition}
 
-    def force(seen: Seen) -> tuple[Series, Series]:
-        fx, fy = seen.run.compliant_pins[name].force.T
+    def force(context: EvaluationContext) -> tuple[Series, Series]:
+        fx, fy = context.run.compliant_pins[name].force.T
         return fx, fy
 
     found = force_channels(name, CONTACT, force)

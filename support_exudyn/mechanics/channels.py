@@ -21,7 +21,7 @@ from support_exudyn.model.linkage import Linkage
 from user_forces.values.value import Vector2
 
 
-class Part(Flag):
+class DataNeeds(Flag):
     """Parts of a Trajectory.
 
     JOINTS: forces of ideal pins, cranks, guides and rigid columns; CONTACTS: pins with clearance and others
@@ -40,16 +40,16 @@ class Part(Flag):
     LOADS = auto()
 
 
-EVERYTHING = ~Part.NOTHING
-MOTION = Part.POSITION | Part.VELOCITY
-CONTACT = MOTION | Part.CONTACTS
-OIL = MOTION | Part.OIL
-LOADED = MOTION | Part.LOADS
+EVERYTHING = ~DataNeeds.NOTHING
+MOTION = DataNeeds.POSITION | DataNeeds.VELOCITY
+CONTACT = MOTION | DataNeeds.CONTACTS
+OIL = MOTION | DataNeeds.OIL
+LOADED = MOTION | DataNeeds.LOADS
 ALL_CHANNELS = ("*",)  # the pattern that asks for everything
 
 
 @dataclass(frozen=True)
-class Seen:
+class EvaluationContext:
     """A run at its records, from which channels are computed.
 
     Arguments:
@@ -119,16 +119,16 @@ class Seen:
 
 
 @dataclass(frozen=True)
-class Recipe:
+class ChannelDefinition:
     """A channel before its run: unit, meaning, the parts it needs, and its values (n,) from what was seen."""
 
     unit: str
     meaning: str
-    needs: Part
+    needs: DataNeeds
     values: Callable[[Any], Series]
 
 
-Recipes = dict[str, Recipe]
+ChannelDefinitions = dict[str, ChannelDefinition]
 
 
 def chosen(names: Iterable[str], patterns: Iterable[str]) -> list[str]:

@@ -1,4 +1,4 @@
-"""A loose pin at all records, from the motion of its bodies and what it remembers."""
+"""A clearance pin at all records, from the motion of its bodies and what it remembers."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from typing import NamedTuple
 import numpy as np
 
 from support_exudyn.mechanics.body_motion import BodyMotion, PointMotion
-from support_exudyn.mechanics.contact_state import Mobility, PinMemory
+from support_exudyn.mechanics.contact_state import InverseMass, PinMemory
 from support_exudyn.mechanics.joint_forces import PinForce
 from support_exudyn.mechanics.trajectory import ContactSeries, Series
 from support_exudyn.model.linkage import PinPlace
 from support_exudyn.model.pins import ClearancePin
 from user_forces.contact import SHALLOWEST, ContactForce, SlipHistory
 from user_forces.expressions.arrays import as_number, values_of
-from user_forces.normal.law import Touch
+from user_forces.normal.law import Impact
 
 
 def ends(motion: BodyMotion, place: PinPlace, pin: ClearancePin) -> tuple[PointMotion, PointMotion]:
@@ -57,11 +57,11 @@ def series(pin: ClearancePin, moving: RelativeMotion, memories: Series | Sequenc
     """The contact at every record from the journal's motion in its bore, see `contact_series`."""
     remembered = np.asarray(memories, dtype=np.float64)
     memory = dict(zip(PinMemory._fields, remembered.T, strict=True))
-    touching = memory["in_contact"] > 0.5
+    closed = memory["in_contact"] > 0.5
     force = _force(pin, moving, memory)
     count = moving.x.size
     depth = values_of(force.depth, count)
-    pressed = touching & (depth > 0.0)
+    pressed = closed & (depth > 0.0)
 
     def where_pressed(values: float) -> Series:
         return np.where(pressed, values_of(values, count), 0.0)
@@ -74,7 +74,7 @@ def series(pin: ClearancePin, moving: RelativeMotion, memories: Series | Sequenc
         friction_force=where_pressed(force.friction_force),
         depth=depth,
         slip=values_of(force.slip, count),
-        approach_speed=np.where(touching, memory["approach_speed"], 0.0),
+        impact_velocity=np.where(closed, memory["impact_velocity"], 0.0),
         eccentricity_x=moving.x,
         eccentricity_y=moving.y,
         stored=np.where(depth > 0.0, stored, 0.0),
@@ -83,7 +83,7 @@ def series(pin: ClearancePin, moving: RelativeMotion, memories: Series | Sequenc
 
 
 def acting(motion: BodyMotion, place: PinPlace, pin: ClearancePin, contact: ContactSeries) -> PinForce:
-    """A loose pin's force of the first body on the second, and where it acts: the contact point."""
+    """A clearance pin's force of the first body on the second, and where it acts: the contact point."""
     _, journal = ends(motion, place, pin)
     force = np.column_stack([contact.force_x, contact.force_y])
     offset = np.column_stack([contact.eccentricity_x, contact.eccentricity_y])
@@ -98,7 +98,7 @@ def journal_arm(pin: ClearancePin, depth: Series) -> Series:
 
 
 def _force(pin: ClearancePin, moving: RelativeMotion, memory: dict[str, Series]) -> ContactForce:
-    """The contact's force as if the surfaces touched at every record."""
+    """The contact's force as if the surfaces been in contact at every record."""
     try:
         return _at_once(pin, moving, memory)
     except TypeError:  # a law that branches takes numbers only
@@ -121,17 +121,17 @@ def _one_by_one(pin: ClearancePin, moving: RelativeMotion, memory: dict[str, Ser
         remembered, np.column_stack(moving).tolist(), strict=True
     ):
         kept = PinMemory(row[0] > 0.5, *row[1:])
-        touch = Touch(kept.approach_speed, kept.mobility.mass(c * x + s * y, c * y - s * x))
+        impact = Impact(kept.impact_velocity, kept.inverse_mass.mass(c * x + s * y, c * y - s * x))
         now = SlipHistory(kept.deflection, kept.slip, 0.0)
-        found.append(pin.contact.force(x, y, vx, vy, bore_spin, journal_spin, touch, now))
+        found.append(pin.contact.force(x, y, vx, vy, bore_spin, journal_spin, impact, now))
     return ContactForce(*(as_number(np.array(values)) for values in zip(*found, strict=True)))  # type: ignore[arg-type]
 
 
 def _at_once(pin: ClearancePin, moving: RelativeMotion, memory: dict[str, Series]) -> ContactForce:
     """The contact's force, for all records at once."""
     x, y, vx, vy, bore_spin, journal_spin, c, s = moving
-    mobility = Mobility(*(as_number(memory[f"mobility_{axes}"]) for axes in ("xx", "xy", "yy")))
-    mass = mobility.mass(as_number(c * x + s * y), as_number(c * y - s * x))  # in the bore's axes
+    inverse_mass = InverseMass(*(as_number(memory[f"inverse_mass_{axes}"]) for axes in ("xx", "xy", "yy")))
+    mass = inverse_mass.mass(as_number(c * x + s * y), as_number(c * y - s * x))  # in the bore's axes
     # the memory has been taken at the same instant: no time has passed since
     now = SlipHistory(as_number(memory["deflection"]), as_number(memory["slip"]), 0.0)
     with np.errstate(divide="ignore", invalid="ignore"):  # where the surfaces are apart
@@ -142,6 +142,6 @@ def _at_once(pin: ClearancePin, moving: RelativeMotion, memory: dict[str, Series
             as_number(vy),
             as_number(bore_spin),
             as_number(journal_spin),
-            Touch(as_number(memory["approach_speed"]), mass),
+            Impact(as_number(memory["impact_velocity"]), mass),
             now,
         )

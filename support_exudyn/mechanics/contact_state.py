@@ -1,4 +1,4 @@
-"""What is known of a contact while a run goes on: its mobility, its memory and its first touches."""
+"""What is known of a contact while a run goes on: its effective mass, its memory, its first impacts."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ import numpy as np
 import numpy.typing as npt
 
 from user_forces.expressions.scalar import maximum
-from user_forces.normal.law import Touch
+from user_forces.normal.law import Impact
 
 
-class Mobility(NamedTuple):
-    """How easily the journal moves against the bore: velocity = mobility times impulse, a symmetric matrix.
+class InverseMass(NamedTuple):
+    """How easily the journal moves against the bore: velocity = inverse mass times impulse, a symmetric matrix.
 
     xx, xy, yy: in the bore's axes [1/kg].
     """
@@ -23,23 +23,23 @@ class Mobility(NamedTuple):
     yy: float
 
     @staticmethod
-    def of(matrix: npt.NDArray[np.float64]) -> Mobility:
+    def of(matrix: npt.NDArray[np.float64]) -> InverseMass:
         """From the matrix (2, 2)."""
-        return Mobility(float(matrix[0, 0]), float(matrix[0, 1]), float(matrix[1, 1]))
+        return InverseMass(float(matrix[0, 0]), float(matrix[0, 1]), float(matrix[1, 1]))
 
     def mass(self, x: float, y: float) -> float:
-        """Mass [kg] that moves in the direction x, y: 1 / (n mobility n). Takes numbers or expressions."""
+        """Mass [kg] that moves in the direction x, y: 1 / (n W n). Takes numbers or expressions."""
         square = x * x + y * y + SMALLEST
         along = self.xx * x * x + 2.0 * self.xy * x * y + self.yy * y * y
         return square / maximum(along, square / HEAVIEST)
 
-    def turned(self, angle: float) -> Mobility:
+    def turned(self, angle: float) -> InverseMass:
         """The same in axes against which its own are turned by an angle [rad]."""
         c, s = math.cos(angle), math.sin(angle)
         xx, xy, yy = self
         cross = c * s * (xx - yy) + (c * c - s * s) * xy
         both = 2.0 * c * s * xy
-        return Mobility(c * c * xx + s * s * yy - both, cross, s * s * xx + c * c * yy + both)
+        return InverseMass(c * c * xx + s * s * yy - both, cross, s * s * xx + c * c * yy + both)
 
 
 SMALLEST = 1e-30  # so that nothing is divided by zero [m^2]
@@ -50,31 +50,34 @@ class PinMemory(NamedTuple):
     """What a clearance pin remembers from one accepted step to the next."""
 
     in_contact: bool
-    approach_speed: float  # of the contact going on [m/s], see Touch
+    impact_velocity: float  # of the contact going on [m/s], see Impact
     depth: float  # [m]
     rate: float  # [m/s]
     slip: float = 0.0  # [m/s]
     deflection: float = 0.0  # of the friction law [m]
-    mobility_xx: float = 1.0  # [1/kg], see Mobility
-    mobility_xy: float = 0.0
-    mobility_yy: float = 1.0
+    inverse_mass_xx: float = 1.0  # [1/kg], see InverseMass
+    inverse_mass_xy: float = 0.0
+    inverse_mass_yy: float = 1.0
 
     def at(self, depth: float, rate: float, slip: float, deflection: float) -> PinMemory:
         """The same contact at another depth [m], rate [m/s], slip [m/s] and deflection [m]."""
-        in_contact, approach_speed, _, _, _, _, xx, xy, yy = self
-        return PinMemory(in_contact, approach_speed, depth, rate, slip, deflection, xx, xy, yy)
+        in_contact, impact_velocity, _, _, _, _, xx, xy, yy = self
+        return PinMemory(in_contact, impact_velocity, depth, rate, slip, deflection, xx, xy, yy)
 
     @property
-    def mobility(self) -> Mobility:
-        """Mobility of the journal when the contact began, or was last pressed on again; see `pressed`.
+    def inverse_mass(self) -> InverseMass:
+        """Inverse effective mass of the journal when the contact began, or was last pressed on again; see
+        `pressed`.
 
         The law goes by it until it is renewed, so what other pins do meanwhile changes no force at a stroke.
         """
-        return Mobility(self.mobility_xx, self.mobility_xy, self.mobility_yy)
+        return InverseMass(self.inverse_mass_xx, self.inverse_mass_xy, self.inverse_mass_yy)
 
-    def with_mobility(self, mobility: Mobility) -> PinMemory:
-        """The same with another mobility."""
-        return self._replace(mobility_xx=mobility.xx, mobility_xy=mobility.xy, mobility_yy=mobility.yy)
+    def with_inverse_mass(self, inverse_mass: InverseMass) -> PinMemory:
+        """The same with another inverse effective mass."""
+        return self._replace(
+            inverse_mass_xx=inverse_mass.xx, inverse_mass_xy=inverse_mass.xy, inverse_mass_yy=inverse_mass.yy
+        )
 
     def moved(self, depth: float, rate: float) -> PinMemory:
         """The same at another depth [m] and rate [m/s]. (`_replace` takes three times as long.)"""
@@ -84,9 +87,9 @@ class PinMemory(NamedTuple):
         """The same with another slip [m/s] and deflection [m]."""
         return self.at(self.depth, self.rate, slip, deflection)
 
-    def touch(self, x: float, y: float) -> Touch | None:
+    def impact(self, x: float, y: float) -> Impact | None:
         """What the laws are told at an eccentricity x, y [m]; None while the surfaces are apart."""
-        return Touch(self.approach_speed, self.mobility.mass(x, y)) if self.in_contact else None
+        return Impact(self.impact_velocity, self.inverse_mass.mass(x, y)) if self.in_contact else None
 
 
 class Onset(NamedTuple):
@@ -98,11 +101,11 @@ class Onset(NamedTuple):
 
     time: float  # [s]
     speed: float  # of approach at zero depth [m/s]
-    parting_time: float = (
+    separation_time: float = (
         math.inf
-    )  # [s]; infinite: the surfaces have not parted before the end or the next touch
-    parting_speed: float = 0.0  # at which they leave each other at zero depth [m/s]
+    )  # [s]; infinite: the surfaces have not separated before the end or the next impact
+    separation_velocity: float = 0.0  # at which they leave each other at zero depth [m/s]
 
-    def parted(self, time: float, speed: float) -> Onset:
+    def separated(self, time: float, speed: float) -> Onset:
         """The same contact, which has ended at a time [s] at this speed [m/s]."""
-        return self._replace(parting_time=time, parting_speed=max(0.0, speed))
+        return self._replace(separation_time=time, separation_velocity=max(0.0, speed))

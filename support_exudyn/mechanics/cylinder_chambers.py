@@ -16,7 +16,7 @@ from user_forces.values.value import Vector2
 
 
 @dataclass(frozen=True)
-class FilledCylinder:
+class PreloadedCylinder:
     """A cylinder in its place.
 
     column: that it is. model: of it. load: that it carries at the start, pushing its ends apart [N].
@@ -96,9 +96,11 @@ class FilledCylinder:
 
 def fill_cylinders(
     linkage: Linkage, models: Mapping[str, HydraulicCylinder], gravity: Vector2
-) -> dict[str, FilledCylinder]:
+) -> dict[str, PreloadedCylinder]:
     """Cylinders that hold the machine in its start posture, all pins ideal and the other columns rigid."""
     if not models:
         return {}
     loads = static_loads(linkage, gravity)
-    return {name: FilledCylinder(linkage.columns[name], model, loads[name]) for name, model in models.items()}
+    return {
+        name: PreloadedCylinder(linkage.columns[name], model, loads[name]) for name, model in models.items()
+    }

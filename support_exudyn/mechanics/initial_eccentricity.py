@@ -1,4 +1,4 @@
-"""A linkage whose loose journals do not start in the middle of their bores."""
+"""A linkage whose clearance journals do not start in the middle of their bores."""
 
 from __future__ import annotations
 

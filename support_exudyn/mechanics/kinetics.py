@@ -150,7 +150,7 @@ class Kinetics:
             solution = np.linalg.lstsq(system, right, rcond=None)[0]
         return solution[:size], solution[size:]
 
-    def pin_mobility(
+    def pin_inverse_mass(
         self, position: Matrix, name: str, pressed: Mapping[str, Matrix] = MappingProxyType({})
     ) -> Matrix:
         """Answer of a clearance pin's eccentricity to an impulse in it: J dv per impulse (2, 2) [1/kg].
@@ -161,7 +161,7 @@ class Kinetics:
         impact along n feels. Other clearance pins transmit no impulse.
 
         pressed: normals (2,) of other pins by name. Each adds a row to J, so that the answers, (2 + m, 2 + m),
-        tell what holding it changes; see `pressed.mobilities`.
+        tell what holding it changes; see `pressed.inverse effective masses`.
         """
         rates = [self.relative(position, self.linkage.pins[name])[1]]
         rates += [

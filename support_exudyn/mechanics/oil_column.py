@@ -19,7 +19,7 @@ from user_forces.values.value import Vector2
 
 
 @dataclass(frozen=True)
-class FilledColumn:
+class PreloadedColumn:
     """A column of oil in its place, and by how much its oil is compressed at the start [m]."""
 
     column: Column
@@ -92,18 +92,18 @@ def static_loads(linkage: Linkage, gravity: Vector2) -> dict[str, float]:
     return {name: -float(tension) for name, tension in zip(linkage.columns, tensions, strict=False)}
 
 
-def fill(linkage: Linkage, models: Mapping[str, OilColumn], gravity: Vector2) -> dict[str, FilledColumn]:
+def fill(linkage: Linkage, models: Mapping[str, OilColumn], gravity: Vector2) -> dict[str, PreloadedColumn]:
     """Columns of oil that hold the machine in its start posture, all pins ideal and the others rigid."""
     if not models:
         return {}
     loads = static_loads(linkage, gravity)
     return {
-        name: FilledColumn(linkage.columns[name], model, loads[name] / model.stiffness(0.0))
+        name: PreloadedColumn(linkage.columns[name], model, loads[name] / model.stiffness(0.0))
         for name, model in models.items()
     }
 
 
-def force_rounding(columns: Iterable[FilledColumn]) -> float:
+def force_rounding(columns: Iterable[PreloadedColumn]) -> float:
     """Scatter [N] of the forces of these columns that the rounding of lengths causes."""
     return sum(
         LENGTHS * sys.float_info.epsilon * one.model.stiffness(0.0) * _size(one.column) for one in columns
@@ -116,8 +116,8 @@ def _size(column: Column) -> float:
     return max(column.start_length, *map(abs, ends))
 
 
-def oil_series(filled: FilledColumn, motion: BodyMotion, drive: Drive, time: Series) -> OilSeries:
+def oil_series(preloaded: PreloadedColumn, motion: BodyMotion, drive: Drive, time: Series) -> OilSeries:
     """A column over time [s]."""
     extension = np.array([drive.extension(t) for t in time.tolist()])
     speed = np.array([drive.speed(t) for t in time.tolist()])
-    return filled.series(motion, extension, speed)
+    return preloaded.series(motion, extension, speed)

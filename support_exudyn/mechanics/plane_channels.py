@@ -12,25 +12,25 @@ from support_exudyn.mechanics.channels import (
     LOADED,
     MOTION,
     OIL,
-    Part,
-    Recipe,
-    Recipes,
-    Seen,
+    ChannelDefinition,
+    ChannelDefinitions,
+    DataNeeds,
+    EvaluationContext,
 )
 from support_exudyn.mechanics.pin_channels import pin_channels
 from support_exudyn.mechanics.trajectory import CylinderSeries, Series
 from support_exudyn.model.linkage import Body, Linkage
-from support_exudyn.model.loads.load import Load, Observed
+from support_exudyn.model.loads.load import Load, LoadChannel
 from support_exudyn.model.pins import IdealPin, Pin
 
 
-def recipes(
+def channel_definitions(
     linkage: Linkage,
     pins: Mapping[str, Pin],
     oil: Collection[str],
     loads: Mapping[str, Load],
     cylinders: Collection[str] = (),
-) -> Recipes:
+) -> ChannelDefinitions:
     """All channels of a linkage by name.
 
     Arguments:
@@ -40,7 +40,7 @@ def recipes(
         loads: what presses on the machine, by name.
         cylinders: names of those columns of oil that have a valve and pressures.
     """
-    found = {"time": Recipe("s", "time", Part.NOTHING, lambda seen: seen.run.time)}
+    found = {"time": ChannelDefinition("s", "time", DataNeeds.NOTHING, lambda context: context.run.time)}
     for n, (name, body) in enumerate(linkage.bodies.items()):
         found |= _of_body(name, body, 3 * n)
     for name in linkage.points:
@@ -64,69 +64,87 @@ def recipes(
     )
 
 
-def _of_body(name: str, body: Body, i: int) -> Recipes:
+def _of_body(name: str, body: Body, i: int) -> ChannelDefinitions:
     cx, cy = body.centre
-    velocity, acceleration = Part.VELOCITY, Part.ACCELERATION
+    velocity, acceleration = DataNeeds.VELOCITY, DataNeeds.ACCELERATION
     return {
-        f"{name}.x": Recipe(
-            "m", "centre of mass, forward", Part.POSITION, lambda seen: cx + seen.run.position[:, i]
+        f"{name}.x": ChannelDefinition(
+            "m", "centre of mass, forward", DataNeeds.POSITION, lambda context: cx + context.run.position[:, i]
         ),
-        f"{name}.y": Recipe(
-            "m", "centre of mass, up", Part.POSITION, lambda seen: cy + seen.run.position[:, i + 1]
+        f"{name}.y": ChannelDefinition(
+            "m", "centre of mass, up", DataNeeds.POSITION, lambda context: cy + context.run.position[:, i + 1]
         ),
-        f"{name}.velocity_x": Recipe(
-            "m/s", "velocity of the centre of mass, forward", velocity, lambda seen: seen.run.velocity[:, i]
+        f"{name}.velocity_x": ChannelDefinition(
+            "m/s",
+            "velocity of the centre of mass, forward",
+            velocity,
+            lambda context: context.run.velocity[:, i],
         ),
-        f"{name}.velocity_y": Recipe(
-            "m/s", "velocity of the centre of mass, up", velocity, lambda seen: seen.run.velocity[:, i + 1]
+        f"{name}.velocity_y": ChannelDefinition(
+            "m/s",
+            "velocity of the centre of mass, up",
+            velocity,
+            lambda context: context.run.velocity[:, i + 1],
         ),
-        f"{name}.angle": Recipe(
+        f"{name}.angle": ChannelDefinition(
             "rad",
             "orientation from +x",
-            Part.POSITION,
-            lambda seen: body.angle + seen.run.position[:, i + 2],
+            DataNeeds.POSITION,
+            lambda context: body.angle + context.run.position[:, i + 2],
         ),
-        f"{name}.angular_velocity": Recipe(
-            "rad/s", "angular velocity", velocity, lambda seen: seen.run.velocity[:, i + 2]
+        f"{name}.angular_velocity": ChannelDefinition(
+            "rad/s", "angular velocity", velocity, lambda context: context.run.velocity[:, i + 2]
         ),
-        f"{name}.angular_acceleration": Recipe(
-            "rad/s^2", "angular acceleration", acceleration, lambda seen: seen.run.acceleration[:, i + 2]
+        f"{name}.angular_acceleration": ChannelDefinition(
+            "rad/s^2", "angular acceleration", acceleration, lambda context: context.run.acceleration[:, i + 2]
         ),
     }
 
 
-def _of_point(name: str) -> Recipes:
+def _of_point(name: str) -> ChannelDefinitions:
     return {
-        f"{name}.x": Recipe("m", "position, forward", Part.POSITION, lambda seen: seen.path(name)[:, 0]),
-        f"{name}.y": Recipe("m", "position, up", Part.POSITION, lambda seen: seen.path(name)[:, 1]),
+        f"{name}.x": ChannelDefinition(
+            "m", "position, forward", DataNeeds.POSITION, lambda context: context.path(name)[:, 0]
+        ),
+        f"{name}.y": ChannelDefinition(
+            "m", "position, up", DataNeeds.POSITION, lambda context: context.path(name)[:, 1]
+        ),
     }
 
 
-def _of_column(name: str, oil: bool) -> Recipes:
-    def angle(seen: Seen) -> Series:
-        dx, dy = seen.span(name).T
+def _of_column(name: str, oil: bool) -> ChannelDefinitions:
+    def angle(context: EvaluationContext) -> Series:
+        dx, dy = context.span(name).T
         direction: Series = np.arctan2(dy, dx)
         return direction
 
-    def length(seen: Seen) -> Series:
-        distance: Series = np.hypot(*seen.span(name).T)
+    def length(context: EvaluationContext) -> Series:
+        distance: Series = np.hypot(*context.span(name).T)
         return distance
 
     return {
-        f"{name}.angle": Recipe("rad", "direction from foot to head, from +x", Part.POSITION, angle),
-        f"{name}.length": Recipe("m", "distance of its ends", Part.POSITION, length),
-        f"{name}.force": Recipe(
+        f"{name}.angle": ChannelDefinition(
+            "rad", "direction from foot to head, from +x", DataNeeds.POSITION, angle
+        ),
+        f"{name}.length": ChannelDefinition("m", "distance of its ends", DataNeeds.POSITION, length),
+        f"{name}.force": ChannelDefinition(
             "N",
             "pushes its ends apart if positive",
-            OIL if oil else Part.JOINTS,
-            lambda seen: seen.run.columns[name],
+            OIL if oil else DataNeeds.JOINTS,
+            lambda context: context.run.columns[name],
         ),
     }
 
 
-def _of_cylinder(name: str) -> Recipes:
-    def said(what: str, unit: str, meaning: str, values: Callable[[CylinderSeries], Series]) -> Recipes:
-        return {f"{name}.{what}": Recipe(unit, meaning, OIL, lambda seen: values(seen.run.cylinders[name]))}
+def _of_cylinder(name: str) -> ChannelDefinitions:
+    def said(
+        what: str, unit: str, meaning: str, values: Callable[[CylinderSeries], Series]
+    ) -> ChannelDefinitions:
+        return {
+            f"{name}.{what}": ChannelDefinition(
+                unit, meaning, OIL, lambda context: values(context.run.cylinders[name])
+            )
+        }
 
     found = said("pressure", "Pa", "of the piston side", lambda c: c.pressure)
     found |= said("rod_pressure", "Pa", "of the rod side", lambda c: c.rod_pressure)
@@ -136,66 +154,78 @@ def _of_cylinder(name: str) -> Recipes:
     return found
 
 
-def _of_crank(name: str) -> Recipes:
-    moment = Recipe("N m", "of the drive on the crank", Part.JOINTS, lambda seen: seen.run.cranks[name])
+def _of_crank(name: str) -> ChannelDefinitions:
+    moment = ChannelDefinition(
+        "N m", "of the drive on the crank", DataNeeds.JOINTS, lambda context: context.run.cranks[name]
+    )
     return {f"{name}.moment": moment}
 
 
-def _of_slide(name: str) -> Recipes:
-    joints = Part.JOINTS
+def _of_slide(name: str) -> ChannelDefinitions:
+    joints = DataNeeds.JOINTS
     return {
-        f"{name}.force": Recipe(
-            "N", "magnitude of the guide's force, across it", joints, lambda seen: seen.run.slides[name][:, 0]
+        f"{name}.force": ChannelDefinition(
+            "N",
+            "magnitude of the guide's force, across it",
+            joints,
+            lambda context: context.run.slides[name][:, 0],
         ),
-        f"{name}.moment": Recipe(
-            "N m", "magnitude of the guide's moment", joints, lambda seen: seen.run.slides[name][:, 1]
+        f"{name}.moment": ChannelDefinition(
+            "N m", "magnitude of the guide's moment", joints, lambda context: context.run.slides[name][:, 1]
         ),
     }
 
 
-def _of_load(name: str, load: Load) -> Recipes:
-    def said(what: str, channel: Observed) -> Recipe:
-        return Recipe(channel.unit, channel.meaning, LOADED, lambda seen: seen.run.loads[name].observed[what])
+def _of_load(name: str, load: Load) -> ChannelDefinitions:
+    def said(what: str, channel: LoadChannel) -> ChannelDefinition:
+        return ChannelDefinition(
+            channel.unit, channel.meaning, LOADED, lambda context: context.run.loads[name].observed[what]
+        )
 
     return {f"{name}.{what}": said(what, channel) for what, channel in load.channels.items()}
 
 
-def _stored(compliant: bool, oil: bool, loaded: bool) -> Part:
+def _stored(compliant: bool, oil: bool, loaded: bool) -> DataNeeds:
     """What the elastic energy needs."""
-    found = Part.NOTHING
+    found = DataNeeds.NOTHING
     for there, part in ((compliant, CONTACT), (oil, OIL), (loaded, LOADED)):
-        found |= part if there else Part.NOTHING
+        found |= part if there else DataNeeds.NOTHING
     return found
 
 
-def _of_energy(stored: Part, loaded: bool, pumped: bool) -> Recipes:
+def _of_energy(stored: DataNeeds, loaded: bool, pumped: bool) -> ChannelDefinitions:
     movers = ["the drive" if not loaded else "the drives"] + ["pumps"] * pumped + ["what moves loads"] * loaded
     lost = "damping" + " and valves" * pumped
     places = "contacts, oil and loads" if loaded else "contacts and oil"
-    integrals = Part.INTEGRALS
+    integrals = DataNeeds.INTEGRALS
     balance = MOTION | stored | integrals
     return {
-        "energy.kinetic": Recipe("J", "kinetic energy of all bodies", Part.VELOCITY, lambda seen: seen.kinetic),
-        "energy.potential": Recipe(
-            "J", "of weight, zero in the machine's start posture", Part.POSITION, lambda seen: seen.potential
+        "energy.kinetic": ChannelDefinition(
+            "J", "kinetic energy of all bodies", DataNeeds.VELOCITY, lambda context: context.kinetic
         ),
-        "energy.elastic": Recipe("J", f"stored in {places}", stored, lambda seen: seen.stored),
-        "energy.damping_loss": Recipe(
+        "energy.potential": ChannelDefinition(
+            "J",
+            "of weight, zero in the machine's start posture",
+            DataNeeds.POSITION,
+            lambda context: context.potential,
+        ),
+        "energy.elastic": ChannelDefinition("J", f"stored in {places}", stored, lambda context: context.stored),
+        "energy.damping_loss": ChannelDefinition(
             "J",
             f"dissipated by {lost} in {places} so far",
             integrals,
-            lambda seen: seen.run.damping_loss,
+            lambda context: context.run.damping_loss,
         ),
-        "energy.friction_loss": Recipe(
-            "J", "dissipated by friction so far", integrals, lambda seen: seen.run.friction_loss
+        "energy.friction_loss": ChannelDefinition(
+            "J", "dissipated by friction so far", integrals, lambda context: context.run.friction_loss
         ),
-        "energy.work": Recipe(
+        "energy.work": ChannelDefinition(
             "J",
             f"work of {' and of '.join(movers)} so far",
             integrals,
-            lambda seen: seen.run.work,
+            lambda context: context.run.work,
         ),
-        "energy.balance": Recipe(
-            "J", "gain minus work plus loss; zero if computed exactly", balance, lambda seen: seen.balance
+        "energy.balance": ChannelDefinition(
+            "J", "gain minus work plus loss; zero if computed exactly", balance, lambda context: context.balance
         ),
     }

@@ -1,4 +1,4 @@
-"""How a loose pin's journal answers an impulse while other loose pins are pressed.
+"""How a clearance pin's journal answers an impulse while other clearance pins are pressed.
 
 A pressed contact transmits along its normal and nowhere else: without friction a bore does not hold its journal
 along its surface, and friction only bounds a force. So with n_j the normals of the other pressed pins, J_j the
@@ -7,8 +7,8 @@ rows that give the rates of their eccentricities, and J that of the pin that is 
     M dv + C^T L + sum of J_j^T n_j p_j = J^T,   C dv = 0,   n_j J_j dv = 0
 
 A contact counts as pressed where its surfaces overlap. It is taken as rigid, which is the most that it can be:
-a free impact then stores at most half of this mass times its approach speed squared, and laws that go by the
-mass (`DepthSpeed`) deliver their restitution. Pins that are apart transmit nothing.
+a free impact then stores at most half of this mass times its initial impact velocity squared, and laws that go
+by the mass (`IndentationVelocity`) deliver their restitution. Pins that are apart transmit nothing.
 """
 
 from __future__ import annotations
@@ -18,30 +18,30 @@ from typing import NamedTuple
 
 import numpy as np
 
-from support_exudyn.mechanics.contact_state import Mobility
+from support_exudyn.mechanics.contact_state import InverseMass
 from support_exudyn.mechanics.kinetics import Matrix
 
-NEAR = 1e-7  # of the clearance by which surfaces may be apart that touch: as near as a touch is met
+NEAR = 1e-7  # of the clearance by which surfaces may be apart that touch: as near as an impact is met
 GIVES = 1e-6  # of what moves with all others open that is left with them closed: contacts are not rigid
-SAME = 1e-9  # what a direction must hold besides the others, as a share of its mobility; else it repeats them
+SAME = 1e-9  # what a direction must hold besides the others, as a share of its own
 
 
-class Mobilities(NamedTuple):
+class EffectiveMasses(NamedTuple):
     """How a clearance pin's journal answers impulses, in the axes of its bore.
 
-    alone: with all other loose pins open; the lightest that can move, which steps have to follow.
+    alone: with all other clearance pins open; the lightest that can move, which steps have to follow.
     held: with those closed that are pressed; what the laws are told.
     """
 
-    alone: Mobility
-    held: Mobility
+    alone: InverseMass
+    held: InverseMass
 
 
-NOT_KNOWN = Mobilities(*2 * (Mobility(math.nan, math.nan, math.nan),))
+NOT_KNOWN = EffectiveMasses(*2 * (InverseMass(math.nan, math.nan, math.nan),))
 
 
-def mobilities(answers: Matrix, axes: Matrix) -> Mobilities:
-    """The mobilities of a pin from the answers of all that is pressed.
+def inverse_masses(answers: Matrix, axes: Matrix) -> EffectiveMasses:
+    """The inverse effective masses of a pin from the answers of all that is pressed.
 
     Arguments:
         answers: velocities by impulses (2 + m, 2 + m) [1/kg]: both components of the eccentricity, then those
@@ -49,7 +49,7 @@ def mobilities(answers: Matrix, axes: Matrix) -> Mobilities:
         axes: of the bore, in columns (2, 2).
     """
     alone = answers[:2, :2]
-    return Mobilities(*(Mobility.of(axes.T @ found @ axes) for found in (alone, held(answers))))
+    return EffectiveMasses(*(InverseMass.of(axes.T @ found @ axes) for found in (alone, held(answers))))
 
 
 def normal(x: float, y: float, clearance: float) -> Matrix | None:

@@ -29,7 +29,7 @@ ROUNDS = 2
 
 
 @dataclass(frozen=True)
-class Held:
+class HeldJoints:
     """What is held, in the order of its rows: two an ideal pin, one a column, one a crank, two a guide."""
 
     pins: Sequence[PinPlace]
@@ -107,7 +107,7 @@ def direction(motion: BodyMotion, column: Column) -> Series:
     return along
 
 
-def matrix(motion: BodyMotion, held: Held) -> Series:
+def matrix(motion: BodyMotion, held: HeldJoints) -> Series:
     """C: the rows of all that is held at every instant, (n, rows, 3 b)."""
     of = _Rows(motion)
     rows = [row for place in held.pins for row in of.pin(place)]
@@ -117,7 +117,7 @@ def matrix(motion: BodyMotion, held: Held) -> Series:
     return np.stack(rows, axis=1) if rows else np.zeros((len(motion.position), 0, motion.position.shape[1]))
 
 
-def turning(motion: BodyMotion, held: Held) -> Series:
+def turning(motion: BodyMotion, held: HeldJoints) -> Series:
     """C' v at every instant, (n, rows): by how much the rows change as the bodies move on."""
     fastest = np.abs(motion.velocity).max(axis=1, initial=0.0)
     time = SHIFT / np.maximum(fastest, STILL)
@@ -153,7 +153,7 @@ def twist(forces: Series, motion: BodyMotion, body: str, moment: Series) -> None
         forces[:, motion.first(body) + 2] += moment
 
 
-def equations(motion: BodyMotion, held: Held, driven: Series) -> Equations:
+def equations(motion: BodyMotion, held: HeldJoints, driven: Series) -> Equations:
     """Those of all bodies of a plane.
 
     Arguments:

@@ -16,10 +16,10 @@ Series = npt.NDArray[np.float64]
 
 @dataclass(frozen=True)
 class ContactSeries:
-    """A loose pin at the records, shape (n,) each, SI, ground's axes.
+    """A clearance pin at the records, shape (n,) each, SI, ground's axes.
 
     force_x, force_y: of the bore on the journal [N]. eccentricity_x, eccentricity_y: journal's centre minus
-    bore's [m]. approach_speed: that the laws are told, 0 apart. stored: elastic energy [J]. deflection: state
+    bore's [m]. impact_velocity: that the laws are told, 0 apart. stored: elastic energy [J]. deflection: state
     of the friction law [m], None if it has none. The others as in `user_forces.contact.ContactForce`.
     """
 
@@ -29,7 +29,7 @@ class ContactSeries:
     friction_force: Series
     depth: Series
     slip: Series
-    approach_speed: Series
+    impact_velocity: Series
     eccentricity_x: Series
     eccentricity_y: Series
     stored: Series
@@ -86,7 +86,7 @@ class Trajectory:
     time (n,) [s]. position, velocity, acceleration (n, 3 b): x, y, turn of each body in the order of
     `Linkage.bodies`, positions from those at the start. ideal_pins: force of the first body on the second
     (n, 2) [N], by name. friction_moments: of ideal pins with friction, on the second body (n,) [N m].
-    contacts: loose pins by name. columns: force (n,) [N] that pushes the ends apart.
+    contacts: clearance pins by name. columns: force (n,) [N] that pushes the ends apart.
     cranks: moment of the drive on the crank (n,) [N m]. slides: magnitude of force across and of moment (n, 2).
     oil_energy: stored in all columns (n,) [J]. work: of the drive so far, damping_loss, friction_loss: so far
     (n,) [J]. loads: by name. cylinders: of columns, by name. compliant_pins: by name.
@@ -115,7 +115,7 @@ class Trajectory:
         return [self.contacts[pin]]
 
 
-class Observed(Protocol):
+class ObservedRun(Protocol):
     """A run that is known otherwise, such as one in space, from which its own recipes compute channels."""
 
     @property
@@ -166,12 +166,13 @@ class Impulse:
 class Outcome:
     """A finished run of a formulation.
 
-    trajectory: at the records. onsets: for each loose pin the beginnings of contact. largest_force: for each
-    loose pin the largest force [N] at any time. impulses: where the speed of rigid columns or cranks jumped.
+    trajectory: at the records. onsets: for each clearance pin the beginnings of contact. largest_force: for
+    each clearance pin the largest force [N] at any time. impulses: where the speed of rigid columns or cranks
+    jumped.
     counts: what the solver did.
     """
 
-    trajectory: Trajectory | Observed
+    trajectory: Trajectory | ObservedRun
     onsets: Mapping[str, tuple[Onset, ...]]
     largest_force: Mapping[str, float]
     impulses: tuple[Impulse, ...]

@@ -83,11 +83,11 @@ class OilColumn(ColumnModel):
 
 
 @value
-class TwoBodyColumn(ColumnModel):
+class CylinderAndRod(ColumnModel):
     """A column with mass: a cylinder on the foot's pin and a rod on the head's, which slides in the cylinder.
 
     The drive acts between both, so that the forces in the pins of foot and head differ from it by weight and
-    inertia. Centres of mass are on the line from foot to head. `with_two_bodies` names bodies and pins.
+    inertia. Centres of mass are on the line from foot to head. `with_cylinder_and_rod` names bodies and pins.
 
     Arguments:
         cylinder_mass: [kg], > 0, all cylinders of a pair together.
@@ -145,7 +145,7 @@ def bore_area(diameter: float, number: int = 1) -> float:
     return number * math.pi / 4.0 * diameter**2
 
 
-def with_two_bodies(linkage: Linkage, name: str, model: TwoBodyColumn) -> Linkage:
+def with_cylinder_and_rod(linkage: Linkage, name: str, model: CylinderAndRod) -> Linkage:
     """The linkage with a column NAME in two bodies.
 
     It gains the bodies NAME_cylinder and NAME_rod, their pins NAME_foot (foot body - cylinder) and NAME_head

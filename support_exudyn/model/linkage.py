@@ -40,7 +40,7 @@ class Part(Value):
 
     mass: Kilograms[Positive]
     centre: Metres[Vector2]
-    # of a bar between two points that rounding has parted the inertia is tiny
+    # of a bar between two points that rounding has separated the inertia is tiny
     inertia: KilogramSquareMetres[Annotated[Real, Field(ge=0)]] = 0.0
     name: str = ""
     moments: KilogramSquareMetres[Moments] | None = None
@@ -61,8 +61,12 @@ def check_moments(moments: Moments | None, inertia: float) -> None:
     if moments is None:
         return
     xx, yy, xy = moments
-    slack = ROUNDING * inertia + sys.float_info.min  # half of the smallest number is 0
-    if abs(xx + yy - inertia) > slack or min(xx, yy) < -slack or xy * xy > xx * yy + slack * inertia:
+    clearance = ROUNDING * inertia + sys.float_info.min  # half of the smallest number is 0
+    if (
+        abs(xx + yy - inertia) > clearance
+        or min(xx, yy) < -clearance
+        or xy * xy > xx * yy + clearance * inertia
+    ):
         raise ValueError(
             f"moments = {moments}: allowed: xx and yy >= 0 that add up to the inertia, {inertia} kg m^2, and "
             "xy^2 <= xx yy"

@@ -69,7 +69,7 @@ class Machine(Value, ABC):
         """Driven parts that follow another unless a scenario says how they move, each with that; here none."""
         return {}
 
-    def follower(self, name: str, lead: Drive, duration: float) -> Drive:
+    def coupled_drive(self, name: str, lead: Drive, duration: float) -> Drive:
         """The drive of a part of `leaders` while what it follows is driven by `lead`, for so long [s].
 
         By default `lead` itself. Raises InputError if it cannot follow.

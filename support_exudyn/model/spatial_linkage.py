@@ -63,8 +63,8 @@ class Bearing(Value):
             start is tilted.
         length: of the bearing along its axis [m], >= 0.
         holds: what an ideal pin holds here besides the two directions across its axis: "tilt" of the axes
-            against each other, and shift "along" them. Of a loose one only "along" is held. A bearing that
-            holds "tilt" alone is a guide: the second body slides along it.
+            against each other, and shift "along" them. Of one with clearance only "along" is held. A bearing
+            that holds "tilt" alone is a guide: the second body slides along it.
         pin: name of the planar pin that this is, or is a part of.
         share: of the planar pin's contact stiffness that is here.
         is_guide: whether it is reported as a guide and not as a pin.

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from support_exudyn.postprocessing.figures.selection import SLACK, inside
+from support_exudyn.postprocessing.figures.selection import CLEARANCE, inside
 from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
@@ -62,7 +62,7 @@ Rows = tuple[npt.NDArray[np.intp], npt.NDArray[np.intp]]  # of the same times in
 def _common(first: Result, second: Result, after: float, until: float) -> Rows:
     for run in (first, second):
         inside(run, after, until, fewest=1)  # says which times there are
-    ticks = [np.round(run.time / SLACK).astype(np.int64) for run in (first, second)]
+    ticks = [np.round(run.time / CLEARANCE).astype(np.int64) for run in (first, second)]
     _, mine, its = np.intersect1d(ticks[0], ticks[1], assume_unique=True, return_indices=True)
     within = inside(first, after, until, fewest=1)[mine]
     if not within.any():

@@ -17,7 +17,7 @@ from user_forces.values.value import Value
 
 Row = tuple[str, ...]
 AT_ANY_STEP = ".largest_force"  # of the whole run, not only of the records
-TOUCHES = 3  # of every pin that are told one by one
+IMPACTS = 3  # of every pin that are told one by one
 VERSIONS = ("support-exudyn", "exudyn", "python", "numpy", "scipy", "numba")
 ROUNDING = 1e-14  # share of a channel's largest value that is shown as zero
 DIGITS = 6  # of numbers without known error
@@ -96,19 +96,19 @@ def came_out(result: Result, after: float, until: float) -> list[Row]:
     ]
 
 
-def touches(result: Result) -> list[Row]:
-    """The first touches of every loose pin: pin, which of how many, time, duration, speeds before and after."""
+def impacts(result: Result) -> list[Row]:
+    """The first impacts of every clearance pin: pin, number, time, duration, speeds before and after."""
     rows: list[Row] = []
     for pin, onsets in result.onsets.items():
         if not onsets:
             rows.append((pin, "none", "", "", "", ""))
-        for n, one in enumerate(onsets[:TOUCHES]):
-            lasted, parted = one.parting_time - one.time, math.isfinite(one.parting_time)
-            ends = "to the next touch" if n + 1 < len(onsets) else "to the end"
+        for n, one in enumerate(onsets[:IMPACTS]):
+            lasted, separated = one.separation_time - one.time, math.isfinite(one.separation_time)
+            ends = "to the next impact" if n + 1 < len(onsets) else "to the end"
             rows.append((
                 pin, f"{n + 1} of {len(onsets)}", said(one.time, "s", 6),
-                said(lasted, "s", 4) if parted else ends,
-                said(one.speed, "m/s", 5), said(one.parting_speed, "m/s", 5) if parted else "",
+                said(lasted, "s", 4) if separated else ends,
+                said(one.speed, "m/s", 5), said(one.separation_velocity, "m/s", 5) if separated else "",
             ))  # fmt: skip
     return rows
 

@@ -7,9 +7,16 @@ from dataclasses import dataclass
 from functools import reduce
 from operator import or_
 
-from support_exudyn.mechanics.channels import ALL_CHANNELS, EVERYTHING, Part, Recipe, Seen, chosen
+from support_exudyn.mechanics.channels import (
+    ALL_CHANNELS,
+    EVERYTHING,
+    ChannelDefinition,
+    DataNeeds,
+    EvaluationContext,
+    chosen,
+)
 from support_exudyn.mechanics.space.determined import UNDETERMINED
-from support_exudyn.mechanics.trajectory import Observed, Series, Trajectory
+from support_exudyn.mechanics.trajectory import ObservedRun, Series, Trajectory
 from support_exudyn.scenario.scenario import Scenario
 
 
@@ -27,11 +34,14 @@ class Channel:
         return not self.meaning.endswith(UNDETERMINED)
 
 
-def channels(scenario: Scenario, run: Trajectory | Observed) -> dict[str, Channel]:
+def channels(scenario: Scenario, run: Trajectory | ObservedRun) -> dict[str, Channel]:
     """The channels that a scenario asks for, by name; all if its run is audited, which looks at all of them."""
-    seen = Seen(scenario.linkage, scenario.gravity, run) if isinstance(run, Trajectory) else run
-    recipes = scenario.recipes if scenario.solver.audit else _asked(scenario)
-    return {name: Channel(recipe.values(seen), recipe.unit, recipe.meaning) for name, recipe in recipes.items()}
+    context = EvaluationContext(scenario.linkage, scenario.gravity, run) if isinstance(run, Trajectory) else run
+    channel_definitions = scenario.channel_definitions if scenario.solver.result_checks else _asked(scenario)
+    return {
+        name: Channel(definition.values(context), definition.unit, definition.meaning)
+        for name, definition in channel_definitions.items()
+    }
 
 
 def asked(scenario: Scenario, found: Mapping[str, Channel]) -> dict[str, Channel]:
@@ -39,13 +49,13 @@ def asked(scenario: Scenario, found: Mapping[str, Channel]) -> dict[str, Channel
     return {name: found[name] for name in _asked(scenario)}
 
 
-def needs(scenario: Scenario) -> Part:
+def needs(scenario: Scenario) -> DataNeeds:
     """What of a run its channels are computed from: everything if it is audited, whatever is asked for."""
-    if scenario.solver.audit or scenario.channels == ALL_CHANNELS:
+    if scenario.solver.result_checks or scenario.channels == ALL_CHANNELS:
         return EVERYTHING
-    return reduce(or_, (recipe.needs for recipe in _asked(scenario).values()), Part.NOTHING)
+    return reduce(or_, (definition.needs for definition in _asked(scenario).values()), DataNeeds.NOTHING)
 
 
-def _asked(scenario: Scenario) -> dict[str, Recipe]:
-    known = scenario.recipes
+def _asked(scenario: Scenario) -> dict[str, ChannelDefinition]:
+    known = scenario.channel_definitions
     return {name: known[name] for name in chosen(known, scenario.channels)}

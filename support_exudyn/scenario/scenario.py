@@ -40,7 +40,7 @@ class Scenario(ScenarioData):
     def refined(self, factor: float = 2) -> Scenario:
         """The run with all steps, also those of impacts, so many times shorter.
 
-        In space, sections of loose pins are so many times shorter, too.
+        In space, sections of clearance pins are so many times shorter, too.
 
         The difference between both runs is the numerical error that studies report. Where the formulation
         chooses its steps by a tolerance, that becomes factor^3 times smaller; where the scenario asks for an

@@ -10,17 +10,17 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from support_exudyn.mechanics.channels import ALL_CHANNELS, Recipe
+from support_exudyn.mechanics.channels import ALL_CHANNELS, ChannelDefinition
 from support_exudyn.mechanics.initial_eccentricity import eccentric
-from support_exudyn.mechanics.plane_channels import recipes
-from support_exudyn.mechanics.space.channels import recipes as spatial_recipes
+from support_exudyn.mechanics.plane_channels import channel_definitions
+from support_exudyn.mechanics.space.channels import channel_definitions as spatial_channel_definitions
 from support_exudyn.model.columns import (
     ColumnModel,
+    CylinderAndRod,
     OilColumn,
     OwnBody,
     PartModel,
-    TwoBodyColumn,
-    with_two_bodies,
+    with_cylinder_and_rod,
 )
 from support_exudyn.model.drives.drive import Drive, Held
 from support_exudyn.model.hydraulic_cylinder import HydraulicCylinder
@@ -68,16 +68,17 @@ class ScenarioData(Value, ABC):
             None: the settings stand as they are.
         formulation: "redundant": the engine's rigid bodies with constraints, generalised alpha; runs every
             scene. "tree": the engine's minimal coordinates under an explicit method with error control; for
-            linkages that have no closed loop but through loose pins and oil columns. "reduced": the free
+            linkages that have no closed loop but through clearance pins and oil columns. "reduced": the free
             coordinates alone, without the engine; for machines whose posture is known in closed form. "auto":
             redundant; with an accuracy the cheapest that covers the scene.
         step: largest time step [s], > 0, of the redundant formulation. Steps are equal parts of the time
             between two records; they are cut at impacts.
         record_period: time between records [s], > 0.
         channels: what is recorded: names of channels, or patterns of them as in a shell, case-sensitive,
-            such as "tip.*"; all by default. `time` always is. The audit looks at all of them; without it
-            (`SolverSettings.audit`) what nothing asks for is neither kept nor computed. A run to an accuracy
-            also records what its errors are estimated by: all forces, angular accelerations and traced points.
+            such as "tip.*"; all by default. `time` always is. The result checks looks at all of them; without
+            it (`SolverSettings.result_checks`) what nothing asks for is neither kept nor computed. A run to an
+            accuracy also records what its errors are estimated by: all forces, angular accelerations and traced
+            points.
         solver: settings of the time integration.
     """
 
@@ -125,7 +126,7 @@ class ScenarioData(Value, ABC):
     def unloaded(self) -> Linkage:
         """The machine's mechanism, as far as it is modelled.
 
-        Raises InputError if its loose pins cannot start with the eccentricities that are asked for.
+        Raises InputError if its clearance pins cannot start with the eccentricities that are asked for.
         """
         modelled = self._modelled()
         offsets = {name: pin.offset for name, pin in self.pins.items() if name in modelled.pins}
@@ -133,13 +134,13 @@ class ScenarioData(Value, ABC):
 
     def _modelled(self) -> Linkage:
         """The same with all journals where the machine has them."""
-        heavy = {name: column for name, column in self.columns.items() if isinstance(column, TwoBodyColumn)}
+        heavy = {name: column for name, column in self.columns.items() if isinstance(column, CylinderAndRod)}
         if not heavy and not self.own_bodies:
             return self.machine.linkage()
         linkage = self.machine.detailed(tuple(heavy), tuple(self.own_bodies))
         for name, model in heavy.items():
             if name in linkage.columns and linkage.columns[name].driven:
-                linkage = with_two_bodies(linkage, name, model)
+                linkage = with_cylinder_and_rod(linkage, name, model)
         return linkage
 
     @cached_property
@@ -158,17 +159,17 @@ class ScenarioData(Value, ABC):
         said = self.drives.get(name, self.drives.get(whole))
         if said is not None:
             return said
-        return self._followers.get(whole, self.drive)
+        return self._coupled_drives.get(whole, self.drive)
 
     @cached_property
-    def _followers(self) -> dict[str, Drive]:
+    def _coupled_drives(self) -> dict[str, Drive]:
         """Drives of the parts that follow others because nothing is said of them, by name."""
         leaders = self.machine.leaders.items()
-        return {name: self._follower(name, leader) for name, leader in leaders if name not in self.drives}
+        return {name: self._coupled_drive(name, leader) for name, leader in leaders if name not in self.drives}
 
-    def _follower(self, name: str, leader: str) -> Drive:
+    def _coupled_drive(self, name: str, leader: str) -> Drive:
         try:
-            return self.machine.follower(name, self.drives.get(leader, self.drive), self.duration)
+            return self.machine.coupled_drive(name, self.drives.get(leader, self.drive), self.duration)
         except InputError as error:
             raise InputError(self.of_drives((leader,), error)) from None
 
@@ -212,11 +213,11 @@ class ScenarioData(Value, ABC):
         return tuple(sorted(of_drives.union(*(load.breaks for load in self.loads.values()), *of_valves)))
 
     @property
-    def recipes(self) -> dict[str, Recipe]:
+    def channel_definitions(self) -> dict[str, ChannelDefinition]:
         """All channels that could be asked for, by name."""
         if self.dimensions == 3:
-            return spatial_recipes(self.space, self.clearance_pins, self.oil_columns)
-        return recipes(self.linkage, self.pins, self.giving, self.loads, self.cylinders)
+            return spatial_channel_definitions(self.space, self.clearance_pins, self.oil_columns)
+        return channel_definitions(self.linkage, self.pins, self.compliant_columns, self.loads, self.cylinders)
 
     @property
     def goal(self) -> float | None:
@@ -255,7 +256,7 @@ class ScenarioData(Value, ABC):
         return {name: one for name, one in self.columns.items() if isinstance(one, HydraulicCylinder)}
 
     @property
-    def giving(self) -> tuple[str, ...]:
+    def compliant_columns(self) -> tuple[str, ...]:
         """Names of the columns whose length no constraint holds: those of oil and cylinders."""
         return *self.oil_columns, *self.cylinders
 

@@ -34,26 +34,27 @@ class SolverSettings(Value):
         newton_tolerance: relative tolerance of Newton's residual, > 0.
         newton: "modified", which keeps a Jacobian as long as it serves, or "full", a new one each iteration, as
             hydraulic cylinders always have.
-        impact_steps: how many steps an impact takes at least, from the touch to the parting of an undamped
-            one of the same speed; 16 to 10000. Steps are so short from the touch until the surfaces part, or
+        impact_steps: how many steps an impact takes at least, from the impact to the separation of an undamped
+            one of the same speed; 16 to 10000. Steps are so short from the impact until the surfaces part, or
             until the depth swings little any more. Errors are of second order; 512 delivers any
             restitution within 1e-5.
-        locate: whether steps are cut so that touches and partings lie at their ends, and refined in impacts.
-            Without, all steps lie on the grid, also after breaks of the drive, and a contact is noticed at
-            the end of the step in which it begins or ends, as plain recipes do. A law is then told the speed
-            there; `Onset.time` is interpolated.
-        growth: by what factor steps may grow beyond `step`, from 1 to 64, while loose pins are closed, nothing
-            is in an impact and accelerations hardly change. Records that a step passes over are interpolated.
-            16 saves nine tenths of the steps with ideal pins, a third with a loose one that comes to rest, few
-            with one that vibrates; errors stay those of `step` where impacts decide. Under loads none grows.
+        locate: whether steps are cut so that makes contact and separations lie at their ends, and refined in
+            impacts. Without, all steps lie on the grid, also after breaks of the drive, and a contact is
+            noticed at the end of the step in which it begins or ends, as plain recipes do. A law is then told
+            the speed there; `Onset.time` is interpolated.
+        growth: by what factor steps may grow beyond `step`, from 1 to 64, while clearance pins are closed,
+            nothing is in an impact and accelerations hardly change. Records that a step passes over are
+            interpolated. 16 saves nine tenths of the steps with ideal pins, a third with one with clearance
+            that comes to rest, few with one that vibrates; errors stay those of `step` where impacts decide.
+            Under loads none grows.
         tolerance: of the formulations with error control, from 1e-13 to 1e-2. Reduced: largest error of a step
             as a share of the clearance, and of the speed of a fall through half of it. Tree: of that speed;
             1e-5 is enough for most.
         backend: what evaluates the force of clearance pins. "python": a Python function. "symbolic": the same
             law as an expression of the engine (redundant). "compiled": the law compiled by numba (reduced).
             "auto": compiled in the reduced formulation, else Python.
-        sections: in how many places along its axis the contact of a loose pin is evaluated in space, 2 to 64,
-            the edges among them. Where a pin is not tilted any number gives the same; a tilted one on oil
+        sections: in how many places along its axis the contact of a clearance pin is evaluated in space, 2 to
+            64, the edges among them. Where a pin is not tilted any number gives the same; a tilted one on oil
             columns driven unequally by 2 % is right to 2 % with 5 and to 4e-4 with 9.
         most_steps: after how many steps, repeated ones among them, a run is given up, from 1 to 1e12.
         audit: whether a run is refused whose energy does not add up by 5 % of what was turned over, whose
@@ -74,7 +75,7 @@ class SolverSettings(Value):
     backend: Literal["auto", "python", "symbolic", "compiled"] = "auto"
     sections: Annotated[Whole, Field(ge=2, le=MOST_SECTIONS)] = 5
     most_steps: Annotated[Whole, Field(ge=1, le=10**12)] = MOST_STEPS
-    audit: Annotated[bool, Field(strict=True)] = True
+    result_checks: Annotated[bool, Field(strict=True)] = True
 
     @model_validator(mode="after")
     def _fit_each_other(self) -> SolverSettings:
@@ -86,7 +87,7 @@ class SolverSettings(Value):
         return self
 
     def with_more_sections(self, factor: float) -> SolverSettings:
-        """Sections of loose pins so many times shorter, at most as many and at least as few as are allowed."""
+        """Sections of clearance pins so many times shorter, within what is allowed."""
         return replace(self, sections=min(max(round(factor * (self.sections - 1)) + 1, 2), MOST_SECTIONS))
 
     def with_smaller_tolerance(self, factor: float) -> SolverSettings:

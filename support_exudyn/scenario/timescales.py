@@ -19,7 +19,7 @@ from user_forces.contact import JournalContact
 from user_forces.friction.law import FrictionLaw
 from user_forces.normal.law import LoadError, NormalLaw
 
-SMALLEST_MOBILITY = 1e-15  # [1/kg]
+SMALLEST_INVERSE_MASS = 1e-15  # [1/kg]
 ROUNDING = 1e-9  # share of the weight below which a pin carries nothing: loads are of a linear solve
 SLIPS = (0.0, *np.geomspace(1e-9, 1.0, 400).tolist())  # [m/s]
 PARTS, ZOOMS, STEEPER = (
@@ -47,10 +47,10 @@ class Timescales:
 
 
 class LoadedContact(NamedTuple):
-    """A loose pin's contact under a static load in the start posture.
+    """A clearance pin's contact under a static load in the start posture.
 
     contact: its laws. load: what it carries [N]. along: its direction, any if it is but rounding (2,).
-    mobility: of the journal, ground's axes (2, 2) [1/kg]. mass: that moves with it along the load [kg].
+    inverse_mass: of the journal, ground's axes (2, 2) [1/kg]. mass: that moves with it along the load [kg].
     lightest: that moves with it in any direction [kg]. stiffness: of the contact there [N/m]; 0 if it carries
     nothing or cannot hold it.
     """
@@ -58,7 +58,7 @@ class LoadedContact(NamedTuple):
     contact: JournalContact
     load: float
     along: Matrix
-    mobility: Matrix
+    inverse_mass: Matrix
     mass: float
     lightest: float
     stiffness: float
@@ -76,7 +76,7 @@ def timescales(scenario: Scenario) -> Timescales:
 
     a is gravity's acceleration and that of the fastest body of a machine that runs already; m the mass that
     moves with the journal in the start posture along the load, which is that of the weight on ideal pins, or
-    the smallest mass times a if there is no weight. It is the mass with all other loose pins open; held by
+    the smallest mass times a if there is no weight. It is the mass with all other clearance pins open; held by
     those that are pressed it is larger, and the vibration slower.
     """
     linkage = scenario.linkage
@@ -93,24 +93,24 @@ def timescales(scenario: Scenario) -> Timescales:
 
 
 def loaded_contacts(scenario: Scenario) -> list[LoadedContact]:
-    """Every loose pin under the weight, and under weight and largest loads, see `timescales`."""
+    """Every clearance pin under the weight, and under weight and largest loads, see `timescales`."""
     linkage, found = scenario.linkage, []
     closed = kinetics_of(linkage)
     pull = _pull(scenario, closed)
     loads = _static_loads(scenario, closed)
     weight = math.hypot(*scenario.gravity) * sum(body.mass for body in linkage.bodies.values())
     for name, pin in scenario.clearance_pins.items():
-        mobility = _mobility(scenario, name)
-        lightest = 1.0 / max(float(np.linalg.eigvalsh(mobility).max()), SMALLEST_MOBILITY)
+        inverse_mass = _inverse_mass(scenario, name)
+        lightest = 1.0 / max(float(np.linalg.eigvalsh(inverse_mass).max()), SMALLEST_INVERSE_MASS)
         for static in loads[name]:
             load, mass, along = float(np.linalg.norm(static)), lightest, np.array([1.0, 0.0])
             if load > ROUNDING * weight:
                 along = static / load
-                mass = 1.0 / max(float(along @ mobility @ along), SMALLEST_MOBILITY)
+                mass = 1.0 / max(float(along @ inverse_mass @ along), SMALLEST_INVERSE_MASS)
             else:
                 load = mass * pull
             stiffness = _slope(pin.contact.normal, load) if load > 0.0 else 0.0
-            found.append(LoadedContact(pin.contact, load, along, mobility, mass, lightest, stiffness))
+            found.append(LoadedContact(pin.contact, load, along, inverse_mass, mass, lightest, stiffness))
     return found
 
 
@@ -175,7 +175,7 @@ def _loaded_rate(system: Kinetics, name: str, load: Load) -> Matrix:
 def _compliant(scenario: Scenario) -> list[float]:
     """One over the angular frequency of what stiff loads and compliant pins hold, in the start posture [s]."""
     linkage = scenario.linkage
-    rigid = tuple(column for column in linkage.columns if column not in scenario.giving)
+    rigid = tuple(column for column in linkage.columns if column not in scenario.compliant_columns)
     free = kinetics_of(linkage, scenario.held_pins, rigid)
     still, found = np.zeros(3 * len(linkage.bodies)), []
     springs: list[tuple[tuple[float, ...], Matrix]]
@@ -186,12 +186,12 @@ def _compliant(scenario: Scenario) -> list[float]:
         if any(pin.steepness)
     ]
     for steepness, rate in springs:
-        mobility = np.diag(rate @ free.respond(still, rate.T, 0.0)[0])
+        inverse_mass = np.diag(rate @ free.respond(still, rate.T, 0.0)[0])
         # what nothing but rounding lets move does not vibrate
         found += [
             math.sqrt(1.0 / (steep * mobile))
-            for steep, mobile in zip(steepness, mobility.tolist(), strict=True)
-            if steep > 0.0 and mobile > SMALLEST_MOBILITY
+            for steep, mobile in zip(steepness, inverse_mass.tolist(), strict=True)
+            if steep > 0.0 and mobile > SMALLEST_INVERSE_MASS
         ]
     return found
 
@@ -208,11 +208,11 @@ def _running(scenario: Scenario, closed: Kinetics) -> float:
     return fastest * float(np.hypot(velocity[0::3], velocity[1::3]).max())
 
 
-def _mobility(scenario: Scenario, name: str) -> Matrix:
-    """Mobility of a journal in the start posture, ground's axes (2, 2) [1/kg]."""
+def _inverse_mass(scenario: Scenario, name: str) -> Matrix:
+    """Inverse effective mass of a journal in the start posture, ground's axes (2, 2) [1/kg]."""
     linkage = scenario.linkage
     size = 3 * len(linkage.bodies)
-    return kinetics_of(linkage, scenario.held_pins).pin_mobility(np.zeros(size), name)
+    return kinetics_of(linkage, scenario.held_pins).pin_inverse_mass(np.zeros(size), name)
 
 
 def _drive_time(scenario: Scenario, linkage: Linkage) -> float:

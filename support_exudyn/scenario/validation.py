@@ -50,7 +50,7 @@ def check(scenario: ScenarioData) -> None:
     _check_columns(scenario, linkage)
     _check_drives(scenario, linkage)
     if scenario.channels != ALL_CHANNELS:
-        check_patterns(scenario.recipes, scenario.channels)
+        check_patterns(scenario.channel_definitions, scenario.channels)
 
 
 def _check_space(scenario: ScenarioData) -> None:

@@ -24,7 +24,7 @@ MOST_AT_FIRST = MOST_IMPACT_STEPS // 4  # so that they can be doubled twice, wit
 # make of it; forces in a contact follow from depths of a tenth of the clearance and less.
 TOLERANCE_FOR_GOAL = 1e-2
 LARGEST_TOLERANCE = 1e-5
-MOST_RUBBING = 2e6  # times of friction in a run, of which an explicit step takes some three
+MOST_FRICTION_TIMES = 2e6  # times of friction in a run, of which an explicit step takes some three
 
 
 def settings_for(scenario: Scenario, goal: float) -> Scenario:
@@ -40,7 +40,7 @@ def settings_for(scenario: Scenario, goal: float) -> Scenario:
     finer = math.sqrt(GOAL_OF_SHARES / goal)
     times = timescales(plain)
     step = min(FLIGHT * times.flight, RESTING * times.resting, DRIVE * times.drive) / finer
-    impacts = plain.clearance_pins or any(load.strikes for load in plain.loads.values())
+    impacts = plain.clearance_pins or any(load.impacts_machine for load in plain.loads.values())
     impact_steps = round(IMPACT_STEPS * finer) if impacts else FEWEST_IMPACT_STEPS
     solver = replace(
         scenario.solver,
@@ -58,6 +58,6 @@ def _cheapest(scenario: Scenario) -> FormulationName:
     Explicit methods have to follow friction's ramp, however steep it is: not where that takes too many steps.
     """
     found: FormulationName = next((one.name for one in CHEAPEST_FIRST if one.covers(scenario)), "redundant")
-    if found in ERROR_CONTROLLED and scenario.duration > MOST_RUBBING * timescales(scenario).rubbing:
+    if found in ERROR_CONTROLLED and scenario.duration > MOST_FRICTION_TIMES * timescales(scenario).rubbing:
         return "redundant"
     return found

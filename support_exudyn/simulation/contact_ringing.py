@@ -13,8 +13,8 @@ along the load and across it, where it swings like a pendulum of length e:
 
     dv/dt = -W (K x + C v),   K = k n n' + (N / e) t t',   C = c n n'
 
-W its mobility, k and c stiffness and damping of the law. Friction is left out: many a law holds nothing below
-some speed of sliding.
+W its inverse effective mass, k and c stiffness and damping of the law. Friction is left out: many a law holds
+nothing below some speed of sliding.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ import numpy as np
 
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scenario.timescales import LoadedContact, loaded_contacts
-from user_forces import Touch
+from user_forces import Impact
 from user_forces.expressions.roots import bracketed_root
 from user_forces.normal.law import LoadError
 
@@ -34,7 +34,9 @@ RUNS = 3  # each with half the steps of the one before, from which errors are to
 KEPT = 0.5  # D of the last of them; that before has eight times as much, so that the two differ
 GONE = 18.0  # D, by the law itself, of a vibration that no longer counts: 1e-8 is left
 SHORTEST, LONGEST = 1e-4, 2.0  # steps looked at, times the angular frequency
-FASTEST = 10.0  # [m/s]: no journal touches faster; laws that keep the speed of their touch then damp least
+FASTEST = (
+    10.0  # [m/s]: no journal makes contact faster; laws that keep the speed of their touch then damp least
+)
 SMALL = 1e-6  # share of a depth or a rate that is small
 
 
@@ -106,9 +108,9 @@ def vibrations(contact: LoadedContact) -> list[Vibration]:
     if not (0.0 < contact.stiffness < math.inf and 0.0 < depth < math.inf):
         return []
     rate = SMALL * depth / contact.time
-    touch = Touch(0.0 if law.forgets else FASTEST, contact.mass)
+    impact = Impact(0.0 if law.forgets else FASTEST, contact.mass)
     try:
-        damping = (law(depth, rate, touch) - law(depth, -rate, touch)) / (2.0 * rate)
+        damping = (law(depth, rate, impact) - law(depth, -rate, impact)) / (2.0 * rate)
     except (LoadError, ArithmeticError):
         damping = 0.0
     damping = damping if math.isfinite(damping) else 0.0
@@ -116,6 +118,6 @@ def vibrations(contact: LoadedContact) -> list[Vibration]:
     across = contact.load / (contact.contact.bearing.clearance + depth)
     stiffness = contact.stiffness * along + across * (np.eye(2) - along)
     nothing, one = np.zeros((2, 2)), np.eye(2)
-    answer = -contact.mobility
+    answer = -contact.inverse_mass
     rates = np.linalg.eigvals(np.block([[nothing, one], [answer @ stiffness, answer @ (damping * along)]]))
     return [Vibration(1.0 / z.imag, max(0.0, -z.real)) for z in rates.tolist() if z.imag > SMALL * abs(z)]

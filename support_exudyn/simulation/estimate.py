@@ -11,7 +11,7 @@ slower than others. Two runs can agree by chance, so d1 is not believed below
 
 - a share of d2: r, or where steps are chosen by a tolerance CHOSEN. Distances fall by eight there, but
   irregularly: the errors of two runs can be alike, and so can be those of all of their numbers;
-- ALIKE times the larger distance of mean and spread of the same force, or of time and speed of the same touch,
+- ALIKE times the larger distance of mean and spread of the same force, or of time and speed of the same impact,
   these as shares of their sizes;
 - ALIKE times, as a share of sizes, the middle one of its family: means, spreads and largest values of all
   forces, spreads of angular accelerations, places.
@@ -19,9 +19,9 @@ slower than others. Two runs can agree by chance, so d1 is not believed below
 What Newton's method leaves is added: two runs do not show it. It is a share of the force; of a spread that is
 small beside the mean it is more than a share of that.
 
-Where steps are chosen by a tolerance, they can be the same up to a touch whatever the tolerance is, as after
+Where steps are chosen by a tolerance, they can be the same up to an impact whatever the tolerance is, as after
 the first step. Runs then agree in that touch but for rounding. Its error is what a single step may be wrong
-by: the tolerance times the clearance over the touch's speed, and times that speed.
+by: the tolerance times the clearance over the impact's speed, and times that speed.
 
 Measured on scenes of `python -m studies.benchmarking.coverage`: of 110 by which the constants were chosen,
 against references far closer than the errors claimed, 98.5 % of 6700 numbers are covered (97.8 before),
@@ -40,8 +40,8 @@ import numpy.typing as npt
 
 from support_exudyn.simulation.reported_numbers import (
     ROUNDING,
-    Kind,
     Measure,
+    ReportedNumber,
     left_by_newton,
     left_of_spread,
     measures,
@@ -99,7 +99,10 @@ def fall(result: RecordedRun) -> float:
 
 
 def errors(
-    kinds: Mapping[str, Kind], result: RecordedRun, r: float, among: Mapping[str, Kind] | None = None
+    kinds: Mapping[str, ReportedNumber],
+    result: RecordedRun,
+    r: float,
+    among: Mapping[str, ReportedNumber] | None = None,
 ) -> dict[str, float]:
     """Estimated errors of numbers, by their names; infinite if one is not a number in every run.
 
@@ -111,7 +114,7 @@ def errors(
     Raises ValueError if there is no coarser run.
     """
     known = kinds if among is None else among
-    scales: dict[tuple[str, str], float] = {}  # of numbers of the same force or touch, in each unit
+    scales: dict[tuple[str, str], float] = {}  # of numbers of the same force or impact, in each unit
     for kind in (*known.values(), *kinds.values()):
         key = (kind.of, kind.unit)
         scales[key] = max(scales.get(key, 0.0), _size(kind, result))
@@ -184,7 +187,7 @@ def _distances(measure: Measure, result: RecordedRun) -> tuple[Values, Values]:
     return np.asarray(abs(measure(result) - other)), np.asarray(before)
 
 
-def _size(kind: Kind, result: RecordedRun) -> float:
+def _size(kind: ReportedNumber, result: RecordedRun) -> float:
     return max(abs(kind.measure(result)), kind.size)
 
 
@@ -239,7 +242,7 @@ def _worst(
     """The largest, relative, of what the numbers are off by that an accuracy is of.
 
     rounding: of the forces of ideal pins, which adds to what they are off by [N], to their spread as scatter
-    does. Those of loose pins follow from the depth. left: share of forces that Newton's method leaves.
+    does. Those of clearance pins follow from the depth. left: share of forces that Newton's method leaves.
     """
     scenario = result.scenario
     off = [0.0]

@@ -15,7 +15,7 @@ from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scenario.solver_settings import REFINED_TOLERANCE, SMALLEST_TOLERANCE
 from support_exudyn.simulation.estimate import disagreement, rounding_share
 from support_exudyn.simulation.result import Result
-from support_exudyn.simulation.single_run import run_once
+from support_exudyn.simulation.single_run import single_run
 from support_exudyn.simulation.to_accuracy import finer_than, is_the_same, with_measured
 from user_forces.values.value import InputError
 
@@ -26,12 +26,12 @@ SAME = "its runs are the same to the bit, whatever their tolerance: no error is 
 FOLLOWED = "Take a smaller `solver.tolerance`, or ask for an accuracy, which finds one that matters."
 UNCERTAIN = (
     "Take a smaller `step` and more `solver.impact_steps` (in space rounding shows with steps below 2e-5 s: "
-    "there a larger one), or ask for an accuracy. Where each of many touches multiplies the errors of those "
+    "there a larger one), or ask for an accuracy. Where each of many impacts multiplies the errors of those "
     "before, no step makes such numbers certain: take a shorter duration."
 )
 
 
-def run_with_error(scenario: Scenario, progress: Progress) -> Result:
+def run_halving_steps(scenario: Scenario, progress: Progress) -> Result:
     """The run at a quarter of a scenario's steps, whose `coarser` ones are those at half of them and at them.
 
     At still shorter steps where those do not do, with up to three coarser runs.
@@ -47,7 +47,7 @@ def run_with_error(scenario: Scenario, progress: Progress) -> Result:
         assert chosen is not None
         share = SHARES[n] if n < len(SHARES) else 0.0
         try:
-            run = run_once(chosen, _part(progress, done, share))
+            run = single_run(chosen, _part(progress, done, share))
         except SimulationError as error:
             if not error.failure.finer:
                 raise error if doubt is None else SimulationError(doubt) from error

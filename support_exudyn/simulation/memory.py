@@ -50,7 +50,7 @@ def check_room(scenario: Scenario) -> None:
     What is asked for is the least that it takes.
     """
     records = scenario.duration / scenario.record_period + 1.0
-    count = len(chosen(scenario.recipes, scenario.channels))
+    count = len(chosen(scenario.channel_definitions, scenario.channels))
     needed, there = records * count * NUMBER, available()
     if needed > there:
         period = scenario.record_period * needed / there

@@ -21,7 +21,7 @@ from typing import Any
 
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.estimate import Estimate
-from support_exudyn.simulation.evidence.table import Table, Tried, committed
+from support_exudyn.simulation.evidence.table import EvidenceTable, Tried, committed
 from user_forces.values.value import InputError, short
 
 
@@ -131,7 +131,7 @@ class Recommendation:
         return replace(scenario, **self.fields)
 
 
-def recommend(question: str, table: Table | None = None) -> Recommendation:
+def recommend(question: str, table: EvidenceTable | None = None) -> Recommendation:
     """The cheapest scene that answers a question, by the rule at the top of this file.
 
     Arguments:

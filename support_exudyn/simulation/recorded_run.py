@@ -58,7 +58,7 @@ class RecordedRun:
     def _channel(self, name: str) -> Channel:
         if not isinstance(name, str):
             raise KeyError(f"{short(name)}: no such channel; allowed: names, see `channels`")
-        if name not in self.channels and name in self.scenario.recipes:
+        if name not in self.channels and name in self.scenario.channel_definitions:
             raise KeyError(
                 f"{name!r}: was not recorded, for the scenario asks for channels = {self.scenario.channels}; "
                 "allowed: runs of a scenario that asks for it too"

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from support_exudyn.simulation.recorded_run import RecordedRun
 
 Series = npt.NDArray[np.float64]
-NEWTON = 5.0  # tolerances of Newton's method that are left of a number at any step; 1.6 of a touch's speed
+NEWTON = 5.0  # tolerances of Newton's method that are left of a number at any step; 1.6 of an impact's speed
 ROUNDING = 1e-10  # share of a number, or of the largest of its kind, that no estimate is below
 # of forces; the largest is of the magnitude, the extremes have their sign
 STATISTICS: Mapping[str, Callable[[Series], float]] = {
@@ -31,14 +31,16 @@ STATISTICS: Mapping[str, Callable[[Series], float]] = {
 }
 SIGNED, AVERAGED = ("min", "max"), ("mean", "spread")
 FORCE, ANGULAR_ACCELERATION = ".force", ".angular_acceleration"  # how names of channels end
-ONSETS = 3  # of every loose pin that are reported; each multiplies the errors of those before
+ONSETS = 3  # of every clearance pin that are reported; each multiplies the errors of those before
 
 
 def measured(scenario: Scenario) -> tuple[str, ...]:
     """Names of the channels that the numbers of `measures`, and so all estimates, are taken from."""
     points = {f"{point}.{axis}" for point in scenario.linkage.points for axis in ("x", "y")}
     return tuple(
-        name for name in scenario.recipes if name.endswith((FORCE, ANGULAR_ACCELERATION)) or name in points
+        name
+        for name in scenario.channel_definitions
+        if name.endswith((FORCE, ANGULAR_ACCELERATION)) or name in points
     )
 
 
@@ -50,11 +52,11 @@ def _nothing(run: RecordedRun) -> float:
     return 0.0
 
 
-class Kind(NamedTuple):
+class ReportedNumber(NamedTuple):
     """How a number is measured.
 
     unit: its unit. measure: gives it, from a result. size: of the largest number of its kind. family: of
-    numbers that are wrong by like shares; empty: none. of: the force or touch that it is of; empty: of none.
+    numbers that are wrong by like shares; empty: none. of: the force or impact that it is of; empty: of none.
     left: share of it that steps do not make smaller. missed: by how much it may be off because it is taken
     from records; of extremes, see `extremes.missed`. values: the largest value that it is computed from, which
     rounding and what Newton's method leaves are shares of: a least value can be next to nothing beside it.
@@ -72,7 +74,7 @@ class Kind(NamedTuple):
     step: float = 0.0
 
 
-def measures(result: RecordedRun, after: float, until: float) -> Mapping[str, Kind]:
+def measures(result: RecordedRun, after: float, until: float) -> Mapping[str, ReportedNumber]:
     """The numbers that every result reports: name, unit and how it is measured, see `Result.numbers`.
 
     Raises InputError if no record lies between the times.
@@ -84,7 +86,7 @@ def measures(result: RecordedRun, after: float, until: float) -> Mapping[str, Ki
             f"after = {after} s, until = {until} s: no record lies between; allowed: times around at least "
             f"one, from {first:g} to {last:g} s"
         )
-    found: dict[str, Kind] = {}
+    found: dict[str, ReportedNumber] = {}
     left = left_by_newton(result.scenario)
     steps_chosen = result.scenario.chooses_steps
     turning = [name for name in result.channels if name.endswith(ANGULAR_ACCELERATION)]
@@ -105,26 +107,36 @@ def measures(result: RecordedRun, after: float, until: float) -> Mapping[str, Ki
                     values = spread + (math.hypot(spread, ROUNDING * most) - spread) / ROUNDING
                     share = left_of_spread(left, spread, mean) / values if values > 0.0 else left
                 family = f"force.{word}"
-                found[f"{name}.{word}"] = Kind(channel.unit, measure, 0.0, family, of, share, between, values)
+                found[f"{name}.{word}"] = ReportedNumber(
+                    channel.unit, measure, 0.0, family, of, share, between, values
+                )
         elif name in turning:
             measure = over(name, np.std, after, until)
-            found[f"{name}.spread"] = Kind(channel.unit, measure, fastest, ANGULAR_ACCELERATION, left=left)
+            found[f"{name}.spread"] = ReportedNumber(
+                channel.unit, measure, fastest, ANGULAR_ACCELERATION, left=left
+            )
     for point in result.scenario.linkage.points:
         if not {f"{point}.x", f"{point}.y"} <= result.channels.keys():
             continue  # it was not asked for, and no error either, for whose sake it would have been recorded
         farthest = float(np.abs(path_of(result, point)).max())
         for axis in ("x", "y"):
             measure = over(f"{point}.{axis}", np.mean, after, until)
-            found[f"{point}.{axis}.mean"] = Kind("m", measure, farthest, "place")
+            found[f"{point}.{axis}.mean"] = ReportedNumber("m", measure, farthest, "place")
     for pin, onsets in result.onsets.items():
         # not of an edge in space: a section's share of the force is the less the more sections there are
         if pin.rpartition(".")[0] not in result.onsets:
-            found[f"pin.{pin}.largest_force"] = Kind("N", _largest(pin), family="force.largest", left=left)
+            found[f"pin.{pin}.largest_force"] = ReportedNumber(
+                "N", _largest(pin), family="force.largest", left=left
+            )
         for n, onset in enumerate(onsets[:ONSETS]):
-            touch = f"pin.{pin}.onset_{n + 1}"
+            impact = f"pin.{pin}.onset_{n + 1}"
             late, slow = _of_a_step(result.scenario, pin, onset) if steps_chosen else (0.0, 0.0)
-            found[f"{touch}.time"] = Kind("s", _onset(pin, n, "time"), of=touch, left=left, step=late)
-            found[f"{touch}.speed"] = Kind("m/s", _onset(pin, n, "speed"), of=touch, left=left, step=slow)
+            found[f"{impact}.time"] = ReportedNumber(
+                "s", _onset(pin, n, "time"), of=impact, left=left, step=late
+            )
+            found[f"{impact}.speed"] = ReportedNumber(
+                "m/s", _onset(pin, n, "speed"), of=impact, left=left, step=slow
+            )
     return found
 
 
@@ -144,7 +156,7 @@ def left_of_spread(left: float, spread: float, mean: float) -> float:
 
 
 def _of_a_step(scenario: Scenario, pin: str, onset: Onset) -> tuple[float, float]:
-    """By how much a step may be wrong about a touch's time [s] and speed [m/s]; 0 of one at the start."""
+    """By how much a step may be wrong about an impact's time [s] and speed [m/s]; 0 of one at the start."""
     if not (onset.time > 0.0 and onset.speed > 0.0):
         return 0.0, 0.0
     tolerance, clearance = scenario.solver.tolerance, scenario.clearance_pins[pin].contact.bearing.clearance

@@ -14,7 +14,7 @@ from typing import cast
 import h5py
 import numpy as np
 
-from support_exudyn.files.hdf5 import BLOCK, Inside, check_seal, seal, write_series
+from support_exudyn.files.hdf5 import BLOCK, Inside, check_checksum, with_checksum, write_series
 from support_exudyn.files.whole_file import contents, whole_file
 from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.mechanics.trajectory import Counts, Impulse
@@ -62,8 +62,8 @@ class Result(RecordedRun):
         Of the records between two times [s]: mean, spread (standard deviation) and largest magnitude of all
         forces, with
         `min` and `max` of those that have a sign;
-        spread of angular accelerations, mean place of traced points; and of loose pins the largest force at any
-        step (`pin.NAME.largest_force`, not only of the records) and the first three touches.
+        spread of angular accelerations, mean place of traced points; and of clearance pins the largest force at
+        any step (`pin.NAME.largest_force`, not only of the records) and the first three impacts.
 
         Errors are those of the steps, and of extremes also what may lie between the records; that a mean over
         few records is not the mean over time is not among them.
@@ -117,7 +117,7 @@ class Result(RecordedRun):
             file.flush()
             image = file.id.get_file_image()
         with whole_file(path) as temporary:
-            temporary.write_bytes(seal(image, FORMAT))
+            temporary.write_bytes(with_checksum(image, FORMAT))
         return Path(path)
 
     @staticmethod
@@ -135,7 +135,7 @@ class Result(RecordedRun):
             )
         data = contents(path, available())
         try:
-            check_seal(data, FORMAT)
+            check_checksum(data, FORMAT)
             with h5py.File(h5py.h5f.open_file_image(data), "r") as file:
                 return _read(Inside(file, len(data)))
         except InputError as error:  # of a value that is not known or does not fit
@@ -160,7 +160,9 @@ def _write(group: h5py.Group, result: Result) -> None:
     write_series(group.create_group("channels"), series)
     for name, onsets in result.onsets.items():
         data = group.create_dataset(f"onsets/{name}", data=np.array(onsets).reshape(-1, 4))
-        data.attrs["columns"] = "time [s], approach speed [m/s], time of parting [s], speed of parting [m/s]"
+        data.attrs["columns"] = (
+            "time [s], initial impact velocity [m/s], time of separation [s], speed of separation [m/s]"
+        )
         data.attrs["largest_force_N"] = result.largest_force[name]
     if result.coarser is not None:
         _write(group.create_group("coarser"), result.coarser)

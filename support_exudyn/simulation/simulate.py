@@ -10,9 +10,9 @@ from support_exudyn.formulations.contract import Failure, SimulationError, told
 from support_exudyn.formulations.progress import Progress, silent
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scenario.scenario_data import Accuracy
-from support_exudyn.simulation.halved_steps import run_with_error
+from support_exudyn.simulation.halved_steps import run_halving_steps
 from support_exudyn.simulation.result import Result
-from support_exudyn.simulation.single_run import run_once
+from support_exudyn.simulation.single_run import single_run
 from support_exudyn.simulation.to_accuracy import run_to_accuracy
 from user_forces.lawful import UNLAWFUL, LawError, look_at_rest
 from user_forces.values.value import InputError, short
@@ -70,7 +70,7 @@ def simulate(
         raise InputError(f"scenario = {short(scenario)}: allowed: a Scenario")
     if accuracy is not None:
         scenario = replace(scenario, accuracy=accuracy)
-    plain = run_with_error if errors else run_once
+    plain = run_halving_steps if errors else single_run
     run: Callable[[Scenario, Progress], Result] = plain if scenario.goal is None else run_to_accuracy
     try:
         return _run(run, scenario, progress)
@@ -82,7 +82,7 @@ def simulate(
 
 def _run(run: Callable[[Scenario, Progress], Result], scenario: Scenario, progress: Progress) -> Result:
     try:
-        if scenario.solver.audit:
+        if scenario.solver.result_checks:
             _look_at_laws(scenario)
         return run(scenario, progress)
     except SystemExit as error:  # it would end the program without a word, and perhaps as if all was done

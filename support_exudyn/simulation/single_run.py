@@ -13,18 +13,18 @@ from support_exudyn.formulations.progress import Progress
 from support_exudyn.formulations.registry import formulation
 from support_exudyn.scenario.recorded_channels import asked, channels
 from support_exudyn.scenario.scenario import Scenario
-from support_exudyn.simulation.audit import audit
 from support_exudyn.simulation.memory import check_room
 from support_exudyn.simulation.provenance import provenance
 from support_exudyn.simulation.result import Result
+from support_exudyn.simulation.result_checks import result_checks
 from user_forces.lawful import UNLAWFUL
 
 
-def run_once(scenario: Scenario, progress: Progress) -> Result:
+def single_run(scenario: Scenario, progress: Progress) -> Result:
     """Run a scenario.
 
     Raises InputError if its formulation does not cover it, SimulationError if it fails, or if it has finished
-    but does not stand up to its `audit`.
+    but does not stand up to its `result_checks`.
     """
     chosen = formulation(scenario.formulation)
     chosen.check(scenario)
@@ -36,7 +36,7 @@ def run_once(scenario: Scenario, progress: Progress) -> Result:
             found = channels(scenario, outcome.trajectory)
     except ArithmeticError as error:  # of a law or a drive, where nothing is computed step by step
         raise SimulationError(Failure(first_line(error), UNLAWFUL, 0.0)) from error
-    if scenario.solver.audit and (failure := audit(scenario, outcome, found)) is not None:
+    if scenario.solver.result_checks and (failure := result_checks(scenario, outcome, found)) is not None:
         raise SimulationError(failure)
     return Result(
         scenario=scenario,

@@ -15,12 +15,12 @@ from support_exudyn.scenario.solver_settings import MOST_SECTIONS
 from support_exudyn.simulation.automatic_settings import settings_for
 from support_exudyn.simulation.reported_numbers import ROUNDING, measured, measures
 from support_exudyn.simulation.result import Result
-from support_exudyn.simulation.single_run import run_once
+from support_exudyn.simulation.single_run import single_run
 from user_forces.values.value import InputError
 
 FEWEST_RUNS, MOST_RUNS = 3, 8
 # If errors do not fall at least so much when a scene is refined, so often in a row, no step makes its numbers
-# certain: each touch multiplies what the steps before it left.
+# certain: each impact multiplies what the steps before it left.
 FALLS, PATIENCE = 0.7, 2
 
 
@@ -33,8 +33,8 @@ def run_to_accuracy(scenario: Scenario, progress: Progress) -> Result:
     a result with its errors, one that fails ends the refining. A run whose steps did not follow its tolerance
     is the same as the one before, which tells nothing: it takes that one's place.
 
-    In space sections of loose pins become more from run to run, too, which costs as much as the steps do; after
-    three runs only if they tell anything.
+    In space sections of clearance pins become more from run to run, too, which costs as much as the steps do;
+    after three runs only if they tell anything.
 
     Raises InputError if the formulation does not cover the scenario, SimulationError if no three runs in a row
     can be finished.
@@ -52,7 +52,7 @@ def run_to_accuracy(scenario: Scenario, progress: Progress) -> Result:
     for n in range(MOST_RUNS):
         assert chosen is not None
         try:
-            run = run_once(chosen, _part(progress, n))
+            run = single_run(chosen, _part(progress, n))
         except SimulationError as error:
             if best is not None:
                 break
@@ -104,13 +104,13 @@ def is_the_same(run: Result, finer: Result) -> bool:
     Nothing is to be told from them then, but where all is known in closed form and nothing is free to move.
     """
     scenario = finer.scenario
-    if not (scenario.clearance_pins or scenario.giving) or run.counts != finer.counts:
+    if not (scenario.clearance_pins or scenario.compliant_columns) or run.counts != finer.counts:
         return False
     return all(np.array_equal(run[name], finer[name]) for name in finer.channels)
 
 
 def _sections_enough(first: Result, most: int) -> tuple[int, float]:
-    """How many sections of loose pins are enough, and how long it took to know that [s].
+    """How many sections of clearance pins are enough, and how long it took to know that [s].
 
     Those of the first run, if so many make none of its numbers another one; else any number is worth it.
     """
@@ -118,7 +118,7 @@ def _sections_enough(first: Result, most: int) -> tuple[int, float]:
     if not first.scenario.clearance_pins or most <= few:
         return MOST_SECTIONS, 0.0
     try:
-        run = run_once(_with_sections(first.scenario, most), silent)
+        run = single_run(_with_sections(first.scenario, most), silent)
     except SimulationError:
         return MOST_SECTIONS, 0.0
     for kind in measures(first, 0.0, math.inf).values():

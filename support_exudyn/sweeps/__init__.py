@@ -16,13 +16,13 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from support_exudyn.sweeps.file import read_sweep
     from support_exudyn.sweeps.plan import Plan, Record, grid, latin_hypercube, side_by_side
-    from support_exudyn.sweeps.run import Outcome, sweep
+    from support_exudyn.sweeps.run import SweepOutcome, sweep
     from support_exudyn.sweeps.table import read_table
 
 __all__ = [
-    "Outcome",
     "Plan",
     "Record",
+    "SweepOutcome",
     "grid",
     "latin_hypercube",
     "read_sweep",
@@ -33,7 +33,7 @@ __all__ = [
 
 # imported when they are asked for: the processes that run have no use for tables
 _PLACES = {
-    "Outcome": "run",
+    "SweepOutcome": "run",
     "Plan": "plan",
     "Record": "plan",
     "grid": "plan",

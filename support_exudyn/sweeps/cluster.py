@@ -13,7 +13,7 @@ from typing import Any
 from support_exudyn.files.whole_file import whole_file
 from support_exudyn.simulation.result import Result
 from support_exudyn.sweeps.key import program
-from support_exudyn.sweeps.store import Row, Store
+from support_exudyn.sweeps.store import Store, StoredRun
 from support_exudyn.sweeps.work import Task, computed, run_into
 from user_forces.values.value import InputError
 
@@ -23,7 +23,7 @@ REACHED = 10.0  # [s] within which a scheduler must answer
 ONE = threading.Lock()  # the engine runs once in a process, however many threads a worker has
 
 
-def on_cluster(tasks: Iterable[Task], store: Store, address: str) -> Generator[Row, None, None]:
+def on_cluster(tasks: Iterable[Task], store: Store, address: str) -> Generator[StoredRun, None, None]:
     """Rows as they come. Runs come back as the bytes of their files, and are put into the store here.
 
     A run whose worker is lost is done again by another; how often is the scheduler's setting
@@ -52,7 +52,7 @@ def on_cluster(tasks: Iterable[Task], store: Store, address: str) -> Generator[R
             under_way[future] = task
             done.add(future)
 
-    kept: list[Row] = []
+    kept: list[StoredRun] = []
 
     def to_run() -> Iterator[Task]:
         for task in source:
@@ -78,7 +78,9 @@ def on_cluster(tasks: Iterable[Task], store: Store, address: str) -> Generator[R
                 try:
                     row, image = future.result()
                 except KilledWorker as error:
-                    yield Row(task.key, "killed", f"lost with its worker, again and again: {_said(error)}")
+                    yield StoredRun(
+                        task.key, "killed", f"lost with its worker, again and again: {_said(error)}"
+                    )
                 except CancelledError:
                     raise lost from None
                 else:
@@ -100,7 +102,7 @@ def _connected(address: str) -> Any:
             f"scheduler = {address!r}: needs dask.distributed, which is not installed; "
             "pip install 'support-exudyn[cluster]'"
         ) from None
-    _hush()
+    _silence_output()
     try:  # before there is a client, which would wait for its own end
         get_address_host_port(address, strict=True)
     except ValueError as error:
@@ -115,14 +117,14 @@ def _connected(address: str) -> Any:
         ) from None
 
 
-def _hush() -> None:
+def _silence_output() -> None:
     """Let Dask's log be silent: what goes wrong is said in a line of ours."""
     for name in [*logging.root.manager.loggerDict]:  # some of them have levels of their own
         if name.partition(".")[0] in ("distributed", "tornado", "asyncio"):
             logging.getLogger(name).setLevel(logging.CRITICAL + 1)
 
 
-def _kept(store: Store, row: Row, image: bytes | None) -> Row:
+def _kept(store: Store, row: StoredRun, image: bytes | None) -> StoredRun:
     if image is not None:
         with whole_file(store.run_file(row.key)) as temporary:
             temporary.write_bytes(image)
@@ -133,7 +135,7 @@ def _said(error: Exception) -> str:
     return " ".join(str(error).split())
 
 
-def _remote(task: Task, ours: dict[str, str]) -> tuple[Row, bytes | None]:
+def _remote(task: Task, ours: dict[str, str]) -> tuple[StoredRun, bytes | None]:
     """On a worker: a run's row, and its file's bytes if it is to be kept."""
     theirs = program()
     differing = sorted(name for name in {*ours, *theirs} if ours.get(name) != theirs.get(name))

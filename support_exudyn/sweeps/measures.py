@@ -12,10 +12,10 @@ from support_exudyn.mechanics.extremes import largest, missed
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.estimate import errors
 from support_exudyn.simulation.recorded_run import RecordedRun
-from support_exudyn.simulation.reported_numbers import Kind, measures
+from support_exudyn.simulation.reported_numbers import ReportedNumber, measures
 from support_exudyn.simulation.result import Result
 from support_exudyn.sweeps.plan import Record
-from support_exudyn.sweeps.store import Number
+from support_exudyn.sweeps.store import StoredNumber
 from user_forces.values.value import InputError, short
 
 STATISTICS: Mapping[str, Callable[[np.ndarray], float]] = {
@@ -31,13 +31,13 @@ STATISTICS: Mapping[str, Callable[[np.ndarray], float]] = {
 WILD = "*?["
 
 
-def numbers(result: Result, record: Record) -> dict[str, Number]:
+def numbers(result: Result, record: Record) -> dict[str, StoredNumber]:
     """What is to be noted of a run, as far as it has it, with errors if the run tells them.
 
     Raises InputError if no record lies between the times.
     """
     usual = measures(result, record.after, record.until)
-    found: dict[str, Kind] = {}
+    found: dict[str, ReportedNumber] = {}
     if not record.numbers:
         found.update(usual)
     for pattern in record.numbers:
@@ -46,7 +46,8 @@ def numbers(result: Result, record: Record) -> dict[str, Number]:
     if result.coarser is not None:
         known = errors(found, result, result.fall, usual)
     return {
-        name: Number(kind.measure(result), _finite(known.get(name)), kind.unit) for name, kind in found.items()
+        name: StoredNumber(kind.measure(result), _finite(known.get(name)), kind.unit)
+        for name, kind in found.items()
     }
 
 
@@ -54,7 +55,7 @@ def check_numbers(scenario: Scenario, record: Record) -> None:
     """Raise InputError if a number that is named, not a pattern, is none that its runs could have."""
     for name in record.numbers:
         channel, _, statistic = name.rpartition(".")
-        if any(letter in name for letter in WILD) or _is_of_touches(name, scenario):
+        if any(letter in name for letter in WILD) or _is_of_impacts(name, scenario):
             continue
         if statistic not in STATISTICS:
             raise InputError(
@@ -62,15 +63,15 @@ def check_numbers(scenario: Scenario, record: Record) -> None:
                 f"{', '.join(STATISTICS)}, such as 'pin.rear_base.force.mean', patterns of such, "
                 "pin.NAME.largest_force, pin.NAME.onset_1.time"
             )
-        if channel not in scenario.recipes:
-            near = ", ".join(list(scenario.recipes)[:6])
+        if channel not in scenario.channel_definitions:
+            near = ", ".join(list(scenario.channel_definitions)[:6])
             raise InputError(
                 f"numbers: {short(name)}: runs have no channel {short(channel)}; allowed: those of the "
                 f"scenario, such as {near}; or a pattern, if only some of the runs have it"
             )
 
 
-def _is_of_touches(name: str, scenario: Scenario) -> bool:
+def _is_of_impacts(name: str, scenario: Scenario) -> bool:
     parts = name.split(".")
     return (
         parts[0] == "pin"
@@ -79,7 +80,9 @@ def _is_of_touches(name: str, scenario: Scenario) -> bool:
     )
 
 
-def _matching(pattern: str, usual: Mapping[str, Kind], result: Result, record: Record) -> dict[str, Kind]:
+def _matching(
+    pattern: str, usual: Mapping[str, ReportedNumber], result: Result, record: Record
+) -> dict[str, ReportedNumber]:
     if not any(letter in pattern for letter in WILD):
         channel, _, statistic = pattern.rpartition(".")
         if pattern in usual:
@@ -96,7 +99,7 @@ def _matching(pattern: str, usual: Mapping[str, Kind], result: Result, record: R
     return found
 
 
-def _kind(result: Result, channel: str, statistic: str, record: Record) -> Kind:
+def _kind(result: Result, channel: str, statistic: str, record: Record) -> ReportedNumber:
     compute = STATISTICS[statistic]
 
     def inside(run: RecordedRun) -> np.ndarray:
@@ -110,7 +113,7 @@ def _kind(result: Result, channel: str, statistic: str, record: Record) -> Kind:
         chosen = inside(run)
         return missed(statistic, run[channel][chosen], run.time[chosen], run.scenario.breaks)
 
-    return Kind(result.unit(channel), measure, missed=between)
+    return ReportedNumber(result.unit(channel), measure, missed=between)
 
 
 def _finite(error: float | None) -> float | None:

@@ -15,7 +15,7 @@ from user_forces.journal import JournalBearing
 from user_forces.normal.hertz import Hertz
 
 
-def warm_up() -> None:
+def precompile() -> None:
     """Compile everything in this process and keep it on disk, so that other processes only load it.
 
     Runs of a moment: compiled code does not depend on the numbers.
@@ -23,10 +23,10 @@ def warm_up() -> None:
     contact = JournalContact(
         bearing=JournalBearing(bore_radius=0.0655, clearance=0.001), normal=Hertz(stiffness=1e10)
     )
-    loose = Scenario(
+    with_clearance = Scenario(
         machine=reference_support(), pins={"rear_base": ClearancePin(contact=contact)}, duration=1e-3
     )
-    reduced.run(loose, silent)
-    reduced.run(replace(loose, pins={}), silent)
+    reduced.run(with_clearance, silent)
+    reduced.run(replace(with_clearance, pins={}), silent)
     oil = OilColumn(bore_area=0.1, oil_length=0.5, bulk_modulus=1.5e9)
-    tree.run(replace(loose, columns=dict.fromkeys(loose.linkage.columns, oil)), silent)
+    tree.run(replace(with_clearance, columns=dict.fromkeys(with_clearance.linkage.columns, oil)), silent)

@@ -13,8 +13,8 @@ from pathlib import Path
 from support_exudyn.sweeps.key import key
 from support_exudyn.sweeps.measures import check_numbers
 from support_exudyn.sweeps.plan import Plan
-from support_exudyn.sweeps.store import Row, Store
-from support_exudyn.sweeps.table import FILE, Table
+from support_exudyn.sweeps.store import Store, StoredRun
+from support_exudyn.sweeps.table import FILE, SweepTable
 from support_exudyn.sweeps.work import Task, in_processes, reason_of
 from user_forces.values.value import InputError
 
@@ -23,7 +23,7 @@ SHARE = 0.02  # and this share of the time at most
 
 
 @dataclass
-class Outcome:
+class SweepOutcome:
     """How far a sweep is.
 
     runs: of the plan. table: where it is. found: were in the store already. done, failed, killed: rows of the
@@ -47,7 +47,7 @@ class Outcome:
         return self.done + self.failed + self.killed
 
 
-Told = Callable[[Outcome], None]
+Told = Callable[[SweepOutcome], None]
 
 
 def sweep(
@@ -59,7 +59,7 @@ def sweep(
     retry_failed: bool = False,
     prune: bool = False,
     progress: Told = lambda outcome: None,
-) -> Outcome:
+) -> SweepOutcome:
     """Run what the store does not hold yet, and write the table.
 
     Runs that fail are rows with their reason. Interrupted or killed in mid-work, the store holds all that was
@@ -78,11 +78,11 @@ def sweep(
     runs another program; OSError if the store cannot be written to, or if another process is writing there.
     """
     store = Store(Path(out))
-    outcome = Outcome(len(plan.points), store.folder / FILE)
+    outcome = SweepOutcome(len(plan.points), store.folder / FILE)
     with store.writing():
         keeper = _Keeper(plan, store, outcome, retry_failed, progress)
         tasks = keeper.tasks()
-        rows: Generator[Row, None, None]
+        rows: Generator[StoredRun, None, None]
         try:
             if scheduler:
                 from support_exudyn.sweeps.cluster import on_cluster
@@ -108,10 +108,10 @@ def sweep(
     return outcome
 
 
-def known(plan: Plan, out: str | Path, retry_failed: bool = False) -> Outcome:
+def known(plan: Plan, out: str | Path, retry_failed: bool = False) -> SweepOutcome:
     """How far a sweep is, without running anything."""
     store = Store(Path(out))
-    outcome = Outcome(len(plan.points), store.folder / FILE)
+    outcome = SweepOutcome(len(plan.points), store.folder / FILE)
     keeper = _Keeper(plan, store, outcome, retry_failed, lambda outcome: None)
     for _ in keeper.tasks():
         pass
@@ -121,8 +121,10 @@ def known(plan: Plan, out: str | Path, retry_failed: bool = False) -> Outcome:
 class _Keeper:
     """What is known so far, in the table."""
 
-    def __init__(self, plan: Plan, store: Store, outcome: Outcome, retry_failed: bool, progress: Told) -> None:
-        self.table = Table(plan)
+    def __init__(
+        self, plan: Plan, store: Store, outcome: SweepOutcome, retry_failed: bool, progress: Told
+    ) -> None:
+        self.table = SweepTable(plan)
         self._plan, self._store, self._outcome = plan, store, outcome
         self._retry_failed, self._progress = retry_failed, progress
         self._places: dict[str, list[int]] = {}  # of keys under way
@@ -141,7 +143,7 @@ class _Keeper:
                 pickle.dumps(scenario)  # as it is sent to other processes
             except Exception as error:  # of classes of one's own any
                 refused.append(InputError(reason_of(error)) if not isinstance(error, InputError) else error)
-                self._set([number], Row("", "failed", reason_of(error)))
+                self._set([number], StoredRun("", "failed", reason_of(error)))
                 continue
             if not checked:
                 check_numbers(scenario, record)
@@ -161,14 +163,14 @@ class _Keeper:
         if len(refused) == len(self._plan.points):
             raise refused[0]  # that is no sweep
 
-    def _is_good(self, row: Row, whole: bool) -> bool:
+    def _is_good(self, row: StoredRun, whole: bool) -> bool:
         """Whether what is known of a run is what is wanted."""
         if row.status == "failed":
             return not self._retry_failed
         record = self._plan.record
         return row.status == "done" and row.noted == record.digest and (whole or not record.keep_runs)
 
-    def note(self, row: Row) -> None:
+    def note(self, row: StoredRun) -> None:
         """Note a run that has ended."""
         self._rows[row.key] = self._places[row.key][0]
         self._set(self._places[row.key], row)
@@ -186,7 +188,7 @@ class _Keeper:
                 self._rows[name] = numbers[0]
                 self._set(numbers, row)
 
-    def _set(self, numbers: list[int], row: Row) -> None:
+    def _set(self, numbers: list[int], row: StoredRun) -> None:
         for number in numbers:
             self.table.set(number, row)
             setattr(self._outcome, row.status, getattr(self._outcome, row.status) + 1)

@@ -19,7 +19,7 @@ from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 from typing import Literal, NamedTuple
 
-from support_exudyn.files.hdf5 import check_seal
+from support_exudyn.files.hdf5 import check_checksum
 from support_exudyn.files.temporary import remove_leftovers
 from support_exudyn.files.whole_file import contents, whole_file, writing_alone
 from support_exudyn.simulation.memory import available
@@ -33,7 +33,7 @@ RUN = FORMAT.rpartition(" ")[0].encode() + b" "  # as files of runs of any versi
 Status = Literal["done", "failed", "killed"]
 
 
-class Number(NamedTuple):
+class StoredNumber(NamedTuple):
     """A number of a run: value, estimated numerical error if it is known, and unit."""
 
     value: float
@@ -42,7 +42,7 @@ class Number(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Row:
+class StoredRun:
     """A run, or why there is none.
 
     status: "done"; "failed": it cannot be run, or could not be finished, and would not be if it were tried
@@ -55,7 +55,7 @@ class Row:
     status: Status
     reason: str = ""
     wall_time: float | None = None
-    numbers: Mapping[str, Number] = field(default_factory=dict)
+    numbers: Mapping[str, StoredNumber] = field(default_factory=dict)
     noted: str = ""
     size: int | None = None
     modified: int | None = None
@@ -66,14 +66,14 @@ class Row:
         return f"{_digest(text)}\n{text}\n"
 
     @staticmethod
-    def from_text(text: str) -> Row:
+    def from_text(text: str) -> StoredRun:
         """What `to_text` wrote. Raises ValueError if it is not that, to the letter."""
         digest, _, rest = text.partition("\n")
         if not rest.endswith("\n") or digest != _digest(rest[:-1]):
             raise ValueError("does not fit its digest: it was cut off or changed")
         data = json.loads(rest)
-        data["numbers"] = {name: Number(*number) for name, number in data["numbers"].items()}
-        return Row(**data)
+        data["numbers"] = {name: StoredNumber(*number) for name, number in data["numbers"].items()}
+        return StoredRun(**data)
 
 
 def _digest(text: str) -> str:
@@ -126,15 +126,15 @@ class Store:
         for folder in (self.folder, self.rows, self.runs):
             remove_leftovers(folder)
 
-    def row(self, key: str) -> Row | None:
+    def row(self, key: str) -> StoredRun | None:
         """What is known of a run; None if that is nothing, or damaged."""
         try:
-            found = Row.from_text(contents(self.rows / f"{key}.json", LARGEST_ROW).decode("utf-8"))
+            found = StoredRun.from_text(contents(self.rows / f"{key}.json", LARGEST_ROW).decode("utf-8"))
         except (FileNotFoundError, ValueError, TypeError, LookupError):
             return None
         return found if found.key == key else None
 
-    def put(self, row: Row) -> Row:
+    def put(self, row: StoredRun) -> StoredRun:
         """Keep a row; the run's file, if it is to be kept, is there already."""
         path = self.run_file(row.key)
         if row.status == "done" and path.exists():
@@ -144,7 +144,7 @@ class Store:
             temporary.write_text(row.to_text(), encoding="utf-8")
         return row
 
-    def has_run(self, row: Row) -> bool:
+    def has_run(self, row: StoredRun) -> bool:
         """Whether the run of a row is there and whole.
 
         What is as large and as old as when it was written is not read again; anything else is, and must fit its
@@ -155,7 +155,7 @@ class Store:
             status = path.stat()
             if (status.st_size, status.st_mtime_ns) == (row.size, row.modified):
                 return True
-            check_seal(contents(path, available()), FORMAT)
+            check_checksum(contents(path, available()), FORMAT)
         except (OSError, ValueError):
             return False
         return True

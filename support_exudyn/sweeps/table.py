@@ -16,7 +16,7 @@ from support_exudyn.files.whole_file import check_is_file, whole_file
 from support_exudyn.simulation.memory import available
 from support_exudyn.sweeps.key import program
 from support_exudyn.sweeps.plan import MOST, Plan
-from support_exudyn.sweeps.store import Row
+from support_exudyn.sweeps.store import StoredRun
 from user_forces.values.value import InputError, cleaned, short
 
 FORMAT = "support_exudyn sweep 1"
@@ -43,7 +43,7 @@ class _Column:
         self.rank = (rows, 0)  # first row and place in it
 
 
-class Table:
+class SweepTable:
     """All rows, as far as they are known. Of a hundred numbers ten thousand rows take 20 MB."""
 
     def __init__(self, plan: Plan) -> None:
@@ -54,7 +54,7 @@ class Table:
         self._wall_times = np.full(self._size, np.nan)
         self._columns: dict[str, _Column] = {}
 
-    def set(self, number: int, row: Row) -> None:
+    def set(self, number: int, row: StoredRun) -> None:
         """Note a row at its place."""
         self.keys[number], self.status[number] = row.key, row.status
         self._reasons[number] = row.reason

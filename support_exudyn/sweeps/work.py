@@ -12,7 +12,7 @@ from support_exudyn.simulation.result import Result
 from support_exudyn.simulation.simulate import simulate
 from support_exudyn.sweeps.measures import numbers
 from support_exudyn.sweeps.plan import Record
-from support_exudyn.sweeps.store import Row, Store
+from support_exudyn.sweeps.store import Store, StoredRun
 from support_exudyn.sweeps.workers import ProcessEndedError, worker_pool
 from user_forces.values.value import InputError, cleaned
 
@@ -28,7 +28,7 @@ class Task:
     again: bool = False
 
 
-def computed(task: Task) -> tuple[Row, Result | None]:
+def computed(task: Task) -> tuple[StoredRun, Result | None]:
     """Run it. The Result is None if it fails, whatever the reason is, which the row tells.
 
     A law of one's own may do anything; KeyboardInterrupt alone ends all runs.
@@ -41,7 +41,7 @@ def computed(task: Task) -> tuple[Row, Result | None]:
         raise
     except BaseException as error:  # also SystemExit
         took = time.perf_counter() - began
-        return Row(task.key, "failed", reason_of(error), took, noted=task.record.digest), None
+        return StoredRun(task.key, "failed", reason_of(error), took, noted=task.record.digest), None
 
 
 def reason_of(error: BaseException) -> str:
@@ -50,15 +50,15 @@ def reason_of(error: BaseException) -> str:
     return cleaned(" ".join(str(error).split()) if expected else told(error))
 
 
-def row_of(task: Task, result: Result) -> Row:
+def row_of(task: Task, result: Result) -> StoredRun:
     """The row of a run that was finished."""
     found = numbers(result, task.record)
     met = result.goal is None or result.met
     reason = "" if met else f"accuracy {result.goal:g}: NOT met, {result.worst_error:.1g} is estimated"
-    return Row(task.key, "done", reason, result.wall_time, found, task.record.digest)
+    return StoredRun(task.key, "done", reason, result.wall_time, found, task.record.digest)
 
 
-def run_into(store: Store, task: Task) -> Row:
+def run_into(store: Store, task: Task) -> StoredRun:
     """Run it, or read it if it is kept, and put all of it into the store."""
     if task.again:
         try:
@@ -74,7 +74,7 @@ def run_into(store: Store, task: Task) -> Row:
 # --- in processes ---
 
 
-def in_processes(tasks: Iterable[Task], store: Store, workers: int) -> Generator[Row, None, None]:
+def in_processes(tasks: Iterable[Task], store: Store, workers: int) -> Generator[StoredRun, None, None]:
     """Rows as they come; each process puts its runs into the store by itself.
 
     A run whose process ends is tried once more by itself; if that ends too its row is "killed".
@@ -88,9 +88,9 @@ def in_processes(tasks: Iterable[Task], store: Store, workers: int) -> Generator
         nonlocal compiled
         for number, task in enumerate(tasks):
             if not (compiled or task.again) and _is_compiled(task.scenario):
-                from support_exudyn.sweeps.precompile import warm_up  # and numba
+                from support_exudyn.sweeps.precompile import precompile  # and numba
 
-                warm_up()  # once, for all processes
+                precompile()  # once, for all processes
                 compiled = True
             keys[number] = task.key
             yield store, task
@@ -98,7 +98,7 @@ def in_processes(tasks: Iterable[Task], store: Store, workers: int) -> Generator
     with worker_pool(workers) as pool:
         for number, found in pool.stream(jobs(), _do):
             key = keys.pop(number)
-            yield Row(key, "killed", found.reason) if isinstance(found, ProcessEndedError) else found
+            yield StoredRun(key, "killed", found.reason) if isinstance(found, ProcessEndedError) else found
 
 
 def _is_compiled(scenario: Scenario) -> bool:
@@ -106,6 +106,6 @@ def _is_compiled(scenario: Scenario) -> bool:
     return scenario.chooses_steps or (scenario.formulation == "auto" and scenario.goal is not None)
 
 
-def _do(place: int, store: Store, task: Task) -> Row:
+def _do(place: int, store: Store, task: Task) -> StoredRun:
     del place
     return run_into(store, task)

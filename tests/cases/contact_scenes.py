@@ -1,4 +1,4 @@
-"""Scenes with one loose pin, drawn at random: what happens in its contact decides what comes out.
+"""Scenes with one clearance pin, drawn at random: what happens in its contact decides what comes out.
 
     python -m tests.cases.contact_scenes SEED COUNT [ACCURACY...]
 
@@ -35,13 +35,13 @@ from user_forces import (
     STEEL,
     STEEL_35CRMO,
     Ambrosio,
-    DepthSpeed,
     Exact,
     Frictionless,
+    ImpactVelocity,
+    IndentationVelocity,
     JournalBearing,
     JournalContact,
     LankaraniNikravesh,
-    TouchSpeed,
     external_contact_stiffness,
 )
 
@@ -54,7 +54,7 @@ def contact(rng: np.random.Generator, radius: float, clearance: float) -> Journa
     bearing = JournalBearing(bore_radius=radius, clearance=clearance)
     stiffness = external_contact_stiffness(bearing, STEEL, STEEL_35CRMO) * 10.0 ** rng.uniform(-1.0, 1.0)
     law = (Exact, LankaraniNikravesh)[rng.integers(2)]
-    speed = (DepthSpeed(), TouchSpeed())[rng.choice(2, p=(0.75, 0.25))]
+    speed = (IndentationVelocity(), ImpactVelocity())[rng.choice(2, p=(0.75, 0.25))]
     rubs = rng.random() < 0.2
     return JournalContact(
         bearing=bearing,

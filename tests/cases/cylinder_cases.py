@@ -67,7 +67,7 @@ def opened(inlet: Inlet, **changes: Any) -> HydraulicCylinder:
     return replace(CYLINDER, inlet=inlet, **changes)
 
 
-def on_cylinders(loose: bool, inlet: Inlet | None = None, **changes: Any) -> Scenario:
+def on_cylinders(with_clearance: bool, inlet: Inlet | None = None, **changes: Any) -> Scenario:
     cylinder = CYLINDER if inlet is None else opened(inlet)
     columns = dict.fromkeys(("front_column", "rear_column"), cylinder)
-    return (loose_support if loose else support)(columns=columns, drive=Held(), **changes)
+    return (loose_support if with_clearance else support)(columns=columns, drive=Held(), **changes)

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from studies.claims.evidence import Evidence, Measured
-from studies.claims.plausible_runs import IDEAL, LOOSE, MODE_1, MODE_1_IDEAL, OIL, OIL_IDEAL
+from studies.claims.plausible_runs import CLEARANCES, IDEAL, MODE_1, MODE_1_IDEAL, OIL, OIL_IDEAL
 
-MIDDLE = LOOSE[2]
+MIDDLE = CLEARANCES[2]
 CURVES = {"force": 10000.0, "speed": 5.0, "acceleration": 100.0}  # ranges of the ideal pin's
 Values = dict[str, dict[str, float]]
 
@@ -17,10 +17,10 @@ def right() -> Evidence:
     found = _empty()
     for name in (*CURVES, "tip"):
         _loose(found, f"likeness_{name}", (0.999, 0.998, 0.997, 0.996))
-    _loose(found, "ripple_force", (900.0, 1000.0, 1100.0, 1200.0))
-    for name in ("ripple_speed", "ripple_speed_early", "ripple_speed_middle", "ripple_speed_late"):
+    _loose(found, "rms_force", (900.0, 1000.0, 1100.0, 1200.0))
+    for name in ("rms_speed", "rms_speed_early", "rms_speed_middle", "rms_speed_late"):
         _loose(found, name, (0.1, 0.11, 0.12, 0.13))
-    _loose(found, "ripple_acceleration", (20.0, 21.0, 40.0, 41.0))
+    _loose(found, "rms_acceleration", (20.0, 21.0, 40.0, 41.0))
     _loose(found, "speed_early", (1.0, 1.001, 1.002, 1.003))
     _loose(found, "speed_middle", (2.01, 2.02, 2.03, 2.04), ideal=2.0)
     _loose(found, "speed_late", (1.0, 1.001, 1.002, 1.003))
@@ -37,9 +37,9 @@ def right() -> Evidence:
     found[MODE_1] |= {"impulse": 1000.0, "largest_force": 2e5}
     found[MIDDLE] |= {"largest_force": 1e5}
     for name in CURVES:
-        found[MIDDLE][f"shaking_{name}"] = 100.0
-        found[MODE_1][f"shaking_{name}"] = 200.0
-        found[MODE_1_IDEAL][f"shaking_{name}"] = 50.0
+        found[MIDDLE][f"rms_from_start_{name}"] = 100.0
+        found[MODE_1][f"rms_from_start_{name}"] = 200.0
+        found[MODE_1_IDEAL][f"rms_from_start_{name}"] = 50.0
     found[OIL]["largest_force"], found[OIL_IDEAL]["largest_force"] = 2e5, 1e5
     return _evidence(found)
 
@@ -49,10 +49,10 @@ def wrong() -> Evidence:
     found = _empty()
     for name in (*CURVES, "tip"):
         _loose(found, f"likeness_{name}", (0.9, 0.9, 0.9, 0.9))
-    _loose(found, "ripple_force", (10.0, 10.0, 10.0, 10.0))
-    for name in ("ripple_speed", "ripple_speed_early", "ripple_speed_middle", "ripple_speed_late"):
+    _loose(found, "rms_force", (10.0, 10.0, 10.0, 10.0))
+    for name in ("rms_speed", "rms_speed_early", "rms_speed_middle", "rms_speed_late"):
         _loose(found, name, (0.004, 0.003, 0.002, 0.001))
-    _loose(found, "ripple_acceleration", (0.4, 0.3, 0.2, 0.1))
+    _loose(found, "rms_acceleration", (0.4, 0.3, 0.2, 0.1))
     _loose(found, "speed_early", (1.0, 0.9, 0.8, 0.7))
     _loose(found, "speed_middle", (2.0, 1.8, 1.6, 1.4), ideal=2.2)
     _loose(found, "speed_late", (1.0, 0.9, 0.8, 0.7))
@@ -69,9 +69,9 @@ def wrong() -> Evidence:
     found[MODE_1] |= {"impulse": 0.0, "largest_force": 1e5}
     found[MIDDLE] |= {"largest_force": 2e5}
     for name in CURVES:
-        found[MIDDLE][f"shaking_{name}"] = 105.0
-        found[MODE_1][f"shaking_{name}"] = 100.0
-        found[MODE_1_IDEAL][f"shaking_{name}"] = 150.0
+        found[MIDDLE][f"rms_from_start_{name}"] = 105.0
+        found[MODE_1][f"rms_from_start_{name}"] = 100.0
+        found[MODE_1_IDEAL][f"rms_from_start_{name}"] = 150.0
     found[OIL]["largest_force"], found[OIL_IDEAL]["largest_force"] = 1e5, 2e5
     return _evidence(found)
 
@@ -94,7 +94,7 @@ def data(evidence: Evidence) -> dict[str, dict[str, list[float]]]:
 
 
 def _empty() -> Values:
-    found: Values = {case: {} for case in (IDEAL, *LOOSE, MODE_1, MODE_1_IDEAL, OIL, OIL_IDEAL)}
+    found: Values = {case: {} for case in (IDEAL, *CLEARANCES, MODE_1, MODE_1_IDEAL, OIL, OIL_IDEAL)}
     found[IDEAL] = {f"range_{name}": span for name, span in CURVES.items()}
     return found
 
@@ -102,7 +102,7 @@ def _empty() -> Values:
 def _loose(
     found: Values, name: str, values: tuple[float, float, float, float], ideal: float | None = None
 ) -> None:
-    for case, value in zip(LOOSE, values, strict=True):
+    for case, value in zip(CLEARANCES, values, strict=True):
         found[case][name] = value
     if ideal is not None:
         found[IDEAL][name] = ideal

@@ -26,8 +26,8 @@ MOVING = UniformSpeed(stroke=0.05, start=0.0, end=0.2)  # [m] in [s]
 def run(kind: str) -> Result:
     """A short run.
 
-    The support with a loose pin in "plane" or "space", there also "tilted" by columns that are driven apart;
-    with "ideal" pins; or the "slider-crank".
+    The support with a clearance pin in "plane" or "space", there also "tilted" by columns that are driven
+    apart; with "ideal" pins; or the "slider-crank".
     """
     if kind == "tilted":
         return simulate(tilted())

@@ -30,6 +30,7 @@ from user_forces import (
     Hertz,
     HuGuo,
     HuntCrossley,
+    Impact,
     Johnson,
     JournalBearing,
     KelvinVoigt,
@@ -44,7 +45,6 @@ from user_forces import (
     SafaeifarFarshidianfar,
     Stribeck,
     Threlfall,
-    Touch,
     Value,
     ZhiyingQishao,
 )
@@ -128,13 +128,13 @@ def rebound(force: Callable[[float, float], float], mass: float, speed: float, d
 
     Arguments:
         force: of depth [m] > 0 and its rate [m/s], in N; what would pull is cut.
-        mass, speed: that moves as the depth does [kg], at the touch [m/s].
+        mass, speed: that moves as the depth does [kg], at the impact [m/s].
         depth: about the greatest of the impact [m]; only the unit in which it is computed.
     """
     per_newton = depth / (mass * speed**2)
 
     def motion(_: float, y: np.ndarray) -> list[float]:
-        # at the touch itself a law is asked for its limit at depth zero, since a dashpot jumps there
+        # at the impact itself a law is asked for its limit at depth zero, since a dashpot jumps there
         push = max(0.0, force(max(y[0] * depth, 1e-30), y[1] * speed))
         return [y[1], -push * per_newton]
 
@@ -152,6 +152,6 @@ def rebound(force: Callable[[float, float], float], mass: float, speed: float, d
 
 def law_rebound(law: NormalLaw, mass: float, speed: float) -> float:
     """The same for a law."""
-    touch = Touch(speed, mass)
+    impact = Impact(speed, mass)
     depth = law.turning_depth(0.5 * mass * speed**2)
-    return rebound(lambda x, rate: law(x, rate, touch), mass, speed, depth)
+    return rebound(lambda x, rate: law(x, rate, impact), mass, speed, depth)

@@ -21,11 +21,11 @@ from user_forces import (
     STEEL_35CRMO,
     Ambrosio,
     Frictionless,
+    ImpactVelocity,
     JournalBearing,
     JournalContact,
     LankaraniNikravesh,
     Material,
-    TouchSpeed,
     external_contact_stiffness,
     internal_contact_stiffness,
     value,
@@ -42,7 +42,9 @@ def paper_contact(clearance_mm: float, sliding_coefficient: float) -> JournalCon
     friction = Ambrosio(sliding_coefficient=sliding_coefficient) if sliding_coefficient else Frictionless()
     return JournalContact(
         bearing=bearing,
-        normal=LankaraniNikravesh(stiffness=stiffness, restitution=0.9, damping_speed=TouchSpeed(floor=1e-3)),
+        normal=LankaraniNikravesh(
+            stiffness=stiffness, restitution=0.9, damping_speed=ImpactVelocity(floor=1e-3)
+        ),
         friction=friction,
     )
 
@@ -86,7 +88,9 @@ def slider_crank_contact(sliding_coefficient: float = 0.0) -> JournalContact:
     stiffness = internal_contact_stiffness(bearing, steel, steel)
     return JournalContact(
         bearing=bearing,
-        normal=LankaraniNikravesh(stiffness=stiffness, restitution=0.9, damping_speed=TouchSpeed(floor=1e-3)),
+        normal=LankaraniNikravesh(
+            stiffness=stiffness, restitution=0.9, damping_speed=ImpactVelocity(floor=1e-3)
+        ),
         friction=Ambrosio(sliding_coefficient=sliding_coefficient) if sliding_coefficient else Frictionless(),
     )
 

@@ -16,13 +16,13 @@ from support_exudyn.mechanics.trajectory import Outcome
 from support_exudyn.model.spatial_linkage import Bearing, SpatialBody, SpatialLinkage
 from user_forces import (
     Ambrosio,
-    DepthSpeed,
     FrictionLaw,
     Frictionless,
+    ImpactVelocity,
+    IndentationVelocity,
     JournalBearing,
     JournalContact,
     LankaraniNikravesh,
-    TouchSpeed,
     value,
 )
 
@@ -75,7 +75,7 @@ def contact(friction: float = 0.0, by_depth: bool = False) -> JournalContact:
         normal=LankaraniNikravesh(
             stiffness=STIFFNESS,
             restitution=0.8,
-            damping_speed=DepthSpeed() if by_depth else TouchSpeed(floor=1e-3),
+            damping_speed=IndentationVelocity() if by_depth else ImpactVelocity(floor=1e-3),
         ),
         friction=law,
     )
@@ -94,9 +94,9 @@ def matrix_of(inertia: tuple[float, ...]) -> np.ndarray:
     return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
 
 
-def momenta(seen: Observation, about: Vector = (0.0, 0.0, 0.0)) -> tuple[np.ndarray, np.ndarray]:
+def momenta(context: Observation, about: Vector = (0.0, 0.0, 0.0)) -> tuple[np.ndarray, np.ndarray]:
     """Linear and angular momentum of all bodies (n, 3), the latter about a fixed point."""
-    motion = seen.motion
+    motion = context.motion
     linear, angular = np.zeros((2, motion.count, 3))
     for n, body in enumerate(motion.linkage.bodies.values()):
         place = np.array(body.centre) + motion.displacement[:, n] - np.array(about)
@@ -148,7 +148,8 @@ def turned_frame(axis: Vector, angle: float) -> np.ndarray:
 
 @st.composite
 def placements(draw: st.DrawFn, on_ground: bool = False) -> SpatialLinkage:
-    """Two bodies, or one and the ground, and a loose bearing between them, eccentric and tilted at the start.
+    """Two bodies, or one and the ground, and a clearance bearing between them, eccentric and tilted at the
+    start.
 
     The edges are inside the clearance or pressed in by up to a tenth of it.
     """

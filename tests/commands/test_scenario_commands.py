@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from studies.common.paper_machine import JACK, loose_pin, oil_columns
+from studies.common.paper_machine import JACK, clearance_joint, oil_columns
 from support_exudyn import (
     CubicStep,
     IdealPin,
@@ -22,10 +22,10 @@ from support_exudyn import (
     Scenario,
     Steady,
     TableDrive,
+    cylinders_and_rods,
     ravn_slider_crank,
     reference_support,
     simulate,
-    two_body_columns,
 )
 from support_exudyn.__main__ import main
 from support_exudyn.files import read_scenario
@@ -34,7 +34,7 @@ from user_forces import CubicCoulomb
 EXAMPLES = Path(__file__).parents[2] / "support_exudyn" / "files" / "examples"
 STROKE = CubicStep(stroke=0.02, start=0.02, end=0.08)
 BASE = Scenario(
-    machine=reference_support(), drive=STROKE, duration=0.1, pins={"rear_base": loose_pin(1.5, 0.25)}
+    machine=reference_support(), drive=STROKE, duration=0.1, pins={"rear_base": clearance_joint(1.5, 0.25)}
 )
 POINTS = TableDrive(times=(0.0, 0.03, 0.07), extensions=(0.0, 0.01, 0.002))
 ROOF = Roof(
@@ -51,7 +51,7 @@ SCENARIOS = {
     "space": replace(BASE, dimensions=3, duration=0.03, record_period=0.005),
     "accuracy": replace(BASE, accuracy="draft", channels=("tip.*",)),
     "oil": replace(BASE, columns=oil_columns(), start="settled"),
-    "two bodies": replace(BASE, columns=two_body_columns(), pins={"front_base": RUBBING}),
+    "two bodies": replace(BASE, columns=cylinders_and_rods(), pins={"front_base": RUBBING}),
     "tail beam": replace(BASE, parts={"tail_beam": OwnBody(jack=JACK)}),
     "load": replace(BASE, loads={"roof": ROOF}, columns=oil_columns()),
     "table": replace(BASE, drive=POINTS),

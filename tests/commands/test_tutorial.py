@@ -63,10 +63,10 @@ def test_the_answer_is_that_of_the_page(folder: Path) -> None:
     found = re.search(r"the tip goes ([\d.]+) ± ([\d.]+) mm to the rear and ([\d.]+) ± ([\d.]+) mm up", text)
     assert found is not None
     back, back_error, up, up_error = map(float, found.groups())
-    ideal, loose = (Result.load(folder / f"{name}.h5") for name in ("ideal", "loose"))
+    ideal, with_clearance = (Result.load(folder / f"{name}.h5") for name in ("ideal", "with_clearance"))
     # the page's own errors cover those of the runs and the rounding of what is printed
-    assert 1e3 * float((ideal["tip.x"] - loose["tip.x"]).mean()) == pytest.approx(back, abs=back_error)
-    assert 1e3 * float((loose["tip.y"] - ideal["tip.y"]).mean()) == pytest.approx(up, abs=up_error)
+    assert 1e3 * float((ideal["tip.x"] - with_clearance["tip.x"]).mean()) == pytest.approx(back, abs=back_error)
+    assert 1e3 * float((with_clearance["tip.y"] - ideal["tip.y"]).mean()) == pytest.approx(up, abs=up_error)
     printed = (folder / "compare.out").read_text(encoding="utf-8")
     row = next(line.split() for line in printed.splitlines() if line.strip().startswith("tip.x"))
     assert float(row[8]) == pytest.approx(-back, abs=back_error)
@@ -74,13 +74,13 @@ def test_the_answer_is_that_of_the_page(folder: Path) -> None:
 
 def test_the_tip_moves_as_geometry_has_it(folder: Path) -> None:
     """The journal lies where the bore's force holds it; all lengths stay, and the four-bar closes anew."""
-    ideal, loose = (Result.load(folder / f"{name}.h5") for name in ("ideal", "loose"))
+    ideal, with_clearance = (Result.load(folder / f"{name}.h5") for name in ("ideal", "with_clearance"))
     machine = read_machine("shield.toml", folder).machine
     assert isinstance(machine, HydraulicSupport)
     record = 1000  # 1 s, in mid-rise, where the columns have extended by half the stroke
     force = np.array([ideal[f"pin.rear_base.force_{axis}"][record] for axis in "xy"])
-    offset = -(0.001 + loose["pin.rear_base.depth"][record]) * force / np.hypot(*force)
-    shift = np.array([(loose[f"tip.{axis}"] - ideal[f"tip.{axis}"])[record] for axis in "xy"])
+    offset = -(0.001 + with_clearance["pin.rear_base.depth"][record]) * force / np.hypot(*force)
+    shift = np.array([(with_clearance[f"tip.{axis}"] - ideal[f"tip.{axis}"])[record] for axis in "xy"])
     # friction and inertia turn the force a little away from that of the ideal pin, which moves some percent
     np.testing.assert_allclose(shift, shifted(machine, 0.3, offset), atol=0.03 * np.hypot(*shift))
 

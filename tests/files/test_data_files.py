@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from support_exudyn import ClearancePin, Drive, Part, Scenario, TwoBodyColumn, Width
+from support_exudyn import ClearancePin, CylinderAndRod, Drive, Part, Scenario, Width
 from support_exudyn.files import parsed, read_value, table_of, toml_text
 from tests import strategies as some
 from user_forces import InputError, JournalBearing, JournalContact, LuGre, NormalLaw, Value
@@ -236,7 +236,7 @@ def test_limits_are_in_the_unit_of_the_key() -> None:
 
 def test_all_that_is_wrong_is_told_at_once() -> None:
     lines = refusal(
-        TwoBodyColumn,
+        CylinderAndRod,
         "cylinder_mass_kg = -1\ncylinder_centre_mm = -2\nrod_mass = 3\n"
         "rod_centre_mm = 1\nrod_inertia_kg_m2 = 1",
     ).splitlines()

@@ -13,8 +13,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from support_exudyn import Recommendation, Result, load_support, recommend, simulate, two_body_columns
-from support_exudyn.simulation.evidence.table import Table
+from support_exudyn import Recommendation, Result, cylinders_and_rods, load_support, recommend, simulate
+from support_exudyn.simulation.evidence.table import EvidenceTable
 from support_exudyn.simulation.recommend import QUESTIONS
 from tests import strategies as some
 from tests.sound import sensible, sound, taken_or_refused
@@ -36,7 +36,7 @@ def read_or_refused(path: Path) -> None:
     machine = taken_or_refused(lambda: load_support(path), f"{path}: ")
     if machine is not None:
         sound(machine)
-    columns = taken_or_refused(lambda: two_body_columns(path=path), f"{path}: ")
+    columns = taken_or_refused(lambda: cylinders_and_rods(path=path), f"{path}: ")
     for column in (columns or {}).values():
         sound(column)
 
@@ -91,7 +91,7 @@ def evidence() -> Any:
 
 def table_or_refused(path: Path) -> None:
     """A table is read and can be asked, or it is refused by name."""
-    table = taken_or_refused(lambda: Table.load(path), f"{path}: ")
+    table = taken_or_refused(lambda: EvidenceTable.load(path), f"{path}: ")
     if table is None:
         return
     for question in QUESTIONS:
@@ -99,7 +99,7 @@ def table_or_refused(path: Path) -> None:
         if advice is not None:
             taken_or_refused(lambda advice=advice: advice.apply(some.seeds()[0]))  # type: ignore[misc]
     table.save(path)
-    assert Table.load(path) == table
+    assert EvidenceTable.load(path) == table
 
 
 @given(text=some.mangled(st.deferred(lambda: st.just(json.dumps(evidence())))))

@@ -17,7 +17,7 @@ from support_exudyn import ImpactStand, Linkage, Scenario, SolverSettings, load_
 from support_exudyn.model.columns import ColumnModel, PartModel
 from support_exudyn.model.linkage import Body, Part, bar
 from support_exudyn.model.spatial_linkage import Bearing
-from support_exudyn.simulation.evidence.table import Table
+from support_exudyn.simulation.evidence.table import EvidenceTable
 from tests import strategies as some
 from tests.cases.law_cases import BEARING, LENGTH, MODULUS
 from tests.cases.machine_cases import PIVOTS_MM
@@ -263,7 +263,7 @@ def test_a_table_that_could_not_be_asked_is_refused(tmp_path: Path, changes: Map
     path = tmp_path / "table.json"
     path.write_text(json.dumps({**TABLE, **changes}), encoding="utf-8")
     with pytest.raises(InputError, match=re.escape(str(path)) + ".*not a table of tried scenes"):
-        Table.load(path)
+        EvidenceTable.load(path)
 
 
 @pytest.mark.parametrize("content", [b"\xff\xfe", b"[" * 100_000, b"", b"3", b"1" * 5000])
@@ -271,4 +271,4 @@ def test_a_file_that_is_no_table_is_refused(tmp_path: Path, content: bytes) -> N
     path = tmp_path / "table.json"
     path.write_bytes(content)
     with pytest.raises(InputError, match=re.escape(str(path))):
-        Table.load(path)
+        EvidenceTable.load(path)

@@ -140,13 +140,13 @@ def test_an_error_of_another_file_keeps_its_name(tmp_path: Path) -> None:
 def test_a_file_is_on_the_disk_before_it_takes_its_place(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    seen: list[str] = []
+    context: list[str] = []
     sync, replace = os.fsync, Path.replace
-    monkeypatch.setattr(writing.os, "fsync", lambda handle: (seen.append("on the disk"), sync(handle)))
-    monkeypatch.setattr(Path, "replace", lambda *paths: (seen.append("in its place"), replace(*paths)))
+    monkeypatch.setattr(writing.os, "fsync", lambda handle: (context.append("on the disk"), sync(handle)))
+    monkeypatch.setattr(Path, "replace", lambda *paths: (context.append("in its place"), replace(*paths)))
     with whole_file(tmp_path / "run.json") as temporary:
         temporary.write_text("new", encoding="utf-8")
-    assert seen == ["on the disk", "in its place"]
+    assert context == ["on the disk", "in its place"]
 
 
 # --- several processes ---

@@ -18,7 +18,7 @@ from pyarrow import parquet
 
 from support_exudyn import Held, Result, simulate
 from support_exudyn.__main__ import main
-from support_exudyn.files.hdf5 import BLOCK, seal
+from support_exudyn.files.hdf5 import BLOCK, with_checksum
 from support_exudyn.postprocessing.export.solution_file import read_solution
 from support_exudyn.scenario.recorded_channels import Channel
 from support_exudyn.simulation.result import FORMAT
@@ -136,7 +136,7 @@ def test_a_result_gives_nothing_but_what_it_has(
     path = result.save(tmp_path / "run.h5")
     with h5py.File(path, "r+") as file:
         trick(file, secret)
-    path.write_bytes(seal(path.read_bytes()[BLOCK:], FORMAT))
+    path.write_bytes(with_checksum(path.read_bytes()[BLOCK:], FORMAT))
     with pytest.raises(InputError, match=f"damaged .*{TRICKS[trick]}") as caught:
         Result.load(path)
     assert "hunter2" not in str(caught.value)

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from studies.common.paper_machine import bearing, ideal_rise, loose_pin, loose_rise
+from studies.common.paper_machine import bearing, clearance_joint, clearance_rise, ideal_rise
 from support_exudyn import (
     CubicStep,
     IdealPin,
@@ -18,8 +18,8 @@ from support_exudyn import (
     Scenario,
     TableDrive,
     UniformSpeed,
+    cylinders_and_rods,
     reference_support,
-    two_body_columns,
 )
 from support_exudyn.files import (
     load_toml,
@@ -46,7 +46,7 @@ from user_forces import (
 )
 
 TOP = 'machine = "reference"\nduration_s = 5\n'
-LOOSE = "[pins.rear_base]\nclearance_mm = 1.5\nbore_radius_mm = 65.5\n"
+WITH_CLEARANCE = "[pins.rear_base]\nclearance_mm = 1.5\nbore_radius_mm = 65.5\n"
 some.kinds()  # imports all modules: not while something is drawn
 EXAMPLES = resources.files("support_exudyn.files.examples")
 
@@ -62,7 +62,7 @@ def refusal(text: str, folder: Path = Path()) -> str:
 
 
 def normal(text: str) -> object:
-    return scenario(TOP + LOOSE + text).clearance_pins["rear_base"].contact.normal
+    return scenario(TOP + WITH_CLEARANCE + text).clearance_pins["rear_base"].contact.normal
 
 
 # --- in short ---
@@ -71,13 +71,13 @@ def normal(text: str) -> object:
 def test_the_papers_rise_in_short_is_that_of_the_studies() -> None:
     with resources.as_file(EXAMPLES / "rise.toml") as path:
         found = read_scenario(path)
-    expected = loose_rise(1.5, 0.25, 5e-4)
+    expected = clearance_rise(1.5, 0.25, 5e-4)
     assert replace(found, solver=expected.solver) == expected
 
 
 def test_a_pin_in_short_is_that_of_the_studies() -> None:
-    text = 'friction = 0.25\nrestitution = 0.9\ndamping_speed = {type = "TouchSpeed"}'
-    assert scenario(TOP + LOOSE + text).pins["rear_base"] == loose_pin(1.5, 0.25)
+    text = 'friction = 0.25\nrestitution = 0.9\ndamping_speed = {type = "ImpactVelocity"}'
+    assert scenario(TOP + WITH_CLEARANCE + text).pins["rear_base"] == clearance_joint(1.5, 0.25)
 
 
 def test_nothing_but_machine_and_duration_has_to_be_said() -> None:
@@ -103,16 +103,18 @@ def test_stiffness_of_materials_inside() -> None:
 
 
 def test_a_friction_law_as_a_table() -> None:
-    found = scenario(TOP + LOOSE + 'friction = {type = "CubicCoulomb", sliding_coefficient = 0.2}')
+    found = scenario(TOP + WITH_CLEARANCE + 'friction = {type = "CubicCoulomb", sliding_coefficient = 0.2}')
     assert found.clearance_pins["rear_base"].contact.friction == CubicCoulomb(sliding_coefficient=0.2)
 
 
 def test_damping_speed_bore_and_eccentricity() -> None:
     found = scenario(
-        TOP + LOOSE + 'bore = "second"\neccentricity_mm = [0, -1]\ndamping_speed = {type = "TouchSpeed"}'
+        TOP
+        + WITH_CLEARANCE
+        + 'bore = "second"\neccentricity_mm = [0, -1]\ndamping_speed = {type = "ImpactVelocity"}'
     ).clearance_pins["rear_base"]
     assert (found.bore, found.eccentricity) == ("second", (0.0, -0.001))
-    assert type(found.contact.normal.damping_speed).__name__ == "TouchSpeed"  # type: ignore[attr-defined]
+    assert type(found.contact.normal.damping_speed).__name__ == "ImpactVelocity"  # type: ignore[attr-defined]
 
 
 def test_an_ideal_pin() -> None:
@@ -124,7 +126,7 @@ def test_an_ideal_pin() -> None:
 
 def test_long_and_short_forms_stand_side_by_side() -> None:
     text = (
-        scenario_text(loose_rise(1.5, 0.25, 5e-4))
+        scenario_text(clearance_rise(1.5, 0.25, 5e-4))
         + "\n[pins.front_base]\nclearance_mm = 1\nbore_radius_mm = 60"
     )
     assert set(scenario(text).clearance_pins) == {"rear_base", "front_base"}
@@ -170,7 +172,7 @@ def test_one_table_drives_several_columns() -> None:
 
 def test_columns_of_two_bodies_take_their_masses_from_the_machine() -> None:
     found = scenario(TOP + '[columns.front_column]\ntype = "TwoBodyColumn"\nrod_mass_kg = 300')
-    expected = replace(two_body_columns()["front_column"], rod_mass=300.0)
+    expected = replace(cylinders_and_rods()["front_column"], rod_mass=300.0)
     assert found.columns == {"front_column": expected}
 
 
@@ -260,7 +262,7 @@ def test_files_are_written_whole(tmp_path: Path) -> None:
         (TOP + "solver = 3", "a.toml: solver = 3: allowed: a table"),
         (TOP + "solver.impact_steps = 1", "a.toml: solver.impact_steps = 1: allowed: a whole number >= 16"),
         (
-            TOP + LOOSE.replace("rear_base", "rear"),
+            TOP + WITH_CLEARANCE.replace("rear_base", "rear"),
             "a.toml: pins.rear: the machine has no such pin; allowed: rear_base, ",
         ),
         (
@@ -268,31 +270,34 @@ def test_files_are_written_whole(tmp_path: Path) -> None:
             "a.toml: columns.front: the machine has no such column; allowed: front_column, rear_column",
         ),
         (TOP + "[drives.x]\nmode = 1", "a.toml: drives.x: the machine has no such driven part; allowed: "),
-        (TOP + LOOSE.replace("1.5", "-1"), "a.toml: pins.rear_base.clearance_mm = -1: allowed: > 0"),
+        (TOP + WITH_CLEARANCE.replace("1.5", "-1"), "a.toml: pins.rear_base.clearance_mm = -1: allowed: > 0"),
         (
-            TOP + LOOSE.replace("1.5", "70"),
+            TOP + WITH_CLEARANCE.replace("1.5", "70"),
             "a.toml: pins.rear_base: clearance_mm = 70: leaves no journal in a bore of bore_radius_mm = 65.5",
         ),
         (TOP + "[pins.rear_base]\nfriction = 0.1", "a.toml: pins.rear_base.clearance_mm: missing; it has no"),
-        (TOP + LOOSE + "law = 'Hertzz'", "a.toml: pins.rear_base.law = 'Hertzz': allowed: 'CarvalhoMartins', "),
         (
-            TOP + LOOSE + "law = 'Hertz'\nrestitution = 0.9",
+            TOP + WITH_CLEARANCE + "law = 'Hertzz'",
+            "a.toml: pins.rear_base.law = 'Hertzz': allowed: 'CarvalhoMartins', ",
+        ),
+        (
+            TOP + WITH_CLEARANCE + "law = 'Hertz'\nrestitution = 0.9",
             "a.toml: pins.rear_base: restitution: the law Hertz has none",
         ),
         (
-            TOP + LOOSE + "stiffness_N_per_m_to_n = 1e10\nbore_material = 'steel'",
+            TOP + WITH_CLEARANCE + "stiffness_N_per_m_to_n = 1e10\nbore_material = 'steel'",
             "a.toml: pins.rear_base: bore_material: would be left unused",
         ),
         (
-            TOP + LOOSE + "bore_material = 'wood'",
+            TOP + WITH_CLEARANCE + "bore_material = 'wood'",
             "a.toml: pins.rear_base.bore_material = 'wood': allowed: 'steel', ",
         ),
         (
-            TOP + LOOSE + "stiffness = 1e10",
+            TOP + WITH_CLEARANCE + "stiffness = 1e10",
             "a.toml: pins.rear_base.stiffness: a number needs its unit in the key",
         ),
         (
-            TOP + LOOSE + "friction = 'wet'",
+            TOP + WITH_CLEARANCE + "friction = 'wet'",
             "a.toml: pins.rear_base.friction = 'wet': allowed: >= 0, or a table",
         ),
         (TOP + "[pins.rear_base]\nideal = false", "a.toml: pins.rear_base.ideal = false: allowed: true"),
@@ -314,7 +319,7 @@ def test_files_are_written_whole(tmp_path: Path) -> None:
             "a.toml: drives.leg: column extension = 3000 mm: the columns cannot close",
         ),
         (
-            TOP + LOOSE.replace("1.5", '"1.5"'),
+            TOP + WITH_CLEARANCE.replace("1.5", '"1.5"'),
             "a.toml: pins.rear_base.clearance_mm = '1.5': allowed: a number > 0",
         ),
         (TOP + "drive.table = 'no.csv'", "a.toml: drive.table = 'no.csv': allowed: a file that can be read"),
@@ -368,7 +373,7 @@ def test_what_the_csv_lacks_is_said_of_it(tmp_path: Path) -> None:
 
 
 def test_all_mistakes_are_told_at_once() -> None:
-    text = TOP + LOOSE.replace("1.5", "-1") + "[drive]\nmode = 3\n[solver]\nimpact_steps = 1"
+    text = TOP + WITH_CLEARANCE.replace("1.5", "-1") + "[drive]\nmode = 3\n[solver]\nimpact_steps = 1"
     assert len(refusal(text).splitlines()) == 3
 
 

@@ -24,7 +24,7 @@ from user_forces.values.value import Value
 some.kinds()  # imports all modules: not while something is drawn
 VALIDATOR = Draft202012Validator(scenario_schema())
 TOP = 'machine = "reference"\nduration_s = 5\n'
-LOOSE = "[pins.rear_base]\nclearance_mm = 1.5\nbore_radius_mm = 65.5\n"
+WITH_CLEARANCE = "[pins.rear_base]\nclearance_mm = 1.5\nbore_radius_mm = 65.5\n"
 
 
 def plain(item: Any) -> Any:
@@ -64,8 +64,8 @@ def test_written_scenarios_are_taken(data: st.DataObject) -> None:
     "text",
     [
         SHORT,
-        TOP + LOOSE + 'law = "Flores"\nstiffness = "internal"\nbore_material = "steel"',
-        TOP + LOOSE + "stiffness_N_per_m_to_n = 1e10",
+        TOP + WITH_CLEARANCE + 'law = "Flores"\nstiffness = "internal"\nbore_material = "steel"',
+        TOP + WITH_CLEARANCE + "stiffness_N_per_m_to_n = 1e10",
         TOP + "pins.rear_base.ideal = true",
         TOP + '[drives]\ntable = "columns_apart.csv"\nbetween = "linear"',
     ],
@@ -97,13 +97,13 @@ def test_short_forms_are_taken(text: str) -> None:
         TOP + "solver.impact_steps = 1",
         TOP + "solver.impact_steps = 16.5",
         TOP + "solver.audit = 1",
-        TOP + LOOSE.replace("1.5", "-1"),
+        TOP + WITH_CLEARANCE.replace("1.5", "-1"),
         TOP + "[pins.rear_base]\nbore_radius_mm = 60",
-        TOP + LOOSE + "clearance_m = 1e-3",
-        TOP + LOOSE + "law = 'Hertzz'",
-        TOP + LOOSE + "stiffness = 1e10",
-        TOP + LOOSE + "friction = 'wet'",
-        TOP + LOOSE + "restitution = 1.5",
+        TOP + WITH_CLEARANCE + "clearance_m = 1e-3",
+        TOP + WITH_CLEARANCE + "law = 'Hertzz'",
+        TOP + WITH_CLEARANCE + "stiffness = 1e10",
+        TOP + WITH_CLEARANCE + "friction = 'wet'",
+        TOP + WITH_CLEARANCE + "restitution = 1.5",
         TOP + "pins.rear_base.ideal = false",
         TOP + "pins = 3",
         TOP + "pins.rear_base = 1.5",

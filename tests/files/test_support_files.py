@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from support_exudyn import OilColumn, RigidColumn, load_support, reference_support, two_body_columns
+from support_exudyn import OilColumn, RigidColumn, cylinders_and_rods, load_support, reference_support
 from support_exudyn.model.linkage import lumped
 from tests.cases.machine_cases import PARTS, PIVOTS, PIVOTS_MM, support
 from user_forces import InputError
@@ -231,7 +231,7 @@ rod_length_mm = 800
 
 
 def test_columns_of_the_reference_support_are_uniform_bars() -> None:
-    columns = two_body_columns()
+    columns = cylinders_and_rods()
     assert sorted(columns) == ["front_column", "rear_column"]
     for column in columns.values():
         assert (column.cylinder_mass, column.rod_mass, column.drive) == (300.0, 200.0, RigidColumn())
@@ -243,20 +243,20 @@ def test_columns_of_the_reference_support_are_uniform_bars() -> None:
 
 def test_rods_have_the_mass_that_they_have_on_the_canopy() -> None:
     canopy = {part.name: part.mass for part in reference_support().parts["canopy"]}
-    for name, column in two_body_columns().items():
+    for name, column in cylinders_and_rods().items():
         assert canopy[f"{name}_rods"] == column.rod_mass
 
 
 def test_columns_take_the_drive_they_are_given() -> None:
     oil = OilColumn(bore_area=0.1, oil_length=0.5, bulk_modulus=1e9)
-    assert all(column.drive == oil and column.oil == oil for column in two_body_columns(oil).values())
+    assert all(column.drive == oil and column.oil == oil for column in cylinders_and_rods(oil).values())
 
 
 def test_columns_are_read_from_a_file(tmp_path: Path) -> None:
     path = written(tmp_path, 'name = "a support"', 'name = "a support"')
-    assert two_body_columns(path=path) == {}
+    assert cylinders_and_rods(path=path) == {}
     path.write_text(FILE + COLUMN, encoding="utf-8")
-    (column,) = two_body_columns(path=path).values()
+    (column,) = cylinders_and_rods(path=path).values()
     assert column.rod_centre == pytest.approx(0.4, rel=1e-15)
     assert load_support(path).tail_hinge is None
 

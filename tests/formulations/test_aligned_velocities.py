@@ -12,11 +12,11 @@ import pytest
 
 from support_exudyn import Reciprocating, Result, Scenario, SolverSettings, simulate
 from support_exudyn.formulations.redundant.scene.scene_builder import build
-from support_exudyn.formulations.redundant.solver.solver import MUCH_SHORTER, Run
+from support_exudyn.formulations.redundant.solver.solver import MUCH_SHORTER, SolverRun
 from support_exudyn.formulations.redundant.space.scene import rates, velocities
 from support_exudyn.formulations.redundant.space.scene_builder import build as build_in_space
 from support_exudyn.mechanics.space.constraints import matrix
-from support_exudyn.simulation.audit import turned_over
+from support_exudyn.simulation.result_checks import turned_over
 from tests.cases.run_cases import FORCE, PIN, SLIDER_PIN, loose_slider_crank, loose_support, slider_crank
 
 LONG = 1e-3  # [s]
@@ -55,9 +55,9 @@ def test_a_shaken_support_is_as_the_reduced_one(
     assert len(result.onsets[PIN]) >= 3
     assert result.energy_error < OPEN * (step / LONG) ** 2 * turned_over(result.channels)
     # second order; measured: 1.1e-3 of a step, 1.3e-4 of the speed
-    for touch, true in zip(result.onsets[PIN][:2], exact.onsets[PIN][:2], strict=True):
-        assert touch.time == pytest.approx(true.time, abs=2e-3 * step)
-        assert touch.speed == pytest.approx(true.speed, rel=1e-3 * (step / LONG) ** 2)
+    for impact, true in zip(result.onsets[PIN][:2], exact.onsets[PIN][:2], strict=True):
+        assert impact.time == pytest.approx(true.time, abs=2e-3 * step)
+        assert impact.speed == pytest.approx(true.speed, rel=1e-3 * (step / LONG) ** 2)
     # forces that make up for wrong velocities would be thousands of times as large as these
     assert result.largest_force[PIN] == pytest.approx(exact.largest_force[PIN], rel=0.01)
     for name in result.channels:
@@ -86,16 +86,16 @@ def test_a_slider_crank_is_as_the_reduced_one() -> None:
     result = simulate(rattling(step))
     exact = simulate(replace(rattling(step), formulation="reduced", solver=TIGHT))
     assert len(result.onsets[SLIDER_PIN]) == len(exact.onsets[SLIDER_PIN]) == 3
-    for touch, true in zip(result.onsets[SLIDER_PIN], exact.onsets[SLIDER_PIN], strict=True):
+    for impact, true in zip(result.onsets[SLIDER_PIN], exact.onsets[SLIDER_PIN], strict=True):
         # a crank turns by 0.01 rad in a step; measured: 0.2 %, 4e-7 s
-        assert touch.speed == pytest.approx(true.speed, rel=5e-3)
-        assert touch.time == pytest.approx(true.time, abs=1e-6)
+        assert impact.speed == pytest.approx(true.speed, rel=5e-3)
+        assert impact.time == pytest.approx(true.time, abs=1e-6)
     # measured: 8e-5; 6e-3 with velocities as steps leave them
     assert result.energy_error < 5e-4 * turned_over(result.channels)
 
 
 def test_a_crank_that_turns_far_in_a_step_is_finished_all_the_same() -> None:
-    # 0.05 rad in a step: Newton's method gave up at the first touch
+    # 0.05 rad in a step: Newton's method gave up at the first impact
     result = simulate(rattling(1e-4))
     assert len(result.onsets[SLIDER_PIN]) == 3
     assert result.energy_error < 5e-3 * turned_over(result.channels)  # measured: 1.1e-3
@@ -174,7 +174,7 @@ def test_in_space_too() -> None:
 
 
 def pin(depth: float, rate: float, step: float = math.inf) -> SimpleNamespace:
-    """A loose pin with a depth and its rate at the end of a step; step: of an impact that goes on."""
+    """A clearance pin with a depth and its rate at the end of a step; step: of an impact that goes on."""
     return SimpleNamespace(impact=SimpleNamespace(step=step), reached=SimpleNamespace(depth=depth, rate=rate))
 
 
@@ -182,7 +182,7 @@ def pin(depth: float, rate: float, step: float = math.inf) -> SimpleNamespace:
     ("pins", "following", "cut"),
     [
         ((pin(-1e-3, 0.1),), LONG, False),  # 0.1 mm of 1 mm
-        ((pin(-1e-4, 0.1),), LONG, True),  # touches within the step, or soon after
+        ((pin(-1e-4, 0.1),), LONG, True),  # impacts within the step, or soon after
         ((pin(-1e-4, -0.1),), LONG, False),  # flies away
         ((pin(1e-4, 0.1),), LONG, False),  # goes deeper
         ((pin(1e-4, -0.1),), LONG, True),  # parts
@@ -198,19 +198,19 @@ def test_steps_that_will_be_cut_are_known(
 ) -> None:
     for locates in (True, False):  # where impacts are not located nothing is cut
         run: Any = SimpleNamespace(pins=pins, locates=locates)
-        assert Run._is_to_be_cut(run, LONG, following) == (cut and locates)
+        assert SolverRun._is_to_be_cut(run, LONG, following) == (cut and locates)
 
 
 def test_it_is_done_at_touches_and_seldom_else(monkeypatch: pytest.MonkeyPatch) -> None:
     asked: list[bool] = []
-    plain = Run._is_to_be_cut
+    plain = SolverRun._is_to_be_cut
 
-    def watched(self: Run, taken: float, following: float) -> bool:
+    def watched(self: SolverRun, taken: float, following: float) -> bool:
         asked.append(plain(self, taken, following))
         return asked[-1]
 
-    monkeypatch.setattr(Run, "_is_to_be_cut", watched)
+    monkeypatch.setattr(SolverRun, "_is_to_be_cut", watched)
     result: Result = simulate(shaken(1.75, LONG))
-    touches = len(result.onsets[PIN])
+    impacts = len(result.onsets[PIN])
     # before and after every contact, and some of the steps of the vibration between
-    assert 2 * touches <= sum(asked) < 0.25 * len(asked)
+    assert 2 * impacts <= sum(asked) < 0.25 * len(asked)

@@ -23,11 +23,13 @@ def test_an_ideal_pin_is_the_default() -> None:
 def test_a_tight_loose_pin_carries_what_the_ideal_one_does(name: str, bore: str) -> None:
     ideal = simulate(support(duration=0.01, drive=Held()))
     pin = ClearancePin(contact=paper_contact(0.01, 0.0), bore=bore)
-    loose = simulate(support(duration=0.01, drive=Held(), pins={name: pin}, start="settled"))
+    with_clearance = simulate(support(duration=0.01, drive=Held(), pins={name: pin}, start="settled"))
     for part in ("force_x", "force_y"):
         # the posture moves by 0.01 mm and the depth of 0.1 to 0.2 mm, of lengths of 400 mm and more
         scale = ideal[f"pin.{name}.force"][0]
-        assert loose[f"pin.{name}.{part}"][0] == pytest.approx(ideal[f"pin.{name}.{part}"][0], abs=5e-3 * scale)
+        assert with_clearance[f"pin.{name}.{part}"][0] == pytest.approx(
+            ideal[f"pin.{name}.{part}"][0], abs=5e-3 * scale
+        )
 
 
 def test_all_pins_can_be_loose_at_once() -> None:

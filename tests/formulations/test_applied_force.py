@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from studies.which_pin import cases as which_pin_cases
-from studies.which_pin import closed_form as slack
+from studies.which_pin import closed_form as clearance
 from support_exudyn import (
     AppliedForce,
     ClearancePin,
@@ -22,7 +22,7 @@ from support_exudyn import (
 from support_exudyn.mechanics.kinetics import kinetics_of
 from tests.cases.run_cases import PIN, loose_support
 from tests.roof_cases import MASS, ON_OIL, OVER_THE_COLUMNS, TOP, Ram
-from user_forces import DepthSpeed
+from user_forces import IndentationVelocity
 from user_forces.values.value import InputError, Vector2
 
 MEGANEWTON = 1e6
@@ -84,7 +84,7 @@ def test_columns_and_pins_carry_what_statics_say(columns: dict[str, object], for
 
 def test_a_support_can_start_settled_under_it() -> None:
     base = loose_support().pins[PIN].contact
-    pin = ClearancePin(contact=replace(base, normal=replace(base.normal, damping_speed=DepthSpeed())))
+    pin = ClearancePin(contact=replace(base, normal=replace(base.normal, damping_speed=IndentationVelocity())))
     load = pressing(start=0.0, end=0.0)
     result = pressed(load, pins={PIN: pin}, columns=ON_OIL, start="settled", drive=Held(), duration=0.05)
     # at rest at once: what is left of the static solver's tolerance
@@ -99,12 +99,15 @@ def test_times_in_disorder_are_refused() -> None:
 
 
 def test_worn_pins_let_a_roof_push_the_tip_forward() -> None:
-    # all five pins slack, without friction: to the rear under the weight, forward under a roof of 1 MN
-    pins = dict.fromkeys(reference_support().linkage().pins, which_pin_cases.slack_pin(0.0))
-    stand = slack.standing(reference_support())
+    # all five pins clearance, without friction: to the rear under the weight, forward under a roof of 1 MN
+    pins = dict.fromkeys(reference_support().linkage().pins, which_pin_cases.clearance_pin(0.0))
+    stand = clearance.standing(reference_support())
     for presses, loads in (
         ([], {}),
-        ([slack.Press("canopy", OVER_THE_COLUMNS, (0.0, -MEGANEWTON))], {"roof": pressing(start=0.0, end=0.0)}),
+        (
+            [clearance.Press("canopy", OVER_THE_COLUMNS, (0.0, -MEGANEWTON))],
+            {"roof": pressing(start=0.0, end=0.0)},
+        ),
     ):
         scene = Scenario(
             machine=reference_support(), pins=pins, loads=loads, start="settled", duration=0.002,
@@ -112,8 +115,8 @@ def test_worn_pins_let_a_roof_push_the_tip_forward() -> None:
         )  # fmt: skip
         result = simulate(scene)
         ideal = reference_support().start().tip
-        shift = sum(slack.shifts(stand, pins, presses).values())
-        # first order in the slack: 0.5 % of 17 mm under the weight, 2.9 % under the roof
+        shift = sum(clearance.shifts(stand, pins, presses).values())
+        # first order in the clearance: 0.5 % of 17 mm under the weight, 2.9 % under the roof
         assert result["tip.x"][0] - ideal[0] == pytest.approx(shift[0], rel=0.035)
         assert abs(shift[0]) > 0.015
         assert (shift[0] > 0.0) == bool(presses)

@@ -25,12 +25,12 @@ from user_forces import (
     AdamsImpact,
     Ambrosio,
     Exact,
+    ImpactVelocity,
     JournalBearing,
     JournalContact,
     KelvinVoigt,
     LankaraniNikravesh,
     NormalLaw,
-    TouchSpeed,
     value,
 )
 
@@ -69,7 +69,7 @@ LAWS = [
     Exact(stiffness=STIFFNESS, restitution=0.5),
     pytest.param(Exact(stiffness=STIFFNESS, restitution=0.8), marks=pytest.mark.slow),
     Exact(stiffness=STIFFNESS, restitution=0.05),
-    LankaraniNikravesh(stiffness=STIFFNESS, restitution=0.3, damping_speed=TouchSpeed()),
+    LankaraniNikravesh(stiffness=STIFFNESS, restitution=0.3, damping_speed=ImpactVelocity()),
     KelvinVoigt(stiffness=1e7, damping=1e3),
     AdamsImpact(stiffness=STIFFNESS, full_damping=1e4, full_damping_depth=2e-5),
 ]
@@ -81,7 +81,7 @@ def test_bounces_end_in_resting_contact(law: NormalLaw) -> None:
     onsets = result.onsets["ring"]
     assert len(onsets) >= 1
     late = result.time > 1.5
-    # at rest: no touch any more, and the depth is that of the weight
+    # at rest: no impact any more, and the depth is that of the weight
     assert onsets[-1].time < 1.5
     np.testing.assert_allclose(
         result["pin.ring.depth"][late], law.resting_depth(MASS * GRAVITY), rtol=1e-3
@@ -104,7 +104,7 @@ def test_speeds_of_bounces_fall_by_the_restitution_till_the_weight_matters() -> 
 
 @pytest.mark.parametrize("backend", ["python", pytest.param("symbolic", marks=pytest.mark.slow)])
 def test_rejected_steps_leave_no_trace(backend: str) -> None:
-    # grids that reject different steps give the same touches
+    # grids that reject different steps give the same impacts
     law = Exact(stiffness=STIFFNESS, restitution=0.6)
     settings = SolverSettings(backend=backend, impact_steps=2000)
     runs = [bounce(law, 0.2, step=step, solver=settings) for step in (1e-3, 3.7e-4, 1e-4)]

@@ -1,4 +1,4 @@
-"""Hydraulic cylinders among loose pins, rigid columns and loads; and what runs on them must say."""
+"""Hydraulic cylinders among clearance pins, rigid columns and loads; and what runs on them must say."""
 
 from __future__ import annotations
 

@@ -17,7 +17,7 @@ DEPTH = f"pin.{PIN}.depth"
 
 
 def eccentric(x: float, y: float, bore: str = "first", **changes: Any) -> Scenario:
-    """The held support with its loose journal there [m] at the start."""
+    """The held support with its clearance journal there [m] at the start."""
     pin = ClearancePin(contact=paper_contact(1e3 * CLEARANCE, 0.0), bore=bore, eccentricity=(x, y))
     return support(**{"pins": {PIN: pin}, "drive": Held(), "duration": 0.03} | changes)
 

@@ -18,23 +18,23 @@ from numpy.polynomial import Polynomial
 
 from support_exudyn.formulations.compiled import plain
 from support_exudyn.formulations.reduced import events, integrate, layout
-from support_exudyn.formulations.tree.events import Kind, event
-from support_exudyn.formulations.tree.forces import Place
+from support_exudyn.formulations.tree.events import EventKind, event
+from support_exudyn.formulations.tree.forces import JournalPlace
 
 C = 10.0  # clearance [m], large: dips of a thousandth of a step are then far above what is called still
 DEPTH = 1.0  # [m], of the order of all depths
 LENGTH = 1.0  # of a course [s]
 FIRST, SHORTEN, GROWTH = LENGTH / 16.0, 0.25, 4.0  # step at first [s] and at most, and its changes
-NOTHING, TOUCH, PARTING, RETURN, UNCLEAR = "nothing", "touch", "parting", "return", "unclear"
+NOTHING, IMPACT, SEPARATION, RETURN, UNCLEAR = "nothing", "impact", "separation", "return", "unclear"
 NAMES = {
     events.NOTHING: NOTHING,
-    events.TOUCH: TOUCH,
-    events.PARTING: PARTING,
+    events.IMPACT: IMPACT,
+    events.SEPARATION: SEPARATION,
     events.RETURN: RETURN,
     events.CUT: "cut",
     events.TOO_LONG: UNCLEAR,
 }
-Seen = tuple[str, float, float]  # what, between which times [s]
+EvaluationContext = tuple[str, float, float]  # what, between which times [s]
 
 
 class Course(NamedTuple):
@@ -49,10 +49,10 @@ class Course(NamedTuple):
 
     def first(self) -> tuple[str, float]:
         """What happens first, and when [s]."""
-        found = [(t, PARTING) for t in crossings(self.depth, -1.0)]
+        found = [(t, SEPARATION) for t in crossings(self.depth, -1.0)]
         found += [(t, RETURN) for t in crossings(self.rate, 1.0)]
         if not self.closed:
-            found = [(t, TOUCH) for t in crossings(self.depth, 1.0)]
+            found = [(t, IMPACT) for t in crossings(self.depth, 1.0)]
         t, what = min(found, default=(np.inf, NOTHING))
         return what, t
 
@@ -65,10 +65,10 @@ def crossings(curve: Polynomial, sign: float) -> list[float]:
     return [float(t) for t in real if 0.0 < t < LENGTH and sign * slope(t) > 0.0]
 
 
-Finder = Callable[[Course, float, float], Seen]
+Finder = Callable[[Course, float, float], EvaluationContext]
 
 
-def in_reduced(course: Course, t: float, h: float) -> Seen:
+def in_reduced(course: Course, t: float, h: float) -> EvaluationContext:
     """The finder of the reduced formulation."""
 
     def contact(time: float) -> list[float]:
@@ -85,42 +85,47 @@ def in_reduced(course: Course, t: float, h: float) -> Seen:
     p = [0.0] * layout.PARAMETERS
     p[layout.RENEWS], p[layout.CLEARANCE] = 1.0, 1.0  # no way is too long
     memory = [0.0] * layout.MEMORY
-    memory[layout.TOUCHING] = float(course.closed)
+    memory[layout.CLOSED] = float(course.closed)
     look_for = plain(events.event, look=look)
     scratch = [0.0] * layout.STATES, [0.0] * layout.CONTACT
     what, low, high = look_for(p, [], memory, t, h, contact(t), contact(t + h), None, *scratch)
     return NAMES[what], t + low * h, t + high * h
 
 
-def in_tree(course: Course, t: float, h: float) -> Seen:
+def in_tree(course: Course, t: float, h: float) -> EvaluationContext:
     """The finder of the tree; the journal moves along one axis."""
 
-    def place(time: float) -> Place:
+    def place(time: float) -> JournalPlace:
         depth, rate = float(course.depth(time)), float(course.rate(time))
-        return Place(C + depth, 0.0, rate, 0.0, depth, rate)
+        return JournalPlace(C + depth, 0.0, rate, 0.0, depth, rate)
 
     found = event(course.closed, True, place(t), place(t + h), h, C)
     if found is None:
         return NOTHING, t, t + h
-    kinds = {Kind.TOUCH: TOUCH, Kind.PARTING: PARTING, Kind.RETURN: RETURN, Kind.UNCLEAR: UNCLEAR}
+    kinds = {
+        EventKind.IMPACT: IMPACT,
+        EventKind.SEPARATION: SEPARATION,
+        EventKind.RETURN: RETURN,
+        EventKind.UNCLEAR: UNCLEAR,
+    }
     return kinds[found.kind], t + found.fraction * h, t + found.fraction * h
 
 
 FINDERS = {"reduced": in_reduced, "tree": in_tree}
 
 
-def driven(find: Finder, course: Course) -> tuple[Seen, float]:
+def driven(find: Finder, course: Course) -> tuple[EvaluationContext, float]:
     """What is found first over a whole course, and the length of the step in which it was."""
     t, h = 0.0, FIRST
     while t < LENGTH:
         h = min(h, LENGTH - t)
-        seen = find(course, t, h)
-        if seen[0] == UNCLEAR:
+        context = find(course, t, h)
+        if context[0] == UNCLEAR:
             h *= SHORTEN
             assert h > 1e-12, "it shortens for ever"
             continue
-        if seen[0] != NOTHING:
-            return seen, h
+        if context[0] != NOTHING:
+            return context, h
         t, h = t + h, min(GROWTH * h, FIRST)
     return (NOTHING, LENGTH, LENGTH), h
 
@@ -152,8 +157,8 @@ margins = st.floats(0.01, 0.5) | st.floats(-0.5, -0.01)
 
 def check(find: Finder, course: Course) -> None:
     what, when = course.first()
-    (seen, low, high), h = driven(find, course)
-    assert seen == what
+    (context, low, high), h = driven(find, course)
+    assert context == what
     if what != NOTHING:
         # by the cubic of the step; a tenth of it is what integrators allow when they end a step there. A depth
         # that passes zero where it is about to turn is met, its time is not
@@ -190,7 +195,9 @@ def test_the_first_touch_of_a_flight_is_found(
 # --- tension that is cut ---
 
 
-def cut(push: Callable[[float], float], depth: Polynomial, h: float = 0.125, start: float = 0.0) -> Seen:
+def cut(
+    push: Callable[[float], float], depth: Polynomial, h: float = 0.125, start: float = 0.0
+) -> EvaluationContext:
     """What the compiled finder sees in a step of a contact that asks for tension where `push` is below zero."""
 
     def contact(time: float) -> list[float]:
@@ -205,7 +212,7 @@ def cut(push: Callable[[float], float], depth: Polynomial, h: float = 0.125, sta
         rest[-1][:] = contact(begin + x * step)
 
     p, memory = [0.0] * layout.PARAMETERS, [0.0] * layout.MEMORY
-    p[layout.RENEWS] = memory[layout.TOUCHING] = 1.0
+    p[layout.RENEWS] = memory[layout.CLOSED] = 1.0
     scratch = [0.0] * layout.STATES, [0.0] * layout.CONTACT
     ends = contact(start), contact(start + h)
     what, low, high = plain(events.event, look=look)(p, [], memory, start, h, *ends, None, *scratch)
@@ -244,11 +251,11 @@ def test_a_cut_and_a_parting_in_one_step_are_told_apart_by_shorter_ones() -> Non
     assert cut(lambda t: 0.07 - t, PARTS_EARLY)[0] == UNCLEAR
     assert cut(lambda t: 0.04 - t, PARTS_EARLY, h=0.045) == ("cut", 0.0, 0.045)
     what, low, high = cut(lambda t: 0.07 - t, PARTS_EARLY, h=0.06)
-    assert what == PARTING
+    assert what == SEPARATION
     assert low <= 0.05 <= high
-    # in so short a step the parting counts
+    # in so short a step the separation counts
     tiny = Polynomial([5e-14, -1e-3])
-    assert cut(lambda t: 2e-11 - t, tiny, h=1e-10)[0] == PARTING
+    assert cut(lambda t: 2e-11 - t, tiny, h=1e-10)[0] == SEPARATION
 
 
 def test_a_cut_comes_before_the_contact_is_pressed_on_again() -> None:
@@ -277,9 +284,9 @@ def test_what_is_over_within_a_step_is_seen(finder: str, middle: float) -> None:
     # a parabola that passes zero 0.03 s on either side of its middle, in a step of an eighth of a second
     out = 10.0 * DEPTH * Polynomial([middle**2 - 9e-4, -2.0 * middle, 1.0])
     what, low, high = FINDERS[finder](Course(out, closed=True), 0.0, 0.125)
-    assert (what, low - 1e-9 <= middle - 0.03 <= high + 1e-9) == (PARTING, True)
+    assert (what, low - 1e-9 <= middle - 0.03 <= high + 1e-9) == (SEPARATION, True)
     what, low, high = FINDERS[finder](Course(-out, closed=False), 0.0, 0.125)
-    assert (what, low - 1e-9 <= middle - 0.03 <= high + 1e-9) == (TOUCH, True)
+    assert (what, low - 1e-9 <= middle - 0.03 <= high + 1e-9) == (IMPACT, True)
 
 
 @pytest.mark.parametrize("finder", ["reduced", "tree"])
@@ -297,9 +304,9 @@ def test_a_dip_that_a_cubic_does_not_show_is_looked_at_more_closely(finder: str,
     # the rate has the values and the mean of s^2 + 0.02, which stays above zero, but is at -0.02 in the middle
     s = Polynomial([-1.0, 16.0])
     dipping, even = s**2 + 0.02 - 0.2 * s**4 + 0.24 * s**2 - 0.04, s**2 + 1.0
-    for rate, seen in ((dipping, UNCLEAR), (even, NOTHING)):
+    for rate, context in ((dipping, UNCLEAR), (even, NOTHING)):
         course = Course(10.0 * DEPTH + sign * DEPTH * rate.integ(), closed=True)
-        assert FINDERS[finder](course, 0.0, 0.125)[0] == seen
+        assert FINDERS[finder](course, 0.0, 0.125)[0] == context
 
 
 @pytest.mark.parametrize("finder", FINDERS)
@@ -335,16 +342,16 @@ def test_a_bump_between_two_falling_ends_is_a_touch(finder: str) -> None:
     depth = rate.integ()
     bump = depth - (0.3 * depth(0.0) + 0.7 * depth(0.009))
     assert bump(0.0) < 0.0 < bump(0.009)
-    assert driven(FINDERS[finder], Course(1e7 * DEPTH * bump, closed=False))[0][0] == TOUCH
+    assert driven(FINDERS[finder], Course(1e7 * DEPTH * bump, closed=False))[0][0] == IMPACT
 
 
 @pytest.mark.parametrize("finder", FINDERS)
 def test_what_has_just_been_met_is_not_met_again(finder: str) -> None:
     find = FINDERS[finder]
     rounding = 1e-15
-    # just touched, a little before zero depth by rounding, on the way in
+    # just been in contact, a little before zero depth by rounding, on the way in
     assert find(Course(Polynomial([-rounding, 1e-3, -1e-3]), closed=True), 0.0, 0.1)[0] == NOTHING
-    # just parted, a little after it, on the way out
+    # just separated, a little after it, on the way out
     assert find(Course(Polynomial([rounding, -1e-3, 1e-4]), closed=False), 0.0, 0.1)[0] == NOTHING
 
 
@@ -364,7 +371,7 @@ def test_grazes_are_told_from_touches(finder: str, beyond: float) -> None:
 def test_contacts_that_nearly_part_are_told_from_those_that_do(finder: str, left: float) -> None:
     t = Polynomial([-0.47, 1.0])
     course = Course(DEPTH * (left + (t / 0.3) ** 2 + 0.3 * (t / 0.3) ** 3), closed=True)
-    assert driven(FINDERS[finder], course)[0][0] == (RETURN if left > 0.0 else PARTING)
+    assert driven(FINDERS[finder], course)[0][0] == (RETURN if left > 0.0 else SEPARATION)
 
 
 # --- a step made again to end where it is pressed on again ---

@@ -1,4 +1,4 @@
-"""Touches are located in time under every law and with both backends, whatever the grid of steps."""
+"""Impacts are located in time under every law and with both backends, whatever the grid of steps."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ TIME, SPEED = 0.01744754, 0.17192479  # [s], [m/s]
 
 
 def drop(step: float, backend: str, **laws: NormalLaw | FrictionLaw) -> Result:
-    """The journal falls from the middle of its bore and touches twice."""
+    """The journal falls from the middle of its bore and impacts twice."""
     pin = ClearancePin(contact=replace(paper_contact(1.5, 0.0), **laws))
     settings = SolverSettings(backend=backend, impact_steps=100)
     base = loose_support(drive=Held(), duration=0.042, step=step, solver=settings)

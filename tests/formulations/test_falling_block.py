@@ -129,8 +129,8 @@ def test_weight_and_all_bounces_are_as_in_an_independent_solution(restitution: f
 def test_later_impacts_give_back_more() -> None:
     rock = block(restitution=0.3, stiffness=1e10)
     result = simulate(on_the_held(rock, duration=1.2))
-    touching = result["rock.gap"] <= 0.0
-    begins = np.flatnonzero(touching[1:] & ~touching[:-1]) + 1
+    closed = result["rock.gap"] <= 0.0
+    begins = np.flatnonzero(closed[1:] & ~closed[:-1]) + 1
     energy = 0.5 * result["rock.velocity_y"] ** 2 + G * (result["rock.y"] - result["rock.y"][0] + HEIGHT)
     speeds = np.sqrt(2.0 * energy[begins - 1])
     assert speeds[0] == pytest.approx(SPEED, rel=1e-6)
@@ -225,14 +225,18 @@ def test_on_a_spring_it_converges_to_an_independent_solution_with_second_order()
     ("place", "pins"),
     [
         *((place, "ideal") for place in PLACES),
-        ("tip", "loose"),
-        *(pytest.param(place, "loose", marks=pytest.mark.slow) for place in ("middle", "rear")),
+        ("tip", "with_clearance"),
+        *(pytest.param(place, "with_clearance", marks=pytest.mark.slow) for place in ("middle", "rear")),
     ],
 )
 def test_on_the_support_energies_add_up_and_half_the_steps_give_the_same(place: str, pins: str) -> None:
-    loose = {paper_machine.LOOSE_PIN: paper_machine.loose_pin(1.5, 0.25)} if pins == "loose" else {}
+    with_clearance = (
+        {paper_machine.CLEARANCE_PIN: paper_machine.clearance_joint(1.5, 0.25)}
+        if pins == "with_clearance"
+        else {}
+    )
     scene = on_the_held(
-        block(point=PLACES[place]), columns=ON_OIL, pins=loose, duration=0.4,
+        block(point=PLACES[place]), columns=ON_OIL, pins=with_clearance, duration=0.4,
         solver=SolverSettings(impact_steps=128),
     )  # fmt: skip
     coarse, fine = simulate(scene), simulate(scene.refined())
@@ -245,7 +249,7 @@ def test_on_the_support_energies_add_up_and_half_the_steps_give_the_same(place: 
 
 
 def test_touch_needs_no_grid() -> None:
-    # steps are halved on the way to the touch, so that long ones lose nothing
+    # steps are halved on the way to the impact, so that long ones lose nothing
     results = [simulate(on_the_held(block(), step=step, duration=0.45)) for step in (1e-3, 1e-4)]
     speeds = [result["rock.velocity_y"][-1] for result in results]
     assert speeds[0] == pytest.approx(speeds[1], abs=2e-4)  # second order of 512 steps an impact
@@ -279,8 +283,8 @@ def test_it_can_be_saved_and_read(tmp_path: object) -> None:
 
 @pytest.mark.parametrize("rock", [block(), block(height=0.1, speed=1.0)], ids=["dropped", "thrown"])
 def test_it_hangs_while_the_support_settles(rock: FallingBlock) -> None:
-    loose = {paper_machine.LOOSE_PIN: paper_machine.loose_pin(1.5, 0.0)}
-    scene = on_the_held(rock, columns=ON_OIL, pins=loose, start="settled", duration=0.06)
+    with_clearance = {paper_machine.CLEARANCE_PIN: paper_machine.clearance_joint(1.5, 0.0)}
+    scene = on_the_held(rock, columns=ON_OIL, pins=with_clearance, start="settled", duration=0.06)
     result, alone = simulate(scene), simulate(replace(scene, loads={}))
     # before it strikes the support stands as without it; Newton's tolerance of the static solution
     assert result["tip.y"] == pytest.approx(alone["tip.y"], abs=1e-9)

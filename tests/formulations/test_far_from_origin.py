@@ -50,18 +50,18 @@ def shifted(machine: Any, by: Vector2) -> Any:
     return replace(machine, **changed)
 
 
-def loose(**more: Any) -> dict[str, ClearancePin]:
+def with_clearance(**more: Any) -> dict[str, ClearancePin]:
     return {"rear_base": ClearancePin(contact=paper_contact(1.5, 0.0), **more)}
 
 
 SCENES: dict[str, Callable[[Any], Scenario]] = {
-    "settled": lambda m: Scenario(machine=m, pins=loose(), start="settled", drive=RISE, duration=0.05),
-    "settled, at rest": lambda m: Scenario(machine=m, pins=loose(), start="settled", duration=0.02),
+    "settled": lambda m: Scenario(machine=m, pins=with_clearance(), start="settled", drive=RISE, duration=0.05),
+    "settled, at rest": lambda m: Scenario(machine=m, pins=with_clearance(), start="settled", duration=0.02),
     "settled on oil": lambda m: Scenario(
         machine=m, columns=dict.fromkeys(("front_column", "rear_column"), OIL), start="settled", duration=0.02
     ),
-    "eccentric": lambda m: Scenario(machine=m, pins=loose(eccentricity=(0.0, -0.001)), duration=0.02),
-    "reduced": lambda m: Scenario(machine=m, pins=loose(), formulation="reduced", duration=0.02),
+    "eccentric": lambda m: Scenario(machine=m, pins=with_clearance(eccentricity=(0.0, -0.001)), duration=0.02),
+    "reduced": lambda m: Scenario(machine=m, pins=with_clearance(), formulation="reduced", duration=0.02),
     "space": lambda m: Scenario(machine=m, drive=Held(), dimensions=3, start="settled", duration=0.005),
 }
 
@@ -127,7 +127,7 @@ def moved(item: Any, by: float) -> Any:
 
 def test_an_own_machine_settles_ten_kilometres_away() -> None:
     near, far = (
-        simulate(Scenario(machine=Elsewhere(by=by), pins=loose(), start="settled", duration=0.01))
+        simulate(Scenario(machine=Elsewhere(by=by), pins=with_clearance(), start="settled", duration=0.01))
         for by in (0.0, 1e4)
     )
     force, tip = apart(near, far, (1e4, 0.0))

@@ -27,18 +27,18 @@ def with_a_state() -> Scenario:
 
 
 SCENES = {
-    "loose support": loose_support(drive=Held(), duration=0.02),
+    "clearance support": loose_support(drive=Held(), duration=0.02),
     "ideal support": support(drive=Held(), duration=0.02),
-    "loose support on oil": loose_support(drive=Held(), duration=0.02, columns=BOTH),
+    "clearance support on oil": loose_support(drive=Held(), duration=0.02, columns=BOTH),
     "ideal support on oil": support(drive=Held(), duration=0.02, columns=BOTH),
     "settled support": loose_support(drive=Held(), duration=0.02, start="settled"),
     "friction with a state": with_a_state(),
-    "loose slider-crank": loose_slider_crank(1e-4),
+    "clearance slider-crank": loose_slider_crank(1e-4),
     "ideal slider-crank": slider_crank(1e-4),
 }
 COVERED = {
-    "reduced": {"loose support", "ideal support", "loose slider-crank"},
-    "tree": {"loose support on oil"},
+    "reduced": {"clearance support", "ideal support", "clearance slider-crank"},
+    "tree": {"clearance support on oil"},
     "redundant": set(SCENES),
 }
 
@@ -94,4 +94,4 @@ def test_an_unknown_formulation_is_refused() -> None:
 def test_what_cannot_be_imported_is_no_matter_of_coverage() -> None:
     broken = Formulation("tree", "support_exudyn.there_is_none", cost=1, safety=1.0)
     with pytest.raises(ModuleNotFoundError, match="there_is_none"):
-        broken.covers(SCENES["loose support"])
+        broken.covers(SCENES["clearance support"])

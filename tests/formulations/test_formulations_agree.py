@@ -30,7 +30,7 @@ from tests.cases.run_cases import (
     slider_crank_contact,
     support,
 )
-from user_forces import DepthSpeed
+from user_forces import IndentationVelocity
 
 OIL = OilColumn(bore_area=bore_area(0.25, number=2), oil_length=0.5, bulk_modulus=1.5e9)
 BOTH = {"front_column": OIL, "rear_column": OIL}
@@ -38,9 +38,9 @@ RISE = CubicStep(stroke=0.02, start=0.02, end=0.1)
 
 
 def pressed_apart(clearance_mm: float, mu: float, bore: str) -> dict[str, ClearancePin]:
-    """The support's loose pin, damped by its depth and losing half of the speed of a touch."""
+    """The support's clearance pin, damped by its depth and losing half of the speed of an impact."""
     base = paper_contact(clearance_mm, mu)
-    law = replace(base.normal, restitution=0.5, damping_speed=DepthSpeed())
+    law = replace(base.normal, restitution=0.5, damping_speed=IndentationVelocity())
     return {PIN: ClearancePin(contact=replace(base, normal=law), bore=bore)}
 
 
@@ -117,9 +117,9 @@ def test_touches_are_the_same(pair: tuple[str, str, str]) -> None:
         assert len(onsets) == len(other.onsets[pin]) >= 2
         fastest = max(onset.speed for onset in onsets)
         for mine, theirs in zip(onsets, other.onsets[pin], strict=True):
-            # of the run's length; the sixth touch of the rise measured 0.5 of it
+            # of the run's length; the sixth impact of the rise measured 0.5 of it
             assert mine.time == pytest.approx(theirs.time, abs=close * one.time[-1])
-            # late touches are slow, and off by what the fast ones before them left
+            # late impacts are slow, and off by what the fast ones before them left
             assert mine.speed == pytest.approx(theirs.speed, abs=5.0 * close * fastest)
         assert one.largest_force[pin] == pytest.approx(other.largest_force[pin], rel=close)
     assert len(one.impulses) == len(other.impulses)
@@ -148,7 +148,7 @@ def test_means_and_spreads_are_the_same(pair: tuple[str, str, str]) -> None:
         rounding = 1e-6 if "redundant" in ways else 1e-8
         allowed = close * size + rounding * sizes[one.channels[name].unit]
         assert abs(mine.mean() - theirs.mean()) <= allowed, name
-        # a record beside a touch may be before it in one run and after it in the other
+        # a record beside an impact may be before it in one run and after it in the other
         assert abs(mine.std() - theirs.std()) <= 5.0 * allowed, name
 
 

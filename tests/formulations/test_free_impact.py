@@ -35,7 +35,7 @@ def test_restitution_is_the_closed_form_of_the_law(restitution: float, step: flo
     )
     assert len(result.onsets["pin"]) == 1
     assert result.onsets["pin"][0].speed == pytest.approx(0.2, rel=1e-9)  # free flight is exact
-    assert result["pin.pin.depth"][-1] < 0.0  # they have parted
+    assert result["pin.pin.depth"][-1] < 0.0  # they have separated
     rebound = result["one.velocity_x"][-1] - result["two.velocity_x"][-1]
     # second-order error of an impact in N steps, whatever the step of the flight: 1/N^2, 6e-5 and 4e-6
     assert rebound / 0.2 == pytest.approx(delivered_restitution(law.damping_factor), abs=impact_steps**-2.0)

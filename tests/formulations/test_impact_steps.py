@@ -22,9 +22,9 @@ NUMBER, MASS, SPEED = 100, 3.0, 0.2
 DEEPEST = greatest_depth(1e8, 1.5, MASS, SPEED)
 
 
-def touched() -> ImpactSteps:
+def struck() -> ImpactSteps:
     steps = ImpactSteps(LAW, NUMBER)
-    steps.touch(0.0, SPEED, MASS)
+    steps.impact(0.0, SPEED, MASS)
     return steps
 
 
@@ -42,11 +42,11 @@ def test_there_is_no_impact_at_first() -> None:
 
 def test_a_touch_divides_the_duration_of_the_undamped_impact() -> None:
     # 2.94 is a rounded constant
-    assert touched().step == pytest.approx(contact_time(DEEPEST, 1.5, SPEED) / NUMBER, rel=2e-3)
+    assert struck().step == pytest.approx(contact_time(DEEPEST, 1.5, SPEED) / NUMBER, rel=2e-3)
 
 
 def test_short_steps_go_on_for_a_little_after_the_parting() -> None:
-    steps = touched()
+    steps = struck()
     for _ in range(STEPS_APART):
         steps.follow(-1e-6, -0.1, MASS)
         assert steps.step < math.inf
@@ -55,7 +55,7 @@ def test_short_steps_go_on_for_a_little_after_the_parting() -> None:
 
 
 def test_small_swings_end_an_impact_and_large_ones_do_not() -> None:
-    steps = touched()
+    steps = struck()
     swing(steps, DEEPEST, 0.6 * LIVELY * DEEPEST, SMALL_SWINGS - 1)
     assert steps.step < math.inf
     swing(steps, DEEPEST, 0.9 * DEEPEST, 2)  # large: counted from the beginning again
@@ -66,7 +66,7 @@ def test_small_swings_end_an_impact_and_large_ones_do_not() -> None:
 
 
 def test_a_creeping_contact_is_no_impact_for_ever() -> None:
-    steps = touched()
+    steps = struck()
     for _ in range(DURATIONS * NUMBER):
         steps.follow(DEEPEST, 0.0, MASS)
         assert steps.step < math.inf
@@ -75,7 +75,7 @@ def test_a_creeping_contact_is_no_impact_for_ever() -> None:
 
 
 def test_a_resting_contact_that_moves_is_in_an_impact_again() -> None:
-    steps = touched()
+    steps = struck()
     swing(steps, DEEPEST, 1e-3 * DEEPEST, 2 * SMALL_SWINGS)
     assert steps.step == math.inf
     last = DEEPEST * (1.0 - 1e-3)
@@ -86,9 +86,9 @@ def test_a_resting_contact_that_moves_is_in_an_impact_again() -> None:
 
 
 def test_a_load_that_presses_deeper_shortens_the_steps() -> None:
-    steps = touched()
+    steps = struck()
     first = steps.step
-    steps.follow(0.5 * DEEPEST, 0.5 * SPEED, MASS)  # less than the touch brought
+    steps.follow(0.5 * DEEPEST, 0.5 * SPEED, MASS)  # less than the impact brought
     assert steps.step == first
     steps.follow(2.0 * DEEPEST, SPEED, MASS)
     assert steps.step < first
@@ -96,7 +96,7 @@ def test_a_load_that_presses_deeper_shortens_the_steps() -> None:
 
 def test_a_force_that_jumps_at_the_touch_is_met_with_growing_steps() -> None:
     steps = ImpactSteps(KelvinVoigt(stiffness=1e6, damping=500.0), NUMBER)
-    steps.touch(0.0, SPEED, MASS)
+    steps.impact(0.0, SPEED, MASS)
     lengths = [steps.step]
     for _ in range(HALVINGS + 1):
         steps.follow(1e-6, SPEED, MASS)

@@ -24,9 +24,9 @@ from support_exudyn import (
     Steady,
     UniformSpeed,
     bore_area,
+    cylinders_and_rods,
     ravn_slider_crank,
     reference_support,
-    two_body_columns,
 )
 from support_exudyn.formulations.redundant.inventory import Inventory, inventory
 from support_exudyn.formulations.redundant.scene.scene_builder import build
@@ -43,16 +43,16 @@ OIL = OilColumn(bore_area=bore_area(0.25, 2), oil_length=0.5, bulk_modulus=1.5e9
 EQUATIONS = {"pin": 2, "column": 1, "crank": 1, "slide": 2}  # of an ideal one in the plane
 
 
-def loose(friction: bool = True) -> ClearancePin:
+def with_clearance(friction: bool = True) -> ClearancePin:
     whole = contact()
     return ClearancePin(contact=whole if friction else replace(whole, friction=Frictionless()))
 
 
 def scenario(**changes: Any) -> Scenario:
-    """Without an audit where not everything is recorded: it would have energies followed all the same."""
+    """Without result checks where not everything is recorded: it would have energies followed all the same."""
     fields: dict[str, Any] = {"machine": SUPPORT, "duration": 0.1}
     if "channels" in changes:
-        fields["solver"] = SolverSettings(audit=False)
+        fields["solver"] = SolverSettings(result_checks=False)
     return Scenario(**fields | changes)
 
 
@@ -61,11 +61,13 @@ def test_an_audit_has_energies_followed_whatever_is_recorded() -> None:
     assert inventory(driven).callbacks == inventory(replace(driven, channels=("*",))).callbacks == 2
 
 
-def places(linkage: Linkage, weighed: bool, loose_pins: Mapping[str, Any], loads: Mapping[str, Load]) -> int:
-    """Markers: one for each place on a body that something acts on, two more of its own for a loose pin."""
+def places(
+    linkage: Linkage, weighed: bool, clearance_joints: Mapping[str, Any], loads: Mapping[str, Load]
+) -> int:
+    """Markers: one for each place on a body that something acts on, two more of its own for a clearance pin."""
     found: set[tuple[str, Any]] = set()
     for name, pin in linkage.pins.items():
-        if name not in loose_pins:
+        if name not in clearance_joints:
             found |= {(pin.first, pin.first_point), (pin.second, pin.second_point)}
     for column in linkage.columns.values():
         found |= {(column.foot, column.foot_point), (column.head, column.head_point)}
@@ -77,7 +79,7 @@ def places(linkage: Linkage, weighed: bool, loose_pins: Mapping[str, Any], loads
         found |= {(name, body.centre) for name, body in linkage.bodies.items()}
     # every crank has its angle, and all share the coordinate that is held against
     angles = len(linkage.cranks) + bool(linkage.cranks)
-    return len(found) + 2 * len(loose_pins) + angles
+    return len(found) + 2 * len(clearance_joints) + angles
 
 
 def touches_ground(linkage: Linkage) -> bool:
@@ -116,7 +118,7 @@ def counted(one: Scenario, user_functions: int, callbacks: int) -> Inventory:
 TRAPEZOIDAL = SolverSettings(integrator="trapezoidal", constraint_index=2)
 SYMBOLIC = SolverSettings(backend="symbolic")
 STAND = ImpactStand(bore_mass=1.0, journal_mass=1.0, speed=0.1)
-ONE_LOOSE = {"rear_base": loose()}
+ONE_LOOSE = {"rear_base": with_clearance()}
 NO_ENERGY = ("tip.*", "pin.*")
 # scenario, functions of Python that compute forces, functions that the engine calls every step
 CASES: dict[str, tuple[Scenario, int, int]] = {
@@ -129,13 +131,13 @@ CASES: dict[str, tuple[Scenario, int, int]] = {
     "no gravity": (scenario(gravity=(0.0, 0.0)), 0, 0),
     "ideal, steps that grow": (scenario(solver=SolverSettings(growth=8)), 0, 2),
     # before every attempt, after Newton's method, after the step
-    "one loose pin": (scenario(pins=ONE_LOOSE), 1, 3),
-    "one loose pin, no friction": (scenario(pins={"rear_base": loose(friction=False)}), 1, 3),
-    "one loose pin, symbolic": (scenario(pins=ONE_LOOSE, solver=SYMBOLIC), 0, 3),
-    "two loose pins": (scenario(pins=dict.fromkeys(PINS[:2], loose())), 2, 3),
-    "all loose": (scenario(pins=dict.fromkeys(PINS, loose())), 5, 3),
+    "one clearance pin": (scenario(pins=ONE_LOOSE), 1, 3),
+    "one clearance pin, no friction": (scenario(pins={"rear_base": with_clearance(friction=False)}), 1, 3),
+    "one clearance pin, symbolic": (scenario(pins=ONE_LOOSE, solver=SYMBOLIC), 0, 3),
+    "two clearance pins": (scenario(pins=dict.fromkeys(PINS[:2], with_clearance())), 2, 3),
+    "all loose": (scenario(pins=dict.fromkeys(PINS, with_clearance())), 5, 3),
     "all loose, no friction, no gravity": (
-        scenario(pins=dict.fromkeys(PINS, loose(friction=False)), gravity=(0.0, 0.0)),
+        scenario(pins=dict.fromkeys(PINS, with_clearance(friction=False)), gravity=(0.0, 0.0)),
         5,
         3,
     ),
@@ -181,11 +183,11 @@ CASES: dict[str, tuple[Scenario, int, int]] = {
         2,
     ),
     "slider-crank, loose": (
-        scenario(machine=ravn_slider_crank(), pins={"slider_pin": loose()}, drive=Steady(rate=500.0)),
+        scenario(machine=ravn_slider_crank(), pins={"slider_pin": with_clearance()}, drive=Steady(rate=500.0)),
         1,
         3,
     ),
-    "impact stand": (scenario(machine=STAND, pins={"pin": loose()}, gravity=(0.0, 0.0)), 1, 3),
+    "impact stand": (scenario(machine=STAND, pins={"pin": with_clearance()}, gravity=(0.0, 0.0)), 1, 3),
     "impact stand, ideal": (scenario(machine=STAND, gravity=(0.0, 0.0)), 0, 0),
     "impact stand, weighed": (scenario(machine=STAND), 0, 0),
 }
@@ -225,7 +227,7 @@ def test_a_freed_pin_takes_two_equations_and_nothing_else(machine: Machine) -> N
     held = scenario(machine=machine, gravity=(0.0, 0.0))
     ideal = inventory(held)
     for pin in machine.linkage().pins:
-        freed = inventory(replace(held, pins={pin: loose()}))
+        freed = inventory(replace(held, pins={pin: with_clearance()}))
         same = replace(freed, markers=ideal.markers, user_functions=0, callbacks=0)
         assert same == replace(ideal, constraints=ideal.constraints - 2)
 
@@ -261,14 +263,14 @@ BODIES = ("RigidBody2D", "RigidBody")  # the engine's names
 LEVELS: dict[str, dict[str, Any]] = {
     "ideal": {},
     "no gravity": {"gravity": (0.0, 0.0)},
-    "loose": {"pins": ONE_LOOSE},
-    "all loose": {"pins": dict.fromkeys(PINS, loose())},
+    "with_clearance": {"pins": ONE_LOOSE},
+    "all loose": {"pins": dict.fromkeys(PINS, with_clearance())},
     "oil": {"columns": dict.fromkeys(("front_column", "rear_column"), OIL)},
-    "two bodies": {"columns": two_body_columns()},
-    "two bodies on oil": {"columns": two_body_columns(OIL)},
+    "two bodies": {"columns": cylinders_and_rods()},
+    "two bodies on oil": {"columns": cylinders_and_rods(OIL)},
     "tail beam": {"parts": {"tail_beam": OwnBody()}},
     "tail beam on oil": {"parts": TAIL},
-    "all": {"pins": dict.fromkeys(PINS, loose()), "columns": two_body_columns(OIL), "parts": TAIL},
+    "all": {"pins": dict.fromkeys(PINS, with_clearance()), "columns": cylinders_and_rods(OIL), "parts": TAIL},
     "settled": {"pins": ONE_LOOSE, "start": "settled"},
 }
 LOADED: dict[str, dict[str, Any]] = {"roof": {"loads": {"roof": over_the_canopy(0.1)}, "pins": ONE_LOOSE}}

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from support_exudyn import ClearancePin, Held, Result, Scenario, SolverSettings, simulate
-from support_exudyn.formulations.redundant.clearance.clearance_pin import LoosePin
+from support_exudyn.formulations.redundant.clearance.clearance_pin import ClearanceJoint
 from support_exudyn.formulations.redundant.clearance.connector_force import Attachment, attachment
 from support_exudyn.formulations.redundant.scene.scene_builder import build
 from tests.cases.run_cases import PIN, Pair, loose_support, paper_contact
@@ -19,12 +19,12 @@ from user_forces import (
     Ambrosio,
     FrictionLaw,
     Frictionless,
+    ImpactVelocity,
     JournalBearing,
     JournalContact,
     LankaraniNikravesh,
-    TouchSpeed,
 )
-from user_forces.normal.damping_speed import DampingSpeed, DepthSpeed
+from user_forces.normal.damping_speed import DampingSpeed, IndentationVelocity
 
 Backend = Literal["python", "symbolic"]
 BEARING = JournalBearing(bore_radius=0.02, clearance=0.001)
@@ -52,12 +52,12 @@ def fly(law: JournalContact, bore: Literal["first", "second"], backend: Backend)
 @pytest.mark.parametrize(
     ("damping", "friction", "ends", "expected"),
     [
-        (TouchSpeed(), Frictionless(), (True, False), Attachment.LINE),
-        (TouchSpeed(), Frictionless(), (False, False), Attachment.LINE),
-        (DepthSpeed(), Frictionless(), (True, False), Attachment.CENTRAL),
-        (TouchSpeed(), NEARLY, (True, False), Attachment.JOURNAL),
-        (TouchSpeed(), NEARLY, (False, True), Attachment.BORE),
-        (DepthSpeed(), NEARLY, (False, False), Attachment.MIDDLE),
+        (ImpactVelocity(), Frictionless(), (True, False), Attachment.LINE),
+        (ImpactVelocity(), Frictionless(), (False, False), Attachment.LINE),
+        (IndentationVelocity(), Frictionless(), (True, False), Attachment.CENTRAL),
+        (ImpactVelocity(), NEARLY, (True, False), Attachment.JOURNAL),
+        (ImpactVelocity(), NEARLY, (False, True), Attachment.BORE),
+        (IndentationVelocity(), NEARLY, (False, False), Attachment.MIDDLE),
     ],
 )
 def test_the_least_connector_that_does_is_taken(
@@ -68,7 +68,7 @@ def test_the_least_connector_that_does_is_taken(
 
 @pytest.mark.parametrize("backend", ["python", "symbolic"])
 @pytest.mark.parametrize("bore", ["first", "second"])
-@pytest.mark.parametrize("damping", [TouchSpeed(), DepthSpeed()], ids=["line", "central"])
+@pytest.mark.parametrize("damping", [ImpactVelocity(), IndentationVelocity()], ids=["line", "central"])
 def test_momentum_is_kept_without_friction(
     damping: DampingSpeed, bore: Literal["first", "second"], backend: Backend
 ) -> None:
@@ -84,42 +84,43 @@ def test_momentum_is_kept_without_friction(
 
 @pytest.mark.parametrize("backend", ["python", "symbolic"])
 @pytest.mark.parametrize("bore", ["first", "second"])
-@pytest.mark.parametrize("damping", [TouchSpeed(), DepthSpeed()], ids=["line", "central"])
+@pytest.mark.parametrize("damping", [ImpactVelocity(), IndentationVelocity()], ids=["line", "central"])
 def test_two_free_bodies_move_alike_on_every_connector(
     damping: DampingSpeed, bore: Literal["first", "second"], backend: Backend
 ) -> None:
     lean, full = (fly(contact(damping, friction), bore, backend) for friction in (Frictionless(), NEARLY))
     one, two = lean.onsets["pin"], full.onsets["pin"]
     assert len(one) == len(two) >= 3
-    # a coefficient of friction of 1e-12, and the axes of the mobility, which a bore that turns is expected to
+    # a coefficient of friction of 1e-12, and the axes of the inverse effective mass, which a bore that turns is
+    # expected to
     # have: of second order in steps of 4e-6 s
-    assert [touch.time for touch in one] == pytest.approx([touch.time for touch in two], rel=1e-8)
-    assert [touch.speed for touch in one] == pytest.approx([touch.speed for touch in two], rel=1e-6)
+    assert [impact.time for impact in one] == pytest.approx([impact.time for impact in two], rel=1e-8)
+    assert [impact.speed for impact in one] == pytest.approx([impact.speed for impact in two], rel=1e-6)
     for name in ("one.x", "two.angle", "one.angular_velocity"):
         np.testing.assert_allclose(lean[name], full[name], rtol=1e-7, atol=1e-9)
 
 
 @pytest.mark.parametrize("bore", ["first", "second"])
 def test_the_support_moves_alike_on_every_connector(bore: Literal["first", "second"]) -> None:
-    def touches(law: JournalContact, backend: Backend) -> list[tuple[float, float]]:
+    def impacts(law: JournalContact, backend: Backend) -> list[tuple[float, float]]:
         pins = {PIN: ClearancePin(contact=law, bore=bore)}
         solver = SolverSettings(backend=backend, impact_steps=64)
         result = simulate(replace(loose_support(duration=0.08, solver=solver), pins=pins))
-        return [tuple(touch) for touch in result.onsets[PIN]]
+        return [tuple(impact) for impact in result.onsets[PIN]]
 
     lean = paper_contact(1.5, 0.0)
     nearly = replace(lean, friction=NEARLY)
-    expected = touches(lean, "python")
+    expected = impacts(lean, "python")
     assert len(expected) == 3
     for law, backend in ((lean, "symbolic"), (nearly, "python"), (nearly, "symbolic")):
-        # Newton's tolerance of 1e-8, magnified tenfold by each touch
-        np.testing.assert_allclose(touches(law, backend), expected, rtol=1e-5)
+        # Newton's tolerance of 1e-8, magnified tenfold by each impact
+        np.testing.assert_allclose(impacts(law, backend), expected, rtol=1e-5)
 
 
 def test_memory_is_that_of_the_last_step_that_stands() -> None:
     # a step that is tried and given up must leave nothing behind
     scene = build(loose_support())
-    pin = scene.loose_pins[PIN]
+    pin = scene.clearance_joints[PIN]
     kept = pin.kept
     pin.begin_try(1e-3)
     scene.mbs.systemData.SetODE2Coordinates(0.0 * scene.mbs.systemData.GetODE2Coordinates())
@@ -143,10 +144,10 @@ def test_force_was_last_evaluated_at_the_end_of_the_step(
     friction: float, choice: dict[str, Any], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     # the Python backend takes the motion at the end of a step from there
-    after_newton = LoosePin.after_newton
+    after_newton = ClearanceJoint.after_newton
     wrong: list[float] = []
 
-    def checked(self: LoosePin, t: float) -> float | None:
+    def checked(self: ClearanceJoint, t: float) -> float | None:
         (bx, by, *_), (x, y, vx, vy, *_) = self.frames.moving.now()  # the bore stands
         x, y = x - bx, y - by
         eccentricity = math.hypot(x, y)
@@ -155,7 +156,7 @@ def test_force_was_last_evaluated_at_the_end_of_the_step(
         wrong.append(abs((found.x * found.vx + found.y * found.vy) - (x * vx + y * vy)) / eccentricity)
         return after_newton(self, t)
 
-    monkeypatch.setattr(LoosePin, "after_newton", checked)
+    monkeypatch.setattr(ClearanceJoint, "after_newton", checked)
     solver = SolverSettings(backend="python", impact_steps=64, **choice)
     simulate(loose_support(1.5, friction, drive=Held(), duration=0.05, solver=solver))
     assert len(wrong) > 300

@@ -13,10 +13,10 @@ import pytest
 from studies.extremes import long_runs
 from support_exudyn import Drive, Reciprocating, Scenario, SolverSettings, Steady, reference_support, simulate
 from support_exudyn.formulations.progress import silent
-from support_exudyn.formulations.redundant.solver.solver import Run
+from support_exudyn.formulations.redundant.solver.solver import SolverRun
 from support_exudyn.formulations.registry import formulation
 from support_exudyn.mechanics.contact_state import PinMemory
-from support_exudyn.simulation.audit import joints_apart
+from support_exudyn.simulation.result_checks import joints_apart
 from tests.cases.run_cases import loose_slider_crank, slider_crank
 from user_forces import value
 
@@ -78,8 +78,8 @@ def test_memory_grows_by_the_numbers_that_are_recorded_and_no_more(name: str) ->
 
 def test_a_record_takes_its_numbers() -> None:
     scene = long_runs.scene(long_runs.SMOOTH, 4.0)
-    # four bodies with six numbers each, time and three integrals; one loose pin. Accelerations and joint forces
-    # follow from these after the run
+    # four bodies with six numbers each, time and three integrals; one clearance pin. Accelerations and joint
+    # forces follow from these after the run
     numbers = 6 * len(scene.linkage.bodies) + 4 + len(PinMemory._fields)
     assert long_runs.record_bytes(scene) == 8 * numbers
 
@@ -154,14 +154,14 @@ def test_forces_late_in_a_long_run_are_as_quiet_as_early() -> None:
 
 def test_cut_steps_end_where_drives_are_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
     inexact: list[bool] = []
-    plain = Run._before_try
+    plain = SolverRun._before_try
 
-    def watched(self: Run, mbs: object, t: float) -> bool:
+    def watched(self: SolverRun, mbs: object, t: float) -> bool:
         if self.trying:
             inexact.append(t - self.time != float(self.solver.it.currentStepSize))
         return plain(self, mbs, t)
 
-    monkeypatch.setattr(Run, "_before_try", watched)
+    monkeypatch.setattr(SolverRun, "_before_try", watched)
     simulate(long_runs.scene(long_runs.DRY, 4.0))
     assert len(inexact) > 20
     # the engine shortens some more by itself

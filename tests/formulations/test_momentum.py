@@ -111,15 +111,15 @@ def test_spin_of_both_bodies_enters_the_slip() -> None:
 @settings(max_examples=8, deadline=None)
 @given(
     spins=st.tuples(st.floats(-20, 20), st.floats(-20, 20)),
-    approach=st.floats(0.2, 1.0),
+    impact_velocity=st.floats(0.2, 1.0),
     angle=st.floats(-3.0, 3.0),
     bore=st.sampled_from(["first", "second"]),
 )
 def test_momentum_is_kept_for_any_motion(
-    spins: tuple[float, float], approach: float, angle: float, bore: Bore
+    spins: tuple[float, float], impact_velocity: float, angle: float, bore: Bore
 ) -> None:
     one = Body(**{**vars(ONE), "spin": spins[0], "velocity": (0.0, 0.0)})
-    two = Body(**{**vars(TWO), "spin": spins[1], "velocity": (approach, 0.0), "angle": angle})
+    two = Body(**{**vars(TWO), "spin": spins[1], "velocity": (impact_velocity, 0.0), "angle": angle})
     linear, angular = momenta(fly(one, two, bore, impact_steps=64), one, two)
     np.testing.assert_allclose(linear, np.broadcast_to(linear[0], linear.shape), atol=1e-11)
     # relative to what both bodies carry, since the sum may nearly vanish; the error is of second order, and

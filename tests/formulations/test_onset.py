@@ -18,21 +18,21 @@ from support_exudyn.formulations.contact_events import (
     judge,
     judge_at_ends,
 )
-from support_exudyn.mechanics.contact_state import HEAVIEST, Mobility, Onset, PinMemory
+from support_exudyn.mechanics.contact_state import HEAVIEST, InverseMass, Onset, PinMemory
 from tests.analytic import fall_through
-from user_forces import Touch
+from user_forces import Impact
 
 H = 1e-3  # length of a step [s]
 BEHIND = BEYOND * SHARE  # how far behind an event a cut step is to end, in steps
 REST = (0.2, 1e-6, 0.5, 0.1, 0.25)  # slip, deflection and mobility: what no verdict changes
 
 
-def memory_of(in_contact: bool, approach_speed: float, depth: float, rate: float) -> PinMemory:
-    return PinMemory(in_contact, approach_speed, depth, rate, *REST)
+def memory_of(in_contact: bool, impact_velocity: float, depth: float, rate: float) -> PinMemory:
+    return PinMemory(in_contact, impact_velocity, depth, rate, *REST)
 
 
 def accepted(memory: PinMemory, anew: bool = False) -> Verdict:
-    """An ordinary step: no touch, nothing to repeat."""
+    """An ordinary step: no impact, nothing to repeat."""
     return Verdict(Action.ACCEPT, memory, None, anew, math.inf, math.inf)
 
 
@@ -69,12 +69,12 @@ class Rise(NamedTuple):
 
     @property
     def depth(self) -> Polynomial:
-        s = Polynomial([-self.share, 1.0 / self.step])  # time from the touch, in steps
+        s = Polynomial([-self.share, 1.0 / self.step])  # time from the impact, in steps
         return self.step * self.speed * s * (1.0 + self.bend * s + self.twist * s**2)
 
 
-def touches(lowest: float, highest: float) -> st.SearchStrategy[Rise]:
-    # 1 + bend s + twist s^2 has no root for s from -1 to 1, so the touch is the only one
+def impacts(lowest: float, highest: float) -> st.SearchStrategy[Rise]:
+    # 1 + bend s + twist s^2 has no root for s from -1 to 1, so the impact is the only one
     return st.builds(
         Rise,
         share=st.floats(lowest, highest),
@@ -85,11 +85,11 @@ def touches(lowest: float, highest: float) -> st.SearchStrategy[Rise]:
     )
 
 
-def assert_located(verdict: Verdict, touch: Rise) -> None:
+def assert_located(verdict: Verdict, impact: Rise) -> None:
     assert verdict.onset is not None
     # rounding: of depths to 1e-16 of themselves, and of a time up to 10 ms
-    assert verdict.onset.time == pytest.approx(touch.share * touch.step, abs=1e-13 * touch.step)
-    assert verdict.onset.speed == pytest.approx(touch.speed, rel=1e-13)
+    assert verdict.onset.time == pytest.approx(impact.share * impact.step, abs=1e-13 * impact.step)
+    assert verdict.onset.speed == pytest.approx(impact.speed, rel=1e-13)
 
 
 def assert_cut(verdict: Verdict, memory: PinMemory, goal: float, parts: int, step: float) -> None:
@@ -111,94 +111,96 @@ def test_free_flight_without_touch_is_accepted(speed: float) -> None:
     assert verdict == accepted(memory_of(False, 0.0, pytest.approx(-1e-3 + speed * H), speed))
 
 
-@given(touch=touches(1.01 * SHARE, 0.749))
-def test_touch_in_mid_step_cuts_the_step_to_end_just_behind_it(touch: Rise) -> None:
-    verdict, memory = judged(touch.depth, step=touch.step, impact_step=touch.step)
-    assert_cut(verdict, memory, touch.share + BEHIND, 1, touch.step)
-    assert_located(verdict, touch)
+@given(impact=impacts(1.01 * SHARE, 0.749))
+def test_touch_in_mid_step_cuts_the_step_to_end_just_behind_it(impact: Rise) -> None:
+    verdict, memory = judged(impact.depth, step=impact.step, impact_step=impact.step)
+    assert_cut(verdict, memory, impact.share + BEHIND, 1, impact.step)
+    assert_located(verdict, impact)
 
 
-@given(touch=touches(0.751, 1.0 - 1.01 * SHARE))
-def test_late_touch_is_reached_in_two_steps(touch: Rise) -> None:
-    verdict, memory = judged(touch.depth, step=touch.step, impact_step=touch.step)
-    assert_cut(verdict, memory, touch.share + BEHIND, 2, touch.step)
-    assert_located(verdict, touch)
+@given(impact=impacts(0.751, 1.0 - 1.01 * SHARE))
+def test_late_touch_is_reached_in_two_steps(impact: Rise) -> None:
+    verdict, memory = judged(impact.depth, step=impact.step, impact_step=impact.step)
+    assert_cut(verdict, memory, impact.share + BEHIND, 2, impact.step)
+    assert_located(verdict, impact)
 
 
-@given(touch=touches(1.0 - 0.99 * SHARE, 1.0 - 1e-3 * SHARE))
-def test_touch_near_the_end_is_accepted_with_its_exact_speed(touch: Rise) -> None:
-    verdict, _ = judged(touch.depth, step=touch.step, impact_step=touch.step)
+@given(impact=impacts(1.0 - 0.99 * SHARE, 1.0 - 1e-3 * SHARE))
+def test_touch_near_the_end_is_accepted_with_its_exact_speed(impact: Rise) -> None:
+    verdict, _ = judged(impact.depth, step=impact.step, impact_step=impact.step)
     assert verdict.action is Action.ACCEPT
-    assert_located(verdict, touch)
-    end = memory_of(True, touch.speed, float(touch.depth(touch.step)), float(touch.depth.deriv()(touch.step)))
+    assert_located(verdict, impact)
+    end = memory_of(
+        True, impact.speed, float(impact.depth(impact.step)), float(impact.depth.deriv()(impact.step))
+    )
     # rounding of the speed
     assert verdict.memory == pytest.approx(end, rel=1e-13)
 
 
-@given(touch=touches(1e-3 * SHARE, 0.99 * SHARE))
-def test_touch_near_the_start_repeats_the_step_in_contact(touch: Rise) -> None:
-    verdict, memory = judged(touch.depth, step=touch.step, impact_step=touch.step)
+@given(impact=impacts(1e-3 * SHARE, 0.99 * SHARE))
+def test_touch_near_the_start_repeats_the_step_in_contact(impact: Rise) -> None:
+    verdict, memory = judged(impact.depth, step=impact.step, impact_step=impact.step)
     assert verdict.action is Action.REPEAT
-    assert_located(verdict, touch)
+    assert_located(verdict, impact)
     # depth and rate stay those of the start; rounding of the speed
-    assert verdict.memory == pytest.approx(memory_of(True, touch.speed, memory.depth, memory.rate), rel=1e-13)
+    assert verdict.memory == pytest.approx(memory_of(True, impact.speed, memory.depth, memory.rate), rel=1e-13)
 
 
-@given(touch=touches(0.0, 0.99), finer=st.integers(2, 50))
-def test_an_impact_does_not_begin_with_a_long_step(touch: Rise, finer: int) -> None:
-    early = touch._replace(share=touch.share * SHARE / finer)
-    verdict, memory = judged(early.depth, step=touch.step, impact_step=touch.step / finer)
+@given(impact=impacts(0.0, 0.99), finer=st.integers(2, 50))
+def test_an_impact_does_not_begin_with_a_long_step(impact: Rise, finer: int) -> None:
+    early = impact._replace(share=impact.share * SHARE / finer)
+    verdict, memory = judged(early.depth, step=impact.step, impact_step=impact.step / finer)
     assert verdict.action is Action.CUT
     assert verdict.memory == memory
-    assert verdict.step == touch.step / finer
+    assert verdict.step == impact.step / finer
     assert_located(verdict, early)
 
 
-@given(touch=touches(1.01, 10.0), finer=st.integers(10, 1000))
-def test_how_near_is_near_is_measured_by_the_steps_of_the_impact(touch: Rise, finer: int) -> None:
+@given(impact=impacts(1.01, 10.0), finer=st.integers(10, 1000))
+def test_how_near_is_near_is_measured_by_the_steps_of_the_impact(impact: Rise, finer: int) -> None:
     # within the share of this step, but far outside of that of the impact's
-    early = touch._replace(share=touch.share * SHARE / finer)
-    verdict, memory = judged(early.depth, step=touch.step, impact_step=touch.step / finer)
-    assert_cut(verdict, memory, early.share + BEHIND / finer, 1, touch.step)
-    late = touch._replace(share=1.0 - early.share)
-    verdict, memory = judged(late.depth, step=touch.step, impact_step=touch.step / finer)
-    assert_cut(verdict, memory, late.share + BEHIND / finer, 2, touch.step)
+    early = impact._replace(share=impact.share * SHARE / finer)
+    verdict, memory = judged(early.depth, step=impact.step, impact_step=impact.step / finer)
+    assert_cut(verdict, memory, early.share + BEHIND / finer, 1, impact.step)
+    late = impact._replace(share=1.0 - early.share)
+    verdict, memory = judged(late.depth, step=impact.step, impact_step=impact.step / finer)
+    assert_cut(verdict, memory, late.share + BEHIND / finer, 2, impact.step)
 
 
 @pytest.mark.parametrize("longer", [1.0, 100.0, math.inf])
 def test_long_steps_of_an_impact_change_nothing(longer: float) -> None:
-    touch = Rise(0.9 * SHARE, 0.3, H, 0.1, 0.1)
-    verdict, _ = judged(touch.depth, impact_step=longer * H)
+    impact = Rise(0.9 * SHARE, 0.3, H, 0.1, 0.1)
+    verdict, _ = judged(impact.depth, impact_step=longer * H)
     assert verdict.action is Action.REPEAT
 
 
-@given(touch=touches(0.001, 0.999))
-def test_steps_of_an_impact_are_those_for_its_speed(touch: Rise) -> None:
+@given(impact=impacts(0.001, 0.999))
+def test_steps_of_an_impact_are_those_for_its_speed(impact: Rise) -> None:
     asked: list[float] = []
 
     def impact_step(speed: float) -> float:
         asked.append(speed)
-        return touch.step
+        return impact.step
 
-    rate = touch.depth.deriv()
-    memory = memory_of(False, 0.0, float(touch.depth(0.0)), float(rate(0.0)))
-    end = float(touch.depth(touch.step)), float(rate(touch.step))
-    verdict = judge(memory, *end, touch.step, touch.step, impact_step, False)
+    rate = impact.depth.deriv()
+    memory = memory_of(False, 0.0, float(impact.depth(0.0)), float(rate(0.0)))
+    end = float(impact.depth(impact.step)), float(rate(impact.step))
+    verdict = judge(memory, *end, impact.step, impact.step, impact_step, False)
     assert verdict.onset is not None
     assert asked == [verdict.onset.speed]
 
 
-@given(touch=touches(0.001, 0.999), begin=st.floats(0.0, 10.0))
-def test_onset_is_located_wherever_the_step_lies(touch: Rise, begin: float) -> None:
-    rate = touch.depth.deriv()
-    memory = memory_of(False, 0.0, float(touch.depth(0.0)), float(rate(0.0)))
-    end = float(touch.depth(touch.step)), float(rate(touch.step))
-    verdict = judge(memory, *end, begin + touch.step, touch.step, any_speed(touch.step), False)
+@given(impact=impacts(0.001, 0.999), begin=st.floats(0.0, 10.0))
+def test_onset_is_located_wherever_the_step_lies(impact: Rise, begin: float) -> None:
+    rate = impact.depth.deriv()
+    memory = memory_of(False, 0.0, float(impact.depth(0.0)), float(rate(0.0)))
+    end = float(impact.depth(impact.step)), float(rate(impact.step))
+    verdict = judge(memory, *end, begin + impact.step, impact.step, any_speed(impact.step), False)
     assert verdict.onset is not None
     # rounding of a time of 10 s
-    assert verdict.onset.time == pytest.approx(begin + touch.share * touch.step, abs=4e-15)
+    assert verdict.onset.time == pytest.approx(begin + impact.share * impact.step, abs=4e-15)
     if verdict.action is Action.CUT:
-        goal = begin + (touch.share + BEHIND) * touch.step
+        goal = begin + (impact.share + BEHIND) * impact.step
         assert verdict.landing == pytest.approx(goal, abs=4e-15)
 
 
@@ -268,39 +270,39 @@ def test_contact_that_goes_on_keeps_its_approach_speed(forgets: bool) -> None:
     assert verdict == accepted(end)
 
 
-@given(parting=touches(1.01 * SHARE, 0.749), forgets=st.booleans())
-def test_parting_in_mid_step_cuts_the_step_to_end_just_behind_it(parting: Rise, forgets: bool) -> None:
-    verdict, memory = judged(-parting.depth, step=parting.step, speed=0.3, forgets=forgets)
-    assert_cut(verdict, memory, parting.share + BEHIND, 1, parting.step)
+@given(separation=impacts(1.01 * SHARE, 0.749), forgets=st.booleans())
+def test_parting_in_mid_step_cuts_the_step_to_end_just_behind_it(separation: Rise, forgets: bool) -> None:
+    verdict, memory = judged(-separation.depth, step=separation.step, speed=0.3, forgets=forgets)
+    assert_cut(verdict, memory, separation.share + BEHIND, 1, separation.step)
     assert verdict.onset is None
 
 
-@given(parting=touches(0.751, 1.0 - 1.01 * SHARE), forgets=st.booleans())
-def test_late_parting_is_reached_in_two_steps(parting: Rise, forgets: bool) -> None:
-    verdict, memory = judged(-parting.depth, step=parting.step, speed=0.3, forgets=forgets)
-    assert_cut(verdict, memory, parting.share + BEHIND, 2, parting.step)
+@given(separation=impacts(0.751, 1.0 - 1.01 * SHARE), forgets=st.booleans())
+def test_late_parting_is_reached_in_two_steps(separation: Rise, forgets: bool) -> None:
+    verdict, memory = judged(-separation.depth, step=separation.step, speed=0.3, forgets=forgets)
+    assert_cut(verdict, memory, separation.share + BEHIND, 2, separation.step)
     assert verdict.onset is None
 
 
 @given(
-    parting=touches(1e-3 * SHARE, 0.99 * SHARE) | touches(1.0 - 0.99 * SHARE, 1.0 - 1e-3 * SHARE),
+    separation=impacts(1e-3 * SHARE, 0.99 * SHARE) | impacts(1.0 - 0.99 * SHARE, 1.0 - 1e-3 * SHARE),
     forgets=st.booleans(),
 )
-def test_contact_is_released_in_a_step_that_parts_near_an_end_of_it(parting: Rise, forgets: bool) -> None:
-    depth = -parting.depth
-    verdict, _ = judged(depth, step=parting.step, speed=0.3, forgets=forgets)
-    end = memory_of(False, 0.0, float(depth(parting.step)), float(depth.deriv()(parting.step)))
+def test_contact_is_released_in_a_step_that_parts_near_an_end_of_it(separation: Rise, forgets: bool) -> None:
+    depth = -separation.depth
+    verdict, _ = judged(depth, step=separation.step, speed=0.3, forgets=forgets)
+    end = memory_of(False, 0.0, float(depth(separation.step)), float(depth.deriv()(separation.step)))
     assert verdict == accepted(end)
 
 
-@given(parting=touches(1.01 * SHARE, 1.0 - 1.01 * SHARE), begin=st.floats(0.0, 10.0))
-def test_a_parting_is_located_wherever_the_step_lies(parting: Rise, begin: float) -> None:
-    depth, rate = -parting.depth, -parting.depth.deriv()
+@given(separation=impacts(1.01 * SHARE, 1.0 - 1.01 * SHARE), begin=st.floats(0.0, 10.0))
+def test_a_parting_is_located_wherever_the_step_lies(separation: Rise, begin: float) -> None:
+    depth, rate = -separation.depth, -separation.depth.deriv()
     memory = memory_of(True, 0.3, float(depth(0.0)), float(rate(0.0)))
-    end = float(depth(parting.step)), float(rate(parting.step))
-    verdict = judge(memory, *end, begin + parting.step, parting.step, any_speed(H), False)
+    end = float(depth(separation.step)), float(rate(separation.step))
+    verdict = judge(memory, *end, begin + separation.step, separation.step, any_speed(H), False)
     # rounding of a time of 10 s
-    assert verdict.landing == pytest.approx(begin + (parting.share + BEHIND) * parting.step, abs=4e-15)
+    assert verdict.landing == pytest.approx(begin + (separation.share + BEHIND) * separation.step, abs=4e-15)
 
 
 def test_depth_zero_at_the_end_is_parted() -> None:
@@ -333,7 +335,7 @@ def test_parting_and_touching_again_within_a_step_is_a_new_contact(
     assert verdict.onset.time == pytest.approx((bottom + r) * H, abs=1e-13 * H)
     assert verdict.onset.speed == pytest.approx(2.0 * bend * r * H, rel=1e-11)
     assert verdict.memory.in_contact
-    assert verdict.memory.approach_speed == verdict.onset.speed
+    assert verdict.memory.impact_velocity == verdict.onset.speed
 
 
 @given(bottom=st.floats(0.1, 0.9), above=st.floats(0.01, 1.0))
@@ -350,7 +352,7 @@ def test_a_repeated_step_in_contact_may_begin_before_the_touch() -> None:
     assert verdict == accepted(memory_of(True, 0.2, 1e-4, 0.2))
 
 
-# --- pressed on again without having parted ---
+# --- pressed on again without having separated ---
 
 # so deep that no cubic between two of them gets to the surface: it dips by at most step times 1 m/s / 8
 deep = st.floats(5e-4, 1e-3)
@@ -446,66 +448,66 @@ angles = st.floats(-math.pi, math.pi)
 
 
 @st.composite
-def mobilities(draw: st.DrawFn) -> tuple[Mobility, float, float, float]:
-    """A mobility, the direction of one of its axes [rad], and the masses along and across it [kg]."""
+def inverse_masses(draw: st.DrawFn) -> tuple[InverseMass, float, float, float]:
+    """An inverse effective mass, the direction of one of its axes [rad], and masses along and across [kg]."""
     angle, along, across = draw(angles), draw(st.floats(0.01, 1e4)), draw(st.floats(0.01, 1e4))
     c, s = math.cos(angle), math.sin(angle)
     xx, yy = c * c / along + s * s / across, s * s / along + c * c / across
-    return Mobility(xx, c * s * (1.0 / along - 1.0 / across), yy), angle, along, across
+    return InverseMass(xx, c * s * (1.0 / along - 1.0 / across), yy), angle, along, across
 
 
-@given(drawn=mobilities(), radius=st.floats(1e-6, 1e-2))
+@given(drawn=inverse_masses(), radius=st.floats(1e-6, 1e-2))
 def test_mass_along_the_axes_of_mobility_is_the_reciprocal_of_it(
-    drawn: tuple[Mobility, float, float, float], radius: float
+    drawn: tuple[InverseMass, float, float, float], radius: float
 ) -> None:
-    mobility, angle, along, across = drawn
+    inverse_mass, angle, along, across = drawn
     x, y = radius * math.cos(angle), radius * math.sin(angle)
     # rounding of the other one, up to 1e6 times larger
-    assert mobility.mass(x, y) == pytest.approx(along, rel=1e-9)
-    assert mobility.mass(-y, x) == pytest.approx(across, rel=1e-9)
+    assert inverse_mass.mass(x, y) == pytest.approx(along, rel=1e-9)
+    assert inverse_mass.mass(-y, x) == pytest.approx(across, rel=1e-9)
 
 
-@given(drawn=mobilities(), direction=angles, radius=st.floats(1e-6, 1e-2))
+@given(drawn=inverse_masses(), direction=angles, radius=st.floats(1e-6, 1e-2))
 def test_mobility_in_a_direction_is_the_mean_of_those_along_the_axes(
-    drawn: tuple[Mobility, float, float, float], direction: float, radius: float
+    drawn: tuple[InverseMass, float, float, float], direction: float, radius: float
 ) -> None:
-    mobility, angle, along, across = drawn
+    inverse_mass, angle, along, across = drawn
     share = math.cos(direction - angle) ** 2
     expected = share / along + (1.0 - share) / across
-    got = mobility.mass(radius * math.cos(direction), radius * math.sin(direction))
+    got = inverse_mass.mass(radius * math.cos(direction), radius * math.sin(direction))
     # rounding of the larger one, up to 1e6 times larger
     assert 1.0 / got == pytest.approx(expected, rel=1e-9)
 
 
 def test_mass_in_the_middle_is_a_positive_number() -> None:
     # there is no direction; no contact either, so any will do
-    assert 0.0 < Mobility(0.5, 0.1, 0.25).mass(0.0, 0.0) < math.inf
+    assert 0.0 < InverseMass(0.5, 0.1, 0.25).mass(0.0, 0.0) < math.inf
 
 
 @pytest.mark.parametrize("noise", [0.0, 1e-18, -1e-18])
 def test_mass_where_the_joints_leave_no_motion_is_very_large(noise: float) -> None:
     # across the free direction, with rounding of the order of a mobility of 0.01/kg
-    mass = Mobility(0.01, 0.0, noise).mass(0.0, 1e-3)
+    mass = InverseMass(0.01, 0.0, noise).mass(0.0, 1e-3)
     # the noise is a thousandth of 1/HEAVIEST
     assert mass == pytest.approx(HEAVIEST, rel=2e-3)
 
 
 def test_mobility_is_remembered() -> None:
-    other = Mobility(3.0, 2.0, 1.0)
+    other = InverseMass(3.0, 2.0, 1.0)
     memory = memory_of(True, 0.3, 1e-4, 0.1)
-    assert memory.mobility == REST[2:]
-    assert memory.with_mobility(other) == memory[:6] + other
+    assert memory.inverse_mass == REST[2:]
+    assert memory.with_inverse_mass(other) == memory[:6] + other
 
 
 def test_laws_are_told_speed_and_mass_of_the_touch() -> None:
     # mobility 0.5/kg along x, 0.25/kg along y; rounding
     memory = memory_of(True, 0.3, 1e-4, 0.1)
-    assert memory.touch(1e-3, 0.0) == pytest.approx(Touch(speed=0.3, mass=2.0), rel=1e-14)
-    assert memory.touch(0.0, -1e-3) == pytest.approx(Touch(speed=0.3, mass=4.0), rel=1e-14)
+    assert memory.impact(1e-3, 0.0) == pytest.approx(Impact(speed=0.3, mass=2.0), rel=1e-14)
+    assert memory.impact(0.0, -1e-3) == pytest.approx(Impact(speed=0.3, mass=4.0), rel=1e-14)
 
 
 def test_laws_are_told_nothing_while_the_surfaces_are_apart() -> None:
-    assert memory_of(False, 0.3, -1e-4, 0.1).touch(1e-3, 0.0) is None
+    assert memory_of(False, 0.3, -1e-4, 0.1).impact(1e-3, 0.0) is None
 
 
 # --- one step after the other ---

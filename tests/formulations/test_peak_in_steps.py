@@ -1,4 +1,4 @@
-"""The largest force of a loose pin is that inside steps, where a law may have a corner."""
+"""The largest force of a clearance pin is that inside steps, where a law may have a corner."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ import pytest
 from support_exudyn import ClearancePin, Held, Scenario, SimulationError
 from support_exudyn.formulations.contact_events import DepthPath
 from support_exudyn.formulations.peak_force import has_a_top, peak
-from support_exudyn.formulations.redundant.clearance.clearance_pin import LoosePin
+from support_exudyn.formulations.redundant.clearance.clearance_pin import ClearanceJoint
 from support_exudyn.formulations.redundant.clearance.connector_force import Relative
 from support_exudyn.formulations.redundant.clearance.pin_motion import Course
 from tests.cases.run_cases import PIN, paper_contact, support
 from tests.reduced import simulate_reduced, simulate_redundant
-from user_forces import DepthSpeed, Flores
+from user_forces import Flores, IndentationVelocity
 from user_forces.contact import ContactForce
 from user_forces.lawful import LawError
 
 # what limits its damping changes while it is pressed in ever faster: a corner at the top of the force
-LAW = Flores(restitution=0.485, stiffness=5.7e8, exponent=1.167, damping_speed=DepthSpeed())
+LAW = Flores(restitution=0.485, stiffness=5.7e8, exponent=1.167, damping_speed=IndentationVelocity())
 
 
 def with_a_corner() -> Scenario:
@@ -49,10 +49,10 @@ def test_of_a_journal_in_space_it_is_that_of_all_its_sections() -> None:
 
 
 def test_a_law_that_gives_no_force_inside_a_step_is_told_with_its_pin(monkeypatch: pytest.MonkeyPatch) -> None:
-    def fail(pin: LoosePin, x: float) -> ContactForce:
+    def fail(pin: ClearanceJoint, x: float) -> ContactForce:
         raise LawError(f"no force at {x:g} of a step")
 
-    monkeypatch.setattr(LoosePin, "force_within", fail)
+    monkeypatch.setattr(ClearanceJoint, "force_within", fail)
     with pytest.raises(SimulationError, match=f"{PIN}: no force at "):
         simulate_redundant(with_a_corner())
 

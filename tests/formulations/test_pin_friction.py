@@ -18,8 +18,8 @@ from support_exudyn import (
     Pin,
     Scenario,
     UniformSpeed,
+    cylinders_and_rods,
     simulate,
-    two_body_columns,
 )
 from support_exudyn.formulations.registry import formulation
 from support_exudyn.model.linkage import pinned
@@ -136,7 +136,7 @@ def test_energy_adds_up_with_friction_in_the_pins_of_columns_and_a_sudden_start(
     pins: dict[str, Pin] = dict.fromkeys((*PINS, "front_column_foot", "rear_column_head"), SUPPORT_PIN)
     drive = UniformSpeed(stroke=0.05, start=0.05, end=0.25)
     result = simulate(
-        support(drive=drive, duration=0.3, pins=pins, columns=two_body_columns(), start="settled")
+        support(drive=drive, duration=0.3, pins=pins, columns=cylinders_and_rods(), start="settled")
     )
     assert len(result.impulses) == 2
     assert result.energy_error < 1e-3 * result.dissipated  # steps after a jump are known by their ends only

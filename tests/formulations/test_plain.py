@@ -12,7 +12,7 @@ from support_exudyn import ClearancePin, Scenario, UniformSpeed
 from support_exudyn.formulations.compiled import compiled, on_arrays, plain
 from support_exudyn.formulations.reduced import layout, support_model
 from support_exudyn.formulations.reduced.equations import law_at
-from support_exudyn.formulations.reduced.layout import Drive, driven
+from support_exudyn.formulations.reduced.layout import DriveValues, driven
 from support_exudyn.formulations.reduced.setup import parameters
 from support_exudyn.formulations.reduced.support_posture import meeting_point
 from tests.cases.machine_cases import contact, support
@@ -59,7 +59,7 @@ def test_named_tuples_keep_their_fields() -> None:
     segment = [0.0] * layout.SEGMENT
     segment[layout.WIDTH], segment[layout.A1] = 2.0, 3.0
     found = plain(driven)(segment, 1.0)
-    assert [getattr(found, name) for name in Drive._fields] == [1.5, 1.5, 0.0]
+    assert [getattr(found, name) for name in DriveValues._fields] == [1.5, 1.5, 0.0]
 
 
 def test_circles_that_do_not_meet() -> None:
@@ -77,10 +77,10 @@ def test_equations_of_motion_on_arrays_are_those_of_every_instant(bore: str) -> 
     y = np.zeros((layout.STATES, count))
     y[:2] = start[:, None] + 0.01 * rng.normal(size=(2, count))
     y[2:4] = rng.normal(size=(2, count))
-    drive = Drive(*0.1 * rng.normal(size=(3, count)))
+    drive = DriveValues(*0.1 * rng.normal(size=(3, count)))
     pins, laws = on_arrays(law_at)(p, drive, y, 1.0)
     for n in range(count):
-        at = Drive(*(item[n] for item in drive))
+        at = DriveValues(*(item[n] for item in drive))
         pin_then, law_then = plain(law_at)(p, at, y[:, n].tolist(), 1.0)
         for many, one in ((pins, pin_then), (laws, law_then)):
             for name in one._fields:

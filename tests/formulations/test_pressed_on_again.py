@@ -43,7 +43,7 @@ LARGEST = 87594.520  # [N], of the rear column, by four formulations and by tole
 
 @pytest.mark.parametrize("tolerance", [1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10])
 def test_a_short_dip_is_seen_at_every_tolerance(tolerance: float) -> None:
-    # missed, the contact stays as damped as its touch was, and the force is 92263 N
+    # missed, the contact stays as damped as its impact was, and the force is 92263 N
     result = simulate_reduced(dipping(), tolerance)
     assert result[REAR].max() == pytest.approx(LARGEST, rel=3e-5)
 
@@ -66,7 +66,7 @@ def test_a_met_accuracy_covers_what_is_right() -> None:
 TOLD_WRONG = {
     (10, "standard"): "a mean of 38848.953 +- 0.001 N, right is 38777.829 N: a dip within a step",
     (10, "reference"): "all forces, by up to 58 000 errors: the same dip",
-    (80, "standard"): "a mean place, off by 33 errors: a dip at which the moving mass was not renewed",
+    (80, "standard"): "a mean place, off by 33 errors: a dip at which the effective mass was not renewed",
     (140, "standard"): "a largest force, off by 18 errors: the turn was met to a hundredth of a step only",
     (215, "standard"): "a largest force, off by 62 errors: it is a corner, not the top of a parabola",
     (293, "reference"): "a mean force, off by 11 errors: a dip within a step",

@@ -1,4 +1,4 @@
-"""What moves with a loose pin's depth while others are pressed: closed forms, and all formulations alike."""
+"""What moves with a clearance pin's depth while others are pressed: closed forms, all formulations."""
 
 from __future__ import annotations
 
@@ -26,18 +26,18 @@ from support_exudyn import (
 )
 from support_exudyn.formulations.redundant.scene.engine_scene import INITIAL
 from support_exudyn.formulations.redundant.scene.scene_builder import build
-from support_exudyn.formulations.redundant.scene.static_equilibrium import settle
+from support_exudyn.formulations.redundant.scene.static_equilibrium import find_static_equilibrium
 from support_exudyn.formulations.redundant.space.scene_builder import build as build_in_space
 from support_exudyn.formulations.tree.branches import branches
-from support_exudyn.formulations.tree.dynamics import Posture, pin_mobility
+from support_exudyn.formulations.tree.dynamics import TreePosture, pin_inverse_mass
 from support_exudyn.formulations.tree.forces import Forces
 from support_exudyn.formulations.tree.start import first_memory
-from support_exudyn.mechanics.contact_state import Mobility
+from support_exudyn.mechanics.contact_state import InverseMass
 from support_exudyn.mechanics.kinetics import kinetics_of
-from support_exudyn.mechanics.pressed_pins import GIVES, Mobilities, mobilities, normal
+from support_exudyn.mechanics.pressed_pins import GIVES, EffectiveMasses, inverse_masses, normal
 from support_exudyn.model.linkage import GROUND, PinPlace, pinned
 from tests.cases.run_cases import paper_contact, support
-from user_forces import DepthSpeed, Exact, Hertz, JournalBearing, JournalContact, NormalLaw, value
+from user_forces import Exact, Hertz, IndentationVelocity, JournalBearing, JournalContact, NormalLaw, value
 
 CLEARANCE = 1e-4  # [m]
 PINS = tuple(reference_support().linkage().pins)
@@ -81,7 +81,7 @@ class Levers(Machine):
         )
 
 
-def loose(law: NormalLaw) -> ClearancePin:
+def with_clearance(law: NormalLaw) -> ClearancePin:
     return ClearancePin(
         contact=JournalContact(bearing=JournalBearing(bore_radius=0.02, clearance=CLEARANCE), normal=law)
     )
@@ -93,9 +93,9 @@ def loose(law: NormalLaw) -> ClearancePin:
 def test_a_pressed_stop_takes_a_bar_out_of_the_impact() -> None:
     linkage = Levers().linkage()
     system = kinetics_of(linkage, ("pivot", "other_pivot"))
-    alone = system.pin_mobility(np.zeros(6), "hit")
+    alone = system.pin_inverse_mass(np.zeros(6), "hit")
     along = np.array([0.0, 1.0])
-    found = mobilities(system.pin_mobility(np.zeros(6), "hit", {"stop": along}), UPRIGHT)
+    found = inverse_masses(system.pin_inverse_mass(np.zeros(6), "hit", {"stop": along}), UPRIGHT)
     # a bar answers at its end as a third of its mass; the stop holds all of the anvil that can move
     assert found.alone == pytest.approx((alone[0, 0], alone[0, 1], alone[1, 1]), abs=1e-15)
     assert found.alone.mass(0.0, 1.0) == pytest.approx(1.0 / (3.0 / 0.3 + 3.0 / 30.0), rel=1e-12)
@@ -107,7 +107,7 @@ def test_a_pressed_stop_takes_a_bar_out_of_the_impact() -> None:
 def test_a_stop_pressed_along_its_surface_holds_nothing() -> None:
     # the bar's end moves across the line from its pivot, and a normal along that line does not see it
     system = kinetics_of(Levers().linkage(), ("pivot", "other_pivot"))
-    found = mobilities(system.pin_mobility(np.zeros(6), "hit", {"stop": np.array([1.0, 0.0])}), UPRIGHT)
+    found = inverse_masses(system.pin_inverse_mass(np.zeros(6), "hit", {"stop": np.array([1.0, 0.0])}), UPRIGHT)
     assert found.held == pytest.approx(found.alone, abs=1e-14)
 
 
@@ -133,7 +133,7 @@ def test_what_is_held_is_a_constraint_along_the_normal(
         if pin in which and pin != name
     }
     axes = np.array([[math.cos(bore), -math.sin(bore)], [math.sin(bore), math.cos(bore)]])
-    found = mobilities(system.pin_mobility(at, name, normals), axes).held
+    found = inverse_masses(system.pin_inverse_mass(at, name, normals), axes).held
 
     # written out anew: rows of the model, then one for each pressed pin
     rows = [*system.rows(at)]
@@ -154,12 +154,12 @@ def test_pins_that_hold_the_same_twice_hold_it_once() -> None:
     twice = replace(linkage, pins={**linkage.pins, "again": linkage.pins["stop"]})
     along = np.array([0.0, 1.0])
     one, two = (
-        kinetics_of(linkage, ("pivot", "other_pivot")).pin_mobility(np.zeros(6), "hit", {"stop": along}),
-        kinetics_of(twice, ("pivot", "other_pivot")).pin_mobility(
+        kinetics_of(linkage, ("pivot", "other_pivot")).pin_inverse_mass(np.zeros(6), "hit", {"stop": along}),
+        kinetics_of(twice, ("pivot", "other_pivot")).pin_inverse_mass(
             np.zeros(6), "hit", {"stop": along, "again": along}
         ),
     )
-    assert mobilities(two, UPRIGHT).held == pytest.approx(mobilities(one, UPRIGHT).held, rel=1e-9)
+    assert inverse_masses(two, UPRIGHT).held == pytest.approx(inverse_masses(one, UPRIGHT).held, rel=1e-9)
 
 
 def test_a_pin_is_pressed_where_its_surfaces_overlap() -> None:
@@ -175,8 +175,12 @@ def test_tree_and_redundant_formulation_find_the_same() -> None:
     tree = branches(linkage, {"hit", "stop"})
     along = np.array([0.6, 0.8])
     still = np.zeros((1, 2))
-    ours = pin_mobility(Posture(tree, still, still), linkage.pins["hit"], [(linkage.pins["stop"], along)])
-    theirs = kinetics_of(linkage, ("pivot", "other_pivot")).pin_mobility(np.zeros(6), "hit", {"stop": along})
+    ours = pin_inverse_mass(
+        TreePosture(tree, still, still), linkage.pins["hit"], [(linkage.pins["stop"], along)]
+    )
+    theirs = kinetics_of(linkage, ("pivot", "other_pivot")).pin_inverse_mass(
+        np.zeros(6), "hit", {"stop": along}
+    )
     np.testing.assert_allclose(ours, theirs, atol=1e-12)
 
 
@@ -189,35 +193,37 @@ def test_a_scene_holds_the_pins_that_are_pressed_at_its_start() -> None:
         build(
             Scenario(
                 machine=Levers(resting=share * CLEARANCE),
-                pins={"hit": loose(law), "stop": loose(law)},
+                pins={"hit": with_clearance(law), "stop": with_clearance(law)},
                 duration=1e-3,
             )
         )
         for share in (1.01, 0.9)
     )
-    hit = pressed.loose_pins["hit"].kept.mobility
-    assert hit == pressed.mobilities("hit", INITIAL).held
+    hit = pressed.clearance_joints["hit"].kept.inverse_mass
+    assert hit == pressed.inverse_masses("hit", INITIAL).held
     assert hit.mass(0.0, 1.0) == pytest.approx(10.0, rel=2e-4)
-    assert apart.loose_pins["hit"].kept.mobility == apart.mobilities("hit", INITIAL).alone
-    assert apart.loose_pins["hit"].kept.mobility.mass(0.0, 1.0) == pytest.approx(1.0 / 10.1, rel=1e-9)
+    assert apart.clearance_joints["hit"].kept.inverse_mass == apart.inverse_masses("hit", INITIAL).alone
+    assert apart.clearance_joints["hit"].kept.inverse_mass.mass(0.0, 1.0) == pytest.approx(1.0 / 10.1, rel=1e-9)
 
 
 def test_a_tree_begins_with_what_is_held() -> None:
     law = Exact(stiffness=1e9, restitution=0.7)
-    pins = {"hit": loose(law), "stop": loose(law)}
+    pins = {"hit": with_clearance(law), "stop": with_clearance(law)}
     scene = Scenario(machine=Levers(resting=1.01 * CLEARANCE), pins=pins, duration=1e-3)
     forces = Forces(branches(scene.linkage, pins), scene, {})
     forces(None, 0.0, 0, [0.0, 0.0], [0.0, 0.0])
-    found = Mobilities(Mobility(1.0, 2.0, 3.0), Mobility(4.0, 5.0, 6.0))
+    found = EffectiveMasses(InverseMass(1.0, 2.0, 3.0), InverseMass(4.0, 5.0, 6.0))
     memory = first_memory(forces.pins["stop"], found)
     assert memory.in_contact
-    assert memory.mobility == found.held
+    assert memory.inverse_mass == found.held
 
 
 def default_law(clearance_mm: float = 1.5, friction: float = 0.0) -> ClearancePin:
     """The paper's pin, damped by its depth."""
     contact = paper_contact(clearance_mm, friction)
-    return ClearancePin(contact=replace(contact, normal=replace(contact.normal, damping_speed=DepthSpeed())))
+    return ClearancePin(
+        contact=replace(contact, normal=replace(contact.normal, damping_speed=IndentationVelocity()))
+    )
 
 
 def on_oil(*pins: str, friction: float = 0.0, **changes: object) -> Scenario:
@@ -246,19 +252,19 @@ WAYS: dict[str, dict[str, object]] = {
 def test_an_impact_on_a_pressed_bar_delivers_the_laws_restitution(way: str) -> None:
     stop = Hertz(stiffness=1e13)
     machine = Levers(speed=0.2, resting=CLEARANCE + stop.resting_depth(0.5 * 0.3 * 0.1))
-    pins = {"hit": loose(Exact(stiffness=1e9, restitution=0.5)), "stop": loose(stop)}
+    pins = {"hit": with_clearance(Exact(stiffness=1e9, restitution=0.5)), "stop": with_clearance(stop)}
     fields = {"duration": 4e-3, "step": 1e-5, "record_period": 1e-4, "gravity": (0.0, -0.1)} | WAYS[way]
     scene = Scenario(machine=machine, pins=pins, **fields)  # type: ignore[arg-type]
-    touch = simulate(scene).onsets["hit"][0]
+    impact = simulate(scene).onsets["hit"][0]
     # the stop gives a little, a hundredth of what the pin does; with the mass of the bar that is pressed in
     # place of what it lies on, 0.94
-    assert touch.parting_speed / touch.speed == pytest.approx(0.5, abs=0.02)
+    assert impact.separation_velocity / impact.speed == pytest.approx(0.5, abs=0.02)
 
 
 @cache
 def rattling(way: str) -> Result:
     """A hammer that falls on a bar in a stop, both of ordinary stiffness."""
-    pins = dict.fromkeys(("hit", "stop"), loose(Exact(stiffness=1e9, restitution=0.8)))
+    pins = dict.fromkeys(("hit", "stop"), with_clearance(Exact(stiffness=1e9, restitution=0.8)))
     machine = Levers(light=3.0, resting=0.9 * CLEARANCE, speed=0.05)
     fields = {"duration": 0.06, "step": 1e-5, "record_period": 1e-4} | WAYS[way]
     return simulate(Scenario(machine=machine, pins=pins, **fields))  # type: ignore[arg-type]
@@ -301,19 +307,19 @@ def test_every_pin_of_the_plane_is_that_of_space(pins: tuple[str, ...], friction
 def test_journals_of_a_pair_that_are_both_pressed_have_the_mass_of_the_plane() -> None:
     scene = on_oil("front_base")
     plane, space = build(scene), build_in_space(replace(scene, dimensions=3))
-    concentric = space.mobilities("front_base_left", INITIAL)
+    concentric = space.inverse_masses("front_base_left", INITIAL)
     assert concentric.held == concentric.alone  # each hits by itself
     for one in (plane, space):
-        settle(one)
-    wanted = plane.mobilities("front_base", INITIAL).held
+        find_static_equilibrium(one)
+    wanted = plane.inverse_masses("front_base", INITIAL).held
     for side in ("left", "right"):
-        found = space.mobilities(f"front_base_{side}", INITIAL)
+        found = space.inverse_masses(f"front_base_{side}", INITIAL)
         # the same matrices, eliminated in another order
         assert found.held == pytest.approx(wanted, rel=1e-9)
         # one by itself tilts the shield
         assert found.alone.xx < (1.0 - 1e-3) * wanted.xx
         for pin in space.sections[f"front_base_{side}"]:
-            assert pin.kept.mobility == found.held
+            assert pin.kept.inverse_mass == found.held
     for each in (plane, space):
         each.release()
 
@@ -323,6 +329,6 @@ def test_a_journal_of_a_pair_moves_half_the_pins_law_with_its_own_mass() -> None
     scene = build_in_space(replace(on_oil("front_base"), dimensions=3))
     kinetics = scene.kinetics(INITIAL)
     own = kinetics.answers(kinetics.bearing_rate(*scene.ends_of("front_base_left")))
-    found = scene.mobilities("front_base_left", INITIAL).alone
+    found = scene.inverse_masses("front_base_left", INITIAL).alone
     assert found == pytest.approx((0.5 * own[0, 0], 0.5 * own[0, 1], 0.5 * own[1, 1]), rel=1e-12)
     scene.release()

@@ -36,25 +36,25 @@ from support_exudyn.formulations.reduced.layout import driven
 from support_exudyn.formulations.reduced.records import peak
 from support_exudyn.formulations.reduced.setup import parameters, segments
 from support_exudyn.formulations.time_grid import record_times
-from support_exudyn.sweeps.precompile import warm_up
+from support_exudyn.sweeps.precompile import precompile
 from tests.cases.law_cases import LUGRE
 from tests.cases.machine_cases import contact, support
 from tests.reduced import simulate_reduced
 from user_forces import (
     Ambrosio,
     CarvalhoMartins,
-    DepthSpeed,
     Exact,
     Flores,
     FrictionLaw,
     Hertz,
+    Impact,
+    ImpactVelocity,
+    IndentationVelocity,
     InputError,
     JournalBearing,
     JournalContact,
     LankaraniNikravesh,
     NormalLaw,
-    Touch,
-    TouchSpeed,
     value,
 )
 from user_forces.compilation.flat import law_source
@@ -92,15 +92,15 @@ class Softened(LankaraniNikravesh):
 class Branching(LankaraniNikravesh):
     """A law that branches on its arguments."""
 
-    def __call__(self, depth: float, rate: float, touch: Touch) -> float:
-        return super().__call__(depth, rate, touch) if rate > 0.0 else self.elastic_force(depth)
+    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
+        return super().__call__(depth, rate, impact) if rate > 0.0 else self.elastic_force(depth)
 
 
 @value
 class ByMath(LankaraniNikravesh):
     """A law whose elastic part takes floats alone."""
 
-    def __call__(self, depth: float, rate: float, touch: Touch) -> float:
+    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
         return self.stiffness * power(depth, 1.5)
 
     def elastic_force(self, depth: float) -> float:
@@ -116,7 +116,7 @@ class BranchingFriction(FrictionLaw):
 
 
 def crank(**changes: Any) -> Scenario:
-    """The slider-crank with a loose slider pin."""
+    """The slider-crank with a clearance slider pin."""
     fields = {
         "machine": ravn_slider_crank(),
         "duration": 0.01,
@@ -164,7 +164,7 @@ REFUSED: dict[str, Case] = {
         "auto",
         "pins.crank_pin = ClearancePin.*slider_pin only",
     ),
-    "crank without a loose pin": (lambda: crank(pins={}), "auto", "pins.slider_pin = IdealPin"),
+    "crank without a clearance pin": (lambda: crank(pins={}), "auto", "pins.slider_pin = IdealPin"),
     "friction with a state": (
         lambda: scene(ClearancePin(contact=replace(contact(), friction=LUGRE))),
         "auto",
@@ -270,8 +270,8 @@ def test_a_run_with_too_many_steps_is_given_up() -> None:
 def test_a_run_with_too_many_touches_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("run", "setup"):
         module = importlib.import_module(f"support_exudyn.formulations.reduced.{name}")
-        monkeypatch.setattr(module, "MOST_TOUCHES", 1)
-    with pytest.raises(SimulationError, match="more than 1 touches"):
+        monkeypatch.setattr(module, "MOST_IMPACTS", 1)
+    with pytest.raises(SimulationError, match="more than 1 impacts"):
         simulate_reduced(scene(hertz(1e10), duration=0.3))
 
 
@@ -297,9 +297,9 @@ LAWS: list[NormalLaw] = [
     kind(stiffness=10**rng, exponent=n, restitution=e, damping_speed=speed)
     for kind in (LankaraniNikravesh, Exact, Flores, CarvalhoMartins)
     for rng, n, e, speed in (
-        (10.4, 1.5, 0.9, TouchSpeed(floor=1e-3)),
-        (8.5, 1.0, 0.3, DepthSpeed()),
-        (12.0, 2.2, 0.6, DepthSpeed()),
+        (10.4, 1.5, 0.9, ImpactVelocity(floor=1e-3)),
+        (8.5, 1.0, 0.3, IndentationVelocity()),
+        (12.0, 2.2, 0.6, IndentationVelocity()),
     )
 ]
 LAWS.append(Hertz(stiffness=1e10))
@@ -328,7 +328,7 @@ def test_the_force_is_that_of_the_law(law: NormalLaw) -> None:
         _contact(p, memory, pin, out)
         _plain_contact(p, memory, pin, plainly)
         np.testing.assert_allclose(out, plainly, rtol=1e-13, atol=1e-18)  # rounding: compilers contract sums
-        expected = laws.force(x, y, vx, vy, *spins, Touch(speed, mass))
+        expected = laws.force(x, y, vx, vy, *spins, Impact(speed, mass))
         got = out[[layout.DEPTH, layout.RATE, layout.SLIP, layout.NORMAL, layout.FRICTION]]
         # the same formula in another order; the depth is a difference of numbers 1e-3, right to 1e-12 at least
         np.testing.assert_allclose(got, expected[:5], rtol=1e-8, atol=1e-12)
@@ -432,7 +432,7 @@ def _bytes() -> bytes:
 
 
 def test_runs_are_the_same_bit_for_bit_also_in_another_process() -> None:
-    warm_up()
+    precompile()
     here = _bytes()
     assert _bytes() == here
     with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as pool:

@@ -18,7 +18,7 @@ from user_forces.expressions.scalar import exp, magnitude, where
 
 
 def drop(bore: str = "first", duration: float = 0.042, **laws: Any) -> Scenario:
-    """The journal falls from the middle of its bore and touches twice or three times."""
+    """The journal falls from the middle of its bore and impacts twice or three times."""
     contact = replace(paper_contact(1.5, 0.0), **laws)
     solver = SolverSettings(impact_steps=512)
     base = loose_support(drive=Held(), duration=duration, solver=solver)
@@ -38,7 +38,7 @@ def check(scenario: Scenario) -> None:
     assert len(one) >= 2
     np.testing.assert_allclose(one[:, 0], other[:, 0], rtol=0, atol=1e-6)
     np.testing.assert_allclose(one[:, 1], other[:, 1], rtol=0, atol=1e-5)
-    # those of the heaviest damping press at the touch, in the engine's longest step; measured 1.3e-4
+    # those of the heaviest damping press at the impact, in the engine's longest step; measured 1.3e-4
     assert ours.largest_force[PIN] == pytest.approx(theirs.largest_force[PIN], rel=4e-4)
     assert ours.dissipated == pytest.approx(theirs.dissipated, rel=5e-4, abs=1e-9)  # measured 1.6e-4
     for name, wrong in same_channels(ours, theirs).items():
@@ -66,13 +66,13 @@ def test_a_contact_that_is_pressed_on_again_feels_the_mass_of_then() -> None:
     # the law has no memory of its speed, but of the mass that moved; the journal rolls to where that is 30 t
     scenario = drop(normal=Anagnostopoulos(stiffness=1e9, restitution=0.7))
     ours, theirs = simulate_reduced(scenario, 1e-8), simulate_redundant(scenario)
-    # with the mass of the touch 2e-3 is missing; the engine's error is 3e-5
+    # with the mass of the impact 2e-3 is missing; the engine's error is 3e-5
     assert ours.dissipated == pytest.approx(theirs.dissipated, rel=2e-4)
 
 
 def test_a_cut_of_tension_is_met_once() -> None:
     result = simulate_reduced(drop(normal=KelvinVoigt(stiffness=1e9, damping=5e4)), 1e-8)
-    # two touches, a parting, and tension that sets in before it and ends with it
+    # two impacts, a separation, and tension that sets in before it and ends with it
     assert result.counts.cut_steps <= 6
     assert result.counts.clamped_steps >= 1
 

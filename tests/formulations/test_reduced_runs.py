@@ -22,7 +22,14 @@ from support_exudyn import (
 )
 from tests.cases.run_cases import FORCE, PIN, loose_support, paper_contact, support
 from tests.reduced import from_its_source, same_channels, simulate_reduced, simulate_redundant
-from user_forces import Ambrosio, DepthSpeed, Frictionless, JournalContact, LankaraniNikravesh, TouchSpeed
+from user_forces import (
+    Ambrosio,
+    Frictionless,
+    ImpactVelocity,
+    IndentationVelocity,
+    JournalContact,
+    LankaraniNikravesh,
+)
 
 # t [s]: pin force, its x, y [N], angular velocity [deg/s] and acceleration [deg/s^2] of the rear link
 IDEAL = {
@@ -137,14 +144,16 @@ def dropping(law: LankaraniNikravesh, mu: float, bore: str) -> Scenario:
     )
 
 
-def law(damping: TouchSpeed | DepthSpeed) -> LankaraniNikravesh:
+def law(damping: ImpactVelocity | IndentationVelocity) -> LankaraniNikravesh:
     return LankaraniNikravesh(stiffness=2.7130538e10, restitution=0.5, damping_speed=damping)
 
 
 @pytest.mark.parametrize("bore", ["first", "second"])
 @pytest.mark.parametrize("mu", [0.0, 0.25])
-@pytest.mark.parametrize("damping", [TouchSpeed(floor=1e-3), DepthSpeed()], ids=["touch", "depth"])
-def test_a_drop_is_the_engines(damping: TouchSpeed | DepthSpeed, mu: float, bore: str) -> None:
+@pytest.mark.parametrize(
+    "damping", [ImpactVelocity(floor=1e-3), IndentationVelocity()], ids=["impact", "depth"]
+)
+def test_a_drop_is_the_engines(damping: ImpactVelocity | IndentationVelocity, mu: float, bore: str) -> None:
     scenario = dropping(law(damping), mu, bore)
     theirs, ours = simulate_redundant(scenario), simulate_reduced(scenario, 1e-8)
     first, second = (np.array(result.onsets[PIN]) for result in (theirs, ours))
@@ -153,12 +162,12 @@ def test_a_drop_is_the_engines(damping: TouchSpeed | DepthSpeed, mu: float, bore
     np.testing.assert_allclose(first[0, :2], second[0, :2], rtol=2e-7)
     np.testing.assert_allclose(first[1, :2], second[1, :2], rtol=1e-5)
     np.testing.assert_allclose(first[2:, :2], second[2:, :2], rtol=1e-2)
-    # a parting is where the first step behind it ends, and magnifies the impact's error: measured 3e-6, 3e-5
+    # a separation is where the first step behind it ends, and magnifies the impact's error: measured 3e-6, 3e-5
     np.testing.assert_allclose(first[0, 2:], second[0, 2:], rtol=1e-4)
     np.testing.assert_allclose(first[1:, 2:], second[1:, 2:], rtol=2e-2)
     for name, wrong in same_channels(ours, theirs).items():
-        # 0.3 % after five impacts; a record beside a touch sees it before in one and after it in the other, and
-        # the engine's columns overshoot just after a touch: hence the median, and the final state
+        # 0.3 % after five impacts; a record beside an impact sees it before in one and after it in the other,
+        # and the engine's columns overshoot just after an impact: hence the median, and the final state
         assert np.median(wrong) < 1e-3, name
         assert wrong[-1] < 5e-3, name
         if name.startswith(f"pin.{PIN}") and name.endswith(("force", "force_x", "force_y", "depth")):
@@ -192,22 +201,22 @@ def test_ideal_channels_are_the_engines(drive: str) -> None:
     assert ours.energy_error < 1e-8
 
 
-@pytest.mark.parametrize("loose", [False, True])
-def test_jumps_of_the_columns_speed_are_the_engines(loose: bool) -> None:
+@pytest.mark.parametrize("with_clearance", [False, True])
+def test_jumps_of_the_columns_speed_are_the_engines(with_clearance: bool) -> None:
     drive = UniformSpeed(stroke=0.1, start=0.2, end=0.4)
     # a period that does not divide the duration, and records that do not meet the jumps
-    pins = dropping(law(TouchSpeed(floor=1e-3)), 0.25, "first").pins if loose else {}
+    pins = dropping(law(ImpactVelocity(floor=1e-3)), 0.25, "first").pins if with_clearance else {}
     scenario = support(drive=drive, duration=0.45, step=5e-4, record_period=7e-3, pins=pins)
     theirs, ours = simulate_redundant(scenario), simulate_reduced(scenario, 1e-9)
     assert len(ours.impulses) == 2
     # ideal: the engine's velocities before the second jump are right to 1e-9; loose: they carry its error of
     # some impacts on, 1e-4
-    close = 1e-3 if loose else 1e-8
+    close = 1e-3 if with_clearance else 1e-8
     for got, expected in zip(ours.impulses, theirs.impulses, strict=True):
         assert got.time == expected.time
         assert got.columns == pytest.approx(expected.columns, rel=close)
         assert got.energy == pytest.approx(expected.energy, rel=close)
-    assert_same_channels(ours, theirs, 1e-3 if loose else 1e-4, 5e-2 if loose else 1e-4)
+    assert_same_channels(ours, theirs, 1e-3 if with_clearance else 1e-4, 5e-2 if with_clearance else 1e-4)
     # each jump does 300 to 400 J of work; measured 4e-10 and 3e-6 J
     assert ours.energy_error < 1e-4
     assert np.abs(ours["energy.work"]).max() > 1e3
@@ -220,7 +229,7 @@ def test_a_loose_support_on_columns_that_move_from_the_start_on(bore: str) -> No
     theirs, ours = simulate_redundant(scenario), simulate_reduced(scenario, 1e-8)
     one, other = (np.array(result.onsets[PIN]) for result in (ours, theirs))
     np.testing.assert_allclose(one[:, :2], other[:, :2], rtol=1e-6)
-    # a parting is where the engine's first step behind it ends: measured 3e-6
+    # a separation is where the engine's first step behind it ends: measured 3e-6
     np.testing.assert_allclose(one[:, 2:], other[:, 2:], rtol=3e-5)
     # two impacts of 512 steps each; measured 4e-4
     for name, wrong in same_channels(ours, theirs).items():
@@ -240,9 +249,15 @@ DRIVES: dict[str, Drive] = {
 @pytest.mark.parametrize("drive", DRIVES)
 @pytest.mark.parametrize("bore", ["first", "second"])
 @pytest.mark.parametrize("mu", [0.0, 0.25])
-@pytest.mark.parametrize("damping", [TouchSpeed(floor=1e-3), DepthSpeed()], ids=["touch", "depth"])
+@pytest.mark.parametrize(
+    "damping", [ImpactVelocity(floor=1e-3), IndentationVelocity()], ids=["impact", "depth"]
+)
 def test_the_familys_formulas_are_the_source_of_its_laws(
-    damping: TouchSpeed | DepthSpeed, mu: float, bore: str, drive: str, monkeypatch: pytest.MonkeyPatch
+    damping: ImpactVelocity | IndentationVelocity,
+    mu: float,
+    bore: str,
+    drive: str,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     scenario = replace(dropping(law(damping), mu, bore), drive=DRIVES[drive], duration=0.12)
     family = simulate_reduced(scenario, 1e-9)
@@ -277,10 +292,10 @@ def test_velocities_after_a_jump_are_the_closed_form_ones() -> None:
 
 def test_a_loose_pin_transmits_no_impulse() -> None:
     drive = UniformSpeed(stroke=0.5, start=0.0, end=2.0)
-    ideal, loose = (
+    ideal, with_clearance = (
         simulate_reduced(scenario(drive=drive, duration=0.01)) for scenario in (support, loose_support)
     )
-    (closed,), (free,) = ideal.impulses, loose.impulses
+    (closed,), (free,) = ideal.impulses, with_clearance.impulses
     # Bertrand's theorem: with fewer constraints the same speeds of the columns take less energy
     assert free.energy < closed.energy
     assert free.energy == pytest.approx(0.5 * 0.25 * sum(free.columns.values()), rel=1e-12)  # from rest
@@ -297,10 +312,10 @@ def test_largest_force_is_that_of_the_peak_between_records() -> None:
         assert result[FORCE].max() < result.largest_force[PIN]
 
 
-@pytest.mark.parametrize("loose", [False, True])
-def test_the_first_record_is_of_the_state_before_a_jump_at_the_start(loose: bool) -> None:
+@pytest.mark.parametrize("with_clearance", [False, True])
+def test_the_first_record_is_of_the_state_before_a_jump_at_the_start(with_clearance: bool) -> None:
     drive = UniformSpeed(stroke=0.5, start=0.0, end=2.0)
-    scenario = (loose_support if loose else support)(drive=drive, duration=0.01)
+    scenario = (loose_support if with_clearance else support)(drive=drive, duration=0.01)
     ours, theirs = simulate_reduced(scenario), simulate_redundant(scenario)
     assert ours["energy.kinetic"][0] == theirs["energy.kinetic"][0] == 0.0
     for name in (name for name in ours.channels if "velocity" in name):

@@ -17,7 +17,7 @@ from tests.cases.run_cases import (
 )
 from tests.formulations.test_slider_crank import SPEEDS, TIMES
 from tests.reduced import from_its_source, same_channels, simulate_reduced, simulate_redundant
-from user_forces import DepthSpeed, LankaraniNikravesh
+from user_forces import IndentationVelocity, LankaraniNikravesh
 
 GRAVITY = (300.0, -981.0)  # so strong that what is forgotten of it shows [m/s^2]
 DRIVES: dict[str, Drive] = {
@@ -98,7 +98,7 @@ def test_all_channels_are_the_engines(drive: str, bore: str) -> None:
     assert ("guide.moment" in wrong) == (mu > 0.0)
     for name, item in wrong.items():
         # measured 9e-6 in the middle and 9e-3 at most, in the friction force after twenty knocks; a record
-        # beside a touch may see it before in one and after it in the other
+        # beside an impact may see it before in one and after it in the other
         assert np.median(item) < 1e-4, name
         assert np.quantile(item, 0.999) < 5e-2, name
     # the guide leaves the slider no motion but along it; in the engine to the tolerance of Newton's method
@@ -128,14 +128,14 @@ def test_the_moment_of_the_crank_does_the_work() -> None:
 
 @BORES
 def test_a_law_that_asks_for_the_moving_mass(bore: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    # restitution 0.3: from the third touch on the pin is pressed on again while the rod turns
-    law = LankaraniNikravesh(stiffness=5e10, restitution=0.3, damping_speed=DepthSpeed())
+    # restitution 0.3: from the third impact on the pin is pressed on again while the rod turns
+    law = LankaraniNikravesh(stiffness=5e10, restitution=0.3, damping_speed=IndentationVelocity())
     contact = replace(slider_crank_contact(), normal=law)
     scenario = slider_crank(4e-3, pins={SLIDER_PIN: ClearancePin(contact=contact, bore=bore)}, gravity=GRAVITY)
     fast, theirs = simulate_reduced(scenario, 1e-9), simulate_redundant(scenario)
     from_its_source(monkeypatch)
     assert simulate_reduced(scenario, 1e-9).dissipated == pytest.approx(fast.dissipated, rel=1e-6)
-    # the engine's steps, measured 3e-6; with the mobility in the axes of the ground it is 3e-5
+    # the engine's steps, measured 3e-6; with the inverse effective mass in the axes of the ground it is 3e-5
     assert fast.dissipated == pytest.approx(theirs.dissipated, rel=1e-5)
     for name, item in same_channels(fast, theirs).items():
         assert np.median(item) < 1e-4, name

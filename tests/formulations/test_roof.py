@@ -41,19 +41,19 @@ from tests.roof_cases import (
     pressed_support,
     thrown,
 )
-from user_forces import DepthSpeed
+from user_forces import IndentationVelocity
 
 W = math.sqrt(STIFFNESS / MASS)
 # landings at many places of a step, see `test_steps_that_miss_the_landing...`
 COARSE = 2e-3  # [s]
 GAPS = [0.01 + COARSE * (0.6180339887 * n % 1.0) for n in range(24)]
 BODIES = ("rear_link", "front_link", "shield", "canopy")
-LOOSE = loose_support().pins
+WITH_CLEARANCE = loose_support().pins
 KINDS = {
     "rigid, ideal": {},
-    "rigid, loose": {"pins": LOOSE},
+    "rigid, loose": {"pins": WITH_CLEARANCE},
     "oil, ideal": {"columns": ON_OIL},
-    "oil, loose": {"columns": ON_OIL, "pins": LOOSE},
+    "oil, loose": {"columns": ON_OIL, "pins": WITH_CLEARANCE},
 }
 # by how much the support gives under 10 MN [m]: two columns of oil side by side, of 2.9e8 N/m each
 GIVES = {name: TEN_MEGANEWTONS / 5.89e8 if "oil" in name else 0.0 for name in KINDS}
@@ -97,7 +97,7 @@ def test_steps_that_miss_the_landing_cost_no_order() -> None:
 @pytest.mark.parametrize("damping", [0.2, 0.5])
 def test_a_damped_roof_gives_back_what_the_closed_form_says(damping: float) -> None:
     def turned(speed: float) -> float:
-        # v dv / (1 + b v) = -(k/m) x dx, whose right side is the same at both ends of a touch
+        # v dv / (1 + b v) = -(k/m) x dx, whose right side is the same at both ends of an impact
         return speed / damping - math.log(1.0 + damping * speed) / damping**2
 
     back = -float(brentq(lambda speed: turned(speed) - turned(1.0), -0.999 / damping, -1e-9))
@@ -154,7 +154,9 @@ def test_a_load_may_bring_its_own_mass_along() -> None:
 @pytest.mark.parametrize("columns", [{}, ON_OIL], ids=["rigid", "oil"])
 def test_a_block_that_falls_on_the_canopy_gives_its_energy_to_the_audit(columns: dict[str, OilColumn]) -> None:
     block = BareBlock(body="canopy", point=OVER_THE_COLUMNS, mass=2000.0, gap=0.05, stiffness=1e8)
-    result = simulate(pressed_support(block, columns=columns, loads={"rock": block}, pins=LOOSE, step=1e-4))
+    result = simulate(
+        pressed_support(block, columns=columns, loads={"rock": block}, pins=WITH_CLEARANCE, step=1e-4)
+    )
     fallen = result.time < 0.1  # it lands after 0.101 s
     expected = OVER_THE_COLUMNS[1] - 0.5 * 9.81 * result.time**2
     np.testing.assert_allclose(result["rock.y"][fallen], expected[fallen], atol=1e-9)  # Newton's tolerance
@@ -227,9 +229,9 @@ def test_the_roof_on_rigid_columns_is_known_to_the_last_digit() -> None:
 @pytest.mark.parametrize("kind", ["rigid, loose", "oil, loose"])
 def test_a_loose_pin_is_pressed_with_the_force_of_statics(kind: str) -> None:
     # one that soon rests
-    base = LOOSE[PIN].contact
+    base = WITH_CLEARANCE[PIN].contact
     pin = ClearancePin(
-        contact=replace(base, normal=replace(base.normal, restitution=0.3, damping_speed=DepthSpeed()))
+        contact=replace(base, normal=replace(base.normal, restitution=0.3, damping_speed=IndentationVelocity()))
     )
     result = simulate(replace(pressed(kind).scenario, pins={PIN: pin}, start="settled"))
     place = list(result.scenario.linkage.pins).index(PIN)
@@ -254,7 +256,7 @@ def test_energy_adds_up(kind: str, damping: float) -> None:
     assert result.energy_error < 3e-5 * work
     assert (np.diff(result["energy.damping_loss"]) > -1e-5 * work).all()
     lost = result["energy.damping_loss"][-1]
-    assert lost > 100.0 if damping or "loose" in kind else True
+    assert lost > 100.0 if damping or "with_clearance" in kind else True
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -303,7 +305,7 @@ def test_steps_do_not_grow_past_a_landing() -> None:
 @pytest.mark.parametrize("gap", [0.0, 1e-3])
 def test_a_settled_start_takes_the_roof_as_it_is(gap: float) -> None:
     held = over_the_canopy(0.0, gap=gap, descent=Held())
-    scene = pressed_support(held, columns=ON_OIL, pins=LOOSE, start="settled", duration=0.05)
+    scene = pressed_support(held, columns=ON_OIL, pins=WITH_CLEARANCE, start="settled", duration=0.05)
     result = simulate(scene)
     # a contact this stiff turns the Newton residual of 1e-8 into speeds of 1e-9 m/s
     assert np.abs(result["rear_link.angular_velocity"]).max() < 1e-8

@@ -34,13 +34,13 @@ def ideal() -> Result:
 
 
 @pytest.fixture(scope="module")
-def loose() -> list[Result]:
+def with_clearance() -> list[Result]:
     return [rise(clearance) for clearance in CLEARANCES]
 
 
-def eccentricity(loose: list[Result]) -> np.ndarray:
+def eccentricity(with_clearance: list[Result]) -> np.ndarray:
     """Mean distance of the journal's centre from the bore's [m]: clearance and depth of contact."""
-    depth = np.array([result[f"pin.{PIN}.depth"].mean() for result in loose])
+    depth = np.array([result[f"pin.{PIN}.depth"].mean() for result in with_clearance])
     return CLEARANCES + depth
 
 
@@ -53,31 +53,38 @@ def _rms(result: Result, ideal: Result, inside: np.ndarray) -> float:
     return float(np.sqrt(np.mean(apart[0] ** 2 + apart[1] ** 2)))
 
 
-def test_the_pin_stays_closed(loose: list[Result]) -> None:
-    for result in loose:
+def test_the_pin_stays_closed(with_clearance: list[Result]) -> None:
+    for result in with_clearance:
         assert result.onsets[PIN] == ()
         assert result.counts.failed_newton == 0
         assert result[f"pin.{PIN}.depth"].min() > 0.0
 
 
-def test_depth_shrinks_with_the_cube_root_of_the_clearance(loose: list[Result]) -> None:
+def test_depth_shrinks_with_the_cube_root_of_the_clearance(with_clearance: list[Result]) -> None:
     # internal contact: K ~ c^-1/2 and depth = (F/K)^(2/3), so depth ~ c^(1/3); R1 = R2 - c bends it by c/R2
-    depth = eccentricity(loose) - CLEARANCES
+    depth = eccentricity(with_clearance) - CLEARANCES
     np.testing.assert_allclose(orders(depth, CLEARANCES), 1.0 / 3.0, atol=0.01)
 
 
-def test_force_tends_to_that_of_the_ideal_pin_with_first_order(ideal: Result, loose: list[Result]) -> None:
+def test_force_tends_to_that_of_the_ideal_pin_with_first_order(
+    ideal: Result, with_clearance: list[Result]
+) -> None:
     inside = (ideal.time > 0.1) & (ideal.time < 1.999)  # between the jumps of the drive's acceleration
-    errors = np.array([_rms(result, ideal, inside) for result in loose])
+    errors = np.array([_rms(result, ideal, inside) for result in with_clearance])
     # linear in where the journal stands; the depth is not the same throughout, hence the margin
-    np.testing.assert_allclose(orders(errors, eccentricity(loose)), 1.0, atol=0.02)
+    np.testing.assert_allclose(orders(errors, eccentricity(with_clearance)), 1.0, atol=0.02)
     assert errors[-1] < 2e-5 * ideal[FORCE].max()  # 1 um
 
 
-def test_motion_tends_to_that_of_the_ideal_pin_with_first_order(ideal: Result, loose: list[Result]) -> None:
+def test_motion_tends_to_that_of_the_ideal_pin_with_first_order(
+    ideal: Result, with_clearance: list[Result]
+) -> None:
     errors = np.array(
-        [np.hypot(result["tip.x"] - ideal["tip.x"], result["tip.y"] - ideal["tip.y"]).max() for result in loose]
+        [
+            np.hypot(result["tip.x"] - ideal["tip.x"], result["tip.y"] - ideal["tip.y"]).max()
+            for result in with_clearance
+        ]
     )
-    np.testing.assert_allclose(orders(errors, eccentricity(loose)), 1.0, atol=0.05)
+    np.testing.assert_allclose(orders(errors, eccentricity(with_clearance)), 1.0, atol=0.05)
     # the lever of the tip against the pin is 2.6
     assert errors[-1] < 3.0 * (1e-6 + 3.1e-6)

@@ -24,12 +24,12 @@ def test_positions_velocities_and_memory_move_on() -> None:
     data.SetODE2Coordinates_t(v)
     data.SetODE2Coordinates_tt(a)
     scene.refresh_memory()
-    before = scene.loose_pins[PIN].kept
+    before = scene.clearance_joints[PIN].kept
     slide(scene, REST)
     # by hand; rounding
     assert data.GetODE2Coordinates() == pytest.approx(q + REST * v + 0.5 * REST**2 * a, rel=1e-13, abs=1e-18)
     assert data.GetODE2Coordinates_t() == pytest.approx(v + REST * a, rel=1e-13)
-    after = scene.loose_pins[PIN].kept
+    after = scene.clearance_joints[PIN].kept
     # the depth moves on with its rate, to first order
     assert after.depth - before.depth == pytest.approx(REST * before.rate, rel=0.2)
     assert after.rate != before.rate

@@ -1,4 +1,4 @@
-"""The slider-crank with a loose slider pin, on which the field compares its programs.
+"""The slider-crank with a clearance slider pin, on which the field compares its programs.
 
 Independent solution with two free coordinates and onsets located in time, stable to 1e-6 between tolerances;
 ideal values in closed form.

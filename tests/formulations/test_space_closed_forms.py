@@ -53,9 +53,9 @@ def test_a_free_top_keeps_energy_and_momenta(
     scenario = Scenario(
         machine=machine(body), dimensions=3, duration=0.2, step=1e-3, record_period=1e-2, gravity=(0.0, 0.0)
     )
-    seen, _ = observed(scenario)
-    linear, angular = momenta(seen)
-    energy = seen.kinetic
+    context, _ = observed(scenario)
+    linear, angular = momenta(context)
+    energy = context.kinetic
     np.testing.assert_allclose(linear, np.broadcast_to(linear[0], linear.shape), atol=1e-12)  # rounding
     # second order in the step: some (spin step)^2 = 3e-4 of the momentum, with the axes' change
     size = np.abs(angular).max() + 1e-9
@@ -68,7 +68,7 @@ def test_a_free_top_keeps_energy_and_momenta(
         return np.linalg.solve(j, -np.cross(w, j @ w))
 
     found = solve_ivp(rate, (0.0, 0.2), spin, rtol=1e-10, atol=1e-12).y[:, -1]
-    own = seen.motion.turn[-1, 0].T @ seen.motion.spin[-1, 0]
+    own = context.motion.turn[-1, 0].T @ context.motion.spin[-1, 0]
     np.testing.assert_allclose(own, found, atol=2e-3 * (1.0 + np.linalg.norm(spin)))  # as above
 
 
@@ -145,8 +145,8 @@ def pressed(sections: int, shift: float, tilt: float) -> tuple[np.ndarray, np.nd
         record_period=1e-6,
         gravity=(0.0, 0.0),
     )
-    seen, _ = observed(replace(scenario, solver=replace(scenario.solver, sections=sections)))
-    force, moment = seen.loads["pin"]
+    context, _ = observed(replace(scenario, solver=replace(scenario.solver, sections=sections)))
+    force, moment = context.loads["pin"]
     return force[0], moment[0]
 
 
@@ -211,10 +211,10 @@ def test_a_canopy_on_columns_driven_apart_rolls_as_far_as_its_oil_lets_it() -> N
         each = 0.5 * plane[f"{name}.force"][-1]
         # compression u = static + extension - stretch, with the same stretch on both sides
         static = each / (0.5 * oil.stiffness(0.0))
-        stretch = result[f"{name}.length"][-1] - result[f"{name}.length"][0]
+        run_of_steps = result[f"{name}.length"][-1] - result[f"{name}.length"][0]
         # what still vibrates half a second after; damped at a few per cent
-        assert right == pytest.approx(0.5 * oil.stiffness(0.0) * (static - stretch), rel=1e-3)
-        assert left == pytest.approx(0.5 * oil.stiffness(apart) * (static + apart - stretch), rel=1e-3)
+        assert right == pytest.approx(0.5 * oil.stiffness(0.0) * (static - run_of_steps), rel=1e-3)
+        assert left == pytest.approx(0.5 * oil.stiffness(apart) * (static + apart - run_of_steps), rel=1e-3)
 
 
 @pytest.mark.parametrize("beside", [0.05, -0.12])
@@ -257,7 +257,7 @@ def test_a_loaded_plate_on_a_loose_hinge_and_two_columns_comes_to_rest_where_for
 
     # forces and moments about the hinge's middle, for its place across and the turn as a rotation vector
     stiffness = 0.5 * oil.bulk_modulus * oil.bore_area / oil.oil_length  # of each
-    filled = 0.5 * mass * G * 1.0 / 2.0 / stiffness  # holds the plate in its plane: lever arms 1 m and 2 m
+    preloaded = 0.5 * mass * G * 1.0 / 2.0 / stiffness  # holds the plate in its plane: lever arms 1 m and 2 m
     places, weights = np.polynomial.legendre.leggauss(400)
 
     def turned(state: np.ndarray) -> np.ndarray:
@@ -272,7 +272,7 @@ def test_a_loaded_plate_on_a_loose_hinge_and_two_columns_comes_to_rest_where_for
             arm = turn @ np.array([2.0, 0.0, z])
             along = middle + arm - np.array([2.0, -1.0, z])
             size = np.linalg.norm(along)
-            push = stiffness * (filled + 1.0 - size) * along / size
+            push = stiffness * (preloaded + 1.0 - size) * along / size
             force, moment = force + push, moment + np.cross(arm, push)
         own = np.outer(0.5 * length * places, [0.0, 0.0, 1.0])
         arms = own @ turn.T

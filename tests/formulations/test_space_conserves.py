@@ -1,4 +1,4 @@
-"""Bodies in space joined only by a loose bearing: momenta stay, and energy goes where the audit says."""
+"""Bodies in space joined only by a clearance bearing: momenta stay, and energy goes where the channels say."""
 
 from __future__ import annotations
 
@@ -59,8 +59,8 @@ def scenario(
 def test_two_free_bodies_keep_their_momenta(
     friction: float, by_depth: bool, space: SpatialLinkage, bore: Bore, backend: Backend, about: Vector
 ) -> None:
-    seen, outcome = observed(scenario(space, bore, backend, friction, by_depth))
-    linear, angular = momenta(seen, about)
+    context, outcome = observed(scenario(space, bore, backend, friction, by_depth))
+    linear, angular = momenta(context, about)
     size = sum(
         b.mass * np.linalg.norm(b.velocity) + 0.02 * np.linalg.norm(b.spin) for b in space.bodies.values()
     )
@@ -70,10 +70,10 @@ def test_two_free_bodies_keep_their_momenta(
     # would give 1e-3 of the momentum; with friction the engine's connector loses tilt^2/24, here up to 2e-5 of
     # what goes through the bearing times the eccentricity of 1 mm
     np.testing.assert_allclose(angular, np.broadcast_to(angular[0], angular.shape), atol=1e-6 * (1.0 + size))
-    start = seen.kinetic[0] + seen.stored[0]
+    start = context.kinetic[0] + context.stored[0]
     # integrals over 64 steps an impact; measured 2e-4 of the energy and less, which falls with the steps
-    assert np.abs(seen.balance).max() < 2e-3 * start + 1e-12
-    lost = seen.history.damping_loss[-1] + seen.history.friction_loss[-1]
+    assert np.abs(context.balance).max() < 2e-3 * start + 1e-12
+    lost = context.history.damping_loss[-1] + context.history.friction_loss[-1]
     assert lost >= (-1e-6 * start if by_depth else 0.0) or not outcome.onsets["pin"]
 
 
@@ -83,9 +83,9 @@ def test_two_free_bodies_keep_their_momenta(
 def test_a_body_on_the_ground_loses_what_the_audit_says(
     friction: float, space: SpatialLinkage, bore: Bore, backend: Backend
 ) -> None:
-    seen, _ = observed(scenario(space, bore, backend, friction, by_depth=False))
+    context, _ = observed(scenario(space, bore, backend, friction, by_depth=False))
     # as above
-    assert np.abs(seen.balance).max() < 2e-3 * (seen.kinetic[0] + seen.stored[0]) + 1e-12
+    assert np.abs(context.balance).max() < 2e-3 * (context.kinetic[0] + context.stored[0]) + 1e-12
 
 
 @few
@@ -109,19 +109,19 @@ def test_the_force_in_a_loose_bearing_is_what_accelerates_a_free_body(
     space: SpatialLinkage, bore: Bore, friction: float
 ) -> None:
     scene = scenario(space, bore, "python", friction, by_depth=False)
-    seen, _ = observed(replace(scene, record_period=RECORDS))
-    force, _ = seen.loads["pin"]
+    context, _ = observed(replace(scene, record_period=RECORDS))
+    force, _ = context.loads["pin"]
     largest = np.abs(force).max()
     assume(largest > 0.0)
     # Newton's law: the impulse of the first on the second so far
-    velocity = seen.motion.velocity[:, seen.motion.index("two")]
+    velocity = context.motion.velocity[:, context.motion.index("two")]
     gained = space.bodies["two"].mass * (velocity - velocity[0])
     impulse = np.concatenate([np.zeros((1, 3)), np.cumsum(force[1:] + force[:-1], axis=0) * 0.5 * RECORDS])
     # the error of the trapezoidal rule over records 5 us apart
     np.testing.assert_allclose(impulse, gained, atol=1e-3 * np.abs(gained).max())
     if not space.bearings["pin"].holds:  # all of it is in the sections
         sign = 1.0 if bore == "first" else -1.0
-        total = sign * sum(section.force for section in seen.sections["pin"])
+        total = sign * sum(section.force for section in context.sections["pin"])
         np.testing.assert_allclose(force, total, atol=1e-9 * largest)  # rounding
 
 
@@ -131,10 +131,10 @@ def test_an_impact_lasts_as_many_steps_with_any_number_of_sections(
     space: SpatialLinkage, sections: int
 ) -> None:
     scene = scenario(space, "first", "python", 0.0, by_depth=False)
-    seen, _ = observed(replace(scene, solver=replace(scene.solver, sections=sections)))
+    context, _ = observed(replace(scene, solver=replace(scene.solver, sections=sections)))
     # as above, whatever the number of sections
-    assert np.abs(seen.balance).max() < 2e-3 * (seen.kinetic[0] + seen.stored[0]) + 1e-12
-    assert len(seen.sections["pin"]) == sections
+    assert np.abs(context.balance).max() < 2e-3 * (context.kinetic[0] + context.stored[0]) + 1e-12
+    assert len(context.sections["pin"]) == sections
 
 
 @pytest.mark.parametrize("friction", [0.0, 0.3])
@@ -178,7 +178,7 @@ def test_the_energy_error_falls_with_the_steps_of_an_impact() -> None:
     space = SpatialLinkage(bodies={"one": one, "two": two}, bearings={"pin": bearing})
     off = []
     for impact_steps in (64, 256):
-        seen, outcome = observed(scenario(space, "first", "python", 0.3, False, impact_steps))
+        context, outcome = observed(scenario(space, "first", "python", 0.3, False, impact_steps))
         assert len(outcome.onsets["pin"]) >= 1
-        off.append(np.abs(seen.balance).max())
-    assert off[1] < off[0] / 2.0  # by the steps of a touch, in which the audit knows no parabola
+        off.append(np.abs(context.balance).max())
+    assert off[1] < off[0] / 2.0  # by the steps of an impact, in which the result checks knows no parabola

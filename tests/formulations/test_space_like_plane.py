@@ -19,12 +19,12 @@ from support_exudyn import (
     Scenario,
     SolverSettings,
     UniformSpeed,
+    cylinders_and_rods,
     simulate,
-    two_body_columns,
 )
 from support_exudyn.sweeps.parallel_runs import run_all
 from tests.cases.run_cases import PIN, loose_support, paper_contact, support
-from user_forces import DepthSpeed
+from user_forces import IndentationVelocity
 
 RISE = CubicStep(start=0.02, end=0.2, stroke=0.03)
 PLACES = (".z", ".roll", ".yaw")
@@ -32,33 +32,39 @@ RATES = (".velocity_z", ".angular_velocity_x", ".angular_velocity_y")
 
 
 def default_law(clearance_mm: float = 1.5) -> ClearancePin:
-    """The law with the speed at which depth grows, which does without the touch."""
+    """The law with the speed at which depth grows, which does without the impact."""
     contact = paper_contact(clearance_mm, 0.0)
-    return ClearancePin(contact=replace(contact, normal=replace(contact.normal, damping_speed=DepthSpeed())))
+    return ClearancePin(
+        contact=replace(contact, normal=replace(contact.normal, damping_speed=IndentationVelocity()))
+    )
 
 
-def loose(friction: float, **pins: float) -> dict[str, ClearancePin]:
+def with_clearance(friction: float, **pins: float) -> dict[str, ClearancePin]:
     return {name: ClearancePin(contact=paper_contact(c, friction)) for name, c in pins.items()}
 
 
 CASES: dict[str, Scenario] = {
     "ideal": support(drive=RISE, duration=0.25),
-    "loose": loose_support(drive=RISE, duration=0.15),
+    "with_clearance": loose_support(drive=RISE, duration=0.15),
     "friction": loose_support(1.5, 0.25, drive=Held(), duration=0.1),
     "oil": loose_support(drive=RISE, duration=0.1, columns=oil_columns()),
     "depth_speed": support(drive=Held(), duration=0.1, pins={PIN: default_law()}),
     "tail": support(drive=RISE, duration=0.1, columns=oil_columns(), parts={"tail_beam": OwnBody(jack=JACK)}),
-    "bodies": support(drive=RISE, duration=0.1, columns=two_body_columns()),
-    "bodies_on_oil": support(drive=RISE, duration=0.1, columns=two_body_columns(oil_columns()["front_column"])),
+    "bodies": support(drive=RISE, duration=0.1, columns=cylinders_and_rods()),
+    "bodies_on_oil": support(
+        drive=RISE, duration=0.1, columns=cylinders_and_rods(oil_columns()["front_column"])
+    ),
     "uniform": support(drive=UniformSpeed(start=0.02, end=0.1, stroke=0.01), duration=0.15),
     "uniform_loose": loose_support(drive=UniformSpeed(start=0.02, end=0.1, stroke=0.01), duration=0.05),
     "settled": loose_support(drive=RISE, duration=0.05, start="settled"),
     "bore_second": support(
         drive=Held(), duration=0.1, pins={PIN: ClearancePin(contact=paper_contact(1.5, 0.25), bore="second")}
     ),
-    "several": support(drive=Held(), duration=0.04, pins=loose(0.0, rear_base=1.0, rear_shield=1.5)),
-    "pair": support(drive=Held(), duration=0.03, pins=loose(0.0, front_shield=1.0)),
-    "both_of_a_pair": support(drive=Held(), duration=0.03, pins=loose(0.1, front_base=1.0, front_shield=1.5)),
+    "several": support(drive=Held(), duration=0.04, pins=with_clearance(0.0, rear_base=1.0, rear_shield=1.5)),
+    "pair": support(drive=Held(), duration=0.03, pins=with_clearance(0.0, front_shield=1.0)),
+    "both_of_a_pair": support(
+        drive=Held(), duration=0.03, pins=with_clearance(0.1, front_base=1.0, front_shield=1.5)
+    ),
     "symbolic": loose_support(
         1.5, 0.25, drive=Held(), duration=0.05, solver=SolverSettings(backend="symbolic")
     ),
@@ -87,7 +93,7 @@ def test_what_moves_alike_on_both_sides_moves_as_in_the_plane(case: str) -> None
         found = in_space(space, name)
         assert found, name
         for one in found:
-            # asked for; measured 7e-11, with loose pins of a pair 3e-9: each impact multiplies rounding
+            # asked for; measured 7e-11, with clearance pins of a pair 3e-9: each impact multiplies rounding
             np.testing.assert_allclose(space[one], plane[name], rtol=0.0, atol=1e-6, err_msg=one)
     for name in space.channels:
         still = space[name][0] if name.endswith(".z") else 0.0
@@ -156,7 +162,9 @@ def test_energies_are_those_of_the_plane() -> None:
 
 
 def test_a_scenario_is_saved_swept_and_pickled(tmp_path: Any) -> None:
-    scenario = replace(CASES["loose"], dimensions=3, duration=0.02, channels=("tip.*", "pin.rear_base*"))
+    scenario = replace(
+        CASES["with_clearance"], dimensions=3, duration=0.02, channels=("tip.*", "pin.rear_base*")
+    )
     result = simulate(scenario)
     again = Result.load(result.save(tmp_path / "run.h5"))
     assert again.scenario == scenario

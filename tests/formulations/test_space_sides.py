@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from studies.common.paper_machine import LOOSE_PIN, loose_rise, oil_columns
+from studies.common.paper_machine import CLEARANCE_PIN, clearance_rise, oil_columns
 from support_exudyn import CubicStep, Held, Result, Scenario, SolverSettings, simulate
 
 LENGTH = 0.7  # of the rear pin, reference support [m]
@@ -14,7 +14,7 @@ LENGTH = 0.7  # of the rear pin, reference support [m]
 @pytest.fixture(scope="module")
 def run() -> Result:
     """The right front column lifts, the left one stays."""
-    case = loose_rise(1.5, 0.25, 1e-3)
+    case = clearance_rise(1.5, 0.25, 1e-3)
     return simulate(
         Scenario(
             machine=case.machine,
@@ -57,7 +57,7 @@ def test_yaw_to_the_left_takes_the_tip_to_the_left(run: Result) -> None:
 
 def test_edges_of_the_pin_are_on_their_sides(run: Result) -> None:
     left, right = (
-        np.array([run[f"pin.{LOOSE_PIN}.{side}_eccentricity_{axis}"] for axis in ("x", "y")])
+        np.array([run[f"pin.{CLEARANCE_PIN}.{side}_eccentricity_{axis}"] for axis in ("x", "y")])
         for side in ("left", "right")
     )
     # theta x r at both edges, z = -L/2 and L/2
@@ -71,16 +71,16 @@ def test_edges_of_the_pin_are_on_their_sides(run: Result) -> None:
     assert turns < 0.01
     clearance = 1.5e-3
     for side, place in (("left", left), ("right", right)):
-        depth = run[f"pin.{LOOSE_PIN}.{side}_depth"]
+        depth = run[f"pin.{CLEARANCE_PIN}.{side}_depth"]
         np.testing.assert_allclose(depth, np.hypot(*place) - clearance, atol=1e-15)
     # the deepest edge is one of both, or between them
-    deepest = np.maximum(run[f"pin.{LOOSE_PIN}.left_depth"], run[f"pin.{LOOSE_PIN}.right_depth"])
-    assert (run[f"pin.{LOOSE_PIN}.depth"] >= deepest).all()
+    deepest = np.maximum(run[f"pin.{CLEARANCE_PIN}.left_depth"], run[f"pin.{CLEARANCE_PIN}.right_depth"])
+    assert (run[f"pin.{CLEARANCE_PIN}.depth"] >= deepest).all()
 
 
 def test_the_edge_that_is_pressed_deeper_has_the_larger_force(run: Result) -> None:
-    depth = {side: run[f"pin.{LOOSE_PIN}.{side}_depth"].max() for side in ("left", "right")}
-    force = {side: run.largest_force[f"{LOOSE_PIN}.{side}"] for side in ("left", "right")}
+    depth = {side: run[f"pin.{CLEARANCE_PIN}.{side}_depth"].max() for side in ("left", "right")}
+    force = {side: run.largest_force[f"{CLEARANCE_PIN}.{side}"] for side in ("left", "right")}
     assert abs(depth["left"] - depth["right"]) > 1e-6
     assert max(depth, key=depth.__getitem__) == max(force, key=force.__getitem__)
-    assert run.largest_force[LOOSE_PIN] > max(force.values())
+    assert run.largest_force[CLEARANCE_PIN] > max(force.values())

@@ -13,7 +13,7 @@ from tests.cases.run_cases import CRANK_SPEED, SLIDER_PIN, paper_contact, slider
 from tests.cases.run_cases import support as support_scenario
 
 ANGLES = (0.0, 0.7, 2.0, -1.3)
-LOOSE = {SLIDER_PIN: ClearancePin(contact=slider_crank_contact())}
+WITH_CLEARANCE = {SLIDER_PIN: ClearancePin(contact=slider_crank_contact())}
 
 
 def turning(start_angle: float, rate: float, **changes: object) -> Result:
@@ -24,11 +24,11 @@ def turning(start_angle: float, rate: float, **changes: object) -> Result:
 
 @pytest.mark.parametrize("start_angle", ANGLES)
 @pytest.mark.parametrize("rate", [CRANK_SPEED, -CRANK_SPEED])
-@pytest.mark.parametrize("loose", [False, True])
+@pytest.mark.parametrize("with_clearance", [False, True])
 def test_a_crank_at_speed_starts_with_the_velocities_of_the_closed_form(
-    start_angle: float, rate: float, loose: bool
+    start_angle: float, rate: float, with_clearance: bool
 ) -> None:
-    result = turning(start_angle, rate, pins=LOOSE if loose else {})
+    result = turning(start_angle, rate, pins=WITH_CLEARANCE if with_clearance else {})
     machine = result.scenario.machine
     r, length, a = machine.crank_length, machine.rod_length, start_angle
     s, c = math.sin(a), math.cos(a)
@@ -68,7 +68,7 @@ def test_the_motion_goes_on_as_the_closed_form_says(start_angle: float) -> None:
 
 
 def test_a_slider_with_clearance_flies_on() -> None:
-    result = turning(0.7, CRANK_SPEED, pins=LOOSE)
+    result = turning(0.7, CRANK_SPEED, pins=WITH_CLEARANCE)
     assert result.onsets[SLIDER_PIN] == ()
     # nothing pushes it until the journal has crossed its clearance; rounding of 20 steps
     np.testing.assert_allclose(
@@ -77,9 +77,11 @@ def test_a_slider_with_clearance_flies_on() -> None:
 
 
 @pytest.mark.parametrize("rate", [0.25, -0.05])
-@pytest.mark.parametrize("loose", [False, True])
-def test_columns_at_speed_start_with_the_velocities_of_the_closed_form(rate: float, loose: bool) -> None:
-    pins = {"rear_base": ClearancePin(contact=paper_contact(1.5, 0.0))} if loose else {}
+@pytest.mark.parametrize("with_clearance", [False, True])
+def test_columns_at_speed_start_with_the_velocities_of_the_closed_form(
+    rate: float, with_clearance: bool
+) -> None:
+    pins = {"rear_base": ClearancePin(contact=paper_contact(1.5, 0.0))} if with_clearance else {}
     result = simulate(support_scenario(drive=Steady(rate=rate), duration=1e-3, pins=pins))
     machine, small = reference_support(), 1e-5
     lower, upper = machine.extended(-small), machine.extended(small)

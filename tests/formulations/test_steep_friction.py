@@ -17,7 +17,7 @@ UNSOLVABLE = 1e-12  # crossed by rounding
 
 
 def held(ramp: float) -> Scenario:
-    """The held support falls through its loose rear pin, whose friction has a ramp so wide [m/s]."""
+    """The held support falls through its clearance rear pin, whose friction has a ramp so wide [m/s]."""
     contact = paper_contact(1.5, 0.0)
     friction = Ambrosio(sliding_coefficient=1.2, static_speed=1e-4, dynamic_speed=1e-4 + ramp)
     pin = ClearancePin(contact=replace(contact, friction=friction))
@@ -61,7 +61,7 @@ def test_the_reduced_formulation_finds_the_same(steep: Result) -> None:
     assert steep.dissipated == pytest.approx(wide.dissipated, rel=0.01)
     first, theirs = steep.onsets[PIN][0], wide.onsets[PIN][0]
     assert first[:2] == pytest.approx(theirs[:2], rel=1e-6)  # the fall before any contact
-    assert first.parting_speed == pytest.approx(theirs.parting_speed, rel=1e-2)
+    assert first.separation_velocity == pytest.approx(theirs.separation_velocity, rel=1e-2)
 
 
 def test_a_ramp_that_no_step_can_follow_rubs_as_a_wider_one(steep: Result) -> None:
@@ -85,4 +85,4 @@ def test_friction_that_no_step_can_follow_is_refused_with_the_reason() -> None:
     assert isinstance(failure, Failure)
     assert "friction" in failure.advice
     assert "Widen the ramp" in failure.advice
-    assert 0.0174 < failure.time < 0.05  # from the first touch on
+    assert 0.0174 < failure.time < 0.05  # from the first impact on

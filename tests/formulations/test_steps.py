@@ -293,7 +293,7 @@ def test_stretches_are_the_steps_one_by_one(
         singles.append(t)
     together, t = [], 0.0
     while t < duration * (1.0 - 1e-12):
-        end, steps = plan.stretch(t, largest(t))
+        end, steps = plan.run_of_steps(t, largest(t))
         assert steps >= 1
         # nothing that has to be looked at lies inside
         assert not [b for b in plan.breaks if t + 1e-9 < b < end - 1e-9]

@@ -64,7 +64,7 @@ SCENES: dict[str, Callable[[float], Scenario]] = {
     "oil": lambda t: support(drive=cubic(t), columns=OILS, **SHORT),
     "load": lambda t: support(loads={"press": pressed(t)}, **SHORT),
     "growing steps": lambda t: support(drive=cubic(t), solver=SolverSettings(growth=8), **SHORT),
-    "loose": lambda t: loose_support(0.5, 0.25, drive=cubic(t), start="settled", **SHORT),
+    "with_clearance": lambda t: loose_support(0.5, 0.25, drive=cubic(t), start="settled", **SHORT),
     "loose, struck": lambda t: loose_support(0.5, 0.25, drive=uniform(t), start="settled", **SHORT),
     "loose, growing steps": lambda t: loose_support(
         0.5, 0.25, drive=cubic(t), start="settled", solver=SolverSettings(growth=8), **SHORT
@@ -131,17 +131,17 @@ def test_a_duration_of_single_precision() -> None:
 
 
 @pytest.mark.parametrize("before", [1e-12, 1e-10, 1e-9, 1e-8, 1e-7])
-@pytest.mark.parametrize("event", ["touch", "parting"])
+@pytest.mark.parametrize("event", ["impact", "separation"])
 def test_a_touch_or_parting_just_before_a_record(event: str, before: float) -> None:
     # the record is laid just behind where it happens, which the period does not change
     drop = loose_support(0.5, 0.25, duration=0.04, record_period=0.02)
     onset = simulate(drop).onsets[PIN][0]
-    at = onset.time if event == "touch" else onset.parting_time
+    at = onset.time if event == "impact" else onset.separation_time
     assert 1e-3 < at < 0.04
     found = simulate(replace(drop, record_period=at + before))
     beside = simulate(replace(drop, record_period=at + 2e-6))
     for name in ("pin.front_base.force", "front_column.force", f"pin.{PIN}.force"):
-        # forces change within 0.1 ms at the touch, so by a fiftieth of the weight in 2 us
+        # forces change within 0.1 ms at the impact, so by a fiftieth of the weight in 2 us
         assert abs(found[name][1] - beside[name][1]) < 0.04 * WEIGHT
     assert not isinstance(found, Failure)
 
@@ -169,7 +169,7 @@ def test_a_rest_is_moved_over_by_the_rates(rest: float) -> None:
     np.testing.assert_allclose(data.GetODE2Coordinates_t(), velocity + acceleration * rest, rtol=1e-14)
     np.testing.assert_allclose(data.GetODE1Coordinates(), pressures + flows * rest, rtol=1e-14)
     # what the pin remembers is of where it is now
-    pin = scene.loose_pins[PIN]
+    pin = scene.clearance_joints[PIN]
     (bx, by, bvx, bvy, *_), (x, y, vx, vy, *_) = pin.frames.moving.now()
     x, y, vx, vy = x - bx, y - by, vx - bvx, vy - bvy
     distance = float(np.hypot(x, y))
@@ -177,7 +177,7 @@ def test_a_rest_is_moved_over_by_the_rates(rest: float) -> None:
     assert pin.kept.rate == pytest.approx((x * vx + y * vy) / distance, rel=1e-9)
 
 
-@pytest.mark.parametrize("scene", ["smooth", "loose"])
+@pytest.mark.parametrize("scene", ["smooth", "with_clearance"])
 @pytest.mark.parametrize("beside", [-1e-8, 1e-8])
 def test_one_rest_is_moved_over_once(scene: str, beside: float, monkeypatch: pytest.MonkeyPatch) -> None:
     # and steps go on from its end, on the grid: else another would be needed to get back to it

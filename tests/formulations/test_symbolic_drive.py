@@ -98,7 +98,7 @@ class Swinging(Branching):
 def test_cranks_need_python_only_for_drives_that_branch(drive: Drive, callbacks: int) -> None:
     # energies are not asked for
     assert inventory(_unaudited(replace(TURN, drive=drive))).callbacks == callbacks
-    # the audit asks for them: one more, but nothing works where nothing moves
+    # the result checks asks for them: one more, but nothing works where nothing moves
     works = not isinstance(drive, Held) or callbacks
     assert inventory(replace(TURN, drive=drive)).callbacks == (callbacks + 1 if works else 0)
 
@@ -110,7 +110,7 @@ def test_columns_need_python() -> None:
 
 
 def _unaudited(scenario: Scenario) -> Scenario:
-    return replace(scenario, solver=replace(scenario.solver, audit=False))
+    return replace(scenario, solver=replace(scenario.solver, result_checks=False))
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from studies.common.paper_machine import loose_pin
+from studies.common.paper_machine import clearance_joint
 from support_exudyn import TableDrive, UniformSpeed, simulate
 from tests.commands.test_scenario_commands import BASE, POINTS, SCENARIOS, STROKE, same
 
@@ -46,10 +46,12 @@ def test_a_line_from_the_start_on_begins_with_an_impulse() -> None:
 
 
 def test_the_tree_follows_a_table() -> None:
-    scenario = replace(SCENARIOS["tree"], drive=POINTS, duration=0.06, pins={"rear_base": loose_pin(1.5, 0.0)})
+    scenario = replace(
+        SCENARIOS["tree"], drive=POINTS, duration=0.06, pins={"rear_base": clearance_joint(1.5, 0.0)}
+    )
     one = simulate(scenario)
     other = simulate(replace(scenario, formulation="redundant", step=1e-4))
-    # until the journal touches both integrate the same smooth motion: errors of second order at 0.1 ms
+    # until the journal makes contact both integrate the same smooth motion: errors of second order at 0.1 ms
     before = one.time < one.onsets["rear_base"][0].time - 1e-3
     assert np.abs(one["tip.y"] - other["tip.y"])[before].max() < 1e-6
 

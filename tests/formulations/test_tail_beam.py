@@ -17,9 +17,9 @@ from support_exudyn import (
     OwnBody,
     Result,
     UniformSpeed,
+    cylinders_and_rods,
     reference_support,
     simulate,
-    two_body_columns,
 )
 from support_exudyn.model.plane_geometry import moved
 from tests.cases.run_cases import FORCE, loose_support, paper_contact, support
@@ -114,7 +114,7 @@ def test_a_soft_jack_follows_the_tree() -> None:
 
 def test_energy_adds_up_with_all_that_there_is() -> None:
     hinge = ClearancePin(contact=paper_contact(1.0, 0.25))
-    columns = two_body_columns(oil_columns()["front_column"])
+    columns = cylinders_and_rods(oil_columns()["front_column"])
     scenario = support(drive=RISE, duration=0.3, columns=columns, parts=SOFT, pins={"shield_tail": hinge})
     result = simulate(scenario)
     assert len(result.onsets["shield_tail"]) > 1

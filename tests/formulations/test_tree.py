@@ -10,17 +10,17 @@ import pytest
 
 from support_exudyn import CubicStep, Drive, Held, OilColumn, Steady, UniformSpeed, reference_support
 from support_exudyn.formulations.time_grid import record_times
-from support_exudyn.formulations.tree.branches import LoopError, LooseError, Tree, branches
+from support_exudyn.formulations.tree.branches import ClearanceError, LoopError, Tree, branches
 from support_exudyn.formulations.tree.drive_pieces import extension, pieces, speed
 from support_exudyn.formulations.tree.dynamics import (
-    Posture,
+    TreePosture,
     accelerations,
     mass_matrix,
     mass_moment,
-    pin_mobility,
+    pin_inverse_mass,
 )
-from support_exudyn.formulations.tree.events import Event, Kind, event
-from support_exudyn.formulations.tree.forces import Forces, Place
+from support_exudyn.formulations.tree.events import Event, EventKind, event
+from support_exudyn.formulations.tree.forces import Forces, JournalPlace
 from support_exudyn.formulations.tree.integration import growth
 from support_exudyn.formulations.tree.loads import SPEED_X, SPEED_Y, X, Y
 from support_exudyn.formulations.tree.run import largest_error
@@ -57,7 +57,7 @@ def test_loops_and_free_bodies_are_seen() -> None:
     linkage = reference_support().linkage()
     with pytest.raises(LoopError):
         branches(linkage, set())
-    with pytest.raises(LooseError, match="canopy"):
+    with pytest.raises(ClearanceError, match="canopy"):
         branches(linkage, {PIN, "shield_canopy"})
 
 
@@ -67,21 +67,21 @@ def test_loops_and_free_bodies_are_seen() -> None:
 def bodies_of(tree: Tree, moved: float, velocity: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
     """Positions and velocities of all bodies, flat, after a small time of constant rates."""
     q, v = STATE
-    motion = Posture(tree, (q + moved * v)[None], (v + velocity)[None]).motion()
+    motion = TreePosture(tree, (q + moved * v)[None], (v + velocity)[None]).motion()
     return motion.position[0], motion.velocity[0]
 
 
 def test_velocities_and_accelerations_are_derivatives() -> None:
     h = 1e-5
     (before, v0), (after, v1) = bodies_of(TREE, -h), bodies_of(TREE, h)
-    motion = Posture(TREE, STATE[0][None], STATE[1][None]).motion(np.zeros((1, 4)))
+    motion = TreePosture(TREE, STATE[0][None], STATE[1][None]).motion(np.zeros((1, 4)))
     # central differences of second order: h^2 times third derivatives of some tens
     np.testing.assert_allclose((after - before) / (2.0 * h), motion.velocity[0], atol=1e-8)
     np.testing.assert_allclose((v1 - v0) / (2.0 * h), motion.acceleration[0], atol=1e-7)
 
 
 def test_all_pins_stay_together() -> None:
-    motion = Posture(TREE, STATE[0][None], STATE[1][None]).motion()
+    motion = TreePosture(TREE, STATE[0][None], STATE[1][None]).motion()
     for name, pin in TREE.linkage.pins.items():
         first, second = motion.point(pin.first, pin.first_point), motion.point(pin.second, pin.second_point)
         apart = float(np.abs(first.position - second.position).max())
@@ -97,26 +97,26 @@ def items() -> dict[str, BodyItem]:
 def test_the_mass_matrix_and_the_mobility_are_those_of_bodies_with_constraints() -> None:
     ideal = tuple(name for name in TREE.linkage.pins if name != PIN)
     kinetics = Kinetics(TREE.linkage, items(), ideal, ())
-    posture = Posture(TREE, STATE[0][None], STATE[1][None])
+    posture = TreePosture(TREE, STATE[0][None], STATE[1][None])
     position, mass = posture.motion().position[0], kinetics.mass()
-    unit = [Posture(TREE, STATE[0][None], row[None]).motion().velocity[0] for row in np.eye(4)]
+    unit = [TreePosture(TREE, STATE[0][None], row[None]).motion().velocity[0] for row in np.eye(4)]
     expected = [[float(a @ (mass * b)) for b in unit] for a in unit]
     np.testing.assert_allclose(mass_matrix(posture)[0], expected, rtol=1e-12)
     np.testing.assert_allclose(
-        pin_mobility(posture, TREE.linkage.pins[PIN]), kinetics.pin_mobility(position, PIN), rtol=1e-9
+        pin_inverse_mass(posture, TREE.linkage.pins[PIN]), kinetics.pin_inverse_mass(position, PIN), rtol=1e-9
     )
 
 
 def test_power_of_all_forces_is_the_growth_of_kinetic_energy() -> None:
     h = 1e-5
-    acceleration = accelerations(Posture(TREE, STATE[0][None], STATE[1][None]), GRAVITY, [])[0]
+    acceleration = accelerations(TreePosture(TREE, STATE[0][None], STATE[1][None]), GRAVITY, [])[0]
 
     def energy(t: float) -> float:
         q = STATE[0] + t * STATE[1] + 0.5 * t * t * acceleration
         v = STATE[1] + t * acceleration
-        return 0.5 * float(v @ mass_matrix(Posture(TREE, q[None], v[None]))[0] @ v)
+        return 0.5 * float(v @ mass_matrix(TreePosture(TREE, q[None], v[None]))[0] @ v)
 
-    weight = mass_moment(Posture(TREE, STATE[0][None], np.zeros((1, 4))), GRAVITY)[0]
+    weight = mass_moment(TreePosture(TREE, STATE[0][None], np.zeros((1, 4))), GRAVITY)[0]
     # second order again, of energies of some thousand joule
     assert (energy(h) - energy(-h)) / (2.0 * h) == pytest.approx(float(weight @ STATE[1]), rel=1e-6)
 
@@ -128,7 +128,7 @@ def forces() -> Forces:
 
 def test_the_compiled_motion_is_that_of_the_posture(forces: Forces) -> None:
     forces(None, 0.0, 0, STATE[0].tolist(), STATE[1].tolist())
-    posture = Posture(TREE, STATE[0][None], STATE[1][None])
+    posture = TreePosture(TREE, STATE[0][None], STATE[1][None])
     np.testing.assert_allclose(forces.work[:4, [X, Y]], posture.joint[0], atol=1e-14)
     motion = posture.motion()
     place = TREE.linkage.pins[PIN]
@@ -141,7 +141,7 @@ def test_the_compiled_motion_is_that_of_the_posture(forces: Forces) -> None:
 def test_columns_of_oil_hold_the_closed_machine(forces: Forces) -> None:
     # at the start, all pins closed: the columns carry the weight but for what the rear link's pin carries
     forces(None, 0.0, 0, [0.0] * 4, [0.0] * 4)
-    still = Posture(TREE, np.zeros((1, 4)), np.zeros((1, 4)))
+    still = TreePosture(TREE, np.zeros((1, 4)), np.zeros((1, 4)))
     left = forces.moments() + mass_moment(still, SCENE.gravity)[0]
     # what is left is a force at the journal: two numbers explain four
     pushes = pin_rows(still)
@@ -150,10 +150,10 @@ def test_columns_of_oil_hold_the_closed_machine(forces: Forces) -> None:
     assert math.hypot(*force) == pytest.approx(58778.944, rel=1e-6)  # as printed in the reference
 
 
-def pin_rows(posture: Posture) -> np.ndarray:
+def pin_rows(posture: TreePosture) -> np.ndarray:
     """Moments of unit forces at the journal, shape (2, 4)."""
     place = TREE.linkage.pins[PIN]
-    unit = [Posture(TREE, posture.position, row[None]).motion() for row in np.eye(4)]
+    unit = [TreePosture(TREE, posture.position, row[None]).motion() for row in np.eye(4)]
     return np.array([motion.point(place.second, place.second_point).velocity[0] for motion in unit]).T
 
 
@@ -189,16 +189,16 @@ def test_other_drives_are_cut_into_cubics() -> None:
 C = 1e-3  # clearance [m]
 
 
-def place(x: float, vx: float, y: float = 0.0, vy: float = 0.0) -> Place:
+def place(x: float, vx: float, y: float = 0.0, vy: float = 0.0) -> JournalPlace:
     e = math.hypot(x, y)
-    return Place(x, y, vx, vy, e - C, (x * vx + y * vy) / e if e else math.hypot(vx, vy))
+    return JournalPlace(x, y, vx, vy, e - C, (x * vx + y * vy) / e if e else math.hypot(vx, vy))
 
 
 def test_a_touch_in_straight_flight() -> None:
     # 0.6 mm to go at 0.1 m/s: 6 ms of 8 ms
     found = event(False, False, place(0.4e-3, 0.1), place(1.2e-3, 0.1), 8e-3, C)
     assert found is not None
-    assert found.kind is Kind.TOUCH
+    assert found.kind is EventKind.IMPACT
     assert found.fraction == pytest.approx(0.75, abs=1e-9)
     # through the middle, out on the other side
     found = event(False, False, place(-0.4e-3, 0.2), place(0.5e-3, 0.2), 4.5e-3, C)
@@ -214,7 +214,7 @@ def test_a_touch_that_is_over_within_the_step_is_seen() -> None:
     y0 = C - top + 1e-6  # 1 um too high on top
     found = event(False, False, place(0.0, 0.0, y0, v), place(0.0, 0.0, y0, v + fall * step), step, C)
     assert found is not None
-    assert found.kind is Kind.TOUCH
+    assert found.kind is EventKind.IMPACT
     early = (v - math.sqrt(v * v - 2.0 * 9.81 * (top - 1e-6))) / 9.81
     assert found.fraction == pytest.approx(early / step, rel=1e-6)
     lower = y0 - 2e-6
@@ -223,11 +223,13 @@ def test_a_touch_that_is_over_within_the_step_is_seen() -> None:
 
 def test_a_flight_across_the_bore_is_not_made_in_one_step() -> None:
     found = event(False, False, place(-0.9e-3, 0.5), place(0.9e-3, 0.5), 3.6e-3, C)
-    assert found == Event(Kind.UNCLEAR, 0.0)
+    assert found == Event(EventKind.UNCLEAR, 0.0)
 
 
 def test_a_step_that_ends_at_the_wall_touches_there() -> None:
-    assert event(False, False, place(0.9e-3, 0.1), place(C + 1e-12, 0.1), 1e-3, C) == Event(Kind.TOUCH, 1.0)
+    assert event(False, False, place(0.9e-3, 0.1), place(C + 1e-12, 0.1), 1e-3, C) == Event(
+        EventKind.IMPACT, 1.0
+    )
     # one that starts there flies away
     assert event(False, False, place(C - 1e-12, -0.1), place(0.9e-3, -0.1), 1e-3, C) is None
 
@@ -235,12 +237,12 @@ def test_a_step_that_ends_at_the_wall_touches_there() -> None:
 def test_a_parting() -> None:
     found = event(True, False, place(C + 1e-5, -0.1), place(C - 1e-5, -0.1), 2e-4, C)
     assert found is not None
-    assert found.kind is Kind.PARTING
+    assert found.kind is EventKind.SEPARATION
     assert found.fraction == pytest.approx(0.5, abs=1e-9)
-    # in and out again within a step that begins with the touch
+    # in and out again within a step that begins with the impact
     found = event(True, False, place(C, 0.1), place(C - 1e-6, -0.12), 1e-4, C)
     assert found is not None
-    assert found.kind is Kind.PARTING
+    assert found.kind is EventKind.SEPARATION
     assert found.fraction == pytest.approx(2.0 * 0.1 / 0.22, abs=1e-9)  # a parabola
 
 
@@ -248,10 +250,10 @@ def test_a_contact_pressed_on_again() -> None:
     start, end = place(C + 1e-5, -0.1), place(C + 1e-5, 0.1)
     # depth 1e-5 - 0.1 t + ..., lowest in the middle: a quarter of rate times step
     assert event(True, False, start, end, 1e-4, C) is None
-    assert event(True, True, start, end, 1e-4, C) == Event(Kind.RETURN, pytest.approx(0.5))
+    assert event(True, True, start, end, 1e-4, C) == Event(EventKind.RETURN, pytest.approx(0.5))
     out = event(True, True, start, end, 1e-3, C)
     assert out is not None
-    assert out.kind is Kind.PARTING
+    assert out.kind is EventKind.SEPARATION
 
 
 # --- within steps ---
@@ -339,13 +341,13 @@ def test_the_end_is_a_record() -> None:
 
 
 def test_a_touch_that_is_over_at_once_is_looked_at_more_closely() -> None:
-    assert event(True, False, place(C, 0.1), place(C - 9e-5, -1.9), 1e-4, C) == Event(Kind.UNCLEAR, 0.0)
+    assert event(True, False, place(C, 0.1), place(C - 9e-5, -1.9), 1e-4, C) == Event(EventKind.UNCLEAR, 0.0)
 
 
 def test_a_bulge_between_two_inward_ends_touches() -> None:
     found = event(False, False, place(0.95e-3, -0.8), place(0.95e-3, -0.8), 1e-3, C)
     assert found is not None
-    assert found.kind is Kind.TOUCH
+    assert found.kind is EventKind.IMPACT
     assert 0.5 < found.fraction < 0.79
 
 
@@ -355,15 +357,15 @@ def test_what_grazes_the_wall_and_leaves_does_not_touch() -> None:
 
 def test_after_a_parting_the_surfaces_must_be_seen_apart() -> None:
     start, end = place(C + 5e-11, -1e-4), place(C + 1e-5, 0.3)
-    assert event(False, False, start, end, 1e-4, C) == Event(Kind.UNCLEAR, 0.0)
-    assert event(False, False, start, end, 1e-10, C) == Event(Kind.TOUCH, 1.0)
+    assert event(False, False, start, end, 1e-4, C) == Event(EventKind.UNCLEAR, 0.0)
+    assert event(False, False, start, end, 1e-10, C) == Event(EventKind.IMPACT, 1.0)
 
 
 def test_the_error_of_a_step_moves_no_journal_by_more_than_the_tolerance() -> None:
     pin = TREE.linkage.pins[PIN]
     apart = []
     for unit in np.eye(len(TREE.links)):
-        motion = Posture(TREE, np.zeros((1, unit.size)), unit[None]).motion()
+        motion = TreePosture(TREE, np.zeros((1, unit.size)), unit[None]).motion()
         one, other = motion.point(pin.first, pin.first_point), motion.point(pin.second, pin.second_point)
         apart.append(float(np.linalg.norm(one.velocity - other.velocity)))
     speed = math.sqrt(9.81 * 1.5e-3)  # of a fall through half the clearance

@@ -36,15 +36,15 @@ from tests.cases.run_cases import FORCE, PIN, loose_slider_crank, loose_support,
 from user_forces import (
     Anagnostopoulos,
     BrownMcPhee,
-    DepthSpeed,
     Flores,
+    Impact,
+    IndentationVelocity,
     InputError,
     JournalBearing,
     JournalContact,
     LankaraniNikravesh,
     LoadError,
     LuGre,
-    Touch,
     value,
 )
 
@@ -211,7 +211,7 @@ def test_records_do_not_change_the_run() -> None:
 @pytest.mark.parametrize("name", ["exact", "kelvin_voigt", "anagnostopoulos", "johnson"])
 @pytest.mark.parametrize("restitution", [0.3, 0.9])
 def test_laws_of_every_kind(name: str, restitution: float) -> None:
-    # one that forgets a touch when it is pressed on again, a dashpot, one that asks for tension, cylinders
+    # one that forgets an impact when it is pressed on again, a dashpot, one that asks for tension, cylinders
     pin = ClearancePin(contact=replace(paper_contact(1.5, 0.0), normal=normal_laws(1.5, restitution)[name]))
     coarse, fine = (simulate(tree(t, drive=Held(), duration=0.06, pins={PIN: pin})) for t in (1e-7, 1e-10))
     assert len(coarse.onsets[PIN]) == len(fine.onsets[PIN]) >= 1
@@ -366,12 +366,12 @@ def test_what_is_not_covered_is_refused_with_what_to_do() -> None:
         simulate(support(formulation="tree", columns=BOTH))
     with pytest.raises(InputError, match=r"slides\.guide.*allowed: no slides"):
         simulate(replace(loose_slider_crank(1e-3), formulation="tree"))
-    hanging = {
+    load_suspension = {
         PIN: ClearancePin(contact=paper_contact(1.0, 0.0)),
         "shield_canopy": ClearancePin(contact=paper_contact(1.0, 0.0)),
     }
     with pytest.raises(InputError, match=r"bodies\.canopy.*no chain of ideal pins to the ground"):
-        simulate(support(formulation="tree", columns=BOTH, pins=hanging))
+        simulate(support(formulation="tree", columns=BOTH, pins=load_suspension))
     lugre = ClearancePin(contact=replace(paper_contact(1.0, 0.0), friction=friction_laws(0.25)["lugre"]))
     assert isinstance(lugre.contact.friction, LuGre)
     with pytest.raises(InputError, match=r"friction = LuGre.*laws without a state"):
@@ -403,10 +403,10 @@ def test_velocities_that_tear_a_pin_are_refused() -> None:
 class Thin(LankaraniNikravesh):
     """Is not valid below 10 micrometres."""
 
-    def __call__(self, depth: float, rate: float, touch: Touch) -> float:
+    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
         if depth > 1e-5:
             raise LoadError(f"Thin: depth = {depth} m: allowed: up to 1e-05 m")
-        return super().__call__(depth, rate, touch)
+        return super().__call__(depth, rate, impact)
 
 
 def test_a_contact_that_is_overloaded_says_what_the_law_takes() -> None:
@@ -418,7 +418,7 @@ def test_a_contact_that_is_overloaded_says_what_the_law_takes() -> None:
     assert isinstance(failure, Failure)
     assert failure.reason == "a contact is overloaded"
     assert "allowed: up to 1e-05 m" in failure.advice
-    assert 0.017 < failure.time < 0.018  # the first touch is at 17.3 ms
+    assert 0.017 < failure.time < 0.018  # the first impact is at 17.3 ms
     assert failure.state[f"pin.{PIN}.depth"] == pytest.approx(1e-5, rel=1e-6)
 
 
@@ -432,7 +432,7 @@ def test_nothing_of_a_run_stays_behind() -> None:
 # --- contacts that are pressed on again ---
 
 PRESSED_AGAIN = {
-    "forgets": replace(paper_contact(1.5, 0.0).normal, restitution=0.5, damping_speed=DepthSpeed()),
+    "forgets": replace(paper_contact(1.5, 0.0).normal, restitution=0.5, damping_speed=IndentationVelocity()),
     "asks for the mass": Anagnostopoulos(stiffness=1e9, restitution=0.7),
 }
 
@@ -445,5 +445,5 @@ def test_a_contact_that_is_pressed_on_again_renews_what_it_remembers(law: str, b
     ours = simulate(scene)
     finest = SolverSettings(impact_steps=512)
     theirs = simulate(replace(scene, formulation="redundant", step=1e-4, solver=finest))
-    # the redundant formulation's steps of impacts; measured 5e-5, and 2e-3 with the mass of the first touch
+    # the redundant formulation's steps of impacts; measured 5e-5, and 2e-3 with the mass of the first impact
     assert ours.dissipated == pytest.approx(theirs.dissipated, rel=2e-4)

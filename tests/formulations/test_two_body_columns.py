@@ -11,6 +11,7 @@ import pytest
 from support_exudyn import (
     ClearancePin,
     CubicStep,
+    CylinderAndRod,
     Drive,
     Held,
     HydraulicSupport,
@@ -18,12 +19,11 @@ from support_exudyn import (
     OwnBody,
     Result,
     Scenario,
-    TwoBodyColumn,
     UniformSpeed,
     bore_area,
+    cylinders_and_rods,
     reference_support,
     simulate,
-    two_body_columns,
 )
 from support_exudyn.formulations.redundant.scene.scene_builder import build
 from support_exudyn.mechanics.kinetics import kinetics_of
@@ -32,7 +32,7 @@ from tests.cases.run_cases import FORCE, loose_support, paper_contact, support
 G = 9.81
 RISE = CubicStep(start=0.05, end=0.45, stroke=0.1)
 OIL = OilColumn(bore_area=bore_area(0.25, number=2), oil_length=0.5, bulk_modulus=1.5e9)
-LIGHT = TwoBodyColumn(
+LIGHT = CylinderAndRod(
     cylinder_mass=1e-6,
     cylinder_centre=0.45,
     cylinder_inertia=1e-7,
@@ -96,7 +96,7 @@ def test_the_engine_holds_nothing_that_was_not_asked_for() -> None:
     # ground, 4 bodies, 5 pins, 2 columns
     assert objects() == 12
     # a pair of columns more: 2 bodies, 2 pins and a guide each
-    assert objects(columns=two_body_columns()) == 12 + 2 * 5
+    assert objects(columns=cylinders_and_rods()) == 12 + 2 * 5
     assert objects(parts={"tail_beam": OwnBody()}) == 12 + 3  # body, pin, jack
 
 
@@ -105,7 +105,7 @@ def test_the_engine_holds_nothing_that_was_not_asked_for() -> None:
 
 @pytest.fixture(scope="module")
 def held() -> Result:
-    return simulate(support(columns=two_body_columns(), drive=Held(), duration=0.01))
+    return simulate(support(columns=cylinders_and_rods(), drive=Held(), duration=0.01))
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -115,7 +115,7 @@ def test_pins_and_guide_carry_what_a_static_balance_says(held: Result, name: str
     front = name == "front_column"
     foot = machine.front_foot if front else machine.rear_foot
     head = start.front_head if front else start.rear_head
-    model = two_body_columns()[name]
+    model = cylinders_and_rods()[name]
     length = math.dist(foot, head)
     u = np.subtract(head, foot) / length
     n = np.array([-u[1], u[0]])
@@ -152,7 +152,7 @@ def test_the_canopy_is_held_by_the_heads_and_its_hinge(held: Result) -> None:
 
 @pytest.mark.parametrize("drive", [None, OIL], ids=["rigid", "oil"])
 def test_a_machine_at_rest_stays_there(drive: OilColumn | None) -> None:
-    still = simulate(support(columns=two_body_columns(drive), drive=Held(), duration=0.2))
+    still = simulate(support(columns=cylinders_and_rods(drive), drive=Held(), duration=0.2))
     np.testing.assert_allclose(still["tip.y"], still["tip.y"][0], atol=1e-12)  # rounding
     np.testing.assert_allclose(still["front_column.force"], still["front_column.force"][0], rtol=1e-6)
     assert still.energy_error < 1e-6
@@ -176,7 +176,7 @@ def test_a_machine_that_moves_at_the_start_has_columns_that_move_along() -> None
             return replace(linkage, bodies=bodies)
 
     moving = Moving(**{name: getattr(machine, name) for name in machine.to_data() if name != "type"})
-    detailed = support(machine=moving, columns=two_body_columns(), drive=RISE).linkage
+    detailed = support(machine=moving, columns=cylinders_and_rods(), drive=RISE).linkage
     system = kinetics_of(detailed)
     velocity = np.concatenate([[*body.velocity, body.spin] for body in detailed.bodies.values()])
     rates = system.rows(np.zeros(velocity.size)) @ velocity
@@ -185,11 +185,11 @@ def test_a_machine_that_moves_at_the_start_has_columns_that_move_along() -> None
 
 
 def test_oil_columns_of_two_bodies_tend_to_rigid_ones_with_order_one() -> None:
-    rigid = simulate(support(columns=two_body_columns(), drive=RISE, duration=0.35))
+    rigid = simulate(support(columns=cylinders_and_rods(), drive=RISE, duration=0.35))
 
     def off(stiffer: float) -> float:
         oil = replace(OIL, bulk_modulus=stiffer * OIL.bulk_modulus)
-        columns = two_body_columns(oil)
+        columns = cylinders_and_rods(oil)
         soft = simulate(support(columns=columns, drive=RISE, duration=0.35, step=2.5e-4))
         late = rigid.time > 0.25  # the vibration of the start has died out
         return float(np.abs(soft["tip.y"] - rigid["tip.y"])[late].max())
@@ -205,7 +205,7 @@ def test_oil_columns_of_two_bodies_tend_to_rigid_ones_with_order_one() -> None:
 @pytest.mark.parametrize("oil", [None, OIL], ids=["rigid", "oil"])
 def test_energy_adds_up_with_second_order(oil: OilColumn | None, drive: Drive) -> None:
     coarse, fine = (
-        simulate(support(columns=two_body_columns(oil), drive=drive, duration=0.5, step=step))
+        simulate(support(columns=cylinders_and_rods(oil), drive=drive, duration=0.5, step=step))
         for step in (1e-3, 5e-4)
     )
     # measured 2e-7 of a work of 5 kJ with rigid columns, 1.3e-6 with oil
@@ -216,7 +216,7 @@ def test_energy_adds_up_with_second_order(oil: OilColumn | None, drive: Drive) -
 def test_the_impulse_of_a_sudden_start_passes_through_rod_and_cylinder() -> None:
     speed = 0.25
     drive = UniformSpeed(stroke=0.1, start=0.05, end=0.45)
-    result = simulate(support(columns=two_body_columns(), drive=drive, duration=0.5))
+    result = simulate(support(columns=cylinders_and_rods(), drive=drive, duration=0.5))
     first, last = result.impulses
     for impulse in (first, last):
         assert sorted(impulse.columns) == sorted(NAMES)
@@ -235,10 +235,10 @@ def test_the_impulse_of_a_sudden_start_passes_through_rod_and_cylinder() -> None
     ids=lambda names: "+".join(names),
 )
 def test_energy_adds_up_with_loose_pins_of_links_and_columns(pins: tuple[str, ...]) -> None:
-    loose = dict.fromkeys(pins, ClearancePin(contact=paper_contact(1.0, 0.25)))
+    with_clearance = dict.fromkeys(pins, ClearancePin(contact=paper_contact(1.0, 0.25)))
     # held: with rigid columns that move, rounding of their forces in the short steps of impacts shows in the
     # work (0.3 J here, 0.6 J on massless columns)
-    result = simulate(support(pins=loose, columns=two_body_columns(), drive=Held(), duration=0.2))
+    result = simulate(support(pins=with_clearance, columns=cylinders_and_rods(), drive=Held(), duration=0.2))
     for name in pins:
         assert len(result.onsets[name]) > 1
     # as on massless columns (`test_oil_columns`, which says 3e-4); measured 1e-4 and less
@@ -247,7 +247,7 @@ def test_energy_adds_up_with_loose_pins_of_links_and_columns(pins: tuple[str, ..
 
 def test_columns_of_different_kinds_may_be_mixed() -> None:
     columns = {
-        "front_column": two_body_columns(OIL)["front_column"],
+        "front_column": cylinders_and_rods(OIL)["front_column"],
         "rear_column": OIL,
     }
     result = simulate(support(columns=columns, drive=RISE, duration=0.3))

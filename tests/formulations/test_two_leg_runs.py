@@ -1,4 +1,4 @@
-"""Runs of the two-leg shield: the canopy keeps level, forces are those of statics, loose pins and oil work."""
+"""Runs of the two-leg shield: the canopy keeps level, forces are those of statics."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from studies.common.paper_machine import loose_pin
+from studies.common.paper_machine import clearance_joint
 from support_exudyn import CubicStep, Held, OilColumn, Result, Scenario, UniformSpeed, bore_area, simulate
 from support_exudyn.files.machines import load_machine
 from support_exudyn.files.machines.read import read_machine
@@ -71,8 +71,8 @@ def test_a_sudden_inlet_is_an_impulse_in_both() -> None:
 
 def test_loose_pins_and_oil_work() -> None:
     drop = replace(RISE, drive=CubicStep(stroke=0.05, start=0.1, end=0.3), duration=0.4, step=5e-4)
-    loose = simulate(replace(drop, pins={"rear_base": loose_pin(1.5, 0.25)}))
-    assert len(loose.onsets["rear_base"]) > 0
+    with_clearance = simulate(replace(drop, pins={"rear_base": clearance_joint(1.5, 0.25)}))
+    assert len(with_clearance.onsets["rear_base"]) > 0
     oil = {
         name: OilColumn(bore_area=bore_area(bore, 2), oil_length=0.5, bulk_modulus=1.5e9)
         for name, bore in (("leg", 0.32), ("ram", 0.16))

@@ -25,7 +25,7 @@ from support_exudyn import (
 )
 from support_exudyn.model.loads.load import LoadedPoint, Powers
 from tests.cases.run_cases import CRANK_SPEED, PIN, slider_crank, support
-from user_forces import FrictionLaw, JournalBearing, JournalContact, NormalLaw, Touch, value
+from user_forces import FrictionLaw, Impact, JournalBearing, JournalContact, NormalLaw, value
 from user_forces.expressions.scalar import tanh, where
 from user_forces.values.value import Vector2
 
@@ -47,7 +47,7 @@ class Spring(NormalLaw):
 
     stiffness: float = 1e9
 
-    def __call__(self, depth: float, rate: float, touch: Touch) -> float:
+    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
         return self.stiffness * depth
 
     def elastic_force(self, depth: float) -> float:
@@ -59,19 +59,19 @@ class Spring(NormalLaw):
 
 @value
 class NoNumber(Spring):
-    def __call__(self, depth: float, rate: float, touch: Touch) -> float:
+    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
         return where(depth > 2e-5, math.nan, self.stiffness * depth)
 
 
 @value
 class Endless(Spring):
-    def __call__(self, depth: float, rate: float, touch: Touch) -> float:
+    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
         return where(depth > 2e-5, math.inf, self.stiffness * depth)
 
 
 @value
 class WrongSign(Spring):
-    def __call__(self, depth: float, rate: float, touch: Touch) -> float:
+    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
         return -self.stiffness * depth
 
 
@@ -83,7 +83,7 @@ class Pulling(WrongSign):
 
 @value
 class Driving(Spring):
-    def __call__(self, depth: float, rate: float, touch: Touch) -> float:
+    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
         return self.stiffness * depth * (1.0 - 0.03 * rate)
 
 
@@ -114,8 +114,8 @@ class Feeding(FrictionLaw):
         return 0.1 * normal_force * tanh(slip / 1e-3)
 
 
-def loose(normal: NormalLaw, friction: FrictionLaw | None = None, **changes: Any) -> Scenario:
-    """A support that falls into its loose pin within 10 ms."""
+def with_clearance(normal: NormalLaw, friction: FrictionLaw | None = None, **changes: Any) -> Scenario:
+    """A support that falls into its clearance pin within 10 ms."""
     laws: dict[str, Any] = {"normal": normal} | ({"friction": friction} if friction else {})
     pin = ClearancePin(contact=JournalContact(bearing=BEARING, **laws))
     return support(**{"pins": {PIN: pin}, "drive": Held(), "duration": 0.03} | changes)
@@ -144,14 +144,14 @@ def refused(scenario: Scenario, *said: str) -> Failure:
     ],
 )
 def test_a_law_is_refused(normal: NormalLaw, friction: FrictionLaw | None, said: str, way: str) -> None:
-    failure = refused(loose(normal, friction, **WAYS[way]), PIN, said)
-    # at the touch, which is after 10 ms, or before the run
+    failure = refused(with_clearance(normal, friction, **WAYS[way]), PIN, said)
+    # at the impact, which is after 10 ms, or before the run
     assert failure.time == 0.0 if isinstance(normal, Pulling) else 0.009 < failure.time < 0.011
 
 
 @value
 class AlwaysEndless(Spring):
-    def __call__(self, depth: float, rate: float, touch: Touch) -> float:
+    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
         return self.stiffness * depth + math.inf
 
 
@@ -169,7 +169,7 @@ class NoEnergy(Spring):
 
 @value
 class Failing(Spring):
-    def __call__(self, depth: float, rate: float, touch: Touch) -> float:
+    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
         return self.stiffness * depth * (rate / rate)
 
 
@@ -180,7 +180,7 @@ class Failing(Spring):
 @pytest.mark.parametrize("start", ["concentric", "settled"])
 def test_a_law_that_is_none_at_rest_is_refused_before_the_run(law: NormalLaw, way: str, start: str) -> None:
     if (way, start) != ("reduced", "settled"):  # which always starts concentric
-        failure = refused(loose(law, start=start, **WAYS[way]), PIN, type(law).__name__)
+        failure = refused(with_clearance(law, start=start, **WAYS[way]), PIN, type(law).__name__)
         assert failure.time == 0.0
 
 
@@ -197,17 +197,21 @@ class Branching(Spring):
 
 @pytest.mark.parametrize("way", sorted(WAYS.keys() - {"reduced"}))  # which refuses what cannot be compiled
 def test_an_elastic_part_that_branches_is_one(way: str) -> None:
-    assert not isinstance(simulate(loose(Branching(), **WAYS[way]), throw=False), Failure)
+    assert not isinstance(simulate(with_clearance(Branching(), **WAYS[way]), throw=False), Failure)
 
 
 @pytest.mark.parametrize("way", WAYS)
 def test_the_law_that_they_are_made_from_passes(way: str) -> None:
-    assert not isinstance(simulate(loose(Spring(), **WAYS[way]), throw=False), Failure)
+    assert not isinstance(simulate(with_clearance(Spring(), **WAYS[way]), throw=False), Failure)
 
 
 @pytest.mark.parametrize("way", ["python", "symbolic", "space"])
 def test_a_state_that_feeds_is_refused_by_what_is_lost(way: str) -> None:
-    refused(loose(Spring(), Feeding(), **WAYS[way]), "friction_loss becomes less by", f"pins.{PIN} = Feeding")
+    refused(
+        with_clearance(Spring(), Feeding(), **WAYS[way]),
+        "friction_loss becomes less by",
+        f"pins.{PIN} = Feeding",
+    )
 
 
 @pytest.mark.parametrize("law", [Along(), Slippery()])
@@ -237,7 +241,7 @@ class Lost(Drive):
 
 @pytest.mark.parametrize("way", ["python", "symbolic", "space", "tree"])
 def test_a_drive_is_refused(way: str) -> None:
-    refused(loose(Spring(), drive=Lost(), **WAYS[way]), "Lost has an extension of nan")
+    refused(with_clearance(Spring(), drive=Lost(), **WAYS[way]), "Lost has an extension of nan")
 
 
 def test_a_drive_of_ideal_pins_is_refused() -> None:
@@ -279,5 +283,5 @@ class NoLoad(AppliedForce):
 @pytest.mark.parametrize("with_clearance", [False, True])
 def test_a_load_is_refused(kind: type[AppliedForce], with_clearance: bool) -> None:
     press = kind(body="canopy", point=(0.5, 3.0), full_force=(0.0, -1e4))
-    scene = loose(Spring()) if with_clearance else support(drive=Held())
+    scene = with_clearance(Spring()) if with_clearance else support(drive=Held())
     refused(replace(scene, loads={"press": press}, duration=0.01), "press", kind.__name__)

@@ -149,12 +149,12 @@ def test_pin_and_column_forces_are_those_of_equilibrium(name: str, tmp_path: Pat
     for station in stations(machine, data.stroke, 5):
         exact = equilibrium(machine, station)
         # rounding of systems whose condition is some thousand; forces of 1e5 N
-        slack = 1e-6
-        assert station.forces.error < slack
+        clearance = 1e-6
+        assert station.forces.error < clearance
         for pin, force in station.forces.pins.items():
-            assert force == pytest.approx(exact[pin], abs=slack), pin
+            assert force == pytest.approx(exact[pin], abs=clearance), pin
         for column, push in station.forces.columns.items():
-            assert push == pytest.approx(exact[column], abs=slack), column
+            assert push == pytest.approx(exact[column], abs=clearance), column
 
 
 @pytest.mark.parametrize("name", SHIELDS)
@@ -191,8 +191,8 @@ def test_a_slider_crank_by_hand() -> None:
 
 def test_freedom_of_an_unheld_linkage() -> None:
     linkage = read_machine("two_leg_shield").machine.linkage()
-    loose = mobility(replace(linkage, columns={"leg": linkage.columns["leg"]}))
-    assert (loose.free, loose.driven, loose.left) == (2, 1, 1)
+    with_clearance = mobility(replace(linkage, columns={"leg": linkage.columns["leg"]}))
+    assert (with_clearance.free, with_clearance.driven, with_clearance.left) == (2, 1, 1)
 
 
 # --- limits of the way ---

@@ -165,8 +165,10 @@ def test_the_crank_turns_right_round_as_often_as_asked(turns: float) -> None:
 
 @pytest.mark.parametrize("name", ["main", "crank_pin", "slider_pin"])
 def test_any_pin_may_have_clearance(name: str) -> None:
-    loose = ClearancePin(contact=contact())
-    assert Scenario(machine=machine(), duration=1.0, pins={name: loose}).clearance_pins == {name: loose}
+    with_clearance = ClearancePin(contact=contact())
+    assert Scenario(machine=machine(), duration=1.0, pins={name: with_clearance}).clearance_pins == {
+        name: with_clearance
+    }
 
 
 # --- bad input, and back from data ---

@@ -11,7 +11,7 @@ import pytest
 from support_exudyn import CubicStep, Drive, Held, Scenario, Steady, UniformSpeed
 from support_exudyn.files.machines.read import read_machine
 from support_exudyn.machines.two_leg_shield import TwoLegShield
-from support_exudyn.model.drives.coupled_drive import Follower, following
+from support_exudyn.model.drives.coupled_drive import CoupledDrive, following
 from support_exudyn.model.plane_geometry import distance
 from user_forces import InputError
 from user_forces.values.value import Value
@@ -67,7 +67,7 @@ def test_column_rates_are_derivatives_of_lengths(shield: TwoLegShield) -> None:
 def test_the_ram_follows_the_leg_within_a_nanometre(shield: TwoLegShield, scenario: Scenario) -> None:
     """Against lengths of closed-form postures between the points that the curve was made from."""
     ram, leg = scenario.drive_of("ram"), scenario.drive_of("leg")
-    assert isinstance(ram, Follower)
+    assert isinstance(ram, CoupledDrive)
     start, posture = shield.start(), shield.start()
     at_start = distance(start.ram_foot, start.ram_head)
     for t in np.linspace(3.0, 5.0, 401):
@@ -110,9 +110,9 @@ def test_its_span_holds_all_of_it(scenario: Scenario) -> None:
 def test_a_span_knows_where_the_follower_turns_back() -> None:
     """A parabola, whose largest value lies within."""
     lead = CubicStep(stroke=1.0)
-    follower = following(lead, 5.0, lambda x: x * (1.0 - x))
-    assert follower.span(5.0) == pytest.approx((0.0, 0.25), abs=1e-14)  # rounding
-    assert follower.extension(4.0) == pytest.approx(0.25, abs=1e-14)
+    coupled_drive = following(lead, 5.0, lambda x: x * (1.0 - x))
+    assert coupled_drive.span(5.0) == pytest.approx((0.0, 0.25), abs=1e-14)  # rounding
+    assert coupled_drive.extension(4.0) == pytest.approx(0.25, abs=1e-14)
 
 
 def test_what_no_polynomial_follows_is_refused() -> None:

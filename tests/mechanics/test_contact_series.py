@@ -13,11 +13,13 @@ from support_exudyn import ClearancePin
 from support_exudyn.mechanics.contact_history import RelativeMotion, journal_arm, series
 from support_exudyn.mechanics.contact_state import PinMemory
 from tests.cases.run_cases import paper_contact
-from user_forces import Ambrosio, DepthSpeed, FrictionLaw, Frictionless, Touch, value
+from user_forces import Ambrosio, FrictionLaw, Frictionless, Impact, IndentationVelocity, value
 from user_forces.contact import SlipHistory
 
 BASE = paper_contact(1.5, 0.0)
-NORMAL = replace(BASE.normal, restitution=0.5, damping_speed=DepthSpeed())  # asks for the mass that moves
+NORMAL = replace(
+    BASE.normal, restitution=0.5, damping_speed=IndentationVelocity()
+)  # asks for the mass that moves
 CLEARANCE = BASE.bearing.clearance
 
 
@@ -41,7 +43,7 @@ records = st.lists(
         speeds,
         speeds,
         speeds,
-        st.floats(0.0, 0.05),  # speed of the touch, often less than what the depth stores
+        st.floats(0.0, 0.05),  # speed of the impact, often less than what the depth stores
         st.booleans(),  # in contact
     ),
     min_size=1,
@@ -53,7 +55,7 @@ records = st.lists(
 @given(rows=records)
 def test_all_at_once_is_one_by_one(friction: FrictionLaw, rows: list[tuple[float, ...]]) -> None:
     pin = ClearancePin(contact=replace(BASE, normal=NORMAL, friction=friction))
-    angle, axes, depth, vx, vy, bore_spin, journal_spin, touch, closed = np.array(rows, dtype=np.float64).T
+    angle, axes, depth, vx, vy, bore_spin, journal_spin, impact, closed = np.array(rows, dtype=np.float64).T
     far = CLEARANCE + depth
     moving = RelativeMotion(
         far * np.cos(angle),
@@ -67,13 +69,13 @@ def test_all_at_once_is_one_by_one(friction: FrictionLaw, rows: list[tuple[float
     )
     # heavy along the bore's own x, light along y: what is felt hangs on the direction
     memories = [
-        PinMemory(bool(c), v, 0.0, 0.0, 0.0, 0.0, 1e-3, 4e-4, 1e-2) for c, v in zip(closed, touch, strict=True)
+        PinMemory(bool(c), v, 0.0, 0.0, 0.0, 0.0, 1e-3, 4e-4, 1e-2) for c, v in zip(closed, impact, strict=True)
     ]
     found = series(pin, moving, memories)
     for n, memory in enumerate(memories):
         x, y = moving.x[n], moving.y[n]
         c, s = moving.cos_bore[n], moving.sin_bore[n]
-        known = Touch(memory.approach_speed, memory.mobility.mass(c * x + s * y, c * y - s * x))
+        known = Impact(memory.impact_velocity, memory.inverse_mass.mass(c * x + s * y, c * y - s * x))
         motion = x, y, vx[n], vy[n], bore_spin[n], journal_spin[n]
         want = pin.contact.force(*motion, known if memory.in_contact else None, SlipHistory(0.0, 0.0, 0.0))
         for name in ("force_x", "force_y", "normal_force", "friction_force", "depth", "slip"):
@@ -84,7 +86,7 @@ def test_all_at_once_is_one_by_one(friction: FrictionLaw, rows: list[tuple[float
             )
         stored = pin.contact.normal.elastic_energy(depth[n]) if depth[n] > 0.0 else 0.0
         assert found.stored[n] == pytest.approx(stored, rel=1e-9)
-        assert found.approach_speed[n] == (memory.approach_speed if memory.in_contact else 0.0)
+        assert found.impact_velocity[n] == (memory.impact_velocity if memory.in_contact else 0.0)
 
 
 def test_the_contact_point_lies_midway_in_the_overlap() -> None:

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from studies.common.paper_machine import loose_pin, oil_columns
+from studies.common.paper_machine import clearance_joint, oil_columns
 from support_exudyn import CubicStep, Scenario, reference_support, simulate
 from support_exudyn.mechanics.space.constraints import matrix
 from support_exudyn.mechanics.space.determined import Loads
@@ -21,15 +21,15 @@ RIGID = Scenario(
     dimensions=3,
 )
 ON_OIL = replace(RIGID, columns=oil_columns())
-LOOSE = replace(ON_OIL, pins={"rear_base": loose_pin(1.5, 0.0)})
+WITH_CLEARANCE = replace(ON_OIL, pins={"rear_base": clearance_joint(1.5, 0.0)})
 
 
 def shares(scenario: Scenario) -> set[str]:
     """Forces and moments, by name, of which many shares balance."""
     return {
         name.removeprefix("pin.")
-        for name, recipe in scenario.recipes.items()
-        if "do not determine" in recipe.meaning and (name.endswith(".force") or ".moment" in name)
+        for name, definition in scenario.channel_definitions.items()
+        if "do not determine" in definition.meaning and (name.endswith(".force") or ".moment" in name)
     }
 
 
@@ -51,12 +51,12 @@ def test_four_rigid_columns_under_a_rigid_canopy_do_too() -> None:
 
 
 def test_a_loose_pin_leaves_nothing_open() -> None:
-    assert shares(LOOSE) == set()
+    assert shares(WITH_CLEARANCE) == set()
 
 
 def test_what_two_hold_together_is_determined() -> None:
     for name in ("front_column.force", "rear_column.force", "pin.front_base.force", "pin.front_shield.force"):
-        assert "do not determine" not in RIGID.recipes[name].meaning
+        assert "do not determine" not in RIGID.channel_definitions[name].meaning
 
 
 @pytest.mark.parametrize("scenario", [RIGID, ON_OIL], ids=["rigid", "oil"])

@@ -124,8 +124,8 @@ def test_the_bore_of_the_second_body_turns_the_offset_around() -> None:
 def test_a_slider_stays_in_its_guide_and_a_crank_where_it_was(pin: str, bore: str) -> None:
     machine = ravn_slider_crank()
     was = machine.linkage()
-    loose = ClearancePin(contact=slider_crank_contact(), bore=bore, eccentricity=(2e-4, 3e-4))
-    linkage = Scenario(machine=machine, pins={pin: loose}, duration=0.01).linkage
+    with_clearance = ClearancePin(contact=slider_crank_contact(), bore=bore, eccentricity=(2e-4, 3e-4))
+    linkage = Scenario(machine=machine, pins={pin: with_clearance}, duration=0.01).linkage
     sign = 1.0 if bore == "first" else -1.0
     assert_laid_out(linkage, was, {pin: (sign * 2e-4, sign * 3e-4)})
     for name, slide in linkage.slides.items():
@@ -143,9 +143,9 @@ def test_a_slider_stays_in_its_guide_and_a_crank_where_it_was(pin: str, bore: st
 
 def test_an_eccentricity_that_the_linkage_cannot_reach_is_refused() -> None:
     # the crank keeps its angle and the slider its guide: the rod is too short for 10 m
-    loose = ClearancePin(contact=slider_crank_contact(), eccentricity=(0.0, 10.0))
+    with_clearance = ClearancePin(contact=slider_crank_contact(), eccentricity=(0.0, 10.0))
     with pytest.raises(InputError, match=r"eccentricity of slider_pin = \(0\.0, 10\.0\) m: the linkage cannot"):
-        Scenario(machine=ravn_slider_crank(), pins={SLIDER_PIN: loose}, duration=0.01)
+        Scenario(machine=ravn_slider_crank(), pins={SLIDER_PIN: with_clearance}, duration=0.01)
 
 
 def test_an_eccentricity_out_of_all_proportion_is_refused() -> None:

@@ -27,10 +27,10 @@ def test_what_a_swing_has_between_its_records_is_covered(
 ) -> None:
     time = np.arange(0.0, 6.0, period) + phase * period
     values = 5.0 + 2.0 * np.cos(time)
-    top, seen = 7.0, float(values.max())
+    top, context = 7.0, float(values.max())
     if 0 < values.argmax() < values.size - 1:
         word = "min" if sign < 0.0 and extreme == "max" else extreme
-        assert top - seen <= missed(word, sign * values, time) + 1e-9
+        assert top - context <= missed(word, sign * values, time) + 1e-9
         assert missed(word, sign * values, time) <= 2.0 * period**2  # a parabola's share, no more
 
 

@@ -152,11 +152,11 @@ def test_a_column_pushes_both_of_its_ends() -> None:
     linkage = Linkage(
         bodies={"beam": Body(mass=10.0, inertia=1.0, centre=(1.0, 0.0))},
         pins={"left": pinned(GROUND, "beam", (0.0, 0.0))},
-        columns={"prop": Column(foot=GROUND, head="beam", foot_point=(3.0, -1.0), head_point=(2.0, 0.0))},
+        columns={"mesh_item": Column(foot=GROUND, head="beam", foot_point=(3.0, -1.0), head_point=(2.0, 0.0))},
     )
     motion = motion_of(linkage, (np.array([1.0, 0.0]), np.zeros(2), (0.0, 0.0, 0.0)))
     push = 50.0 * math.sqrt(2.0)  # its vertical part at 2 m holds 100 N at 1 m
-    found = open_joint_forces(motion, (0.0, -10.0), {"prop": np.array([push])}, {})
+    found = open_joint_forces(motion, (0.0, -10.0), {"mesh_item": np.array([push])}, {})
     np.testing.assert_allclose(found.pins["left"][0], [50.0, 50.0], rtol=1e-14)
 
 

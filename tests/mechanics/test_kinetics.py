@@ -13,7 +13,7 @@ from support_exudyn import Body, ClearancePin, Column, Crank, Linkage, PinPlace,
 from support_exudyn.formulations.redundant.scene.engine_scene import INITIAL
 from support_exudyn.formulations.redundant.scene.scene_builder import build
 from support_exudyn.mechanics.body_coordinates import BodyItem
-from support_exudyn.mechanics.contact_state import HEAVIEST, Mobility
+from support_exudyn.mechanics.contact_state import HEAVIEST, InverseMass
 from support_exudyn.mechanics.kinetics import Kinetics
 from support_exudyn.model.linkage import GROUND, pinned
 from tests.cases.run_cases import PIN, Pair, paper_contact, slider_crank_contact, support
@@ -36,21 +36,24 @@ def cross(a: np.ndarray, b: np.ndarray) -> float:
     return float(a[0] * b[1] - a[1] * b[0])
 
 
-def kinetics(linkage: Linkage, *loose: str) -> Kinetics:
+def kinetics(linkage: Linkage, *with_clearance: str) -> Kinetics:
     """Of a linkage in which these pins have clearance, without the engine."""
     items = {name: BodyItem(body, None, None, 3 * n) for n, (name, body) in enumerate(linkage.bodies.items())}
     return Kinetics(
-        linkage, items, tuple(name for name in linkage.pins if name not in loose), tuple(linkage.columns)
+        linkage,
+        items,
+        tuple(name for name in linkage.pins if name not in with_clearance),
+        tuple(linkage.columns),
     )
 
 
 def pin_mass(system: Kinetics, position: np.ndarray, name: str, angle: float) -> float:
     """Mass [kg] that an impact in a pin feels along a direction of space."""
-    matrix = system.pin_mobility(position, name)
+    matrix = system.pin_inverse_mass(position, name)
     # how the eccentricity answers an impulse is the same either way (Maxwell); rounding of the larger entries
     assert matrix[0, 1] == pytest.approx(matrix[1, 0], abs=1e-9 * np.abs(matrix).max())
-    mobility = Mobility(matrix[0, 0], matrix[0, 1], matrix[1, 1])
-    return mobility.mass(1e-3 * math.cos(angle), 1e-3 * math.sin(angle))
+    inverse_mass = InverseMass(matrix[0, 0], matrix[0, 1], matrix[1, 1])
+    return inverse_mass.mass(1e-3 * math.cos(angle), 1e-3 * math.sin(angle))
 
 
 def free_pair(one: Body, two: Body, one_point: Vector2, two_point: Vector2) -> Kinetics:
@@ -73,7 +76,7 @@ def test_central_contact_of_two_free_bodies_feels_the_reduced_mass(
         Body(mass=two, inertia=0.1, centre=tuple((0.5 * n).tolist())),
     ]
     system = free_pair(*bodies, (0.0, 0.0), (0.0, 0.0))
-    # m1 m2/(m1 + m2); rounding, of mobilities across the line up to 1e4 times larger
+    # m1 m2/(m1 + m2); rounding, of inverse effective masses across the line up to 1e4 times larger
     assert pin_mass(system, np.zeros(6), "pin", direction) == pytest.approx(one * two / (one + two), rel=1e-11)
 
 
@@ -104,16 +107,16 @@ def test_any_contact_of_two_free_bodies_feels_the_mass_of_the_rigid_body_formula
     ]
     position = np.array([*moved[0], turned[0], *moved[1], turned[1]])
     n = unit(direction)
-    mobility = 0.0
+    inverse_mass = 0.0
     for m, i, centre, pin, turn in zip(mass, inertia, centres, pins, turned, strict=True):
         x, y = np.subtract(pin, centre)
         arm = np.array(
             [x * math.cos(turn) - y * math.sin(turn), x * math.sin(turn) + y * math.cos(turn)]
         )  # turned with its body; where the body has moved to does not matter
-        mobility += 1.0 / m + cross(arm, n) ** 2 / i
+        inverse_mass += 1.0 / m + cross(arm, n) ** 2 / i
     got = pin_mass(free_pair(*bodies, *pins), position, "pin", direction)
-    # rounding; mobilities in other directions are up to 800/kg, this one is 0.002/kg or more
-    assert got == pytest.approx(1.0 / mobility, rel=1e-10)
+    # rounding; inverse effective masses in other directions are up to 800/kg, this one is 0.002/kg or more
+    assert got == pytest.approx(1.0 / inverse_mass, rel=1e-10)
 
 
 @sometimes
@@ -124,7 +127,7 @@ def test_a_body_against_the_ground_feels_its_own_mass_and_inertia(
     body = Body(mass=mass, inertia=inertia, centre=centre)
     system = kinetics(Linkage(bodies={"a": body}, pins={"pin": pinned(GROUND, "a", (0.0, 0.0))}), "pin")
     expected = 1.0 / mass + cross(np.negative(centre), unit(direction)) ** 2 / inertia
-    # rounding; mobilities in other directions are up to 200/kg, this one is 0.001/kg or more
+    # rounding; inverse effective masses in other directions are up to 200/kg, this one is 0.001/kg or more
     assert pin_mass(system, np.zeros(3), "pin", direction) == pytest.approx(1.0 / expected, rel=1e-10)
 
 
@@ -162,8 +165,9 @@ def test_slider_pin_feels_the_rod_about_the_crank_pin_and_the_slider(
     expected = rate @ np.diag([1.0 / inertia, 1.0 / machine.slider_mass]) @ rate.T
     system = kinetics(machine.linkage(), "slider_pin")
     n = unit(direction)
-    assert system.pin_mobility(np.zeros(9), "slider_pin") == pytest.approx(expected, abs=1e-11)
-    # rounding of mobilities up to 12/kg; this one is 0.7/kg or more at rods of 1.05 cranks or longer
+    assert system.pin_inverse_mass(np.zeros(9), "slider_pin") == pytest.approx(expected, abs=1e-11)
+    # rounding of inverse effective masses up to 12/kg; this one is 0.7/kg or more at rods of 1.05 cranks or
+    # longer
     got = pin_mass(system, np.zeros(9), "slider_pin", direction)
     assert got == pytest.approx(1.0 / float(n @ expected @ n), rel=1e-9)
 
@@ -181,8 +185,8 @@ def test_crank_pin_feels_a_rod_guided_by_the_slider(machine: SliderCrank, direct
     end = np.array([[length * s, 1.0], [-length * c, 0.0]])
     mass = machine.rod_mass * centre.T @ centre + np.diag([machine.rod_inertia, machine.slider_mass])
     expected = end @ np.linalg.solve(mass, end.T)
-    got = kinetics(machine.linkage(), "crank_pin").pin_mobility(np.zeros(9), "crank_pin")
-    # rounding of mobilities up to 20/kg
+    got = kinetics(machine.linkage(), "crank_pin").pin_inverse_mass(np.zeros(9), "crank_pin")
+    # rounding of inverse effective masses up to 20/kg
     assert got == pytest.approx(expected, abs=1e-11)
     n = unit(direction)
     assert pin_mass(kinetics(machine.linkage(), "crank_pin"), np.zeros(9), "crank_pin", direction) == (
@@ -223,7 +227,7 @@ def test_a_pin_of_a_driven_crank_that_nothing_lets_move_is_immovable(
         cranks=linkage.cranks,
     )
     mass = pin_mass(kinetics(held, "wall"), np.zeros(3), "wall", direction)
-    # rounding of the mobilities of a free crank, up to 1e3/kg
+    # rounding of the inverse effective masses of a free crank, up to 1e3/kg
     assert 1e11 < mass <= HEAVIEST * (1.0 + 1e-9)
 
 
@@ -370,7 +374,7 @@ def test_a_scene_gives_the_mobility_in_the_axes_of_the_bore(bore: str, start_ang
     machine = slider_crank(0.05, 2.4, start_angle)
     pin = ClearancePin(contact=slider_crank_contact(), bore=bore)
     scene = build(Scenario(machine=machine, duration=0.01, pins={"slider_pin": pin}))
-    got = scene.mobilities("slider_pin").held
+    got = scene.inverse_masses("slider_pin").held
     fall = -math.asin(machine.crank_length * math.sin(start_angle) / machine.rod_length)
     bore_angle = 0.0 if bore == "first" else fall  # the slider does not turn, the rod does
     inertia = machine.rod_mass * machine.rod_length**2 / 4.0 + machine.rod_inertia
@@ -386,7 +390,7 @@ def test_a_scene_gives_the_mobility_in_the_axes_of_the_bore(bore: str, start_ang
 def test_a_pin_begins_with_the_mobility_of_the_start(bore: str) -> None:
     pin = ClearancePin(contact=paper_contact(1.5, 0.0), bore=bore)
     scene = build(support(pins={PIN: pin}))
-    assert scene.loose_pins[PIN].kept.mobility == scene.mobilities(PIN, INITIAL).held
+    assert scene.clearance_joints[PIN].kept.inverse_mass == scene.inverse_masses(PIN, INITIAL).held
 
 
 def test_other_loose_pins_transmit_no_impulse() -> None:

@@ -11,16 +11,16 @@ from studies.common.paper_machine import oil_columns
 from support_exudyn import (
     CubicStep,
     Drive,
-    Held,
+    HeldJoints,
     Reciprocating,
     Scenario,
     SolverSettings,
+    cylinders_and_rods,
     simulate,
-    two_body_columns,
 )
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.kinetics import kinetics_of
-from support_exudyn.mechanics.reactions import Held as HeldParts
+from support_exudyn.mechanics.reactions import HeldJoints as HeldParts
 from support_exudyn.mechanics.reactions import matrix, turning
 from tests.cases.run_cases import loose_support, support
 
@@ -29,7 +29,7 @@ STROKE = CubicStep(stroke=0.05, start=0.02, end=0.2)
 
 def heavy() -> Scenario:
     """With guides between bodies that turn."""
-    return support(columns=two_body_columns(), duration=0.1)
+    return support(columns=cylinders_and_rods(), duration=0.1)
 
 
 def test_rows_are_those_of_one_instant() -> None:
@@ -75,10 +75,10 @@ def test_forces_are_those_of_free_coordinates_also_after_a_break(drive: Drive) -
             )
 
 
-@pytest.mark.parametrize("columns", [{}, oil_columns(), two_body_columns()])
+@pytest.mark.parametrize("columns", [{}, oil_columns(), cylinders_and_rods()])
 def test_short_steps_show_no_rounding_in_forces(columns: dict) -> None:  # type: ignore[type-arg]
     # the journal falls freely: nothing shakes. Multipliers scatter by 1e5 N at this step
-    scene = loose_support(duration=1e-3, drive=Held(), step=5e-7, record_period=1e-4, columns=columns)
+    scene = loose_support(duration=1e-3, drive=HeldJoints(), step=5e-7, record_period=1e-4, columns=columns)
     result = simulate(replace(scene, solver=SolverSettings(impact_steps=64, backend="symbolic")))
     for name in ("pin.front_base.force", "pin.shield_canopy.force", "canopy.angular_acceleration"):
         values = result[name]

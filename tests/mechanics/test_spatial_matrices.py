@@ -17,7 +17,14 @@ from support_exudyn.formulations.redundant.clearance.pin_motion import in_plane
 from support_exudyn.formulations.redundant.space.section_pin import SectionEnd, SectionMover
 from support_exudyn.formulations.redundant.space.section_pin import half_way as half_way_of_one
 from support_exudyn.formulations.redundant.space.sections import half_way, lobatto, section_motion, sections
-from support_exudyn.mechanics.space.constraints import End, Row, all_rows, frame_of, independent, matrix
+from support_exudyn.mechanics.space.constraints import (
+    BearingEnd,
+    Constraint,
+    all_rows,
+    frame_of,
+    independent,
+    matrix,
+)
 from support_exudyn.mechanics.space.kinetics import SpatialKinetics, tensor
 from support_exudyn.mechanics.space.motion import (
     UNTURNED,
@@ -31,7 +38,7 @@ from support_exudyn.mechanics.space.reactions import inertia_forces, reactions
 from support_exudyn.model.spatial_linkage import Bearing, SpatialBody, SpatialColumn, SpatialLinkage
 from tests.cases.law_cases import NORMAL_LAWS
 from tests.cases.machine_cases import contact
-from user_forces import LankaraniNikravesh, LoadError, NormalLaw, Touch
+from user_forces import Impact, LankaraniNikravesh, LoadError, NormalLaw
 from user_forces.normal.part import PartOf
 
 unit = st.floats(-1.0, 1.0, allow_subnormal=False)
@@ -172,7 +179,7 @@ def test_tilt_rows_are_the_rates_of_one_axis_in_the_other(
     position, velocity = state
     position[10:] = position[3:7]
     motion = at(linkage, position)
-    tilts = [Row("p", "tilt_1"), Row("p", "tilt_2")]
+    tilts = [Constraint("p", "tilt_1"), Constraint("p", "tilt_2")]
     frame = motion.turn[0, 0] @ frame_of(linkage.bearings["p"].first_axis)
     drift = np.cross(velocity[9:12] - velocity[3:6], frame[:, 2])
     # turning about the first axis moves z against the second, about the second along the first; rounding
@@ -280,13 +287,13 @@ def test_sections_at_equal_depth_add_up_to_the_law(
 ) -> None:
     _, weights = lobatto(number)
     parts = [PartOf(law=law, share=share) for share in weights.tolist()]
-    touch = Touch(0.05, 100.0)
+    impact = Impact(0.05, 100.0)
     try:
-        whole = law(depth, rate, touch), law.elastic_force(depth), law.elastic_energy(depth)
+        whole = law(depth, rate, impact), law.elastic_force(depth), law.elastic_energy(depth)
     except LoadError:
         assume(False)
     # rounding of a sum
-    assert sum(part(depth, rate, touch) for part in parts) == pytest.approx(whole[0], rel=1e-12, abs=1e-9)
+    assert sum(part(depth, rate, impact) for part in parts) == pytest.approx(whole[0], rel=1e-12, abs=1e-9)
     assert sum(part.elastic_force(depth) for part in parts) == pytest.approx(whole[1], rel=1e-12)
     assert sum(part.elastic_energy(depth) for part in parts) == pytest.approx(whole[2], rel=1e-12)
     assert {part.forgets for part in parts} == {law.forgets}
@@ -349,11 +356,11 @@ def test_a_section_moves_alike_over_a_run_and_now(
     rates = coordinate_rates(position, velocity)
     bearing = linkage.bearings["p"]
     ends = (
-        End("a", bearing.first_point, bearing.first_axis),
-        End("b", bearing.second_point, bearing.second_axis),
+        BearingEnd("a", bearing.first_point, bearing.first_axis),
+        BearingEnd("b", bearing.second_point, bearing.second_axis),
     )
 
-    def section_end(end: End, first: int) -> SectionEnd:
+    def section_end(end: BearingEnd, first: int) -> SectionEnd:
         centre = linkage.bodies[end.body].centre
         frame = frame_of(end.axis)
         arm = tuple(np.subtract(end.centre(place), centre).tolist())
@@ -364,8 +371,8 @@ def test_a_section_moves_alike_over_a_run_and_now(
     if slides:
         mover.meet(mover.beside(position.tolist(), rates.tolist())[0])
     (*_, bore_spin), (x, y, vx, vy, _, journal_spin) = mover.when(position.tolist(), rates.tolist())
-    seen = section_motion(motion_of(linkage, position, rates), *ends, place, where, slides)
-    found = [seen.x, seen.y, seen.vx, seen.vy, seen.bore_spin, seen.journal_spin]
+    context = section_motion(motion_of(linkage, position, rates), *ends, place, where, slides)
+    found = [context.x, context.y, context.vx, context.vy, context.bore_spin, context.journal_spin]
     # rounding; the shift leaves tilt^2 of itself where both axes meet half-way
     off = 1e-9 if not slides else 2e-2
     np.testing.assert_allclose(
@@ -385,11 +392,11 @@ def test_every_channel_in_space_says_what_it_is() -> None:
         duration=1.0,
         pins={name: ClearancePin(contact=contact()) for name in ("rear_base", "front_shield")},
     )
-    found = scenario.recipes
+    found = scenario.channel_definitions
     units = {"m", "s", "rad", "N", "J", "m/s", "rad/s", "rad/s^2", "N m"}
-    for name, recipe in found.items():
-        assert recipe.unit in units, name
-        assert recipe.meaning, name
+    for name, definition in found.items():
+        assert definition.unit in units, name
+        assert definition.meaning, name
     assert {
         "tip_left.z",
         "canopy.roll",
@@ -401,6 +408,6 @@ def test_every_channel_in_space_says_what_it_is() -> None:
         f"pin.front_shield_{side}.{edge}_depth" for side in ("left", "right") for edge in ("left", "right")
     } <= set(found)
     assert "pin.rear_shield.depth" not in found
-    for name in Scenario(machine=reference_support(), duration=1.0).recipes:
+    for name in Scenario(machine=reference_support(), duration=1.0).channel_definitions:
         head, _, tail = name.partition(".")
         assert name in found or f"{head}_left.{tail}" in found, name

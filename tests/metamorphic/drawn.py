@@ -36,8 +36,8 @@ from support_exudyn import (
     Steady,
     SuddenOpening,
     UniformSpeed,
+    cylinders_and_rods,
     ravn_slider_crank,
-    two_body_columns,
 )
 from support_exudyn.files.machines.read import shipped
 from support_exudyn.machines.four_bar_shield import PINS
@@ -46,13 +46,14 @@ from user_forces import (
     BrownMcPhee,
     CubicCoulomb,
     DampingSpeed,
-    DepthSpeed,
     Exact,
     Flores,
     FrictionLaw,
     Frictionless,
     Hertz,
     HuntCrossley,
+    ImpactVelocity,
+    IndentationVelocity,
     Johnson,
     JournalBearing,
     JournalContact,
@@ -60,7 +61,6 @@ from user_forces import (
     LankaraniNikravesh,
     NormalLaw,
     Stribeck,
-    TouchSpeed,
 )
 
 IMPACT_STEPS = 64  # of the redundant formulation: enough, for its errors are known
@@ -96,10 +96,10 @@ def normals(
 ) -> NormalLaw:
     """A law of any form, about so stiff [N/m^1.5].
 
-    compiled: of those that are. jumps: its force may jump at a touch.
+    compiled: of those that are. jumps: its force may jump at an impact.
     """
     stiff = stiffness * 2.0 ** draw(st.integers(-2, 1))
-    speeds: tuple[DampingSpeed, ...] = (DepthSpeed(), TouchSpeed(floor=1e-3))
+    speeds: tuple[DampingSpeed, ...] = (IndentationVelocity(), ImpactVelocity(floor=1e-3))
     hysteresis = {"restitution": draw(between(0.3, 0.95)), "damping_speed": draw(st.sampled_from(speeds))}
     if compiled:
         return draw(st.sampled_from(COMPILED))(stiffness=stiff, **hysteresis)
@@ -137,11 +137,13 @@ def frictions(draw: st.DrawFn, compiled: bool) -> FrictionLaw:
 
 
 @st.composite
-def loose(draw: st.DrawFn, radius: float, stiffness: float, compiled: bool, apart: bool) -> ClearancePin:
+def with_clearance(
+    draw: st.DrawFn, radius: float, stiffness: float, compiled: bool, apart: bool
+) -> ClearancePin:
     """A pin with clearance.
 
     apart: of formulations with error control. Its journal may start anywhere in it, and its force may jump at
-    a touch, which leaves steps of fixed length with large errors.
+    an impact, which leaves steps of fixed length with large errors.
     """
     clearance = radius * draw(between(0.004, 0.02))
     bearing = JournalBearing(bore_radius=radius, clearance=clearance)
@@ -189,7 +191,7 @@ def columns(draw: st.DrawFn, kind: Machine, name: str) -> Mapping[str, ColumnMod
     """Of any kind, of one or both columns."""
     oil, cylinder = oil_columns()["front_column"], hydraulic_cylinders(ClosedInlet())["front_column"]
     opened = replace(cylinder, inlet=SuddenOpening(start=draw(half_milliseconds(0, 8)), end=0.1, extent=0.5))
-    heavy = two_body_columns(draw(st.sampled_from((None, oil)))) if name == "reference" else {}
+    heavy = cylinders_and_rods(draw(st.sampled_from((None, oil)))) if name == "reference" else {}
     one, two = columns_of(kind)
     kinds = ({}, {one: oil}, {one: oil, two: oil}, {one: opened, two: oil}, {two: cylinder}, heavy)
     return draw(st.sampled_from(kinds))
@@ -233,7 +235,7 @@ def in_free_coordinates(draw: st.DrawFn) -> Scenario:
     """A support for the reduced formulation, mostly compiled."""
     duration = MS * draw(st.integers(15, 40))
     compiled = draw(st.sampled_from((True, True, False)))
-    pin: Pin = draw(loose(0.0655, 2.7e10, compiled, apart=True))
+    pin: Pin = draw(with_clearance(0.0655, 2.7e10, compiled, apart=True))
     pins = {"rear_base": pin} if draw(st.integers(0, 9)) else {}
     return Scenario(
         machine=machine(draw(st.sampled_from(SUPPORTS[:2]))),
@@ -248,12 +250,12 @@ def in_free_coordinates(draw: st.DrawFn) -> Scenario:
 
 @st.composite
 def in_a_tree(draw: st.DrawFn) -> Scenario:
-    """A support on oil for the tree formulation; one pin of its four-bar is loose."""
+    """A support on oil for the tree formulation; one pin of its four-bar is with clearance."""
     duration = MS * draw(st.integers(10, 25))
     kind = machine(draw(st.sampled_from(SUPPORTS)))
     return Scenario(
         machine=kind,
-        pins={draw(st.sampled_from(PINS[:4])): draw(loose(0.0655, 2.7e10, False, apart=True))},
+        pins={draw(st.sampled_from(PINS[:4])): draw(with_clearance(0.0655, 2.7e10, False, apart=True))},
         columns=on_oil(kind),
         parts=draw(tails(kind)),
         drive=draw(strokes(duration)),
@@ -272,7 +274,7 @@ def in_bodies(draw: st.DrawFn, level: bool = True) -> Scenario:
     name = draw(st.sampled_from(SUPPORTS))
     kind = machine(name)
     pins: dict[str, Pin] = {
-        pin: draw(loose(0.0655, 2.7e10, False, apart=False))
+        pin: draw(with_clearance(0.0655, 2.7e10, False, apart=False))
         for pin in draw(st.lists(st.sampled_from(PINS), max_size=2, unique=True))
     }
     if draw(st.integers(0, 4)) == 0:
@@ -304,10 +306,10 @@ def cylinders_in(made_of: Mapping[str, ColumnModel]) -> list[str]:
 
 @st.composite
 def cranks(draw: st.DrawFn, reduced: bool) -> Scenario:
-    """The slider-crank at some thousand turns a minute, its slider's pin loose."""
+    """The slider-crank at some thousand turns a minute, its slider's pin with clearance."""
     rate = draw(between(100.0, 550.0)) * draw(st.sampled_from((1.0, -1.0)))
     compiled = reduced and draw(st.booleans())
-    pin = draw(loose(0.01, 6.6e10, compiled, apart=reduced))
+    pin = draw(with_clearance(0.01, 6.6e10, compiled, apart=reduced))
     period = 1e-4
     return Scenario(
         machine=replace(ravn_slider_crank(), start_angle=draw(between(-3.0, 3.0))),

@@ -149,8 +149,8 @@ class Moved(Machine):
     def leaders(self) -> Mapping[str, str]:
         return self.inner.leaders
 
-    def follower(self, name: str, lead: Drive, duration: float) -> Drive:
-        return self.inner.follower(name, lead, duration)
+    def coupled_drive(self, name: str, lead: Drive, duration: float) -> Drive:
+        return self.inner.coupled_drive(name, lead, duration)
 
 
 def moved_machine(machine: Machine, move: Move, formulation: str) -> Machine:
@@ -236,7 +236,7 @@ def _turned_back(drive: Drive) -> Drive:
     return replace(drive, stroke=-drive.stroke)
 
 
-def seen(result: Result, move: Move) -> dict[str, np.ndarray]:
+def context(result: Result, move: Move) -> dict[str, np.ndarray]:
     """What would be recorded of a run if it were moved; potential energy and angles from the start."""
     found = {name: np.array(result[name]) for name in result.channels}
     for name in list(found):

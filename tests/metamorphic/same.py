@@ -25,9 +25,9 @@ TELLING = (
     0.05  # distance of the coarse run, as a share of a channel's largest value, above which nothing is told
 )
 MARGIN = 3.0  # both runs have an error, and that of a coarse run is now and then small by chance
-# What rounding, and what ends an iteration or locates a touch, makes of the largest value in the same unit.
+# What rounding, and what ends an iteration or locates an impact, makes of the largest value in the same unit.
 # Reduced and tree: laws have kinks, of which now and then a step passes one unseen whatever the tolerance, and
-# touches multiply that; measured 2e-5, else 1e-8. Redundant: Newton's method leaves 1e-8 of the residual, which
+# impacts multiply that; measured 2e-5, else 1e-8. Redundant: Newton's method leaves 1e-8 of the residual, which
 # reactions of rigid bodies and accelerations show the more the shorter the steps; measured 4e-4 at worst, of a
 # slider that does not turn.
 ROUNDING = {"reduced": 1e-4, "tree": 1e-4, "redundant": 1e-3}
@@ -39,7 +39,7 @@ ARM = 0.01  # [m], of the forces whose moments cancel; so large is a bore
 # A scene that fails is told as it was drawn: to look for a simpler one is to simulate for hours
 PHASES = (Phase.explicit, Phase.reuse, Phase.generate)
 
-Seen = Mapping[str, np.ndarray]
+EvaluationContext = Mapping[str, np.ndarray]
 
 
 def scenes(few: int = FEW) -> Callable[[Any], Any]:
@@ -57,7 +57,7 @@ def told(scenario: Scenario) -> Result:
         raise
 
 
-def plain(result: Result) -> Seen:
+def plain(result: Result) -> EvaluationContext:
     """All that was recorded; of angles and potential energy the change."""
     return {
         name: result[name] - (result[name][0] if name.endswith(FROM_THE_START) else 0.0)
@@ -75,7 +75,9 @@ class Run:
     result: Result
     allowed: Mapping[str, float]
 
-    def check(self, other: Seen, factors: Mapping[str, float] | None = None, rounding: float = 0.0) -> None:
+    def check(
+        self, other: EvaluationContext, factors: Mapping[str, float] | None = None, rounding: float = 0.0
+    ) -> None:
         """Another run of the same motion shows the same, in all channels that it has.
 
         Arguments:
@@ -92,10 +94,10 @@ class Run:
                 assert off <= allowed, f"{name}: off by {off:.3g}, allowed {allowed:.3g}"
 
     def check_touches(self, other: Result, time: float = 1.0) -> None:
-        """Another run touches as often, and at the same times, of which one of its is so many [s]."""
+        """Another run impacts as often, and at the same times, of which one of its is so many [s]."""
         for pin, onsets in self.result.onsets.items():
             theirs = [onset.time * time for onset in other.onsets[pin]]
-            assert len(theirs) == len(onsets), f"{pin}: {len(onsets)} touches, in the other run {len(theirs)}"
+            assert len(theirs) == len(onsets), f"{pin}: {len(onsets)} impacts, in the other run {len(theirs)}"
 
 
 def run(scenario: Scenario) -> Run:

@@ -23,7 +23,7 @@ CURVED = 2e-3
 
 
 @st.composite
-def filled(draw: st.DrawFn) -> HydraulicCylinder:
+def preloaded(draw: st.DrawFn) -> HydraulicCylinder:
     """A cylinder with a closed valve and little in its hoses."""
     area = draw(drawn.between(0.05, 0.15))
     return HydraulicCylinder(
@@ -66,7 +66,7 @@ def at_rest(draw: st.DrawFn) -> tuple[Scenario, Mapping[str, HydraulicCylinder]]
     drive = Held() if isinstance(scene.drive, Reciprocating) else scene.drive
     names = drawn.columns_of(scene.machine)
     chosen = names if draw(st.booleans()) else names[:1]
-    found = {name: draw(filled()) for name in chosen}
+    found = {name: draw(preloaded()) for name in chosen}
     return replace(scene, columns={}, drive=Held() if len(chosen) == 2 else drive), found
 
 

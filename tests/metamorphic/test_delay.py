@@ -23,7 +23,7 @@ from support_exudyn import (
 from support_exudyn.model.drives.drive import Drive
 from tests.metamorphic import drawn
 from tests.metamorphic.moving import FROM_THE_START
-from tests.metamorphic.same import Seen, plain, run, scenes, told
+from tests.metamorphic.same import EvaluationContext, plain, run, scenes, told
 
 DWELLS = st.integers(1, 12)  # [ms]
 
@@ -71,9 +71,9 @@ def delayed(scene: Scenario, milliseconds: int) -> None:
     one.check(after(plain(other), milliseconds, dwell))
 
 
-def after(seen: Seen, records: int, dwell: float) -> Seen:
+def after(context: EvaluationContext, records: int, dwell: float) -> EvaluationContext:
     """From a record on, which is the first from then on."""
-    found = {name: values[records:] for name, values in seen.items()}
+    found = {name: values[records:] for name, values in context.items()}
     found["time"] = found["time"] - dwell
     return {name: v - v[0] if name.endswith(FROM_THE_START) else v for name, v in found.items()}
 

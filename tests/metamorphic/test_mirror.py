@@ -6,13 +6,13 @@ from hypothesis import given
 
 from support_exudyn import Scenario
 from tests.metamorphic import drawn
-from tests.metamorphic.moving import MIRROR, UPSIDE_DOWN, Move, moved, seen
+from tests.metamorphic.moving import MIRROR, UPSIDE_DOWN, Move, context, moved
 from tests.metamorphic.same import run, scenes, told
 
 
 def mirrored(scene: Scenario, mirror: Move = MIRROR) -> None:
     one, other = run(scene), told(moved(scene, mirror))
-    one.check(seen(other, mirror.back))
+    one.check(context(other, mirror.back))
     one.check_touches(other)
 
 

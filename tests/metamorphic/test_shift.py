@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from support_exudyn import Scenario
 from tests.metamorphic import drawn
-from tests.metamorphic.moving import Move, moved, seen
+from tests.metamorphic.moving import Move, context, moved
 from tests.metamorphic.same import run, scenes, told
 
 WAYS = st.sampled_from(
@@ -22,7 +22,7 @@ ROUNDING = {"reduced": 1e-7, "tree": 1e-7, "redundant": 1e-4}
 def shifted(scene: Scenario, way: tuple[float, float]) -> None:
     move = Move(shift=way)
     one, other = run(scene), told(moved(scene, move))
-    one.check(seen(other, move.back), rounding=max(map(abs, way)) * ROUNDING[scene.formulation])
+    one.check(context(other, move.back), rounding=max(map(abs, way)) * ROUNDING[scene.formulation])
     one.check_touches(other)
 
 

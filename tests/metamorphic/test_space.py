@@ -1,4 +1,4 @@
-"""A support that moves alike on both sides moves in space as it does in its plane, whichever pin is loose."""
+"""A support that moves alike on both sides moves in space as it does in its plane, whichever pin it is."""
 
 from __future__ import annotations
 
@@ -12,21 +12,21 @@ from hypothesis import strategies as st
 from support_exudyn import Scenario, SolverSettings
 from support_exudyn.machines.four_bar_shield import PINS
 from tests.metamorphic import drawn
-from tests.metamorphic.same import Run, Seen, plain, run, scenes, sizes, told
+from tests.metamorphic.same import EvaluationContext, Run, plain, run, scenes, sizes, told
 
-# Both take the same steps, so that they have nearly all of their errors in common. Where a pair is loose
-# its two touches are located apart: measured 2e-6 of mean forces and 2e-5 of the motion, else 1e-7
+# Both take the same steps, so that they have nearly all of their errors in common. Where a pair is with
+# clearance its two impacts are located apart: measured 2e-6 of mean forces and 2e-5 of the motion, else 1e-7
 SHARE, FORCE, NEAR = 5e-3, 2e-5, 1e-4  # of the errors, of the largest force, of the motion
 
 
 @st.composite
 def with_a_loose_pin(draw: st.DrawFn, pin: str) -> Scenario:
-    """A support with this pin loose, its columns rigid or on oil."""
+    """A support with this pin with clearance, its columns rigid or on oil."""
     duration = drawn.MS * draw(st.integers(10, 20))
     kind = drawn.machine(draw(st.sampled_from(drawn.SUPPORTS)))
     return Scenario(
         machine=kind,
-        pins={pin: draw(drawn.loose(0.0655, 2.7e10, compiled=False, apart=False))},
+        pins={pin: draw(drawn.with_clearance(0.0655, 2.7e10, compiled=False, apart=False))},
         columns=drawn.on_oil(kind) if draw(st.booleans()) else {},
         drive=draw(drawn.strokes(duration)),
         start=draw(st.sampled_from(("concentric", "settled"))),
@@ -44,7 +44,7 @@ def sides(name: str) -> tuple[str, ...]:
     return name, f"{head}_left.{tail}", f"{head}_right.{tail}"
 
 
-def moves_alike(plane: Run, space: Seen) -> None:
+def moves_alike(plane: Run, space: EvaluationContext) -> None:
     """Bodies are where they are in the plane, on both sides."""
     mine, size = plain(plane.result), sizes(plane.result)
     bodies = (*plane.result.scenario.linkage.bodies, "tip")
@@ -58,7 +58,7 @@ def moves_alike(plane: Run, space: Seen) -> None:
                 assert off <= allowed, f"{side}: off by {off:.3g}, allowed {allowed:.3g}"
 
 
-def carries_alike(plane: Run, space: Seen) -> None:
+def carries_alike(plane: Run, space: EvaluationContext) -> None:
     """Pins carry at every record what they do in the plane, both sides together."""
     mine, largest = plain(plane.result), sizes(plane.result)["N"]
     for name in (f"pin.{pin}.force_{axis}" for pin in PINS for axis in "xy"):

@@ -7,7 +7,7 @@ from hypothesis import given
 from support_exudyn import Scenario
 from support_exudyn.machines.four_bar_shield import FourBarShield
 from tests.metamorphic import drawn
-from tests.metamorphic.moving import Move, moved, seen, turn
+from tests.metamorphic.moving import Move, context, moved, turn
 from tests.metamorphic.same import run, scenes, told
 
 ANY_WAY = drawn.between(-180.0, 180.0)  # [degrees]
@@ -16,7 +16,7 @@ LEANING = drawn.between(-50.0, 50.0)  # so that the hinge of a support still goe
 
 def turned(scene: Scenario, way: Move) -> None:
     one, other = run(scene), told(moved(scene, way))
-    one.check(seen(other, way.back))
+    one.check(context(other, way.back))
     one.check_touches(other)
 
 

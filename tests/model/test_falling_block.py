@@ -72,7 +72,7 @@ def test_steps_halve_on_the_way_and_are_short_in_an_impact() -> None:
     assert longest(0.1, 2.0) == pytest.approx(0.025)
     assert longest(1e-9, 2.0) == short
     assert longest(-0.01, 0.0) == short
-    assert longest(short, -1.0) == short  # just parted
+    assert longest(short, -1.0) == short  # just separated
     assert longest(0.1, -1.0) == math.inf
     resting = (400.0 * 9.81 / 2e8) ** (1.0 / 1.5)
     assert longest(-resting, 0.0) == math.inf
@@ -83,7 +83,7 @@ def test_a_block_and_its_guide_join_the_machine() -> None:
     body = scene.linkage.bodies["rock"]
     assert body.centre == pytest.approx((TOP[0], TOP[1] + 0.2 + 0.5 * ROCK.side))
     assert scene.linkage.slides["rock_guide"].body == "rock"
-    assert {"rock.force", "rock.gap", "rock.y", "rock.velocity_y"} <= set(scene.recipes)
+    assert {"rock.force", "rock.gap", "rock.y", "rock.velocity_y"} <= set(scene.channel_definitions)
     assert look(scene).solids  # a machine that says no more of it
 
 

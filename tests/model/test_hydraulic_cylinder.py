@@ -25,8 +25,8 @@ from support_exudyn import (
 )
 from support_exudyn.formulations.registry import formulation
 from support_exudyn.mechanics.body_motion import BodyMotion
-from support_exudyn.mechanics.channels import Part
-from support_exudyn.mechanics.cylinder_chambers import FilledCylinder, fill_cylinders
+from support_exudyn.mechanics.channels import DataNeeds
+from support_exudyn.mechanics.cylinder_chambers import PreloadedCylinder, fill_cylinders
 from support_exudyn.mechanics.trajectory import CylinderSeries
 from support_exudyn.model.linkage import GROUND, Body, Column, Linkage
 from support_exudyn.scenario.timescales import timescales
@@ -47,8 +47,8 @@ CYLINDER = HydraulicCylinder(
 COLUMN = Column(foot=GROUND, head="ram", foot_point=(0.0, 0.0), head_point=(0.0, 1.6))
 
 
-def filled(load: float = 4e4, **changes: Any) -> FilledCylinder:
-    return FilledCylinder(COLUMN, replace(CYLINDER, **changes), load)
+def preloaded(load: float = 4e4, **changes: Any) -> PreloadedCylinder:
+    return PreloadedCylinder(COLUMN, replace(CYLINDER, **changes), load)
 
 
 @pytest.mark.parametrize(
@@ -96,7 +96,7 @@ def test_oil_flows_where_the_valve_and_the_pressures_say() -> None:
 
 @pytest.mark.parametrize("load", [4e4, -3e4, 0.0])
 def test_the_start_carries_the_load_with_one_chamber_at_tank_pressure(load: float) -> None:
-    one = filled(load)
+    one = preloaded(load)
     piston, rod = one.start_pressures
     assert one.model.force(piston, rod, 0.0) == pytest.approx(load, abs=1e-9)
     assert min(piston, rod) == 0.5e6
@@ -115,7 +115,7 @@ def test_the_start_carries_the_load_with_one_chamber_at_tank_pressure(load: floa
 def test_energy_of_the_oil_changes_by_what_pumps_and_motion_do(
     extension: float, rate: float, pressures: tuple[float, float], opening: float
 ) -> None:
-    one, length, h = filled(), 1.6 + extension, 1e-7
+    one, length, h = preloaded(), 1.6 + extension, 1e-7
     rates = one.pressure_rates(length, rate, pressures, opening)
     ends = [
         one.energy(length + s * rate, pressures[0] + s * rates[0], pressures[1] + s * rates[1]) for s in (h, -h)
@@ -153,7 +153,7 @@ def test_wrong_cylinders_are_refused() -> None:
     # the other column follows the drive
     mixed = scenario(columns={"front_column": CYLINDER}, drive=CubicStep())
     assert mixed.driven == ("rear_column",)
-    assert mixed.giving == ("front_column",)
+    assert mixed.compliant_columns == ("front_column",)
 
 
 def test_channels_and_breaks_are_those_of_the_valves() -> None:
@@ -162,11 +162,11 @@ def test_channels_and_breaks_are_those_of_the_valves() -> None:
         machine=support(), duration=1.0, columns={"front_column": replace(CYLINDER, inlet=inlet)}
     )
     assert {0.2, 0.7} <= set(scenario.breaks)
-    recipes = scenario.recipes
-    assert recipes["front_column.pressure"].unit == "Pa"
-    assert recipes["front_column.flow"].unit == "m^3/s"
-    assert "rear_column.pressure" not in recipes
-    assert "pumps" in recipes["energy.work"].meaning
+    channel_definitions = scenario.channel_definitions
+    assert channel_definitions["front_column.pressure"].unit == "Pa"
+    assert channel_definitions["front_column.flow"].unit == "m^3/s"
+    assert "rear_column.pressure" not in channel_definitions
+    assert "pumps" in channel_definitions["energy.work"].meaning
 
 
 def test_the_static_loads_fill_them() -> None:
@@ -236,23 +236,23 @@ def test_steps_have_to_follow_the_valve() -> None:
 def test_flows_and_pressures_stand_under_their_names() -> None:
     inlet = SuddenOpening(start=0.0, end=1.0, extent=0.5)
     columns = {"front_column": replace(CYLINDER, inlet=inlet)}
-    recipes = Scenario(machine=support(), duration=1.0, columns=columns).recipes
+    channel_definitions = Scenario(machine=support(), duration=1.0, columns=columns).channel_definitions
     series = CylinderSeries(*(np.full(1, float(n)) for n in range(7)))
-    seen = SimpleNamespace(run=SimpleNamespace(cylinders={"front_column": series}))
+    context = SimpleNamespace(run=SimpleNamespace(cylinders={"front_column": series}))
     for what, field in {
         "pressure": "pressure", "rod_pressure": "rod_pressure", "opening": "opening", "flow": "flow",
         "rod_flow": "rod_flow",
     }.items():  # fmt: skip
-        assert recipes[f"front_column.{what}"].values(seen) == getattr(series, field)
+        assert channel_definitions[f"front_column.{what}"].values(context) == getattr(series, field)
     for name in ("front_column.pressure", "energy.elastic", "energy.balance"):
-        assert Part.OIL in recipes[name].needs
+        assert DataNeeds.OIL in channel_definitions[name].needs
 
 
 @pytest.mark.parametrize("rate", [0.2, -0.3])
 def test_the_record_of_a_column_is_that_of_its_model(rate: float) -> None:
     linkage = Linkage(bodies={"ram": Body(mass=1.0, inertia=1.0, centre=(0.0, 1.6))}, columns={"jack": COLUMN})
     motion = BodyMotion(linkage, np.array([[0.0, 0.1, 0.0]]), np.array([[0.0, rate, 0.0]]), np.zeros((1, 3)))
-    one = filled()
+    one = preloaded()
     series = one.series(motion, np.array([[3e6, 1e6]]), np.array([0.5]))
     assert series.force == pytest.approx(3e6 * 0.1 - 1e6 * 0.02 - 1e4 * rate)  # seals hold it back
     assert (series.pressure, series.rod_pressure, series.opening) == (3e6, 1e6, 0.5)

@@ -135,13 +135,13 @@ def test_breaks_of_the_descent_are_breaks_of_the_run() -> None:
 
 def test_a_load_has_its_channels_and_its_energies() -> None:
     loaded, bare = (
-        pressed_support(over_the_canopy(0.1)).recipes,
+        pressed_support(over_the_canopy(0.1)).channel_definitions,
         pressed_support(over_the_canopy(0.1), loads={}),
     )
-    assert [name for name in loaded if name not in bare.recipes] == ["roof.force", "roof.gap"]
+    assert [name for name in loaded if name not in bare.channel_definitions] == ["roof.force", "roof.gap"]
     assert [loaded[f"roof.{what}"].unit for what in ("force", "gap")] == ["N", "m"]
     assert loaded["energy.elastic"].meaning == "stored in contacts, oil and loads"
-    assert bare.recipes["energy.elastic"].meaning == "stored in contacts and oil"
+    assert bare.channel_definitions["energy.elastic"].meaning == "stored in contacts and oil"
     asked = pressed_support(over_the_canopy(0.1), channels=("roof.gap",), duration=0.01)
     assert list(simulate(asked).channels) == ["time", "roof.gap"]
 

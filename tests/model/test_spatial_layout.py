@@ -23,10 +23,10 @@ from support_exudyn import (
     Scenario,
     Slide,
     TracePoint,
+    cylinders_and_rods,
     load_support,
     ravn_slider_crank,
     reference_support,
-    two_body_columns,
 )
 from support_exudyn.mechanics.space.constraints import frame_of
 from support_exudyn.mechanics.space.kinetics import tensor
@@ -323,7 +323,7 @@ def scenario(**changes: object) -> Scenario:
             "drives.front_column_left: is not the drive of front_column_right, .*allowed for a pair of rigid",
         ),
         ({"drives": {"front_column_middle": Held()}}, "no such driven part; allowed: .*front_column_left"),
-        ({"columns": {"front_column_left": two_body_columns()["front_column"]}}, "no such column"),
+        ({"columns": {"front_column_left": cylinders_and_rods()["front_column"]}}, "no such column"),
         ({"dimensions": 4}, "dimensions"),
         ({"channels": ("tip_middle.z",)}, "tip_middle"),
     ],

@@ -22,7 +22,7 @@ SCENARIO = loose_support(1.5, formulation="reduced")
 
 
 def run(error: float = 0.0) -> Result:
-    """A loose pin whose force is off by a share."""
+    """A clearance pin whose force is off by a share."""
     return synthetic.journal(
         SCENARIO, TIME, 1.6e-3 + 0.0 * TIME, 0.0 * TIME, [Onset(1.0, 0.1)],
         tip__x=(3.0 + 0.1 * WAVE, "m"), tip__y=(2.0 + 0.1 * WAVE, "m"), canopy__angle=(0.1 * WAVE, "rad"),
@@ -123,7 +123,7 @@ def test_a_piece_is_chosen_and_touches_are_marked() -> None:
     assert axes.get_xlabel() == "time [ms]"
     assert axes.get_xlim() == pytest.approx((980.0, 1040.0))
     assert axes.lines[0].get_xdata() == pytest.approx([980.0, 990.0, 1000.0, 1010.0, 1020.0, 1030.0, 1040.0])
-    assert axes.lines[1].get_xdata() == pytest.approx([1000.0])  # the touch
+    assert axes.lines[1].get_xdata() == pytest.approx([1000.0])  # the impact
 
 
 def test_errors_are_those_of_the_estimate() -> None:

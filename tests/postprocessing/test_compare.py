@@ -23,10 +23,10 @@ STROKE = CubicStep(stroke=0.05, start=0.0, end=0.4)
 def runs(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("runs")
     ideal = support(drive=STROKE, duration=0.4, start="settled")
-    loose = replace(loose_support(1.0, 0.25, duration=0.4), drive=STROKE, start="settled")
+    with_clearance = replace(loose_support(1.0, 0.25, duration=0.4), drive=STROKE, start="settled")
     simulate(ideal, accuracy="draft").save(folder / "ideal.h5")
-    simulate(loose, accuracy="draft").save(folder / "loose.h5")
-    simulate(loose, accuracy="reference").save(folder / "fine.h5")
+    simulate(with_clearance, accuracy="draft").save(folder / "with_clearance.h5")
+    simulate(with_clearance, accuracy="reference").save(folder / "fine.h5")
     simulate(ideal).save(folder / "plain.h5")
     simulate(replace(ideal, record_period=4e-3)).save(folder / "rare.h5")
     simulate(replace(ideal, record_period=3e-3)).save(folder / "other.h5")
@@ -39,10 +39,10 @@ def of(runs: Path, *names: str) -> list[Result]:
 
 
 def test_differences_are_those_of_the_records(runs: Path) -> None:
-    ideal, loose = of(runs, "ideal", "loose")
-    found = compared(ideal, loose, ["tip.x"], 0.1, 0.3)["tip.x"]
+    ideal, with_clearance = of(runs, "ideal", "with_clearance")
+    found = compared(ideal, with_clearance, ["tip.x"], 0.1, 0.3)["tip.x"]
     inside = (ideal.time > 0.0995) & (ideal.time < 0.3005)
-    apart = (loose["tip.x"] - ideal["tip.x"])[inside]
+    apart = (with_clearance["tip.x"] - ideal["tip.x"])[inside]
     assert found.mean.value == apart.mean()
     assert found.largest.value == apart[np.abs(apart).argmax()]
     assert found.time == ideal.time[inside][np.abs(apart).argmax()]
@@ -52,9 +52,9 @@ def test_differences_are_those_of_the_records(runs: Path) -> None:
 
 
 def test_errors_cover_what_a_finer_run_finds(runs: Path) -> None:
-    ideal, loose, fine = of(runs, "ideal", "loose", "fine")
+    ideal, with_clearance, fine = of(runs, "ideal", "with_clearance", "fine")
     names = ["tip.x", "tip.y", "pin.rear_base.force", "front_column.force"]
-    rough, right = compared(ideal, loose, names), compared(ideal, fine, names)
+    rough, right = compared(ideal, with_clearance, names), compared(ideal, fine, names)
     for name in names:
         for number in ("mean", "largest"):
             mine, its = getattr(rough[name], number), getattr(right[name], number)
@@ -63,21 +63,26 @@ def test_errors_cover_what_a_finer_run_finds(runs: Path) -> None:
 
 
 def test_a_run_less_itself_is_nothing(runs: Path) -> None:
-    (loose,) = of(runs, "loose")
-    found = compared(loose, loose, ["tip.x"])["tip.x"]
+    (with_clearance,) = of(runs, "with_clearance")
+    found = compared(with_clearance, with_clearance, ["tip.x"])["tip.x"]
     assert (found.mean.value, found.largest.value) == (0.0, 0.0)
 
 
 def test_runs_of_the_same_bits_are_told(runs: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    ideal, loose = of(runs, "ideal", "loose")
-    assert same_to_the_bit(loose, Result.load(runs / "loose.h5")) == len(loose.channels)
-    assert same_to_the_bit(ideal, loose) == 0
-    nudged = Result.load(runs / "loose.h5")
+    ideal, with_clearance = of(runs, "ideal", "with_clearance")
+    assert same_to_the_bit(with_clearance, Result.load(runs / "with_clearance.h5")) == len(
+        with_clearance.channels
+    )
+    assert same_to_the_bit(ideal, with_clearance) == 0
+    nudged = Result.load(runs / "with_clearance.h5")
     nudged["tip.x"][-1] = np.nextafter(nudged["tip.x"][-1], np.inf)
-    assert same_to_the_bit(loose, nudged) == 0
-    loose_file = str(runs / "loose.h5")
+    assert same_to_the_bit(with_clearance, nudged) == 0
+    loose_file = str(runs / "with_clearance.h5")
     assert main(["compare", loose_file, loose_file, "tip.x"]) == 0
-    assert f"the same to the bit: all records of {len(loose.channels)} channels\n" in capsys.readouterr().out
+    assert (
+        f"the same to the bit: all records of {len(with_clearance.channels)} channels\n"
+        in capsys.readouterr().out
+    )
     assert main(["compare", str(runs / "ideal.h5"), loose_file, "tip.x"]) == 0
     assert "to the bit" not in capsys.readouterr().out
 
@@ -91,13 +96,13 @@ def test_common_records_of_different_periods_are_compared(runs: Path) -> None:
 
 
 def test_the_table_is_in_engineers_units(runs: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["compare", str(runs / "ideal.h5"), str(runs / "loose.h5"), "--from", "0.1"]) == 0
+    assert main(["compare", str(runs / "ideal.h5"), str(runs / "with_clearance.h5"), "--from", "0.1"]) == 0
     told = capsys.readouterr().out
     assert "loose.h5 less ideal.h5, 0.1 to 0.4 s (± numerical errors of both runs)" in told
     row = next(line.split() for line in told.splitlines() if line.strip().startswith("tip.x"))
-    ideal, loose = of(runs, "ideal", "loose")
+    ideal, with_clearance = of(runs, "ideal", "with_clearance")
     assert row[1] == "mm"
-    mean = 1e3 * compared(ideal, loose, ["tip.x"], 0.1)["tip.x"].mean.value
+    mean = 1e3 * compared(ideal, with_clearance, ["tip.x"], 0.1)["tip.x"].mean.value
     # printed to the digits of its error, some 1e-6 mm
     assert float(row[8]) == pytest.approx(mean, abs=1e-4)
     assert "at [s]" in told
@@ -106,7 +111,7 @@ def test_the_table_is_in_engineers_units(runs: Path, capsys: pytest.CaptureFixtu
 def test_scripts_get_si_units_and_null_for_errors_that_are_not_known(
     runs: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert main(["compare", str(runs / "plain.h5"), str(runs / "loose.h5"), "tip.*", "--json"]) == 0
+    assert main(["compare", str(runs / "plain.h5"), str(runs / "with_clearance.h5"), "tip.*", "--json"]) == 0
     told = json.loads(capsys.readouterr().out)
     assert list(told) == ["tip.x", "tip.y"]
     assert told["tip.x"]["unit"] == "m"
@@ -119,8 +124,8 @@ def test_scripts_get_si_units_and_null_for_errors_that_are_not_known(
     [
         (["ideal.h5", "crank.h5"], "no channel in common"),
         (["ideal.h5", "crank.h5", "tip.x"], "tip.x: the second run has no such channel"),
-        (["ideal.h5", "loose.h5", "tap.x"], "'tap.x': no such channel"),
-        (["ideal.h5", "loose.h5", "--from", "7"], "from 7 to 0.4 s: 0 records lie between"),
+        (["ideal.h5", "with_clearance.h5", "tap.x"], "'tap.x': no such channel"),
+        (["ideal.h5", "with_clearance.h5", "--from", "7"], "from 7 to 0.4 s: 0 records lie between"),
         (["ideal.h5", "no.h5"], "no.h5: no such file"),
     ],
 )

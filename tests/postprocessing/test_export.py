@@ -200,15 +200,15 @@ def test_pins_have_the_force_depth_and_slip_of_the_channels(exported: Exported, 
             size = result[f"pin.{name}.force"][record]
             # rounding of a root
             assert data["force_magnitude_N"][number] == pytest.approx(size, rel=1e-14)
-            loose = f"pin.{name}.depth" in result.channels
-            assert data["loose"][number] == loose
-            if loose:
+            with_clearance = f"pin.{name}.depth" in result.channels
+            assert data["with_clearance"][number] == with_clearance
+            if with_clearance:
                 assert data["depth_m"][number] == result[f"pin.{name}.depth"][record]
                 assert data["slip_m_s"][number] == result[f"pin.{name}.slip"][record]
             else:
                 assert np.isnan(data["depth_m"][number])
                 assert np.isnan(data["slip_m_s"][number])
-    assert sum(pins[0].point_data["loose"]) >= 1
+    assert sum(pins[0].point_data["with_clearance"]) >= 1
 
 
 def test_pins_are_on_their_bodies(exported: Exported) -> None:
@@ -286,7 +286,7 @@ def test_a_loose_pin_is_at_its_journal_and_pressed_back_into_its_bore(bore: str)
     for record in range(result.time.size):
         apart = points.frame(record).points[number] - view.path[record]
         assert apart[:2] == pytest.approx(view.bore.eccentricity[record], abs=ROUNDING)
-        if view.bore.touching[record]:
+        if view.bore.closed[record]:
             pressed += 1
             # without friction the force on the journal is along the line of centres, into the bore
             size = view.size[record] * np.linalg.norm(apart)

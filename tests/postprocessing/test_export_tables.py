@@ -67,9 +67,12 @@ def test_hdf5_has_all_channels_with_units(kind: str, tmp_path: Path) -> None:
         assert set(file.get("onsets", ())) == set(result.onsets)
         for pin, onsets in result.onsets.items():
             group = file[f"onsets/{pin}"]
-            columns = [group[name][:] for name in ("time", "speed", "parting_time", "parting_speed")]
+            columns = [group[name][:] for name in ("time", "speed", "separation_time", "separation_velocity")]
             np.testing.assert_array_equal(np.array(columns).T, np.array(onsets).reshape(-1, 4))
-            units = [group[name].attrs["unit"] for name in ("time", "speed", "parting_time", "parting_speed")]
+            units = [
+                group[name].attrs["unit"]
+                for name in ("time", "speed", "separation_time", "separation_velocity")
+            ]
             assert units == [b"s", b"m/s", b"s", b"m/s"]
             assert group.attrs["largest_force_N"] == result.largest_force[pin]
         assert Value.from_data(json.loads(file["json/scenario"][()])) == result.scenario

@@ -49,6 +49,6 @@ def test_ticks_beyond_the_limits_do_not_count() -> None:
         figure, axes = drawing()
         axes.set_xticks([0.5, 900.0])
         axes.set_xlim(0.0, 1.0)
-        seen = [text for text, _ in figure_checks.texts(figure)]
-    assert "0.5" in seen
-    assert "900.0" not in seen
+        context = [text for text, _ in figure_checks.texts(figure)]
+    assert "0.5" in context
+    assert "900.0" not in context

@@ -29,7 +29,7 @@ from support_exudyn.postprocessing.render.panels import (
     said,
     usual,
 )
-from support_exudyn.postprocessing.render.sheet import INK, Sheet
+from support_exudyn.postprocessing.render.sheet import INK, Canvas
 from support_exudyn.postprocessing.render.stage import fitted
 from tests import synthetic
 from tests.cases.run_cases import PIN, loose_support
@@ -136,15 +136,15 @@ def test_all_points_are_within_the_margins_as_large_as_they_can_be(
     points: list[tuple[float, float, float]], margins: tuple[int, int, int, int]
 ) -> None:
     camera = fitted(np.array(points), 640, 360, margins)
-    seen = camera.pixels(np.array(points))
+    context = camera.pixels(np.array(points))
     left, top, right, bottom = margins
     box = np.array([[left, top], [640 - right, 360 - bottom]])
-    low, high = seen.min(axis=0), seen.max(axis=0)
+    low, high = context.min(axis=0), context.max(axis=0)
     # 1e-6 pixels: rounding where all points are one, and the scale is 1e11 pixels to a metre
-    slack = 1e-6 * max(1.0, camera.scale * 1e-8)
-    assert (low >= box[0] - slack).all()
-    assert (high <= box[1] + slack).all()
-    assert 0.5 * (low + high) == pytest.approx(box.mean(axis=0), abs=slack)
+    clearance = 1e-6 * max(1.0, camera.scale * 1e-8)
+    assert (low >= box[0] - clearance).all()
+    assert (high <= box[1] + clearance).all()
+    assert 0.5 * (low + high) == pytest.approx(box.mean(axis=0), abs=clearance)
     if np.ptp(points, axis=0).max() > 1e-3:
         assert ((high - low) / (box[1] - box[0])).max() == pytest.approx(1.0)
 
@@ -160,7 +160,7 @@ def test_the_force_is_that_on_the_journal(bore: str, sign: float, carrier: str) 
     assert found.bore is not None
     assert found.bore.carrier == carrier
     assert found.bore.eccentricity[0] == pytest.approx([1e-3, 0.5e-3])
-    assert found.bore.touching.all()
+    assert found.bore.closed.all()
     # it is where the bore is: with the ground, or with the link, which moves forward by 1 m
     assert found.path[-1] - found.path[0] == pytest.approx([float(bore == "second"), 0.0, 0.0])
 
@@ -170,7 +170,7 @@ BOX = (0, 0, 286, 286)
 
 def inset_of(bore: Bore, record: int, force: tuple[float, float] = (0.0, 0.0)) -> tuple[Image.Image, Inset]:
     """The inset at a record."""
-    sheet, found = Sheet(286, 286), Inset(BOX, bore, 1.0)
+    sheet, found = Canvas(286, 286), Inset(BOX, bore, 1.0)
     found.draw_still(sheet)
     sheet.hold()
     found.draw(sheet, record, 0, force, False)
@@ -224,9 +224,7 @@ def test_the_trail_has_the_colours_of_what_it_was() -> None:
     assert shown.bore is not None
     # forward from 1 mm behind, in contact in the second half; then it is back in the middle, in flight
     x = np.where(TIME < 1.0, 2e-3 * TIME - 1e-3, 0.0)
-    bore = replace(
-        shown.bore, eccentricity=np.column_stack([x, 0.0 * x]), touching=(TIME > 0.5) & (TIME < 0.99)
-    )
+    bore = replace(shown.bore, eccentricity=np.column_stack([x, 0.0 * x]), closed=(TIME > 0.5) & (TIME < 0.99))
     picture, found = inset_of(bore, 98)
     row = round(found.centre[1])
     flight = pixels_of(picture, FLIGHT)
@@ -241,13 +239,11 @@ def test_the_trail_has_the_colours_of_what_it_was() -> None:
 AXES = (60, 30, 560, 130)
 
 
-def shown_strip(force: np.ndarray, touching: np.ndarray, start: float, end: float) -> tuple[Strip, Sheet]:
+def shown_strip(force: np.ndarray, closed: np.ndarray, start: float, end: float) -> tuple[Strip, Canvas]:
     known = view(0.0, 0.0, (0.0, 0.0))
     assert known.bore is not None
-    pin = replace(
-        known, force=np.column_stack([force, 0.0 * force]), bore=replace(known.bore, touching=touching)
-    )
-    sheet, found = Sheet(600, 160), Strip(AXES, TIME, pin, start, end, 1.0)
+    pin = replace(known, force=np.column_stack([force, 0.0 * force]), bore=replace(known.bore, closed=closed))
+    sheet, found = Canvas(600, 160), Strip(AXES, TIME, pin, start, end, 1.0)
     found.draw_still(sheet)
     sheet.hold()
     return found, sheet
@@ -306,7 +302,7 @@ def test_what_is_cut_off_is_said() -> None:
 
 @pytest.mark.parametrize(("x", "y"), [(1.0, 0.0), (0.0, 1.0), (-0.6, 0.8)])
 def test_an_arrow_goes_from_tail_to_tip(x: float, y: float) -> None:
-    sheet = Sheet(200, 200)
+    sheet = Canvas(200, 200)
     sheet.hold()
     sheet.arrow((100.0, 100.0), (100.0 + 80.0 * x, 100.0 + 80.0 * y), CONTACT, 8.0)
     found = pixels_of(Image.fromarray(sheet.frame()), CONTACT) - 100.0

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 
 from support_exudyn import Onset
 from support_exudyn.postprocessing.figures import style
-from support_exudyn.postprocessing.figures.journal import journal, loose_pins
+from support_exudyn.postprocessing.figures.journal import clearance_joints, journal
 from support_exudyn.postprocessing.figures.orbit import orbit
 from tests import figure_checks, synthetic
 from tests.cases.run_cases import loose_support, support
@@ -18,7 +18,7 @@ from user_forces import InputError
 
 CLEARANCE = 1.5e-3  # [m]
 SCENARIO = loose_support(1.5)
-# a journal that falls at 0.1 m/s, touches at 15 ms, is pressed in 0.3 mm deep at 20 ms and parts at 25 ms
+# a journal that falls at 0.1 m/s, impacts at 15 ms, is pressed in 0.3 mm deep at 20 ms and parts at 25 ms
 TIME = np.arange(0.0, 40.0) * 1e-3
 BOUNCE = Onset(15e-3, 0.1, 25e-3, 0.08)
 DOWN = np.where(
@@ -43,7 +43,7 @@ def lines(axes: Axes) -> dict[str, np.ndarray]:
 def test_flight_and_contact_are_parted_at_the_touches() -> None:
     path = orbit(bouncing()).axes[0]
     flight, contact = lines(path)["free flight"], lines(path)["contact"]
-    # in millimetres; the touch lies on the circle though no record does
+    # in millimetres; the impact lies on the circle though no record does
     assert np.nanmin(contact[1]) == pytest.approx(-1.8)
     assert np.nanmax(contact[1]) == pytest.approx(-1.5)
     assert np.nanmin(flight[1]) == pytest.approx(-1.5)
@@ -85,7 +85,7 @@ def test_touches_lie_on_the_circle_in_the_direction_of_the_flight() -> None:
     away = np.minimum(0.1 * TIME, CLEARANCE + 1e-4)
     run = synthetic.journal(SCENARIO, TIME, away * math.cos(angle), away * math.sin(angle), [Onset(15e-3, 0.1)])
     assert journal(run).directions == pytest.approx([angle])
-    x, y = lines(orbit(run).axes[0])["touch"]
+    x, y = lines(orbit(run).axes[0])["impact"]
     assert (x, y) == (pytest.approx([1.5 * math.cos(angle)]), pytest.approx([1.5 * math.sin(angle)]))
 
 
@@ -107,15 +107,15 @@ def test_a_parting_is_where_the_records_around_it_are() -> None:
     run = synthetic.journal(SCENARIO, TIME, x, y, [Onset(0.5e-3, 0.1, 24.5e-3, 0.1)])
     here, there, _ = journal(run).path()
     assert here.max() < -1.4e-3
-    parting = np.flatnonzero(np.isclose(np.hypot(here, there), CLEARANCE, rtol=1e-12))[-1]
+    separation = np.flatnonzero(np.isclose(np.hypot(here, there), CLEARANCE, rtol=1e-12))[-1]
     # between y of 2 and -2 um
-    assert there[parting] == pytest.approx(0.0, abs=5e-6)
-    assert here[parting] == pytest.approx(-CLEARANCE, rel=1e-4)
+    assert there[separation] == pytest.approx(0.0, abs=5e-6)
+    assert here[separation] == pytest.approx(-CLEARANCE, rel=1e-4)
 
 
 def test_a_parting_after_the_piece_is_not_drawn() -> None:
     shown = journal(bouncing(), until=20e-3)
-    assert len(shown.path()[0]) == shown.time.size + 1  # the touch
+    assert len(shown.path()[0]) == shown.time.size + 1  # the impact
     assert len(journal(bouncing()).path()[0]) == TIME.size + 2
 
 
@@ -139,13 +139,13 @@ def test_depth_and_speeds_have_units() -> None:
     _, depth, speeds, _ = orbit(bouncing()).axes
     assert (depth.get_xlabel(), depth.get_ylabel()) == ("time [ms]", "depth [mm]")
     assert speeds.get_ylabel() == "speed [mm/s]"
-    assert lines(speeds)["touching"].ravel() == pytest.approx([15.0, 100.0])
-    assert lines(speeds)["parting"].ravel() == pytest.approx([25.0, 80.0])
+    assert lines(speeds)["closed"].ravel() == pytest.approx([15.0, 100.0])
+    assert lines(speeds)["separation"].ravel() == pytest.approx([25.0, 80.0])
 
 
 @pytest.mark.parametrize(
     ("away", "words"),
-    [(0.5e-3, "no touch"), (CLEARANCE + 1e-5, "in contact throughout")],
+    [(0.5e-3, "no impact"), (CLEARANCE + 1e-5, "in contact throughout")],
     ids=["flight", "contact"],
 )
 def test_runs_without_a_touch_say_so(away: float, words: str) -> None:
@@ -163,8 +163,8 @@ def test_nothing_is_cut_off_or_overlaps(window: dict[str, float]) -> None:
 
 def test_what_cannot_be_drawn_is_refused() -> None:
     ideal = synthetic.result(support(), TIME, {"pin.rear_base.force": (TIME, "N")})
-    assert loose_pins(ideal) == ()
-    with pytest.raises(InputError, match="no loose pin"):
+    assert clearance_joints(ideal) == ()
+    with pytest.raises(InputError, match="no clearance pin"):
         orbit(ideal)
     with pytest.raises(InputError, match="rear_base"):
         orbit(bouncing(), "rear_bsae")

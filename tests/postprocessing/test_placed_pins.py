@@ -21,8 +21,8 @@ def pins_of(scenario: Scenario) -> dict[str, PlacedPin]:
 @pytest.mark.parametrize("dimensions", [2, 3])
 @pytest.mark.parametrize(("bore", "journal"), [("first", "second"), ("second", "first")])
 def test_the_bore_is_on_the_body_that_the_scenario_says(dimensions: int, bore: str, journal: str) -> None:
-    loose = ClearancePin(contact=paper_contact(1.5, 0.0), bore=bore, eccentricity=(0.0, -0.0015))
-    scenario = replace(loose_support(dimensions=dimensions), pins={PIN: loose})
+    with_clearance = ClearancePin(contact=paper_contact(1.5, 0.0), bore=bore, eccentricity=(0.0, -0.0015))
+    scenario = replace(loose_support(dimensions=dimensions), pins={PIN: with_clearance})
     pin = pins_of(scenario)[PIN]
     place = scenario.linkage.pins[PIN]
     assert pin.bore.body == getattr(place, bore)
@@ -37,7 +37,10 @@ def test_the_bore_is_on_the_body_that_the_scenario_says(dimensions: int, bore: s
 def test_bearings_of_a_pair_are_both_loose() -> None:
     scenario = replace(loose_support(dimensions=3), pins={FRONT: ClearancePin(contact=paper_contact(1.5, 0.0))})
     found = pins_of(scenario)
-    assert [name for name, pin in found.items() if pin.loose is not None] == [f"{FRONT}_left", f"{FRONT}_right"]
+    assert [name for name, pin in found.items() if pin.with_clearance is not None] == [
+        f"{FRONT}_left",
+        f"{FRONT}_right",
+    ]
     left, right = (found[f"{FRONT}_{side}"].bore.point[2] for side in ("left", "right"))
     assert left == -right < 0.0
 

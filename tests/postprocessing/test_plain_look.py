@@ -59,7 +59,7 @@ def test_a_journal_fits_its_bore() -> None:
     solids = {solid.name: solid for solid in look(STAND).solids}
     pin = solids["pin_pin"]
     assert pin.body == "journal"
-    # a polygon of 32 corners that touches its circle
+    # a polygon of 32 corners that makes contact its circle
     assert pin.mesh.bounds[1, 0] == pytest.approx(BEARING.journal_radius, rel=1e-9)
     place = STAND.linkage.pins["pin"]
     away = np.linalg.norm(solids["bore"].mesh.vertices[:, :2] - np.array(place.first_point), axis=1)

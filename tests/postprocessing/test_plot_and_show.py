@@ -19,10 +19,10 @@ from user_forces.values.value import Value
 
 @pytest.fixture(scope="module")
 def runs(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A folder of four short runs: a loose pin with an accuracy, ideal pins, space, and a slider-crank."""
+    """A folder of four short runs: a clearance pin with an accuracy, ideal pins, space, and a slider-crank."""
     folder = tmp_path_factory.mktemp("runs")
     fall = loose_support(1.5, 0.25, duration=0.2)
-    simulate(fall, accuracy="draft").save(folder / "loose.h5")
+    simulate(fall, accuracy="draft").save(folder / "with_clearance.h5")
     simulate(support(duration=0.2)).save(folder / "ideal.h5")
     simulate(replace(fall, dimensions=3, duration=0.02)).save(folder / "space.h5")
     crank = loose_slider_crank(0.05, formulation="reduced", record_period=5e-5)
@@ -45,7 +45,7 @@ def both(*stems: str) -> set[str]:
 
 
 def test_without_a_wish_an_overview_is_drawn(runs: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["plot", str(runs / "loose.h5")]) == 0
+    assert main(["plot", str(runs / "with_clearance.h5")]) == 0
     out = runs / "loose_figures"
     expected = both("overview", "orbit_rear_base", "poincare_rear_base", "spectrum_rear_base")
     assert names(out) == expected
@@ -82,7 +82,7 @@ def test_sections_take_channels_and_a_phase(runs: Path, tmp_path: Path) -> None:
 
 
 def test_channels_are_drawn_by_pattern(runs: Path, tmp_path: Path) -> None:
-    assert main(["plot", str(runs / "loose.h5"), "pin.*.force", "tip.?", "--out", str(tmp_path)]) == 0
+    assert main(["plot", str(runs / "with_clearance.h5"), "pin.*.force", "tip.?", "--out", str(tmp_path)]) == 0
     assert names(tmp_path) == both("channels")
 
 
@@ -98,13 +98,13 @@ def test_without_a_display_a_sentence_says_so(
 @pytest.mark.parametrize(
     ("run", "args", "message"),
     [
-        ("loose", ["pin.rear_base.forse"], "pin.rear_base.force"),
-        ("loose", ["--orbit", "--pin", "front_base"], "no loose pin"),
-        ("loose", ["--spectrum", "--pin", "rear_bas"], "rear_base"),
-        ("ideal", ["--orbit"], "no loose pin"),
-        ("loose", ["tip.x", "--from", "7"], "0 records lie between"),
-        ("loose", ["--section", "tip.x", "tip.y"], "periods of the drive"),
-        ("loose", ["--section", "tip.x", "tip.q"], "no such channel"),
+        ("with_clearance", ["pin.rear_base.forse"], "pin.rear_base.force"),
+        ("with_clearance", ["--orbit", "--pin", "front_base"], "no clearance pin"),
+        ("with_clearance", ["--spectrum", "--pin", "rear_bas"], "rear_base"),
+        ("ideal", ["--orbit"], "no clearance pin"),
+        ("with_clearance", ["tip.x", "--from", "7"], "0 records lie between"),
+        ("with_clearance", ["--section", "tip.x", "tip.y"], "periods of the drive"),
+        ("with_clearance", ["--section", "tip.x", "tip.q"], "no such channel"),
         ("nothing", [], "no such file"),
     ],
 )
@@ -123,7 +123,7 @@ def test_what_cannot_be_drawn_is_said_in_a_sentence(
 )
 def test_wrong_words_are_refused(runs: Path, capsys: pytest.CaptureFixture[str], args: list[str]) -> None:
     with pytest.raises(SystemExit) as stop:
-        main(["plot", str(runs / "loose.h5"), *args])
+        main(["plot", str(runs / "with_clearance.h5"), *args])
     assert stop.value.code == 2
     assert "usage: " in capsys.readouterr().err
 
@@ -137,8 +137,8 @@ def shown(path: Path, capsys: pytest.CaptureFixture[str], *args: str) -> str:
 
 
 def test_show_tells_what_was_run_how_and_what_came_out(runs: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    said = shown(runs / "loose.h5", capsys)
-    result = Result.load(runs / "loose.h5")
+    said = shown(runs / "with_clearance.h5", capsys)
+    result = Result.load(runs / "with_clearance.h5")
     for words in (
         "HydraulicSupport",
         "1.5 mm clearance",
@@ -162,7 +162,7 @@ def test_show_of_a_run_without_an_accuracy_says_so(runs: Path, capsys: pytest.Ca
     assert "numerical errors not known" in shown(runs / "ideal.h5", capsys)
 
 
-@pytest.mark.parametrize("run", ["loose", "ideal", "space", "crank"])
+@pytest.mark.parametrize("run", ["with_clearance", "ideal", "space", "crank"])
 def test_all_channels_are_shown_with_their_whole_names(
     runs: Path, capsys: pytest.CaptureFixture[str], run: str
 ) -> None:
@@ -210,9 +210,9 @@ def test_show_ends_quietly_when_nobody_reads_on(runs: Path) -> None:
 def test_the_narrowest_terminals_cut_no_number(
     runs: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, words: list[str]
 ) -> None:
-    wide = shown(runs / "loose.h5", capsys, *words)
+    wide = shown(runs / "with_clearance.h5", capsys, *words)
     monkeypatch.setattr("support_exudyn.commands.tables.PIPED", 30)
-    narrow = shown(runs / "loose.h5", capsys, *words)
+    narrow = shown(runs / "with_clearance.h5", capsys, *words)
 
     def rows(said: str) -> list[list[str]]:
         found = [line.split() for line in said.splitlines()]
@@ -230,7 +230,7 @@ def test_a_run_of_nothing_but_its_time(runs: Path, tmp_path: Path, capsys: pytes
 
 def test_show_says_nothing_where_there_is_no_output(runs: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sys, "stdout", None)  # as after `>&-`
-    assert main(["show", str(runs / "loose.h5")]) == 0
+    assert main(["show", str(runs / "with_clearance.h5")]) == 0
 
 
 def test_all_figures_are_drawn_though_nobody_reads_their_names(runs: Path, tmp_path: Path) -> None:
@@ -257,20 +257,20 @@ def test_an_interruption_while_libraries_load_is_said_in_a_line(
 
 
 def test_show_refuses_unknown_channels(runs: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["show", str(runs / "loose.h5"), "tip.w"]) == 1
+    assert main(["show", str(runs / "with_clearance.h5"), "tip.w"]) == 1
     assert "tip.x" in capsys.readouterr().err
 
 
 def test_show_for_scripts_has_what_the_tables_have(runs: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["show", str(runs / "loose.h5"), "--json"]) == 0
+    assert main(["show", str(runs / "with_clearance.h5"), "--json"]) == 0
     told = json.loads(capsys.readouterr().out)
-    result = Result.load(runs / "loose.h5")
+    result = Result.load(runs / "with_clearance.h5")
     assert Value.from_data(told["scenario"]) == result.scenario
     numbers = {name: tuple(number.values()) for name, number in told["numbers"].items()}
     assert {name: numbers[name] for name in result.numbers()} == dict(result.numbers())
     assert told["channels"]["tip.x"]["max"] == result["tip.x"].max()
     assert set(told["channels"]) == set(result.channels) - {"time"}
-    assert [one["time_s"] for one in told["touches"]["rear_base"]] == [
+    assert [one["time_s"] for one in told["impacts"]["rear_base"]] == [
         o.time for o in result.onsets["rear_base"]
     ]
 

@@ -46,8 +46,10 @@ def test_a_motion_of_n_periods_is_n_points(share: float, points: int) -> None:
         swinging(share), "pin.rear_base.eccentricity_x", "pin.rear_base.eccentricity_y", 0.25
     )
     # the times fall on records; 1e-9 m is far below the distance of the points and far above rounding
-    seen = {(round(x, 9) + 0.0, round(y, 9) + 0.0) for x, y in zip(section.first, section.second, strict=True)}
-    assert len(seen) == points
+    context = {
+        (round(x, 9) + 0.0, round(y, 9) + 0.0) for x, y in zip(section.first, section.second, strict=True)
+    }
+    assert len(context) == points
     assert section.time == pytest.approx(np.arange(10) * PERIOD + 0.25 * PERIOD)
 
 
@@ -62,7 +64,7 @@ def test_the_section_is_drawn_in_the_bore_and_of_two_channels() -> None:
     bore, pair = drawing.axes[:2]
     angle = 2.0 * np.pi * np.arange(11) / 3.0
     (points,) = [line for line in bore.lines if line.get_label() == "free flight"]
-    assert points.get_color() == style.FLIGHT  # 1 mm of 1.5: it never touches
+    assert points.get_color() == style.FLIGHT  # 1 mm of 1.5: it never impacts
     assert points.get_xdata() == pytest.approx(np.cos(angle), abs=1e-9)
     assert bore.get_xlabel() == "eccentricity x [mm]"
     assert pair.get_xlabel() == "rear_link.angle [deg]"
@@ -79,8 +81,8 @@ def test_channels_can_be_chosen() -> None:
         poincare(swinging(0.4), channels=names, start=4.2)
 
 
-def touching(speeds: list[float]) -> Result:
-    """A rise, which has no period, with a touch every 0.1 s."""
+def closed(speeds: list[float]) -> Result:
+    """A rise, which has no period, with an impact every 0.1 s."""
     onsets = [Onset(0.1 * (n + 1), speed, 0.1 * (n + 1) + 0.01, 0.5 * speed) for n, speed in enumerate(speeds)]
     away = np.minimum(1.4e-3, TIME)
     return synthetic.journal(loose_support(1.5), TIME, away, 0.0 * TIME, onsets)
@@ -88,14 +90,14 @@ def touching(speeds: list[float]) -> Result:
 
 def test_without_a_period_touches_make_the_section() -> None:
     speeds = [0.2, 0.1, 0.15, 0.05]
-    drawing = poincare(touching(speeds))
+    drawing = poincare(closed(speeds))
     places, returns = drawing.axes
-    (points,) = [line for line in returns.lines if line.get_label() == "touches"]
+    (points,) = [line for line in returns.lines if line.get_label() == "impacts"]
     assert points.get_xdata() == pytest.approx([200.0, 100.0, 150.0])
     assert points.get_ydata() == pytest.approx([100.0, 150.0, 50.0])
     assert places.lines[1].get_xdata() == pytest.approx([0.0] * 4)  # deg
-    assert returns.get_xlabel() == "approach speed of a touch [mm/s]"
-    assert "by touches" in drawing.get_suptitle()
+    assert returns.get_xlabel() == "initial impact velocity of an impact [mm/s]"
+    assert "by impacts" in drawing.get_suptitle()
 
 
 def test_directions_are_in_degrees_side_by_side() -> None:
@@ -126,8 +128,8 @@ def test_a_channel_that_hardly_changes_is_shown_from_its_middle() -> None:
 
 
 def test_one_touch_is_no_section() -> None:
-    with pytest.raises(InputError, match="touches 1 times"):
-        poincare(touching([0.2]))
+    with pytest.raises(InputError, match="impacts 1 times"):
+        poincare(closed([0.2]))
 
 
 def test_phases_beyond_the_period_are_refused() -> None:
@@ -143,4 +145,4 @@ def test_nothing_is_cut_off_or_overlaps(share: float) -> None:
 
 def test_nothing_of_touches_is_cut_off_or_overlaps() -> None:
     with style.look():
-        figure_checks.check(poincare(touching([0.2, 0.1, 0.15, 0.05])))
+        figure_checks.check(poincare(closed([0.2, 0.1, 0.15, 0.05])))

@@ -16,8 +16,8 @@ small = st.floats(-0.5, 0.5)
 def test_rotations_are_found_from_the_angles_of_the_channels(z: float, a: float, b: float, c: float) -> None:
     asked = (Rotation.from_rotvec([a, b, c]) * Rotation.from_rotvec([0.0, 0.0, z])).as_matrix()[None]
 
-    def seen(row: int, column: int) -> np.ndarray:
+    def context(row: int, column: int) -> np.ndarray:
         return np.arctan2(asked[:, row, column], asked[:, column, column])
 
-    found = turned(seen(1, 0), seen(2, 1), seen(0, 2))
+    found = turned(context(1, 0), context(2, 1), context(0, 2))
     assert found == pytest.approx(asked, abs=1e-13)

@@ -16,7 +16,7 @@ from PIL import Image
 from PIL.ImageColor import getrgb
 from scipy.spatial.transform import Rotation
 
-from studies.common.paper_machine import ideal_rise, loose_rise
+from studies.common.paper_machine import clearance_rise, ideal_rise
 from support_exudyn import CubicStep, Held, Result, simulate
 from support_exudyn.__main__ import main
 from support_exudyn.model.loads.roof import Roof
@@ -26,21 +26,21 @@ from support_exudyn.postprocessing.render import render, still
 from support_exudyn.postprocessing.render.frame import Layout
 from support_exudyn.postprocessing.render.movie import durations, moment
 from support_exudyn.postprocessing.render.panels import Inset, pin_view
-from support_exudyn.postprocessing.render.scene import Scene
+from support_exudyn.postprocessing.render.scene import RenderedScene
+from support_exudyn.postprocessing.render.sheet import Canvas
 from support_exudyn.postprocessing.render.sheet import Image as Picture
-from support_exudyn.postprocessing.render.sheet import Sheet
-from support_exudyn.postprocessing.render.stage import Camera, Prop, Stage, direction_of_view
+from support_exudyn.postprocessing.render.stage import Camera, MeshItem, Stage, direction_of_view
 from tests.hostile import DISKS, left_behind, little_room, with_own_files
 from user_forces import InputError
 
 SIZE = (320, 180)
-LOOSE = "rear_base"
+WITH_CLEARANCE = "rear_base"
 
 
 @pytest.fixture(scope="module")
 def bouncing() -> Result:
     """A journal that falls and bounces."""
-    return simulate(replace(loose_rise(1.5, 0.25, 5e-4), duration=0.2))
+    return simulate(replace(clearance_rise(1.5, 0.25, 5e-4), duration=0.2))
 
 
 @pytest.fixture(scope="module")
@@ -51,7 +51,7 @@ def rising() -> Result:
 
 @pytest.fixture(scope="module")
 def spatial() -> Result:
-    return simulate(replace(loose_rise(1.5, 0.25, 1e-3), dimensions=3, duration=0.05))
+    return simulate(replace(clearance_rise(1.5, 0.25, 1e-3), dimensions=3, duration=0.05))
 
 
 def part(picture: Picture, size: tuple[int, int]) -> Picture:
@@ -71,7 +71,7 @@ def pixels_of(picture: Picture, colour: str) -> np.ndarray:
 def test_the_camera_sees_points_where_the_ray_tracer_draws_them() -> None:
     size = (320, 180)
     camera = Camera(direction_of_view(), (0.3, 0.2, -0.4), 4.0, *size)
-    cube = Prop(trimesh.creation.box((0.05, 0.05, 0.05)), (1.0, 0.0, 0.0), edges=False)
+    cube = MeshItem(trimesh.creation.box((0.05, 0.05, 0.05)), (1.0, 0.0, 0.0), edges=False)
     stage = Stage([cube], camera)
     for point in ((0.3, 0.2, -0.4), (1.0, 0.2, 0.0), (0.0, 1.0, 0.0), (0.3, 0.0, 0.7)):
         picture = stage.image([(np.array(point), np.eye(3))]).astype(int)
@@ -87,7 +87,9 @@ def test_the_ray_tracer_turns_props_and_has_their_colours() -> None:
     bar = trimesh.creation.box((1.0, 0.05, 0.05))
     bar.apply_translation([0.5, 0.0, 0.0])
     turn = Rotation.from_euler("zxy", [50.0, 20.0, -30.0], degrees=True).as_matrix()
-    picture = Stage([Prop(bar, (1.0, 0.4, 0.0), edges=False)], camera).image([(np.zeros(3), turn)]).astype(int)
+    picture = (
+        Stage([MeshItem(bar, (1.0, 0.4, 0.0), edges=False)], camera).image([(np.zeros(3), turn)]).astype(int)
+    )
     drawn = np.argwhere(picture[:, :, 2] < 100)[:, ::-1] + 0.5
     ends = camera.pixels(np.array([[0.0, 0.0, 0.0], turn[:, 0]]))
     # half of the bar's thickness of 2 pixels, and its edges
@@ -128,7 +130,7 @@ def test_a_roof_that_presses_is_drawn_where_it_is() -> None:
         gap=0.2,
     )
     run = simulate(replace(scenario, loads={"roof": roof}))
-    scene = Scene(run)
+    scene = RenderedScene(run)
     top = max(solid.mesh.bounds[1, 1] for solid in scene.look.solids if solid.body == "canopy")
     assert scene.roof(0) == pytest.approx(top + 0.2)
     assert scene.roof(run.time.size - 1) == pytest.approx(top + 0.15)
@@ -136,46 +138,46 @@ def test_a_roof_that_presses_is_drawn_where_it_is() -> None:
 
 
 def test_the_arrow_is_there_in_contact_and_not_in_flight(bouncing: Result) -> None:
-    force = bouncing[f"pin.{LOOSE}.force"]
+    force = bouncing[f"pin.{WITH_CLEARANCE}.force"]
     size = (640, 360)
     hit, flight = float(bouncing.time[force.argmax()]), float(bouncing.time[3])
     assert force[3] == 0.0
-    touching, flying = (
+    closed, flying = (
         part(still(bouncing, hit, size=size), size),
         part(still(bouncing, flight, size=size), size),
     )
-    assert len(pixels_of(touching, CONTACT)) > 100
+    assert len(pixels_of(closed, CONTACT)) > 100
     assert not len(pixels_of(flying, CONTACT))
     assert len(pixels_of(flying, FLIGHT)) > 10
-    assert not len(pixels_of(touching, FLIGHT))
+    assert not len(pixels_of(closed, FLIGHT))
 
 
 def test_the_mark_is_on_the_pin(bouncing: Result) -> None:
     size = (640, 360)
     flying = part(still(bouncing, float(bouncing.time[3]), size=size), size)
     row, column = pixels_of(flying, FLIGHT).mean(axis=0)
-    scene = Scene(bouncing)
+    scene = RenderedScene(bouncing)
     camera = scene.camera(flying.shape[1], flying.shape[0])
-    pin = next(solid for solid in scene.look.solids if solid.name == f"pin_{LOOSE}")
-    x, y = bouncing.scenario.linkage.pins[LOOSE].first_point
+    pin = next(solid for solid in scene.look.solids if solid.name == f"pin_{WITH_CLEARANCE}")
+    x, y = bouncing.scenario.linkage.pins[WITH_CLEARANCE].first_point
     place = camera.pixels(np.array([[x, y, pin.mesh.bounds[0, 2]]]))[0]
     assert (column, row) == pytest.approx(place, abs=1.5)  # pixels; the mark's middle is rounded
 
 
 def test_surfaces_are_put_where_the_exported_mesh_has_them(bouncing: Result, spatial: Result) -> None:
     for run in (bouncing, spatial):
-        scene, record = Scene(run), run.time.size - 1
+        scene, record = RenderedScene(run), run.time.size - 1
         expected = machine_mesh(run).frame(record).points
         placed = [
-            prop.mesh.vertices @ turn.T + place
-            for prop, (place, turn) in zip(scene.props(), scene.places(record), strict=True)
+            mesh_item.mesh.vertices @ turn.T + place
+            for mesh_item, (place, turn) in zip(scene.props(), scene.places(record), strict=True)
         ]
         # rounding of places of some metres
         assert np.concatenate(placed)[: len(expected)] == pytest.approx(expected, abs=1e-12)
 
 
 def test_the_coal_is_in_front_the_goaf_behind_and_the_roof_above(rising: Result) -> None:
-    scene = Scene(rising)
+    scene = RenderedScene(rising)
     labels = {label.text: label.place for label in scene.labels(0)}
     low, high = scene.points.min(axis=0), scene.points.max(axis=0)
     assert labels["coal\nface"][0] > high[0]
@@ -202,18 +204,18 @@ def painted(
     """Arrows and words of a still: the scale's arrow, the one in the machine, the one in the bore."""
     arrows: list[Arrow] = []
     words: list[str] = []
-    drawn, written = Sheet.arrow, Sheet.write
+    drawn, written = Canvas.arrow, Canvas.write
 
-    def arrow(sheet: Sheet, tail: Any, tip: Any, colour: str, thick: float, cut: bool = False) -> None:
+    def arrow(sheet: Canvas, tail: Any, tip: Any, colour: str, thick: float, cut: bool = False) -> None:
         arrows.append(Arrow(np.array(tail), np.array(tip), cut))
         drawn(sheet, tail, tip, colour, thick, cut)
 
-    def write(sheet: Sheet, place: Any, text: str, *rest: Any, **others: Any) -> Any:
+    def write(sheet: Canvas, place: Any, text: str, *rest: Any, **others: Any) -> Any:
         words.append(text)
         return written(sheet, place, text, *rest, **others)
 
-    monkeypatch.setattr(Sheet, "arrow", arrow)
-    monkeypatch.setattr(Sheet, "write", write)
+    monkeypatch.setattr(Canvas, "arrow", arrow)
+    monkeypatch.setattr(Canvas, "write", write)
     still(run, time, size=size)
     return arrows, words
 
@@ -221,14 +223,14 @@ def painted(
 def test_arrows_are_the_force_on_the_journal_in_the_scale_that_is_shown(
     bouncing: Result, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    size, force = (640, 360), bouncing[f"pin.{LOOSE}.force"]
+    size, force = (640, 360), bouncing[f"pin.{WITH_CLEARANCE}.force"]
     usual = np.quantile(force[force > 0.0], 0.97)
     inner = np.flatnonzero((force > 0.3 * usual) & (force < 1.5 * usual))
     assert inner.size
     record = int(inner[0])
     (scale, machine, bore), words = painted(bouncing, float(bouncing.time[record]), size, monkeypatch)
     x, y = (
-        bouncing[f"pin.{LOOSE}.force_{axis}"][record] for axis in "xy"
+        bouncing[f"pin.{WITH_CLEARANCE}.force_{axis}"][record] for axis in "xy"
     )  # on the link, which has the journal
     (bar,) = (float(word.removesuffix(" kN")) for word in words if word.endswith(" kN") and "." not in word)
     pixels = scale.way[0] / (1e3 * bar)  # to a newton
@@ -245,13 +247,13 @@ def test_arrows_are_the_force_on_the_journal_in_the_scale_that_is_shown(
 def test_the_arrow_of_a_force_beyond_the_scale_is_cut_and_says_so(
     bouncing: Result, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    force = bouncing[f"pin.{LOOSE}.force"]
+    force = bouncing[f"pin.{WITH_CLEARANCE}.force"]
     record = int(force.argmax())
     beyond = replace(  # a hit ten times as hard
         bouncing,
         channels={
             name: replace(one, values=np.where(np.arange(force.size) == record, 10.0, 1.0) * one.values)
-            if name.startswith(f"pin.{LOOSE}.force")
+            if name.startswith(f"pin.{WITH_CLEARANCE}.force")
             else one
             for name, one in bouncing.channels.items()
         },
@@ -264,18 +266,18 @@ def test_the_arrow_of_a_force_beyond_the_scale_is_cut_and_says_so(
 
 
 def test_in_space_the_middle_of_the_bearing_is_shown(spatial: Result) -> None:
-    view = pin_view(spatial, LOOSE)
+    view = pin_view(spatial, WITH_CLEARANCE)
     assert view is not None
     assert view.bore is not None
     for k, axis in enumerate("xy"):
-        ends = [spatial[f"pin.{LOOSE}.{side}_eccentricity_{axis}"] for side in ("left", "right")]
+        ends = [spatial[f"pin.{WITH_CLEARANCE}.{side}_eccentricity_{axis}"] for side in ("left", "right")]
         assert view.bore.eccentricity[:, k] == pytest.approx(0.5 * (ends[0] + ends[1]))
 
 
 def test_no_place_on_the_wall_is_marked_where_the_middle_of_the_journal_is_away_from_it(
     spatial: Result,
 ) -> None:
-    """An edge of a tilted journal touches elsewhere: only the journal's middle has the colour of contact."""
+    """An edge of a tilted journal makes contact elsewhere: only its middle has the colour of contact."""
     pin = pin_view(spatial)
     assert pin is not None
     assert pin.bore is not None
@@ -284,18 +286,18 @@ def test_no_place_on_the_wall_is_marked_where_the_middle_of_the_journal_is_away_
     tilted = replace(
         pin.bore,
         eccentricity=np.array([[0.1 * clearance, 0.0], [1.1 * clearance, 0.0]]),
-        touching=np.array([True, True]),
+        closed=np.array([True, True]),
     )
     inset = Inset((0, 0, 286, 286), tilted, 1.0)
-    seen = []
+    context = []
     for record in (0, 1):
-        sheet = Sheet(286, 286)
+        sheet = Canvas(286, 286)
         sheet.hold()
         inset.draw(sheet, record, record, (0.0, 0.0), False)
-        seen.append(pixels_of(sheet.frame()[30:250], CONTACT))  # without the words
+        context.append(pixels_of(sheet.frame()[30:250], CONTACT))  # without the words
     wall = inset.centre[0] - 80.0  # pixels; the journal's middle is never so far from the bore's
-    assert (seen[0][:, 1] > wall).all()
-    assert (seen[1][:, 1] < wall).any()
+    assert (context[0][:, 1] > wall).all()
+    assert (context[1][:, 1] < wall).any()
 
 
 def test_a_run_in_space_is_shown(spatial: Result) -> None:
@@ -448,7 +450,7 @@ def test_what_cannot_be_is_refused_before_anything_is_written(
 
 
 def test_a_run_that_has_not_recorded_its_bodies_is_refused(tmp_path: Path) -> None:
-    run = simulate(replace(loose_rise(1.5, 0.0, 1e-3), duration=0.01, channels=("pin.*",)))
+    run = simulate(replace(clearance_rise(1.5, 0.0, 1e-3), duration=0.01, channels=("pin.*",)))
     with pytest.raises(InputError, match=r"was not recorded.*channels = \('\*',\)"):
         render(run, tmp_path / "f", size=SIZE)
     assert not list(tmp_path.iterdir())
@@ -473,7 +475,7 @@ def test_leftovers_of_killed_processes_go_and_files_of_others_stay(bouncing: Res
 
 
 def test_a_folder_that_cannot_be_made_is_named(bouncing: Result, tmp_path: Path) -> None:
-    (tmp_path / "file").touch()
+    (tmp_path / "file").impact()
     with pytest.raises(OSError, match=r"a folder should be; it cannot be written: '.*file/frames'"):
         render(bouncing, tmp_path / "file" / "frames", end=0.04, size=SIZE)
 
@@ -500,9 +502,13 @@ def test_an_mp4_without_its_library_is_refused(
 def test_the_command_writes_beside_the_run(
     bouncing: Result, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    path = bouncing.save(tmp_path / "loose.h5")
+    path = bouncing.save(tmp_path / "with_clearance.h5")
     assert main(["render", str(path), "--size", "320x180", "--until", "0.04"]) == 0
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["loose.gif", "loose.h5", "loose_frames"]
+    assert sorted(path.name for path in tmp_path.iterdir()) == [
+        "with_clearance.gif",
+        "with_clearance.h5",
+        "loose_frames",
+    ]
     assert sorted(path.name for path in (tmp_path / "loose_frames").iterdir()) == [
         *("frame_0000.png", "frame_0001.png")
     ]
@@ -512,7 +518,7 @@ def test_the_command_writes_beside_the_run(
 def test_the_command_writes_a_still(
     bouncing: Result, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    path = bouncing.save(tmp_path / "loose.h5")
+    path = bouncing.save(tmp_path / "with_clearance.h5")
     assert main(["render", str(path), "--size", "320x180", "--still", "0.1"]) == 0
     with Image.open(tmp_path / "loose_0.1s.png") as picture:
         assert picture.size == SIZE

@@ -13,8 +13,8 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from trimesh import Trimesh
 
-from studies.common.paper_machine import loose_rise
-from support_exudyn import CubicStep, OwnBody, Scenario, TwoBodyColumn, reference_support
+from studies.common.paper_machine import clearance_rise
+from support_exudyn import CubicStep, CylinderAndRod, OwnBody, Scenario, reference_support
 from support_exudyn.machines.four_column_support import PIVOTS, HydraulicSupport
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.postprocessing.look.looks import look
@@ -24,7 +24,7 @@ from support_exudyn.postprocessing.look.solid import Look, Role
 from user_forces import InputError
 
 RISE = 0.5  # [m]
-COLUMN = TwoBodyColumn(
+COLUMN = CylinderAndRod(
     cylinder_mass=300.0,
     cylinder_centre=0.45,
     cylinder_inertia=20.0,
@@ -36,7 +36,7 @@ PLAIN = Scenario(machine=reference_support(), drive=CubicStep(stroke=RISE), dura
 HEAVY = replace(PLAIN, columns={"front_column": COLUMN, "rear_column": COLUMN})
 SCENES = {
     "ideal pins": PLAIN,
-    "loose pin": loose_rise(1.5, 0.25, 1e-3),
+    "clearance pin": clearance_rise(1.5, 0.25, 1e-3),
     "no widths": replace(PLAIN, machine=replace(reference_support(), width=None)),
     "in space": replace(PLAIN, dimensions=3),
     "columns in two bodies": HEAVY,
@@ -130,9 +130,9 @@ def test_what_there_is_once_lies_on_both_sides_of_the_plane_alike() -> None:
 
 @pytest.mark.parametrize(("bore", "body"), [("first", "rear_link"), ("second", GROUND)])
 def test_a_loose_pin_moves_with_the_body_that_has_its_journal(bore: str, body: str) -> None:
-    loose = SCENES["loose pin"]
-    pin = replace(loose.clearance_pins["rear_base"], bore=bore)
-    shown = look(replace(loose, pins={"rear_base": pin}))
+    with_clearance = SCENES["clearance pin"]
+    pin = replace(with_clearance.clearance_pins["rear_base"], bore=bore)
+    shown = look(replace(with_clearance, pins={"rear_base": pin}))
     (journal,) = [solid for solid in shown.solids if solid.name == "pin_rear_base"]
     assert journal.body == body
 
@@ -262,10 +262,10 @@ def test_other_pivots_give_closed_surfaces_too(shifts: dict[str, tuple[float, fl
 
 
 def test_an_eccentric_start_moves_what_hangs_on_the_journal() -> None:
-    loose = SCENES["loose pin"]
-    pin = loose.clearance_pins["rear_base"]
-    shifted = replace(loose, pins={"rear_base": replace(pin, eccentricity=(0.0, -0.0015))})
-    before = next(s for s in look(loose).solids if s.name == "rear_link")
+    with_clearance = SCENES["clearance pin"]
+    pin = with_clearance.clearance_pins["rear_base"]
+    shifted = replace(with_clearance, pins={"rear_base": replace(pin, eccentricity=(0.0, -0.0015))})
+    before = next(s for s in look(with_clearance).solids if s.name == "rear_link")
     after = next(s for s in look(shifted).solids if s.name == "rear_link")
     moved = np.abs(after.mesh.bounds - before.mesh.bounds).max()
     assert 1e-4 < moved < math.hypot(0.0015, 0.0015) * 3.0  # by the eccentricity, and a turn that follows

@@ -35,7 +35,7 @@ from support_exudyn.postprocessing.look.poses import Poses, strut_pose
 from support_exudyn.postprocessing.look.solid import solids_of
 from support_exudyn.postprocessing.viewer import viewer_model
 from support_exudyn.postprocessing.viewer.view import open_viewer
-from support_exudyn.postprocessing.viewer.viewer_model import POSITION, SHOWN, dressed
+from support_exudyn.postprocessing.viewer.viewer_model import POSITION, SHOWN, model_for_viewer
 from tests.cases.run_cases import PIN, loose_slider_crank, loose_support, support
 from tests.processes import environment
 from user_forces import InputError
@@ -57,7 +57,7 @@ def run() -> Result:
 
 
 @pytest.mark.parametrize(
-    "scenario", [support(**RISE), loose_support(1.5, 0.25, **RISE)], ids=["ideal", "loose"]
+    "scenario", [support(**RISE), loose_support(1.5, 0.25, **RISE)], ids=["ideal", "with_clearance"]
 )
 def test_it_is_what_the_engine_writes_of_its_own_run(
     scenario: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -297,7 +297,7 @@ def test_a_run_to_an_accuracy_keeps_it_too(tmp_path: Path) -> None:
 
 
 def test_a_model_is_let_go_of(run: Result, tmp_path: Path) -> None:
-    looking = dressed(run.scenario)
+    looking = model_for_viewer(run.scenario)
     known = weakref.ref(looking), weakref.ref(looking.scene)
     looking.scene.release()
     del looking
@@ -310,7 +310,7 @@ def test_a_model_is_let_go_of(run: Result, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("name", ["redundant", "space", "crank"])
 def test_the_look_of_a_machine_changes_no_equation(name: str) -> None:
-    plain, looking = model(RISES[name]), dressed(RISES[name])
+    plain, looking = model(RISES[name]), model_for_viewer(RISES[name])
     try:
         assert equations(looking.scene.mbs) == equations(plain.mbs)
         assert looking.scene.mbs.systemData.NumberOfObjects() > plain.mbs.systemData.NumberOfObjects()
@@ -363,7 +363,7 @@ def test_it_can_be_exported(run: Result, tmp_path: Path) -> None:
 @pytest.mark.parametrize("name", ["redundant", "space", "crank"])
 def test_surfaces_and_columns_are_where_the_run_was(name: str) -> None:
     result = simulate(RISES[name])
-    shown, poses = dressed(result.scenario), Poses(result)
+    shown, poses = model_for_viewer(result.scenario), Poses(result)
     record = result.time.size - 1
     try:
         SetSolutionState(shown.scene.mbs, rows(result, shown.scene), record, SHOWN)
@@ -397,9 +397,9 @@ def test_surfaces_and_columns_are_where_the_run_was(name: str) -> None:
 @pytest.mark.parametrize("bore", ["first", "second"])
 def test_journal_and_rim_of_a_loose_pin_are_on_their_bodies(bore: str, monkeypatch: pytest.MonkeyPatch) -> None:
     scenario = RISES["redundant"]
-    loose = dataclasses.replace(scenario.clearance_pins[PIN], bore=bore, eccentricity=(0.0, -0.0015))
-    scenario = dataclasses.replace(scenario, pins={PIN: loose})
-    place, bearing = scenario.linkage.pins[PIN], loose.contact.bearing
+    with_clearance = dataclasses.replace(scenario.clearance_pins[PIN], bore=bore, eccentricity=(0.0, -0.0015))
+    scenario = dataclasses.replace(scenario, pins={PIN: with_clearance})
+    place, bearing = scenario.linkage.pins[PIN], with_clearance.contact.bearing
     rims: list[tuple[np.ndarray, Any]] = []
     drawn = viewer_model._of_rim
 
@@ -408,14 +408,14 @@ def test_journal_and_rim_of_a_loose_pin_are_on_their_bodies(bore: str, monkeypat
         return drawn(points, axes)
 
     monkeypatch.setattr(viewer_model, "_of_rim", of_rim)
-    shown = dressed(scenario)
+    shown = model_for_viewer(scenario)
     try:
         (journal,) = [solid for solid in shown.look.solids if solid.name == f"journal of {PIN}"]
         on_second = bore == "first"
         assert journal.body == (place.second if on_second else place.first)
         centre = place.second_point if on_second else place.first_point
         low, high = journal.mesh.bounds
-        # a polygon of 32 corners that touches its circle
+        # a polygon of 32 corners that makes contact its circle
         assert 0.5 * (low + high)[:2] == pytest.approx(centre, abs=1e-12)
         assert (high - low)[0] == pytest.approx(2.0 * bearing.journal_radius, rel=1e-9)
         ((points, axes),) = rims  # of which body: its axes, or those of the ground

@@ -147,10 +147,10 @@ def test_over_time_a_tone_of_half_the_amplitude_is_six_decibels_lower() -> None:
 
 def test_the_record_period_that_would_follow_the_shortest_touch_is_told() -> None:
     values = np.abs(tone(20.0, 1e3))
-    touches = [Onset(1.0, 0.1, 1.004, 0.1), Onset(2.0, 0.1, 2.002, 0.1), Onset(3.5, 0.1, 3.501, 0.1)]
-    made = synthetic.result(support(), TIME, {FORCE: (values, "N")}, {"rear_base": touches})
+    impacts = [Onset(1.0, 0.1, 1.004, 0.1), Onset(2.0, 0.1, 2.002, 0.1), Onset(3.5, 0.1, 3.501, 0.1)]
+    made = synthetic.result(support(), TIME, {FORCE: (values, "N")}, {"rear_base": impacts})
     drawing = force_spectrum(made, until=3.0, over_time=False)
-    assert "shortest touch lasts 2 ms: a record_period of 200 \u00b5s" in figure_checks.words_below(drawing)
+    assert "shortest impact lasts 2 ms: a record_period of 200 \u00b5s" in figure_checks.words_below(drawing)
     assert drawing.axes[0].lines[0].get_color() == style.CONTACT
 
 

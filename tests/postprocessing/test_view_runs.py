@@ -70,12 +70,12 @@ def test_it_starts_steps_through_frames_and_closes(run: Path, shown: str, displa
         assert wait_until(lambda: None not in (window(VIEWER), window(ENGINE)), PATIENCE)
         # it plays by itself: below the dialog, which covers a corner of it, the engine's window shows ever
         # other pictures, far more than it does while it opens
-        seen: set[bytes] = set()
+        context: set[bytes] = set()
 
         def plays() -> bool:
             assert program.poll() is None, program.stderr.read()
-            seen.add(screen.picture(display)[300:700, :1100].tobytes())
-            return len(seen) >= 12
+            context.add(screen.picture(display)[300:700, :1100].tobytes())
+            return len(context) >= 12
 
         assert wait_until(plays, PATIENCE)
         assert painted(screen.picture(display)[:750, :1200])[300:].any()
@@ -107,15 +107,15 @@ np.savez(sys.argv[2], **found)
 
 
 def test_a_script_steps_through_frames_without_the_dialog(run: Path, display: str, tmp_path: Path) -> None:
-    script = [sys.executable, "-c", STEP, str(run), str(tmp_path / "seen.npz")]
+    script = [sys.executable, "-c", STEP, str(run), str(tmp_path / "context.npz")]
     env = screen.environment_on(display, tmp_path)
     subprocess.run(script, env=env, check=True, timeout=PATIENCE)
-    seen = np.load(tmp_path / "seen.npz")
+    context = np.load(tmp_path / "context.npz")
     result = Result.load(run)
     for row in (0, 150, 300):
-        assert seen[f"time{row}"] == result.time[row]
-        assert seen[f"picture{row}"].shape == (600, 900, 3)
-    first, middle, last = (painted(seen[f"picture{row}"]) for row in (0, 150, 300))
+        assert context[f"time{row}"] == result.time[row]
+        assert context[f"picture{row}"].shape == (600, 900, 3)
+    first, middle, last = (painted(context[f"picture{row}"]) for row in (0, 150, 300))
     # upright and the goaf, where the links are, on the right: forward, the canopy, is on the left and on top
     above, below = first[150:300].any(axis=0), first[400:].any(axis=0)
     assert np.flatnonzero(above).min() < np.flatnonzero(below).min()

@@ -47,15 +47,15 @@ def test_after_an_interruption_all_is_as_it_was(tmp_path: Path, error: type[Base
 
 def test_there_is_no_index_while_files_are_replaced(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     write(tmp_path, "old")
-    replace, seen = Path.replace, []
+    replace, context = Path.replace, []
 
     def watched(path: Path, target: Path) -> Path:
-        seen.append((path.name, (tmp_path / INDEXES[0]).exists()))
+        context.append((path.name, (tmp_path / INDEXES[0]).exists()))
         return replace(path, target)
 
     monkeypatch.setattr(Path, "replace", watched)
     write(tmp_path, "new")
-    assert seen == [("a.bin", False), ("b.bin", False), ("all.index", False)]
+    assert context == [("a.bin", False), ("b.bin", False), ("all.index", False)]
 
 
 def test_stale_files_go_and_others_stay(tmp_path: Path) -> None:

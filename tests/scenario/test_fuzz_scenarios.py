@@ -31,12 +31,12 @@ from tests.sound import sensible, sound, taken_or_refused
 from user_forces import (
     FrictionLaw,
     Frictionless,
+    Impact,
     InputError,
     JournalBearing,
     JournalContact,
     LankaraniNikravesh,
     NormalLaw,
-    Touch,
     Value,
 )
 
@@ -68,7 +68,7 @@ def test_patterns_of_channels_are_taken_if_they_match(asked: list[Any], as_tuple
     made = taken_or_refused(lambda: dataclasses.replace(scene, channels=channels))  # type: ignore[type-var]
     if made is not None:
         sound(made)
-        assert "time" in chosen(made.recipes, made.channels)
+        assert "time" in chosen(made.channel_definitions, made.channels)
 
 
 # --- runs ---
@@ -107,14 +107,14 @@ def short_runs(draw: st.DrawFn) -> Scenario:
             speed=draw(st.floats(0.0, 100.0)),
             eccentricity=clearance * draw(st.sampled_from((0.0, 0.9, 0.999999, 1.0, 1.001))),
         )
-        touch = Touch(machine.speed + 0.01, machine.reduced_mass)
+        impact = Impact(machine.speed + 0.01, machine.reduced_mass)
         pins: dict[str, Pin] = {"pin": pin}
     else:
         machine = dataclasses.replace(ravn_slider_crank(), start_angle=draw(st.floats(-4.0, 4.0)))
-        touch = Touch(10.0, 0.1)
+        impact = Impact(10.0, 0.1)
         pins = {"slider_pin": IdealPin() if draw(st.booleans()) else pin}
     steps = draw(st.integers(1, 20))
-    duration = min(draw(st.floats(1e-5, 5e-3)), MOST_IMPACTS * pin.contact.normal.impact_time(touch))
+    duration = min(draw(st.floats(1e-5, 5e-3)), MOST_IMPACTS * pin.contact.normal.impact_time(impact))
     drive: Drive = Steady(rate=draw(st.floats(-1e3, 1e3))) if draw(st.booleans()) and not stand else Held()
     return Scenario(
         machine=machine,

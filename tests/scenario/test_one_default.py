@@ -14,7 +14,7 @@ from support_exudyn.files import parsed, read_value, scenario_of, table_of, toml
 from support_exudyn.files.machines.read import read_machine
 from support_exudyn.files.scenarios.short_forms import DriveFile, DriveMode, DrivesFile
 from support_exudyn.files.scenarios.short_pin import USUAL_RESTITUTION, ShortPin, simple_laws
-from support_exudyn.files.toml.shapes import Group, field_shapes
+from support_exudyn.files.toml.shapes import GroupShape, field_shapes
 from support_exudyn.machines.slider_crank import SliderCrank
 from support_exudyn.model.drives.drive import Stroke
 from support_exudyn.model.drives.table_drive import TableDrive
@@ -22,7 +22,7 @@ from tests import strategies as some
 from user_forces import (
     STEEL,
     STEEL_35CRMO,
-    DepthSpeed,
+    IndentationVelocity,
     InputError,
     JournalBearing,
     JournalContact,
@@ -32,7 +32,7 @@ from user_forces import (
 )
 
 TOP = 'machine = "reference"\nduration_s = 5\n'
-LOOSE = "[pins.rear_base]\nclearance_mm = 1.5\nbore_radius_mm = 65.5\n"
+WITH_CLEARANCE = "[pins.rear_base]\nclearance_mm = 1.5\nbore_radius_mm = 65.5\n"
 some.kinds()  # imports all modules: not while something is drawn
 # what a short form makes, and which of its fields have no default there
 MADE: dict[type[Value], tuple[tuple[type[Value], ...], set[str]]] = {
@@ -41,7 +41,7 @@ MADE: dict[type[Value], tuple[tuple[type[Value], ...], set[str]]] = {
             ClearancePin,
             JournalContact,
             JournalBearing,
-            *(Group((NormalLaw,)).kinds[law] for law in simple_laws()),
+            *(GroupShape((NormalLaw,)).kinds[law] for law in simple_laws()),
         ),
         {"clearance", "bore_radius", "restitution", "law", "stiffness", "bore_material", "journal_material"},
     ),
@@ -63,7 +63,7 @@ def defaults(cls: type[Value]) -> dict[str, Any]:
 
 @pytest.mark.parametrize("law", simple_laws())
 def test_a_pin_in_short_is_what_python_makes_of_the_same_inputs(law: str) -> None:
-    kind: Any = Group((NormalLaw,)).kinds[law]
+    kind: Any = GroupShape((NormalLaw,)).kinds[law]
     said = {
         "stiffness": external_contact_stiffness(bearing(1.5), STEEL, STEEL_35CRMO),
         "restitution": USUAL_RESTITUTION,
@@ -71,12 +71,12 @@ def test_a_pin_in_short_is_what_python_makes_of_the_same_inputs(law: str) -> Non
     normal = kind(**{name: item for name, item in said.items() if name in some.fields_of(kind)})
     pin = ClearancePin(contact=JournalContact(bearing=bearing(1.5), normal=normal))
     expected = Scenario(machine=reference_support(), duration=5.0, pins={"rear_base": pin})
-    assert read(TOP + LOOSE + f'law = "{law}"') == expected
+    assert read(TOP + WITH_CLEARANCE + f'law = "{law}"') == expected
 
 
 def test_a_pin_of_which_nothing_is_said_is_damped_by_its_depth() -> None:
-    law = read(TOP + LOOSE).clearance_pins["rear_base"].contact.normal
-    assert law.damping_speed == DepthSpeed()  # type: ignore[attr-defined]
+    law = read(TOP + WITH_CLEARANCE).clearance_pins["rear_base"].contact.normal
+    assert law.damping_speed == IndentationVelocity()  # type: ignore[attr-defined]
 
 
 @pytest.mark.parametrize("short", MADE, ids=lambda cls: cls.__name__)

@@ -24,8 +24,8 @@ from support_exudyn import (
     SolverSettings,
     Steady,
     UniformSpeed,
+    cylinders_and_rods,
     reference_support,
-    two_body_columns,
 )
 from support_exudyn.formulations import reduced as reduced_coverage
 from support_exudyn.formulations import tree as tree_coverage
@@ -282,9 +282,9 @@ def test_columns_are_held_and_pins_ideal_unless_said_otherwise() -> None:
 
 
 def test_only_pins_with_clearance_are_listed_as_such() -> None:
-    loose = ClearancePin(contact=contact())
-    mixed = scenario(pins={"front_base": IdealPin(), "rear_base": loose})
-    assert mixed.clearance_pins == {"rear_base": loose}
+    with_clearance = ClearancePin(contact=contact())
+    mixed = scenario(pins={"front_base": IdealPin(), "rear_base": with_clearance})
+    assert mixed.clearance_pins == {"rear_base": with_clearance}
 
 
 def test_a_scenario_cannot_be_changed() -> None:
@@ -427,7 +427,7 @@ def test_the_reduced_formulation_takes_one_drive() -> None:
 
 # --- levels of detail ---
 
-HEAVY = two_body_columns()
+HEAVY = cylinders_and_rods()
 
 
 def test_columns_of_two_bodies_bring_bodies_pins_and_a_guide() -> None:
@@ -456,7 +456,7 @@ def test_a_detailed_scenario_comes_back_from_json() -> None:
 
 def test_oil_in_a_column_of_two_bodies_is_oil() -> None:
     oil = OilColumn(bore_area=0.1, oil_length=0.1, bulk_modulus=1e9)
-    columns = two_body_columns(oil)
+    columns = cylinders_and_rods(oil)
     assert scenario(columns=columns).oil_columns == {"front_column": oil, "rear_column": oil}
     with pytest.raises(InputError, match=r"columns\.front_column\.drive\.oil_length = 0\.1 m"):
         scenario(columns=columns, drive=CubicStep(stroke=-0.2))

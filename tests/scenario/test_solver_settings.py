@@ -46,7 +46,7 @@ def order(errors: list[float]) -> float:
 
 def test_trapezoidal_drop_converges_with_second_order() -> None:
     runs = [drop(5e-4 / n, impact_steps=64 * n, **INDEX_2).onsets[PIN] for n in (1, 2, 4)]
-    # the first touch is located as by the other rule: a cubic through a step of free flight
+    # the first impact is located as by the other rule: a cubic through a step of free flight
     assert runs[0][0].time == pytest.approx(TIMES[0], abs=2e-8)
     assert runs[0][0].speed == pytest.approx(SPEEDS[0], rel=1e-7)
     # impacts cut the steps unevenly, hence not 2
@@ -141,7 +141,7 @@ def test_without_locating_onsets_are_those_of_plain_recipes() -> None:
         # noticed up to a step late, of free fall at 10 m/s^2; interpolated by a straight line
         assert SPEEDS[0] < onsets[0].speed < SPEEDS[0] + 10.0 * step
         assert onsets[0].time == pytest.approx(TIMES[0], abs=10.0 * step**2 / SPEEDS[0])
-    # and the third touch is off by what a late first one makes of it, far more than if it is located
+    # and the third impact is off by what a late first one makes of it, far more than if it is located
     assert abs(runs[2e-4][2].speed / SPEEDS[2] - 1.0) > 0.1
 
 

@@ -32,7 +32,7 @@ from tests.cases.run_cases import (
     support,
 )
 from tests.cases.run_cases import SLIDER_PIN as SLIDER
-from user_forces import Ambrosio, Hertz, JournalContact, KelvinVoigt, LoadError, LuGre, NormalLaw, Touch, value
+from user_forces import Ambrosio, Hertz, Impact, JournalContact, KelvinVoigt, LoadError, LuGre, NormalLaw, value
 
 CLEARANCE = 1.5e-3
 RADIUS, ROD = 0.05, 0.12  # of the slider-crank [m]
@@ -183,10 +183,10 @@ class Weak(Hertz):
     def resting_depth(self, force: float) -> float:
         raise LoadError(f"Weak: force = {force} N: allowed: less")
 
-    def __call__(self, depth: float, rate: float, touch: Touch) -> float:
+    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
         if depth > 1e-6:
             raise LoadError("Weak: too deep")
-        return super().__call__(depth, rate, touch)
+        return super().__call__(depth, rate, impact)
 
 
 def test_a_law_that_cannot_hold_the_load_is_left_to_the_run() -> None:
@@ -221,8 +221,8 @@ def test_on_the_support_friction_stops_what_moves_most_easily() -> None:
     friction = scene.clearance_pins[PIN].contact.friction
     ideal = tuple(pin for pin in scene.linkage.pins if pin != PIN)
     kinetics = kinetics_of(scene.linkage, ideal)
-    mobility = kinetics.pin_mobility(np.zeros(3 * len(scene.linkage.bodies)), PIN)
-    mass = 1.0 / float(np.linalg.eigvalsh(mobility)[-1])
+    inverse_mass = kinetics.pin_inverse_mass(np.zeros(3 * len(scene.linkage.bodies)), PIN)
+    mass = 1.0 / float(np.linalg.eigvalsh(inverse_mass)[-1])
     # 58 779 N is the load of the ideal pin, as above
     expected = mass * (friction.dynamic_speed - friction.static_speed) / (0.25 * 58778.944)
     assert timescales(scene).rubbing == pytest.approx(expected, rel=1e-4)

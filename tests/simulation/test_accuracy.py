@@ -41,13 +41,13 @@ from tests.cases.run_cases import (
 )
 from user_forces import (
     Ambrosio,
-    DepthSpeed,
     FrictionLaw,
     Frictionless,
     Hertz,
+    ImpactVelocity,
+    IndentationVelocity,
     JournalContact,
     LankaraniNikravesh,
-    TouchSpeed,
     value,
 )
 from user_forces.expressions.scalar import where
@@ -167,15 +167,17 @@ def test_a_machine_with_ideal_pins_has_errors_too(formulation: str) -> None:
 def runs_of(monkeypatch: pytest.MonkeyPatch) -> list[Scenario]:
     """Scenarios of the runs that are made from now on."""
     made: list[Scenario] = []
-    once = to_accuracy.run_once
+    once = to_accuracy.single_run
     monkeypatch.setattr(
-        to_accuracy, "run_once", lambda scenario, progress: (made.append(scenario), once(scenario, progress))[1]
+        to_accuracy,
+        "single_run",
+        lambda scenario, progress: (made.append(scenario), once(scenario, progress))[1],
     )
     return made
 
 
 def bouncing(duration: float) -> Scenario:
-    """A journal that loses nothing when it strikes, so that errors grow from touch to touch."""
+    """A journal that loses nothing when it strikes, so that errors grow from impact to make contact."""
     contact = replace(paper_contact(1.5, 0.0), normal=Hertz(stiffness=paper_contact(1.5, 0.0).normal.stiffness))
     return replace(DROP, pins={PIN: ClearancePin(contact=contact)}, duration=duration)
 
@@ -214,7 +216,7 @@ def test_a_goal_that_is_met_costs_no_more_than_three_runs(monkeypatch: pytest.Mo
 def test_sections_become_more_only_as_long_as_they_tell_anything(
     tilted: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    once = to_accuracy.run_once
+    once = to_accuracy.single_run
 
     def tilting(scenario: Scenario, progress: Progress) -> Result:
         """A run whose forces depend on the number of sections, as those of a tilted pin do."""
@@ -223,10 +225,10 @@ def test_sections_become_more_only_as_long_as_they_tell_anything(
         channel = replace(channel, values=(1.0 + 1e-3 / scenario.solver.sections) * channel.values)
         return replace(run, channels={**run.channels, FORCE: channel})
 
-    monkeypatch.setattr(to_accuracy, "run_once", tilting if tilted else once)
+    monkeypatch.setattr(to_accuracy, "single_run", tilting if tilted else once)
     made = runs_of(monkeypatch)
     monkeypatch.setattr(Result, "worst_error", property(lambda run: 0.5 ** len(made)))
-    # beyond the first touch
+    # beyond the first impact
     result = simulate(replace(DROP, duration=0.03, record_period=3e-3, dimensions=3), accuracy=0.02)
     assert f"pin.{PIN}.left.onset_1.speed" in result.numbers()
     # a section's share of the force depends on how many there are
@@ -257,7 +259,7 @@ def breaking() -> Scenario:
 def test_a_run_that_fails_is_had_as_a_value_or_raised() -> None:
     failure = simulate(breaking(), accuracy="draft", throw=False)
     assert isinstance(failure, Failure)
-    assert 0.017 < failure.time < 0.05  # the first touch is at 17.4 ms
+    assert 0.017 < failure.time < 0.05  # the first impact is at 17.4 ms
     with pytest.raises(SimulationError) as caught:
         simulate(breaking(), accuracy="draft")
     assert caught.value.failure == failure
@@ -324,7 +326,7 @@ def turning(c_mm: float, restitution: float, mu: float, gravity: float, speed: o
     )
 
 
-SPEEDS = (TouchSpeed(floor=1e-3), DepthSpeed())
+SPEEDS = (ImpactVelocity(floor=1e-3), IndentationVelocity())
 RISE = CubicStep(stroke=0.06, start=0.05, end=0.25)
 
 

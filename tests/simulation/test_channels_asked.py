@@ -32,7 +32,7 @@ from support_exudyn.formulations.engine_settings import engine_settings
 from support_exudyn.formulations.redundant.run import build
 from support_exudyn.formulations.redundant.scene.record_forces import with_causes
 from support_exudyn.formulations.redundant.solver.recorder import History, Recorder
-from support_exudyn.formulations.redundant.solver.solver import Run
+from support_exudyn.formulations.redundant.solver.solver import SolverRun
 from support_exudyn.mechanics.contact_state import PinMemory
 from support_exudyn.scenario.recorded_channels import needs
 from tests.cases.run_cases import FORCE, PIN, loose_support, support
@@ -56,7 +56,7 @@ SCENES = {
     "ideal, growing steps": support(**SHORT, solver=SolverSettings(growth=8)),
     "oil": support(**SHORT, columns=OILS),
     "one column of oil": support(**SHORT, columns={"rear_column": OIL}),
-    "loose": loose_support(0.5, 0.25, **SHORT),
+    "with_clearance": loose_support(0.5, 0.25, **SHORT),
     "loose, growing steps": loose_support(0.5, 0.25, **SHORT, solver=SolverSettings(growth=8), start="settled"),
     "loose, friction with a state": support(**SHORT, pins={PIN: ClearancePin(contact=BRISTLES)}),
     "slider-crank": Scenario(
@@ -91,38 +91,40 @@ def test_any_choice_has_the_numbers_of_all(scene: str, data: st.DataObject) -> N
 
 
 def unaudited(scenario: Scenario) -> Scenario:
-    return replace(scenario, solver=replace(scenario.solver, audit=False))
+    return replace(scenario, solver=replace(scenario.solver, result_checks=False))
 
 
 def history(scenario: Scenario) -> History:
     scene = build(scenario)
     recorder = Recorder(scene, with_causes(needs(scenario)))
-    Run(scene, recorder, lambda share: None).go()
+    SolverRun(scene, recorder, lambda share: None).go()
     scene.release()
     return recorder.history()
 
 
-@pytest.mark.parametrize("scene", ["ideal, driven", "ideal, growing steps", "loose", "loose, growing steps"])
+@pytest.mark.parametrize(
+    "scene", ["ideal, driven", "ideal, growing steps", "with_clearance", "loose, growing steps"]
+)
 def test_nothing_is_kept_that_nobody_asked_for(scene: str) -> None:
-    one = unaudited(SCENES[scene])  # an audit looks at everything
+    one = unaudited(SCENES[scene])  # result checks looks at everything
     places = history(replace(one, channels=("tip.*",)))
     assert places.position.shape == (places.time.size, 12)
     assert places.velocity.shape == (places.time.size, 0)
     assert places.memory.shape[1] == 0
     # what follows from the motion and the forces in contacts
-    loose = len(one.clearance_pins) * len(PinMemory._fields)
+    with_clearance = len(one.clearance_pins) * len(PinMemory._fields)
     for asked in ("pin.front_base.force", "*.angular_acceleration"):
         found = history(replace(one, channels=(asked,)))
         assert found.position.shape[1] == found.velocity.shape[1] == 12
-        assert found.memory.shape[1] * found.memory.shape[2] == loose
+        assert found.memory.shape[1] * found.memory.shape[2] == with_clearance
 
 
 @pytest.mark.parametrize(
     ("scene", "asked", "computed"),
     [
-        ("loose", ("tip.*", "pin.*"), False),
-        ("loose", ("energy.kinetic", "energy.potential", "energy.elastic"), False),
-        ("loose", ("energy.friction_loss",), True),
+        ("with_clearance", ("tip.*", "pin.*"), False),
+        ("with_clearance", ("energy.kinetic", "energy.potential", "energy.elastic"), False),
+        ("with_clearance", ("energy.friction_loss",), True),
         ("oil", ("*_column.force",), False),
         ("oil", ("energy.balance",), True),
         ("ideal, driven", ("tip.*",), False),
@@ -145,8 +147,8 @@ def test_energies_are_followed_only_if_asked(
     # at the start and at the end of every step, or never
     assert len(calls) == (result.counts.steps + 1 if computed else 0)
     calls.clear()
-    audited = simulate(replace(SCENES[scene], channels=asked))
-    assert len(calls) == (audited.counts.steps + 1 if scene != "ideal, held" else 0)
+    checked = simulate(replace(SCENES[scene], channels=asked))
+    assert len(calls) == (checked.counts.steps + 1 if scene != "ideal, held" else 0)
 
 
 def test_a_channel_that_was_not_recorded_is_told_from_one_that_does_not_exist() -> None:
@@ -161,7 +163,7 @@ def test_a_channel_that_was_not_recorded_is_told_from_one_that_does_not_exist() 
 
 @pytest.mark.parametrize("asked", [(), ("tip.x", "energy.work"), ("pin.*",)])
 def test_the_file_keeps_what_was_recorded(tmp_path: Path, asked: tuple[str, ...]) -> None:
-    result = simulate(replace(SCENES["loose"], channels=asked))
+    result = simulate(replace(SCENES["with_clearance"], channels=asked))
     back = Result.load(result.save(tmp_path / "run.h5"))
     assert back.scenario == result.scenario
     assert set(back.channels) == set(result.channels)
@@ -202,15 +204,15 @@ AGREE = {
 
 
 def watched(scenario: Scenario, monkeypatch: pytest.MonkeyPatch) -> Result:
-    """The same with a look at every step, as with loose pins."""
-    started = Run.__init__
+    """The same with a look at every step, as with clearance pins."""
+    started = SolverRun.__init__
 
-    def looking(self: Run, *arguments: Any) -> None:
+    def looking(self: SolverRun, *arguments: Any) -> None:
         started(self, *arguments)
-        self.watches = True
+        self.needs_step_callbacks = True
 
     with monkeypatch.context() as patch:
-        patch.setattr(Run, "__init__", looking)
+        patch.setattr(SolverRun, "__init__", looking)
         return simulate(scenario)
 
 

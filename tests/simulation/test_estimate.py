@@ -41,7 +41,7 @@ from tests.reduced import simulate_reduced
 from user_forces import Exact, InputError, JournalBearing, JournalContact
 
 SAFETY = FORMULATIONS["reduced"].safety  # which is what runs here
-CLEARANCE = 1.5e-3  # [m], of the loose pin
+CLEARANCE = 1.5e-3  # [m], of the clearance pin
 ROUND_OFF = 1e-15  # of a number; distances of two lose as much in the absolute
 rates = st.floats(FASTEST, SLOWEST)
 shares = st.floats(-6.0, -1.0).map(lambda x: 10.0**x)
@@ -50,7 +50,7 @@ signs = st.sampled_from([-1.0, 1.0])
 
 @cache
 def exact() -> Result:
-    """A short fall with three touches; it stands for the exact one, which it says by its tolerance."""
+    """A short fall with three impacts; it stands for the exact one, which it says by its tolerance."""
     return with_tolerance(simulate_reduced(loose_support(drive=Held(), duration=0.08), 1e-6), 1e-13)
 
 
@@ -86,12 +86,12 @@ def falling(share: float, r: float) -> Result:
 
 
 def without(run: Result, number: int) -> Result:
-    """With only so many touches."""
+    """With only so many impacts."""
     return replace(run, onsets={PIN: run.onsets[PIN][:number]})
 
 
 def with_force(run: Result, factor: float) -> Result:
-    """With the loose pin's force alone so many times as large."""
+    """With the clearance pin's force alone so many times as large."""
     channel = run.channels[FORCE]
     return replace(run, channels={**run.channels, FORCE: replace(channel, values=factor * channel.values)})
 
@@ -266,13 +266,13 @@ def test_a_number_that_falls_slower_than_others_has_a_larger_error(own: float) -
 
 def test_a_touch_is_not_known_better_than_a_step_may_be() -> None:
     run = with_tolerance(exact(), 1e-5)
-    for n, touch in enumerate(run.onsets[PIN][:ONSETS]):
+    for n, impact in enumerate(run.onsets[PIN][:ONSETS]):
         found, name = three(run, run, run).numbers(), f"pin.{PIN}.onset_{n + 1}"
-        assert found[f"{name}.time"].error == pytest.approx(1e-5 * CLEARANCE / touch.speed)
-        assert found[f"{name}.speed"].error == pytest.approx(1e-5 * touch.speed)
+        assert found[f"{name}.time"].error == pytest.approx(1e-5 * CLEARANCE / impact.speed)
+        assert found[f"{name}.speed"].error == pytest.approx(1e-5 * impact.speed)
     # steps that are given follow nothing else
     given = replace(run, scenario=replace(run.scenario, formulation="redundant"))
-    assert three(given, given, given).numbers()[f"pin.{PIN}.onset_1.speed"].error < 1e-6 * touch.speed
+    assert three(given, given, given).numbers()[f"pin.{PIN}.onset_1.speed"].error < 1e-6 * impact.speed
 
 
 def test_runs_that_are_all_the_same_are_right_to_rounding() -> None:

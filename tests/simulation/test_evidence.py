@@ -111,7 +111,7 @@ def test_a_plain_number_has_no_error(one: Measured, limit: float) -> None:
         (Measured(2.0), 1.0, True),
         (Measured(1.0), 2.0, False),
         (Measured(2.0, 0.5), Measured(1.0, 0.25), True),
-        (Measured(2.0, 0.5), Measured(1.0, 0.5), None),  # they touch
+        (Measured(2.0, 0.5), Measured(1.0, 0.5), None),  # they make contact
         (Measured(-1.0, 0.5), Measured(1.0, 0.25), False),
     ],
 )

@@ -23,7 +23,7 @@ from support_exudyn.formulations.engine_errors import explained
 from support_exudyn.sweeps.parallel_runs import run_all
 from tests.cases.run_cases import Pair, loose_support, paper_contact
 from tests.formulations.test_momentum import ONE, TWO
-from user_forces import FrictionLaw, LankaraniNikravesh, LoadError, Touch, value
+from user_forces import FrictionLaw, Impact, LankaraniNikravesh, LoadError, value
 from user_forces.lawful import UNLAWFUL
 
 
@@ -47,10 +47,10 @@ class Breaking(FrictionLaw):
 class Thin(LankaraniNikravesh):
     """Is not valid below 10 micrometres."""
 
-    def __call__(self, depth: float, rate: float, touch: Touch) -> float:
+    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
         if depth > 1e-5:
             raise LoadError(f"Thin: depth = {depth} m: allowed: up to 1e-05 m")
-        return super().__call__(depth, rate, touch)
+        return super().__call__(depth, rate, impact)
 
 
 def breaking(kind: str) -> Scenario:
@@ -75,8 +75,8 @@ def test_a_failure_says_when_and_in_what_state(kind: str, words: str) -> None:
     with pytest.raises(SimulationError) as caught:
         simulate(breaking(kind))
     failure = caught.value.failure
-    assert 0.017 < failure.time < 0.05  # the first touch is at 17.4 ms
-    assert failure.state["pin.rear_base.approach_speed"] == pytest.approx(0.17, abs=0.01)
+    assert 0.017 < failure.time < 0.05  # the first impact is at 17.4 ms
+    assert failure.state["pin.rear_base.impact_velocity"] == pytest.approx(0.17, abs=0.01)
     assert "step" in failure.state
     assert words in str(caught.value)
     assert (UNLAWFUL in str(caught.value)) == (kind == "nan")
@@ -97,7 +97,7 @@ def test_a_contact_that_is_overloaded_says_what_the_law_takes() -> None:
     # the law's own words in place of advice on steps
     assert "allowed: up to 1e-05 m" in failure.advice
     assert "step" not in failure.advice
-    assert 0.017 < failure.time < 0.02  # the first touch is at 17.4 ms
+    assert 0.017 < failure.time < 0.02  # the first impact is at 17.4 ms
 
 
 @value
@@ -162,11 +162,11 @@ def test_a_sweep_goes_on_after_a_failure() -> None:
         "bad": Scenario(machine=machine, pins=pins, duration=0.01, start="settled"),
         "good": Scenario(machine=machine, pins=pins, duration=0.01),
     }
-    seen: list[dict[str, float]] = []
-    results = run_all(scenarios, workers=2, progress=lambda shares: seen.append(dict(shares)))
+    context: list[dict[str, float]] = []
+    results = run_all(scenarios, workers=2, progress=lambda shares: context.append(dict(shares)))
     assert isinstance(results["bad"], Failure)
     assert not isinstance(results["good"], Failure)
-    assert seen[-1]["good"] == 1.0
+    assert context[-1]["good"] == 1.0
     # the same as in this process, to the bit
     here = simulate(scenarios["good"])
     assert (here["one.x"] == results["good"]["one.x"]).all()

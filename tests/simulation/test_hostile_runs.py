@@ -31,7 +31,7 @@ from support_exudyn.formulations.tree.engine import Engine
 from support_exudyn.sweeps.parallel_runs import run_all
 from tests.cases.run_cases import FORCE, PIN, loose_slider_crank, loose_support, paper_contact
 from tests.hostile import Interruption, posix_only
-from user_forces import LankaraniNikravesh, Touch, value
+from user_forces import Impact, LankaraniNikravesh, value
 
 PROMPT = 1.0  # [s] within which an interruption is asked to come out
 LONG = 1000.0  # [s] that the machine is simulated for: minutes of work
@@ -51,7 +51,7 @@ RUNS = {
 
 
 def long(scenario: Scenario) -> Scenario:
-    """The same for minutes; without a loose pin it is in one stretch, in which the engine tells nothing."""
+    """The same for minutes; without a clearance pin it is in one stretch, in which the engine tells nothing."""
     return replace(scenario, duration=LONG, record_period=LONG / 10.0)
 
 
@@ -138,9 +138,9 @@ class Calls:
 class Interrupting(LankaraniNikravesh):
     """Is interrupted while it is asked for its force."""
 
-    def __call__(self, depth: float, rate: float, touch: Touch) -> float:
+    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
         Calls.count()
-        return super().__call__(depth, rate, touch)
+        return super().__call__(depth, rate, impact)
 
     def elastic_force(self, depth: float) -> float:
         Calls.count()
@@ -204,10 +204,10 @@ def test_an_interruption_waits_for_an_import_to_end(monkeypatch: pytest.MonkeyPa
 class Killing(LankaraniNikravesh):
     """Has its process killed once the journal is deep in an impact; laws are looked at before at rest."""
 
-    def __call__(self, depth: float, rate: float, touch: Touch) -> float:
+    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
         if depth > 1e-5 and rate > 0.0:
             os.kill(os.getpid(), signal.SIGKILL)
-        return super().__call__(depth, rate, touch)
+        return super().__call__(depth, rate, impact)
 
 
 @posix_only
@@ -222,7 +222,7 @@ def test_a_run_whose_process_is_killed_is_a_row_and_the_sweep_goes_on() -> None:
     assert isinstance(failure, Failure)
     assert "signal 9 (SIGKILL, out of memory?)" in failure.reason
     assert "memory" in failure.advice
-    assert 0.0 < failure.time < 0.04  # what was told last: the first touch is at 17.4 ms
+    assert 0.0 < failure.time < 0.04  # what was told last: the first impact is at 17.4 ms
     for name in ("one", "other"):
         result = results[name]
         assert isinstance(result, Result)

@@ -9,7 +9,7 @@ from dataclasses import replace
 import pytest
 
 from support_exudyn import Drive, Held, Scenario, SolverSettings, simulate
-from support_exudyn.formulations.redundant.clearance.clearance_pin import LoosePin
+from support_exudyn.formulations.redundant.clearance.clearance_pin import ClearanceJoint
 from support_exudyn.formulations.redundant.scene.load_item import LoadItem
 from support_exudyn.formulations.redundant.scene.scene import Scene
 from tests.cases.run_cases import loose_support
@@ -42,7 +42,7 @@ def peak(scenario: Scenario) -> int:
 def test_memory_is_flat_in_simulated_time(formulation: str) -> None:
     simulate(held(formulation, 0.2))  # what is made once
     short, long = peak(held(formulation, 0.5)), peak(held(formulation, 4.0))
-    # eight times the time; touches are recorded, a hundred bytes each. With what scipy's root finder leaves
+    # eight times the time; impacts are recorded, a hundred bytes each. With what scipy's root finder leaves
     # behind, once asked in every step of a contact, it grew by 300 bytes a step
     assert long - short < 60_000
 
@@ -51,7 +51,7 @@ def test_memory_is_flat_in_simulated_time(formulation: str) -> None:
 def test_nothing_of_a_run_stays_behind(descent: Drive | None) -> None:
     def alive() -> int:
         gc.collect()
-        return sum(isinstance(item, (Scene, LoosePin, LoadItem)) for item in gc.get_objects())
+        return sum(isinstance(item, (Scene, ClearanceJoint, LoadItem)) for item in gc.get_objects())
 
     before = alive()  # of other tests
     loads = {"roof": over_the_canopy(0.1, descent=descent)} if descent else {}

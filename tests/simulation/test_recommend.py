@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from support_exudyn import Estimate, Recommendation, Scenario, recommend, reference_support
-from support_exudyn.simulation.evidence.table import Table, Tried, committed, fields_of
+from support_exudyn.simulation.evidence.table import EvidenceTable, Tried, committed, fields_of
 from support_exudyn.simulation.recommend import QUESTIONS, STROKE, answers_alike
 from user_forces import InputError
 
@@ -20,8 +20,8 @@ def tried(name: str, seconds: float, mean: float, error: float = 0.0) -> Tried:
     return Tried(name, STROKE, fields_of(PLAIN), numbers, seconds, 100)
 
 
-def table(*scenes: Tried) -> Table:
-    return Table(scenes, {STROKE: "fullest"}, {STROKE: "made up"})
+def table(*scenes: Tried) -> EvidenceTable:
+    return EvidenceTable(scenes, {STROKE: "fullest"}, {STROKE: "made up"})
 
 
 FULL = tried("fullest", 10.0, 1000.0)
@@ -78,16 +78,16 @@ def test_what_a_table_lacks_is_said() -> None:
 def test_a_table_is_read_as_it_was_written(tmp_path: Path) -> None:
     made = table(FULL, tried("good", 2.0, 1009.0, 0.1))
     made.save(tmp_path / "table.json")
-    assert Table.load(tmp_path / "table.json") == made
+    assert EvidenceTable.load(tmp_path / "table.json") == made
     committed().save(tmp_path / "table.json")
-    assert Table.load(tmp_path / "table.json") == committed()
+    assert EvidenceTable.load(tmp_path / "table.json") == committed()
 
 
 @pytest.mark.parametrize("text", ["", "{}", '{"format": "other"}', "[]"])
 def test_what_is_no_table_is_refused(tmp_path: Path, text: str) -> None:
     (tmp_path / "table.json").write_text(text, encoding="utf-8")
     with pytest.raises(InputError, match=r"table\.json: not a table"):
-        Table.load(tmp_path / "table.json")
+        EvidenceTable.load(tmp_path / "table.json")
 
 
 @pytest.mark.parametrize("question", QUESTIONS)

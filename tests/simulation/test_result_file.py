@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from support_exudyn import Held, Result, UniformSpeed, simulate
-from support_exudyn.files.hdf5 import BLOCK, seal
+from support_exudyn.files.hdf5 import BLOCK, with_checksum
 from support_exudyn.simulation.result import FORMAT
 from tests.cases.run_cases import SLIDER_PIN, loose_slider_crank, loose_support
 from user_forces import InputError, LuGre
@@ -23,7 +23,7 @@ def changed(path: Path) -> Iterator[h5py.File]:
     """A file to change by hand; its digest is then made anew."""
     with h5py.File(path, "r+") as file:
         yield file
-    path.write_bytes(seal(path.read_bytes()[BLOCK:], FORMAT))
+    path.write_bytes(with_checksum(path.read_bytes()[BLOCK:], FORMAT))
 
 
 @pytest.fixture(scope="module")
@@ -219,7 +219,7 @@ def test_a_coarser_run_without_a_channel_is_refused(estimated: Result, tmp_path:
 def test_a_file_of_another_version_says_so(result: Result, tmp_path: Path) -> None:
     path = result.save(tmp_path / "run.h5")
     image = path.read_bytes()[BLOCK:]
-    path.write_bytes(seal(image, "support_exudyn result 5"))
+    path.write_bytes(with_checksum(image, "support_exudyn result 5"))
     with pytest.raises(InputError, match=r"format is '.* result 5', expected '.* result 4'"):
         Result.load(path)
     path.write_bytes(image)  # versions before had no digest

@@ -20,14 +20,14 @@ from support_exudyn.simulation.contact_ringing import (
     vibrations,
 )
 from tests.cases.run_cases import paper_contact, support
-from user_forces import Frictionless, KelvinVoigt, LankaraniNikravesh, NormalLaw, TouchSpeed
+from user_forces import Frictionless, ImpactVelocity, KelvinVoigt, LankaraniNikravesh, NormalLaw
 
 PIN = "rear_base"
 GAP = 1e-6  # [m]: across the load a journal then swings ten times as fast as along it
 
 
 def narrow(normal: NormalLaw | None = None, duration: float = 3.0, clearance: float = GAP) -> Scenario:
-    """The support held, its rear pin loose by next to nothing, without friction."""
+    """The support held, its rear pin with clearance by next to nothing, without friction."""
     contact = paper_contact(1.5, 0.0)
     law = LankaraniNikravesh(restitution=0.9, stiffness=2.7e10, exponent=1.5) if normal is None else normal
     bearing = replace(contact.bearing, clearance=clearance)
@@ -67,7 +67,7 @@ def test_numerical_damping_is_of_third_order() -> None:
 def test_along_the_load_a_contact_vibrates_as_its_law_is_stiff_and_across_it_like_a_pendulum() -> None:
     stiffness, damping = 1e9, 1e5
     (contact,) = loaded_contacts(narrow(KelvinVoigt(stiffness=stiffness, damping=damping)))[:1]
-    free = contact._replace(mobility=np.eye(2) / 300.0, mass=300.0)  # the same in all directions
+    free = contact._replace(inverse_mass=np.eye(2) / 300.0, mass=300.0)  # the same in all directions
     across, along = sorted(vibrations(free), key=lambda found: found.fall)
     fall = 0.5 * damping / 300.0
     assert along.fall == pytest.approx(fall, rel=1e-3)
@@ -78,7 +78,7 @@ def test_along_the_load_a_contact_vibrates_as_its_law_is_stiff_and_across_it_lik
 
 def test_laws_that_keep_the_speed_of_their_touch_are_taken_as_damped_least() -> None:
     forgets = LankaraniNikravesh(restitution=0.5, stiffness=2.7e10)
-    keeps = replace(forgets, damping_speed=TouchSpeed())
+    keeps = replace(forgets, damping_speed=ImpactVelocity())
     falls = [max(v.fall for v in vibrations(loaded_contacts(narrow(law))[0])) for law in (forgets, keeps)]
     assert falls[1] < 0.1 * falls[0]
     assert FASTEST > 1.0

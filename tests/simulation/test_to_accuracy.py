@@ -60,7 +60,7 @@ def run(
             number -= 1
         return Told(number, known[number], scenario)
 
-    monkeypatch.setattr(to_accuracy, "run_once", once)
+    monkeypatch.setattr(to_accuracy, "single_run", once)
     scenario = loose_support(drive=Held(), duration=0.05, accuracy=GOAL, formulation="reduced")
     found: Any = to_accuracy.run_to_accuracy(scenario, silent)
     assert found.wall_time == len([number for number in made if number not in failing])

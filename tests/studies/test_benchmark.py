@@ -7,21 +7,29 @@ from collections.abc import Callable, Iterator
 import pytest
 
 from studies.benchmarking import benchmark, process
-from studies.benchmarking.benchmark import Line, cheapest_way, in_turns, long_lines, restless, sheet, whole
+from studies.benchmarking.benchmark import (
+    BenchmarkLine,
+    cheapest_way,
+    in_turns,
+    long_lines,
+    restless,
+    sheet,
+    whole,
+)
 from studies.benchmarking.scenes import SCENES
 from studies.benchmarking.variants import Way, with_tolerance
 from studies.benchmarking.yardstick import YardstickError, compiled, run_yardstick
 from support_exudyn import Failure, Scenario, SimulationError, simulate
-from support_exudyn.simulation.audit import energy_open
+from support_exudyn.simulation.result_checks import energy_open
 
 
 @pytest.mark.parametrize(("ours", "other", "ratio"), [(1.0, 8.0, "1/8"), (3.0, 2.0, "1.5"), (2.0, 2.0, "1/1")])
 def test_a_ratio_says_who_is_faster(ours: float, other: float, ratio: str) -> None:
-    line = Line("what", "how", ours, "against", other, "1/8")
+    line = BenchmarkLine("what", "how", ours, "against", other, "1/8")
     assert line.ratio == ratio
     assert ratio in sheet([line]).markdown()
     assert line.is_missed is (ours > other / 8.0)
-    assert not Line("what", "how", ours, "against", other, "").is_missed
+    assert not BenchmarkLine("what", "how", ours, "against", other, "").is_missed
 
 
 def test_ways_are_timed_in_turns_and_the_fastest_counts(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -74,9 +82,9 @@ def test_a_run_that_is_refused_is_a_row_and_not_the_end(monkeypatch: pytest.Monk
 
 
 def test_what_ends_a_part_of_the_table_is_its_last_row() -> None:
-    def part() -> Iterator[Line]:
+    def part() -> Iterator[BenchmarkLine]:
         """A part."""
-        yield Line("what", "how", 1.0, "against", 2.0, "")
+        yield BenchmarkLine("what", "how", 1.0, "against", 2.0, "")
         refuse()
 
     first, last = whole(part)

@@ -107,7 +107,7 @@ def test_clearance_makes_acceleration_fluctuate_with_friction(
     # independent integrator: 17.36 without friction, 70.16 with; the quick form leaves 10 %
     assert spread[study.IDEAL] == pytest.approx(17.2, rel=0.01)
     assert spread[study.DRY] == pytest.approx(70.16, rel=0.1)
-    # without friction a touch that hardly parts at 0.25 s decides how much vibration is left at 3 s: 17 or,
+    # without friction an impact that hardly parts at 0.25 s decides how much vibration is left at 3 s: 17 or,
     # where coarse steps miss it, up to 28
     assert spread[study.DRY] > 2.0 * spread[study.SMOOTH]
 

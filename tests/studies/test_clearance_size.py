@@ -112,7 +112,7 @@ def test_both_columns_tilt_to_the_rear(numbers: Numbers) -> None:
 
 def test_the_pin_shakes_with_friction_only(numbers: Numbers) -> None:
     for quantity in ("pin_force", "angular_velocity", "angular_acceleration"):
-        name = f"ripple_{quantity}"
+        name = f"rms_{quantity}"
         for size in study.QUICK_SMOOTH_MM:
             shaken = numbers[name, study.case_name(size, 0.25)]["value"]
             # 8 to 100 times as much
@@ -121,7 +121,7 @@ def test_the_pin_shakes_with_friction_only(numbers: Numbers) -> None:
 
 def test_a_larger_clearance_does_not_shake_the_link_more(numbers: Numbers) -> None:
     # the paper has it the other way round; by 1.7 here, and half a millisecond's step moves it by 3 %
-    ripples = row(numbers, "ripple_angular_acceleration", DRY)
+    ripples = row(numbers, "rms_angular_acceleration", DRY)
     assert ripples[0] > 1.3 * ripples[2]
     assert ripples[0] > 1.3 * ripples[3]
 
@@ -136,7 +136,7 @@ def test_the_angular_velocity_keeps_its_course(out: Path) -> None:
     ideal = Result.load(out / "runs" / "ideal.h5")
     for size in ("0p5", "1p0", "1p5", "2p0"):
         run = Result.load(out / "runs" / f"{size}mm_mu0p25.h5")
-        assert rise.likeness(run, ideal, rise.SPEED) > 0.9999  # a ripple of 1 % of the range, filtered
+        assert rise.likeness(run, ideal, rise.SPEED) > 0.9999  # a RMS fluctuation of 1 % of the range, filtered
         assert rise.likeness(run, ideal, rise.FORCE) > 0.99
 
 

@@ -18,7 +18,7 @@ from studies.contact_laws import run as study
 from studies.contact_laws.free_impact import delivered_restitution, free_impact
 from support_exudyn import Result, simulate
 from tests.studies.forms import FORMS, on_the_quick_form, written
-from user_forces import FrictionLaw, Frictionless, NormalLaw, TouchSpeed
+from user_forces import FrictionLaw, Frictionless, ImpactVelocity, NormalLaw
 
 RISES = ("exact", "lankarani_nikravesh")
 
@@ -53,18 +53,18 @@ def test_the_catalogue_holds_every_law() -> None:
 
 def test_every_law_rises_in_the_full_form_and_is_tried_in_impacts() -> None:
     rises = contact_law_cases.rises(quick=False)
-    assert {type(case.pins[contact_law_cases.LOOSE].contact.normal) for case in rises.values()} == laws(
-        NormalLaw
-    )
-    assert {type(case.pins[contact_law_cases.LOOSE].contact.friction) for case in rises.values()} == laws(
-        FrictionLaw
-    )
+    assert {
+        type(case.pins[contact_law_cases.WITH_CLEARANCE].contact.normal) for case in rises.values()
+    } == laws(NormalLaw)
+    assert {
+        type(case.pins[contact_law_cases.WITH_CLEARANCE].contact.friction) for case in rises.values()
+    } == laws(FrictionLaw)
     assert {type(law) for law, _ in contact_law_cases.impact_laws(quick=False).values()} == laws(NormalLaw)
     textbook = [
-        rises[name].pins[contact_law_cases.LOOSE].contact.normal.damping_speed
+        rises[name].pins[contact_law_cases.WITH_CLEARANCE].contact.normal.damping_speed
         for name in contact_law_cases.TEXTBOOK
     ]
-    assert textbook == [TouchSpeed(floor=1e-3), TouchSpeed(floor=0.1)]
+    assert textbook == [ImpactVelocity(floor=1e-3), ImpactVelocity(floor=0.1)]
 
 
 @on_the_quick_form
@@ -92,7 +92,7 @@ def test_the_full_form_delivers_what_the_closed_form_says(case: str) -> None:
 
 @pytest.mark.parametrize("asked", contact_law_cases.FEW)
 def test_dashpots_do_so_in_the_full_form(asked: float) -> None:
-    # their force jumps at the touch
+    # their force jumps at the impact
     _check_full_form(f"anagnostopoulos e={asked:g}")
 
 
@@ -109,7 +109,7 @@ def test_the_way_a_resting_contact_is_damped_matters(numbers: dict[tuple[str, st
     depth, *textbook = (
         numbers["std_pin_force", case] for case in ("lankarani_nikravesh", *contact_law_cases.TEXTBOOK)
     )
-    # by depth: the same for all steps; by the last touch: it hangs on which touch that was
+    # by depth: the same for all steps; by the last impact: it hangs on which impact that was
     assert depth["numerical_error"] < 1e-4 * depth["value"]
     assert max(n["value"] for n in textbook) > 1.01 * depth["value"]
     for number in numbers.values():

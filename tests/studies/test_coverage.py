@@ -14,7 +14,7 @@ import pytest
 
 from studies.benchmarking import coverage, covered
 from studies.benchmarking.coverage import ALL, Chosen, offender_sheet, run_scenes, share
-from studies.benchmarking.covered import Judged, Reference, Row, judge
+from studies.benchmarking.covered import CoveredRun, Judged, Reference, judge
 from studies.benchmarking.fresh_scenes import KINDS, RECORDS, Fresh, fresh
 from support_exudyn import Estimate, Failure, Result, Scenario, SimulationError, simulate
 from support_exudyn.simulation.reported_numbers import measures
@@ -151,10 +151,10 @@ def test_what_three_runs_agree_in_but_for_rounding_converges() -> None:
 # --- what is told of all ---
 
 
-def row(*numbers: tuple[float, float], **changes: object) -> Row:
+def row(*numbers: tuple[float, float], **changes: object) -> CoveredRun:
     """A run whose numbers have these claimed and true errors."""
     found = tuple(Judged(FORCE, 1.0, claimed, true, 0.0, "tree") for claimed, true in numbers)
-    return replace(Row("rear pin", 0, "draft", "reduced", "", True, found), **changes)
+    return replace(CoveredRun("rear pin", 0, "draft", "reduced", "", True, found), **changes)
 
 
 def test_shares_are_those_of_the_judged_numbers() -> None:
@@ -185,7 +185,7 @@ def made(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     """Numbers of the scenes that are run, each of which is told to have one number."""
     done: list[int] = []
 
-    def rows(scene: Fresh) -> Iterator[Row]:
+    def rows(scene: Fresh) -> Iterator[CoveredRun]:
         done.append(scene.number)
         yield row((1.0, 3.0), (math.inf, 1.0), kind=scene.kind, number=scene.number)
 
@@ -204,7 +204,7 @@ def test_what_is_kept_is_not_run_again(chosen: Chosen, made: list[int]) -> None:
 
 
 def test_a_scene_that_fails_unexplained_is_a_row(chosen: Chosen, monkeypatch: pytest.MonkeyPatch) -> None:
-    def rows(scene: Fresh) -> Iterator[Row]:
+    def rows(scene: Fresh) -> Iterator[CoveredRun]:
         raise ZeroDivisionError("by zero")
 
     monkeypatch.setattr(covered, "rows", rows)
@@ -269,7 +269,7 @@ def test_a_run_that_fails_is_refused_with_its_reason(monkeypatch: pytest.MonkeyP
     assert share(found).refused == len(found)
 
 
-def slow_where(monkeypatch: pytest.MonkeyPatch, slow: Callable[[Scenario], bool]) -> list[Row]:
+def slow_where(monkeypatch: pytest.MonkeyPatch, slow: Callable[[Scenario], bool]) -> list[CoveredRun]:
     """Rows of a scene some of whose runs take longer than one has patience for."""
     result = simulate(CRANK.scenario, accuracy="draft")
 

@@ -20,13 +20,22 @@ from studies.common.chapter import Chapter
 from studies.extremes import long_runs, runs, scenes
 from studies.extremes import run as extremes
 from studies.extremes.cases import BOX, MAPS, RANDOM, cases
-from studies.extremes.judge import GOOD, REFUSED, SILENT, Case, Verdict, independent, judge, run_with_its_error
+from studies.extremes.judge import (
+    GOOD,
+    REFUSED,
+    SILENT,
+    Case,
+    Judgement,
+    independent,
+    judge,
+    run_with_its_error,
+)
 from studies.extremes.ranges import LARGEST_SPEED, SPANS, Point
 from support_exudyn import Failure, Result, Scenario, SimulationError, simulate
 from support_exudyn.formulations.limits import DEEPEST
-from support_exudyn.simulation.audit import turned_over
 from support_exudyn.simulation.contact_ringing import ringing_step
 from support_exudyn.simulation.reported_numbers import measured
+from support_exudyn.simulation.result_checks import turned_over
 from support_exudyn.sweeps import workers
 from support_exudyn.sweeps.workers import CONTEXT, Workers, worker_pool
 from tests.at_once import AtOnce
@@ -38,7 +47,7 @@ PIN = scenes.PIN
 
 
 def fall() -> Scenario:
-    """The support falls through its loose rear pin; the reduced formulation covers it, too."""
+    """The support falls through its clearance rear pin; the reduced formulation covers it, too."""
     return scenes.fallen(Point())
 
 
@@ -148,7 +157,7 @@ def with_channel(result: Result, name: str, change: Callable[[np.ndarray], np.nd
     return replace(result, channels={**result.channels, name: changed})
 
 
-def judged(make: Callable[[], Scenario], result: Result) -> Verdict:
+def judged(make: Callable[[], Scenario], result: Result) -> Judgement:
     return judge(make, lambda scenario: result)
 
 
@@ -254,11 +263,11 @@ def test_energy_that_does_not_add_up_is_caught(struck: Result) -> None:
 
 
 def test_an_impact_that_gives_back_more_than_its_law_is_caught(struck: Result) -> None:
-    (touch,) = struck.onsets["pin"]
+    (impact,) = struck.onsets["pin"]
     law = struck.scenario.clearance_pins["pin"].contact.normal
     for share, outcome in ((1.02, SILENT), (1.004, GOOD)):  # 0.5 % are allowed
-        speed = share * law.delivered_restitution * touch.speed
-        wrong = replace(struck, onsets={"pin": (touch._replace(parting_speed=speed),)})
+        speed = share * law.delivered_restitution * impact.speed
+        wrong = replace(struck, onsets={"pin": (impact._replace(separation_velocity=speed),)})
         found = judged(impact, wrong)
         assert found.outcome == outcome
         assert ("a free impact gives back" in found.reason) == (outcome == SILENT)
@@ -292,7 +301,7 @@ def test_a_failure_has_to_say_why_when_and_what_to_do(failure: Failure, outcome:
 
 
 def test_inputs_that_are_refused_are_refused_and_errors_of_other_kinds_are_silent() -> None:
-    def raising(error: Exception) -> Verdict:
+    def raising(error: Exception) -> Judgement:
         def make() -> Scenario:
             raise error
 
@@ -378,7 +387,7 @@ def test_a_run_that_hangs_is_a_silent_failure(
     monkeypatch.setattr(runs, "_cases", lambda quick: [of(make)])
     before, began = signal.getsignal(signal.SIGALRM), time.perf_counter()
     found = runs.judged(0, True, 0)
-    assert found == Verdict(SILENT, "hang: no end after 0.3 s")
+    assert found == Judgement(SILENT, "hang: no end after 0.3 s")
     assert time.perf_counter() - began < 10.0  # not 60
     # nothing rings later
     assert signal.getitimer(signal.ITIMER_REAL) == (0.0, 0.0)
@@ -391,11 +400,11 @@ def test_a_run_that_ends_in_time_is_let_be(monkeypatch: pytest.MonkeyPatch) -> N
     assert runs.judged(0, True, 1).outcome == GOOD
 
 
-def killed_at_one(place: int, quick: bool, number: int) -> Verdict:
+def killed_at_one(place: int, quick: bool, number: int) -> Judgement:
     """In a process of its own, in place of `runs.judged`."""
     if number == 1:
         os.kill(os.getpid(), signal.SIGKILL)
-    return Verdict(GOOD)
+    return Judgement(GOOD)
 
 
 @posix_only
@@ -511,7 +520,7 @@ def test_the_chapter_can_be_read_and_its_maps_are_there(out: Path) -> None:
 
 
 def test_numbers_that_json_has_no_word_for_are_left_out(tmp_path: Path) -> None:
-    verdict = Verdict(GOOD, error=math.inf, half=math.nan, energy=0.25)
+    verdict = Judgement(GOOD, error=math.inf, half=math.nan, energy=0.25)
     extremes.save_rows(tmp_path / "rows.jsonl", [(of(fall), verdict)])
 
     def unknown(word: str) -> float:

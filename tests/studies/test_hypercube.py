@@ -215,7 +215,7 @@ def ran(monkeypatch: pytest.MonkeyPatch) -> list[float]:
 
     monkeypatch.setattr(hypercube, "measures", cheap)
     monkeypatch.setattr(hypercube, "worker_pool", here)
-    monkeypatch.setattr(hypercube, "warm_up", lambda: None)
+    monkeypatch.setattr(hypercube, "precompile", lambda: None)
     return done
 
 
@@ -388,20 +388,20 @@ def test_the_key_changes_with_the_program(tmp_path: Path, monkeypatch: pytest.Mo
 
     source.write_text("x = 1\n", encoding="utf-8")
     numbers.write_text("x = 1\n", encoding="utf-8")
-    seen = [digest()]
+    context = [digest()]
     os.utime(source, (0, 0))
-    assert digest() == seen[0]  # what is in it counts, not when it was written
+    assert digest() == context[0]  # what is in it counts, not when it was written
     (tmp_path / "notes.txt").write_text("x", encoding="utf-8")
-    assert digest() == seen[0]
+    assert digest() == context[0]
     source.write_text("x = 2\n", encoding="utf-8")
-    seen.append(digest())
+    context.append(digest())
     numbers.write_text("x = 2\n", encoding="utf-8")
-    seen.append(digest())
+    context.append(digest())
     source.rename(tmp_path / "other.py")
-    seen.append(digest())
+    context.append(digest())
     monkeypatch.setattr(hypercube, "installed", lambda name: "0.0")
-    seen.append(digest())
-    assert len(set(seen)) == len(seen)
+    context.append(digest())
+    assert len(set(context)) == len(context)
 
 
 def test_a_changed_program_runs_all_anew(

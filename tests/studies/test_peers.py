@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from studies.benchmarking.peers.built_in import Evaluator, run_built_in
-from studies.benchmarking.peers.peer_run import PeerRun, touches
+from studies.benchmarking.peers.peer_run import PeerRun, impacts
 from studies.benchmarking.peers.stock import run_stock
 from studies.benchmarking.peers.tree import run_tree
 from support_exudyn import Held
@@ -35,9 +35,9 @@ def crank() -> Scenario:
 
 def assert_drops(run: PeerRun) -> None:
     # The first flight is smooth; in its last step the bore pushes already, a relative 1e-6. After that the
-    # approach speed is that at the end of a step: off by up to a step times the acceleration of 10 m/s^2, a
-    # relative 6e-4, which is how much the damping is off; the restitution of 0.91 then by some 5e-5, magnified
-    # in the next flight.
+    # initial impact velocity is that at the end of a step: off by up to a step times the acceleration of 10
+    # m/s^2, a relative 6e-4, which is how much the damping is off; the restitution of 0.91 then by some 5e-5,
+    # magnified in the next flight.
     assert len(run.onsets) == 2
     assert run.onsets[0].time == pytest.approx(DROP_TIMES[0], abs=1e-8)
     assert run.onsets[0].speed == pytest.approx(DROP_SPEEDS[0], rel=5e-6)
@@ -64,7 +64,7 @@ def test_a_journal_drops_by_the_stock_recipe() -> None:
 
 @pytest.mark.parametrize("contact", EVALUATORS)
 def test_a_slider_crank_runs_alike(contact: Evaluator) -> None:
-    # steps of an eightieth of an impact, whose force sees the touch up to a step late
+    # steps of an eightieth of an impact, whose force sees the impact up to a step late
     assert_cranks(run_built_in(crank(), CRANK_STEP, contact=contact), 1e-4, 2e-3)
 
 
@@ -91,18 +91,18 @@ def test_our_connector_makes_the_steps_of_the_built_in_contact() -> None:
 def test_touches_are_those_of_the_cubic() -> None:
     # depth t - 0.35 at a rate of 1, looked at every 0.2 s
     time = np.arange(0.0, 1.1, 0.2)
-    (touch,) = touches(time.tolist(), (time - 0.35).tolist(), np.ones(time.size).tolist())
-    assert touch == pytest.approx(Onset(0.35, 1.0), rel=1e-12)
+    (impact,) = impacts(time.tolist(), (time - 0.35).tolist(), np.ones(time.size).tolist())
+    assert impact == pytest.approx(Onset(0.35, 1.0), rel=1e-12)
 
 
 def test_a_touch_ends_where_the_cubic_passes_zero_again() -> None:
     # depth (t - 0.35)(0.75 - t) at its rate, which is met exactly
     time = np.arange(0.0, 1.1, 0.2)
     depth, rate = (time - 0.35) * (0.75 - time), 1.1 - 2.0 * time
-    (touch,) = touches(time.tolist(), depth.tolist(), rate.tolist())
-    assert touch == pytest.approx(Onset(0.35, 0.4, 0.75, 0.4), rel=1e-12)  # rounding
-    # one that is in contact from the start on has not touched
-    assert touches(time[2:].tolist(), depth[2:].tolist(), rate[2:].tolist()) == ()
+    (impact,) = impacts(time.tolist(), depth.tolist(), rate.tolist())
+    assert impact == pytest.approx(Onset(0.35, 0.4, 0.75, 0.4), rel=1e-12)  # rounding
+    # one that is in contact from the start on has not been in contact
+    assert impacts(time[2:].tolist(), depth[2:].tolist(), rate[2:].tolist()) == ()
 
 
 def test_what_is_not_covered_is_refused() -> None:

@@ -27,7 +27,14 @@ from studies.common import paper_machine
 from studies.contact_laws.catalogue import POWER_LAWS
 from support_exudyn import HydraulicSupport, reference_support
 from support_exudyn.model.linkage import lumped
-from user_forces import STEEL, STEEL_35CRMO, DepthSpeed, InputError, TouchSpeed, internal_contact_stiffness
+from user_forces import (
+    STEEL,
+    STEEL_35CRMO,
+    ImpactVelocity,
+    IndentationVelocity,
+    InputError,
+    internal_contact_stiffness,
+)
 
 BY_NAME = {factor.name: factor for factor in FACTORS}
 RANGES = [factor for factor in FACTORS if not factor.choices]
@@ -245,7 +252,7 @@ def test_words_for_a_number_are_refused(name: str) -> None:
 
 @pytest.mark.parametrize("size", [0.5, 1.0, 1.5, 2.0])
 def test_the_reference_pin_is_the_papers(size: float) -> None:
-    assert pin(REFERENCE, size) == paper_machine.loose_pin(size, paper_machine.SLIDING_COEFFICIENT)
+    assert pin(REFERENCE, size) == paper_machine.clearance_joint(size, paper_machine.SLIDING_COEFFICIENT)
 
 
 def test_a_sample_decides_law_stiffness_friction_and_bore() -> None:
@@ -259,17 +266,17 @@ def test_a_sample_decides_law_stiffness_friction_and_bore() -> None:
         static_speed=2e-5,
         dynamic_speed=3e-3,
     )
-    loose = pin(sample, 1.0)
-    normal, friction = loose.contact.normal, loose.contact.friction
+    with_clearance = pin(sample, 1.0)
+    normal, friction = with_clearance.contact.normal, with_clearance.contact.friction
     assert type(normal) is POWER_LAWS["flores"]
     assert normal.restitution == 0.4
-    assert type(normal.damping_speed) is DepthSpeed
+    assert type(normal.damping_speed) is IndentationVelocity
     bearing = paper_machine.bearing(1.0)
     assert normal.stiffness == internal_contact_stiffness(bearing, STEEL, STEEL_35CRMO)
-    assert loose.contact.bearing == bearing
-    assert loose.bore == "second"
+    assert with_clearance.contact.bearing == bearing
+    assert with_clearance.bore == "second"
     assert (friction.sliding_coefficient, friction.static_speed, friction.dynamic_speed) == (0.11, 2e-5, 3e-3)
-    assert type(pin(REFERENCE, 1.0).contact.normal.damping_speed) is TouchSpeed
+    assert type(pin(REFERENCE, 1.0).contact.normal.damping_speed) is ImpactVelocity
 
 
 def test_every_sample_has_a_pin() -> None:

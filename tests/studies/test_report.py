@@ -148,7 +148,7 @@ def test_assumptions_are_marked(page: Page) -> None:
     assert cells.count("paper") > 10
     rows = page.text("th")
     for part in (
-        "B, rear link on base (the loose pin)",
+        "B, rear link on base (the clearance pin)",
         "shield, whole",
         "restitution",
         "stroke of the columns",

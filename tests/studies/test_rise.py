@@ -64,11 +64,11 @@ def test_the_stages_lie_in_the_rise_and_leave_the_edges_out() -> None:
     assert times == sorted(times)
     assert times[0] >= BEGIN
     assert times[-1] <= END
-    # of one length, so that ripples can be compared; rounding of the differences
+    # of one length, so that RMS fluctuations can be compared; rounding of the differences
     assert [b - a for a, b in rise.STAGES.values()] == pytest.approx([0.5] * 3, abs=1e-12)
 
 
-# --- trend and ripple ---
+# --- trend and RMS fluctuation ---
 
 
 @pytest.mark.parametrize("period", PERIODS)
@@ -80,14 +80,14 @@ def test_the_ripple_of_a_sine_on_a_slope_is_known(period: float, frequency: floa
     run = Record(period, {"x": lambda time: 50.0 - 7.0 * time + sine(time)})
     left = (1.0 - response(frequency, period)) * rms(sine(run.time[rise.between(run, BEGIN, END)]))
     # a slope is its own moving mean; rounding of the moving sum over values of 50
-    assert rise.ripple(run, run["x"]) == pytest.approx(left, abs=1e-11)
+    assert rise.rms_fluctuation(run, run["x"]) == pytest.approx(left, abs=1e-11)
 
 
 @pytest.mark.parametrize("period", PERIODS)
 def test_the_ripple_hardly_depends_on_how_often_is_recorded(period: float) -> None:
     run = Record(period, {"x": lambda time: np.sin(2 * np.pi * 20.0 * time)})
-    # at 20 Hz the window holds two whole periods, and one record: the whole sine is ripple
-    assert rise.ripple(run, run["x"]) == pytest.approx(np.sqrt(0.5), rel=0.025)
+    # at 20 Hz the window holds two whole periods, and one record: the whole sine is RMS fluctuation
+    assert rise.rms_fluctuation(run, run["x"]) == pytest.approx(np.sqrt(0.5), rel=0.025)
 
 
 @pytest.mark.parametrize("period", PERIODS)
@@ -96,7 +96,7 @@ def test_a_bend_leaves_a_known_rest(period: float) -> None:
     run = Record(period, {"x": lambda time: 3.0 * (time - 4.0) ** 2})
     rest = 3.0 * period**2 * (records**2 - 1) / 12  # mean of the squares of a centred window's times
     # rounding of the moving sum over values of 3
-    assert rise.ripple(run, run["x"]) == pytest.approx(rest, abs=1e-12)
+    assert rise.rms_fluctuation(run, run["x"]) == pytest.approx(rest, abs=1e-12)
 
 
 @pytest.mark.parametrize("period", PERIODS)
@@ -106,8 +106,8 @@ def test_nothing_fluctuates_if_nothing_shakes(period: float, value: float, slope
     run = Record(period, {"still": lambda t: np.full_like(t, value), "x": lambda t: value + slope * t})
     # rounding of the moving sum: a unit in the last place for each of up to 2001 records that it passed
     for begin in (rise.START, BEGIN):
-        assert rise.ripple(run, run["still"], begin) <= 2001 * 2.3e-16 * size
-    assert rise.ripple(run, run["x"]) <= 2001 * 2.3e-16 * size
+        assert rise.rms_fluctuation(run, run["still"], begin) <= 2001 * 2.3e-16 * size
+    assert rise.rms_fluctuation(run, run["x"]) <= 2001 * 2.3e-16 * size
 
 
 @pytest.mark.parametrize("begin", [rise.START, BEGIN])
@@ -117,24 +117,26 @@ def test_what_was_before_the_rise_does_not_enter(begin: float) -> None:
 
     calm = Record(courses={"x": lambda t: np.where(t < 3.0, 0.0, course(t))})
     wild = Record(courses={"x": lambda t: np.where(t < 3.0, 1e3 * np.cos(50.0 * t), course(t))})
-    assert rise.ripple(calm, calm["x"], begin) == rise.ripple(wild, wild["x"], begin)
+    assert rise.rms_fluctuation(calm, calm["x"], begin) == rise.rms_fluctuation(wild, wild["x"], begin)
     assert rise.likeness(calm, wild, "x") == pytest.approx(1.0, abs=1e-12)  # rounding
 
 
 def test_only_what_is_between_the_times_counts() -> None:
     run = Record(courses={"x": lambda t: np.where((t > 3.7) & (t < 4.3), np.sin(2 * np.pi * 20.0 * t), 0.0)})
-    shaking = rise.ripple(run, run["x"], *rise.STAGES["middle"])
+    shaking = rise.rms_fluctuation(run, run["x"], *rise.STAGES["middle"])
     assert shaking == pytest.approx(np.sqrt(0.5), rel=0.02)  # one record in the window is more than two periods
-    assert rise.ripple(run, run["x"], *rise.STAGES["early"]) <= 1e-15  # rounding of sums of zeros
-    assert rise.ripple(run, run["x"], *rise.STAGES["late"]) <= 1e-13  # of what the moving sum has passed
+    assert rise.rms_fluctuation(run, run["x"], *rise.STAGES["early"]) <= 1e-15  # rounding of sums of zeros
+    assert (
+        rise.rms_fluctuation(run, run["x"], *rise.STAGES["late"]) <= 1e-13
+    )  # of what the moving sum has passed
     # six of 18 tenths of a second shake, ten records of 600 more or less where the trend sees the borders
-    assert rise.ripple(run, run["x"]) == pytest.approx(np.sqrt(0.5 / 3.0), rel=0.05)
+    assert rise.rms_fluctuation(run, run["x"]) == pytest.approx(np.sqrt(0.5 / 3.0), rel=0.05)
 
 
 def test_a_blow_at_the_start_counts_only_if_it_is_asked_for() -> None:
     run = Record(courses={"x": lambda t: np.where((t >= 3.0) & (t < 3.02), 1.0, 0.0)})
-    assert rise.ripple(run, run["x"]) <= 1e-13  # rounding of the moving sum
-    assert rise.ripple(run, run["x"], rise.START) > 0.05
+    assert rise.rms_fluctuation(run, run["x"]) <= 1e-13  # rounding of the moving sum
+    assert rise.rms_fluctuation(run, run["x"], rise.START) > 0.05
 
 
 @pytest.mark.parametrize("period", PERIODS)
@@ -182,9 +184,9 @@ def test_the_mean_of_a_stage_is_of_magnitudes(stage: str) -> None:
 
 
 def test_a_departure_is_taken_record_by_record_in_the_rise() -> None:
-    loose = Record(courses={"x": lambda t: np.where(t < 3.0, 99.0, t**2)})
+    with_clearance = Record(courses={"x": lambda t: np.where(t < 3.0, 99.0, t**2)})
     ideal = Record(courses={"x": lambda t: np.where(t < 3.0, -1.0, t)})
-    rising = rise.departure(loose, ideal, "x")
+    rising = rise.departure(with_clearance, ideal, "x")
     time = np.linspace(3.0, 5.0, 2001)
     np.testing.assert_allclose(rising, time**2 - time, rtol=1e-12)  # rounding of the times
 

@@ -19,12 +19,12 @@ from studies.scene_detail.scenes import (
     PLAINEST,
     UNEQUAL_FULLEST,
     UNEQUAL_IDEAL,
-    UNEQUAL_LOOSE,
-    Scene,
+    UNEQUAL_WITH_CLEARANCE,
+    DetailScene,
     scenes,
 )
 from support_exudyn import Estimate, recommend
-from support_exudyn.simulation.evidence.table import Table, check_replaceable, committed, fields_of
+from support_exudyn.simulation.evidence.table import EvidenceTable, check_replaceable, committed, fields_of
 from support_exudyn.simulation.recommend import QUESTIONS, comparisons
 from tests.studies.forms import FORMS, on_the_quick_form, written
 
@@ -74,7 +74,7 @@ def test_every_element_is_added_and_taken() -> None:
 def test_added_and_taken_scenes_differ_by_one_element() -> None:
     chosen = scenes(quick=False)
 
-    def differing(scene: Scene) -> list[str]:
+    def differing(scene: DetailScene) -> list[str]:
         mine, its = (fields_of(one.scenario) for one in (scene, chosen[scene.reference]))
         return [name for name in mine if mine[name] != its[name]]
 
@@ -127,7 +127,7 @@ def test_a_change_is_written_to_the_digits_of_its_error(found: Change, said: str
 
 
 def test_the_quick_table_agrees_with_the_advice(out: Path) -> None:
-    quick = Table.load(out / study.TABLE)
+    quick = EvidenceTable.load(out / study.TABLE)
     assert {scene.name for scene in quick.scenes} == {scene.name for scene in committed().scenes}
     for question in QUESTIONS:
         advice = recommend(question, quick)
@@ -145,10 +145,10 @@ def test_the_quick_table_agrees_with_the_advice(out: Path) -> None:
 
 def test_columns_driven_apart_turn_the_canopy_by_the_clearance_only(numbers: Numbers) -> None:
     for what in ("largest_roll", "largest_yaw"):
-        loose, ideal, equal = (numbers[what, name] for name in (UNEQUAL_FULLEST, UNEQUAL_IDEAL, EQUAL))
-        assert loose["value"] > 1e3 * (ideal["value"] + equal["value"])
-        rough = numbers[what, UNEQUAL_LOOSE]["value"]
-        assert loose["value"] == pytest.approx(rough, rel=0.05)  # with friction or without
+        with_clearance, ideal, equal = (numbers[what, name] for name in (UNEQUAL_FULLEST, UNEQUAL_IDEAL, EQUAL))
+        assert with_clearance["value"] > 1e3 * (ideal["value"] + equal["value"])
+        rough = numbers[what, UNEQUAL_WITH_CLEARANCE]["value"]
+        assert with_clearance["value"] == pytest.approx(rough, rel=0.05)  # with friction or without
     # how ideal pins share the moment rigid bodies do not determine
     assert ("largest_moment", UNEQUAL_FULLEST) in numbers
     assert ("largest_moment", UNEQUAL_IDEAL) not in numbers

@@ -30,7 +30,7 @@ def numbers(tmp_path_factory: pytest.TempPathFactory) -> dict[tuple[str, str], d
             study.figure({case: Result.load(out / "runs" / file) for case, file in files.items()})
         )
     chapter = Chapter.load(out)
-    assert chapter.findings[0].startswith("Without friction the first 5 touches are within ")
+    assert chapter.findings[0].startswith("Without friction the first 5 impacts are within ")
     assert [picture.stem for picture in chapter.pictures] == ["slider_crank"]
     summary = json.loads((out / "summary.json").read_text(encoding="utf-8"))
     assert summary["study"] == "slider_crank"

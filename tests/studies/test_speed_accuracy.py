@@ -23,7 +23,7 @@ from studies.benchmarking.references import (
     times_the_goal,
 )
 from studies.benchmarking.scenes import SCENES
-from studies.benchmarking.variants import STOCK, Done, Row, Way, cheapest, front, ways
+from studies.benchmarking.variants import STOCK, Done, Way, WayRun, cheapest, front, ways
 from studies.common.chapter import Chapter
 from studies.common.study import Options
 from studies.speed_accuracy import figures as speed_accuracy_figures
@@ -40,10 +40,10 @@ def sample_off_by(**shares: float) -> Sample:
     return Sample(numbers, EXACT.path)
 
 
-def row(seconds: float, overall: float, **changes: str) -> Row:
+def row(seconds: float, overall: float, **changes: str) -> WayRun:
     """A run so far from the goal, in its units."""
     off = dict.fromkeys(GOALS, 0.0) | {"mean": overall * GOALS["mean"]}
-    return Row("drop", changes.get("family", "a"), "b", seconds, 1, 1, off)
+    return WayRun("drop", changes.get("family", "a"), "b", seconds, 1, 1, off)
 
 
 # --- measures ---
@@ -102,7 +102,7 @@ def test_the_cheapest_meets_the_goal() -> None:
 
 
 def test_a_run_that_failed_is_neither() -> None:
-    failed = Row("drop", "a", "b", math.nan, 0, 0, failure="gave up")
+    failed = WayRun("drop", "a", "b", math.nan, 0, 0, failure="gave up")
     assert front([failed]) == []
     assert cheapest([failed]) is None
 
@@ -140,7 +140,7 @@ def test_every_scene_has_its_formulations(name: str) -> None:
 
 
 def test_a_scene_of_which_every_run_failed_is_drawn_too() -> None:
-    failed = Row("drop", "a", "b", math.nan, 0, 0, failure="gave up")
+    failed = WayRun("drop", "a", "b", math.nan, 0, 0, failure="gave up")
     drawing = speed_accuracy_figures.figure("nothing", [failed])
     assert len(drawing.axes) == len(speed_accuracy_figures.PANELS)
     drawing.canvas.draw()

@@ -18,7 +18,7 @@ from studies.which_pin.tables import condition_table, together_table
 from support_exudyn.machines.four_bar_shield import PINS
 
 A, B, C, D, E = PINS
-SHIFT, RIPPLE = "mean_tip_shift_forward", "ripple_pin_forces"
+SHIFT, RIPPLE = "mean_tip_shift_forward", "rms_pin_forces"
 
 
 def said(macro: str, *args: object, study: str = "which_pin") -> str:
@@ -64,7 +64,9 @@ def test_rankings_know_the_errors(errors: float, sign: str) -> None:
     assert [row[0] for row in which_pin_tables.ranking_table(found, "by the shaking", 0.25).rows] == [
         *reversed(PINS), which_pin_cases.ALL, which_pin_cases.IDEAL,
     ]  # fmt: skip
-    assert "is the same with every" in said("conditions", [row for row in rows if row[0].startswith("ripple")])
+    assert "is the same with every" in said(
+        "conditions", [row for row in rows if row[0].startswith("rms_fluctuation")]
+    )
 
 
 def test_sums_are_said_to_add_up_if_they_do() -> None:

@@ -1,8 +1,9 @@
 """The slider-crank's pin against the engine's own contact: a ball in a hollow ball.
 
 Its Hunt-Crossley factor 3 (1 - e)/2 equals Lankarani and Nikravesh's 3 (1 - e^2)/4 if its restitution is set to
-1 - (1 - e^2)/2. It takes the rate at the end of the step that noticed the contact for the approach speed, so it
-needs steps that are short against the impact; and it has no normal at the centre, so it starts beside it.
+1 - (1 - e^2)/2. It takes the rate at the end of the step that noticed the contact for the initial impact
+velocity, so it needs steps that are short against the impact; and it has no normal at the centre, so it starts
+beside it.
 """
 
 from __future__ import annotations
@@ -19,19 +20,19 @@ from support_exudyn.formulations.redundant.solver.solver import quiet_engine
 from tests.cases.run_cases import SLIDER_PIN, loose_slider_crank, slider_crank_contact
 
 DURATION = 1.3e-3  # five impacts [s]
-STEP = 1e-8  # [s], in which the approach speed changes by up to 5e-4 m/s
+STEP = 1e-8  # [s], in which the initial impact velocity changes by up to 5e-4 m/s
 ASIDE = 1e-12  # of the slider, so that there is a normal [m]
 
 
-class Seen(NamedTuple):
+class EvaluationContext(NamedTuple):
     time: float
     speed: float
 
 
-def twin_onsets() -> list[Seen]:
+def twin_onsets() -> list[EvaluationContext]:
     """Onsets of the same mechanism with the engine's contact, fixed steps."""
     scene = build(loose_slider_crank(DURATION))
-    mbs, pin = scene.mbs, scene.loose_pins[SLIDER_PIN]
+    mbs, pin = scene.mbs, scene.clearance_joints[SLIDER_PIN]
     contact = slider_crank_contact()
     mbs.SetObjectParameter(pin.connector.object, "activeConnector", False)
     position = mbs.systemData.GetODE2Coordinates(exudyn.ConfigurationType.Initial)
@@ -64,7 +65,7 @@ def twin_onsets() -> list[Seen]:
     mbs.systemData.SetODE2Coordinates(position, exudyn.ConfigurationType.Initial)
     mbs.systemData.SetODE2Coordinates_t(velocity, exudyn.ConfigurationType.Initial)
 
-    seen: list[Seen] = []
+    context: list[EvaluationContext] = []
     depths: list[float] = []  # at the ends of steps
 
     def drive(mbs: object, t: float) -> bool:
@@ -76,10 +77,10 @@ def twin_onsets() -> list[Seen]:
         depths.append(-float(gap))
         if t > 0.0 and len(depths) > 3 and depths[-2] <= 0.0 < depths[-1]:
             before, last, now = depths[-3:]
-            share = -last / (now - last)  # of the step, when it touches
+            share = -last / (now - last)  # of the step, when it makes contact
             slope = (now - last) / STEP
             bend = (now - 2.0 * last + before) / STEP**2
-            seen.append(Seen(t - (1.0 - share) * STEP, slope + (share - 0.5) * STEP * bend))
+            context.append(EvaluationContext(t - (1.0 - share) * STEP, slope + (share - 0.5) * STEP * bend))
         return True
 
     mbs.SetPreStepUserFunction(drive)
@@ -94,23 +95,23 @@ def twin_onsets() -> list[Seen]:
     settings.solution.file.write = False
     with quiet_engine():
         mbs.SolveDynamic(settings)
-    return seen
+    return context
 
 
 @pytest.fixture(scope="module")
-def twin() -> list[Seen]:
+def twin() -> list[EvaluationContext]:
     return twin_onsets()
 
 
 @pytest.mark.parametrize("backend", ["python", "symbolic"])
-def test_onsets_are_those_of_the_engines_own_contact(twin: list[Seen], backend: str) -> None:
+def test_onsets_are_those_of_the_engines_own_contact(twin: list[EvaluationContext], backend: str) -> None:
     scenario = loose_slider_crank(
         DURATION, step=5e-7, solver=SolverSettings(impact_steps=1024, backend=backend)
     )
     ours = simulate(scenario).onsets[SLIDER_PIN]
     assert len(ours) == len(twin) == 5
     for mine, theirs in zip(ours, twin, strict=True):
-        # asked for; ours are right to 1e-5 at the fifth; theirs are damped with approach speeds that are off by
-        # up to a step's change, 3e-4 of them, which changes the restitution by a tenth of that
+        # asked for; ours are right to 1e-5 at the fifth; theirs are damped with initial impact velocities that
+        # are off by up to a step's change, 3e-4 of them, which changes the restitution by a tenth of that
         assert mine.time == pytest.approx(theirs.time, rel=1e-4)
         assert mine.speed == pytest.approx(theirs.speed, rel=1e-4)

@@ -13,7 +13,7 @@ import pytest
 from studies.common import rise
 from studies.common.chapter import Chapter
 from studies.which_pin import cases as which_pin_cases
-from studies.which_pin import closed_form as slack
+from studies.which_pin import closed_form as clearance
 from studies.which_pin.posture import loads, mean_shift
 from studies.which_pin.tables import in_order
 from support_exudyn import ClearancePin, CubicStep, Result, SolverSettings, reference_support, simulate
@@ -55,8 +55,8 @@ def test_front_links_pins_move_the_tip_most_and_the_hinge_hardly(numbers: Number
 def test_virtual_work_tells_where_the_worn_support_stands(numbers: Numbers, axis: str, friction: float) -> None:
     for pins in (*((pin,) for pin in PINS), PINS):
         case = which_pin_cases.case_name(pins, friction)
-        # first order in slack over length: 0.2 % alone, 0.6 to 0.8 % for five; the hinge alone, whose journal
-        # crosses its bore, 1 % of next to nothing
+        # first order in clearance over length: 0.2 % alone, 0.6 to 0.8 % for five; the hinge alone, whose
+        # journal crosses its bore, 1 % of next to nothing
         assert numbers[f"mean_{axis}", case]["value"] == pytest.approx(
             numbers[f"closed_form_{axis}", case]["value"], rel=0.015
         )
@@ -68,8 +68,8 @@ def test_shifts_add_up_and_shaking_does_so_only_without_friction(numbers: Number
     whole = which_pin_cases.case_name(PINS, friction)
     shift = sum(alone(numbers, "mean_tip_shift_forward", friction).values())
     assert numbers["mean_tip_shift_forward", whole]["value"] == pytest.approx(shift, rel=0.01)  # 0.5 and 0.8 %
-    shaking = np.hypot.reduce(list(alone(numbers, "ripple_pin_forces", friction).values()))
-    ratio = numbers["ripple_pin_forces", whole]["value"] / shaking
+    shaking = np.hypot.reduce(list(alone(numbers, "rms_pin_forces", friction).values()))
+    ratio = numbers["rms_pin_forces", whole]["value"] / shaking
     # 2.4, and without friction 1.14, nearly as independent vibrations would. Half as much again, and twice, if
     # the mass by which a pin is damped were taken with the other ones open
     assert (1.6 < ratio < 3.0) if friction else (1.05 < ratio < 1.25)
@@ -80,7 +80,7 @@ def test_friction_makes_the_shaking_and_hardly_moves_the_tip(numbers: Numbers) -
         case, smooth = which_pin_cases.case_name(PINS, friction), which_pin_cases.case_name(PINS, other)
         shift = (numbers["mean_tip_shift_forward", one]["value"] for one in (case, smooth))
         assert np.ptp(list(shift)) < 0.2  # [mm] of 17
-        shaken, still = (numbers["ripple_pin_forces", one]["value"] for one in (case, smooth))
+        shaken, still = (numbers["rms_pin_forces", one]["value"] for one in (case, smooth))
         assert shaken > 8.0 * still  # 13
 
 
@@ -93,7 +93,7 @@ def test_order_joins_what_is_alike() -> None:
 
 
 def test_influence_is_that_of_the_linkage_laid_out_anew() -> None:
-    stand = slack.standing(SUPPORT)
+    stand = clearance.standing(SUPPORT)
     for name in PINS:
         for axis in (0, 1):
             opening = [0.0, 0.0]
@@ -101,28 +101,28 @@ def test_influence_is_that_of_the_linkage_laid_out_anew() -> None:
             moved = eccentric(SUPPORT.linkage(), {name: (opening[0], opening[1])})
             way = np.subtract(moved.points["tip"].point, SUPPORT.linkage().points["tip"].point)
             # second order: 1e-5 m over links of 1 m, amplified twice
-            np.testing.assert_allclose(slack.influence(stand, name)[:2, axis], way / 1e-5, atol=1e-4)
+            np.testing.assert_allclose(clearance.influence(stand, name)[:2, axis], way / 1e-5, atol=1e-4)
 
 
 def test_shift_is_the_work_of_a_unit_force_at_the_tip() -> None:
-    stand = slack.standing(SUPPORT)
-    pins = dict.fromkeys(PINS, which_pin_cases.slack_pin(0.0))
+    stand = clearance.standing(SUPPORT)
+    pins = dict.fromkeys(PINS, which_pin_cases.clearance_pin(0.0))
     tip = SUPPORT.linkage().points["tip"].point
-    weight = slack.forces(stand, {})
-    for axis, unit in ((slack.TIP_X, (1.0, 0.0)), (slack.TIP_Y, (0.0, 1.0))):
-        of_unit = slack.forces(stand, {}, [slack.Press("canopy", tip, unit)]) - weight
-        for n, (name, opening) in enumerate(slack.openings(stand, pins).items()):
+    weight = clearance.forces(stand, {})
+    for axis, unit in ((clearance.TIP_X, (1.0, 0.0)), (clearance.TIP_Y, (0.0, 1.0))):
+        of_unit = clearance.forces(stand, {}, [clearance.Press("canopy", tip, unit)]) - weight
+        for n, (name, opening) in enumerate(clearance.openings(stand, pins).items()):
             # virtual work; rounding of forces of 5e4 N
             work = of_unit[2 * n : 2 * n + 2] @ opening
-            assert slack.shifts(stand, pins)[name][axis] == pytest.approx(work, rel=1e-8, abs=1e-12)
+            assert clearance.shifts(stand, pins)[name][axis] == pytest.approx(work, rel=1e-8, abs=1e-12)
 
 
 def test_journals_lie_along_their_load_by_clearance_and_depth() -> None:
-    stand = slack.standing(SUPPORT)
-    pin = which_pin_cases.slack_pin(0.0)
-    for name, opening in slack.openings(stand, dict.fromkeys(PINS, pin)).items():
+    stand = clearance.standing(SUPPORT)
+    pin = which_pin_cases.clearance_pin(0.0)
+    for name, opening in clearance.openings(stand, dict.fromkeys(PINS, pin)).items():
         first = 2 * PINS.index(name)
-        load = slack.forces(stand, {})[first : first + 2]
+        load = clearance.forces(stand, {})[first : first + 2]
         size = float(np.hypot(*load))
         depth = float(np.hypot(*opening)) - pin.contact.bearing.clearance
         assert pin.contact.normal.elastic_force(depth) == pytest.approx(size, rel=1e-9)  # of a root
@@ -130,7 +130,7 @@ def test_journals_lie_along_their_load_by_clearance_and_depth() -> None:
 
 
 def test_a_roof_turns_the_shift_around() -> None:
-    under = loads(which_pin_cases.slack_pin(0.0))
+    under = loads(which_pin_cases.clearance_pin(0.0))
     whole = {name: sum(one.mean(pin) for pin in PINS) for name, one in under.items()}
     # the weight of links and shield leans the four-bar to the rear, what presses on the canopy in front pushes
     # it forward: -17 and +19 mm
@@ -148,7 +148,7 @@ def test_every_pin_may_have_its_own_law_and_clearance(out: Path) -> None:
 
     own = {
         "rear_base": pin(0.5e-3, Exact(stiffness=2.7e10, restitution=0.5), Ambrosio(sliding_coefficient=0.1)),
-        "front_base": pin(1.0e-3, which_pin_cases.slack_pin(0.0).contact.normal),
+        "front_base": pin(1.0e-3, which_pin_cases.clearance_pin(0.0).contact.normal),
         "rear_shield": pin(2.0e-3, KelvinVoigt(stiffness=4e8, damping=4e5)),
         "front_shield": pin(
             0.8e-3, Exact(stiffness=2e10, restitution=0.3), Threlfall(sliding_coefficient=0.15)
@@ -160,13 +160,13 @@ def test_every_pin_may_have_its_own_law_and_clearance(out: Path) -> None:
     run, plain = simulate(scene), Result.load(out / "runs" / "ideal.h5")
     shift = float(rise.departure(run, plain, "tip.x").mean())
     # as `test_virtual_work_tells_where_the_worn_support_stands`
-    assert shift == pytest.approx(mean_shift(own)[slack.TIP_X], rel=0.01)
+    assert shift == pytest.approx(mean_shift(own)[clearance.TIP_X], rel=0.01)
     assert shift < -8e-3
 
 
 def test_the_closed_form_knows_inertia() -> None:
-    middle, early = slack.stands(SUPPORT, CubicStep(), [4.0, 3.1])
-    held = slack.standing(SUPPORT)
+    middle, early = clearance.stands(SUPPORT, CubicStep(), [4.0, 3.1])
+    held = clearance.standing(SUPPORT)
     # 0.75 m/s^2 upward at the start, none in the middle of the stroke
     assert early.acceleration[10] > 0.5
     assert abs(middle.acceleration[10]) < 0.1

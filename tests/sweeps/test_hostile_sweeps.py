@@ -21,7 +21,7 @@ from user_forces import FrictionLaw, InputError, value
 
 @value
 class Hostile(FrictionLaw):
-    """Does something wrong at the first touch."""
+    """Does something wrong at the first impact."""
 
     kind: str
 

@@ -95,7 +95,7 @@ def test_runs_that_miss_their_accuracy_are_told(
     path = write_sweep(tmp_path, speeds(2))
     text = path.read_text(encoding="utf-8").replace("[scenario]\n", '[scenario]\naccuracy = "draft"\n')
     path.write_text(text, encoding="utf-8")
-    monkeypatch.setattr(Result, "met", False)  # as where every touch multiplies the errors before it
+    monkeypatch.setattr(Result, "met", False)  # as where every impact multiplies the errors before it
     outcome = do(path)
     table = read_table(outcome.table).to_pydict()
     assert table["status"] == ["done", "done"]

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from support_exudyn.sweeps import Record, grid, latin_hypercube, read_sweep, side_by_side
 from support_exudyn.sweeps.file import keys_of, replaced
 from support_exudyn.sweeps.plan import Range
-from support_exudyn.sweeps.store import Number, Row
+from support_exudyn.sweeps.store import StoredNumber, StoredRun
 from user_forces.values.value import InputError
 
 SCENARIO = """
@@ -165,18 +165,21 @@ def test_a_scenario_is_needed(tmp_path: Path) -> None:
 
 
 def test_rows_are_read_as_they_were_written_or_not_at_all() -> None:
-    row = Row(
-        "abc", "done", wall_time=0.1, numbers={"b": Number(1 / 3, None, "N"), "a": Number(-0.0, 1e-9, "m")}
+    row = StoredRun(
+        "abc",
+        "done",
+        wall_time=0.1,
+        numbers={"b": StoredNumber(1 / 3, None, "N"), "a": StoredNumber(-0.0, 1e-9, "m")},
     )
     text = row.to_text()
-    again = Row.from_text(text)
+    again = StoredRun.from_text(text)
     assert again == row
     assert list(again.numbers) == ["b", "a"]
     for place in range(0, len(text), 7):
         with pytest.raises(ValueError, match="digest"):
-            Row.from_text(text[:place] + chr(ord(text[place]) ^ 1) + text[place + 1 :])
+            StoredRun.from_text(text[:place] + chr(ord(text[place]) ^ 1) + text[place + 1 :])
         with pytest.raises(ValueError, match="digest"):
-            Row.from_text(text[:place])
+            StoredRun.from_text(text[:place])
 
 
 def test_a_misspelt_field_is_told_with_the_sweep_and_its_scenario(tmp_path: Path) -> None:

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from support_exudyn.sweeps import read_sweep, sweep, work
-from support_exudyn.sweeps.store import Row, Store
+from support_exudyn.sweeps.store import Store, StoredRun
 from support_exudyn.sweeps.work import Task
 from support_exudyn.sweeps.workers import ProcessEndedError
 from tests.cases.sweep_cases import columns, rows, speeds, start, write_sweep
@@ -20,7 +20,7 @@ RUNS = 18
 SOON = 60.0  # [s]; what comes at all has come by then, on a busy machine too
 
 
-def killed_at(place: int, store: Store, task: Task) -> Row:
+def killed_at(place: int, store: Store, task: Task) -> StoredRun:
     """In a worker: what one does whose memory is short for a single run."""
     if task.scenario.machine.speed == 0.2:  # type: ignore[attr-defined]
         os.kill(os.getpid(), signal.SIGKILL)

@@ -17,7 +17,7 @@ from pyarrow import csv
 
 from support_exudyn import reference_support
 from support_exudyn.files import read_scenario
-from support_exudyn.files.hdf5 import seal
+from support_exudyn.files.hdf5 import with_checksum
 from support_exudyn.files.temporary import PREFIX
 from support_exudyn.model.drives.drive import CubicStep
 from support_exudyn.scenario.scenario import Scenario
@@ -25,8 +25,8 @@ from support_exudyn.simulation.result import FORMAT
 from support_exudyn.sweeps import key as keys
 from support_exudyn.sweeps.key import LENGTH
 from support_exudyn.sweeps.plan import Plan, Record
-from support_exudyn.sweeps.store import Number, Row, Store
-from support_exudyn.sweeps.table import Table, read_table
+from support_exudyn.sweeps.store import Store, StoredNumber, StoredRun
+from support_exudyn.sweeps.table import SweepTable, read_table
 from tests.hostile import left_behind, posix_only, with_own_files
 from tests.processes import ROOT, environment
 
@@ -124,11 +124,11 @@ def test_a_key_depends_on_the_source_of_laws_of_ones_own(
     own = import_module("law_of_ones_own").OnesOwn(stiffness=1e10, restitution=0.9)
     usual = scenario(tmp_path)
     pin = usual.clearance_pins["rear_base"]
-    loose = replace(usual, pins={"rear_base": replace(pin, contact=replace(pin.contact, normal=own))})
-    before = keys.key(loose), keys.key(usual)
+    with_clearance = replace(usual, pins={"rear_base": replace(pin, contact=replace(pin.contact, normal=own))})
+    before = keys.key(with_clearance), keys.key(usual)
     law.write_text(text + "# changed\n", encoding="utf-8")
     keys._source.cache_clear()  # as in a new process
-    after = keys.key(loose), keys.key(usual)
+    after = keys.key(with_clearance), keys.key(usual)
     assert after[0] != before[0]
     assert after[1] == before[1]
 
@@ -167,14 +167,14 @@ def test_what_a_machine_remembers_is_not_sent(tmp_path: Path) -> None:
 # --- the store ---
 
 
-def row(name: str, **more: Any) -> Row:
-    return Row(name, "done", numbers={"force.mean": Number(1.0, 0.5, "N")}, **more)
+def row(name: str, **more: Any) -> StoredRun:
+    return StoredRun(name, "done", numbers={"force.mean": StoredNumber(1.0, 0.5, "N")}, **more)
 
 
-def kept(store: Store, name: str) -> Row:
+def kept(store: Store, name: str) -> StoredRun:
     store.runs.mkdir(parents=True, exist_ok=True)
     store.rows.mkdir(parents=True, exist_ok=True)
-    store.run_file(name).write_bytes(seal(b"a run", FORMAT))
+    store.run_file(name).write_bytes(with_checksum(b"a run", FORMAT))
     return store.put(row(name))
 
 
@@ -258,13 +258,13 @@ def test_columns_are_in_the_order_of_the_first_row_whenever_rows_come(tmp_path: 
     def no_scenario(point: Any) -> Scenario:
         raise AssertionError
 
-    def of(names: str, value: float) -> dict[str, Number]:
-        return {name: Number(value, None if name == "c" else 0.25, "N") for name in names}
+    def of(names: str, value: float) -> dict[str, StoredNumber]:
+        return {name: StoredNumber(value, None if name == "c" else 0.25, "N") for name in names}
 
-    table = Table(Plan([{"x": 3, "y": "q"}, {"x": 1, "y": "p"}, {"x": 2, "y": "r"}], no_scenario))
-    table.set(2, Row("k2", "done", wall_time=0.5, numbers=of("ca", 2.0)))
-    table.set(1, Row("", "failed", "because"))
-    table.set(0, Row("k0", "done", wall_time=0.25, numbers=of("ab", 1.0)))
+    table = SweepTable(Plan([{"x": 3, "y": "q"}, {"x": 1, "y": "p"}, {"x": 2, "y": "r"}], no_scenario))
+    table.set(2, StoredRun("k2", "done", wall_time=0.5, numbers=of("ca", 2.0)))
+    table.set(1, StoredRun("", "failed", "because"))
+    table.set(0, StoredRun("k0", "done", wall_time=0.25, numbers=of("ab", 1.0)))
     table.write(tmp_path)
     found = read_table(tmp_path).to_pydict()
     assert found == {

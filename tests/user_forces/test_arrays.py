@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.cases.law_cases import BEARING, FRICTION_LAWS, NORMAL_LAWS, kind_of
-from user_forces import FrictionLaw, JournalContact, NormalLaw, Touch
+from user_forces import FrictionLaw, Impact, JournalContact, NormalLaw
 from user_forces.contact import SlipHistory
 from user_forces.expressions import scalar
 from user_forces.expressions.arrays import Array, as_number, values_of
@@ -24,9 +24,9 @@ some = st.lists(numbers, min_size=1, max_size=6)
 # depths from rounding to where the shortest range of a law ends, rates of impacts; zero is a case of its own
 depths = st.floats(-12.0, -3.7).map(lambda power: 10.0**power)
 speeds = st.floats(-1.0, 1.0) | st.sampled_from([0.0, 1e-4, -1e-4, 1e-2, -1e-2])
-touches = st.floats(0.0, 1.0) | st.just(0.0)
+impacts = st.floats(0.0, 1.0) | st.just(0.0)
 masses = st.floats(0.0, 5.0).map(lambda power: 10.0**power)
-columns = st.lists(st.tuples(depths, speeds, speeds, touches, masses), min_size=1, max_size=8)
+columns = st.lists(st.tuples(depths, speeds, speeds, impacts, masses), min_size=1, max_size=8)
 
 
 def assert_same(result: float, expected: list[float], scale: float = 0.0) -> None:
@@ -106,10 +106,10 @@ def test_nothing_is_written_into_what_was_given(values: list[float]) -> None:
 @given(rows=columns)
 def test_normal_laws(law: NormalLaw, rows: list[tuple[float, ...]]) -> None:
     depth, _, rate, speed, mass = (as_number(column) for column in np.array(rows).T)
-    forces = [law(d, r, Touch(v, m)) for d, _, r, v, m in rows]
+    forces = [law(d, r, Impact(v, m)) for d, _, r, v, m in rows]
     # a dashpot's force is a difference of larger ones
     scale = max(law.elastic_force(d) + abs(f) for (d, *_), f in zip(rows, forces, strict=True))
-    assert_same(law(depth, rate, Touch(speed, mass)), forces, scale)
+    assert_same(law(depth, rate, Impact(speed, mass)), forces, scale)
     assert_same(law.elastic_force(depth), [law.elastic_force(d) for d, *_ in rows])
     assert_same(law.elastic_energy(depth), [law.elastic_energy(d) for d, *_ in rows])
 
@@ -117,15 +117,15 @@ def test_normal_laws(law: NormalLaw, rows: list[tuple[float, ...]]) -> None:
 @pytest.mark.parametrize("law", FRICTION_LAWS, ids=kind_of)
 @given(rows=columns)
 def test_friction_laws(law: FrictionLaw, rows: list[tuple[float, ...]]) -> None:
-    stretch, slip, _, _, normal = (as_number(column) for column in np.array(rows).T)
+    run_of_steps, slip, _, _, normal = (as_number(column) for column in np.array(rows).T)
     expected = [law(s, n, d) for d, s, _, _, n in rows]
-    assert_same(law(slip, normal, stretch), expected, max(n for *_, n in rows))
+    assert_same(law(slip, normal, run_of_steps), expected, max(n for *_, n in rows))
 
 
 @pytest.mark.parametrize("friction", FRICTION_LAWS, ids=kind_of)
 @given(
     rows=st.lists(
-        st.tuples(st.floats(0.0, 7.0), st.floats(-2e-5, 1.5e-4), speeds, speeds, speeds, speeds, touches),
+        st.tuples(st.floats(0.0, 7.0), st.floats(-2e-5, 1.5e-4), speeds, speeds, speeds, speeds, impacts),
         min_size=1,
         max_size=8,
     )
@@ -139,13 +139,13 @@ def test_a_whole_contact(friction: FrictionLaw, rows: list[tuple[float, ...]]) -
     still = SlipHistory(1e-6, 1e-3, 0.0)  # no time passes between records
     result = contact.force(
         *(as_number(values) for values in given_motion),
-        Touch(as_number(speed), as_number(np.full(len(rows), 700.0))),
+        Impact(as_number(speed), as_number(np.full(len(rows), 700.0))),
         SlipHistory(as_number(np.full(len(rows), 1e-6)), as_number(np.full(len(rows), 1e-3)), 0.0),
     )
-    # places are known to their last digit, and a damped force that jumps at the touch hangs on it
+    # places are known to their last digit, and a damped force that jumps at the impact hangs on it
     expected = [
         [
-            contact.force(near * x, near * y, *others, Touch(v, 700.0), still)
+            contact.force(near * x, near * y, *others, Impact(v, 700.0), still)
             for near in (1.0 - 2.0**-51, 1.0, 1.0 + 2.0**-51)
         ]
         for (x, y, *others), v in zip(given_motion.T.tolist(), speed.tolist(), strict=True)

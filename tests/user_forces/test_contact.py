@@ -10,20 +10,20 @@ from hypothesis import strategies as st
 from tests.cases.machine_cases import contact
 from user_forces import (
     ContactForce,
-    DepthSpeed,
     Frictionless,
+    Impact,
+    IndentationVelocity,
     InputError,
     JournalContact,
     LankaraniNikravesh,
     LuGre,
     SlipHistory,
-    Touch,
 )
 
 CONTACT = contact()
 CLEARANCE = CONTACT.bearing.clearance
 BORE, JOURNAL = CONTACT.bearing.bore_radius, CONTACT.bearing.journal_radius
-TOUCH = Touch(speed=0.1, mass=500.0)
+IMPACT = Impact(speed=0.1, mass=500.0)
 
 angles = st.floats(-math.pi, math.pi)
 speeds = st.floats(-2.0, 2.0)
@@ -38,7 +38,7 @@ def pushed(
     velocity: tuple[float, float] = (0.0, 0.0),
     bore_spin: float = 0.0,
     journal_spin: float = 0.0,
-    touch: Touch | None = TOUCH,
+    impact: Impact | None = IMPACT,
     law: JournalContact = CONTACT,
     history: SlipHistory | None = None,
 ) -> ContactForce:
@@ -46,14 +46,14 @@ def pushed(
     e = CLEARANCE + depth
     x, y = e * math.cos(angle), e * math.sin(angle)
     past = () if history is None else (history,)
-    return law.force(x, y, *velocity, bore_spin, journal_spin, touch, *past)
+    return law.force(x, y, *velocity, bore_spin, journal_spin, impact, *past)
 
 
 # --- geometry and normal force ---
 
 
 def test_force_is_zero_when_concentric() -> None:
-    got = CONTACT.force(0.0, 0.0, 0.3, -0.2, 5.0, 7.0, TOUCH)
+    got = CONTACT.force(0.0, 0.0, 0.3, -0.2, 5.0, 7.0, IMPACT)
     assert (got.force_x, got.force_y, got.normal_force, got.friction_force) == (0.0, 0.0, 0.0, 0.0)
     assert got.depth == -CLEARANCE
 
@@ -64,7 +64,7 @@ def test_force_is_zero_in_the_gap() -> None:
 
 
 def test_force_is_zero_until_contact_has_begun() -> None:
-    got = pushed(depth=1e-4, velocity=(0.3, 0.2), journal_spin=5.0, touch=None)
+    got = pushed(depth=1e-4, velocity=(0.3, 0.2), journal_spin=5.0, impact=None)
     assert (got.force_x, got.force_y, got.normal_force, got.friction_force) == (0.0, 0.0, 0.0, 0.0)
     assert not got.clamped
 
@@ -114,7 +114,7 @@ def test_depth_rate_and_slip_are_the_same_whether_contact_has_begun_or_not(
     x: float, y: float, velocity: tuple[float, float], spins: tuple[float, float]
 ) -> None:
     apart = CONTACT.force(x, y, *velocity, *spins, None)
-    begun = CONTACT.force(x, y, *velocity, *spins, TOUCH)
+    begun = CONTACT.force(x, y, *velocity, *spins, IMPACT)
     assert apart[:3] == begun[:3]
     assert apart.journal_arm == begun.journal_arm
 
@@ -256,24 +256,24 @@ def test_friction_of_the_pair_never_gives_energy(
     turn=angles,
     velocity=st.tuples(speeds, speeds),
     spins=st.tuples(spins, spins),
-    approach=approaches,
+    impact_velocity=approaches,
 )
 def test_force_turns_with_the_axes(
-    angle: float, turn: float, velocity: tuple[float, float], spins: tuple[float, float], approach: float
+    angle: float, turn: float, velocity: tuple[float, float], spins: tuple[float, float], impact_velocity: float
 ) -> None:
     c, s = math.cos(turn), math.sin(turn)
 
     def turned(x: float, y: float) -> tuple[float, float]:
         return c * x - s * y, s * x + c * y
 
-    touch = Touch(approach, 500.0)
-    one = pushed(1e-4, angle, velocity, *spins, touch)
-    two = pushed(1e-4, angle + turn, turned(*velocity), *spins, touch)
+    impact = Impact(impact_velocity, 500.0)
+    one = pushed(1e-4, angle, velocity, *spins, impact)
+    two = pushed(1e-4, angle + turn, turned(*velocity), *spins, impact)
     # rounding of depth and slip: 1e-18 m of 1e-4 m, and 1e-15 m/s on a ramp of 1e-2 m/s
     scale = (
         1.0
         + math.hypot(one.force_x, one.force_y)
-        + abs(one.rate / approach) * CONTACT.normal.elastic_force(1e-4)
+        + abs(one.rate / impact_velocity) * CONTACT.normal.elastic_force(1e-4)
     )
     assert (two.force_x, two.force_y) == pytest.approx(turned(one.force_x, one.force_y), abs=1e-11 * scale)
 
@@ -305,17 +305,17 @@ def test_there_is_no_friction_by_default() -> None:
 
 
 def test_approach_speed_is_handed_to_the_law() -> None:
-    soft, hard = (pushed(velocity=(0.05, 0.0), touch=Touch(v, 500.0)) for v in (0.1, 0.2))
+    soft, hard = (pushed(velocity=(0.05, 0.0), impact=Impact(v, 500.0)) for v in (0.1, 0.2))
     elastic = CONTACT.normal.elastic_force(soft.depth)
     # textbook damping is inverse to it; rounding of the difference
     assert soft.normal_force - elastic == pytest.approx(2.0 * (hard.normal_force - elastic), rel=1e-11)
 
 
 def test_mass_is_handed_to_the_law() -> None:
-    law = replace(CONTACT, normal=replace(CONTACT.normal, damping_speed=DepthSpeed()))
-    light, heavy = (pushed(velocity=(0.05, 0.0), touch=Touch(0.0, m), law=law) for m in (100.0, 400.0))
+    law = replace(CONTACT, normal=replace(CONTACT.normal, damping_speed=IndentationVelocity()))
+    light, heavy = (pushed(velocity=(0.05, 0.0), impact=Impact(0.0, m), law=law) for m in (100.0, 400.0))
     elastic = CONTACT.normal.elastic_force(light.depth)
-    # damping without an approach speed goes with the root of the mass; rounding of the difference
+    # damping without an initial impact velocity goes with the root of the mass; rounding of the difference
     assert heavy.normal_force - elastic == pytest.approx(2.0 * (light.normal_force - elastic), rel=1e-11)
 
 
@@ -349,7 +349,7 @@ def test_a_step_without_history_begins_with_straight_bristles() -> None:
     assert got.deflection == 0.0
 
 
-@pytest.mark.parametrize("place", [{"depth": -1e-6}, {"touch": None}])
+@pytest.mark.parametrize("place", [{"depth": -1e-6}, {"impact": None}])
 def test_bristles_are_straight_where_there_is_no_contact(place: dict[str, object]) -> None:
     got = pushed(velocity=(0.0, 0.01), law=BRISTLES, history=SlipHistory(1e-6, 0.01, 1e-4), **place)
     assert (got.deflection, got.friction_force) == (0.0, 0.0)
@@ -373,8 +373,8 @@ def test_a_normal_law_in_place_of_a_friction_law_is_refused() -> None:
         replace(CONTACT, friction=law)
 
 
-@pytest.mark.parametrize("touch", [None, TOUCH])
-def test_from_the_middle_every_way_leads_outwards(touch: Touch | None) -> None:
-    got = CONTACT.force(0.0, 0.0, 0.3, -0.4, 0.0, 0.0, touch)
+@pytest.mark.parametrize("impact", [None, IMPACT])
+def test_from_the_middle_every_way_leads_outwards(impact: Impact | None) -> None:
+    got = CONTACT.force(0.0, 0.0, 0.3, -0.4, 0.0, 0.0, impact)
     assert got.depth == -CONTACT.bearing.clearance
     assert got.rate == 0.5

@@ -13,14 +13,14 @@ from scipy.integrate import solve_ivp
 from tests.cases.law_cases import NORMAL_LAWS, kind_of, law_rebound
 from user_forces import (
     DampingSpeed,
-    DepthSpeed,
     Exact,
     Hysteresis,
+    Impact,
+    ImpactVelocity,
+    IndentationVelocity,
     InputError,
     NormalLaw,
     PowerLaw,
-    Touch,
-    TouchSpeed,
 )
 
 speeds = st.floats(0.02, 2.0)
@@ -35,7 +35,7 @@ def law(**changes: object) -> PowerLaw:
     return Exact(**fields | changes)
 
 
-# --- DepthSpeed ---
+# --- IndentationVelocity ---
 
 
 @given(speed=speeds, mass=masses, share=st.floats(0.0, 1.0))
@@ -44,7 +44,7 @@ def test_depth_speed_is_the_touch_speed_as_deep_as_a_free_impact_goes(
 ) -> None:
     stored = share * 0.5 * mass * speed**2
     # rounding of a square and its root, at the deepest point
-    assert DepthSpeed()(Touch(speed, mass), stored) == pytest.approx(speed, rel=1e-15)
+    assert IndentationVelocity()(Impact(speed, mass), stored) == pytest.approx(speed, rel=1e-15)
 
 
 @given(speed=speeds, mass=masses, times=st.floats(1.0, 1e6))
@@ -52,23 +52,25 @@ def test_depth_speed_deeper_down_is_that_of_an_impact_that_turns_there(
     speed: float, mass: float, times: float
 ) -> None:
     stored = times * 0.5 * mass * speed**2
-    w = DepthSpeed()(Touch(speed, mass), stored)
+    w = IndentationVelocity()(Impact(speed, mass), stored)
     # rounding of a square and its root
     assert 0.5 * mass * w**2 == pytest.approx(stored, rel=1e-14)
 
 
 @given(speed=st.floats(0.0, 2.0), mass=masses, stored=energies)
 def test_depth_speed_is_never_zero(speed: float, mass: float, stored: float) -> None:
-    assert DepthSpeed()(Touch(speed, mass), stored) > 0.0
+    assert IndentationVelocity()(Impact(speed, mass), stored) > 0.0
 
 
 def test_depth_speed_is_not_zero_where_nothing_moves_and_nothing_is_stored() -> None:
-    assert DepthSpeed()(Touch(0.0, 3.0), 0.0) > 0.0
+    assert IndentationVelocity()(Impact(0.0, 3.0), 0.0) > 0.0
 
 
 @given(v=st.floats(0.0, 2.0), dv=st.floats(0.0, 0.1), stored=energies, more=st.floats(0.0, 1.0), mass=masses)
 def test_depth_speed_is_continuous(v: float, dv: float, stored: float, more: float, mass: float) -> None:
-    change = DepthSpeed()(Touch(v + dv, mass), stored + more) - DepthSpeed()(Touch(v, mass), stored)
+    change = IndentationVelocity()(Impact(v + dv, mass), stored + more) - IndentationVelocity()(
+        Impact(v, mass), stored
+    )
     swing = math.sqrt(2.0 * (stored + more) / mass) - math.sqrt(2.0 * stored / mass)
     # the larger of two numbers changes by no more than either; rounding of speeds up to 200 m/s
     assert 0.0 <= change <= max(dv, swing) + 1e-12
@@ -80,13 +82,13 @@ def test_force_does_not_jump_where_the_depth_takes_over(
 ) -> None:
     normal = law(exponent=n)
     speed = math.sqrt(2.0 * normal.elastic_energy(depth) / mass)  # its free impact turns at this depth
-    at = normal(depth, rate, Touch(speed, mass))
+    at = normal(depth, rate, Impact(speed, mass))
     size = normal.elastic_force(depth) * (1.0 + normal.damping_factor * abs(rate) / speed)
     # all exponents of depth and speed are below 5, so a change of 1e-9 changes the force by less than 1e-8
-    assert normal(depth * (1.0 + 1e-9), rate, Touch(speed, mass)) == pytest.approx(at, abs=1e-8 * size)
-    assert normal(depth * (1.0 - 1e-9), rate, Touch(speed, mass)) == pytest.approx(at, abs=1e-8 * size)
-    assert normal(depth, rate, Touch(speed * (1.0 + 1e-9), mass)) == pytest.approx(at, abs=1e-8 * size)
-    assert normal(depth, rate, Touch(speed * (1.0 - 1e-9), mass)) == pytest.approx(at, abs=1e-8 * size)
+    assert normal(depth * (1.0 + 1e-9), rate, Impact(speed, mass)) == pytest.approx(at, abs=1e-8 * size)
+    assert normal(depth * (1.0 - 1e-9), rate, Impact(speed, mass)) == pytest.approx(at, abs=1e-8 * size)
+    assert normal(depth, rate, Impact(speed * (1.0 + 1e-9), mass)) == pytest.approx(at, abs=1e-8 * size)
+    assert normal(depth, rate, Impact(speed * (1.0 - 1e-9), mass)) == pytest.approx(at, abs=1e-8 * size)
 
 
 @settings(max_examples=30)
@@ -95,8 +97,8 @@ def test_free_impact_is_the_same_with_either_speed(
     e: float, n: float, stiffness: float, mass: float, speed: float
 ) -> None:
     fields = {"stiffness": stiffness, "exponent": n, "restitution": e}
-    by_depth = law_rebound(law(damping_speed=DepthSpeed(), **fields), mass, speed)
-    by_touch = law_rebound(law(damping_speed=TouchSpeed(floor=1e-3), **fields), mass, speed)
+    by_depth = law_rebound(law(damping_speed=IndentationVelocity(), **fields), mass, speed)
+    by_touch = law_rebound(law(damping_speed=ImpactVelocity(floor=1e-3), **fields), mass, speed)
     # the integrator's tolerance of 1e-10 a step, over some hundred steps; and both deliver what was asked
     assert by_depth == pytest.approx(by_touch, abs=3e-8)
     assert by_depth == pytest.approx(e, abs=3e-8)
@@ -111,7 +113,7 @@ def test_contact_without_a_touch_speed_is_damped_as_tsuji_has_it(
     dashpot = alpha * math.sqrt(mass * normal.stiffness) * depth ** ((n - 1.0) / 2.0)
     elastic = normal.stiffness * depth**n
     # the same in another order: rounding, of the larger part where both nearly cancel
-    assert normal(depth, rate, Touch(0.0, mass)) == pytest.approx(
+    assert normal(depth, rate, Impact(0.0, mass)) == pytest.approx(
         elastic + dashpot * rate, abs=1e-13 * (elastic + dashpot * abs(rate))
     )
 
@@ -128,7 +130,7 @@ def decay(normal: NormalLaw, depth: float, mass: float) -> float:
     beat = math.sqrt(mass * depth / slope)  # a radian of it [s]
 
     def motion(_: float, y: np.ndarray) -> list[float]:
-        force = normal(depth * (1.0 + amplitude * y[0]), depth * amplitude * y[1] / beat, Touch(0.0, mass))
+        force = normal(depth * (1.0 + amplitude * y[0]), depth * amplitude * y[1] / beat, Impact(0.0, mass))
         return [y[1], (load - force) * beat**2 / (mass * depth * amplitude)]
 
     def turning(_: float, y: np.ndarray) -> float:
@@ -158,36 +160,38 @@ def test_small_vibrations_of_a_hertzian_contact() -> None:
     assert decay(normal, 1e-4, 500.0) / normal.damping_factor == pytest.approx(0.46, abs=5e-3)
 
 
-# --- TouchSpeed ---
+# --- ImpactVelocity ---
 
 
 @given(speed=st.floats(0.0, 2.0), floor=st.floats(1e-6, 1.0), mass=masses, stored=energies)
 def test_touch_speed_is_the_larger_of_touch_and_floor(
     speed: float, floor: float, mass: float, stored: float
 ) -> None:
-    assert TouchSpeed(floor=floor)(Touch(speed, mass), stored) == max(speed, floor)
+    assert ImpactVelocity(floor=floor)(Impact(speed, mass), stored) == max(speed, floor)
 
 
 @pytest.mark.parametrize("speed", [0.0, 1e-9, 4.9e-3])
 def test_very_soft_touch_is_damped_as_at_the_floor(speed: float) -> None:
-    normal = law(damping_speed=TouchSpeed(floor=5e-3))
-    assert normal(1e-4, 0.1, Touch(speed, 3.0)) == normal(1e-4, 0.1, Touch(5e-3, 3.0))
+    normal = law(damping_speed=ImpactVelocity(floor=5e-3))
+    assert normal(1e-4, 0.1, Impact(speed, 3.0)) == normal(1e-4, 0.1, Impact(5e-3, 3.0))
 
 
 def test_floor_is_a_millimetre_a_second_unless_said_otherwise() -> None:
-    assert TouchSpeed()(Touch(0.0, 3.0), 0.0) == 1e-3
+    assert ImpactVelocity()(Impact(0.0, 3.0), 0.0) == 1e-3
 
 
 @pytest.mark.parametrize("floor", [0.0, -1e-3])
 def test_floor_that_divides_by_zero_is_refused(floor: float) -> None:
-    with pytest.raises(InputError, match=rf"TouchSpeed\.floor = {floor}: .*allowed: > 0"):
-        TouchSpeed(floor=floor)
+    with pytest.raises(InputError, match=rf"ImpactVelocity\.floor = {floor}: .*allowed: > 0"):
+        ImpactVelocity(floor=floor)
 
 
 # --- what is forgotten ---
 
 
-@pytest.mark.parametrize(("damping_speed", "forgets"), [(DepthSpeed(), True), (TouchSpeed(), False)])
+@pytest.mark.parametrize(
+    ("damping_speed", "forgets"), [(IndentationVelocity(), True), (ImpactVelocity(), False)]
+)
 def test_law_forgets_as_its_damping_speed_does(damping_speed: DampingSpeed, forgets: bool) -> None:
     assert damping_speed.forgets is forgets
     assert law(damping_speed=damping_speed).forgets is forgets
@@ -195,8 +199,8 @@ def test_law_forgets_as_its_damping_speed_does(damping_speed: DampingSpeed, forg
 
 @pytest.mark.parametrize("normal", NORMAL_LAWS, ids=kind_of)
 def test_only_hysteresis_has_a_touch_to_forget(normal: NormalLaw) -> None:
-    assert normal.forgets is isinstance(normal, Hysteresis)  # whose default is DepthSpeed
+    assert normal.forgets is isinstance(normal, Hysteresis)  # whose default is IndentationVelocity
 
 
 def test_depth_speed_is_the_default() -> None:
-    assert law().damping_speed == DepthSpeed()
+    assert law().damping_speed == IndentationVelocity()

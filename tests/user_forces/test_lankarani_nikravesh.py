@@ -9,7 +9,14 @@ from hypothesis import strategies as st
 from scipy.integrate import quad, solve_ivp
 
 from tests.analytic import contact_time, delivered_restitution, greatest_depth, reduced_mass
-from user_forces import DampingSpeed, DepthSpeed, InputError, LankaraniNikravesh, Touch, TouchSpeed
+from user_forces import (
+    DampingSpeed,
+    Impact,
+    ImpactVelocity,
+    IndentationVelocity,
+    InputError,
+    LankaraniNikravesh,
+)
 
 stiffnesses = st.floats(1e7, 1e11)
 exponents = st.floats(1.0, 3.0)
@@ -18,8 +25,8 @@ speeds = st.floats(0.02, 2.0)
 depths = st.floats(1e-6, 1e-3)
 
 
-damping_speeds = st.sampled_from([DepthSpeed(), TouchSpeed(floor=1e-3)])
-TEXTBOOK = TouchSpeed(floor=1e-3)
+damping_speeds = st.sampled_from([IndentationVelocity(), ImpactVelocity(floor=1e-3)])
+TEXTBOOK = ImpactVelocity(floor=1e-3)
 
 
 def law(**changes: object) -> LankaraniNikravesh:
@@ -27,9 +34,9 @@ def law(**changes: object) -> LankaraniNikravesh:
     return LankaraniNikravesh(**fields)
 
 
-def touching(speed: float) -> Touch:
-    """A touch of this speed; without influence on the textbook law, the mass is any."""
-    return Touch(speed=speed, mass=500.0)
+def closed(speed: float) -> Impact:
+    """An impact of this speed; without influence on the textbook law, the mass is any."""
+    return Impact(speed=speed, mass=500.0)
 
 
 def impact(normal: LankaraniNikravesh, one: float, two: float, speed: float) -> tuple[float, float, float]:
@@ -39,25 +46,25 @@ def impact(normal: LankaraniNikravesh, one: float, two: float, speed: float) -> 
     """
     depth_scale = greatest_depth(normal.stiffness, normal.exponent, reduced_mass(one, two), speed)
     time_scale = depth_scale / speed
-    touch = Touch(speed, reduced_mass(one, two))
+    impact = Impact(speed, reduced_mass(one, two))
 
     def motion(_: float, y: np.ndarray) -> list[float]:
         depth, rate = (y[0] - y[2]) * depth_scale, (y[1] - y[3]) * speed
-        # odd beyond the parting, so that a step across it meets no kink
-        force = math.copysign(normal(abs(depth), rate, touch), depth)
+        # odd beyond the separation, so that a step across it meets no kink
+        force = math.copysign(normal(abs(depth), rate, impact), depth)
         kick = force * time_scale / speed
         return [y[1], -kick / one, y[3], kick / two]
 
-    def parting(_: float, y: np.ndarray) -> float:
+    def separation(_: float, y: np.ndarray) -> float:
         return y[0] - y[2]
 
-    parting.terminal, parting.direction = True, -1.0  # type: ignore[attr-defined]
+    separation.terminal, separation.direction = True, -1.0  # type: ignore[attr-defined]
     found = solve_ivp(
         motion,
         (0.0, 100.0),
         [0.0, 1.0, 0.0, 0.0],
         "DOP853",
-        events=parting,
+        events=separation,
         rtol=1e-10,
         atol=1e-12,
         max_step=0.2,
@@ -135,15 +142,15 @@ def test_damping_grows_as_restitution_falls() -> None:
 @given(depth=depths, speed=speeds, damping_speed=damping_speeds)
 def test_force_at_rest_is_the_elastic_one(depth: float, speed: float, damping_speed: DampingSpeed) -> None:
     normal = law(damping_speed=damping_speed)
-    assert normal(depth, 0.0, touching(speed)) == normal.elastic_force(depth)
+    assert normal(depth, 0.0, closed(speed)) == normal.elastic_force(depth)
 
 
 @given(depth=depths, rate=st.floats(1e-3, 1.0), speed=speeds, damping_speed=damping_speeds)
 def test_closing_contact_pushes_harder_than_an_opening_one(
     depth: float, rate: float, speed: float, damping_speed: DampingSpeed
 ) -> None:
-    normal, touch = law(damping_speed=damping_speed), touching(speed)
-    assert normal(depth, rate, touch) > normal.elastic_force(depth) > normal(depth, -rate, touch)
+    normal, impact = law(damping_speed=damping_speed), closed(speed)
+    assert normal(depth, rate, impact) > normal.elastic_force(depth) > normal(depth, -rate, impact)
 
 
 @given(
@@ -157,50 +164,50 @@ def test_damping_never_gives_energy(
     depth: float, rate: float, speed: float, restitution: float, damping_speed: DampingSpeed
 ) -> None:
     normal = law(restitution=restitution, damping_speed=damping_speed)
-    assert (normal(depth, rate, touching(speed)) - normal.elastic_force(depth)) * rate >= 0.0
+    assert (normal(depth, rate, closed(speed)) - normal.elastic_force(depth)) * rate >= 0.0
 
 
 def test_damping_is_inverse_to_the_approach_speed() -> None:
     normal = law(restitution=0.5, damping_speed=TEXTBOOK)
     elastic = normal.elastic_force(1e-4)
-    slow, fast = normal(1e-4, 0.1, touching(0.2)) - elastic, normal(1e-4, 0.1, touching(0.4)) - elastic
+    slow, fast = normal(1e-4, 0.1, closed(0.2)) - elastic, normal(1e-4, 0.1, closed(0.4)) - elastic
     # rounding of the difference
     assert slow == pytest.approx(2.0 * fast, rel=1e-12)
 
 
 @pytest.mark.parametrize("speed", [0.0, 1e-9, 4.9e-3])
 def test_very_soft_closing_is_damped_as_at_the_floor(speed: float) -> None:
-    normal = law(damping_speed=TouchSpeed(floor=5e-3))
-    assert normal(1e-4, 0.1, touching(speed)) == normal(1e-4, 0.1, touching(5e-3))
+    normal = law(damping_speed=ImpactVelocity(floor=5e-3))
+    assert normal(1e-4, 0.1, closed(speed)) == normal(1e-4, 0.1, closed(5e-3))
 
 
 def test_floor_does_not_touch_faster_approach() -> None:
-    high, low = law(damping_speed=TouchSpeed(floor=5e-3)), law(damping_speed=TouchSpeed(floor=1e-6))
+    high, low = law(damping_speed=ImpactVelocity(floor=5e-3)), law(damping_speed=ImpactVelocity(floor=1e-6))
     # rounding
-    assert high(1e-4, 0.1, touching(0.2)) == pytest.approx(low(1e-4, 0.1, touching(0.2)), rel=1e-15)
+    assert high(1e-4, 0.1, closed(0.2)) == pytest.approx(low(1e-4, 0.1, closed(0.2)), rel=1e-15)
 
 
 def test_a_contact_torn_open_is_under_tension() -> None:
-    normal, touch = law(restitution=0.5, damping_speed=TEXTBOOK), touching(0.1)
+    normal, impact = law(restitution=0.5, damping_speed=TEXTBOOK), closed(0.1)
     # chi = 9/16, so the factor 1 + chi rate/v0 is zero at rate = -16/9 v0
-    assert normal(1e-4, -1.7 * 0.1, touch) > 0.0 > normal(1e-4, -1.8 * 0.1, touch)
+    assert normal(1e-4, -1.7 * 0.1, impact) > 0.0 > normal(1e-4, -1.8 * 0.1, impact)
 
 
 def test_force_by_hand() -> None:
     normal = law(stiffness=4e10, restitution=0.6, damping_speed=TEXTBOOK)
     # 4e10 (1e-4)^1.5 (1 + 3/4 (1 - 0.6^2) 0.05/0.2) = 4e4 * 1.12; rounding
-    assert normal(1e-4, 0.05, touching(0.2)) == pytest.approx(44800.0, rel=1e-13)
+    assert normal(1e-4, 0.05, closed(0.2)) == pytest.approx(44800.0, rel=1e-13)
 
 
 def test_force_by_hand_of_a_contact_pressed_deeper_than_its_touch_would() -> None:
-    # stored: 4e10 (1e-4)^2.5 / 2.5 = 1.6 J, which a mass of 80 kg has at 0.2 m/s; the touch was softer
+    # stored: 4e10 (1e-4)^2.5 / 2.5 = 1.6 J, which a mass of 80 kg has at 0.2 m/s; the impact was softer
     normal = law(stiffness=4e10, restitution=0.6)
     # rounding
-    assert normal(1e-4, 0.05, Touch(0.1, 80.0)) == pytest.approx(44800.0, rel=1e-13)
+    assert normal(1e-4, 0.05, Impact(0.1, 80.0)) == pytest.approx(44800.0, rel=1e-13)
 
 
 def test_the_default_is_that_a_loaded_contact_is_damped_by_its_depth() -> None:
-    assert law().damping_speed == DepthSpeed()
+    assert law().damping_speed == IndentationVelocity()
     assert law().forgets
     assert not law(damping_speed=TEXTBOOK).forgets
 

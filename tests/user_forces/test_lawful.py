@@ -14,12 +14,12 @@ from studies.contact_laws import catalogue
 from user_forces import (
     Ambrosio,
     Frictionless,
+    Impact,
     JournalBearing,
     JournalContact,
     LoadError,
     LuGre,
     NormalLaw,
-    Touch,
     value,
 )
 from user_forces.compilation.flat import flat_force
@@ -40,13 +40,13 @@ masses = st.floats(-1.0, 5.0).map(lambda x: 10.0**x)
 
 @pytest.mark.parametrize("name", NORMAL)
 @settings(max_examples=60, deadline=None)
-@given(depth=depths, rate=rates, touch=st.builds(Touch, speeds, masses))
-def test_no_normal_law_of_ours_is_refused(name: str, depth: float, rate: float, touch: Touch) -> None:
+@given(depth=depths, rate=rates, impact=st.builds(Impact, speeds, masses))
+def test_no_normal_law_of_ours_is_refused(name: str, depth: float, rate: float, impact: Impact) -> None:
     law = NORMAL[name]
     contact = JournalContact(bearing=BEARING, normal=law)
     look_at_rest(contact, "pin")
     try:
-        normal = max(0.0, law(depth, rate, touch))
+        normal = max(0.0, law(depth, rate, impact))
         elastic = law.elastic_force(depth)
     except LoadError:
         return
@@ -75,7 +75,7 @@ class Spring(NormalLaw):
 
     stiffness: float = 1e9
 
-    def __call__(self, depth: float, rate: float, touch: Touch) -> float:
+    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
         return self.stiffness * depth
 
     def elastic_force(self, depth: float) -> float:
@@ -148,14 +148,14 @@ def test_cutting_keeps_what_is_no_number(cut: Callable[[float, float], float]) -
 class Deep(Spring):
     """No number beyond a depth."""
 
-    def __call__(self, depth: float, rate: float, touch: Touch) -> float:
+    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
         return where(depth > 1e-5, math.nan, 1e9 * depth)
 
 
 class Branching(Spring):
     """The same, for numbers only."""
 
-    def __call__(self, depth: float, rate: float, touch: Touch) -> float:
+    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
         return math.nan if depth > 1e-5 else 1e9 * depth
 
 

@@ -22,6 +22,7 @@ from user_forces import (
     Hertz,
     HuGuo,
     HuntCrossley,
+    ImpactVelocity,
     Johnson,
     JournalBearing,
     JournalContact,
@@ -31,7 +32,6 @@ from user_forces import (
     Liu,
     NormalLaw,
     SafaeifarFarshidianfar,
-    TouchSpeed,
     ZhiyingQishao,
 )
 
@@ -78,11 +78,11 @@ def scenario(
 
 
 def delivered(result: Result) -> float:
-    """Speed of parting over speed of approach."""
+    """Speed of separation over initial impact velocity."""
     assert len(result.onsets["pin"]) == 1
-    assert result["pin.pin.depth"][-1] < 0.0  # they have parted
-    parting = result["bore.velocity_x"][-1] - result["journal.velocity_x"][-1]
-    return float(parting / result.scenario.machine.speed)
+    assert result["pin.pin.depth"][-1] < 0.0  # they have separated
+    separation = result["bore.velocity_x"][-1] - result["journal.velocity_x"][-1]
+    return float(separation / result.scenario.machine.speed)
 
 
 @pytest.mark.parametrize("law", LAWS)
@@ -131,7 +131,7 @@ def test_any_mass_stiffness_speed_and_step(
 ) -> None:
     chosen = law(stiffness=stiffness, restitution=asked, exponent=exponent)
     if textbook:
-        chosen = replace(chosen, damping_speed=TouchSpeed(floor=1e-3))  # not above the speeds tried
+        chosen = replace(chosen, damping_speed=ImpactVelocity(floor=1e-3))  # not above the speeds tried
     tried = scenario(chosen, bore_mass, journal_mass, speed)
     # a step that leaves a thousand of them in the run, so that the test stays fast
     tried = replace(tried, step=min(0.1, max(step, 1e-3 * tried.duration)))
@@ -183,7 +183,7 @@ BEARING = JournalBearing(bore_radius=0.0655, clearance=0.0015)
 def test_other_laws_deliver_their_closed_forms(law: Any) -> None:
     expected = law.delivered_restitution(1.2) if isinstance(law, KelvinVoigt) else law.delivered_restitution
     result = simulate(scenario(law))
-    # a force that jumps at the touch costs some accuracy: 2e-5
+    # a force that jumps at the impact costs some accuracy: 2e-5
     assert delivered(result) == pytest.approx(expected, abs=3e-5)
     # the linear laws pull before they part, and that is counted
     pulls = isinstance(law, (KelvinVoigt, Anagnostopoulos))

@@ -1,6 +1,6 @@
 """A contact's force as flat source: one function of numbers, several times faster than the law objects.
 
-The laws are called once, with `Line`s in place of numbers. What comes back is their formulas as lines of
+The laws are called once, with `SourceLine`s in place of numbers. What comes back is their formulas as lines of
 source, each computed once, in which nothing is called but functions of `math`. `flat_force` lets Python compile
 them, `law_source` is for a compiler of machine code.
 """
@@ -18,7 +18,7 @@ from user_forces.contact import ContactForce, JournalContact, SlipHistory
 from user_forces.expressions.scalar import Expression, maximum
 from user_forces.friction.law import FrictionLaw
 from user_forces.lawful import look
-from user_forces.normal.law import NormalLaw, Touch
+from user_forces.normal.law import Impact, NormalLaw
 
 NAMES = {
     name: getattr(math, name) for name in ("sqrt", "exp", "log", "tanh", "cos", "sin", "hypot", "inf", "nan")
@@ -29,7 +29,7 @@ Formulas = dict[str, str]  # formula: the name of the line that has it
 FlatForce = Callable[..., ContactForce]
 
 
-class Line(Expression):
+class SourceLine(Expression):
     """A quantity by the name of the line of source that computes it."""
 
     __slots__ = ("formulas", "name")
@@ -38,75 +38,75 @@ class Line(Expression):
         self.name = name
         self.formulas = formulas
 
-    def line(self, formula: str) -> Line:
+    def line(self, formula: str) -> SourceLine:
         """The quantity that has this formula."""
         name = self.formulas.setdefault(formula, f"_{len(self.formulas)}")
-        return Line(name, self.formulas)
+        return SourceLine(name, self.formulas)
 
-    def function(self, name: str) -> Line:
+    def function(self, name: str) -> SourceLine:
         """sqrt, exp, log, tanh, cos, sin, abs or sign of it."""
         if name == "sign":
             return self.line(f"1.0 if {self.name} > 0.0 else -1.0 if {self.name} < 0.0 else 0.0")
         return self.line(f"{name}({self.name})")
 
-    def hypotenuse(self, other: Expression | float) -> Line:
+    def hypotenuse(self, other: Expression | float) -> SourceLine:
         """Square root of the sum of both squares."""
         return self.line(f"hypot({self.name}, {text(other)})")
 
-    def choose(self, yes: Expression | float, no: Expression | float) -> Line:
+    def choose(self, yes: Expression | float, no: Expression | float) -> SourceLine:
         """`yes` where this condition holds, else `no`; both have been computed."""
         return self.line(f"{text(yes)} if {self.name} else {text(no)}")
 
-    def larger(self, other: Expression | float) -> Line:
+    def larger(self, other: Expression | float) -> SourceLine:
         """The larger of both, see `scalar.maximum`."""
         a, o = self.name, text(other)
         return self.line(f"{a} if {a} > {o} or {a} != {a} else {o}")
 
-    def smaller(self, other: Expression | float) -> Line:
+    def smaller(self, other: Expression | float) -> SourceLine:
         """The smaller of both, see `scalar.minimum`."""
         a, o = self.name, text(other)
         return self.line(f"{a} if {a} < {o} or {a} != {a} else {o}")
 
-    def __add__(self, other: Any) -> Line:
+    def __add__(self, other: Any) -> SourceLine:
         return self.line(f"{self.name} + {text(other)}")
 
-    def __radd__(self, other: Any) -> Line:
+    def __radd__(self, other: Any) -> SourceLine:
         return self.line(f"{text(other)} + {self.name}")
 
-    def __sub__(self, other: Any) -> Line:
+    def __sub__(self, other: Any) -> SourceLine:
         return self.line(f"{self.name} - {text(other)}")
 
-    def __rsub__(self, other: Any) -> Line:
+    def __rsub__(self, other: Any) -> SourceLine:
         return self.line(f"{text(other)} - {self.name}")
 
-    def __mul__(self, other: Any) -> Line:
+    def __mul__(self, other: Any) -> SourceLine:
         return self.line(f"{self.name} * {text(other)}")
 
-    def __rmul__(self, other: Any) -> Line:
+    def __rmul__(self, other: Any) -> SourceLine:
         return self.line(f"{text(other)} * {self.name}")
 
-    def __truediv__(self, other: Any) -> Line:
+    def __truediv__(self, other: Any) -> SourceLine:
         return self.line(f"{self.name} / {text(other)}")
 
-    def __rtruediv__(self, other: Any) -> Line:
+    def __rtruediv__(self, other: Any) -> SourceLine:
         return self.line(f"{text(other)} / {self.name}")
 
-    def __pow__(self, exponent: float) -> Line:
+    def __pow__(self, exponent: float) -> SourceLine:
         return self.line(f"{self.name} ** {exponent!r}")
 
-    def __neg__(self) -> Line:
+    def __neg__(self) -> SourceLine:
         return self.line(f"-{self.name}")
 
-    def __lt__(self, other: Any) -> Line:
+    def __lt__(self, other: Any) -> SourceLine:
         return self.line(f"{self.name} < {text(other)}")
 
-    def __le__(self, other: Any) -> Line:
+    def __le__(self, other: Any) -> SourceLine:
         return self.line(f"{self.name} <= {text(other)}")
 
-    def __gt__(self, other: Any) -> Line:
+    def __gt__(self, other: Any) -> SourceLine:
         return self.line(f"{self.name} > {text(other)}")
 
-    def __ge__(self, other: Any) -> Line:
+    def __ge__(self, other: Any) -> SourceLine:
         return self.line(f"{self.name} >= {text(other)}")
 
 
@@ -119,19 +119,19 @@ ARGUMENTS = (
 def lines(names: Iterable[str]) -> tuple[Formulas, list[Any]]:
     """Where formulas will be collected, and quantities of these names to write them with."""
     formulas: Formulas = {}
-    return formulas, [Line(name, formulas) for name in names]
+    return formulas, [SourceLine(name, formulas) for name in names]
 
 
 def flat_force(contact: JournalContact) -> FlatForce:
     """`contact.force` as a flat function of floats, bit for bit the same, that raises LawError if it is none.
 
     Its arguments, all floats: x, y, vx, vy, bore_spin, journal_spin as of `JournalContact.force`; in_contact:
-    whether there is a touch, whose speed and mass follow; deflection, slip and step of SlipHistory.
+    whether there is an impact, whose speed and mass follow; deflection, slip and step of SlipHistory.
     """
     formulas, (x, y, vx, vy, bore_spin, journal_spin, _, speed, mass, deflection, slip, step) = lines(ARGUMENTS)
     history = SlipHistory(deflection, slip, step)
-    touch = Touch(speed, mass)
-    found = traceable(contact).force(x, y, vx, vy, bore_spin, journal_spin, touch, history)
+    impact = Impact(speed, mass)
+    found = traceable(contact).force(x, y, vx, vy, bore_spin, journal_spin, impact, history)
     free = "depth", "rate", "slip", "journal_arm"  # which do not depend on a contact
     texts = {name: text(value) for name, value in found._asdict().items()}
     apart = needed(formulas, (texts[name] for name in free))
@@ -166,14 +166,14 @@ def law_source(contact: JournalContact) -> tuple[str, list[float]]:
 
     gives the normal force [N] that the normal law asks for, negative if it asks for tension, and writes the
     friction force [N] and the elastic force [N] into out[0] and out[1]. It gives nan beyond the depth for which
-    the law is valid. speed and mass are those of `Touch`; constants and out are arrays.
+    the law is valid. speed and mass are those of `Impact`; constants and out are arrays.
 
     Raises UnwrittenLawError, with the name of the law, if there is no such source.
     """
     formulas, (depth, rate, slip, speed, mass) = lines(("depth", "rate", "slip", "speed", "mass"))
     law: NormalLaw | FrictionLaw = contact.normal
     try:
-        asked = contact.normal(depth, rate, Touch(speed, mass))
+        asked = contact.normal(depth, rate, Impact(speed, mass))
         elastic = contact.normal.elastic_force(depth)
         law = contact.friction
         friction = contact.friction(slip, maximum(asked, 0.0))
@@ -205,10 +205,10 @@ class _Called:
     def __init__(self, name: str) -> None:
         self._name = name
 
-    def __call__(self, first: Line, *others: Any) -> Line:
-        touches = [item for item in others if isinstance(item, Touch)]
-        parts = [f"Touch({text(item.speed)}, {text(item.mass)})" for item in touches]
-        numbers = [text(item) for item in (first, *others) if not isinstance(item, Touch)]
+    def __call__(self, first: SourceLine, *others: Any) -> SourceLine:
+        impacts = [item for item in others if isinstance(item, Impact)]
+        parts = [f"Impact({text(item.speed)}, {text(item.mass)})" for item in impacts]
+        numbers = [text(item) for item in (first, *others) if not isinstance(item, Impact)]
         return first.line(f"{self._name}({', '.join(numbers + parts)})")
 
 
@@ -222,12 +222,12 @@ class _CalledFriction(_Called):
 
 
 def traceable(contact: JournalContact) -> JournalContact:
-    """A contact that takes `Line`s, whatever its laws: one that branches on its arguments becomes a call."""
+    """A contact that takes `SourceLine`s, whatever its laws: one that branches becomes a call."""
     _, (one, two, three, four) = lines(["one", "two", "three", "four"])
     normal: Any = contact.normal
     friction: Any = contact.friction
     try:
-        normal(one, two, Touch(three, four))
+        normal(one, two, Impact(three, four))
     except TypeError:
         normal = _Called("normal_law")
     try:
@@ -255,7 +255,7 @@ def compiled(source: Iterable[str], contact: JournalContact, **known: object) ->
         "make": tuple.__new__,
         "ContactForce": ContactForce,
         "too_deep": contact.normal.elastic_force,  # which says so
-        "Touch": Touch,
+        "Impact": Impact,
         "normal_law": contact.normal,
         "friction_law": contact.friction,
         "not_finite": partial(look, contact),
@@ -271,7 +271,7 @@ def _tuple(texts: Mapping[str, str]) -> str:
 
 def text(item: Any) -> str:
     """The name of a quantity, or a number as source."""
-    return item.name if isinstance(item, Line) else f"({float(item)!r})"
+    return item.name if isinstance(item, SourceLine) else f"({float(item)!r})"
 
 
 def needed(formulas: Formulas, wanted: Iterable[str]) -> list[str]:
@@ -289,6 +289,6 @@ def asks_for_mass(contact: JournalContact) -> bool:
     """Whether the force depends on the mass that moves with the depth, and so on where it was renewed."""
     formulas, (x, y, vx, vy, bore_spin, journal_spin, _, speed, mass, deflection, slip, step) = lines(ARGUMENTS)
     history = SlipHistory(deflection, slip, step)
-    touch = Touch(speed, mass)
-    found = traceable(contact).force(x, y, vx, vy, bore_spin, journal_spin, touch, history)
+    impact = Impact(speed, mass)
+    found = traceable(contact).force(x, y, vx, vy, bore_spin, journal_spin, impact, history)
     return any(re.search(r"\bmass\b", line) for line in needed(formulas, map(text, found)))

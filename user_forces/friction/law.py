@@ -19,7 +19,7 @@ class FrictionLaw(Value, ABC):
     1. `law(slip, normal_force, deflection)` gives the force along t on the journal, where slip is the speed of
        the journal's surface relative to the bore's along the same t.
     2. A law without a state never does positive work: force times slip <= 0; it ignores `deflection`.
-    3. A law with a state says so by `has_state`. The state is one number, the deflection, zero at the touch.
+    3. A law with a state says so by `has_state`. The state is one number, the deflection, zero at the impact.
        The law owns no memory: `next_deflection` is handed its value at the start of a step and returns that
        at the end, and the solver makes the step with it. `swing_time` says how short steps
        have to be.

@@ -17,7 +17,7 @@ class LuGre(TwoCoefficients):
 
     The form that is proportional to the normal force. It sticks: below mu_s F_n a loaded pin rests on its
     bristles, deflected by z = F_t / (s0 F_n). In steady slip it is g F_n and the viscous part. Bristles are
-    straight, z = 0, at a touch. z moves with the system: it is advanced with the mean slip of each step,
+    straight, z = 0, at an impact. z moves with the system: it is advanced with the mean slip of each step,
     exactly for constant slip, inside the solver's iteration; of second order. Steps follow the swings of what
     sticks, see `swing_time`: longer ones lose the stick-slip that shakes a rising support. The force can return
     the energy that is in the bristles, s0 z^2 F_n / 2; to be passive altogether, s1 abs(slip) < 4 g.

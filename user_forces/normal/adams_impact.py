@@ -3,7 +3,7 @@
 from typing import ClassVar
 
 from user_forces.expressions.scalar import step
-from user_forces.normal.law import Touch
+from user_forces.normal.law import Impact
 from user_forces.normal.power_law import ElasticPower
 from user_forces.values.units import Metres, NewtonSecondsPerMetre
 from user_forces.values.value import NonNegative, Positive, value
@@ -13,9 +13,9 @@ from user_forces.values.value import NonNegative, Positive, value
 class AdamsImpact(ElasticPower):
     """F = K depth^n + c rate, c = c_max s^2 (3 - 2 s), s = depth / d_max from 0 to 1.
 
-    The cubic STEP lets the damping grow with depth, so the force does not jump at the touch. Restitution is no
+    The cubic STEP lets the damping grow with depth, so the force does not jump at the impact. Restitution is no
     input: it depends on the depth that is reached, so on speed and mass, and there is no closed form.
-    Near the parting the law may ask for tension, which is cut. A loaded contact is damped by c at its depth.
+    Near the separation the law may ask for tension, which is cut. A loaded contact is damped by c at its depth.
 
     Arguments:
         stiffness: K [N/m^n], > 0; 1e5 N/mm^1.5 is common for steel on steel.
@@ -32,7 +32,7 @@ class AdamsImpact(ElasticPower):
     full_damping: NewtonSecondsPerMetre[NonNegative]
     full_damping_depth: Metres[Positive]
 
-    def __call__(self, depth: float, rate: float, touch: Touch) -> float:
+    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
         """Normal force [N] at depth [m] > 0, rate [m/s]."""
         damping = self.full_damping * step(depth / self.full_damping_depth)
         return self.elastic_force(depth) + damping * rate

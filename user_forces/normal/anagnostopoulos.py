@@ -9,7 +9,7 @@ from pydantic import Field
 
 from user_forces.expressions.scalar import sqrt
 from user_forces.normal.kelvin_voigt import cut_dashpot_restitution
-from user_forces.normal.law import Touch
+from user_forces.normal.law import Impact
 from user_forces.normal.power_law import ElasticPower
 from user_forces.values.value import Real, Restitution, value
 
@@ -22,7 +22,7 @@ class Anagnostopoulos(ElasticPower):
     is tension. Where tension is cut, as here, the surfaces part earlier and faster:
     Delivers 0.253, 0.397, 0.550, 0.718, 0.902
     for e = 0.1, 0.3, 0.5, 0.7, 0.9.
-    The force jumps to c v0 at the touch.
+    The force jumps to c v0 at the impact.
 
     Arguments:
         stiffness: K [N/m], > 0.
@@ -45,7 +45,7 @@ class Anagnostopoulos(ElasticPower):
         """Restitution [-] that a free impact delivers, tension cut."""
         return cut_dashpot_restitution(self.damping_ratio)
 
-    def __call__(self, depth: float, rate: float, touch: Touch) -> float:
+    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
         """Normal force [N] at depth [m] > 0, rate [m/s]."""
-        damping = 2.0 * self.damping_ratio * sqrt(self.stiffness * touch.mass)
+        damping = 2.0 * self.damping_ratio * sqrt(self.stiffness * impact.mass)
         return self.stiffness * depth + damping * rate

@@ -8,8 +8,8 @@ from dataclasses import field
 from functools import cached_property
 
 from user_forces.expressions.roots import bracketed_root
-from user_forces.normal.damping_speed import DampingSpeed, DepthSpeed
-from user_forces.normal.law import NormalLaw, Touch
+from user_forces.normal.damping_speed import DampingSpeed, IndentationVelocity
+from user_forces.normal.law import Impact, NormalLaw
 from user_forces.values.value import Fraction, value
 
 
@@ -18,8 +18,8 @@ class Hysteresis(NormalLaw):
     """F = F_el(depth) (1 + chi rate / w) with a damping factor chi made from the restitution.
 
     What a free impact delivers depends on chi alone, not on F_el, masses or speed: with u = rate / v0 and m
-    the reduced mass, m v0^2 u du = -F_el (1 + chi u) d(depth), and the depth is the same (zero) at touch,
-    u = 1, and at parting, u = -e. So the integral of u / (1 + chi u) from -e to 1 vanishes:
+    the reduced mass, m v0^2 u du = -F_el (1 + chi u) d(depth), and the depth is the same (zero) at impact,
+    u = 1, and at separation, u = -e. So the integral of u / (1 + chi u) from -e to 1 vanishes:
 
         chi (1 + e) = ln((1 + chi) / (1 - chi e))
 
@@ -31,7 +31,7 @@ class Hysteresis(NormalLaw):
     """
 
     restitution: Fraction
-    damping_speed: DampingSpeed = field(default_factory=DepthSpeed)
+    damping_speed: DampingSpeed = field(default_factory=IndentationVelocity)
 
     @abstractmethod
     def factor(self, restitution: float) -> float:
@@ -47,9 +47,9 @@ class Hysteresis(NormalLaw):
         """Restitution [-] that a free impact delivers."""
         return delivered_restitution(self.damping_factor)
 
-    def __call__(self, depth: float, rate: float, touch: Touch) -> float:
+    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
         """Normal force [N] at depth [m] > 0, rate [m/s]."""
-        w = self.damping_speed(touch, self.elastic_energy(depth))
+        w = self.damping_speed(impact, self.elastic_energy(depth))
         return self.elastic_force(depth) * (1.0 + self.damping_factor / w * rate)
 
     @property

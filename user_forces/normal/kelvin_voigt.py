@@ -6,7 +6,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from user_forces.normal.law import Touch
+from user_forces.normal.law import Impact
 from user_forces.normal.power_law import ElasticPower
 from user_forces.values.units import NewtonSecondsPerMetre
 from user_forces.values.value import NonNegative, Real, value
@@ -16,7 +16,7 @@ from user_forces.values.value import NonNegative, Real, value
 class KelvinVoigt(ElasticPower):
     """F = K depth + c rate.
 
-    The force jumps to c v0 at the touch, and near the parting the law asks for tension, which is cut: the
+    The force jumps to c v0 at the impact, and near the separation the law asks for tension, which is cut: the
     surfaces part when spring and dashpot balance. Restitution is no input. Of two free bodies with reduced
     mass m a central impact delivers, with zeta = c / (2 sqrt(K m)) and the tension cut,
 
@@ -34,7 +34,7 @@ class KelvinVoigt(ElasticPower):
     damping: NewtonSecondsPerMetre[NonNegative]
     exponent: Annotated[Real, Field(ge=1, le=1)] = field(default=1.0)
 
-    def __call__(self, depth: float, rate: float, touch: Touch) -> float:
+    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
         """Normal force [N] at depth [m] > 0, rate [m/s]."""
         return self.stiffness * depth + self.damping * rate
 

@@ -11,13 +11,13 @@ from user_forces.expressions.roots import bracketed_root
 from user_forces.values.value import InputError, Value
 
 
-class Touch(NamedTuple):
+class Impact(NamedTuple):
     """What a law is told of the contact that is going on.
 
     speed: of approach, the rate of depth at the instant of zero depth [m/s] >= 0; 0 for a contact that is
-    closed at the start, and for one that was pressed on without parting (see `NormalLaw.forgets`).
+    closed at the start, and for one that was pressed on without separation (see `NormalLaw.forgets`).
     mass: that moves as the depth does [kg] > 0: of two free bodies hit centrally m1 m2 / (m1 + m2), in a
-    linkage what its joints make of it, and other loose pins as far as they are pressed.
+    linkage what its joints make of it, and other clearance pins as far as they are pressed.
     """
 
     speed: float
@@ -29,11 +29,11 @@ class LoadError(InputError):
 
 
 class NormalLaw(Value, ABC):
-    """Normal contact force as a function of depth, its rate and the touch that began it.
+    """Normal contact force as a function of depth, its rate and the impact that began it.
 
     The contract:
-    1. `law(depth, rate, touch)` is called with depth > 0 only, all in SI.
-    2. `touch` stays the same until the surfaces part. The law owns no memory: who calls it keeps the touch.
+    1. `law(depth, rate, impact)` is called with depth > 0 only, all in SI.
+    2. `impact` stays the same until the surfaces part. The law owns no memory: who calls it keeps the impact.
     3. The result may be negative (tension). The caller cuts it at zero and counts that it did.
     4. `elastic_force` and `elastic_energy` are the part that is given back; the rest is dissipated.
     5. It is written with the functions of `user_forces.expressions.scalar`, so that it can be compiled too.
@@ -41,7 +41,7 @@ class NormalLaw(Value, ABC):
     """
 
     @abstractmethod
-    def __call__(self, depth: float, rate: float, touch: Touch) -> float:
+    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
         """Normal force [N], positive pushes apart, at depth [m] > 0 and rate [m/s]."""
 
     @abstractmethod
@@ -54,7 +54,7 @@ class NormalLaw(Value, ABC):
 
     @property
     def forgets(self) -> bool:
-        """Whether a contact that is pressed on again without having parted begins anew, with touch speed 0."""
+        """Whether a contact that is pressed on again without separation begins anew, with velocity 0."""
         return False
 
     @property
@@ -82,25 +82,25 @@ class NormalLaw(Value, ABC):
         """
         return self._depth_of(self.elastic_energy, energy)
 
-    def impact_time(self, touch: Touch) -> float:
+    def impact_time(self, impact: Impact) -> float:
         """Duration [s] of an undamped impact that begins so, or less if a dashpot stops the body sooner.
 
         2.94 times turning depth over speed, right for n = 1.5 and within 13 % for n from 1 to 3; or 3 m v / F0
-        with the force F0 just after the touch. Infinite for no speed.
+        with the force F0 just after the impact. Infinite for no speed.
         """
-        if touch.speed <= 0.0:
+        if impact.speed <= 0.0:
             return math.inf
-        time = 2.94 * self.turning_depth(0.5 * touch.mass * touch.speed**2) / touch.speed
-        first = self.touch_force(touch)
-        return min(time, 3.0 * touch.mass * touch.speed / first) if first > 0.0 else time
+        time = 2.94 * self.turning_depth(0.5 * impact.mass * impact.speed**2) / impact.speed
+        first = self.initial_force(impact)
+        return min(time, 3.0 * impact.mass * impact.speed / first) if first > 0.0 else time
 
-    def touch_force(self, touch: Touch) -> float:
-        """Force [N] just after the touch: zero unless the law jumps there, as one with a dashpot does."""
-        depth = 1e-9 * self.turning_depth(0.5 * touch.mass * touch.speed**2)
+    def initial_force(self, impact: Impact) -> float:
+        """Force [N] just after the impact: zero unless the law jumps there, as one with a dashpot does."""
+        depth = 1e-9 * self.turning_depth(0.5 * impact.mass * impact.speed**2)
         if depth == 0.0:
             return 0.0
-        force = self(depth, touch.speed, touch)
-        continuous = 1e-6 * touch.mass * touch.speed**2 / (1e9 * depth)  # far below that of the impact
+        force = self(depth, impact.speed, impact)
+        continuous = 1e-6 * impact.mass * impact.speed**2 / (1e9 * depth)  # far below that of the impact
         return force if force > continuous else 0.0
 
     def _depth_of(self, rising: Callable[[float], float], wanted: float) -> float:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pydantic import model_validator
 
-from user_forces.normal.law import NormalLaw, Touch
+from user_forces.normal.law import Impact, NormalLaw
 from user_forces.values.value import Share, value
 
 MOST_PARTS = 5
@@ -15,7 +15,7 @@ class PartOf(NormalLaw):
     """A share of the force of a law, and nothing else changed.
 
     Of a journal in its bore the law gives the force per whole length. Cut across the axis, each section has its
-    share of it at its own depth. Speed and mass of the touch stay those of the whole, so that sections at the
+    share of it at its own depth. Speed and mass of the impact stay those of the whole, so that sections at the
     same depth add up to the law.
 
     Arguments:
@@ -37,9 +37,9 @@ class PartOf(NormalLaw):
             f"law: is a part of a part, and so on; allowed: up to {MOST_PARTS - 1} parts of each other"
         )
 
-    def __call__(self, depth: float, rate: float, touch: Touch) -> float:
+    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
         """Normal force [N] of the section."""
-        return self.share * self.law(depth, rate, touch)
+        return self.share * self.law(depth, rate, impact)
 
     def elastic_force(self, depth: float) -> float:
         """Force [N] at rest."""
@@ -59,10 +59,10 @@ class PartOf(NormalLaw):
         """The largest depth is that of the whole [m]."""
         return self.law.largest_depth
 
-    def impact_time(self, touch: Touch) -> float:
+    def impact_time(self, impact: Impact) -> float:
         """Duration [s] of an impact of the whole."""
-        return self.law.impact_time(touch)
+        return self.law.impact_time(impact)
 
-    def touch_force(self, touch: Touch) -> float:
-        """Force [N] just after the touch."""
-        return self.share * self.law.touch_force(touch)
+    def initial_force(self, impact: Impact) -> float:
+        """Force [N] just after the impact."""
+        return self.share * self.law.initial_force(impact)

@@ -1,4 +1,4 @@
-"""A machine in the engine's redundant coordinates, its loose pin's centres marked and nothing between them."""
+"""A machine in the engine's redundant coordinates, its clearance pin marked and nothing in it."""
 
 from __future__ import annotations
 
@@ -36,8 +36,8 @@ class BareScene:
     """The model without its contact; to be assembled once that has been added.
 
     container: owns the system, and must live as long as it. columns: the engine's objects and their lengths at
-    the start [m]. contact: of the loose pin, if there is one; bore, journal: markers of both its centres; link:
-    the body, not the ground or the slider, that it ends.
+    the start [m]. contact: of the clearance pin, if there is one; bore, journal: markers of both its centres;
+    link: the body, not the ground or the slider, that it ends.
     """
 
     scenario: Scenario
@@ -79,8 +79,8 @@ class BareScene:
         return x, y
 
 
-def loose_contact(scenario: Scenario) -> tuple[str, JournalContact, str]:
-    """Name, contact and body of the bore ("first" or "second") of the one loose pin; InputError otherwise."""
+def clearance_contact(scenario: Scenario) -> tuple[str, JournalContact, str]:
+    """Name, contact and body of the bore ("first" or "second") of the one clearance pin, or InputError."""
     if not isinstance(scenario.machine, (HydraulicSupport, SliderCrank)):
         raise InputError(f"machine = {type(scenario.machine).__name__}: allowed: HydraulicSupport, SliderCrank")
     if (
@@ -93,7 +93,7 @@ def loose_contact(scenario: Scenario) -> tuple[str, JournalContact, str]:
         or scenario.start != "concentric"
     ):
         raise InputError(
-            "a competitor takes one loose pin, rigid columns, one drive, no loads and start = 'concentric'"
+            "a competitor takes one clearance pin, rigid columns, one drive, no loads and start = 'concentric'"
         )
     ((name, pin),) = scenario.clearance_pins.items()
     return name, pin.contact, pin.bore
@@ -171,9 +171,9 @@ class _Builder:
             )
         )
 
-    def scene(self, loose: str = "") -> BareScene:
+    def scene(self, with_clearance: str = "") -> BareScene:
         for name, pin in self.linkage.pins.items():
-            if name != loose:
+            if name != with_clearance:
                 ends = self.pair(pin.first, pin.first_point, pin.second, pin.second_point)
                 self.mbs.AddObject(ObjectJointRevolute2D(markerNumbers=ends))
         columns = []
@@ -188,11 +188,11 @@ class _Builder:
 
 
 def bare_scene(scenario: Scenario, aside: float = 0.0) -> BareScene:
-    """Bodies, weights, ideal pins, columns, crank and guide of a scenario, and markers for its loose pin.
+    """Bodies, weights, ideal pins, columns, crank and guide of a scenario, and markers for its clearance pin.
 
     aside: of the bore's centre from where it belongs, along x [m].
     """
-    name, contact, bore_on = loose_contact(scenario)
+    name, contact, bore_on = clearance_contact(scenario)
     builder = _Builder(scenario)
     scene = builder.scene(name)
     pin = scene.linkage.pins[name]
@@ -204,7 +204,7 @@ def bare_scene(scenario: Scenario, aside: float = 0.0) -> BareScene:
 
 
 def ideal_scene(scenario: Scenario) -> BareScene:
-    """The model of a scenario without loose pins; raises InputError if it is not covered."""
+    """The model of a scenario without clearance pins; raises InputError if it is not covered."""
     if scenario.clearance_pins or scenario.columns or scenario.loads or scenario.friction_pins:
         raise InputError("a competitor with ideal pins takes rigid columns, no loads and no friction")
     return _Builder(scenario).scene()

@@ -10,7 +10,7 @@ from typing import Any, Literal
 import exudyn
 import numpy as np
 
-from studies.benchmarking.peers.bare_scene import BareScene, bare_scene, loose_contact
+from studies.benchmarking.peers.bare_scene import BareScene, bare_scene, clearance_contact
 from studies.benchmarking.peers.peer_run import ASIDE, PeerRun, PinSeries, add_ball, pin_sensors
 from studies.benchmarking.peers.stock import Watch, fixed_steps, solved
 from support_exudyn.formulations.redundant.clearance.pin_motion import PinMotion
@@ -20,8 +20,8 @@ from support_exudyn.scenario.scenario import Scenario
 from user_forces.friction.frictionless import Frictionless
 from user_forces.values.value import InputError
 
-UNDAMPED = 1e30  # touch speed [m/s] against which every rate is nothing
-WAY = 0.25  # of the way to a touch or parting may be gone before the next look
+UNDAMPED = 1e30  # impact velocity [m/s] against which every rate is nothing
+WAY = 0.25  # of the way to an impact or separation may be gone before the next look
 STRONGER = 4.0  # than it was since the last look the acceleration may become before the next
 SMALLEST = 1e-300  # [m/s], only so that nothing is divided by zero
 WEAKEST = 100.0  # acceleration that is always allowed for [m/s^2]
@@ -42,12 +42,12 @@ class Fitted:
 
 
 def run_built_in(
-    scenario: Scenario, step: float, *, contact: Evaluator = "built_in", watch_steps: bool = True
+    scenario: Scenario, step: float, *, contact: Evaluator = "built_in", step_callbacks: bool = True
 ) -> PeerRun:
     """Run with generalised alpha.
 
     Arguments:
-        scenario: HydraulicSupport with rigid columns or SliderCrank, one loose pin without friction, start
+        scenario: HydraulicSupport with rigid columns or SliderCrank, one clearance pin without friction, start
             "concentric"; its own step and solver are not used.
         step: length of all steps [s]; a whole number of them should make a record period.
         contact: what gives the force: the engine's own contact, or our connector by one of its backends.
@@ -56,12 +56,12 @@ def run_built_in(
 
     Raises InputError if the scenario is not covered, RuntimeError if the solver gives up.
     """
-    _, law, _ = loose_contact(scenario)
+    _, law, _ = clearance_contact(scenario)
     if not isinstance(law.friction, Frictionless):
         raise InputError("friction: the engine's own contact has another law; allowed here: Frictionless")
     fitted = _ball(scenario) if contact == "built_in" else _ours(contact, scenario, step)
     scene = fitted.scene
-    sensors = pin_sensors(scene.mbs, scene.journal, scene.bore) if watch_steps else ()
+    sensors = pin_sensors(scene.mbs, scene.journal, scene.bore) if step_callbacks else ()
     scene.mbs.Assemble()
     fitted.assembled()
     watch = Watch(scene, step)
@@ -110,13 +110,13 @@ def _ball(scenario: Scenario) -> Fitted:
 
 
 def _ours(backend: Literal["python", "symbolic"], scenario: Scenario, step: float) -> Fitted:
-    """Our connector: the `LoosePin` of a scene that `redundant.scene.scene.build` made.
+    """Our connector: the `ClearanceJoint` of a scene that `redundant.scene.scene.build` made.
 
     As the built-in contact does, it pushes whenever there is depth; the speed is that at the end of the step in
     which the surfaces met, which itself is undamped.
     """
     ours = build(replace(scenario, solver=replace(scenario.solver, backend=backend)))
-    ((name, pin),) = ours.loose_pins.items()
+    ((name, pin),) = ours.clearance_joints.items()
     scene = BareScene(
         scenario=scenario,
         linkage=ours.linkage,
@@ -148,17 +148,17 @@ def _ours(backend: Literal["python", "symbolic"], scenario: Scenario, step: floa
     if isinstance(force, PythonForce):
         # with what the last step ended
         return Fitted(scene, lambda t: note(*force.last), lambda: pin.calls, assembled)
-    lookout = _Lookout(ours.pin_motion(name), pin.contact.bearing.clearance)
+    event_watch = _Lookout(ours.pin_motion(name), pin.contact.bearing.clearance)
 
     def look(t: float) -> None:
-        if t >= lookout.next:
-            note(*lookout.look(t - step, step))
+        if t >= event_watch.next:
+            note(*event_watch.look(t - step, step))
 
     return Fitted(scene, look, lambda: pin.calls, assembled)
 
 
 class _Lookout:
-    """Looks at a pin, seldom while its surfaces are far from meeting or parting; clearance in m."""
+    """Looks at a pin, seldom while its surfaces are far from meeting or separation; clearance in m."""
 
     def __init__(self, motion: PinMotion, clearance: float) -> None:
         self._motion = motion

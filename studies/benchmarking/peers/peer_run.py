@@ -1,4 +1,4 @@
-"""What a competitor's run gives, how its touches are found afterwards, and what the competitors share."""
+"""What a competitor's run gives, how its impacts are found afterwards, and what the competitors share."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from support_exudyn.formulations.engine_settings import quiet_engine
 from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.simulation.single_run import paused_collector
 from user_forces.contact import JournalContact
-from user_forces.normal.damping_speed import TouchSpeed
+from user_forces.normal.damping_speed import ImpactVelocity
 from user_forces.normal.lankarani_nikravesh import LankaraniNikravesh
 from user_forces.values.value import InputError
 
@@ -28,9 +28,10 @@ ASIDE = 1e-12  # of a bore from its journal, so that the engine's own contact ha
 class PeerRun:
     """Outcome of a competitor's run; all series at the scenario's records.
 
-    time: [s]. force: magnitude in the loose pin [N]. angular_acceleration: of the link that the loose pin ends
-    (rear link, rod) [rad/s^2]. x, y: canopy tip or slider [m]. onsets: by interpolation of the depth at the
-    ends of steps. largest_force: at the end of any step [N]. solve_time: of the solver [s]. steps: accepted.
+    time: [s]. force: magnitude in the clearance pin [N]. angular_acceleration: of the link that the clearance
+    pin ends (rear link, rod) [rad/s^2]. x, y: canopy tip or slider [m]. onsets: by interpolation of the depth
+    at the ends of steps. largest_force: at the end of any step [N]. solve_time: of the solver [s]. steps:
+    accepted.
     user_function_calls: of the force, in Python; 0 where they are not counted. newton_iterations: of the
     solver, 0 if it has none.
     """
@@ -48,8 +49,8 @@ class PeerRun:
     newton_iterations: int
 
 
-def touches(time: Sequence[float], depth: Sequence[float], rate: Sequence[float]) -> tuple[Onset, ...]:
-    """Touches from time [s], depth [m] and its rate [m/s] at the ends of all steps, and how they end.
+def impacts(time: Sequence[float], depth: Sequence[float], rate: Sequence[float]) -> tuple[Onset, ...]:
+    """Impacts from time [s], depth [m] and its rate [m/s] at the ends of all steps, and how they end.
 
     Between two steps the depth is the cubic that fits depth and rate at both; where it passes zero is found by
     bisection, and its slope there is the speed.
@@ -62,7 +63,7 @@ def touches(time: Sequence[float], depth: Sequence[float], rate: Sequence[float]
         if d[n] <= 0.0:
             found.append(Onset(float(t[n]) + x * h, slope / h))
         elif found:  # else it began in contact
-            found[-1] = found[-1].parted(float(t[n]) + x * h, -slope / h)
+            found[-1] = found[-1].separated(float(t[n]) + x * h, -slope / h)
     return tuple(found)
 
 
@@ -91,17 +92,17 @@ def undisturbed() -> Iterator[None]:
 
 
 def contact_numbers(contact: JournalContact) -> tuple[float, float, float]:
-    """Stiffness [N/m^1.5], damping factor [-], floor of the approach speed [m/s]; InputError for other laws."""
+    """Stiffness [N/m^1.5], damping factor [-], floor of the impact velocity [m/s]; InputError otherwise."""
     law = contact.normal
     if not isinstance(law, LankaraniNikravesh) or law.exponent != 1.5:
         raise InputError(f"normal = {law}: allowed here: LankaraniNikravesh with exponent 1.5")
-    if not isinstance(law.damping_speed, TouchSpeed):
-        raise InputError(f"damping_speed = {law.damping_speed}: allowed here: TouchSpeed")
+    if not isinstance(law.damping_speed, ImpactVelocity):
+        raise InputError(f"damping_speed = {law.damping_speed}: allowed here: ImpactVelocity")
     return law.stiffness, law.damping_factor, law.damping_speed.floor
 
 
 def contact_forces(contact: JournalContact, depth: np.ndarray, rate: np.ndarray) -> np.ndarray:
-    """Force [N] at the ends of all steps, the approach speed being that at the end of the first in contact."""
+    """Force [N] at the ends of all steps, with the impact velocity at the end of the first in contact."""
     stiffness, factor, floor = contact_numbers(contact)
     closed = depth > 0.0
     begins = closed & ~np.concatenate(([False], closed[:-1]))
@@ -116,8 +117,8 @@ def add_ball(mbs: Any, contact: JournalContact, journal: Any, bore: Any) -> None
     """Add the engine's own contact: a ball in a hollow ball is a journal in a bore.
 
     Its Hunt-Crossley factor 3 (1 - e)/2 equals Lankarani and Nikravesh's 3 (1 - e^2)/4 if its restitution is
-    set to 1 - (1 - e^2)/2. It notes the approach speed at the end of the step that noticed the contact, and it
-    has no normal at the centre, so it starts beside it.
+    set to 1 - (1 - e^2)/2. It notes the initial impact velocity at the end of the step that noticed the
+    contact, and it has no normal at the centre, so it starts beside it.
     """
     stiffness, _, floor = contact_numbers(contact)
     bearing, restitution = contact.bearing, contact.normal.restitution  # type: ignore[attr-defined]

@@ -1,8 +1,8 @@
 """The stock recipe: the contact as a Python user function, fixed steps, nothing located.
 
 As users of Exudyn write a pin with clearance: the engine's rigid-body connector calls a function of plain
-floats, the approach speed is noted at the end of the step in which the surfaces met, and generalised alpha
-makes equal steps.
+floats, the initial impact velocity is noted at the end of the step in which the surfaces met, and generalised
+alpha makes equal steps.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ import numpy as np
 from exudyn.itemInterface import NodeGenericData, ObjectConnectorRigidBodySpringDamper
 
 from studies.benchmarking.peers.bare_scene import BareScene, bare_scene, ideal_scene
-from studies.benchmarking.peers.peer_run import PeerRun, contact_numbers, touches, undisturbed
+from studies.benchmarking.peers.peer_run import PeerRun, contact_numbers, impacts, undisturbed
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.contact import JournalContact
 from user_forces.friction.ambrosio import Ambrosio
@@ -72,7 +72,7 @@ class Watch:
             angular_acceleration=accelerations[:, self.scene.first(self.scene.link) + 2],
             x=x,
             y=y,
-            onsets=touches(self.times, self.depths, self.rates),
+            onsets=impacts(self.times, self.depths, self.rates),
             largest_force=self.largest,
             solve_time=took,
             steps=len(self.times),
@@ -147,7 +147,7 @@ class StockContact:
         return force
 
     def after_newton(self, force: Force) -> Force:
-        """The post-Newton function: note the approach speed once a step."""
+        """The post-Newton function: note the initial impact velocity once a step."""
         watch, clearance = self.watch, self.clearance
 
         def note(  # type: ignore[no-untyped-def]
@@ -201,8 +201,8 @@ def run_stock(scenario: Scenario, step: float) -> PeerRun:
     """Run the stock recipe.
 
     Arguments:
-        scenario: HydraulicSupport with rigid columns or SliderCrank, one loose pin, start "concentric"; its own
-            step and solver are not used.
+        scenario: HydraulicSupport with rigid columns or SliderCrank, one clearance pin, start "concentric"; its
+            own step and solver are not used.
         step: length of all steps [s]; a whole number of them should make a record period.
 
     Raises InputError if the scenario is not covered, RuntimeError if the solver gives up.
@@ -237,7 +237,7 @@ def peak_acceleration(scenario: Scenario, step: float, body: str) -> float:
     acceleration is the engine's own, of its integrator, not one that follows from the motion.
 
     Arguments:
-        scenario: without loose pins, of rigid columns; its own step and solver are not used.
+        scenario: without clearance pins, of rigid columns; its own step and solver are not used.
         step: length of all steps [s].
         body: its name.
 

@@ -14,8 +14,8 @@ import exudyn
 import numpy as np
 from exudyn.itemInterface import MarkerKinematicTreeRigid, NodeGenericODE2, ObjectKinematicTree, SensorNode
 
-from studies.benchmarking.peers.bare_scene import loose_contact
-from studies.benchmarking.peers.peer_run import ASIDE, PeerRun, PinSeries, add_ball, pin_sensors, touches
+from studies.benchmarking.peers.bare_scene import clearance_contact
+from studies.benchmarking.peers.peer_run import ASIDE, PeerRun, PinSeries, add_ball, impacts, pin_sensors
 from studies.benchmarking.peers.stock import solved
 from support_exudyn.machines.slider_crank import SliderCrank
 from support_exudyn.model.drives.drive import Steady
@@ -34,18 +34,18 @@ def run_tree(scenario: Scenario, tolerance: float) -> PeerRun:
     """Run under DOPRI5.
 
     Arguments:
-        scenario: SliderCrank driven by Steady, slider pin loose without friction and with its bore in the
-            slider, no gravity, start "concentric"; its own step and solver are not used.
+        scenario: SliderCrank driven by Steady, slider pin with clearance without friction and with its bore in
+            the slider, no gravity, start "concentric"; its own step and solver are not used.
         tolerance: of a step, relative and absolute alike (coordinates in rad and m, rates in rad/s and m/s).
 
     Raises InputError if the scenario is not covered, RuntimeError if the solver gives up.
     """
     machine, drive = scenario.machine, scenario.drive
-    name, contact, bore = loose_contact(scenario)
+    name, contact, bore = clearance_contact(scenario)
     if not isinstance(machine, SliderCrank) or not isinstance(drive, Steady):
         raise InputError("this takes a SliderCrank and a Steady drive")
     if name != "slider_pin" or bore != "first" or any(scenario.gravity):
-        raise InputError("this takes a loose slider_pin with its bore in the slider, and no gravity")
+        raise InputError("this takes a clearance slider_pin with its bore in the slider, and no gravity")
     if not isinstance(contact.friction, Frictionless):
         raise InputError("friction: allowed here: Frictionless")
     container = exudyn.SystemContainer()
@@ -133,7 +133,7 @@ def _run(
         angular_acceleration=np.interp(wanted, t, accelerations[:, 1] + accelerations[:, 2]),
         x=_cubic(wanted, t, pin.bore, pin.bore_speed),
         y=np.zeros(len(wanted)),
-        onsets=touches(t.tolist(), pin.depth.tolist(), pin.rate.tolist()),
+        onsets=impacts(t.tolist(), pin.depth.tolist(), pin.rate.tolist()),
         largest_force=float(pin.force.max()),
         solve_time=took,
         steps=len(t) - 1,

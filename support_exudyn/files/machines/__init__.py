@@ -2,22 +2,22 @@
 
 from support_exudyn.files.machines.read import (
     SHIPPED,
+    cylinders_and_rods,
     load_machine,
     load_support,
     machine_schema,
     read_machine,
     reference_support,
     shipped,
-    two_body_columns,
 )
 
 __all__ = [
     "SHIPPED",
+    "cylinders_and_rods",
     "load_machine",
     "load_support",
     "machine_schema",
     "read_machine",
     "reference_support",
     "shipped",
-    "two_body_columns",
 ]

@@ -21,7 +21,7 @@ from support_exudyn.files.toml.schema import Schemas, without
 from support_exudyn.files.toml.text import parsed, text_of
 from support_exudyn.machines.four_column_support import HydraulicSupport
 from support_exudyn.machines.machine_data import MachineData
-from support_exudyn.model.columns import OilColumn, RigidColumn, TwoBodyColumn
+from support_exudyn.model.columns import CylinderAndRod, OilColumn, RigidColumn
 from user_forces.values.value import InputError, short
 
 FILES: Mapping[str, type[FourColumnSupportFile | TwoLegShieldFile | SliderCrankFile]] = {
@@ -105,9 +105,9 @@ def load_support(path: str | Path) -> HydraulicSupport:
     return machine
 
 
-def two_body_columns(
+def cylinders_and_rods(
     drive: RigidColumn | OilColumn | None = None, path: str | Path | None = None
-) -> dict[str, TwoBodyColumn]:
+) -> dict[str, CylinderAndRod]:
     """Columns with mass, by name, for `Scenario.columns`: cylinder and rod each a uniform bar from its pin on.
 
     Arguments:

@@ -18,7 +18,7 @@ from support_exudyn.machines.four_column_support import HydraulicSupport
 from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.machines.shield_layout import BODIES, FRAME, PINS, RODS, TAIL
 from support_exudyn.machines.two_leg_shield import TwoLegShield
-from support_exudyn.model.columns import TwoBodyColumn
+from support_exudyn.model.columns import CylinderAndRod
 from support_exudyn.model.linkage import GROUND, Part, bar
 from support_exudyn.model.to_space import Width
 from user_forces.values.units import Kilograms, KilogramSquareMetres, Metres, Radians
@@ -149,9 +149,9 @@ class ColumnData(Value):
     rod_mass: Kilograms[Positive]
     rod_length: Metres[Positive]
 
-    def column(self) -> TwoBodyColumn:
+    def column(self) -> CylinderAndRod:
         """The column as two bodies."""
-        return TwoBodyColumn(
+        return CylinderAndRod(
             cylinder_mass=self.cylinder_mass,
             cylinder_centre=0.5 * self.cylinder_length,
             cylinder_inertia=self.cylinder_mass * self.cylinder_length**2 / 12,

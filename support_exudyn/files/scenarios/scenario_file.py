@@ -19,12 +19,12 @@ from support_exudyn.files.scenarios.short_pin import ShortPin
 from support_exudyn.files.toml.faults import Faults
 from support_exudyn.files.toml.reading import FAILED, Failed, Reader
 from support_exudyn.files.toml.schema import Schemas, without
-from support_exudyn.files.toml.shapes import Group, field_shapes
+from support_exudyn.files.toml.shapes import GroupShape, field_shapes
 from support_exudyn.files.toml.text import load_toml, toml_text
 from support_exudyn.files.toml.writing import table_of
 from support_exudyn.files.whole_file import whole_file
 from support_exudyn.machines.machine_data import MachineData
-from support_exudyn.model.columns import ColumnModel, TwoBodyColumn
+from support_exudyn.model.columns import ColumnModel, CylinderAndRod
 from support_exudyn.model.drives.drive import Drive
 from support_exudyn.model.machine import Machine
 from support_exudyn.model.pins import IdealPin, Pin
@@ -190,9 +190,9 @@ def _ideal(schemas: Schemas) -> dict[str, Any]:
 
 def _columns(schemas: Schemas) -> dict[str, Any]:
     """The schema of columns; those of two bodies may leave out what the machine's file says."""
-    kinds = Group((ColumnModel,)).kinds.values()
+    kinds = GroupShape((ColumnModel,)).kinds.values()
     tables = [
-        schemas.table(kind, all_optional=True) if kind is TwoBodyColumn else schemas.value(kind)
+        schemas.table(kind, all_optional=True) if kind is CylinderAndRod else schemas.value(kind)
         for kind in kinds
     ]
     return {"oneOf": [{"allOf": [table], "required": ["type"]} for table in tables]}

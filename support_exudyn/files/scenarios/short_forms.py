@@ -16,9 +16,9 @@ from support_exudyn.files.scenarios.drive_table import one_drive, read_drives
 from support_exudyn.files.scenarios.short_pin import ShortPin
 from support_exudyn.files.toml.faults import Faults, Place, said
 from support_exudyn.files.toml.reading import FAILED, Failed, Reader
-from support_exudyn.files.toml.shapes import Group
+from support_exudyn.files.toml.shapes import GroupShape
 from support_exudyn.machines.machine_data import MachineData
-from support_exudyn.model.columns import TwoBodyColumn
+from support_exudyn.model.columns import CylinderAndRod
 from support_exudyn.model.drives.drive import CubicStep, Drive, Stroke, UniformSpeed
 from support_exudyn.model.drives.table_drive import TableDrive
 from support_exudyn.model.machine import Machine
@@ -89,7 +89,7 @@ def read_machine_of(table: Mapping[str, Any], faults: Faults, folder: Path) -> M
     if isinstance(given, str):
         return _from_file(given, faults, folder)
     if isinstance(given, dict):
-        found = Reader(faults).item({"group": Group((Machine,))}, given, ("machine",))
+        found = Reader(faults).item({"group": GroupShape((Machine,))}, given, ("machine",))
         return None if isinstance(found, Failed) else MachineData(found)
     said = f"a path that ends in .toml, one of {', '.join(SHIPPED)}, or a table [machine]"
     if given is None:
@@ -176,11 +176,11 @@ class ShortForms:
 
     def column(self, reader: Reader, item: Any, place: Place) -> Any:
         """A column of two bodies whose masses the machine's file says."""
-        if not isinstance(item, dict) or item.get("type") != TwoBodyColumn.__name__ or len(place) != 2:
+        if not isinstance(item, dict) or item.get("type") != CylinderAndRod.__name__ or len(place) != 2:
             return None
         if self.data is None or place[-1] not in self.data.columns:
             return None
-        return reader.value(TwoBodyColumn, item, place, self.data.columns[place[-1]])
+        return reader.value(CylinderAndRod, item, place, self.data.columns[place[-1]])
 
     def drive(self, reader: Reader, item: Any, place: Place) -> Any:
         """A mode of the paper, or a column of a file."""
@@ -201,7 +201,7 @@ class ShortForms:
             path, turns = self.folder / file.table, self._turns(place[-1])
             read = partial(one_drive, path, file.column, file.between, turns)
             return _read(read, reader.faults, file.table, (*place, "table"))
-        kinds = ", ".join(Group((Drive,)).kinds)
+        kinds = ", ".join(GroupShape((Drive,)).kinds)
         reader.faults.add(
             place, f"says no mode, table or type; allowed: mode = 1 or 2, table = a CSV file, type: {kinds}"
         )

@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import model_validator
 
-from support_exudyn.files.toml.shapes import Group, Names
+from support_exudyn.files.toml.shapes import GroupShape, Names
 from support_exudyn.model.pins import ClearancePin
 from user_forces.contact import JournalContact
 from user_forces.friction.ambrosio import Ambrosio
@@ -35,7 +35,7 @@ NEEDED = {"stiffness", "restitution"}  # all that the short form can give a law
 
 def simple_laws() -> tuple[str, ...]:
     """Names of the laws K depth^1.5 that need a stiffness and, if anything else, a restitution."""
-    known = Group((NormalLaw,)).kinds.items()
+    known = GroupShape((NormalLaw,)).kinds.items()
     return tuple(name for name, law in known if issubclass(law, ElasticPower) and _is_simple(law))
 
 
@@ -109,7 +109,7 @@ class ShortPin(Value):
         return ClearancePin(contact=contact, bore=self.bore, eccentricity=self.eccentricity)
 
     def _normal(self, bearing: JournalBearing) -> NormalLaw:
-        law: Any = Group((NormalLaw,)).kinds[self.law]
+        law: Any = GroupShape((NormalLaw,)).kinds[self.law]
         given: dict[str, Any] = {"stiffness": self._stiffness(bearing)}
         if "restitution" in _fields_of(self.law):
             given["restitution"] = USUAL_RESTITUTION if self.restitution is None else self.restitution
@@ -133,7 +133,7 @@ class ShortPin(Value):
 
 
 def _fields_of(law: str) -> set[str]:
-    return {one.name for one in fields(Group((NormalLaw,)).kinds[law])}  # type: ignore[arg-type]
+    return {one.name for one in fields(GroupShape((NormalLaw,)).kinds[law])}  # type: ignore[arg-type]
 
 
 def _material(given: str | Material | None, usual: Material) -> Material:

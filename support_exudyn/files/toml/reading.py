@@ -10,7 +10,7 @@ from difflib import get_close_matches
 from typing import Any, TypeVar
 
 from support_exudyn.files.toml.faults import Faults, Place, nearest, said, said_place
-from support_exudyn.files.toml.shapes import BOUNDS, FieldShape, Group, Shape, allowed, field_shapes
+from support_exudyn.files.toml.shapes import BOUNDS, FieldShape, GroupShape, Shape, allowed, field_shapes
 from user_forces.values.units import Unit
 from user_forces.values.value import DEEPEST, LARGEST, InputError, Value
 
@@ -172,7 +172,7 @@ class Reader:
         return FAILED if FAILED in found.values() else found
 
     def _group(self, shape: Shape, item: Any, place: Place) -> Any:
-        group: Group = shape["group"]
+        group: GroupShape = shape["group"]
         for base, short_form in self.short_forms.items():
             if any(issubclass(one, base) for one in group.bases):
                 found = short_form(self, item, place)
@@ -183,7 +183,7 @@ class Reader:
         cls = self._kind(group, item, place)
         return FAILED if cls is None else self.value(cls, item, place)
 
-    def _kind(self, group: Group, table: Mapping[str, Any], place: Place) -> type[Value] | None:
+    def _kind(self, group: GroupShape, table: Mapping[str, Any], place: Place) -> type[Value] | None:
         """The class that a table says it is of; None if that is not known."""
         name = table.get("type")
         if name is None:
@@ -215,7 +215,7 @@ def read_value(
     Raises InputError with a line for everything that is wrong: file, key, value, and what is allowed.
     """
     faults = Faults(where)
-    found = Reader(faults, short_forms).item({"group": Group((cls,))}, table, ())
+    found = Reader(faults, short_forms).item({"group": GroupShape((cls,))}, table, ())
     faults.check()
     return found  # type: ignore[no-any-return]
 

@@ -11,7 +11,7 @@ from typing import Any
 from support_exudyn.files.toml.shapes import (
     BOUNDS,
     FieldShape,
-    Group,
+    GroupShape,
     Shape,
     either,
     field_shapes,
@@ -109,7 +109,7 @@ class Schemas:
         bounds = {name: _plain(scaled(shape[name], unit, ending)) for name in BOUNDS if name in shape}
         return {"type": shape["type"], **bounds}
 
-    def _group(self, group: Group) -> Table:
+    def _group(self, group: GroupShape) -> Table:
         """The schema of a table whose type says its class, and of the other ways to write its values."""
         # not beside the reference, where older drafts, which some editors know only, do not look
         tables = [

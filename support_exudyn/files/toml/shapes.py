@@ -1,8 +1,8 @@
 """Shapes say what a field of a value can hold in a file: reading, writing and schemas go by them.
 
 A shape is found from the type of the field. It is a JSON Schema whose numbers are in SI, with two keywords of
-our own. `group`: the item is a value of one of a `Group` of classes. `names`: the item is a text out of `Names`
-that are asked for when it is read.
+our own. `group`: the item is a value of one of a `GroupShape` of classes. `names`: the item is a text out of
+`Names` that are asked for when it is read.
 """
 
 from __future__ import annotations
@@ -77,7 +77,7 @@ def _check_names(item: Any, known: Any) -> None:
 
 
 @dataclass(frozen=True)
-class Group:
+class GroupShape:
     """A table that is a value of one of some classes, or of a class derived from them."""
 
     bases: tuple[type[Value], ...]
@@ -144,7 +144,7 @@ def options(shape: Shape) -> Sequence[Shape]:
 def either(shapes: Sequence[Shape]) -> Shape:
     """One shape; classes of values among several become one group."""
     bases = tuple(base for one in shapes if "group" in one for base in one["group"].bases)
-    rest = [one for one in shapes if "group" not in one] + ([{"group": Group(bases)}] if bases else [])
+    rest = [one for one in shapes if "group" not in one] + ([{"group": GroupShape(bases)}] if bases else [])
     return rest[0] if len(rest) == 1 else {"anyOf": rest}
 
 
@@ -216,7 +216,7 @@ def _shape(annotation: Any, metadata: Sequence[Any], where: str) -> Shape:
             return {"type": "object", "additionalProperties": item}
         return {**_named(item, names.known), "required": names.required}
     if inspect.isclass(annotation) and issubclass(annotation, Value):
-        return {"group": Group((annotation,))}
+        return {"group": GroupShape((annotation,))}
     return _no_form(where, annotation)
 
 

@@ -18,6 +18,7 @@ from support_exudyn.formulations.reduced.layout import (
     BORE_RADIUS,
     BY_DEPTH,
     CLEARANCE,
+    CLOSED,
     DAMPING,
     DAMPING_FACTOR,
     DEPTH,
@@ -26,11 +27,12 @@ from support_exudyn.formulations.reduced.layout import (
     FORCE_X,
     FORCE_Y,
     FRICTION,
+    IMPACT_VELOCITY,
+    INVERSE_MASS_XX,
+    INVERSE_MASS_XY,
+    INVERSE_MASS_YY,
     JOURNAL_ARM,
     LAW,
-    MOBILITY_XX,
-    MOBILITY_XY,
-    MOBILITY_YY,
     NORMAL,
     OFFSET_X,
     OFFSET_Y,
@@ -43,8 +45,6 @@ from support_exudyn.formulations.reduced.layout import (
     STATIC_SPEED,
     STIFFNESS,
     STORED,
-    TOUCH_SPEED,
-    TOUCHING,
     Vector,
 )
 from support_exudyn.mechanics.contact_state import HEAVIEST
@@ -54,7 +54,7 @@ from user_forces.lawful import ROUNDING
 
 
 class PinState(NamedTuple):
-    """The loose pin: where the journal is, how it moves, and how that depends on the free coordinates. SI.
+    """The clearance pin: where the journal is, how it moves, and how that depends on the free coordinates. SI.
 
     x, y, vx, vy: journal's centre minus bore's, and its rate, ground's axes. bore_spin, journal_spin: of their
     bodies. cos_bore, sin_bore: turn of the bore's axes. x1, y1, x2, y2: rate of x, y by the rates of the first
@@ -124,7 +124,7 @@ def closing_force(pin: PinState, law: Balance, first: float, second: float) -> t
 
 
 @inlined
-def mobility(pin: PinState, law: Balance) -> tuple[float, float, float]:
+def inverse_mass(pin: PinState, law: Balance) -> tuple[float, float, float]:
     """xx, xy, yy [1/kg] of the velocity that an impulse gives the journal, in the bore's axes."""
     c, s = pin.cos_bore, pin.sin_bore
     x1, x2 = c * pin.x1 + s * pin.y1, c * pin.x2 + s * pin.y2
@@ -135,21 +135,25 @@ def mobility(pin: PinState, law: Balance) -> tuple[float, float, float]:
 
 
 @inlined
-def moving_mass(memory: Vector, pin: PinState) -> float:
-    """Mass [kg] that moves along the eccentricity, by the remembered mobility (bore's axes)."""
+def effective_mass(memory: Vector, pin: PinState) -> float:
+    """Mass [kg] that moves along the eccentricity, by the remembered inverse effective mass (bore's axes)."""
     x = pin.cos_bore * pin.x + pin.sin_bore * pin.y
     y = pin.cos_bore * pin.y - pin.sin_bore * pin.x
     square = x * x + y * y + SMALLEST_SQUARE
-    along = memory[MOBILITY_XX] * x * x + 2.0 * memory[MOBILITY_XY] * x * y + memory[MOBILITY_YY] * y * y
+    along = (
+        memory[INVERSE_MASS_XX] * x * x
+        + 2.0 * memory[INVERSE_MASS_XY] * x * y
+        + memory[INVERSE_MASS_YY] * y * y
+    )
     return float(square / max(along, square / HEAVIEST))
 
 
 @inlined
 def damping_speed(p: Vector, memory: Vector, pin: PinState, energy: float) -> float:
     """w [m/s] of the law with an energy [J] stored."""
-    w = max(memory[TOUCH_SPEED], p[SPEED_FLOOR])
+    w = max(memory[IMPACT_VELOCITY], p[SPEED_FLOOR])
     if p[BY_DEPTH] != 0.0:
-        w = max(w, math.sqrt(2.0 * energy / moving_mass(memory, pin)))
+        w = max(w, math.sqrt(2.0 * energy / effective_mass(memory, pin)))
     return float(w)
 
 
@@ -167,10 +171,11 @@ def law_force(
 ) -> None:
     """Write NORMAL, FRICTION, DAMPING and PUSH of any law into `out`, see `layout`; nan where it breaks.
 
-    Before the surfaces have parted the law goes on as at SHALLOWEST, so that one with a dashpot does not jump.
+    Before the surfaces have separated the law goes on as at SHALLOWEST, so that one with a dashpot does not
+    jump.
     """
     depth = max(depth, SHALLOWEST)
-    asked = call_law(p[LAW], depth, rate, slip, memory[TOUCH_SPEED], mass, p[PARAMETERS:], out)
+    asked = call_law(p[LAW], depth, rate, slip, memory[IMPACT_VELOCITY], mass, p[PARAMETERS:], out)
     friction, elastic = out[0], out[1]
     normal = asked if asked > 0.0 or asked != asked else 0.0
     lost = (normal - elastic) * rate
@@ -200,10 +205,10 @@ def contact_force(p: Vector, memory: Vector, pin: PinState, out: Vector) -> None
     slip = nx * pin.vy - ny * pin.vx + pin.journal_spin * journal_arm - pin.bore_spin * bore_arm
     normal = friction = damping = energy = 0.0
     push = 1.0
-    if memory[TOUCHING] != 0.0 and p[LAW] != 0.0:
-        law_force(p, memory, depth, speed, slip, moving_mass(memory, pin), out)
+    if memory[CLOSED] != 0.0 and p[LAW] != 0.0:
+        law_force(p, memory, depth, speed, slip, effective_mass(memory, pin), out)
         normal, friction, damping, push = out[NORMAL], out[FRICTION], out[DAMPING], out[PUSH]
-    elif memory[TOUCHING] != 0.0:
+    elif memory[CLOSED] != 0.0:
         inside = max(depth, 0.0)
         elastic = p[STIFFNESS] * (inside * math.sqrt(inside) if p[EXPONENT] == 1.5 else inside ** p[EXPONENT])
         energy = elastic * inside / (p[EXPONENT] + 1.0)

@@ -65,7 +65,7 @@ def check(scenario: Scenario) -> None:
     if scenario.solver.backend not in ("auto", "compiled"):
         _refuse("solver.backend", repr(scenario.solver.backend), "'auto', 'compiled'")
     if scenario.linkage.cranks and model.PIN not in scenario.clearance_pins:
-        _refuse(f"pins.{model.PIN}", "IdealPin", "a loose pin: otherwise nothing is free to move")
+        _refuse(f"pins.{model.PIN}", "IdealPin", "a clearance pin: otherwise nothing is free to move")
 
 
 def _refuse(where: str, what: str, allowed: str) -> NoReturn:

@@ -14,7 +14,7 @@ from support_exudyn.formulations.reduced.contact import (
     accelerations,
     closing_rates,
     contact_force,
-    mobility,
+    inverse_mass,
 )
 from support_exudyn.formulations.reduced.layout import (
     DAMPING,
@@ -23,10 +23,10 @@ from support_exudyn.formulations.reduced.layout import (
     FIRST_RATE,
     FRICTION,
     FRICTION_LOSS,
+    INVERSE_MASS_XX,
+    INVERSE_MASS_XY,
+    INVERSE_MASS_YY,
     MACHINE,
-    MOBILITY_XX,
-    MOBILITY_XY,
-    MOBILITY_YY,
     SECOND,
     SECOND_RATE,
     SINE,
@@ -36,7 +36,7 @@ from support_exudyn.formulations.reduced.layout import (
     SWIFTNESS,
     WEIGHED,
     WORK,
-    Drive,
+    DriveValues,
     Matrix,
     Vector,
     driven,
@@ -50,16 +50,16 @@ support_dead_centre, support_posture = support.dead_centre, support.posture_and_
 
 
 @compiled
-def pin_at(p: Vector, drive: Drive, y: Vector) -> PinState:
-    """The loose pin in the state y."""
+def pin_at(p: Vector, drive: DriveValues, y: Vector) -> PinState:
+    """The clearance pin in the state y."""
     if p[MACHINE] == SLIDER_CRANK:
         return slider_crank_pin(p, drive, y)
     return support_pin(p, drive, y)
 
 
 @compiled
-def law_at(p: Vector, drive: Drive, y: Vector, weight: float) -> tuple[PinState, Balance]:
-    """The loose pin and the equations of motion; weight: 1, or 0 to leave gravity out."""
+def law_at(p: Vector, drive: DriveValues, y: Vector, weight: float) -> tuple[PinState, Balance]:
+    """The clearance pin and the equations of motion; weight: 1, or 0 to leave gravity out."""
     if p[MACHINE] == SLIDER_CRANK:
         return slider_crank_law(p, drive, y, weight)
     at, rate = support_posture(p, drive, y)
@@ -67,7 +67,7 @@ def law_at(p: Vector, drive: Drive, y: Vector, weight: float) -> tuple[PinState,
 
 
 @compiled
-def power_at(p: Vector, drive: Drive, y: Vector, first: float, second: float, contact: Vector) -> float:
+def power_at(p: Vector, drive: DriveValues, y: Vector, first: float, second: float, contact: Vector) -> float:
     """Power of the drive [W] at these accelerations of the free coordinates."""
     if p[MACHINE] == SLIDER_CRANK:
         return slider_crank_power(p, drive, y, first, contact)
@@ -94,7 +94,7 @@ def evaluate(
 
 @inlined
 def slider_crank_moves(
-    p: Vector, drive: Drive, memory: Vector, y: Vector, contact: Vector
+    p: Vector, drive: DriveValues, memory: Vector, y: Vector, contact: Vector
 ) -> tuple[float, float, float]:
     """Accelerations of the free coordinates and power of the drive [W]; `contact` is written."""
     pin, law = slider_crank_law(p, drive, y, 1.0)
@@ -106,7 +106,7 @@ def slider_crank_moves(
 
 @inlined
 def support_moves(
-    p: Vector, drive: Drive, memory: Vector, y: Vector, contact: Vector
+    p: Vector, drive: DriveValues, memory: Vector, y: Vector, contact: Vector
 ) -> tuple[float, float, float]:
     """Accelerations of the free coordinates and power of the drive [W]; `contact` is written."""
     at, rate = support_posture(p, drive, y)
@@ -124,7 +124,7 @@ def observe(p: Vector, segment: Vector, memory: Vector, t: float, y: Vector, con
 
 
 @compiled
-def approach(p: Vector, segment: Vector, t: float, y: Vector, near: Vector) -> None:
+def impact_velocity(p: Vector, segment: Vector, t: float, y: Vector, near: Vector) -> None:
     """Write into `near` how near the state y is to a dead centre, see `support_posture.dead_centre`."""
     near[SINE], near[SWIFTNESS] = 1.0, 0.0  # a slider-crank has none: its rod is longer than its crank
     if p[MACHINE] != SLIDER_CRANK:
@@ -132,10 +132,10 @@ def approach(p: Vector, segment: Vector, t: float, y: Vector, near: Vector) -> N
 
 
 @compiled
-def freeze_mobility(p: Vector, segment: Vector, memory: Vector, t: float, y: Vector) -> None:
+def freeze_inverse_mass(p: Vector, segment: Vector, memory: Vector, t: float, y: Vector) -> None:
     """Remember how easily the journal moves against the bore now, in the bore's axes."""
     pin, law = law_at(p, driven(segment, t), y, 0.0)
-    memory[MOBILITY_XX], memory[MOBILITY_XY], memory[MOBILITY_YY] = mobility(pin, law)
+    memory[INVERSE_MASS_XX], memory[INVERSE_MASS_XY], memory[INVERSE_MASS_YY] = inverse_mass(pin, law)
 
 
 @compiled

@@ -13,19 +13,19 @@ from support_exudyn.formulations.contact_events import DepthPath
 from support_exudyn.formulations.reduced.equations import observe, within
 from support_exudyn.formulations.reduced.layout import (
     CLEARANCE,
+    CLOSED,
     DEPTH,
     OFFSET_X,
     OFFSET_Y,
     PUSH,
     RATE,
     RENEWS,
-    TOUCHING,
     Matrix,
     Vector,
 )
 
-# RETURN: pressed on again without having parted. CUT: the law begins or ceases to ask for tension
-NOTHING, TOUCH, PARTING, RETURN, CUT, TOO_LONG = range(6)
+# RETURN: pressed on again without having separated. CUT: the law begins or ceases to ask for tension
+NOTHING, IMPACT, SEPARATION, RETURN, CUT, TOO_LONG = range(6)
 SAMPLES = 8  # of a cubic, when a change of sign is looked for
 PARTS = 4  # of a step in free flight
 PARTS_CLOSED = 1  # of a step in contact
@@ -33,7 +33,7 @@ SHORT = 1e-9  # [s]: in so short a step what cannot be told apart is taken as it
 CUT_MET = 1e-9  # PUSH, of the order of 1, at which a cut of tension is met; the force has only a kink there
 NEAR_CUT = 0.5  # PUSH below which a step is looked at for two cuts,
 CUT_SAMPLES = 4  # in so many parts
-AT_ZERO = 1e-13  # depth [m] that is a touch or parting just made; those are met to a tenth of it
+AT_ZERO = 1e-13  # depth [m] that is an impact or separation just made; those are met to a tenth of it
 Found = tuple[int, float, float]  # what, and fractions of the step between which it happens
 
 
@@ -59,7 +59,7 @@ def turning_point(path: DepthPath) -> float:
 
 
 @compiled
-def parting(path: DepthPath) -> Found:
+def separation(path: DepthPath) -> Found:
     """The first way out of a contact that is open at the end of a part."""
     inside = 0.0 if path.depth0 > AT_ZERO or path.rate0 < 0.0 else -1.0
     for n in range(1, SAMPLES + 1):
@@ -67,8 +67,8 @@ def parting(path: DepthPath) -> Found:
         if depth_of(path, x) > 0.0:
             inside = x
         elif inside >= 0.0:
-            return PARTING, inside, x
-    return (PARTING, 1.0, 1.0) if path.step <= SHORT else (TOO_LONG, 0.0, 0.0)
+            return SEPARATION, inside, x
+    return (SEPARATION, 1.0, 1.0) if path.step <= SHORT else (TOO_LONG, 0.0, 0.0)
 
 
 @compiled
@@ -87,14 +87,14 @@ def in_contact(renews: bool, d0: float, r0: float, d1: float, r1: float, h: floa
         if (renews or lowest <= 0.0 < d1) and may_turn(path):
             return TOO_LONG, 0.0, 0.0
     if d1 <= 0.0:
-        return parting(path)
+        return separation(path)
     if turns:
         x = turning_point(path)
         lowest = depth_of(path, x)
         if h > SHORT and abs(lowest) < doubt_of(path):
             return TOO_LONG, 0.0, 0.0
         if lowest <= 0.0:
-            return PARTING, 0.0, x
+            return SEPARATION, 0.0, x
         if renews:
             return RETURN, x, x
     return NOTHING, 1.0, 1.0
@@ -102,7 +102,7 @@ def in_contact(renews: bool, d0: float, r0: float, d1: float, r1: float, h: floa
 
 @compiled
 def rise(d0: float, r0: float, d1: float, r1: float, h: float) -> Found:
-    """The first touch of a journal that is free at the start of a part of a step; fractions of that part."""
+    """The first impact of a journal that is free at the start of a part of a step; fractions of that part."""
     path, top = DepthPath(d0, r0, d1, r1, h), 1.0
     if d1 <= 0.0:
         if not r0 > 0.0 > r1:
@@ -116,13 +116,13 @@ def rise(d0: float, r0: float, d1: float, r1: float, h: float) -> Found:
         if highest <= 0.0:
             return NOTHING, 1.0, 1.0
     low = 0.0
-    apart = d0 < -AT_ZERO or r0 > 0.0  # else the surfaces have just parted and must be seen apart first
+    apart = d0 < -AT_ZERO or r0 > 0.0  # else the surfaces have just separated and must be seen apart first
     for n in range(1, SAMPLES + 1):
         x = top * n / SAMPLES
         if depth_of(path, x) > 0.0:
-            return (TOUCH, low, x) if apart or h <= SHORT else (TOO_LONG, 0.0, 0.0)
+            return (IMPACT, low, x) if apart or h <= SHORT else (TOO_LONG, 0.0, 0.0)
         low, apart = x, True
-    return TOUCH, low, top
+    return IMPACT, low, top
 
 
 @compiled
@@ -168,14 +168,14 @@ def in_flight(
         what, low, high = rise(d0, r0, d1, r1, h / PARTS)
         if what == TOO_LONG:
             return TOO_LONG, 0.0, 0.0
-        if what == TOUCH:
-            return TOUCH, (n + low) / PARTS, (n + high) / PARTS
+        if what == IMPACT:
+            return IMPACT, (n + low) / PARTS, (n + high) / PARTS
         d0, r0 = d1, r1
     return NOTHING, 1.0, 1.0
 
 
 @compiled
-def touching(
+def closed(
     p: Vector,
     segment: Vector,
     memory: Vector,
@@ -201,11 +201,11 @@ def touching(
         if what == TOO_LONG:
             return TOO_LONG, 0.0, 0.0
         if crosses and (push < 0.0) != (push_then < 0.0):
-            # where it is pressed on again the law asks for no tension, so that comes later; a parting may be
+            # where it is pressed on again the law asks for no tension, so that comes later; a separation may be
             # first
-            if what == PARTING and h > SHORT:
+            if what == SEPARATION and h > SHORT:
                 return TOO_LONG, 0.0, 0.0
-            if what != PARTING:
+            if what != SEPARATION:
                 return CUT, n / PARTS_CLOSED, (n + 1) / PARTS_CLOSED
         if what != NOTHING:
             return what, (n + low) / PARTS_CLOSED, (n + high) / PARTS_CLOSED
@@ -252,8 +252,8 @@ def event(
     there: Vector,
 ) -> Found:
     """The first thing that happens to the contact in a step, see `in_flight` for the arguments."""
-    if memory[TOUCHING] == 0.0:
+    if memory[CLOSED] == 0.0:
         return in_flight(p, segment, memory, t, h, start, end, path, y, there)
     if cut_twice(p, segment, memory, t, h, start, end, path, y, there):
         return TOO_LONG, 0.0, 0.0
-    return touching(p, segment, memory, t, h, start, end, path, y, there)
+    return closed(p, segment, memory, t, h, start, end, path, y, there)

@@ -24,7 +24,7 @@ from support_exudyn.formulations.reduced.layout import (
     SECOND,
     SECOND_RATE,
     WORK,
-    Drive,
+    DriveValues,
     Matrix,
     Vector,
     driven,
@@ -51,7 +51,7 @@ def close_pin(p: Vector, extension: float, y: Vector, report: Vector) -> bool:
     """Turn canopy and rear link of the state y until the pin closes; whether it did."""
     least = math.inf
     for _ in range(ITERATIONS):
-        pin = pin_state(p, Drive(extension, 0.0, 0.0), y)
+        pin = pin_state(p, DriveValues(extension, 0.0, 0.0), y)
         report[EVALUATIONS] += 1
         miss = math.hypot(pin.x, pin.y)
         if miss <= CLOSED or (miss < 1e-12 and miss >= least):
@@ -66,7 +66,7 @@ def close_pin(p: Vector, extension: float, y: Vector, report: Vector) -> bool:
 
 
 @compiled
-def follow(p: Vector, drive: Drive, before: float, y: Vector, report: Vector) -> bool:
+def follow(p: Vector, drive: DriveValues, before: float, y: Vector, report: Vector) -> bool:
     """Bring the state y from an extension `before` [m] to where the drive is; whether the linkage closes."""
     parts = math.ceil(abs(drive.extension - before) / LARGEST_STROKE) + 1
     for n in range(1, parts + 1):
@@ -79,7 +79,7 @@ def follow(p: Vector, drive: Drive, before: float, y: Vector, report: Vector) ->
 
 
 @compiled
-def power(p: Vector, drive: Drive, y: Vector) -> float:
+def power(p: Vector, drive: DriveValues, y: Vector) -> float:
     """Power of the columns [W] in the state y, which belongs to the drive."""
     at = posture(p, y[FIRST], y[SECOND], drive.extension)
     rate = rates(p, at, y[FIRST_RATE], y[SECOND_RATE], drive.extension, drive.speed)

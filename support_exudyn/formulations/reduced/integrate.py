@@ -1,4 +1,4 @@
-"""The run of a support with a loose pin: steps of chosen length, cut at touches and partings."""
+"""The run of a support with a clearance pin: steps of chosen length, cut at impacts and separations."""
 
 from __future__ import annotations
 
@@ -10,30 +10,32 @@ from support_exudyn.formulations.compiled import compiled, entry
 from support_exudyn.formulations.reduced.equations import (
     STAGES,
     advance,
-    approach,
     evaluate,
     fit,
-    freeze_mobility,
+    freeze_inverse_mass,
+    impact_velocity,
     move_with_the_drive,
     within,
 )
 from support_exudyn.formulations.reduced.events import (
     CUT,
     CUT_MET,
+    IMPACT,
     NOTHING,
-    PARTING,
     RETURN,
+    SEPARATION,
     TOO_LONG,
-    TOUCH,
     event,
 )
 from support_exudyn.formulations.reduced.layout import (
     ASKED_DEPTH,
     BEGIN,
+    CLOSED,
     CONTACT,
     DEPTH,
     END,
     FORGETS,
+    IMPACT_VELOCITY,
     JUMP,
     NEARNESS,
     PUSH,
@@ -42,30 +44,28 @@ from support_exudyn.formulations.reduced.layout import (
     SINE,
     STATES,
     SWIFTNESS,
-    TOUCH_SPEED,
-    TOUCHING,
     Matrix,
     Vector,
 )
 from support_exudyn.formulations.reduced.records import peak, record, size
 from support_exudyn.formulations.reduced.support import jump
 
-FINISHED, STUCK, TOO_MANY_STEPS, TOO_MANY_TOUCHES, DEAD_CENTRE, PAUSED = range(6)
+FINISHED, STUCK, TOO_MANY_STEPS, TOO_MANY_IMPACTS, DEAD_CENTRE, PAUSED = range(6)
 # what is reported of a run
-STEPS, EVALUATIONS, LARGEST, STOPPED_AT, TOUCHES, JUMPS, LAST_STEP, NOT_A_NUMBER, RECORDS = range(9)
+STEPS, EVALUATIONS, LARGEST, STOPPED_AT, IMPACTS, JUMPS, LAST_STEP, NOT_A_NUMBER, RECORDS = range(9)
 ACCEPTED, CUTS, CLAMPED, REPORT = range(9, 13)  # steps: accepted, cut to end at an event, that end in tension
 # With what a run goes on after a pause: the number of its segment, whether it is in the midst of it, time [s],
 # next step [s], last error, and of the last step's end the rate of the state and the contact
 SEGMENT_NUMBER, MIDST, AT, NEXT_STEP, LAST_ERROR, RATES = range(6)
-SEEN = RATES + STATES
-GOING = SEEN + CONTACT
+CONTEXT = RATES + STATES
+GOING = CONTEXT + CONTACT
 
 SAFETY, SLOWEST, FASTEST = 0.9, 0.2, 8.0  # change of the step: margin, smallest and largest factor
 SHORTEN = 0.25  # factor for a step in which too much happens
 STEADY = 0.04  # weight of the last error in the choice of a step (Gustafsson), against hunting
 ORDER = 0.2 - 0.75 * STEADY
 SMALLEST_STEP = 1e-13  # [s]
-LANDED = 1e-14  # depth [m] at which a touch or parting is met; rounding of the posture is some 1e-16
+LANDED = 1e-14  # depth [m] at which an impact or separation is met; rounding of the posture is some 1e-16
 LANDINGS = 12
 TURNS = 3  # looks for where a contact is pressed on again; the force is continuous there
 SMALLEST_SINE = 0.01  # of the angles that vanish at a dead centre: nearer to it the run is given up
@@ -101,8 +101,8 @@ def land(
 ) -> float:
     """Make a step of h [s] again so that it ends where something happens, see `event`; its length [s].
 
-    A touch or parting is met by Newton's method on the depth at the end of the step, kept by bisection where it
-    was seen.
+    An impact or separation is met by Newton's method on the depth at the end of the step, kept by bisection
+    where it was seen.
     """
     before, after = low * h, high * h
     length = 0.5 * (before + after)
@@ -112,7 +112,7 @@ def land(
         depth = contact[DEPTH]
         if abs(depth) <= LANDED or n == LANDINGS:
             break
-        if (depth > 0.0) == (what == TOUCH):
+        if (depth > 0.0) == (what == IMPACT):
             after = max(length, before)
         else:
             before = min(length, after)
@@ -203,18 +203,18 @@ def land_on_turn(
 @compiled
 def happen(p: Vector, what: int, t: float, rate: float, memory: Vector, onsets: Matrix, report: Vector) -> bool:
     """Change the memory as an event at t [s] at a rate of depth [m/s] does; whether there is room for it."""
-    if what == PARTING or (what == RETURN and p[FORGETS] != 0.0):
-        memory[TOUCH_SPEED] = 0.0
-    n = int(report[TOUCHES])
-    if what == PARTING:
-        memory[TOUCHING] = 0.0
+    if what == SEPARATION or (what == RETURN and p[FORGETS] != 0.0):
+        memory[IMPACT_VELOCITY] = 0.0
+    n = int(report[IMPACTS])
+    if what == SEPARATION:
+        memory[CLOSED] = 0.0
         onsets[n - 1, 2], onsets[n - 1, 3] = t, max(0.0, -rate)
-    elif what == TOUCH:
+    elif what == IMPACT:
         if n >= onsets.shape[0]:
             return False
-        memory[TOUCHING], memory[TOUCH_SPEED] = 1.0, max(0.0, rate)
-        onsets[n, 0], onsets[n, 1], onsets[n, 2], onsets[n, 3] = t, memory[TOUCH_SPEED], math.inf, 0.0
-        report[TOUCHES] += 1
+        memory[CLOSED], memory[IMPACT_VELOCITY] = 1.0, max(0.0, rate)
+        onsets[n, 0], onsets[n, 1], onsets[n, 2], onsets[n, 3] = t, memory[IMPACT_VELOCITY], math.inf, 0.0
+        report[IMPACTS] += 1
     return True
 
 
@@ -267,15 +267,15 @@ def run_segment(
     t, stop = segment[BEGIN], segment[END]
     if going[MIDST] != 0.0:
         t, error_before = going[AT], going[LAST_ERROR]
-        k[0, :] = going[RATES:SEEN]
-        now[:] = going[SEEN:GOING]
+        k[0, :] = going[RATES:CONTEXT]
+        now[:] = going[CONTEXT:GOING]
     else:
         evaluate(p, segment, memory, t, y, k[0], now)
     while t < stop:
         if report[STEPS] >= pause:
             going[MIDST], going[AT], going[NEXT_STEP], going[LAST_ERROR] = 1.0, t, h, error_before
-            going[RATES:SEEN] = k[0]
-            going[SEEN:GOING] = now
+            going[RATES:CONTEXT] = k[0]
+            going[CONTEXT:GOING] = now
             return PAUSED
         report[STEPS] += 1
         report[STOPPED_AT], report[LAST_STEP] = t, h
@@ -293,7 +293,7 @@ def run_segment(
         if not error <= 1.0:
             h *= min(factor(error, 1.0), 1.0)
             continue
-        approach(p, segment, t + h, end, near)
+        impact_velocity(p, segment, t + h, end, near)
         if near[SINE] < SMALLEST_SINE:
             return DEAD_CENTRE
         fit(h, y, end, k, path)
@@ -316,7 +316,7 @@ def run_segment(
             h = land(p, segment, memory, t, h, what, low, high, y, k, end, then, weights, report)
             fit(h, y, end, k, path)
             last = h >= stop - t
-        if memory[TOUCHING] != 0.0:
+        if memory[CLOSED] != 0.0:
             first, final = size(now), size(then)
             report[LARGEST] = peak(p, segment, memory, t, h, path, report[LARGEST], first, final, probe, there)
         report[ACCEPTED] += 1
@@ -332,9 +332,9 @@ def run_segment(
             now[:] = then
         else:
             if not happen(p, what, t, then[RATE], memory, onsets, report):
-                return TOO_MANY_TOUCHES
-            if p[RENEWS] != 0.0 and what in (TOUCH, RETURN):
-                freeze_mobility(p, segment, memory, t, y)
+                return TOO_MANY_IMPACTS
+            if p[RENEWS] != 0.0 and what in (IMPACT, RETURN):
+                freeze_inverse_mass(p, segment, memory, t, y)
             evaluate(p, segment, memory, t, y, k[0], now)
             # whatever rounding says
             if what == RETURN:
@@ -377,7 +377,7 @@ def integrate(
         # a drive that moves from the start on without a jump has been moving for long
         if segments[0, JUMP] == 0.0:
             move_with_the_drive(p, segments[0], 0.0, y)
-        freeze_mobility(p, segments[0], memory, 0.0, y)
+        freeze_inverse_mass(p, segments[0], memory, 0.0, y)
         record(segments[0], memory, 0.0, y, rows, 0)
         report[RECORDS] = 1
     for n in range(int(going[SEGMENT_NUMBER]), segments.shape[0]):

@@ -75,8 +75,8 @@ from support_exudyn.formulations.compiled import inlined
     STATIC_SPEED,
     DYNAMIC_SPEED,
     LAW,  # address of the compiled law, see `compiled.call_law`; 0: the family K depth^n by the numbers above
-    RENEWS,  # 1: something changes where a contact is pressed on again without having parted,
-    FORGETS,  # 1: the touch speed, which becomes 0
+    RENEWS,  # 1: something changes where a contact is pressed on again without having separated,
+    FORGETS,  # 1: the impact velocity, which becomes 0
     BORE_FIRST,  # 1: the pin's first body has the bore, see `Linkage.pins`; 0: the second
     PARAMETERS,  # how many there are; behind them the constants of a compiled law
 ) = range(66)
@@ -94,7 +94,7 @@ FIRST, SECOND, FIRST_RATE, SECOND_RATE, DAMPING_LOSS, FRICTION_LOSS, WORK, STATE
 WEIGHED = WORK  # components before it count in the error of a step
 
 # What a clearance pin remembers
-TOUCHING, TOUCH_SPEED, MOBILITY_XX, MOBILITY_XY, MOBILITY_YY, MEMORY = range(6)
+CLOSED, IMPACT_VELOCITY, INVERSE_MASS_XX, INVERSE_MASS_XY, INVERSE_MASS_YY, MEMORY = range(6)
 # and behind that, where since the last step the law has given what no force can be; ASKED_DEPTH 0: nowhere
 ASKED_DEPTH, ASKED_RATE, ASKED_SLIP, ASKED_MASS, ALL_MEMORY = range(MEMORY, MEMORY + 5)
 
@@ -124,7 +124,7 @@ Vector = npt.NDArray[np.float64]
 Matrix = npt.NDArray[np.float64]
 
 
-class Drive(NamedTuple):
+class DriveValues(NamedTuple):
     """Extension [m] of columns or turn [rad] of a crank, its speed and its acceleration."""
 
     extension: float
@@ -133,7 +133,7 @@ class Drive(NamedTuple):
 
 
 @inlined
-def driven(segment: Vector, t: float) -> Drive:
+def driven(segment: Vector, t: float) -> DriveValues:
     """What the drive does at time t [s] of a segment, see `layout`; also beyond its ends."""
     width = segment[WIDTH]
     x = (t - segment[ORIGIN]) / width
@@ -148,4 +148,4 @@ def driven(segment: Vector, t: float) -> Drive:
         extension = extension + amplitude * (1.0 - cosine)
         speed = speed + amplitude * frequency * sine
         acceleration = acceleration + amplitude * frequency * frequency * cosine
-    return Drive(extension, speed, acceleration)
+    return DriveValues(extension, speed, acceleration)

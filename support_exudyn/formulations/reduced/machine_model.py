@@ -13,7 +13,7 @@ from support_exudyn.model.drives.drive import Drive
 from support_exudyn.model.linkage import Linkage
 
 
-class Place(NamedTuple):
+class BodyPlace(NamedTuple):
     """A body: centre of mass [m] and turn from the start [rad], their rates, and the rates of those; (n,)."""
 
     x: Vector
@@ -44,7 +44,7 @@ def moved(
     turn: Vector,
     spin: Vector,
     spin_rate: Vector,
-) -> Place:
+) -> BodyPlace:
     """A body from the motion of one of its points.
 
     Arguments:
@@ -54,7 +54,7 @@ def moved(
     x, y, vx, vy, ax, ay = base
     rx, ry = arm
     square = spin * spin
-    return Place(
+    return BodyPlace(
         x + rx,
         y + ry,
         turn,
@@ -69,7 +69,7 @@ def moved(
 
 def placed(
     linkage: Linkage,
-    places: Sequence[Place],
+    places: Sequence[BodyPlace],
     columns: Mapping[str, Vector],
     pin_force: tuple[Vector, Vector] | None = None,
 ) -> Bodies:
@@ -90,7 +90,7 @@ def placed(
 
 
 class Model(Protocol):
-    """What a machine's module offers. PIN: the pin that may be loose; DRIVES: that it covers."""
+    """What a machine's module offers. PIN: the pin that may be with clearance; DRIVES: that it covers."""
 
     PIN: str
     DRIVES: tuple[type[Drive], ...]

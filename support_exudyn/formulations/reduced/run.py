@@ -22,6 +22,7 @@ from support_exudyn.formulations.reduced.integrate import (
     EVALUATIONS,
     FINISHED,
     GOING,
+    IMPACTS,
     JUMPS,
     LARGEST,
     LAST_STEP,
@@ -31,16 +32,15 @@ from support_exudyn.formulations.reduced.integrate import (
     STEPS,
     STOPPED_AT,
     STUCK,
+    TOO_MANY_IMPACTS,
     TOO_MANY_STEPS,
-    TOO_MANY_TOUCHES,
-    TOUCHES,
     integrate,
 )
-from support_exudyn.formulations.reduced.layout import Drive, Matrix, Vector
+from support_exudyn.formulations.reduced.layout import DriveValues, Matrix, Vector
 from support_exudyn.formulations.reduced.machine_model import Model
-from support_exudyn.formulations.reduced.setup import MOST_TOUCHES, Outline, outline
+from support_exudyn.formulations.reduced.setup import MOST_IMPACTS, RunArrays, outline
 from support_exudyn.mechanics.body_motion import BodyMotion
-from support_exudyn.mechanics.channels import Part
+from support_exudyn.mechanics.channels import DataNeeds
 from support_exudyn.mechanics.contact_history import RelativeMotion, acting, journal_arm, series
 from support_exudyn.mechanics.contact_state import Onset, PinMemory
 from support_exudyn.mechanics.joint_forces import JointForces, PinForce, open_joint_forces
@@ -50,7 +50,7 @@ from support_exudyn.scenario.recorded_channels import needs
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.expressions.scalar import maximum
 from user_forces.lawful import UNLAWFUL, LawError, look
-from user_forces.normal.law import LoadError, Touch
+from user_forces.normal.law import Impact, LoadError
 
 _law_at, _accelerations = on_arrays(law_at), on_arrays(accelerations)
 
@@ -75,7 +75,7 @@ def trajectory(scenario: Scenario, model: Model, p: list[float], rows: Matrix) -
         bodies.position[:, 2::3] -= turned
     motion = BodyMotion(linkage, bodies.position, bodies.velocity, bodies.acceleration)
     joints = JointForces()
-    if Part.JOINTS in needs(scenario):
+    if DataNeeds.JOINTS in needs(scenario):
         if pin is not None and contact is not None:
             known = acting(motion, linkage.pins[model.PIN], pin, contact)
         else:
@@ -103,7 +103,7 @@ def trajectory(scenario: Scenario, model: Model, p: list[float], rows: Matrix) -
 def _contact(p: list[float], pin: ClearancePin, rows: Matrix) -> tuple[ContactSeries, Matrix]:
     """The contact, and accelerations of the free coordinates with the force of the bore on the journal."""
     state = rows[layout.STATE_ROW : layout.STATE_ROW + layout.STATES]
-    drive = Drive(*rows[layout.EXTENSION : layout.ACCELERATION + 1])
+    drive = DriveValues(*rows[layout.EXTENSION : layout.ACCELERATION + 1])
     at, law = _law_at(p, drive, state, 1.0)
     count = rows.shape[1]
     moving = RelativeMotion(*(np.broadcast_to(getattr(at, name), (count,)) for name in RelativeMotion._fields))
@@ -122,11 +122,11 @@ def _memories(rows: Matrix) -> Vector:
     memory = rows[layout.MEMORY_ROW : layout.MEMORY_ROW + layout.MEMORY]
     still = np.zeros(rows.shape[1])
     named = {
-        "in_contact": memory[layout.TOUCHING],
-        "approach_speed": memory[layout.TOUCH_SPEED],
-        "mobility_xx": memory[layout.MOBILITY_XX],
-        "mobility_xy": memory[layout.MOBILITY_XY],
-        "mobility_yy": memory[layout.MOBILITY_YY],
+        "in_contact": memory[layout.CLOSED],
+        "impact_velocity": memory[layout.IMPACT_VELOCITY],
+        "inverse_mass_xx": memory[layout.INVERSE_MASS_XX],
+        "inverse_mass_xy": memory[layout.INVERSE_MASS_XY],
+        "inverse_mass_yy": memory[layout.INVERSE_MASS_YY],
     }
     return np.column_stack([named.get(name, still) for name in PinMemory._fields])
 
@@ -164,7 +164,7 @@ def run(scenario: Scenario, progress: Progress) -> Outcome:
     return _outcome(scenario, made)
 
 
-def _integrated(made: Outline, most_steps: int, progress: Progress) -> int:
+def _integrated(made: RunArrays, most_steps: int, progress: Progress) -> int:
     going = np.zeros(GOING)
     going[NEXT_STEP] = FIRST_STEP
     for pause in count(AT_ONCE, AT_ONCE):
@@ -189,17 +189,17 @@ def _integrated(made: Outline, most_steps: int, progress: Progress) -> int:
     return code
 
 
-def _outcome(scenario: Scenario, made: Outline) -> Outcome:
+def _outcome(scenario: Scenario, made: RunArrays) -> Outcome:
     report, name = made.report, made.model.PIN
-    touches = made.onsets[: int(report[TOUCHES])].tolist()
-    loose = made.pin is not None
+    impacts = made.onsets[: int(report[IMPACTS])].tolist()
+    with_clearance = made.pin is not None
     return Outcome(
         trajectory=trajectory(scenario, made.model, made.p.tolist(), made.rows),
-        onsets={name: tuple(Onset(*touch) for touch in touches)} if loose else {},
-        largest_force={name: float(report[LARGEST])} if loose else {},
+        onsets={name: tuple(Onset(*impact) for impact in impacts)} if with_clearance else {},
+        largest_force={name: float(report[LARGEST])} if with_clearance else {},
         impulses=tuple(_impulse(row) for row in made.jumps[: int(report[JUMPS])].tolist()),
         counts=Counts(
-            steps=int(report[ACCEPTED if loose else STEPS]),
+            steps=int(report[ACCEPTED if with_clearance else STEPS]),
             cut_steps=int(report[CUTS]),
             evaluations=int(report[EVALUATIONS]),
             user_function_calls=0,
@@ -213,7 +213,7 @@ def _impulse(row: list[float]) -> Impulse:
     return Impulse(row[layout.JUMP_TIME], columns, row[layout.JUMP_ENERGY])
 
 
-def _failure(code: int, made: Outline, most_steps: int) -> Failure:
+def _failure(code: int, made: RunArrays, most_steps: int) -> Failure:
     """Why a run stopped."""
     report, y = made.report, made.y
     state = {
@@ -222,12 +222,12 @@ def _failure(code: int, made: Outline, most_steps: int) -> Failure:
         "second_coordinate": float(y[layout.SECOND]),
         "first_rate": float(y[layout.FIRST_RATE]),
         "second_rate": float(y[layout.SECOND_RATE]),
-        "touches": float(report[TOUCHES]),
+        "impacts": float(report[IMPACTS]),
     }
     if code == TOO_MANY_STEPS:
         reason, advice = f"more than {most_steps} steps", FEWER_STEPS
-    elif code == TOO_MANY_TOUCHES:
-        reason, advice = f"more than {MOST_TOUCHES} touches", "Look at the contact law: nothing comes to rest."
+    elif code == TOO_MANY_IMPACTS:
+        reason, advice = f"more than {MOST_IMPACTS} impacts", "Look at the contact law: nothing comes to rest."
     elif code == DEAD_CENTRE:
         reason, advice = "the linkage is at a dead centre", CLOSES
     elif made.memory[layout.ASKED_DEPTH] and (broken := _broken_law(made)):
@@ -239,13 +239,13 @@ def _failure(code: int, made: Outline, most_steps: int) -> Failure:
     return Failure(reason, advice, float(report[STOPPED_AT]), state)
 
 
-def _broken_law(made: Outline) -> tuple[str, str] | None:
+def _broken_law(made: RunArrays) -> tuple[str, str] | None:
     """What the laws of the pin say, asked in Python, where the run could not go on by what they give."""
     assert made.pin is not None
     contact, memory = made.pin.contact, made.memory
     depth, rate, slip, mass = memory[layout.ASKED_DEPTH : layout.ALL_MEMORY].tolist()
     try:
-        asked = contact.normal(depth, rate, Touch(float(memory[layout.TOUCH_SPEED]), mass))
+        asked = contact.normal(depth, rate, Impact(float(memory[layout.IMPACT_VELOCITY]), mass))
         normal, elastic = maximum(asked, 0.0), contact.normal.elastic_force(depth)
         look(contact, depth, rate, slip, normal, contact.friction(slip, normal), elastic, made.model.PIN)
     except LoadError as error:

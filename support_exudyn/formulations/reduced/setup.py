@@ -23,7 +23,7 @@ from user_forces.compilation.flat import asks_for_mass, law_source
 from user_forces.contact import JournalContact
 from user_forces.friction.ambrosio import Ambrosio
 from user_forces.friction.frictionless import Frictionless
-from user_forces.normal.damping_speed import SMALLEST, DepthSpeed, TouchSpeed
+from user_forces.normal.damping_speed import SMALLEST, ImpactVelocity, IndentationVelocity
 from user_forces.normal.hertz import Hertz
 from user_forces.normal.hysteresis import Hysteresis
 from user_forces.normal.law import NormalLaw
@@ -38,7 +38,7 @@ def parameters(scenario: Scenario, machine: Mapping[str, float], pin: ClearanceP
 
     Arguments:
         machine: the machine's parameters by name.
-        pin: the loose pin; without one the contact's are zero, and the bore is in the first body.
+        pin: the clearance pin; without one the contact's are zero, and the bore is in the first body.
     """
     named = {
         **machine,
@@ -73,7 +73,7 @@ def has_power_form(law: NormalLaw) -> bool:
     )
     if not elastic or kind.__call__ is Hertz.__call__:
         return elastic
-    damped = isinstance(law, PowerLaw) and type(law.damping_speed) in (TouchSpeed, DepthSpeed)
+    damped = isinstance(law, PowerLaw) and type(law.damping_speed) in (ImpactVelocity, IndentationVelocity)
     return damped and kind.__call__ is Hysteresis.__call__ and kind.forgets is Hysteresis.forgets
 
 
@@ -94,7 +94,7 @@ def _contact(pin: ClearancePin) -> dict[str, float]:
         found |= {"STIFFNESS": law.stiffness, "EXPONENT": law.exponent}
     if isinstance(law, PowerLaw):
         found["DAMPING_FACTOR"] = law.damping_factor
-        if isinstance(law.damping_speed, TouchSpeed):
+        if isinstance(law.damping_speed, ImpactVelocity):
             found["SPEED_FLOOR"] = law.damping_speed.floor
     if isinstance(friction, Ambrosio):
         found["SLIDING_COEFFICIENT"] = friction.sliding_coefficient
@@ -159,11 +159,11 @@ def error_weights(
     return np.array([*way, *rate, energy, energy, energy], dtype=np.float64)
 
 
-MOST_TOUCHES = 100_000
+MOST_IMPACTS = 100_000
 
 
 @dataclass(frozen=True)
-class Outline:
+class RunArrays:
     """A run before it begins; y, memory, rows, onsets, jumps and report are filled by it, see `layout`.
 
     p: parameters. segments: of the drive. times: of the records [s]. weights: one over the largest error of a
@@ -184,7 +184,7 @@ class Outline:
     report: Vector
 
 
-def outline(scenario: Scenario) -> Outline:
+def outline(scenario: Scenario) -> RunArrays:
     """The arrays of a scenario's run."""
     model = model_of(scenario)
     machine = scenario.machine
@@ -195,12 +195,10 @@ def outline(scenario: Scenario) -> Outline:
     )
     memory = np.zeros(layout.ALL_MEMORY)
     if pin is not None and pin.contact.bearing.depth(math.hypot(*pin.eccentricity)) > 0.0:
-        memory[layout.TOUCHING] = (
-            1.0  # pressed in from the start on; the journal does not move in its bore then
-        )
+        memory[layout.CLOSED] = 1.0  # pressed in from the start on; the journal does not move in its bore then
     times = record_times(scenario.duration, scenario.record_period)
     drive = segments(scenario.drive, scenario.duration)
-    return Outline(
+    return RunArrays(
         model=model,
         pin=pin,
         p=parameters(scenario, model.parameters(machine), pin),
@@ -210,7 +208,7 @@ def outline(scenario: Scenario) -> Outline:
         y=y,
         memory=memory,
         rows=np.zeros((layout.ROWS, times.size)),
-        onsets=np.empty((MOST_TOUCHES if pin else 0, 4)),
+        onsets=np.empty((MOST_IMPACTS if pin else 0, 4)),
         jumps=np.zeros((len(drive), layout.JUMP_ROW)),
         report=np.zeros(REPORT),
     )

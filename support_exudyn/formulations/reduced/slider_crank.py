@@ -29,18 +29,18 @@ from support_exudyn.formulations.reduced.layout import (
     SECOND_RATE,
     SLIDER_MASS,
     SLIDER_X,
-    Drive,
+    DriveValues,
     Matrix,
     Vector,
 )
-from support_exudyn.formulations.reduced.machine_model import Bodies, Place, moved, placed
+from support_exudyn.formulations.reduced.machine_model import Bodies, BodyPlace, moved, placed
 from support_exudyn.machines.slider_crank import SliderCrank
 from support_exudyn.model.drives.drive import CubicStep, Held, Reciprocating, Steady
 from support_exudyn.model.linkage import Linkage
 
 
 @inlined
-def pin_state(p: Vector, drive: Drive, y: Vector) -> PinState:
+def pin_state(p: Vector, drive: DriveValues, y: Vector) -> PinState:
     """The slider pin: the rod's end against the slider."""
     crank, rod = p[CRANK_ANGLE] + drive.extension, p[ROD_ANGLE] + y[FIRST]
     r, length = p[CRANK_LENGTH], p[ROD_LENGTH]
@@ -55,7 +55,7 @@ def pin_state(p: Vector, drive: Drive, y: Vector) -> PinState:
 
 
 @inlined
-def pin_and_law(p: Vector, drive: Drive, y: Vector, weight: float) -> tuple[PinState, Balance]:
+def pin_and_law(p: Vector, drive: DriveValues, y: Vector, weight: float) -> tuple[PinState, Balance]:
     """The slider pin and the equations of motion; weight: 1, or 0 to leave gravity out."""
     crank, rod = p[CRANK_ANGLE] + drive.extension, p[ROD_ANGLE] + y[FIRST]
     r, half, mass = p[CRANK_LENGTH], 0.5 * p[ROD_LENGTH], p[ROD_MASS]
@@ -71,7 +71,7 @@ def pin_and_law(p: Vector, drive: Drive, y: Vector, weight: float) -> tuple[PinS
 
 
 @inlined
-def power(p: Vector, drive: Drive, y: Vector, turning: float, contact: Vector) -> float:
+def power(p: Vector, drive: DriveValues, y: Vector, turning: float, contact: Vector) -> float:
     """Power of the drive [W]: the crank's moment times its speed. turning: the rod's acceleration [rad/s^2]."""
     crank, rod = p[CRANK_ANGLE] + drive.extension, p[ROD_ANGLE] + y[FIRST]
     r, half, mass = p[CRANK_LENGTH], 0.5 * p[ROD_LENGTH], p[ROD_MASS]
@@ -151,5 +151,5 @@ def bodies(
     half = 0.5 * machine.rod_length
     at_rod = moved(tip, (half * np.cos(rod), half * np.sin(rod)), rod_turn, rod_spin, rod_turning)
     x = p[layout.SLIDER_X] + way
-    at_slider = Place(x, still, still, slide_speed, still, still, slide_speeding, still, still)
+    at_slider = BodyPlace(x, still, still, slide_speed, still, still, slide_speeding, still, still)
     return placed(linkage, [at_crank, at_rod, at_slider], {})

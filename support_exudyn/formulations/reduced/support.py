@@ -47,12 +47,12 @@ from support_exudyn.formulations.reduced.layout import (
     SHIELD_INERTIA,
     SHIELD_MASS,
     WORK,
-    Drive,
+    DriveValues,
     Matrix,
     Vector,
     driven,
 )
-from support_exudyn.formulations.reduced.support_posture import Posture, Rates, posture, rates
+from support_exudyn.formulations.reduced.support_posture import Rates, SupportMotion, posture, rates
 
 
 class Arms(NamedTuple):
@@ -80,7 +80,7 @@ class Motion(NamedTuple):
 
 
 @inlined
-def arms(p: Vector, at: Posture) -> Arms:
+def arms(p: Vector, at: SupportMotion) -> Arms:
     """Where the centres of mass are."""
     along, across = p[SHIELD_ALONG], p[SHIELD_ACROSS]
     front_along, front_across = p[LINK_ALONG], p[LINK_ACROSS]
@@ -97,7 +97,7 @@ def arms(p: Vector, at: Posture) -> Arms:
 
 
 @inlined
-def motion(at: Posture, rate: Rates, hinge_x: float, hinge_y: float) -> Motion:
+def motion(at: SupportMotion, rate: Rates, hinge_x: float, hinge_y: float) -> Motion:
     """Accelerations that belong to one of the hinge [m/s^2] at these velocities."""
     ss, ff = rate.shield * rate.shield, rate.link * rate.link
     px = hinge_x - ss * at.sx + ff * at.fx
@@ -110,7 +110,7 @@ def motion(at: Posture, rate: Rates, hinge_x: float, hinge_y: float) -> Motion:
 
 
 @inlined
-def unforced(p: Vector, at: Posture, rate: Rates, canopy_rate: float, drive: Drive) -> Motion:
+def unforced(p: Vector, at: SupportMotion, rate: Rates, canopy_rate: float, drive: DriveValues) -> Motion:
     """Accelerations while the rates of canopy and rear link do not change."""
     square = canopy_rate * canopy_rate
     vfx, vfy = rate.hinge_x - canopy_rate * at.ey, rate.hinge_y + canopy_rate * at.ex
@@ -127,7 +127,13 @@ def unforced(p: Vector, at: Posture, rate: Rates, canopy_rate: float, drive: Dri
 
 @inlined
 def balance(
-    p: Vector, at: Posture, rate: Rates, canopy_rate: float, link_rate: float, drive: Drive, weight: float
+    p: Vector,
+    at: SupportMotion,
+    rate: Rates,
+    canopy_rate: float,
+    link_rate: float,
+    drive: DriveValues,
+    weight: float,
 ) -> Balance:
     """M and Q without the contact force. weight: 1, or 0 to leave gravity out."""
     arm = arms(p, at)
@@ -168,13 +174,13 @@ def balance(
 @inlined
 def column_forces(
     p: Vector,
-    at: Posture,
+    at: SupportMotion,
     rate: Rates,
     canopy_rate: float,
     link_rate: float,
     canopy: float,
     link: float,
-    drive: Drive,
+    drive: DriveValues,
     weight: float,
     fx: float,
     fy: float,
@@ -213,7 +219,7 @@ def column_forces(
 
 
 @inlined
-def kinetic_energy(p: Vector, at: Posture, rate: Rates, canopy_rate: float, link_rate: float) -> float:
+def kinetic_energy(p: Vector, at: SupportMotion, rate: Rates, canopy_rate: float, link_rate: float) -> float:
     """Kinetic energy of all bodies [J]."""
     arm = arms(p, at)
     vx, vy = rate.hinge_x - canopy_rate * arm.canopy_y, rate.hinge_y + canopy_rate * arm.canopy_x
@@ -233,7 +239,7 @@ posture_dead_centre = support_posture.dead_centre
 
 
 @inlined
-def rear_pin(p: Vector, at: Posture, rate: Rates, link_rate: float) -> PinState:
+def rear_pin(p: Vector, at: SupportMotion, rate: Rates, link_rate: float) -> PinState:
     """The rear link's end against the base."""
     if p[BORE_FIRST] != 0.0:  # in the base
         return PinState(
@@ -275,14 +281,14 @@ def rear_pin(p: Vector, at: Posture, rate: Rates, link_rate: float) -> PinState:
 
 
 @inlined
-def posture_and_rates(p: Vector, drive: Drive, y: Vector) -> tuple[Posture, Rates]:
+def posture_and_rates(p: Vector, drive: DriveValues, y: Vector) -> tuple[SupportMotion, Rates]:
     """Where everything is in the state y, and how it moves."""
     at = posture(p, y[FIRST], y[SECOND], drive.extension)
     return at, rates(p, at, y[FIRST_RATE], y[SECOND_RATE], drive.extension, drive.speed)
 
 
 @inlined
-def pin_state(p: Vector, drive: Drive, y: Vector) -> PinState:
+def pin_state(p: Vector, drive: DriveValues, y: Vector) -> PinState:
     """The rear link's pin in the state y."""
     at, rate = posture_and_rates(p, drive, y)
     return rear_pin(p, at, rate, y[SECOND_RATE])
@@ -290,7 +296,7 @@ def pin_state(p: Vector, drive: Drive, y: Vector) -> PinState:
 
 @inlined
 def pin_and_law(
-    p: Vector, drive: Drive, y: Vector, at: Posture, rate: Rates, weight: float
+    p: Vector, drive: DriveValues, y: Vector, at: SupportMotion, rate: Rates, weight: float
 ) -> tuple[PinState, Balance]:
     """The rear link's pin and the equations of motion; weight: 1, or 0 to leave gravity out."""
     law = balance(p, at, rate, y[FIRST_RATE], y[SECOND_RATE], drive, weight)
@@ -300,9 +306,9 @@ def pin_and_law(
 @inlined
 def power(
     p: Vector,
-    drive: Drive,
+    drive: DriveValues,
     y: Vector,
-    at: Posture,
+    at: SupportMotion,
     rate: Rates,
     canopy: float,
     link: float,
@@ -317,14 +323,14 @@ def power(
 
 
 @inlined
-def dead_centre(p: Vector, drive: Drive, y: Vector, near: Vector) -> None:
+def dead_centre(p: Vector, drive: DriveValues, y: Vector, near: Vector) -> None:
     """Write into `near` how near the state y is to a dead centre."""
     at, rate = posture_and_rates(p, drive, y)
     posture_dead_centre(at, rate, y[FIRST_RATE], near)
 
 
 @compiled
-def closed(pin: PinState, at: Posture, free: Motion, link_rate: float) -> tuple[float, float]:
+def closed(pin: PinState, at: SupportMotion, free: Motion, link_rate: float) -> tuple[float, float]:
     """q'' [rad/s^2] with which the rear link's end stays in the base's pin; `free`: see `unforced`."""
     square = link_rate * link_rate
     return closing_rates(pin, free.pin_x - square * at.bx, free.pin_y - square * at.by)
@@ -343,7 +349,7 @@ def jump(p: Vector, segment: Vector, y: Vector, ideal: bool, jumps: Matrix, n: i
     before = rates(p, at, y[FIRST_RATE], y[SECOND_RATE], after.extension, after.speed - segment[JUMP])
     energy = kinetic_energy(p, at, before, y[FIRST_RATE], y[SECOND_RATE])
     still = Rates(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    push = Drive(after.extension, 0.0, segment[JUMP])
+    push = DriveValues(after.extension, 0.0, segment[JUMP])
     law = balance(p, at, still, 0.0, 0.0, push, 0.0)
     px = py = 0.0
     if ideal:

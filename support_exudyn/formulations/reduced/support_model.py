@@ -9,7 +9,7 @@ import numpy as np
 from support_exudyn.formulations.compiled import on_arrays
 from support_exudyn.formulations.reduced import layout
 from support_exudyn.formulations.reduced.contact import closing_force
-from support_exudyn.formulations.reduced.layout import Drive, Matrix, Vector
+from support_exudyn.formulations.reduced.layout import DriveValues, Matrix, Vector
 from support_exudyn.formulations.reduced.machine_model import Bodies, moved, placed
 from support_exudyn.formulations.reduced.support import (
     arms,
@@ -132,7 +132,7 @@ def bodies(
             them; None if the pin is ideal.
     """
     canopy, link, canopy_rate, link_rate = rows[layout.STATE_ROW : layout.STATE_ROW + 4]
-    drive = Drive(*rows[layout.EXTENSION : layout.ACCELERATION + 1])
+    drive = DriveValues(*rows[layout.EXTENSION : layout.ACCELERATION + 1])
     at = _posture(p, canopy, link, drive.extension)
     rate = _rates(p, at, canopy_rate, link_rate, drive.extension, drive.speed)
     free = _unforced(p, at, rate, canopy_rate, drive)

@@ -40,7 +40,7 @@ from support_exudyn.formulations.reduced.layout import (
 )
 
 
-class Posture(NamedTuple):
+class SupportMotion(NamedTuple):
     """Where everything is, and how it moves with the canopy's turn at fixed columns and rear link. SI.
 
     Pairs x, y: hinge I; front, rear: columns from foot to head; e, g: their heads from I; s: D from I; f: D
@@ -106,7 +106,7 @@ def meeting_point(
 
 
 @inlined
-def posture(p: Vector, canopy: float, link: float, extension: float) -> Posture:
+def posture(p: Vector, canopy: float, link: float, extension: float) -> SupportMotion:
     """Posture for turns of canopy and rear link [rad] and an extension of the columns [m]; nan if none."""
     cc, sc = math.cos(canopy), math.sin(canopy)
     cl, sl = math.cos(link), math.sin(link)
@@ -130,7 +130,7 @@ def posture(p: Vector, canopy: float, link: float, extension: float) -> Posture:
     a, b = uy * -ex + ux * ey, wy * -gx + wx * gy
     ix, iy = (a * wy - b * uy) / columns, (b * ux - a * wx) / columns
     shield, front = -(ix * fx + iy * fy) / bars, -(ix * sx + iy * sy) / bars
-    return Posture(
+    return SupportMotion(
         cc,
         sc,
         cl,
@@ -167,7 +167,7 @@ def posture(p: Vector, canopy: float, link: float, extension: float) -> Posture:
 
 
 @inlined
-def dead_centre(at: Posture, rate: Rates, canopy_rate: float, out: Vector) -> None:
+def dead_centre(at: SupportMotion, rate: Rates, canopy_rate: float, out: Vector) -> None:
     """Write into `out` how near the linkage is to a dead centre, where this formulation ends.
 
     SINE: the smaller sine of the angles between both columns and between shield beam and front link.
@@ -188,7 +188,9 @@ def dead_centre(at: Posture, rate: Rates, canopy_rate: float, out: Vector) -> No
 
 
 @inlined
-def hinge_driven(p: Vector, at: Posture, extension: float, front: float, rear: float) -> tuple[float, float]:
+def hinge_driven(
+    p: Vector, at: SupportMotion, extension: float, front: float, rear: float
+) -> tuple[float, float]:
     """x, y with front column . (x, y) = front length times `front`, and the same for the rear one.
 
     The velocity of the hinge that belongs to speeds of the columns at a canopy that does not turn.
@@ -200,7 +202,7 @@ def hinge_driven(p: Vector, at: Posture, extension: float, front: float, rear: f
 
 @inlined
 def rates(
-    p: Vector, at: Posture, canopy_rate: float, link_rate: float, extension: float, speed: float
+    p: Vector, at: SupportMotion, canopy_rate: float, link_rate: float, extension: float, speed: float
 ) -> Rates:
     """Velocities for rates of canopy and rear link [rad/s] and a speed of the columns [m/s]."""
     tx, ty = hinge_driven(p, at, extension, speed, speed)

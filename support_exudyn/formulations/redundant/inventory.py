@@ -8,7 +8,7 @@ from typing import Any
 from support_exudyn.formulations.progress import silent
 from support_exudyn.formulations.redundant.run import check, model
 from support_exudyn.formulations.redundant.solver.recorder import Recorder
-from support_exudyn.formulations.redundant.solver.solver import Run
+from support_exudyn.formulations.redundant.solver.solver import SolverRun
 from support_exudyn.scenario.recorded_channels import needs
 from support_exudyn.scenario.scenario import Scenario
 
@@ -23,7 +23,7 @@ class Inventory:
     algebraic equations; in space one more for each body, which keeps its four parameters a rotation, and
     one without effect for each direction that a joint of the engine's leaves free. nodes: of bodies, and
     the fixed one of cranks. objects: bodies, connectors and the ground. connectors: objects between
-    markers: ideal and loose pins (in space one for each section), columns, cranks, guides, and what presses
+    markers: ideal and clearance pins (in space one for each section), columns, cranks, guides, and what presses
     on the machine besides its weight. user_functions: forces and the like that Python computes, as often as
     the solver asks, several times a step. callbacks: functions of Python that the engine calls at every
     step.
@@ -47,7 +47,7 @@ def inventory(scenario: Scenario) -> Inventory:
     check(scenario)
     scene = model(scenario)
     try:
-        Run(scene, Recorder(scene, needs(scenario)), silent).connect()
+        SolverRun(scene, Recorder(scene, needs(scenario)), silent).connect()
         return _count(scene.mbs)
     finally:
         scene.release()

@@ -23,14 +23,14 @@ from support_exudyn.formulations.redundant.scene.record_forces import (
 )
 from support_exudyn.formulations.redundant.scene.scene import Scene
 from support_exudyn.formulations.redundant.scene.scene_builder import build
-from support_exudyn.formulations.redundant.scene.static_equilibrium import settle
+from support_exudyn.formulations.redundant.scene.static_equilibrium import find_static_equilibrium
 from support_exudyn.formulations.redundant.solver.recorder import History, Recorder
-from support_exudyn.formulations.redundant.solver.solver import Run
+from support_exudyn.formulations.redundant.solver.solver import SolverRun
 from support_exudyn.formulations.redundant.space.observation import Observation
 from support_exudyn.formulations.redundant.space.scene import SpatialScene
 from support_exudyn.formulations.redundant.space.scene_builder import build as build_in_space
 from support_exudyn.mechanics.body_motion import BodyMotion
-from support_exudyn.mechanics.channels import Part
+from support_exudyn.mechanics.channels import DataNeeds
 from support_exudyn.mechanics.contact_history import contact_series
 from support_exudyn.mechanics.joint_forces import JointForces
 from support_exudyn.mechanics.oil_column import oil_series
@@ -86,7 +86,7 @@ def run(scenario: Scenario, progress: Progress) -> Outcome:
 def _run(scene: AnyScene, progress: Progress, outcome: Callable[[AnyScene, Progress], Outcome]) -> Outcome:
     try:
         if scene.scenario.start == "settled":
-            settle(scene)
+            find_static_equilibrium(scene)
         return outcome(scene, progress)
     finally:
         scene.release()
@@ -95,12 +95,12 @@ def _run(scene: AnyScene, progress: Progress, outcome: Callable[[AnyScene, Progr
 def _outcome(scene: Scene, progress: Progress) -> Outcome:
     needed = with_causes(needs(scene.scenario))
     recorder = Recorder(scene, needed)
-    solving = Run(scene, recorder, progress)
+    solving = SolverRun(scene, recorder, progress)
     counts = solving.go()
     return Outcome(
         trajectory=trajectory(scene, recorder.history(), needed),
-        onsets={name: tuple(pin.onsets) for name, pin in scene.loose_pins.items()},
-        largest_force={name: pin.largest_force for name, pin in scene.loose_pins.items()},
+        onsets={name: tuple(pin.onsets) for name, pin in scene.clearance_joints.items()},
+        largest_force={name: pin.largest_force for name, pin in scene.clearance_joints.items()},
         impulses=tuple(solving.impulses),
         counts=counts,
     )
@@ -109,7 +109,7 @@ def _outcome(scene: Scene, progress: Progress) -> Outcome:
 def _outcome_in_space(scene: SpatialScene, progress: Progress) -> Outcome:
     """Run a model in space. Raises SimulationError if it cannot be finished."""
     recorder = Recorder(scene, needs(scene.scenario))
-    solving = Run(scene, recorder, progress)
+    solving = SolverRun(scene, recorder, progress)
     counts = solving.go()
     groups = scene.sections.items()
     edges = {
@@ -126,44 +126,47 @@ def _outcome_in_space(scene: SpatialScene, progress: Progress) -> Outcome:
     )
 
 
-def trajectory(scene: Scene, history: History, needed: Part) -> Trajectory:
+def trajectory(scene: Scene, history: History, needed: DataNeeds) -> Trajectory:
     """What the records say, in the order of the linkage; what is not needed is left out."""
     order = np.concatenate([np.arange(item.first, item.first + 3) for item in scene.bodies.values()])
 
-    def ordered(series: Series, part: Part) -> Series:
+    def ordered(series: Series, part: DataNeeds) -> Series:
         return series[:, order] if part in needed else series
 
-    position, velocity = ordered(history.position, Part.POSITION), ordered(history.velocity, Part.VELOCITY)
+    position, velocity = (
+        ordered(history.position, DataNeeds.POSITION),
+        ordered(history.velocity, DataNeeds.VELOCITY),
+    )
     motion = BodyMotion(scene.linkage, position, velocity, np.zeros_like(velocity))
     oil = {
-        name: oil_series(item.filled, motion, scene.scenario.drive_of(name), history.time)
+        name: oil_series(item.preloaded, motion, scene.scenario.drive_of(name), history.time)
         for name, item in scene.oil_columns.items()
-        if Part.OIL in needed
+        if DataNeeds.OIL in needed
     }
     cylinders = {
         name: _cylinder_series(item, motion, history)
         for name, item in scene.cylinders.items()
-        if Part.OIL in needed
+        if DataNeeds.OIL in needed
     }
-    giving = {name: series.force for name, series in (oil | cylinders).items()}
+    compliant_columns = {name: series.force for name, series in (oil | cylinders).items()}
     contacts = {
         name: contact_series(
             motion, scene.linkage.pins[name], scene.scenario.clearance_pins[name], history.memory[:, n]
         )
-        for n, name in enumerate(scene.loose_pins)
-        if Part.CONTACTS in needed
+        for n, name in enumerate(scene.clearance_joints)
+        if DataNeeds.CONTACTS in needed
     }
     compliant = {
-        name: item.series(motion) for name, item in scene.compliant_pins.items() if Part.CONTACTS in needed
+        name: item.series(motion) for name, item in scene.compliant_pins.items() if DataNeeds.CONTACTS in needed
     }
     loads = {
         name: load_series(name, load, motion, history.time)
         for name, load in scene.scenario.loads.items()
-        if Part.LOADS in needed
+        if DataNeeds.LOADS in needed
     }
     found = Following(velocity[:, :0], JointForces(), {}, {})
     if needed & FOLLOWING:
-        found = following(scene, motion, history.time, Applied(contacts, compliant, giving, loads))
+        found = following(scene, motion, history.time, Applied(contacts, compliant, compliant_columns, loads))
     return Trajectory(
         time=history.time,
         position=position,
@@ -172,7 +175,7 @@ def trajectory(scene: Scene, history: History, needed: Part) -> Trajectory:
         ideal_pins=found.joints.pins,
         contacts=contacts,
         friction_moments=found.friction_moments,
-        columns={**found.columns, **giving},
+        columns={**found.columns, **compliant_columns},
         cranks=found.joints.cranks,
         slides=found.joints.slides,
         oil_energy=sum((series.energy for series in (oil | cylinders).values()), np.zeros_like(history.time)),
@@ -187,5 +190,5 @@ def trajectory(scene: Scene, history: History, needed: Part) -> Trajectory:
 
 def _cylinder_series(item: CylinderItem, motion: BodyMotion, history: History) -> CylinderSeries:
     """A hydraulic cylinder at the records."""
-    opening = np.array([item.filled.model.inlet.opening(t) for t in history.time.tolist()])
-    return item.filled.series(motion, UNIT * history.pressure[:, item.first : item.first + 2], opening)
+    opening = np.array([item.preloaded.model.inlet.opening(t) for t in history.time.tolist()])
+    return item.preloaded.series(motion, UNIT * history.pressure[:, item.first : item.first + 2], opening)

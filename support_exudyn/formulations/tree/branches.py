@@ -29,7 +29,7 @@ class LoopError(ValueError):
     """An ideal pin that joins two bodies which other ideal pins join already; its name."""
 
 
-class LooseError(ValueError):
+class ClearanceError(ValueError):
     """A body that no chain of ideal pins joins to the ground; its name."""
 
 
@@ -88,11 +88,11 @@ class Tree:
         return [list(self.linkage.bodies).index(link.name) for link in self.links]
 
 
-def branches(linkage: Linkage, loose: Container[str]) -> Tree:
-    """The tree of all bodies by the pins that are not loose. Raises LoopError or LooseError if it is none."""
+def branches(linkage: Linkage, with_clearance: Container[str]) -> Tree:
+    """The tree of all bodies by the pins without clearance. Raises LoopError or LooseError if it is none."""
     links: list[Link] = []
     numbers = {GROUND: -1}
-    waiting = {name: pin for name, pin in linkage.pins.items() if name not in loose}
+    waiting = {name: pin for name, pin in linkage.pins.items() if name not in with_clearance}
     while waiting:
         reached = [n for n, pin in waiting.items() if pin.first in numbers or pin.second in numbers]
         if not reached:
@@ -107,5 +107,5 @@ def branches(linkage: Linkage, loose: Container[str]) -> Tree:
         links.append(Link(body, linkage.bodies[body], name, joint, numbers[carrier]))
     for body in linkage.bodies:
         if body not in numbers:
-            raise LooseError(body)
+            raise ClearanceError(body)
     return Tree(linkage, tuple(links))

@@ -33,7 +33,7 @@ class PointForce:
 
 
 @dataclass(frozen=True)
-class Posture:
+class TreePosture:
     """A tree of n links at m instants: coordinates and rates (m, n).
 
     Vectors have the shape (m, n, 2): axes of the ground.
@@ -140,7 +140,7 @@ class Posture:
         return np.asarray(np.einsum("mbjx,mj->mbx", self.reach, acceleration) + self.bias)
 
 
-def mass_matrix(posture: Posture) -> Matrix:
+def mass_matrix(posture: TreePosture) -> Matrix:
     """M [kg m^2], shape (m, n, n)."""
     links = posture.tree.links
     mass, inertia = (
@@ -151,7 +151,7 @@ def mass_matrix(posture: Posture) -> Matrix:
     return np.asarray(moving + carried.T @ (inertia[:, None] * carried))
 
 
-def accelerations(posture: Posture, gravity: Vector2, forces: list[PointForce]) -> Matrix:
+def accelerations(posture: TreePosture, gravity: Vector2, forces: list[PointForce]) -> Matrix:
     """q'' [rad/s^2], shape (m, n)."""
     moment = mass_moment(posture, gravity)
     for item in forces:
@@ -160,14 +160,14 @@ def accelerations(posture: Posture, gravity: Vector2, forces: list[PointForce]) 
     return np.asarray(np.linalg.solve(mass_matrix(posture), moment[:, :, None])[:, :, 0])
 
 
-def mass_moment(posture: Posture, gravity: Vector2) -> Matrix:
+def mass_moment(posture: TreePosture, gravity: Vector2) -> Matrix:
     """Generalised forces [N m] of weight and of inertia without any q'', shape (m, n)."""
     mass = np.array([link.body.mass for link in posture.tree.links])
     fall = mass[:, None] * (np.array(gravity) - posture.bias)
     return np.asarray(np.einsum("mbjx,mbx->mj", posture.reach, fall))
 
 
-def moments(posture: Posture, body: str, point: Matrix, force: Matrix) -> Matrix:
+def moments(posture: TreePosture, body: str, point: Matrix, force: Matrix) -> Matrix:
     """Generalised forces [N m] of a force on a body, shape (m, n)."""
     number = posture.tree.number(body)
     if number < 0:
@@ -177,11 +177,13 @@ def moments(posture: Posture, body: str, point: Matrix, force: Matrix) -> Matrix
     return np.asarray(posture.tree.carried[number] * about)
 
 
-def pin_mobility(posture: Posture, place: PinPlace, pressed: Sequence[tuple[PinPlace, Matrix]] = ()) -> Matrix:
-    """How a loose pin's eccentricity answers an impulse at the first instant, (2, 2) [1/kg], ground's axes.
+def pin_inverse_mass(
+    posture: TreePosture, place: PinPlace, pressed: Sequence[tuple[PinPlace, Matrix]] = ()
+) -> Matrix:
+    """How a clearance pin's eccentricity answers an impulse at the first instant, (2, 2) [1/kg], ground's axes.
 
     pressed: places of other pins and their normals (2,). Each adds a row and a column, (2 + m, 2 + m), see
-    `pressed.mobilities`.
+    `pressed.inverse effective masses`.
     """
     rows = [_eccentricity_rate(posture, place)]
     rows += [along[None] @ _eccentricity_rate(posture, other) for other, along in pressed]
@@ -189,7 +191,7 @@ def pin_mobility(posture: Posture, place: PinPlace, pressed: Sequence[tuple[PinP
     return np.asarray(rate @ np.linalg.solve(mass_matrix(posture)[0], rate.T))
 
 
-def _eccentricity_rate(posture: Posture, place: PinPlace) -> Matrix:
+def _eccentricity_rate(posture: TreePosture, place: PinPlace) -> Matrix:
     """What turns the coordinates' rates into that of a pin's eccentricity at the first instant, (2, n)."""
     motion = posture.motion()
     rate = np.zeros((2, posture.position.shape[1]))

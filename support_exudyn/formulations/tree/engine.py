@@ -99,11 +99,11 @@ def settings(duration: float, error: float, first_step: float) -> Any:
 
 
 @dataclass
-class History:
+class TreeHistory:
     """The accepted steps of a run, filled by it.
 
     time, position, velocity: at the start of the run and at the end of every step. piece: of the drive; memory:
-    of the loose pins, number in `memories`; both for every step.
+    of the clearance pins, number in `memories`; both for every step.
     """
 
     time: list[float]

@@ -12,7 +12,7 @@ from typing import NamedTuple
 from scipy.optimize import brentq
 
 from support_exudyn.formulations.contact_events import DOUBT_OF_DEPTH, DepthPath
-from support_exudyn.formulations.tree.forces import Place
+from support_exudyn.formulations.tree.forces import JournalPlace
 from user_forces.values.value import Vector2
 
 PARTS = 4  # of a step in free flight, each looked at
@@ -20,14 +20,14 @@ SAMPLES = 8  # of a step in contact
 SHORT = 1e-9  # [s]: in so short a step what cannot be told apart is taken as it ends
 EVEN = 0.125  # share of the change of speed in flight that may not be even
 ROUNDING = 1e-12  # of a rate, as a share of its size
-MET = 1e-7  # depth as a share of the clearance at which a touch or a parting is met
+MET = 1e-7  # depth as a share of the clearance at which an impact or a separation is met
 
 
-class Kind(Enum):
-    """TOUCH, PARTING: of surfaces. RETURN: pressed on again without parting. UNCLEAR: too long a step."""
+class EventKind(Enum):
+    """TOUCH, PARTING: of surfaces. RETURN: pressed on again without separation. UNCLEAR: too long a step."""
 
-    TOUCH = "touch"
-    PARTING = "parting"
+    IMPACT = "impact"
+    SEPARATION = "separation"
     RETURN = "return"
     UNCLEAR = "unclear"
 
@@ -35,12 +35,12 @@ class Kind(Enum):
 class Event(NamedTuple):
     """What happens, and at which fraction of the step; 1: at its end."""
 
-    kind: Kind
+    kind: EventKind
     fraction: float
 
 
 def event(
-    in_contact: bool, renews: bool, start: Place, end: Place, step: float, clearance: float
+    in_contact: bool, renews: bool, start: JournalPlace, end: JournalPlace, step: float, clearance: float
 ) -> Event | None:
     """The first thing that happens in a step [s].
 
@@ -59,30 +59,30 @@ def event(
 # --- in contact ---
 
 
-def _in_contact(renews: bool, start: Place, end: Place, step: float, met: float) -> Event | None:
+def _in_contact(renews: bool, start: JournalPlace, end: JournalPlace, step: float, met: float) -> Event | None:
     path = DepthPath(max(start.depth, 0.0), start.rate, end.depth, end.rate, step)
     turns = start.rate < 0.0 <= end.rate
     if step > SHORT and not turns and not start.rate > 0.0 > end.rate:
         lowest = min(path.depth0, end.depth) - step * max(abs(start.rate), abs(end.rate))
         if (renews or lowest <= 0.0 < end.depth) and path.may_turn():
-            return Event(Kind.UNCLEAR, 0.0)
+            return Event(EventKind.UNCLEAR, 0.0)
     if abs(end.depth) <= met and end.rate < 0.0:
-        return Event(Kind.PARTING, 1.0)
+        return Event(EventKind.SEPARATION, 1.0)
     if end.depth < -met:
-        return _parting(path, met)
+        return _separation(path, met)
     turn = path.turns_up() if turns else None
     if turn is not None:
         lowest = path.depth(turn)
         if step > SHORT and met < abs(lowest) < path.doubt():
-            return Event(Kind.UNCLEAR, 0.0)
+            return Event(EventKind.UNCLEAR, 0.0)
         if lowest < -met:
-            return Event(Kind.PARTING, path.crossing(0.0, turn))
+            return Event(EventKind.SEPARATION, path.crossing(0.0, turn))
         if renews:
-            return Event(Kind.RETURN, turn)
+            return Event(EventKind.RETURN, turn)
     return None
 
 
-def _parting(path: DepthPath, met: float) -> Event:
+def _separation(path: DepthPath, met: float) -> Event:
     """The first way out of a contact that is open at the end of the step."""
     inside = 0.0 if path.depth0 > met else None
     for n in range(1, SAMPLES + 1):
@@ -90,9 +90,9 @@ def _parting(path: DepthPath, met: float) -> Event:
         if path.depth(x) > 0.0:
             inside = x
         elif inside is not None:
-            return Event(Kind.PARTING, path.crossing(inside, x))
-    # it touched just before the step and is seen nowhere inside
-    return Event(Kind.PARTING, 1.0) if path.step <= SHORT else Event(Kind.UNCLEAR, 0.0)
+            return Event(EventKind.SEPARATION, path.crossing(inside, x))
+    # it been in contact just before the step and is seen nowhere inside
+    return Event(EventKind.SEPARATION, 1.0) if path.step <= SHORT else Event(EventKind.UNCLEAR, 0.0)
 
 
 # --- apart ---
@@ -101,8 +101,8 @@ def _parting(path: DepthPath, met: float) -> Event:
 class _Flight(NamedTuple):
     """The journal's way against the bore as a cubic of the fraction of the step, in both axes."""
 
-    start: Place
-    end: Place
+    start: JournalPlace
+    end: JournalPlace
     step: float
     clearance: float
 
@@ -136,10 +136,10 @@ class _Flight(NamedTuple):
         )
 
 
-def _apart(start: Place, end: Place, step: float, clearance: float, met: float) -> Event | None:
+def _apart(start: JournalPlace, end: JournalPlace, step: float, clearance: float, met: float) -> Event | None:
     way = step * max(math.hypot(start.vx, start.vy), math.hypot(end.vx, end.vy))
     if way > clearance:  # else it could cross the whole bore unseen
-        return Event(Kind.UNCLEAR, 0.0)
+        return Event(EventKind.UNCLEAR, 0.0)
     if max(start.depth, end.depth) < -way:
         return None
     flight = _Flight(start, end, step, clearance)
@@ -152,12 +152,12 @@ def _apart(start: Place, end: Place, step: float, clearance: float, met: float) 
         top = float(brentq(flight.rate, low, high)) if rising and outwards < 0.0 else high
         highest = flight.depth(top)
         if rising and falling and top < 1.0 and step > SHORT and met < abs(highest) < flight.doubt:
-            return Event(Kind.UNCLEAR, 0.0)
+            return Event(EventKind.UNCLEAR, 0.0)
         if highest > met:
             if apart:
-                return Event(Kind.TOUCH, float(brentq(flight.depth, low, top, xtol=1e-15)))
-            # the surfaces have just parted and must be seen apart first
-            return Event(Kind.TOUCH, 1.0) if step <= SHORT else Event(Kind.UNCLEAR, 0.0)
+                return Event(EventKind.IMPACT, float(brentq(flight.depth, low, top, xtol=1e-15)))
+            # the surfaces have just separated and must be seen apart first
+            return Event(EventKind.IMPACT, 1.0) if step <= SHORT else Event(EventKind.UNCLEAR, 0.0)
         apart = apart or flight.depth(high) < -met
         low, rising = high, outwards >= 0.0
-    return Event(Kind.TOUCH, 1.0) if apart and end.depth >= -met and end.rate > 0.0 else None
+    return Event(EventKind.IMPACT, 1.0) if apart and end.depth >= -met and end.rate > 0.0 else None

@@ -9,8 +9,8 @@ import numpy as np
 
 from support_exudyn.formulations.tree.branches import Matrix, Tree
 from support_exudyn.formulations.tree.loads import FORCE, TURN, WIDTH, evaluate, push
-from support_exudyn.mechanics.contact_state import Mobility, Onset, PinMemory
-from support_exudyn.mechanics.oil_column import FilledColumn
+from support_exudyn.mechanics.contact_state import InverseMass, Onset, PinMemory
+from support_exudyn.mechanics.oil_column import PreloadedColumn
 from support_exudyn.mechanics.pressed_pins import normal
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.model.pins import ClearancePin
@@ -21,7 +21,7 @@ from user_forces.normal.law import LoadError
 from user_forces.values.value import Vector2
 
 
-class Place(NamedTuple):
+class JournalPlace(NamedTuple):
     """Where a journal's centre is against the bore's, and how it moves; SI, ground's axes."""
 
     x: float
@@ -32,7 +32,7 @@ class Place(NamedTuple):
     rate: float
 
 
-class LoosePin:
+class TreeClearanceJoint:
     """One clearance pin of a tree.
 
     Arguments:
@@ -62,14 +62,14 @@ class LoosePin:
         self.forgets = pin.contact.normal.forgets
         # where a contact is pressed on again something changes
         self.renews = self.forgets or self._asks_for_mass
-        self.start = self.end = Place(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)  # of the step being tried
+        self.start = self.end = JournalPlace(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)  # of the step being tried
         self.memory = PinMemory(False, 0.0, 0.0, 0.0)
-        self._mobility = self.memory.mobility
+        self._inverse_mass = self.memory.inverse_mass
 
     def remember(self, memory: PinMemory) -> None:
         """Go on with another memory."""
         self.memory = memory
-        self._mobility = memory.mobility
+        self._inverse_mass = memory.inverse_mass
         self.clamped = False
 
     def axes(self) -> tuple[float, float]:
@@ -79,7 +79,7 @@ class LoosePin:
         angle = self._bore_angle + float(self._bore_link[TURN])
         return math.cos(angle), math.sin(angle)
 
-    def place(self) -> Place:
+    def place(self) -> JournalPlace:
         """Where the journal is at the stage evaluated last."""
         bx, by, bvx, bvy, _ = self._bore.tolist()
         jx, jy, jvx, jvy, _ = self._journal.tolist()
@@ -87,7 +87,7 @@ class LoosePin:
         eccentricity = math.hypot(x, y)
         # from the middle every way leads outwards
         rate = (x * vx + y * vy) / eccentricity if eccentricity > 0.0 else math.hypot(vx, vy)
-        return Place(x, y, vx, vy, eccentricity - self.clearance, rate)
+        return JournalPlace(x, y, vx, vy, eccentricity - self.clearance, rate)
 
     def bore_centre(self) -> Vector2:
         """Where the bore's centre is at the stage evaluated last [m]."""
@@ -104,13 +104,13 @@ class LoosePin:
         place = self.place()
         return normal(place.x, place.y, self.clearance)
 
-    def mass(self, mobility: Mobility, x: float, y: float) -> float:
+    def mass(self, inverse_mass: InverseMass, x: float, y: float) -> float:
         """Mass [kg] that moves with an eccentricity x, y in the ground's axes."""
         c, s = self.axes()
-        return mobility.mass(c * x + s * y, c * y - s * x)
+        return inverse_mass.mass(c * x + s * y, c * y - s * x)
 
     def add_force(self) -> None:
-        """Add the force at the stage that was evaluated last, while the surfaces touch."""
+        """Add the force at the stage that was evaluated last, while the surfaces make contact."""
         bx, by, bvx, bvy, bore_spin = self._bore.tolist()
         jx, jy, jvx, jvy, journal_spin = self._journal.tolist()
         x, y = jx - bx, jy - by
@@ -119,8 +119,8 @@ class LoosePin:
             self.clamped = False
             return
         self.calls += 1
-        speed = self.memory.approach_speed
-        mass = self.mass(self._mobility, x, y) if self._asks_for_mass else 1.0
+        speed = self.memory.impact_velocity
+        mass = self.mass(self._inverse_mass, x, y) if self._asks_for_mass else 1.0
         moving = x, y, jvx - bvx, jvy - bvy, bore_spin, journal_spin
         force = self._law(*moving, 1.0, speed, mass, 0.0, 0.0, 0.0)
         self.clamped = bool(force.clamped)
@@ -130,20 +130,20 @@ class LoosePin:
 
 
 class Forces:
-    """Forces of loose pins and columns of oil on the coordinates; gravity is the engine's.
+    """Forces of clearance pins and columns of oil on the coordinates; gravity is the engine's.
 
     (Connectors of the engine between markers of a tree do the same, with Python's or symbolic functions, and
     take three times as long: each marker goes through the whole tree again.)
 
     Arguments:
         tree: the bodies.
-        scenario: loose pins.
+        scenario: clearance pins.
         columns: of oil.
     """
 
-    def __init__(self, tree: Tree, scenario: Scenario, columns: dict[str, FilledColumn]) -> None:
-        loose = scenario.clearance_pins
-        ends = [_ends(tree, name, loose[name].bore == "first") for name in loose]
+    def __init__(self, tree: Tree, scenario: Scenario, columns: dict[str, PreloadedColumn]) -> None:
+        with_clearance = scenario.clearance_pins
+        ends = [_ends(tree, name, with_clearance[name].bore == "first") for name in with_clearance]
         ends += [
             ((c.column.foot, c.column.foot_point), (c.column.head, c.column.head_point))
             for c in columns.values()
@@ -151,15 +151,15 @@ class Forces:
         self.tree = tree
         self.links = _links(tree)
         self.points = _points(tree, [end for pair in ends for end in pair])
-        self.columns = np.array([_column(filled) for filled in columns.values()]).reshape(-1, 4)
+        self.columns = np.array([_column(preloaded) for preloaded in columns.values()]).reshape(-1, 4)
         self.cubic: Matrix = np.zeros((len(columns), 5))  # of their drives, see `loads`
         self.work: Matrix = np.zeros((len(self.links) + len(self.points), WIDTH))
         arrays = self.links, self.points, self.work
         self.pins = {
-            name: LoosePin(pin, n, *arrays, _angle(tree, ends[n][0][0]))
-            for n, (name, pin) in enumerate(loose.items())
+            name: TreeClearanceJoint(pin, n, *arrays, _angle(tree, ends[n][0][0]))
+            for n, (name, pin) in enumerate(with_clearance.items())
         }
-        self.touching: list[tuple[str, LoosePin]] = []
+        self.closed: list[tuple[str, TreeClearanceJoint]] = []
         # what a law has raised since this was last set to None
         self.trouble: LoadError | ArithmeticError | None = None
         self.position: list[float] = []  # that were evaluated last: coordinates [rad] and rates [rad/s]
@@ -177,7 +177,7 @@ class Forces:
         name = ""
         evaluate(*self._arrays, t, *position, *velocity)
         try:
-            for name, pin in self.touching:  # noqa: B007 - is told if one fails
+            for name, pin in self.closed:  # noqa: B007 - is told if one fails
                 pin.add_force()
         except (LoadError, ArithmeticError) as error:  # perhaps only because the step is too long
             if self.trouble is None:  # what follows from it are no numbers
@@ -190,8 +190,8 @@ class Forces:
         return self._force.copy()
 
     def watch(self) -> None:
-        """Look anew which pins touch."""
-        self.touching = [(name, pin) for name, pin in self.pins.items() if pin.memory.in_contact]
+        """Look anew which pins make contact."""
+        self.closed = [(name, pin) for name, pin in self.pins.items() if pin.memory.in_contact]
 
 
 def _ends(tree: Tree, name: str, bore_first: bool) -> tuple[tuple[str, Vector2], tuple[str, Vector2]]:
@@ -216,11 +216,11 @@ def _points(tree: Tree, ends: list[tuple[str, Vector2]]) -> Matrix:
     return np.array(rows, dtype=np.float64).reshape(-1, 3)
 
 
-def _column(filled: FilledColumn) -> tuple[float, float, float, float]:
-    model = filled.model
+def _column(preloaded: PreloadedColumn) -> tuple[float, float, float, float]:
+    model = preloaded.model
     return (
         model.bulk_modulus * model.bore_area,
         model.oil_length,
         model.damping_time,
-        filled.natural_length(0.0),
+        preloaded.natural_length(0.0),
     )

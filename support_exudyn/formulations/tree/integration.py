@@ -1,4 +1,4 @@
-"""The run: steps of chosen length, cut at touches and partings and where the drive has its breaks."""
+"""The run: steps of chosen length, cut at impacts and separations and where the drive has its breaks."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from support_exudyn.formulations.engine_errors import explained
 from support_exudyn.formulations.engine_settings import quiet_engine
 from support_exudyn.formulations.progress import Progress
 from support_exudyn.formulations.tree.drive_pieces import Piece
-from support_exudyn.formulations.tree.engine import SMALLEST_STEP, Engine, History, settings
-from support_exudyn.formulations.tree.events import Kind, event
-from support_exudyn.formulations.tree.forces import Forces, LoosePin
-from support_exudyn.mechanics.contact_state import Mobility, Onset
-from support_exudyn.mechanics.pressed_pins import Mobilities
+from support_exudyn.formulations.tree.engine import SMALLEST_STEP, Engine, TreeHistory, settings
+from support_exudyn.formulations.tree.events import EventKind, event
+from support_exudyn.formulations.tree.forces import Forces, TreeClearanceJoint
+from support_exudyn.mechanics.contact_state import InverseMass, Onset
+from support_exudyn.mechanics.pressed_pins import EffectiveMasses
 from user_forces.lawful import UNLAWFUL, LawError
-from user_forces.normal.law import LoadError, Touch
+from user_forces.normal.law import Impact, LoadError
 
 FIRST_STEP = 1e-5  # [s]
 LONGEST_STEP = 0.02  # [s]
@@ -49,8 +49,8 @@ class Integration:
 
     Arguments:
         engine: the system.
-        forces: on the coordinates, with the loose pins in their state at the start.
-        find_mobilities: of a loose pin's journal at the stage evaluated last, by name.
+        forces: on the coordinates, with the clearance pins in their state at the start.
+        find_mobilities: of a clearance pin's journal at the stage evaluated last, by name.
         pieces: of the drive.
         error: root mean square error of a step [rad], [rad/s].
         most_steps: after which a run is given up.
@@ -61,13 +61,13 @@ class Integration:
         self,
         engine: Engine,
         forces: Forces,
-        find_mobilities: Callable[[str], Mobilities],
+        find_inverse_masses: Callable[[str], EffectiveMasses],
         pieces: list[Piece],
         error: float,
         most_steps: int,
         progress: Progress,
     ) -> None:
-        self.engine, self.forces, self.find_mobilities = engine, forces, find_mobilities
+        self.engine, self.forces, self.find_inverse_masses = engine, forces, find_inverse_masses
         self.pins = forces.pins
         self.pieces = pieces
         self.most_steps = most_steps
@@ -78,7 +78,7 @@ class Integration:
         self.time = 0.0  # end of the last accepted step
         self.piece = 0
         self.steps = self.cut_steps = 0
-        self.history = History([0.0], [forces.position], [forces.velocity])
+        self.history = TreeHistory([0.0], [forces.position], [forces.velocity])
         # of the attempt at a step
         self._trying = False
         self._step: float | None = FIRST_STEP  # to be tried next; None: as the engine's error control says
@@ -87,7 +87,7 @@ class Integration:
         self._wanted = 0.0  # length that a step would have had, had it not been cut
         self._landings = 0  # attempts to end it where something happens
         self._turning: str | None = None  # pin at whose turning point it is to end
-        self._happened: dict[str, Kind] = {}  # to loose pins at its end
+        self._happened: dict[str, EventKind] = {}  # to clearance pins at its end
         self._trouble: Exception | None = None  # for which a step has been refused
 
     def go(self) -> None:
@@ -138,7 +138,7 @@ class Integration:
         for name, pin in self.pins.items():
             pin.end = pin.place()
             found = event(pin.memory.in_contact, pin.renews, pin.start, pin.end, self._tried, pin.clearance)
-            if found is not None and found.kind is Kind.UNCLEAR:
+            if found is not None and found.kind is EventKind.UNCLEAR:
                 return self._repeat(SHORTEN)
             if found is not None and found.fraction >= 1.0:
                 self._happened[name] = found.kind
@@ -150,7 +150,7 @@ class Integration:
         if where is not None:  # as near to it as can be
             self._happened[where[0]] = where[1]
         elif self._turning is not None and self._turns(self.pins[self._turning]):
-            self._happened.setdefault(self._turning, Kind.RETURN)
+            self._happened.setdefault(self._turning, EventKind.RETURN)
         return ACCEPTED
 
     def _after_step(self, mbs: Any, t: float) -> bool:
@@ -186,19 +186,19 @@ class Integration:
 
     # --- events ---
 
-    def _turns(self, pin: LoosePin) -> bool:
+    def _turns(self, pin: TreeClearanceJoint) -> bool:
         """Whether the step that was to end where the depth turns does so; it may have been cut again."""
         return pin.end.depth > 0.0 and pin.end.rate > TURNED * pin.start.rate
 
     def _can_land(self) -> bool:
         return self._landings < LANDINGS and self._tried > 2.0 * SHORTEST_LANDING
 
-    def _land(self, fraction: float, name: str, kind: Kind) -> list[float]:
+    def _land(self, fraction: float, name: str, kind: EventKind) -> list[float]:
         """Repeat the step so that it ends where something happens to a pin."""
         self._landings += 1
         self.cut_steps += 1
         self._wanted = max(self._wanted, self._tried)
-        self._turning = name if kind is Kind.RETURN else None
+        self._turning = name if kind is EventKind.RETURN else None
         return self._repeat(fraction)
 
     def _repeat(self, share: float) -> list[float]:
@@ -211,30 +211,30 @@ class Integration:
         for name, kind in self._happened.items():
             pin = self.pins[name]
             memory = pin.memory
-            if kind is not Kind.RETURN or pin.forgets:
-                memory = memory._replace(approach_speed=0.0)
-            if kind is Kind.PARTING:
+            if kind is not EventKind.RETURN or pin.forgets:
+                memory = memory._replace(impact_velocity=0.0)
+            if kind is EventKind.SEPARATION:
                 pin.remember(memory._replace(in_contact=False))
                 if pin.onsets:
-                    pin.onsets[-1] = pin.onsets[-1].parted(self.time, -pin.start.rate)
+                    pin.onsets[-1] = pin.onsets[-1].separated(self.time, -pin.start.rate)
                 continue
-            mobilities = self.find_mobilities(name)
-            pin.remember(memory._replace(in_contact=True).with_mobility(mobilities.held))
-            if kind is Kind.TOUCH:
-                largest = min(largest, self._touch(pin, mobilities.alone))
+            inverse_masses = self.find_inverse_masses(name)
+            pin.remember(memory._replace(in_contact=True).with_inverse_mass(inverse_masses.held))
+            if kind is EventKind.IMPACT:
+                largest = min(largest, self._impact(pin, inverse_masses.alone))
             else:
                 pin.start = pin.start._replace(rate=max(0.0, pin.start.rate))  # whatever rounding says
         self._remember()
         return largest
 
-    def _touch(self, pin: LoosePin, mobility: Mobility) -> float:
+    def _impact(self, pin: TreeClearanceJoint, inverse_mass: InverseMass) -> float:
         """Begin a contact; length of the first step in it [s]."""
         place = pin.start
         speed = max(0.0, place.rate)
-        pin.remember(pin.memory._replace(approach_speed=speed))
+        pin.remember(pin.memory._replace(impact_velocity=speed))
         pin.onsets.append(Onset(self.time - place.depth / speed if speed > 0.0 else self.time, speed))
-        touch = Touch(speed, pin.mass(mobility, place.x, place.y))
-        return pin.contact.normal.impact_time(touch) / STEPS_OF_AN_IMPACT
+        impact = Impact(speed, pin.mass(inverse_mass, place.x, place.y))
+        return pin.contact.normal.impact_time(impact) / STEPS_OF_AN_IMPACT
 
     def _remember(self) -> None:
         self.history.memories.append(tuple(pin.memory for pin in self.pins.values()))
@@ -259,5 +259,5 @@ class Integration:
         for name, pin in self.pins.items():
             state[f"pin.{name}.depth"] = pin.start.depth
             state[f"pin.{name}.rate"] = pin.start.rate
-            state[f"pin.{name}.approach_speed"] = pin.memory.approach_speed
+            state[f"pin.{name}.impact_velocity"] = pin.memory.impact_velocity
         return Failure(reason, advice, self.time, state)

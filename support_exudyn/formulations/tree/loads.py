@@ -8,7 +8,7 @@ All functions of this file work on these arrays:
     drive (c, 5): a time [s], and coefficients of the cubic by which the column extends after it [m/s^k]
     work (n + p, 9): of joints, then of points: the quantities below
 
-Points come in pairs: first bore and journal of each loose pin, then foot and head of each column.
+Points come in pairs: first bore and journal of each clearance pin, then foot and head of each column.
 """
 
 from __future__ import annotations

@@ -12,14 +12,14 @@ from support_exudyn.formulations.contract import Failure, SimulationError
 from support_exudyn.formulations.time_grid import record_times
 from support_exudyn.formulations.tree.branches import Matrix, Numbers, Tree
 from support_exudyn.formulations.tree.drive_pieces import extension, speed
-from support_exudyn.formulations.tree.dynamics import PointForce, Posture, accelerations
+from support_exudyn.formulations.tree.dynamics import PointForce, TreePosture, accelerations
 from support_exudyn.formulations.tree.integration import Integration
 from support_exudyn.formulations.tree.within_steps import POINTS, Ends, Look, largest, motion_within, running
 from support_exudyn.mechanics.body_motion import BodyMotion
-from support_exudyn.mechanics.channels import Part
+from support_exudyn.mechanics.channels import DataNeeds
 from support_exudyn.mechanics.contact_history import acting, contact_series, ends, of_depth
 from support_exudyn.mechanics.joint_forces import JointForces, PinForce, open_joint_forces
-from support_exudyn.mechanics.oil_column import FilledColumn, OilSeries
+from support_exudyn.mechanics.oil_column import OilSeries, PreloadedColumn
 from support_exudyn.mechanics.trajectory import ContactSeries, Counts, Outcome, Trajectory
 from support_exudyn.model.linkage import PinPlace
 from support_exudyn.model.pins import ClearancePin
@@ -35,11 +35,11 @@ class Instants:
     """Where and how the run is looked at.
 
     time (m,) [s]. posture: at these times. cubic: of the drives of all columns (m, c, 5), see `loads`.
-    memories: of loose pins, by name (m, fields of PinMemory).
+    memories: of clearance pins, by name (m, fields of PinMemory).
     """
 
     time: Matrix
-    posture: Posture
+    posture: TreePosture
     cubic: Matrix
     memories: Mapping[str, Matrix]
 
@@ -50,14 +50,14 @@ class Observation:
 
     Arguments:
         at: the instants.
-        loose: loose pins, by name.
+        with_clearance: clearance pins, by name.
         filled: columns, by name.
         gravity: [m/s^2].
     """
 
     at: Instants
-    loose: Mapping[str, ClearancePin]
-    filled: Mapping[str, FilledColumn]
+    with_clearance: Mapping[str, ClearancePin]
+    preloaded: Mapping[str, PreloadedColumn]
     gravity: Vector2
 
     @cached_property
@@ -67,22 +67,22 @@ class Observation:
 
     @cached_property
     def contacts(self) -> dict[str, ContactSeries]:
-        """Loose pins by name."""
+        """Clearance pins by name."""
         return {
             name: contact_series(self.motion, self._place(name), pin, self.at.memories[name])
-            for name, pin in self.loose.items()
+            for name, pin in self.with_clearance.items()
         }
 
     @cached_property
     def columns(self) -> dict[str, OilSeries]:
         """Columns by name."""
-        return {name: self._column(n, filled) for n, (name, filled) in enumerate(self.filled.items())}
+        return {name: self._column(n, preloaded) for n, (name, preloaded) in enumerate(self.preloaded.items())}
 
     @cached_property
     def pin_forces(self) -> dict[str, PointForce]:
-        """Forces of loose pins, of the first body on the second, where they act."""
+        """Forces of clearance pins, of the first body on the second, where they act."""
         found = {}
-        for name, pin in self.loose.items():
+        for name, pin in self.with_clearance.items():
             place = self._place(name)
             push = acting(self.motion, place, pin, self.contacts[name])
             found[name] = PointForce(place.first, place.second, push.force, push.point)
@@ -99,12 +99,12 @@ class Observation:
             total[0] += column.work
             total[1] += column.loss
         for name, contact in self.contacts.items():
-            bore, journal = ends(self.motion, self._place(name), self.loose[name])
+            bore, journal = ends(self.motion, self._place(name), self.with_clearance[name])
             offset, relative = journal.position - bore.position, journal.velocity - bore.velocity
             away = np.maximum(np.linalg.norm(offset, axis=1), SHALLOWEST)
             rate = np.einsum("mx,mx->m", offset, relative) / away
             pressed = (self.at.memories[name][:, 0] > 0.5) & (contact.depth > 0.0)
-            law = self.loose[name].contact.normal
+            law = self.with_clearance[name].contact.normal
             elastic = of_depth(law.elastic_force, np.maximum(contact.depth, SHALLOWEST))
             lost = np.where(pressed, (contact.normal_force - elastic) * rate, 0.0)
             rubbed = contact.friction_force * contact.slip
@@ -112,7 +112,7 @@ class Observation:
             total[2] -= rubbed
             odd = pressed & ~((lost >= 0.0) & (rubbed <= 0.0) & (elastic >= 0.0))
             for n in np.flatnonzero(odd).tolist():
-                seen = (
+                context = (
                     contact.depth,
                     rate,
                     contact.slip,
@@ -120,14 +120,14 @@ class Observation:
                     contact.friction_force,
                     elastic,
                 )
-                self._look(name, n, *(float(values[n]) for values in seen))
+                self._look(name, n, *(float(values[n]) for values in context))
         return total
 
-    def _look(self, name: str, n: int, *seen: float) -> None:
+    def _look(self, name: str, n: int, *context: float) -> None:
         """Raise SimulationError if what a pin's laws gave at an instant cannot be a force, see `look`."""
-        depth, rate, slip, normal, friction, elastic = seen
+        depth, rate, slip, normal, friction, elastic = context
         try:
-            look(self.loose[name].contact, depth, rate, slip, normal, friction, elastic, name)
+            look(self.with_clearance[name].contact, depth, rate, slip, normal, friction, elastic, name)
         except LawError as error:
             failure = Failure(str(error), UNLAWFUL, float(self.at.time[n]))
             raise SimulationError(failure) from error
@@ -135,40 +135,40 @@ class Observation:
     def _place(self, name: str) -> PinPlace:
         return self.motion.linkage.pins[name]
 
-    def _column(self, number: int, filled: FilledColumn) -> OilSeries:
+    def _column(self, number: int, preloaded: PreloadedColumn) -> OilSeries:
         cubic = self.at.cubic[:, number]
         let_in = extension(cubic, self.at.time), speed(cubic, self.at.time)
-        return filled.series(self.motion, *let_in)
+        return preloaded.series(self.motion, *let_in)
 
     def _column_forces(self) -> list[PointForce]:
         found = []
-        for name, filled in self.filled.items():
-            foot, head = (end.position for end in filled.ends(self.motion))
+        for name, preloaded in self.preloaded.items():
+            foot, head = (end.position for end in preloaded.ends(self.motion))
             along = (head - foot) / np.linalg.norm(head - foot, axis=1)[:, None]
             force = self.columns[name].force[:, None] * along
-            found.append(PointForce(filled.column.foot, filled.column.head, force, head))
+            found.append(PointForce(preloaded.column.foot, preloaded.column.head, force, head))
         return found
 
 
 CLOSE = 1e-12  # [s]: a record so little behind the end of a step belongs to it
 
 
-class Aftermath:
+class EvaluatedRun:
     """A finished run, to be looked at anywhere.
 
     Accelerations and forces are those of the equations of motion at the place and velocity looked at.
 
     Arguments:
         tree: the bodies.
-        scenario: loose pins, gravity, records.
+        scenario: clearance pins, gravity, records.
         filled: columns of oil, by name.
         run: that is finished.
     """
 
     def __init__(
-        self, tree: Tree, scenario: Scenario, filled: dict[str, FilledColumn], run: Integration
+        self, tree: Tree, scenario: Scenario, preloaded: dict[str, PreloadedColumn], run: Integration
     ) -> None:
-        self.tree, self.scenario, self.filled, self.run = tree, scenario, filled, run
+        self.tree, self.scenario, self.preloaded, self.run = tree, scenario, preloaded, run
         history = run.history
         self.time = np.array(history.time)
         self.step = np.diff(self.time)
@@ -201,29 +201,29 @@ class Aftermath:
             ),
         )
 
-    def _trajectory(self, inside: Observation, needed: Part) -> Trajectory:
+    def _trajectory(self, inside: Observation, needed: DataNeeds) -> Trajectory:
         """At the records; what is not needed is left out. inside: at the points of quadrature of all steps."""
         time = record_times(self.scenario.duration, self.scenario.record_period)
         number = np.clip(np.searchsorted(self.time, time - CLOSE) - 1, 0, len(self.step) - 1)
         fraction = np.clip((time - self.time[number]) / self.step[number], 0.0, 1.0)
         integrals = np.zeros((3, len(time)))
-        if Part.INTEGRALS in needed:
+        if DataNeeds.INTEGRALS in needed:
             powers = inside.powers().reshape(3, -1, len(POINTS))
             integrals = running(powers, self.step, number, fraction)
-        seen = self._within(number, fraction)
-        motion, joints = seen.motion, JointForces()
-        if needed & (Part.ACCELERATION | Part.JOINTS):
-            motion = seen.at.posture.motion(seen.accelerations())
-        if Part.JOINTS in needed:
-            joints = self._joint_forces(seen, motion)
-        oil = seen.columns if Part.OIL in needed else {}
+        context = self._within(number, fraction)
+        motion, joints = context.motion, JointForces()
+        if needed & (DataNeeds.ACCELERATION | DataNeeds.JOINTS):
+            motion = context.at.posture.motion(context.accelerations())
+        if DataNeeds.JOINTS in needed:
+            joints = self._joint_forces(context, motion)
+        oil = context.columns if DataNeeds.OIL in needed else {}
         return Trajectory(
             time=time,
             position=motion.position,
             velocity=motion.velocity,
             acceleration=motion.acceleration,
             ideal_pins={n: force for n, force in joints.pins.items() if n not in self.scenario.clearance_pins},
-            contacts=seen.contacts if Part.CONTACTS in needed else {},
+            contacts=context.contacts if DataNeeds.CONTACTS in needed else {},
             columns={name: column.force for name, column in oil.items()},
             cranks={},
             slides={},
@@ -233,19 +233,19 @@ class Aftermath:
             friction_loss=integrals[2],
         )
 
-    def _joint_forces(self, seen: Observation, motion: BodyMotion) -> JointForces:
-        columns = {name: column.force for name, column in seen.columns.items()}
-        known = {name: PinForce(pin.force, pin.point) for name, pin in seen.pin_forces.items()}
+    def _joint_forces(self, context: Observation, motion: BodyMotion) -> JointForces:
+        columns = {name: column.force for name, column in context.columns.items()}
+        known = {name: PinForce(pin.force, pin.point) for name, pin in context.pin_forces.items()}
         return open_joint_forces(motion, self.scenario.gravity, columns, known)
 
     def _force_of(self, pin: str) -> Look:
-        """Magnitude of the force [N] of a loose pin at fractions of steps."""
+        """Magnitude of the force [N] of a clearance pin at fractions of steps."""
         return lambda number, fraction: _sizes(self._within(number, fraction), pin)
 
     def _end_of_steps(self, fraction: float, position: Matrix, velocity: Matrix) -> Ends:
         each = np.arange(len(self.step))
-        seen = self._look(each, np.full(len(each), fraction), position, velocity)
-        return Ends(position, velocity, seen.accelerations())
+        context = self._look(each, np.full(len(each), fraction), position, velocity)
+        return Ends(position, velocity, context.accelerations())
 
     def _within(self, number: Numbers, fraction: Matrix) -> Observation:
         """At fractions of steps."""
@@ -254,14 +254,14 @@ class Aftermath:
     def _look(self, number: Numbers, fraction: Matrix, position: Matrix, velocity: Matrix) -> Observation:
         instants = Instants(
             time=self.time[number] + fraction * self.step[number],
-            posture=Posture(self.tree, position, velocity),
+            posture=TreePosture(self.tree, position, velocity),
             cubic=self._cubic[number],
             memories={name: memory[number] for name, memory in self._memories.items()},
         )
-        return Observation(instants, self.scenario.clearance_pins, self.filled, self.scenario.gravity)
+        return Observation(instants, self.scenario.clearance_pins, self.preloaded, self.scenario.gravity)
 
 
-def _sizes(seen: Observation, pin: str) -> Matrix:
-    """Magnitudes of the force of a loose pin [N]."""
-    contact = seen.contacts[pin]
+def _sizes(context: Observation, pin: str) -> Matrix:
+    """Magnitudes of the force of a clearance pin [N]."""
+    contact = context.contacts[pin]
     return np.asarray(np.hypot(contact.normal_force, contact.friction_force))

@@ -8,18 +8,18 @@ from typing import NoReturn
 import numpy as np
 
 from support_exudyn.formulations.progress import Progress
-from support_exudyn.formulations.tree.branches import LoopError, LooseError, Tree, branches
+from support_exudyn.formulations.tree.branches import ClearanceError, LoopError, Tree, branches
 from support_exudyn.formulations.tree.drive_pieces import pieces
-from support_exudyn.formulations.tree.dynamics import Posture, pin_mobility
+from support_exudyn.formulations.tree.dynamics import TreePosture, pin_inverse_mass
 from support_exudyn.formulations.tree.engine import Engine
 from support_exudyn.formulations.tree.forces import Forces
 from support_exudyn.formulations.tree.integration import Integration
-from support_exudyn.formulations.tree.outcome import Aftermath
+from support_exudyn.formulations.tree.outcome import EvaluatedRun
 from support_exudyn.formulations.tree.start import first_memory, rates, settled
 from support_exudyn.mechanics.oil_column import fill
-from support_exudyn.mechanics.pressed_pins import Mobilities, mobilities
+from support_exudyn.mechanics.pressed_pins import EffectiveMasses, inverse_masses
 from support_exudyn.mechanics.trajectory import Outcome
-from support_exudyn.model.columns import TwoBodyColumn
+from support_exudyn.model.columns import CylinderAndRod
 from support_exudyn.model.hydraulic_cylinder import HydraulicCylinder
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.values.value import InputError
@@ -37,7 +37,7 @@ def check(scenario: Scenario) -> None:
     for name, column in scenario.columns.items():
         if isinstance(column, HydraulicCylinder):
             _refuse(f"columns.{name}", "HydraulicCylinder, whose pressures are coordinates too", "OilColumn")
-        if isinstance(column, TwoBodyColumn):
+        if isinstance(column, CylinderAndRod):
             _refuse(f"columns.{name}", "TwoBodyColumn, whose slide closes a loop", "OilColumn")
     for name, load in scenario.loads.items():
         _refuse(f"loads.{name}", type(load).__name__, "no loads")
@@ -58,8 +58,8 @@ def check(scenario: Scenario) -> None:
         branches(linkage, scenario.clearance_pins)
     except LoopError as loop:
         _refuse(f"pins.{loop}", "ideal, which closes a loop", "clearance in one pin of every loop")
-    except LooseError as loose:
-        _refuse(f"bodies.{loose}", "no chain of ideal pins to the ground", "exactly one")
+    except ClearanceError as with_clearance:
+        _refuse(f"bodies.{with_clearance}", "no chain of ideal pins to the ground", "exactly one")
 
 
 def _refuse(where: str, what: str, allowed: str) -> NoReturn:
@@ -73,12 +73,12 @@ OF_THE_DRIVE = 1e-3  # share of the error that the drive's cubics may have
 
 def run(scenario: Scenario, progress: Progress) -> Outcome:
     """Run a scenario. Raises SimulationError if it cannot be finished."""
-    linkage, loose = scenario.linkage, scenario.clearance_pins
-    tree = branches(linkage, loose)
-    filled = fill(linkage, scenario.oil_columns, scenario.gravity)
-    forces = Forces(tree, scenario, filled)
-    smallest = min((pin.contact.bearing.clearance for pin in loose.values()), default=CLEARANCE)
-    drives = [scenario.drive_of(name) for name in filled]
+    linkage, with_clearance = scenario.linkage, scenario.clearance_pins
+    tree = branches(linkage, with_clearance)
+    preloaded = fill(linkage, scenario.oil_columns, scenario.gravity)
+    forces = Forces(tree, scenario, preloaded)
+    smallest = min((pin.contact.bearing.clearance for pin in with_clearance.values()), default=CLEARANCE)
+    drives = [scenario.drive_of(name) for name in preloaded]
     drive = pieces(drives, scenario.duration, OF_THE_DRIVE * scenario.solver.tolerance * smallest)
     forces.cubic[:] = drive[0].cubic
     velocity = rates(tree, scenario)
@@ -87,29 +87,29 @@ def run(scenario: Scenario, progress: Progress) -> Outcome:
         position, velocity = settled(tree, scenario, forces), 0.0 * velocity
     forces(None, 0.0, 0, position.tolist(), velocity.tolist())
 
-    def find_mobilities(name: str) -> Mobilities:
-        now = Posture(tree, np.array([forces.position]), np.array([forces.velocity]))
+    def find_inverse_masses(name: str) -> EffectiveMasses:
+        now = TreePosture(tree, np.array([forces.position]), np.array([forces.velocity]))
         normals = [(linkage.pins[other], pin.normal()) for other, pin in forces.pins.items() if other != name]
         pressed = [(place, along) for place, along in normals if along is not None]
-        answers = pin_mobility(now, linkage.pins[name], pressed)
-        return mobilities(answers, forces.pins[name].frame())
+        answers = pin_inverse_mass(now, linkage.pins[name], pressed)
+        return inverse_masses(answers, forces.pins[name].frame())
 
     for name, pin in forces.pins.items():
         pin.start = pin.place()
-        pin.remember(first_memory(pin, find_mobilities(name)))
+        pin.remember(first_memory(pin, find_inverse_masses(name)))
     engine = Engine(tree, forces, scenario.gravity, position, velocity)
     error, most_steps = largest_error(tree, scenario), scenario.solver.most_steps
-    integration = Integration(engine, forces, find_mobilities, drive, error, most_steps, progress)
+    integration = Integration(engine, forces, find_inverse_masses, drive, error, most_steps, progress)
     integration.go()
-    return Aftermath(tree, scenario, filled, integration).outcome()
+    return EvaluatedRun(tree, scenario, preloaded, integration).outcome()
 
 
 def largest_error(tree: Tree, scenario: Scenario) -> float:
     """Root mean square error that a step may have [rad], [rad/s].
 
-    No coordinate alone moves a loose pin's journal by more than `solver.tolerance` times the speed of a fall
-    through half its clearance. Within a step that moves it by far less than so much of the clearance: it is
-    the speed that counts.
+    No coordinate alone moves a clearance pin's journal by more than `solver.tolerance` times the speed of a
+    fall through half its clearance. Within a step that moves it by far less than so much of the clearance: it
+    is the speed that counts.
     """
     weight = math.hypot(*scenario.gravity)
     allowed = []

@@ -1,4 +1,4 @@
-"""How a tree starts: its rates, where it is at rest if it starts settled, and what its loose pins remember."""
+"""How a tree starts: its rates, its static equilibrium, and what its clearance pins remember."""
 
 from __future__ import annotations
 
@@ -10,21 +10,19 @@ from scipy.optimize import root
 from support_exudyn.formulations.contract import Failure, SimulationError
 from support_exudyn.formulations.limits import CENTRING
 from support_exudyn.formulations.tree.branches import Matrix, Tree
-from support_exudyn.formulations.tree.dynamics import Posture, mass_moment
-from support_exudyn.formulations.tree.forces import Forces, LoosePin
+from support_exudyn.formulations.tree.dynamics import TreePosture, mass_moment
+from support_exudyn.formulations.tree.forces import Forces, TreeClearanceJoint
 from support_exudyn.formulations.tree.loads import push
 from support_exudyn.mechanics.contact_state import PinMemory
 from support_exudyn.mechanics.kinetics import kinetics_of
-from support_exudyn.mechanics.pressed_pins import Mobilities
+from support_exudyn.mechanics.pressed_pins import EffectiveMasses
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.normal.law import LoadError
 from user_forces.values.value import InputError
 
 STILL = 1e-9  # [m/s] by which velocities of a machine may differ from those that its ideal pins allow
 BALANCED = 1e-9  # moment that may be left in equilibrium, as a share of the weight times 1 m
-UNSETTLED = (
-    "Is every body held by pins and columns, and does gravity press the loose pins? Otherwise start concentric."
-)
+UNSETTLED = "Is every body held by pins and columns, and does gravity press the pins? Else start concentric."
 
 
 def rates(tree: Tree, scenario: Scenario) -> Matrix:
@@ -35,7 +33,7 @@ def rates(tree: Tree, scenario: Scenario) -> Matrix:
     velocity = _body_velocities(tree, scenario).reshape(-1, 3)[tree.order_of_links]
     spins = [*velocity[:, 2].tolist(), 0.0]  # the last one: the ground's, number -1
     found = np.array([spins[n] - spins[link.carrier] for n, link in enumerate(tree.links)])
-    moving = Posture(tree, np.zeros((1, found.size)), found[None]).centre_velocity[0]
+    moving = TreePosture(tree, np.zeros((1, found.size)), found[None]).centre_velocity[0]
     for n, link in enumerate(tree.links):
         apart = math.dist(moving[n], velocity[n, :2])
         if apart > STILL:
@@ -71,7 +69,7 @@ def settled(tree: Tree, scenario: Scenario, forces: Forces) -> Matrix:
         forces(None, 0.0, 0, trial.tolist(), [0.0] * trial.size)
         for pin in forces.pins.values():
             _press(forces, pin, share * weight / pin.clearance)
-        still = Posture(tree, trial[None], 0.0 * trial[None])
+        still = TreePosture(tree, trial[None], 0.0 * trial[None])
         return np.asarray(forces.moments() + mass_moment(still, scenario.gravity)[0])
 
     try:
@@ -85,8 +83,8 @@ def settled(tree: Tree, scenario: Scenario, forces: Forces) -> Matrix:
     return position
 
 
-def _press(forces: Forces, pin: LoosePin, centring: float) -> None:
-    """Add the elastic force of a loose pin and that of a spring [N/m] to its middle."""
+def _press(forces: Forces, pin: TreeClearanceJoint, centring: float) -> None:
+    """Add the elastic force of a clearance pin and that of a spring [N/m] to its middle."""
     place = pin.place()
     pull = centring
     if place.depth > 0.0:
@@ -95,9 +93,9 @@ def _press(forces: Forces, pin: LoosePin, centring: float) -> None:
     push(forces.links, forces.points, forces.work, pin.pair, x, y, -pull * place.x, -pull * place.y)
 
 
-def first_memory(pin: LoosePin, mobilities: Mobilities) -> PinMemory:
-    """What a loose pin remembers at the start, at the stage evaluated last."""
+def first_memory(pin: TreeClearanceJoint, inverse_masses: EffectiveMasses) -> PinMemory:
+    """What a clearance pin remembers at the start, at the stage evaluated last."""
     place = pin.place()
-    touching = place.depth > 0.0
-    speed = max(0.0, place.rate) if touching else 0.0
-    return PinMemory(touching, speed, place.depth, place.rate).with_mobility(mobilities.held)
+    closed = place.depth > 0.0
+    speed = max(0.0, place.rate) if closed else 0.0
+    return PinMemory(closed, speed, place.depth, place.rate).with_inverse_mass(inverse_masses.held)

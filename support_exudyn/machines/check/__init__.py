@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from support_exudyn.machines.check.report import Report, Sheet
+from support_exudyn.machines.check.report import CheckReport, CheckTable
 from support_exudyn.machines.check.shield import check_shield
 from support_exudyn.machines.check.slider_crank import check_crank
 from support_exudyn.machines.four_bar_shield import FourBarShield
@@ -10,10 +10,10 @@ from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.machines.slider_crank import SliderCrank
 from user_forces.values.value import InputError
 
-__all__ = ["Report", "Sheet", "check_machine"]
+__all__ = ["CheckReport", "CheckTable", "check_machine"]
 
 
-def check_machine(data: MachineData, stroke: float | None = None) -> Report:
+def check_machine(data: MachineData, stroke: float | None = None) -> CheckReport:
     """The report of all that can be said of a machine before it is run.
 
     Arguments:

@@ -8,7 +8,7 @@ from typing import Any
 
 
 @dataclass(frozen=True)
-class Sheet:
+class CheckTable:
     """A table: its title, the heads of its columns and its rows, as text."""
 
     title: str
@@ -29,7 +29,7 @@ class Sheet:
 
 
 @dataclass(frozen=True)
-class Report:
+class CheckReport:
     """A check of a machine; its subclasses keep what a figure of it is drawn from.
 
     Arguments:
@@ -44,7 +44,7 @@ class Report:
     name: str
     kind: str
     facts: Sequence[str]
-    sheets: Sequence[Sheet]
+    sheets: Sequence[CheckTable]
     warnings: Sequence[str]
     notes: Sequence[str]
     numbers: dict[str, Any] = field(repr=False)

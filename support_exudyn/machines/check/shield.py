@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from support_exudyn.machines.check.plausibility import missing, suspicions
-from support_exudyn.machines.check.report import Report, Sheet
+from support_exudyn.machines.check.report import CheckReport, CheckTable
 from support_exudyn.machines.check.shield_stroke import (
     WANDER,
     Limit,
@@ -35,7 +35,7 @@ FINE = 101  # postures for the smallest and the largest
 
 
 @dataclass(frozen=True)
-class ShieldReport(Report):
+class ShieldReport(CheckReport):
     """A check of a shield support.
 
     Arguments:
@@ -102,13 +102,13 @@ def check_shield(data: MachineData, machine: Shield, stroke: float | None) -> Sh
 # --- tables ---
 
 
-def _sheets(machine: Shield, told: Sequence[Station]) -> list[Sheet]:
+def _sheets(machine: Shield, told: Sequence[Station]) -> list[CheckTable]:
     columns, pins = tuple(machine.STRUTS), tuple(machine.linkage().pins)
 
     def row(station: Station, *cells: str) -> tuple[str, ...]:
         return (_mm(station.stroke), _mm(station.posture.hinge[1]), *cells)
 
-    posture = Sheet(
+    posture = CheckTable(
         "posture, by stroke [mm] (angles from +x in degrees)",
         (
             *("stroke", "hinge y", "tip x", "tip y", "canopy", "rear_link", "front_link", "shield", *columns),
@@ -127,7 +127,7 @@ def _sheets(machine: Shield, told: Sequence[Station]) -> list[Sheet]:
             for station in told
         ],
     )
-    forces = Sheet(
+    forces = CheckTable(
         "static forces [kN], columns: push, negative: pull; angles in pins: shield beam to link [degrees]",
         (*("stroke", "hinge y", *pins, *columns), *("angle rear_shield", "angle front_shield")),
         [

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from support_exudyn.machines.check.report import Report, Sheet
+from support_exudyn.machines.check.report import CheckReport, CheckTable
 from support_exudyn.machines.check.statics import Statics, mobility, statics
 from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.machines.slider_crank import SliderCrank
@@ -30,7 +30,7 @@ class Turn:
 
 
 @dataclass(frozen=True)
-class CrankReport(Report):
+class CrankReport(CheckReport):
     """A check of a slider-crank; fine: postures over one revolution."""
 
     machine: SliderCrank = field(repr=False)
@@ -112,9 +112,9 @@ def _turn(machine: SliderCrank, angle: float) -> Turn:
     )
 
 
-def _sheet(machine: SliderCrank, told: list[Turn]) -> Sheet:
+def _sheet(machine: SliderCrank, told: list[Turn]) -> CheckTable:
     pins = tuple(machine.linkage().pins)
-    return Sheet(
+    return CheckTable(
         "one revolution, crank driven (angles from +x [degrees]; static forces [N], moment of the drive [N m])",
         ("crank", "slider [mm]", "rod", *pins, "guide", "drive"),
         [

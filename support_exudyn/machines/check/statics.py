@@ -60,7 +60,7 @@ def statics(linkage: Linkage, position: Array, gravity: Vector2 = GRAVITY) -> St
 
 
 @dataclass(frozen=True)
-class Mobility:
+class DegreesOfFreedom:
     """Degrees of freedom of a linkage.
 
     Arguments:
@@ -92,14 +92,14 @@ class Mobility:
         )
 
 
-def mobility(linkage: Linkage) -> Mobility:
+def mobility(linkage: Linkage) -> DegreesOfFreedom:
     """The degrees of freedom of a linkage in its start posture."""
     bodies, pins, guides = len(linkage.bodies), len(linkage.pins), len(linkage.slides)
     kinetics = kinetics_of(linkage)
     rows = kinetics.rows(np.zeros(3 * bodies))
     driven = kinetics.driven()
     undriven = np.delete(rows, np.arange(driven.start, driven.stop), axis=0)
-    return Mobility(
+    return DegreesOfFreedom(
         bodies=bodies,
         pins=pins,
         guides=guides,

@@ -12,13 +12,13 @@ from dataclasses import replace
 import numpy as np
 
 from support_exudyn.mechanics.reactions import SHIFT, Equations
-from support_exudyn.mechanics.space.constraints import Row, matrix
+from support_exudyn.mechanics.space.constraints import Constraint, matrix
 from support_exudyn.mechanics.space.kinetics import inertias
 from support_exudyn.mechanics.space.motion import SpatialMotion, rotation
 from support_exudyn.mechanics.trajectory import Series
 
 
-def accelerations(motion: SpatialMotion, rows: Sequence[Row], driven: Series, forces: Series) -> Series:
+def accelerations(motion: SpatialMotion, rows: Sequence[Constraint], driven: Series, forces: Series) -> Series:
     """Accelerations of the centres [m/s^2], and rates of the spins [rad/s^2], (n, b, 6).
 
     Arguments:
@@ -32,7 +32,7 @@ def accelerations(motion: SpatialMotion, rows: Sequence[Row], driven: Series, fo
     return equations.solve(forces.reshape(count, -1))[0].reshape(forces.shape)
 
 
-def turning(motion: SpatialMotion, rows: Sequence[Row]) -> Series:
+def turning(motion: SpatialMotion, rows: Sequence[Constraint]) -> Series:
     """C' v at every instant, (n, rows): by how much the rows change as the bodies move on."""
     velocity = np.concatenate([motion.velocity, motion.spin], axis=-1).reshape(motion.count, -1)
     fastest = np.abs(velocity).max(axis=1, initial=0.0)

@@ -12,7 +12,14 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from support_exudyn.mechanics.channels import CONTACT, MOTION, OIL, Part, Recipe, Recipes
+from support_exudyn.mechanics.channels import (
+    CONTACT,
+    MOTION,
+    OIL,
+    ChannelDefinition,
+    ChannelDefinitions,
+    DataNeeds,
+)
 from support_exudyn.mechanics.space.determined import UNDETERMINED, Loads
 from support_exudyn.mechanics.space.motion import SpatialMotion
 from support_exudyn.mechanics.trajectory import ContactSeries, Series
@@ -61,13 +68,17 @@ class Observation(Protocol):
         """The vector from foot to head of a column (n, 3) [m], and its rate."""
 
 
-def recipes(linkage: SpatialLinkage, loose: Collection[str], oil: Collection[str]) -> Recipes:
-    """All channels of a linkage in which these planar pins are loose and these planar columns on oil.
+def channel_definitions(
+    linkage: SpatialLinkage, with_clearance: Collection[str], oil: Collection[str]
+) -> ChannelDefinitions:
+    """All channels of a linkage in which these planar pins are with clearance and these planar columns on oil.
 
     The meaning of loads that rigid bodies do not determine says so.
     """
-    loads = Loads(linkage, loose, oil)
-    found: Recipes = {"time": Recipe("s", "time", Part.NOTHING, lambda seen: seen.time)}
+    loads = Loads(linkage, with_clearance, oil)
+    found: ChannelDefinitions = {
+        "time": ChannelDefinition("s", "time", DataNeeds.NOTHING, lambda context: context.time)
+    }
     for n, (name, body) in enumerate(linkage.bodies.items()):
         found |= _of_body(name, body, n)
     for name in linkage.points:
@@ -79,7 +90,7 @@ def recipes(linkage: SpatialLinkage, loose: Collection[str], oil: Collection[str
         if parts != (whole,):
             found |= _said(_of_pair(whole, parts, found), ".force", loads.columns(parts))
     for name, bearing in linkage.bearings.items():
-        channels = _of_guide(name) if bearing.is_guide else _of_bearing(name, bearing.pin in loose)
+        channels = _of_guide(name) if bearing.is_guide else _of_bearing(name, bearing.pin in with_clearance)
         channels = _said(channels, ".force", loads.forces([name]))
         found |= _said(channels, ".moment", loads.moment(name))
     for pin in dict.fromkeys(b.pin for b in linkage.bearings.values() if not b.is_guide):
@@ -90,7 +101,7 @@ def recipes(linkage: SpatialLinkage, loose: Collection[str], oil: Collection[str
     return found | _of_energy()
 
 
-def _said(channels: Recipes, what: str, determined: bool) -> Recipes:
+def _said(channels: ChannelDefinitions, what: str, determined: bool) -> ChannelDefinitions:
     """Channels, those whose names go on with `what` marked if rigid bodies do not determine them."""
     if determined:
         return channels
@@ -100,104 +111,110 @@ def _said(channels: Recipes, what: str, determined: bool) -> Recipes:
     }
 
 
-def _of_body(name: str, body: SpatialBody, n: int) -> Recipes:
-    found: Recipes = {}
+def _of_body(name: str, body: SpatialBody, n: int) -> ChannelDefinitions:
+    found: ChannelDefinitions = {}
     for k, (axis, towards) in enumerate(zip(AXES, TOWARDS, strict=True)):
         found |= {
-            f"{name}.{axis}": _recipe(
-                "m", f"centre of mass, {towards}", Part.POSITION, _place_of(n, k, body.centre[k])
+            f"{name}.{axis}": _definition(
+                "m", f"centre of mass, {towards}", DataNeeds.POSITION, _place_of(n, k, body.centre[k])
             ),
-            f"{name}.velocity_{axis}": _recipe(
+            f"{name}.velocity_{axis}": _definition(
                 "m/s", f"velocity of the centre of mass, {towards}", MOTION, _entry("velocity", n, k)
             ),
         }
-    turned = Part.POSITION
+    turned = DataNeeds.POSITION
     return found | {
-        f"{name}.angle": _recipe(
-            "rad", "orientation about z from +x", turned, lambda seen: body.angle + _turn(seen, n, 1, 0)
+        f"{name}.angle": _definition(
+            "rad", "orientation about z from +x", turned, lambda context: body.angle + _turn(context, n, 1, 0)
         ),
-        f"{name}.roll": _recipe(
-            "rad", "turn about x, the right side down", turned, lambda seen: _turn(seen, n, 2, 1)
+        f"{name}.roll": _definition(
+            "rad", "turn about x, the right side down", turned, lambda context: _turn(context, n, 2, 1)
         ),
-        f"{name}.yaw": _recipe("rad", "turn about y, to the left", turned, lambda seen: _turn(seen, n, 0, 2)),
-        f"{name}.angular_velocity": _recipe("rad/s", "angular velocity about z", MOTION, _entry("spin", n, 2)),
-        f"{name}.angular_velocity_x": _recipe(
+        f"{name}.yaw": _definition(
+            "rad", "turn about y, to the left", turned, lambda context: _turn(context, n, 0, 2)
+        ),
+        f"{name}.angular_velocity": _definition(
+            "rad/s", "angular velocity about z", MOTION, _entry("spin", n, 2)
+        ),
+        f"{name}.angular_velocity_x": _definition(
             "rad/s", "angular velocity about x", MOTION, _entry("spin", n, 0)
         ),
-        f"{name}.angular_velocity_y": _recipe(
+        f"{name}.angular_velocity_y": _definition(
             "rad/s", "angular velocity about y", MOTION, _entry("spin", n, 1)
         ),
-        f"{name}.angular_acceleration": _recipe(
-            "rad/s^2", "angular acceleration about z", REACTION, lambda seen: seen.accelerations[:, n, 5]
+        f"{name}.angular_acceleration": _definition(
+            "rad/s^2", "angular acceleration about z", REACTION, lambda context: context.accelerations[:, n, 5]
         ),
     }
 
 
-def _recipe(unit: str, meaning: str, needs: Part, values: Callable[[Observation], Series]) -> Recipe:
-    return Recipe(unit, meaning, needs, values)
+def _definition(
+    unit: str, meaning: str, needs: DataNeeds, values: Callable[[Observation], Series]
+) -> ChannelDefinition:
+    return ChannelDefinition(unit, meaning, needs, values)
 
 
 def _place_of(n: int, k: int, start: float) -> Callable[[Observation], Series]:
-    return lambda seen: start + seen.motion.displacement[:, n, k]
+    return lambda context: start + context.motion.displacement[:, n, k]
 
 
 def _entry(what: str, n: int, k: int) -> Callable[[Observation], Series]:
-    return lambda seen: np.asarray(getattr(seen.motion, what)[:, n, k])
+    return lambda context: np.asarray(getattr(context.motion, what)[:, n, k])
 
 
-def _turn(seen: Observation, n: int, row: int, column: int) -> Series:
+def _turn(context: Observation, n: int, row: int, column: int) -> Series:
     """Angle by which an axis of the body has turned towards another of the ground (n,) [rad]."""
-    turn = seen.motion.turn[:, n]
+    turn = context.motion.turn[:, n]
     return np.asarray(np.unwrap(np.arctan2(turn[:, row, column], turn[:, column, column])))
 
 
-def _of_point(name: str) -> Recipes:
+def _of_point(name: str) -> ChannelDefinitions:
     def path(k: int) -> Callable[[Observation], Series]:
-        def place(seen: Observation) -> Series:
-            point = seen.motion.linkage.points[name]
-            return seen.motion.point(point.body, point.point).position[:, k]
+        def place(context: Observation) -> Series:
+            point = context.motion.linkage.points[name]
+            return context.motion.point(point.body, point.point).position[:, k]
 
         return place
 
     return {
-        f"{name}.{axis}": _recipe("m", f"position, {towards}", Part.POSITION, path(k))
+        f"{name}.{axis}": _definition("m", f"position, {towards}", DataNeeds.POSITION, path(k))
         for k, (axis, towards) in enumerate(zip(AXES, TOWARDS, strict=True))
     }
 
 
-def _of_column(name: str, oil: bool) -> Recipes:
-    def angle(seen: Observation) -> Series:
-        apart, _ = seen.span(name)
+def _of_column(name: str, oil: bool) -> ChannelDefinitions:
+    def angle(context: Observation) -> Series:
+        apart, _ = context.span(name)
         return np.asarray(np.arctan2(apart[:, 1], apart[:, 0]))
 
-    def length(seen: Observation) -> Series:
-        return np.asarray(np.linalg.norm(seen.span(name)[0], axis=1))
+    def length(context: Observation) -> Series:
+        return np.asarray(np.linalg.norm(context.span(name)[0], axis=1))
 
     return {
-        f"{name}.angle": _recipe(
-            "rad", "direction from foot to head in the plane, from +x", Part.POSITION, angle
+        f"{name}.angle": _definition(
+            "rad", "direction from foot to head in the plane, from +x", DataNeeds.POSITION, angle
         ),
-        f"{name}.length": _recipe("m", "distance of its ends", Part.POSITION, length),
-        f"{name}.force": _recipe(
+        f"{name}.length": _definition("m", "distance of its ends", DataNeeds.POSITION, length),
+        f"{name}.force": _definition(
             "N",
             "pushes its ends apart if positive",
             OIL if oil else REACTION,
-            lambda seen: seen.column_force(name),
+            lambda context: context.column_force(name),
         ),
     }
 
 
-def _of_pair(whole: str, parts: Iterable[str], known: Recipes) -> Recipes:
+def _of_pair(whole: str, parts: Iterable[str], known: ChannelDefinitions) -> ChannelDefinitions:
     """The channels of a pair of columns, from those of each."""
 
-    def together(what: str, unite: Callable[..., Series], said: str) -> Recipes:
+    def together(what: str, unite: Callable[..., Series], said: str) -> ChannelDefinitions:
         each = [known[f"{part}.{what}"] for part in parts]
         return {
-            f"{whole}.{what}": Recipe(
+            f"{whole}.{what}": ChannelDefinition(
                 each[0].unit,
                 said,
                 each[0].needs,
-                lambda seen: unite([one.values(seen) for one in each], axis=0),
+                lambda context: unite([one.values(context) for one in each], axis=0),
             )
         }
 
@@ -209,54 +226,54 @@ def _of_pair(whole: str, parts: Iterable[str], known: Recipes) -> Recipes:
 
 
 def _sum_of_bearings(parts: Iterable[str]) -> Callable[[Observation], Series]:
-    def force(seen: Observation) -> Series:
-        return np.asarray(np.sum([seen.loads[part][0] for part in parts], axis=0))
+    def force(context: Observation) -> Series:
+        return np.asarray(np.sum([context.loads[part][0] for part in parts], axis=0))
 
     return force
 
 
-def _forces(prefix: str, needs: Part, force: Callable[[Observation], Series]) -> Recipes:
+def _forces(prefix: str, needs: DataNeeds, force: Callable[[Observation], Series]) -> ChannelDefinitions:
     """The channels of a pin's force; force: of the first body on the second (n, 3) [N]."""
     found = {
-        f"{prefix}.force": _recipe(
-            "N", "magnitude of the pin force", needs, lambda seen: np.linalg.norm(force(seen), axis=1)
+        f"{prefix}.force": _definition(
+            "N", "magnitude of the pin force", needs, lambda context: np.linalg.norm(force(context), axis=1)
         )
     }
     for k, (axis, towards) in enumerate(zip(AXES, TOWARDS, strict=True)):
-        found[f"{prefix}.force_{axis}"] = _recipe(
+        found[f"{prefix}.force_{axis}"] = _definition(
             "N", f"force of the first body on the second, {towards}", needs, _component(force, k)
         )
     return found
 
 
-def _of_guide(name: str) -> Recipes:
+def _of_guide(name: str) -> ChannelDefinitions:
     def magnitude(which: int) -> Callable[[Observation], Series]:
-        return lambda seen: np.asarray(np.linalg.norm(seen.loads[name][which], axis=1))
+        return lambda context: np.asarray(np.linalg.norm(context.loads[name][which], axis=1))
 
     return {
-        f"{name}.force": _recipe("N", "magnitude of the guide's force, across it", REACTION, magnitude(0)),
-        f"{name}.moment": _recipe("N m", "magnitude of the guide's moment", REACTION, magnitude(1)),
+        f"{name}.force": _definition("N", "magnitude of the guide's force, across it", REACTION, magnitude(0)),
+        f"{name}.moment": _definition("N m", "magnitude of the guide's moment", REACTION, magnitude(1)),
     }
 
 
 def _component(vector: Callable[[Observation], Series], k: int) -> Callable[[Observation], Series]:
-    return lambda seen: vector(seen)[:, k]
+    return lambda context: vector(context)[:, k]
 
 
-def _of_bearing(name: str, loose: bool) -> Recipes:
+def _of_bearing(name: str, with_clearance: bool) -> ChannelDefinitions:
     prefix = f"pin.{name}"
-    found = _forces(prefix, REACTION, lambda seen: seen.loads[name][0])
+    found = _forces(prefix, REACTION, lambda context: context.loads[name][0])
     for k, axis in enumerate(AXES[:2]):
-        found[f"{prefix}.moment_{axis}"] = _recipe(
+        found[f"{prefix}.moment_{axis}"] = _definition(
             "N m",
             f"of the first body on the second about {axis} through the middle of the bearing",
             REACTION,
-            _component(lambda seen: seen.loads[name][1], k),
+            _component(lambda context: context.loads[name][1], k),
         )
-    return found | _of_loose(name) if loose else found
+    return found | _of_clearance(name) if with_clearance else found
 
 
-def _of_loose(name: str) -> Recipes:
+def _of_clearance(name: str) -> ChannelDefinitions:
     prefix = f"pin.{name}"
 
     def said(
@@ -264,15 +281,22 @@ def _of_loose(name: str) -> Recipes:
         unit: str,
         meaning: str,
         values: Callable[[Sequence[SectionSeries]], Series],
-        needs: Part = CONTACT,
-    ) -> Recipes:
-        return {f"{prefix}.{what}": _recipe(unit, meaning, needs, lambda seen: values(seen.sections[name]))}
+        needs: DataNeeds = CONTACT,
+    ) -> ChannelDefinitions:
+        return {
+            f"{prefix}.{what}": _definition(
+                unit, meaning, needs, lambda context: values(context.sections[name])
+            )
+        }
 
     found = said("normal_force", "N", "normal contact forces of all sections", _sum("normal_force"))
     found |= said("friction_force", "N", "friction of all sections, on the journal", _sum("friction_force"))
     found |= said("slip", "m/s", "slip of the journal's surface, along t, mean of the sections", _mean_slip)
     found |= said(
-        "approach_speed", "m/s", "touch speed that the laws are told, largest of the sections; 0 apart", _speed
+        "impact_velocity",
+        "m/s",
+        "impact velocity that the laws are told, largest of the sections; 0 apart",
+        _speed,
     )
     found |= said("depth", "m", "depth where it is largest; negative: gap", _deepest)
     for place, edge, side in ((0, "left", "at the left edge"), (-1, "right", "at the right edge")):
@@ -303,7 +327,7 @@ def _mean_slip(sections: Sequence[SectionSeries]) -> Series:
 
 
 def _speed(sections: Sequence[SectionSeries]) -> Series:
-    return np.asarray(np.max([s.contact.approach_speed for s in sections], axis=0))
+    return np.asarray(np.max([s.contact.impact_velocity for s in sections], axis=0))
 
 
 def _deepest(sections: Sequence[SectionSeries]) -> Series:
@@ -329,16 +353,16 @@ def _middle(
     return lambda sections: 0.5 * (axis(0)(sections) + axis(-1)(sections))
 
 
-def _of_energy() -> Recipes:
-    integrals = Part.INTEGRALS
+def _of_energy() -> ChannelDefinitions:
+    integrals = DataNeeds.INTEGRALS
     stored = CONTACT | OIL
 
     def known(what: str) -> Callable[[Observation], Series]:
-        return lambda seen: np.asarray(getattr(seen, what))
+        return lambda context: np.asarray(getattr(context, what))
 
-    table: dict[str, tuple[str, Part, Any]] = {
+    table: dict[str, tuple[str, DataNeeds, Any]] = {
         "kinetic": ("kinetic energy of all bodies", MOTION, known("kinetic")),
-        "potential": ("of weight, zero in the machine's start posture", Part.POSITION, known("potential")),
+        "potential": ("of weight, zero in the machine's start posture", DataNeeds.POSITION, known("potential")),
         "elastic": ("stored in contacts and oil", stored, known("stored")),
         "damping_loss": ("dissipated by damping in contacts and oil so far", integrals, known("damping_loss")),
         "friction_loss": ("dissipated by friction so far", integrals, known("friction_loss")),
@@ -349,4 +373,4 @@ def _of_energy() -> Recipes:
             known("balance"),
         ),
     }
-    return {f"energy.{name}": Recipe("J", *parts) for name, parts in table.items()}
+    return {f"energy.{name}": ChannelDefinition("J", *parts) for name, parts in table.items()}

@@ -26,7 +26,7 @@ Kind = Literal["column", "across_1", "across_2", "along", "tilt_1", "tilt_2"]
 
 
 @dataclass(frozen=True)
-class Row:
+class Constraint:
     """One constraint: of which bearing or column, and what it holds."""
 
     name: str
@@ -45,21 +45,21 @@ def frame_of(axis: Vector3) -> Series:
     return frame
 
 
-def all_rows(linkage: SpatialLinkage, loose: Sequence[str], rigid: Sequence[str]) -> list[Row]:
-    """What is held, if these planar pins are loose and these columns rigid; the columns last."""
-    rows: list[Row] = []
+def all_rows(linkage: SpatialLinkage, with_clearance: Sequence[str], rigid: Sequence[str]) -> list[Constraint]:
+    """What is held, if these planar pins are with clearance and these columns rigid; the columns last."""
+    rows: list[Constraint] = []
     bearings = linkage.bearings.items()
     for name, bearing in bearings:
-        if bearing.pin not in loose:
-            rows += [Row(name, "across_1"), Row(name, "across_2")]
-    rows += [Row(name, "along") for name, bearing in bearings if "along" in bearing.holds]
+        if bearing.pin not in with_clearance:
+            rows += [Constraint(name, "across_1"), Constraint(name, "across_2")]
+    rows += [Constraint(name, "along") for name, bearing in bearings if "along" in bearing.holds]
     for name, bearing in bearings:
-        if "tilt" in bearing.holds and bearing.pin not in loose:
-            rows += [Row(name, "tilt_1"), Row(name, "tilt_2")]
-    return rows + [Row(name, "column") for name in rigid]
+        if "tilt" in bearing.holds and bearing.pin not in with_clearance:
+            rows += [Constraint(name, "tilt_1"), Constraint(name, "tilt_2")]
+    return rows + [Constraint(name, "column") for name in rigid]
 
 
-def matrix(motion: SpatialMotion, rows: Sequence[Row]) -> Series:
+def matrix(motion: SpatialMotion, rows: Sequence[Constraint]) -> Series:
     """The rows at every instant, shape (n, rows, 6 bodies)."""
     found = np.zeros((motion.count, len(rows), 6 * len(motion.linkage.bodies)))
     for place, row in enumerate(rows):
@@ -80,7 +80,7 @@ def _column_row(motion: SpatialMotion, name: str, row: Series) -> None:
     _add_point(motion, column.foot, foot.arm, -along, row)
 
 
-def _bearing_row(motion: SpatialMotion, row: Row, found: Series) -> None:
+def _bearing_row(motion: SpatialMotion, row: Constraint, found: Series) -> None:
     bearing = motion.linkage.bearings[row.name]
     direction = direction_of(motion, bearing, row.kind)
     if row.kind.startswith("tilt"):
@@ -116,7 +116,7 @@ def _add_turn(motion: SpatialMotion, body: str, direction: Series, row: Series) 
         row[:, i + 3 : i + 6] += direction
 
 
-def independent(rows: Sequence[Row], values: Series) -> list[Row]:
+def independent(rows: Sequence[Constraint], values: Series) -> list[Constraint]:
     """Rows that say something that those before them do not; values: (rows, 6 bodies) at the start.
 
     Rotations count as shifts at 1 m.
@@ -135,7 +135,7 @@ def independent(rows: Sequence[Row], values: Series) -> list[Row]:
     return kept
 
 
-class End(NamedTuple):
+class BearingEnd(NamedTuple):
     """Bore or journal of a bearing: its body, its middle and its axis, start posture."""
 
     body: str

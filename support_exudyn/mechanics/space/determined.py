@@ -12,7 +12,7 @@ from functools import cached_property
 
 import numpy as np
 
-from support_exudyn.mechanics.space.constraints import SAME, Row, all_rows, direction_of, matrix
+from support_exudyn.mechanics.space.constraints import SAME, Constraint, all_rows, direction_of, matrix
 from support_exudyn.mechanics.space.motion import COORDINATES, SpatialMotion, motion_of
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.spatial_linkage import SpatialLinkage
@@ -28,13 +28,13 @@ class Loads:
 
     Arguments:
         linkage: what is held.
-        loose: planar pins with clearance. oil: planar columns on oil.
+        with_clearance: planar pins with clearance. oil: planar columns on oil.
     """
 
-    def __init__(self, linkage: SpatialLinkage, loose: Collection[str], oil: Collection[str]) -> None:
+    def __init__(self, linkage: SpatialLinkage, with_clearance: Collection[str], oil: Collection[str]) -> None:
         rigid = [name for name, column in linkage.columns.items() if column.column not in oil]
         self.linkage = linkage
-        self.rows: Sequence[Row] = all_rows(linkage, list(loose), rigid)
+        self.rows: Sequence[Constraint] = all_rows(linkage, list(with_clearance), rigid)
 
     @cached_property
     def start(self) -> SpatialMotion:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from support_exudyn.mechanics.space.constraints import End, Row, frame_of, matrix
+from support_exudyn.mechanics.space.constraints import BearingEnd, Constraint, frame_of, matrix
 from support_exudyn.mechanics.space.motion import SpatialMotion, cross
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.linkage import GROUND
@@ -47,7 +47,7 @@ class SpatialKinetics:
     """
 
     motion: SpatialMotion
-    rows: Sequence[Row]
+    rows: Sequence[Constraint]
 
     def mass(self) -> Series:
         """Mass matrix (6 bodies, 6 bodies)."""
@@ -76,11 +76,11 @@ class SpatialKinetics:
         found: Series = (rate @ self.respond(rate.T, 0.0)[0]).T
         return found
 
-    def bearing_rate(self, bore: End, journal: End) -> Series:
+    def bearing_rate(self, bore: BearingEnd, journal: BearingEnd) -> Series:
         """Rows that give the velocity of the journal's middle across the bore, in its axes (2, 6 bodies)."""
         return np.array([self._rate(bore, journal, k) for k in (0, 1)])
 
-    def _rate(self, bore: End, journal: End, axis: int) -> Series:
+    def _rate(self, bore: BearingEnd, journal: BearingEnd, axis: int) -> Series:
         """The row that gives the velocity of the journal's middle against the bore's along one of its axes."""
         direction = self.motion.carried(bore.body, frame_of(bore.axis)[:, axis])[0]
         found = np.zeros(6 * len(self.motion.linkage.bodies))

@@ -56,7 +56,7 @@ def parameter_rates(p: Series, spin: Series) -> Series:
     return rates
 
 
-class PointMotion(NamedTuple):
+class SpatialPointMotion(NamedTuple):
     """A point of a body over time, (n, 3) each: position, velocity, arm from the body's centre; SI."""
 
     position: Series
@@ -97,15 +97,15 @@ class SpatialMotion:
         """Angular velocity of a body, (n, 3) [rad/s]."""
         return np.zeros((self.count, 3)) if body == GROUND else self.spin[:, self.index(body)]
 
-    def point(self, body: str, point: Vector3) -> PointMotion:
+    def point(self, body: str, point: Vector3) -> SpatialPointMotion:
         """Motion of a point of the start posture."""
         if body == GROUND:
             still = np.zeros((self.count, 3))
-            return PointMotion(self.carried(GROUND, point), still, still)
+            return SpatialPointMotion(self.carried(GROUND, point), still, still)
         n = self.index(body)
         centre = np.array(self.linkage.bodies[body].centre)
         arm = self.carried(body, np.array(point) - centre)
-        return PointMotion(
+        return SpatialPointMotion(
             centre + self.displacement[:, n] + arm, self.velocity[:, n] + cross(self.spin[:, n], arm), arm
         )
 

@@ -15,7 +15,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from support_exudyn.mechanics.space.constraints import Row, matrix
+from support_exudyn.mechanics.space.constraints import Constraint, matrix
 from support_exudyn.mechanics.space.kinetics import inertias
 from support_exudyn.mechanics.space.motion import SpatialMotion, cross
 from support_exudyn.mechanics.trajectory import Series
@@ -35,7 +35,7 @@ def inertia_forces(motion: SpatialMotion, acceleration: Series) -> Series:
     return np.concatenate([mass[:, None] * acceleration[..., :3], moment], axis=-1)
 
 
-def reactions(motion: SpatialMotion, rows: Sequence[Row], left: Series) -> Series:
+def reactions(motion: SpatialMotion, rows: Sequence[Constraint], left: Series) -> Series:
     """Forces of the rows on the second body (or pushing a column's ends apart), (n, rows).
 
     Arguments:

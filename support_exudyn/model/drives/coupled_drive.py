@@ -20,7 +20,7 @@ TAIL = 3  # coefficients that are looked at for it
 
 
 @value
-class Follower(Drive):
+class CoupledDrive(Drive):
     """Extends as a smooth function of the extension of another drive, which it follows at every instant.
 
         extension = f(lead's extension), f(0) = 0, speed = f' times the lead's speed
@@ -41,7 +41,7 @@ class Follower(Drive):
     coefficients: Metres[tuple[Real, ...]]
 
     @model_validator(mode="after")
-    def _holds_the_start(self) -> Follower:
+    def _holds_the_start(self) -> CoupledDrive:
         if not self.lowest <= 0.0 <= self.lowest + self.reach:
             raise ValueError(
                 f"lowest = {self.lowest} m, reach = {self.reach} m: allowed: a range that holds the start, 0"
@@ -115,18 +115,18 @@ class Follower(Drive):
 
 def following(
     lead: Drive, duration: float, length: Callable[[np.ndarray], np.ndarray], size: float = 1.0
-) -> Follower:
+) -> CoupledDrive:
     """The drive that extends by `length(extension)` [m] where `lead` extends by `extension` [m].
 
     duration: of the run [s]: what the lead does within it is covered. length: of extensions in any order, an
-    analytic function; as exact as it is computed the follower is. size: of the coordinates from which it
+    analytic function; as exact as it is computed the coupled drive is. size: of the coordinates from which it
     computes [m].
 
     Raises InputError if no polynomial follows it: next to a dead centre.
     """
     low, high = lead.span(duration)
     if low == high:
-        return Follower(lead=lead, lowest=low, reach=0.0, coefficients=(0.0,))
+        return CoupledDrive(lead=lead, lowest=low, reach=0.0, coefficients=(0.0,))
     coefficients, rounding = np.zeros(1), max(ROUNDING, math.ulp(size))
     for degree in DEGREES:
         places = np.cos(np.pi * (np.arange(degree + 1) + 0.5) / (degree + 1))
@@ -135,7 +135,9 @@ def following(
         coefficients = 2.0 / (degree + 1) * np.cos(np.outer(np.arange(degree + 1), np.arccos(places))) @ values
         coefficients[0] /= 2.0
         if np.abs(coefficients[-TAIL:]).max() <= max(LEFT * np.abs(coefficients[1:]).max(), rounding):
-            return Follower(lead=lead, lowest=low, reach=high - low, coefficients=tuple(coefficients.tolist()))
+            return CoupledDrive(
+                lead=lead, lowest=low, reach=high - low, coefficients=tuple(coefficients.tolist())
+            )
     raise InputError(
         f"drive: from {low:.4g} to {high:.4g} m the part that follows it would have to move without bounds; "
         "allowed: strokes that keep away from where the linkage locks"

@@ -2,7 +2,7 @@
 
 from support_exudyn.model.loads.applied_force import AppliedForce
 from support_exudyn.model.loads.falling_block import FallingBlock
-from support_exudyn.model.loads.load import Load, LoadedPoint, Observed, Powers
+from support_exudyn.model.loads.load import Load, LoadChannel, LoadedPoint, Powers
 from support_exudyn.model.loads.roof import Roof
 
-__all__ = ["AppliedForce", "FallingBlock", "Load", "LoadedPoint", "Observed", "Powers", "Roof"]
+__all__ = ["AppliedForce", "FallingBlock", "Load", "LoadChannel", "LoadedPoint", "Powers", "Roof"]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pydantic import model_validator
 
-from support_exudyn.model.loads.load import Load, LoadedPoint, Observed, Powers
+from support_exudyn.model.loads.load import Load, LoadChannel, LoadedPoint, Powers
 from user_forces.expressions.scalar import step
 from user_forces.values.units import Newtons, Seconds
 from user_forces.values.value import NonNegative, Vector2, value
@@ -57,11 +57,11 @@ class AppliedForce(Load):
         return Powers(along * at.vx + up * at.vy, 0.0)
 
     @property
-    def channels(self) -> dict[str, Observed]:
+    def channels(self) -> dict[str, LoadChannel]:
         """The channels are the force's two components."""
         return {
-            "force_x": Observed("N", "of the load, forward"),
-            "force_y": Observed("N", "of the load, up"),
+            "force_x": LoadChannel("N", "of the load, forward"),
+            "force_y": LoadChannel("N", "of the load, up"),
         }
 
     def observed(self, at: LoadedPoint) -> dict[str, float]:

@@ -11,10 +11,10 @@ from typing import Annotated
 from pydantic import Field
 
 from support_exudyn.model.linkage import Body, Linkage, Slide
-from support_exudyn.model.loads.load import Load, LoadedPoint, Observed, Powers
+from support_exudyn.model.loads.load import Load, LoadChannel, LoadedPoint, Powers
 from user_forces.expressions.scalar import maximum, power
 from user_forces.normal.hysteresis import exact_damping_factor
-from user_forces.normal.law import Touch
+from user_forces.normal.law import Impact
 from user_forces.normal.power_law import ElasticPower
 from user_forces.values.units import (
     Kilograms,
@@ -26,7 +26,7 @@ from user_forces.values.units import (
 )
 from user_forces.values.value import InputError, NonNegative, Positive, Real, Restitution, Vector2, value
 
-STEPS_APART = 4  # after a parting that are as short as those of the impact, as in those of loose pins
+STEPS_APART = 4  # after a separation that are as short as those of the impact, as in those of clearance pins
 RESTING = 4.0  # a block with no more energy than so many times what its weight stores is at rest
 QUIET = 1e-4  # or with no more than this share of what it fell with
 
@@ -50,7 +50,7 @@ class FallingBlock(Load):
     `speed` makes it strike sooner. It is a body of the machine with the load's name, so that channels such as
     NAME.y (of its centre) and NAME.velocity_y tell its motion. Planar redundant formulation only.
 
-    Steps are shortened for its impacts as for those of loose pins, see `SolverSettings.impact_steps`.
+    Steps are shortened for its impacts as for those of clearance pins, see `SolverSettings.impact_steps`.
 
     Arguments:
         body, point: what it falls on, see `Load`.
@@ -113,7 +113,7 @@ class FallingBlock(Load):
     @cached_property
     def impact_time(self) -> float:
         """Duration [s] of an undamped first impact on something that stands still."""
-        return self._elastic.impact_time(Touch(self.first_speed, self.mass))
+        return self._elastic.impact_time(Impact(self.first_speed, self.mass))
 
     def joined(self, linkage: Linkage, name: str) -> Linkage:
         """The linkage with the block and its upright guide, NAME_guide."""
@@ -157,11 +157,11 @@ class FallingBlock(Load):
         return Powers(0.0, (self._push(at) - self._elastic_push(at)) * at.vy)
 
     @property
-    def channels(self) -> Mapping[str, Observed]:
+    def channels(self) -> Mapping[str, LoadChannel]:
         """The channels are the block's force and its gap."""
         return {
-            "force": Observed("N", "of the block, downward"),
-            "gap": Observed("m", "between block and point; negative: depth"),
+            "force": LoadChannel("N", "of the block, downward"),
+            "gap": LoadChannel("m", "between block and point; negative: depth"),
         }
 
     def observed(self, at: LoadedPoint) -> Mapping[str, float]:
@@ -177,12 +177,12 @@ class FallingBlock(Load):
         return 0.0, self.exponent * self.stiffness * deepest ** (self.exponent - 1.0)
 
     @property
-    def strikes(self) -> bool:
+    def impacts_machine(self) -> bool:
         """The block strikes."""
         return True
 
     def longest_step(self, at: LoadedPoint, number: int) -> float:
-        """Half the way to a touch, then so many in an impact [s]; any step away from it and at rest."""
+        """Half the way to an impact, then so many in an impact [s]; any step away from it and at rest."""
         short = self.impact_time / number
         gap, closing = self.height - at.y, at.vy
         if gap > 0.0:

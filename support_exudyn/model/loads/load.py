@@ -26,7 +26,7 @@ class LoadedPoint(NamedTuple):
     vy: float
 
 
-class Observed(NamedTuple):
+class LoadChannel(NamedTuple):
     """A channel of a load: its unit, and what it is."""
 
     unit: str
@@ -86,7 +86,7 @@ class Load(Value, ABC):
         return GROUND
 
     @property
-    def channels(self) -> Mapping[str, Observed]:
+    def channels(self) -> Mapping[str, LoadChannel]:
         """What is recorded of it besides its energies, by name; see `observed`."""
         return {}
 
@@ -111,7 +111,7 @@ class Load(Value, ABC):
         return 0.0, 0.0
 
     @property
-    def strikes(self) -> bool:
+    def impacts_machine(self) -> bool:
         """Whether it strikes the machine, so that steps have to be shortened in time: see `longest_step`."""
         return False
 

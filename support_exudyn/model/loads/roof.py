@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from support_exudyn.model.drives.drive import Drive
-from support_exudyn.model.loads.load import Load, LoadedPoint, Observed, Powers
+from support_exudyn.model.loads.load import Load, LoadChannel, LoadedPoint, Powers
 from user_forces.expressions.scalar import maximum
 from user_forces.values.units import Metres, NewtonsPerMetre, SecondsPerMetre
 from user_forces.values.value import NonNegative, Positive, Vector2, value
@@ -68,11 +68,11 @@ class Roof(Load):
         return Powers(push * self.descent.speed(at.time), (push - elastic) * self._rate(at))
 
     @property
-    def channels(self) -> Mapping[str, Observed]:
+    def channels(self) -> Mapping[str, LoadChannel]:
         """The channels are the roof's force and its gap."""
         return {
-            "force": Observed("N", "of the roof, downward"),
-            "gap": Observed("m", "between roof and point; negative: depth"),
+            "force": LoadChannel("N", "of the roof, downward"),
+            "gap": LoadChannel("m", "between roof and point; negative: depth"),
         }
 
     def observed(self, at: LoadedPoint) -> Mapping[str, float]:

@@ -41,7 +41,8 @@ def to_xdmf(
                         displacement_m since the first step. Of triangles: body and role.
         rise_pins.xdmf  the pins as points: force_N of the first body on the second, force_magnitude_N, depth_m
                         (negative: gap), slip_m_s, pin, loose (1 or 0). Of an ideal pin depth and slip are NaN.
-                        A loose pin is at its journal's centre. In the plane a pin stands for those of a pair.
+                        A clearance pin is at its journal's centre. In the plane a pin stands for those of a
+                        pair.
         rise_mesh.h5    the numbers of both, to which they refer by this name
         rise_names.csv  what the numbers body, role and pin stand for
 

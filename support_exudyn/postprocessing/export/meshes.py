@@ -80,7 +80,7 @@ def meshes_of(result: Result, first: int) -> list[MeshSeries]:
     return [machine] if pins is None else [machine, pins]
 
 
-class Part(NamedTuple):
+class MeshPiece(NamedTuple):
     """A piece of the mesh that is moved as a whole."""
 
     body: str
@@ -88,12 +88,12 @@ class Part(NamedTuple):
     mesh: Trimesh
 
 
-def parts_of(look: Look) -> list[Part]:
+def parts_of(look: Look) -> list[MeshPiece]:
     """All solids, then cylinder and rod of every strut, which are bodies called "NAME cylinder", "NAME rod"."""
-    found = [Part(solid.body, solid.role, solid.mesh) for solid in look.solids]
+    found = [MeshPiece(solid.body, solid.role, solid.mesh) for solid in look.solids]
     for strut in look.struts:
-        found.append(Part(f"{strut.name} cylinder", Role.CYLINDER, strut.cylinder))
-        found.append(Part(f"{strut.name} rod", Role.ROD, strut.rod))
+        found.append(MeshPiece(f"{strut.name} cylinder", Role.CYLINDER, strut.cylinder))
+        found.append(MeshPiece(f"{strut.name} rod", Role.ROD, strut.rod))
     return found
 
 
@@ -143,7 +143,7 @@ def machine_mesh(result: Result, first: int = 0) -> MeshSeries:
 def pin_points(result: Result) -> MeshSeries | None:
     """All pins of a run, in space all bearings, with what happens in them; None if there are none.
 
-    A loose pin is where its journal is. Data: force_N of the first body on the second and its size
+    A clearance pin is where its journal is. Data: force_N of the first body on the second and its size
     force_magnitude_N; depth_m, negative in free flight, and slip_m_s, which an ideal pin has not (NaN); pin;
     loose, 1 or 0.
     """
@@ -155,7 +155,7 @@ def pin_points(result: Result) -> MeshSeries | None:
     def channel(name: str) -> Series:
         return result.recorded(name, "pins are written with it")
 
-    ends = [pin.first if pin.loose is None else pin.journal for pin in pins]
+    ends = [pin.first if pin.with_clearance is None else pin.journal for pin in pins]
     places = np.array([poses.of(end.body).path(end.point) for end in ends])
     axes = "xyz" if result.scenario.dimensions == 3 else "xy"
     forces = np.array([
@@ -163,7 +163,7 @@ def pin_points(result: Result) -> MeshSeries | None:
         for pin in pins
     ])  # fmt: skip
     depths, slips = (
-        np.array([unknown if pin.loose is None else channel(f"pin.{pin.name}.{what}") for pin in pins])
+        np.array([unknown if pin.with_clearance is None else channel(f"pin.{pin.name}.{what}") for pin in pins])
         for what in ("depth", "slip")
     )
 
@@ -173,12 +173,12 @@ def pin_points(result: Result) -> MeshSeries | None:
         return Frame(places[:, record], {**data, "depth_m": depths[:, record], "slip_m_s": slips[:, record]})
 
     numbers = np.arange(len(pins), dtype=np.int32)
-    loose = np.array([pin.loose is not None for pin in pins], dtype=np.int32)
+    with_clearance = np.array([pin.with_clearance is not None for pin in pins], dtype=np.int32)
     return MeshSeries(
         name="pins",
         cell_type="vertex",
         cells=numbers[:, None],
         frame=frame,
         names={"pin": [pin.name for pin in pins]},
-        point_constants={"pin": numbers, "loose": loose},
+        point_constants={"pin": numbers, "with_clearance": with_clearance},
     )

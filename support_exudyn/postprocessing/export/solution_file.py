@@ -197,7 +197,7 @@ def channels_of_bodies(scenario: Scenario) -> list[str]:
 
 def check_recorded(scenario: Scenario) -> None:
     """Raise InputError if a run of the scenario will lack a channel from which the coordinates follow."""
-    recorded = set(chosen(scenario.recipes, scenario.channels))
+    recorded = set(chosen(scenario.channel_definitions, scenario.channels))
     missing = [name for name in channels_of_bodies(scenario) if name not in recorded]
     if missing:
         raise InputError(
@@ -235,8 +235,8 @@ def _in_space(poses: Poses, name: str) -> tuple[Series, Series]:
 def euler_parameters(turn: Series) -> Series:
     """Euler parameters (n, 4) of rotations (n, 3, 3) that follow each other; their signs do not jump."""
     found = Rotation.from_matrix(turn).as_quat()[:, [3, 0, 1, 2]]
-    follows = np.sum(found[1:] * found[:-1], axis=1) >= 0.0
+    has_prescribed_motion = np.sum(found[1:] * found[:-1], axis=1) >= 0.0
     first = 1.0 if found[0, 0] >= 0.0 else -1.0
-    signs = first * np.cumprod([1.0, *np.where(follows, 1.0, -1.0)])
+    signs = first * np.cumprod([1.0, *np.where(has_prescribed_motion, 1.0, -1.0)])
     steady: Series = signs[:, None] * found
     return steady

@@ -25,9 +25,9 @@ AT_ONCE = 500  # rows
 FORMAT = "support_exudyn channels 1"
 ONSET_COLUMNS = {  # field of an onset: unit, meaning
     "time": ("s", "beginning of the contact"),
-    "speed": ("m/s", "approach speed at zero depth"),
-    "parting_time": ("s", "end of the contact; infinite: not before the end of the run or the next touch"),
-    "parting_speed": ("m/s", "speed of parting at zero depth"),
+    "speed": ("m/s", "initial impact velocity at zero depth"),
+    "separation_time": ("s", "end of the contact; infinite: not before the end of the run or the next impact"),
+    "separation_velocity": ("m/s", "speed of separation at zero depth"),
 }
 
 
@@ -60,7 +60,7 @@ def to_hdf5(result: Result, path: str | Path, sampling: Sampling = TABLES) -> tu
     """All channels as plain HDF5, for MATLAB, Octave, h5py and others.
 
         /channels/NAME      doubles, with the attributes unit and meaning (text of fixed length)
-        /onsets/PIN/...     time, speed, parting_time, parting_speed of every contact, likewise
+        /onsets/PIN/...     time, speed, separation_time, separation_velocity of every contact, likewise
         /json/...           scenario, provenance, counts, impulses as JSON text
 
     In MATLAB: `h5read(path, "/channels/pin.rear_base.force")`, `h5readatt(path, "/channels/tip.x", "unit")`.

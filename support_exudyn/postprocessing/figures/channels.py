@@ -13,10 +13,10 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import StrMethodFormatter
 
 from support_exudyn.postprocessing.figures import style, units
-from support_exudyn.postprocessing.figures.journal import Series, loose_pins
+from support_exudyn.postprocessing.figures.journal import Series, clearance_joints
 from support_exudyn.postprocessing.figures.selection import inside, matching, said, spacing
 from support_exudyn.postprocessing.figures.style import caption
-from support_exudyn.postprocessing.figures.units import Unit, readable
+from support_exudyn.postprocessing.figures.units import DisplayUnit, readable
 from support_exudyn.simulation.estimate import believed, multiple
 from support_exudyn.simulation.reported_numbers import ROUNDING
 from support_exudyn.simulation.result import Result
@@ -31,16 +31,16 @@ UNLIKE = 50.0  # by what factor sizes differ that are not drawn together
 VISIBLE = 2e-3  # share of a panel's height from which on an error is shaded
 
 
-class Group(NamedTuple):
+class Panel(NamedTuple):
     """Channels that are drawn in one panel, and the unit in which."""
 
-    unit: Unit
+    unit: DisplayUnit
     names: tuple[str, ...]
 
 
-def groups(result: Result, names: Sequence[str], chosen: np.ndarray) -> list[Group]:
+def groups(result: Result, names: Sequence[str], chosen: np.ndarray) -> list[Panel]:
     """Panels: channels of one unit and of like size together, at most as many as there are colours."""
-    found: list[tuple[Unit, float, list[str]]] = []
+    found: list[tuple[DisplayUnit, float, list[str]]] = []
     for name in names:
         size = float(np.abs(result[name][chosen]).max())
         together = (one for one in found if _alike(result, one, name, size))
@@ -51,13 +51,13 @@ def groups(result: Result, names: Sequence[str], chosen: np.ndarray) -> list[Gro
             found.append((unit, largest, [name]))
     most = len(CURVES)
     return [
-        Group(unit, tuple(part.tolist()))
+        Panel(unit, tuple(part.tolist()))
         for unit, _, members in found
         for part in np.array_split(np.array(members), math.ceil(len(members) / most))
     ]
 
 
-def _alike(result: Result, group: tuple[Unit, float, list[str]], name: str, size: float) -> bool:
+def _alike(result: Result, group: tuple[DisplayUnit, float, list[str]], name: str, size: float) -> bool:
     """Whether a channel of this size [SI] is drawn together with others; zero is with anything of its unit."""
     unit, largest, members = group
     if result.unit(members[0]) != result.unit(name):
@@ -84,7 +84,7 @@ def error_over_time(result: Result, name: str) -> Series | None:
 
 
 def over_time(result: Result, channels: Sequence[str], start: float = 0.0, until: float = math.inf) -> Figure:
-    """Channels over time, those of one unit together in a panel, with touches and numerical errors.
+    """Channels over time, those of one unit together in a panel, with impacts and numerical errors.
 
     Arguments:
         channels: names, or patterns of them as in a shell.
@@ -110,7 +110,7 @@ def over_time(result: Result, channels: Sequence[str], start: float = 0.0, until
     worst: dict[str, float] = {}
     for axes, panel in zip(rows, panels, strict=True):
         worst |= _draw(axes, result, panel, chosen, seconds)
-        _mark_touches(axes, result, chosen, seconds)
+        _mark_impacts(axes, result, chosen, seconds)
     drawing.align_ylabels(rows)
     rows[-1].set_xlabel(f"time [{seconds.name}]")
     rows[-1].set_xlim(*(seconds.scale * result.time[chosen][[0, -1]]))
@@ -118,14 +118,16 @@ def over_time(result: Result, channels: Sequence[str], start: float = 0.0, until
     return drawing
 
 
-def _draw(axes: Axes, result: Result, panel: Group, chosen: np.ndarray, seconds: Unit) -> dict[str, float]:
+def _draw(
+    axes: Axes, result: Result, panel: Panel, chosen: np.ndarray, seconds: DisplayUnit
+) -> dict[str, float]:
     """Returns the largest error of each channel that has one, SI."""
     time, scale = seconds.scale * result.time[chosen], panel.unit.scale
     worst = {}
-    loose = {f"pin.{pin}.force" for pin in loose_pins(result)}
+    with_clearance = {f"pin.{pin}.force" for pin in clearance_joints(result)}
     for name, (colour, dashes) in zip(panel.names, CURVES, strict=False):
         values = scale * result[name][chosen]
-        colour = style.CONTACT if name in loose else colour
+        colour = style.CONTACT if name in with_clearance else colour
         label = f"{name}: {result.channels[name].meaning}"
         axes.plot(time, values, color=colour, ls=dashes, lw=0.9, label=label, rasterized=time.size > 20000)
         error = error_over_time(result, name)
@@ -143,11 +145,11 @@ def _draw(axes: Axes, result: Result, panel: Group, chosen: np.ndarray, seconds:
     return worst
 
 
-def _mark_touches(axes: Axes, result: Result, chosen: np.ndarray, seconds: Unit) -> None:
+def _mark_impacts(axes: Axes, result: Result, chosen: np.ndarray, seconds: DisplayUnit) -> None:
     first, last = result.time[chosen][[0, -1]]
     times = [
         one.time
-        for pin in loose_pins(result)
+        for pin in clearance_joints(result)
         for one in result.onsets.get(pin, ())
         if first <= one.time <= last
     ]
@@ -162,7 +164,7 @@ def _mark_touches(axes: Axes, result: Result, chosen: np.ndarray, seconds: Unit)
 def _words(result: Result, worst: dict[str, float]) -> str:
     text = f"Records every {units.said(spacing(result), 's')}, joined by straight lines. "
     if any(result.onsets.values()):
-        text += "Strokes on the time axis: touches of loose pins. "
+        text += "Strokes on the time axis: impacts of clearance pins. "
     if not worst:
         return text + "The run was not made to an accuracy: nothing tells its numerical error."
     said_of = ", ".join(

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from support_exudyn.machines.check.report import Report
+from support_exudyn.machines.check.report import CheckReport
 from support_exudyn.machines.check.shield import ShieldReport
 from support_exudyn.machines.check.shield_stroke import WANDER, Limit, Shield, Station
 from support_exudyn.machines.check.slider_crank import CrankReport
@@ -39,16 +39,16 @@ LENGTHS = (
 )  # fmt: skip
 # of lowest, middle and highest posture
 POSTURES: tuple[tuple[str, Dashes], ...] = (
-    (style.LOOSE, (0, (4, 1.5))),
+    (style.WITH_CLEARANCE, (0, (4, 1.5))),
     (style.IDEAL, "-"),
     (style.THIRD, (0, (3, 1, 1, 1))),
 )
-CRANKS = ((45.0, style.IDEAL, "-"), (135.0, style.LOOSE, "--"), (270.0, style.THIRD, "-."))
+CRANKS = ((45.0, style.IDEAL, "-"), (135.0, style.WITH_CLEARANCE, "--"), (270.0, style.THIRD, "-."))
 GREY = "#777777"
 
 
 @singledispatch
-def check_figure(report: Report) -> Figure:
+def check_figure(report: CheckReport) -> Figure:
     """The figure of a check: drawing of the machine, and curves of what was found."""
     raise TypeError(f"{type(report).__name__}: has no figure; allowed: reports of `check_machine`")
 

@@ -1,4 +1,4 @@
-"""A loose pin of a run, ready to be drawn: where its journal is in the bore, when it touches, when it flies."""
+"""A clearance pin of a run, ready to be drawn: where its journal is in the bore, when in contact."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ Series = npt.NDArray[np.float64]
 NEEDED = ("eccentricity_x", "eccentricity_y", "depth")
 
 
-def loose_pins(result: Result) -> tuple[str, ...]:
-    """Names of the loose pins whose journals were recorded, the first one of the scenario first."""
+def clearance_joints(result: Result) -> tuple[str, ...]:
+    """Names of the clearance pins whose journals were recorded, the first one of the scenario first."""
     prefix, last = "pin.", f".{NEEDED[0]}"
     named = [name[len(prefix) : -len(last)] for name in result.channels if name.endswith(last)]
     known = [name for name in named if all(f"pin.{name}.{what}" in result.channels for what in NEEDED)]
@@ -28,21 +28,21 @@ def loose_pins(result: Result) -> tuple[str, ...]:
 
 
 def pins(result: Result) -> tuple[str, ...]:
-    """Names of all pins whose force was recorded, loose ones first."""
+    """Names of all pins whose force was recorded, those with clearance first."""
     prefix, last = "pin.", ".force"
     named = [name[len(prefix) : -len(last)] for name in result.channels if name.startswith(prefix)
              and name.endswith(last)]  # fmt: skip
-    loose = [name for name in loose_pins(result) if name in named]
-    return tuple(dict.fromkeys([*loose, *named]))
+    with_clearance = [name for name in clearance_joints(result) if name in named]
+    return tuple(dict.fromkeys([*with_clearance, *named]))
 
 
-def chosen_pin(result: Result, pin: str | None, *, loose: bool) -> str:
+def chosen_pin(result: Result, pin: str | None, *, with_clearance: bool) -> str:
     """A pin by name, or the first one if none is named.
 
     Raises InputError if there is no such pin, or none at all.
     """
-    known = loose_pins(result) if loose else pins(result)
-    kind = "loose pin with recorded journal" if loose else "pin with recorded force"
+    known = clearance_joints(result) if with_clearance else pins(result)
+    kind = "clearance pin with recorded journal" if with_clearance else "pin with recorded force"
     if not known:
         raise InputError(f"the run has no {kind}; allowed: runs that have one")
     if pin is None:
@@ -54,11 +54,11 @@ def chosen_pin(result: Result, pin: str | None, *, loose: bool) -> str:
 
 
 @dataclass(frozen=True)
-class Journal:
+class JournalPath:
     """The centre of a journal in its bore, between two times.
 
     time (n,) [s]. x, y: from the bore's centre (n,) [m]. depth: negative: gap (n,) [m].
-    clearance: radial [m]. touches: beginnings of contact between the two times.
+    clearance: radial [m]. impacts: beginnings of contact between the two times.
     spacing: of the records [s].
     """
 
@@ -68,7 +68,7 @@ class Journal:
     x: Series
     y: Series
     depth: Series
-    touches: tuple[Onset, ...]
+    impacts: tuple[Onset, ...]
     spacing: float
 
     @property
@@ -78,12 +78,12 @@ class Journal:
 
     @property
     def directions(self) -> Series:
-        """Directions of the journal from the bore's centre at every touch [rad], shape (touches,).
+        """Directions of the journal from the bore's centre at every impact [rad], shape (impacts,).
 
         By the straight line through the last two records of the flight before; where there are no two, by that
-        between the records around the touch.
+        between the records around the impact.
         """
-        return np.array([self._direction(touch.time) for touch in self.touches])
+        return np.array([self._direction(impact.time) for impact in self.impacts])
 
     def _direction(self, t: float) -> float:
         after = int(np.searchsorted(self.time, t))
@@ -97,16 +97,18 @@ class Journal:
         return math.atan2(y, x)
 
     def path(self) -> tuple[Series, Series, npt.NDArray[np.bool_]]:
-        """The path with the touches and partings between records put in.
+        """The path with the impacts and separations between records put in.
 
-        Returns x, y (m,) [m], and which of the m - 1 pieces between them are contact. A touch lies on the
-        clearance circle in its direction, a parting in the direction that the records around it tell.
+        Returns x, y (m,) [m], and which of the m - 1 pieces between them are contact. An impact lies on the
+        clearance circle in its direction, a separation in the direction that the records around it tell.
         """
-        partings = [touch.parting_time for touch in self.touches if touch.parting_time <= self.time[-1]]
-        parted = np.array([t for t in partings if t >= self.time[0]])
+        separations = [
+            impact.separation_time for impact in self.impacts if impact.separation_time <= self.time[-1]
+        ]
+        separated = np.array([t for t in separations if t >= self.time[0]])
         turned = np.unwrap(np.arctan2(self.y, self.x))
-        angles = np.concatenate([self.directions, np.interp(parted, self.time, turned)])
-        times = np.concatenate([self.time, [touch.time for touch in self.touches], parted])
+        angles = np.concatenate([self.directions, np.interp(separated, self.time, turned)])
+        times = np.concatenate([self.time, [impact.time for impact in self.impacts], separated])
         x = np.concatenate([self.x, self.clearance * np.cos(angles)])
         y = np.concatenate([self.y, self.clearance * np.sin(angles)])
         pressed = np.concatenate([self.in_contact, np.zeros(angles.size, dtype=bool)])
@@ -117,36 +119,36 @@ class Journal:
 
     def _touching(self, times: Series) -> npt.NDArray[np.bool_]:
         """Whether a located contact goes on at these times."""
-        begins = np.array([touch.time for touch in self.touches])
+        begins = np.array([impact.time for impact in self.impacts])
         if not begins.size:
             return np.zeros(times.size, dtype=bool)
-        ends = np.minimum([touch.parting_time for touch in self.touches], [*begins[1:], np.inf])
+        ends = np.minimum([impact.separation_time for impact in self.impacts], [*begins[1:], np.inf])
         n = np.searchsorted(begins, times, side="right") - 1
         return (n >= 0) & (times < ends[np.maximum(n, 0)])
 
 
-def journal(result: Result, pin: str | None = None, start: float = 0.0, until: float = math.inf) -> Journal:
-    """The journal of a loose pin between two times [s]; of the first loose pin if none is named.
+def journal(result: Result, pin: str | None = None, start: float = 0.0, until: float = math.inf) -> JournalPath:
+    """The journal of a clearance pin between two times [s]; of the first clearance pin if none is named.
 
     Raises InputError if there is no such pin, or fewer than two records lie between the times.
     """
-    pin = chosen_pin(result, pin, loose=True)
+    pin = chosen_pin(result, pin, with_clearance=True)
     chosen = inside(result, start, until)
     time = result.time[chosen]
-    return Journal(
+    return JournalPath(
         pin=pin,
         clearance=clearance(result, pin),
         time=time,
         x=result[f"pin.{pin}.eccentricity_x"][chosen],
         y=result[f"pin.{pin}.eccentricity_y"][chosen],
         depth=result[f"pin.{pin}.depth"][chosen],
-        touches=tuple(one for one in result.onsets.get(pin, ()) if time[0] <= one.time <= time[-1]),
+        impacts=tuple(one for one in result.onsets.get(pin, ()) if time[0] <= one.time <= time[-1]),
         spacing=float(np.median(np.diff(time))),
     )
 
 
 def clearance(result: Result, pin: str) -> float:
-    """Radial clearance of a loose pin [m]; in space also of each of a pair."""
+    """Radial clearance of a clearance pin [m]; in space also of each of a pair."""
     scenario = result.scenario
     whole = pin
     if scenario.dimensions == 3 and pin not in scenario.clearance_pins:
@@ -154,6 +156,6 @@ def clearance(result: Result, pin: str) -> float:
     return scenario.clearance_pins[whole].contact.bearing.clearance
 
 
-def shortest_touch(touches: tuple[Onset, ...]) -> float:
-    """Shortest time from a touch to its parting [s]; infinite if nothing parted."""
-    return min((touch.parting_time - touch.time for touch in touches), default=math.inf)
+def shortest_impact(impacts: tuple[Onset, ...]) -> float:
+    """Shortest time from an impact to its separation [s]; infinite if nothing separated."""
+    return min((impact.separation_time - impact.time for impact in impacts), default=math.inf)

@@ -10,27 +10,34 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from support_exudyn.postprocessing.figures import style, units
-from support_exudyn.postprocessing.figures.journal import Journal, journal, shortest_touch
+from support_exudyn.postprocessing.figures.journal import JournalPath, journal, shortest_impact
 from support_exudyn.postprocessing.figures.selection import said
 from support_exudyn.postprocessing.figures.style import caption
-from support_exudyn.postprocessing.figures.units import Unit, readable
+from support_exudyn.postprocessing.figures.units import DisplayUnit, readable
 from support_exudyn.simulation.result import Result
 
 CORNERS = 181  # of the clearance circle
 MARGIN = 1.12  # of the largest eccentricity
 MANY = 20000  # points from which on a line is a picture within a PDF
 WIDTHS = (0.8, 1.6)  # of flight and of contact [points]
-TOUCH: dict[str, Any] = {"marker": "v", "ms": 3.5, "mfc": "white", "mec": style.IDEAL, "mew": 0.7, "ls": "none"}
+IMPACT: dict[str, Any] = {
+    "marker": "v",
+    "ms": 3.5,
+    "mfc": "white",
+    "mec": style.IDEAL,
+    "mew": 0.7,
+    "ls": "none",
+}
 
 
 def orbit(result: Result, pin: str | None = None, start: float = 0.0, until: float = math.inf) -> Figure:
-    """Path of a journal's centre in its bore, true to scale; depth over time; speeds of the touches.
+    """Path of a journal's centre in its bore, true to scale; depth over time; speeds of the impacts.
 
     Arguments:
-        pin: name of a loose pin; the first one by default.
+        pin: name of a clearance pin; the first one by default.
         start, until: what of the run is drawn [s].
 
-    Raises InputError if there is no such loose pin, or fewer than two records lie between the times.
+    Raises InputError if there is no such clearance pin, or fewer than two records lie between the times.
     """
     shown = journal(result, pin, start, until)
     title = f"Journal orbit, pin {shown.pin}, {1e3 * shown.clearance:g} mm clearance"
@@ -46,7 +53,7 @@ def orbit(result: Result, pin: str | None = None, start: float = 0.0, until: flo
     depth.set_title("b) depth; negative: gap")
     speeds = drawing.add_subplot(grid[1, 1], sharex=depth)
     _draw_speeds(speeds, shown, over_time)
-    speeds.set_title("c) speeds of touching and parting")
+    speeds.set_title("c) speeds of impact and separation")
     below = drawing.add_subplot(grid[2, :])
     below.axis("off")
     handles, labels = place.get_legend_handles_labels()
@@ -63,16 +70,16 @@ def draw_circle(axes: Axes, radius: float) -> None:
     axes.plot(x, y, color=style.IDEAL, ls=(0, (4, 2)), zorder=2, label="clearance circle")
 
 
-def draw_path(axes: Axes, shown: Journal, unit: Unit) -> None:
+def draw_path(axes: Axes, shown: JournalPath, unit: DisplayUnit) -> None:
     """The path in the colours of contact and flight, within the clearance circle, on equal axes."""
     x, y, contact = shown.path()
     radius = unit.scale * shown.clearance
     draw_circle(axes, radius)
     more: dict[str, Any] = {"rasterized": x.size > MANY, "zorder": 3}
     style.draw_pieces(axes, unit.scale * x, unit.scale * y, contact, WIDTHS, **more)
-    if shown.touches:
+    if shown.impacts:
         directions = shown.directions
-        axes.plot(radius * np.cos(directions), radius * np.sin(directions), label="touch", zorder=4, **TOUCH)
+        axes.plot(radius * np.cos(directions), radius * np.sin(directions), label="impact", zorder=4, **IMPACT)
     for n, mark, name in ((0, "o", "start"), (-1, "s", "end")):
         axes.plot(
             unit.scale * shown.x[n], unit.scale * shown.y[n], mark, ms=5, color=style.IDEAL, label=name,
@@ -83,57 +90,63 @@ def draw_path(axes: Axes, shown: Journal, unit: Unit) -> None:
     axes.set(xlabel=f"eccentricity x [{unit.name}]", ylabel=f"eccentricity y [{unit.name}]")
 
 
-def _draw_depth(axes: Axes, shown: Journal, over_time: Unit) -> None:
+def _draw_depth(axes: Axes, shown: JournalPath, over_time: DisplayUnit) -> None:
     unit = readable("m", float(np.abs(shown.depth).max()))
     time, depth = over_time.scale * shown.time, unit.scale * shown.depth
     axes.axhline(0.0, color=style.IDEAL, lw=0.6)
     contact = shown.in_contact[:-1] & shown.in_contact[1:]
     style.draw_pieces(axes, time, depth, contact, WIDTHS, rasterized=time.size > MANY, zorder=3)
-    if shown.touches:
-        times = over_time.scale * np.array([touch.time for touch in shown.touches])
-        axes.plot(times, np.zeros(times.size), zorder=4, **TOUCH)
+    if shown.impacts:
+        times = over_time.scale * np.array([impact.time for impact in shown.impacts])
+        axes.plot(times, np.zeros(times.size), zorder=4, **IMPACT)
     axes.set(xlabel=f"time [{over_time.name}]", ylabel=f"depth [{unit.name}]", xlim=time[[0, -1]])
 
 
-def _draw_speeds(axes: Axes, shown: Journal, over_time: Unit) -> None:
-    fastest = max((touch.speed for touch in shown.touches), default=0.0)
+def _draw_speeds(axes: Axes, shown: JournalPath, over_time: DisplayUnit) -> None:
+    fastest = max((impact.speed for impact in shown.impacts), default=0.0)
     unit = readable("m/s", fastest)
     axes.set(xlabel=f"time [{over_time.name}]", ylabel=f"speed [{unit.name}]")
-    if not shown.touches:
-        said_of = "in contact throughout" if shown.in_contact.all() else "no touch"
+    if not shown.impacts:
+        said_of = "in contact throughout" if shown.in_contact.all() else "no impact"
         axes.text(0.5, 0.5, said_of, transform=axes.transAxes, ha="center", va="center")
         axes.set_yticks([])
         return
-    parted = [touch for touch in shown.touches if touch.parting_time <= shown.time[-1]]
+    separated = [impact for impact in shown.impacts if impact.separation_time <= shown.time[-1]]
     for times, speeds, mark, colour, label in (
-        ([t.time for t in shown.touches], [t.speed for t in shown.touches], "v", style.IDEAL, "touching"),
-        ([t.parting_time for t in parted], [t.parting_speed for t in parted], "^", style.FLIGHT, "parting"),
+        ([t.time for t in shown.impacts], [t.speed for t in shown.impacts], "v", style.IDEAL, "closed"),
+        (
+            [t.separation_time for t in separated],
+            [t.separation_velocity for t in separated],
+            "^",
+            style.FLIGHT,
+            "separation",
+        ),
     ):
         axes.plot(
             over_time.scale * np.array(times), unit.scale * np.array(speeds), mark, ms=3.5, color=colour,
             mfc="white" if mark == "v" else colour, mew=0.8, label=label,
         )  # fmt: skip
     axes.set_ylim(
-        0.0, 1.1 * unit.scale * max(fastest, *(touch.parting_speed for touch in shown.touches), 1e-30)
+        0.0, 1.1 * unit.scale * max(fastest, *(impact.separation_velocity for impact in shown.impacts), 1e-30)
     )
     axes.legend(loc="upper right", fontsize=7)
 
 
-def _words(result: Result, shown: Journal) -> str:
+def _words(result: Result, shown: JournalPath) -> str:
     """What is drawn, and what is not."""
     text = (
         f"Drawn true to scale: {shown.time.size} records, one every {units.said(shown.spacing, 's')}, joined "
         "by straight lines. "
     )
-    if shown.touches:
+    if shown.impacts:
         text += (
-            f"Touches ({len(shown.touches)}) and partings are put in between them at the times at which they "
-            "were located, touches on the circle in the direction of the last flight. "
+            f"Impacts ({len(shown.impacts)}) and separations are put in between them at the times when they "
+            "were located, impacts on the circle in the direction of the last flight. "
         )
-    shortest = shortest_touch(shown.touches)
+    shortest = shortest_impact(shown.impacts)
     if shortest < 2.0 * shown.spacing:
         text += (
-            f"The shortest touch lasts {units.said(shortest, 's')}: its depth falls between the records; a "
+            f"The shortest impact lasts {units.said(shortest, 's')}: its depth falls between the records; a "
             "smaller record_period shows it. "
         )
     deepest = float(shown.depth.max())

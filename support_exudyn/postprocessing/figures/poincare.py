@@ -1,4 +1,4 @@
-"""Poincare view: a run seen once in a period, or at every touch."""
+"""Poincare view: a run seen once in a period, or at every impact."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ from matplotlib.figure import Figure
 from support_exudyn.model.drives.drive import Drive, Held, Reciprocating, Steady
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.postprocessing.figures import style, units
-from support_exudyn.postprocessing.figures.journal import Journal, Series, journal, loose_pins
+from support_exudyn.postprocessing.figures.journal import JournalPath, Series, clearance_joints, journal
 from support_exudyn.postprocessing.figures.orbit import draw_circle
-from support_exudyn.postprocessing.figures.selection import SLACK, inside, said, spacing
+from support_exudyn.postprocessing.figures.selection import CLEARANCE, inside, said, spacing
 from support_exudyn.postprocessing.figures.style import caption
-from support_exudyn.postprocessing.figures.units import DEGREES, Unit, readable
+from support_exudyn.postprocessing.figures.units import DEGREES, DisplayUnit, readable
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError, short
 
 FEWEST_PERIODS = 3  # points that a section by periods is made of at least
-FEWEST_TOUCHES = 2  # for a return map
+FEWEST_IMPACTS = 2  # for a return map
 DOT: dict[str, Any] = {"marker": "o", "ms": 3.0, "mew": 0.0, "ls": "none", "zorder": 3}
 CONTACT_MARK = {**DOT, "color": style.CONTACT}
 FLIGHT_MARK = {**DOT, "color": style.FLIGHT, "marker": "^", "ms": 4.0}
@@ -34,7 +34,7 @@ NARROW = 0.01  # share of its size below which only the spread of a channel is s
 SAME = 1e-4  # ... and below which all points are the same, which they are then seen to be
 
 
-class Section(NamedTuple):
+class PoincareSection(NamedTuple):
     """Two channels at equal phases of the drive: times (n,) [s], values of both (n,), SI."""
 
     time: Series
@@ -80,13 +80,15 @@ def periodic_times(result: Result, phase: float = 0.0, start: float = 0.0, until
     if length is None:
         return np.empty(0)
     first, last = max(start, float(result.time[0])), min(until, float(result.time[-1]))
-    n = np.arange(math.ceil((first - SLACK) / length - phase), math.floor((last + SLACK) / length - phase) + 1)
+    n = np.arange(
+        math.ceil((first - CLEARANCE) / length - phase), math.floor((last + CLEARANCE) / length - phase) + 1
+    )
     return np.clip((n + phase) * length, first, last)
 
 
 def stroboscopic(
     result: Result, first: str, second: str, phase: float = 0.0, start: float = 0.0, until: float = math.inf
-) -> Section:
+) -> PoincareSection:
     """Two channels once in every period of the drive, straight between records.
 
     Raises InputError if the drive is not periodic, KeyError if there is no such channel.
@@ -97,7 +99,7 @@ def stroboscopic(
             "a section once in every period: the drives have no common period, or none begins in the piece "
             "that was asked for; allowed: steady cranks and reciprocating drives"
         )
-    return Section(times, *(np.interp(times, result.time, result[name]) for name in (first, second)))
+    return PoincareSection(times, *(np.interp(times, result.time, result[name]) for name in (first, second)))
 
 
 def poincare(
@@ -109,19 +111,19 @@ def poincare(
     phase: float = 0.0,
     channels: Sequence[str] = (),
 ) -> Figure:
-    """The section that fits a run: once in every period if its drive is periodic, else by touches.
+    """The section that fits a run: once in every period if its drive is periodic, else by impacts.
 
     Once in a period: the journal's centre in its bore, and two channels: by default place and velocity of the
-    slider, or angle and angular velocity of the body that the journal moves. By touches: direction and approach
-    speed of every touch, and the approach speed of the next touch over that of the one before.
+    slider, or angle and angular velocity of the body that the journal moves. By impacts: direction and approach
+    speed of every impact, and the initial impact velocity of the next impact over that of the one before.
 
     Arguments:
-        pin: name of a loose pin; the first one by default.
+        pin: name of a clearance pin; the first one by default.
         start, until: what of the run is drawn [s].
         phase: of the period at which it is looked at, from 0 to 1.
         channels: names of the two of the second panel; only where the drive is periodic.
 
-    Raises InputError if there is no such pin, no such record or touch, or no period where channels are asked
+    Raises InputError if there is no such pin, no such record or impact, or no period where channels are asked
     for; KeyError if there is no such channel.
     """
     inside(result, start, until)
@@ -135,7 +137,7 @@ def poincare(
         )
     if times.size >= FEWEST_PERIODS:
         return _by_period(result, pin, start, until, phase, channels)
-    return _by_touch(result, journal(result, pin, start, until), start, until)
+    return _by_impact(result, journal(result, pin, start, until), start, until)
 
 
 # --- once in a period ---
@@ -144,22 +146,22 @@ def poincare(
 def _by_period(
     result: Result, pin: str | None, start: float, until: float, phase: float, channels: Sequence[str]
 ) -> Figure:
-    loose = pin is not None or bool(loose_pins(result))
-    shown = journal(result, pin, start, until) if loose else None
+    with_clearance = pin is not None or bool(clearance_joints(result))
+    shown = journal(result, pin, start, until) if with_clearance else None
     pair = tuple(channels) or _pair(result, shown.pin if shown else None)
     if shown is None and not pair:
-        raise InputError("a section: the run has neither a loose pin nor a moving body on record")
+        raise InputError("a section: the run has neither a clearance pin nor a moving body on record")
     of = f", pin {shown.pin}" if shown is not None else ""
     title = f"Poincare section once in a period{of}, {said(result, start, until)}"
     drawing = style.begin(170, 95 if shown else 110, title)
     panels = drawing.subplots(1, bool(shown) + bool(pair), squeeze=False)[0]
-    touching = None
+    closed = None
     if shown is not None:
-        touching = _draw_places(panels[0], result, shown, phase, start, until)
+        closed = _draw_places(panels[0], result, shown, phase, start, until)
         panels[0].set_title("a) journal's centre in its bore")
     if pair:
         axes = panels[-1]
-        _draw_section(axes, result, (pair[0], pair[1]), phase, start, until, touching)
+        _draw_section(axes, result, (pair[0], pair[1]), phase, start, until, closed)
         axes.set_title("b) two channels" if shown is not None else "two channels")
     length = period(result.scenario)
     assert length is not None  # there are times
@@ -186,21 +188,21 @@ def _pair(result: Result, pin: str | None) -> tuple[str, ...]:
 
 
 def _draw_places(
-    axes: Axes, result: Result, shown: Journal, phase: float, start: float, until: float
+    axes: Axes, result: Result, shown: JournalPath, phase: float, start: float, until: float
 ) -> npt.NDArray[np.bool_]:
     """The journal's centre at every period. Returns at which of them it is in contact."""
     x, y, depth = (f"pin.{shown.pin}.{what}" for what in ("eccentricity_x", "eccentricity_y", "depth"))
     section = stroboscopic(result, x, y, phase, start, until)
-    touching: npt.NDArray[np.bool_] = np.interp(section.time, result.time, result[depth]) > 0.0
+    closed: npt.NDArray[np.bool_] = np.interp(section.time, result.time, result[depth]) > 0.0
     reach = max(shown.clearance, float(np.hypot(section.first, section.second).max()))
     unit = readable("m", reach)
     draw_circle(axes, unit.scale * shown.clearance)
-    _marked(axes, unit.scale * section.first, unit.scale * section.second, touching)
+    _marked(axes, unit.scale * section.first, unit.scale * section.second, closed)
     reach *= 1.12 * unit.scale
     axes.set(aspect="equal", xlim=(-reach, reach), ylim=(-reach, reach))
     axes.set(xlabel=f"eccentricity x [{unit.name}]", ylabel=f"eccentricity y [{unit.name}]")
     axes.legend(ncols=3, **BELOW)
-    return touching
+    return closed
 
 
 def _draw_section(
@@ -210,14 +212,14 @@ def _draw_section(
     phase: float,
     start: float,
     until: float,
-    touching: npt.NDArray[np.bool_] | None,
+    closed: npt.NDArray[np.bool_] | None,
 ) -> None:
     section = stroboscopic(result, *pair, phase, start, until)
     (x, x_name), (y, y_name) = (
         _readable_spread(name, values, result.unit(name))
         for name, values in zip(pair, (section.first, section.second), strict=True)
     )
-    _marked(axes, x, y, touching)
+    _marked(axes, x, y, closed)
     axes.set(xlabel=x_name, ylabel=y_name, xlim=_widened(x), ylim=_widened(y))
     axes.locator_params(nbins=4)
 
@@ -240,40 +242,40 @@ def _widened(values: Series) -> tuple[float, float]:
     return low - margin, high + margin
 
 
-def _marked(axes: Axes, x: Series, y: Series, touching: npt.NDArray[np.bool_] | None) -> None:
-    if touching is None:
+def _marked(axes: Axes, x: Series, y: Series, closed: npt.NDArray[np.bool_] | None) -> None:
+    if closed is None:
         axes.plot(x, y, **PLAIN_MARK)
         return
-    for chosen, mark, label in ((~touching, FLIGHT_MARK, "free flight"), (touching, CONTACT_MARK, "contact")):
+    for chosen, mark, label in ((~closed, FLIGHT_MARK, "free flight"), (closed, CONTACT_MARK, "contact")):
         if chosen.any():
             axes.plot(x[chosen], y[chosen], label=label, **mark)
 
 
-# --- at every touch ---
+# --- at every impact ---
 
 
-def _by_touch(result: Result, shown: Journal, start: float, until: float) -> Figure:
-    if len(shown.touches) < FEWEST_TOUCHES:
+def _by_impact(result: Result, shown: JournalPath, start: float, until: float) -> Figure:
+    if len(shown.impacts) < FEWEST_IMPACTS:
         why = "it is in contact throughout" if shown.in_contact.all() else "the drive has too few periods there"
         raise InputError(
-            f"a section of pin {shown.pin} from {said(result, start, until)}: it touches "
-            f"{len(shown.touches)} times, and {why}; allowed: at least {FEWEST_TOUCHES} touches, or "
+            f"a section of pin {shown.pin} from {said(result, start, until)}: it makes contact "
+            f"{len(shown.impacts)} times, and {why}; allowed: at least {FEWEST_IMPACTS} impacts, or "
             f"{FEWEST_PERIODS} periods of a periodic drive"
         )
-    speeds = np.array([touch.speed for touch in shown.touches])
+    speeds = np.array([impact.speed for impact in shown.impacts])
     unit = readable("m/s", float(speeds.max()))
-    title = f"Poincare section by touches, pin {shown.pin}, {said(result, start, until)}"
+    title = f"Poincare section by impacts, pin {shown.pin}, {said(result, start, until)}"
     drawing = style.begin(170, 95, title)
     places, returns = drawing.subplots(1, 2)
-    _draw_touches(places, DEGREES * _together(shown.directions), unit.scale * speeds, unit)
+    _draw_impacts(places, DEGREES * _together(shown.directions), unit.scale * speeds, unit)
     _draw_returns(returns, unit.scale * speeds, unit)
     none = period(result.scenario) is None
     why = "The drive has no period" if none else f"Fewer than {FEWEST_PERIODS} periods of the drive lie here"
     caption(
         drawing,
         f"{why}, so the run is looked at whenever journal and bore touch: {speeds.size} "
-        "touches, located in time. Directions are those of the last two records before the touch. On the "
-        "dashed line of (b) the next touch is as fast as the one before; below it the journal comes to rest.",
+        "impacts, located in time. Directions are those of the last two records before the impact. On the "
+        "dashed line of (b) the next impact is as fast as the one before; below it the journal comes to rest.",
     )
     return drawing
 
@@ -286,22 +288,24 @@ def _together(directions: Series) -> Series:
     return (directions + np.pi) % (2.0 * np.pi) - np.pi
 
 
-def _draw_touches(axes: Axes, directions: Series, speeds: Series, unit: Unit) -> None:
+def _draw_impacts(axes: Axes, directions: Series, speeds: Series, unit: DisplayUnit) -> None:
     axes.plot(directions, speeds, color="#999999", lw=0.6, zorder=2)
     axes.plot(directions, speeds, **CONTACT_MARK)
-    axes.plot(directions[0], speeds[0], "o", ms=6, mfc="none", mec=style.IDEAL, zorder=4, label="first touch")
-    axes.set(xlabel="direction of the touch from +x [deg]", ylabel=f"approach speed [{unit.name}]")
+    axes.plot(directions[0], speeds[0], "o", ms=6, mfc="none", mec=style.IDEAL, zorder=4, label="first impact")
+    axes.set(xlabel="direction of the impact from +x [deg]", ylabel=f"initial impact velocity [{unit.name}]")
     axes.set_ylim(0.0, None)
     axes.margins(x=0.08)
-    axes.set_title("a) where and how fast it touches")
+    axes.set_title("a) where and how fast it makes contact")
     axes.legend(**BELOW)
 
 
-def _draw_returns(axes: Axes, speeds: Series, unit: Unit) -> None:
+def _draw_returns(axes: Axes, speeds: Series, unit: DisplayUnit) -> None:
     top = 1.08 * float(speeds.max())
     axes.plot([0.0, top], [0.0, top], color=style.IDEAL, lw=0.7, ls=(0, (4, 2)), label="as fast as before")
-    axes.plot(speeds[:-1], speeds[1:], label="touches", **CONTACT_MARK)
+    axes.plot(speeds[:-1], speeds[1:], label="impacts", **CONTACT_MARK)
     axes.set(aspect="equal", xlim=(0.0, top), ylim=(0.0, top))
-    axes.set(xlabel=f"approach speed of a touch [{unit.name}]", ylabel=f"of the next one [{unit.name}]")
-    axes.set_title("b) from touch to touch")
+    axes.set(
+        xlabel=f"initial impact velocity of an impact [{unit.name}]", ylabel=f"of the next one [{unit.name}]"
+    )
+    axes.set_title("b) from impact to make contact")
     axes.legend(ncols=2, **BELOW)

@@ -14,7 +14,7 @@ from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError, short
 
-SLACK = 1e-9  # [s], of times that were computed as sums of steps
+CLEARANCE = 1e-9  # [s], of times that were computed as sums of steps
 FEWEST = 2  # records that make a line
 
 
@@ -45,7 +45,7 @@ def inside(result: Result, start: float, until: float, fewest: int = FEWEST) -> 
 
     Raises InputError if they are fewer than `fewest`.
     """
-    found = (result.time >= start - SLACK) & (result.time <= until + SLACK)
+    found = (result.time >= start - CLEARANCE) & (result.time <= until + CLEARANCE)
     if (count := int(found.sum())) < fewest:
         first, last = result.time[[0, -1]]
         raise InputError(

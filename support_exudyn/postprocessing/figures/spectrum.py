@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from scipy import signal
 
 from support_exudyn.postprocessing.figures import style, units
-from support_exudyn.postprocessing.figures.journal import Series, chosen_pin, shortest_touch
+from support_exudyn.postprocessing.figures.journal import Series, chosen_pin, shortest_impact
 from support_exudyn.postprocessing.figures.selection import inside, said
 from support_exudyn.postprocessing.figures.style import caption
 from support_exudyn.postprocessing.figures.units import readable
@@ -26,9 +26,9 @@ EVEN = 1e-6  # share of the spacing by which records may be off
 LETTERS = "ABC"  # of the peaks that are marked
 MANY = 1000  # frequencies from which on their axis is logarithmic
 CLOSE = 0.03  # of the width of a panel: letters closer would lie upon one another
-LOWEST = 1e-3  # amplitude of a peak, of the largest one; lower ones are ripple
+LOWEST = 1e-3  # amplitude of a peak, of the largest one; lower ones are RMS fluctuation
 PROMINENCE = 3.0  # by how much a peak stands out of what is around it, as a factor of the amplitude
-FINE_ENOUGH = 10.0  # records within the shortest touch, for its spectrum not to be folded
+FINE_ENOUGH = 10.0  # records within the shortest impact, for its spectrum not to be folded
 TINY = 1e-12  # of the largest amplitude: below, nothing is drawn
 COLOURS = "Greys"
 
@@ -137,14 +137,14 @@ def force_spectrum(
     """Spectrum of the force in a pin.
 
     Arguments:
-        pin: name of a pin, loose or ideal; the first loose one by default, or the first one.
+        pin: name of a pin, with clearance or ideal; the first with clearance by default, or the first one.
         start, until: of the piece of the run [s].
         segments: see `spectrum`.
         over_time: whether a second panel shows how the spectrum changes over the time (spectrogram).
 
     Raises InputError if there is no such pin, or too few records lie between the times.
     """
-    pin = chosen_pin(result, pin, loose=False)
+    pin = chosen_pin(result, pin, with_clearance=False)
     chosen = inside(result, start, until, FEWEST)
     time, force = result.time[chosen], result[f"pin.{pin}.force"][chosen]
     found = spectrum(time, force, segments)
@@ -230,11 +230,11 @@ def _words(result: Result, pin: str, found: Spectrum, first: float, last: float,
         "The records sample the force: what is faster than that, such as brief impacts, appears at lower "
         "frequencies (aliasing); a smaller record_period tells. "
     )
-    touches = tuple(one for one in result.onsets.get(pin, ()) if first <= one.time <= last)
-    shortest = shortest_touch(touches)
+    impacts = tuple(one for one in result.onsets.get(pin, ()) if first <= one.time <= last)
+    shortest = shortest_impact(impacts)
     if shortest < FINE_ENOUGH * found.spacing:
         text += (
-            f"The shortest touch lasts {units.said(shortest, 's')}: a record_period of "
+            f"The shortest impact lasts {units.said(shortest, 's')}: a record_period of "
             f"{units.said(shortest / FINE_ENOUGH, 's')} would follow it. "
         )
     return text.rstrip()

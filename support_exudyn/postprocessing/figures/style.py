@@ -18,7 +18,7 @@ from support_exudyn.mechanics.trajectory import Series
 
 # Okabe and Ito's colours: told apart by colour-blind readers; the lightness differs too, for grey prints.
 IDEAL = "#000000"
-LOOSE = "#0072B2"
+WITH_CLEARANCE = "#0072B2"
 SMOOTH = "#E69F00"
 THIRD = "#009E73"
 # of a single run: what a journal does, and the force on it
@@ -31,7 +31,7 @@ PAPER = "#882255"
 Dashes = str | tuple[int, tuple[float, ...]]
 # curves of a panel: colours that are told apart by all readers, dashes for grey prints
 CURVES: tuple[tuple[str, Dashes], ...] = (
-    (LOOSE, "-"),
+    (WITH_CLEARANCE, "-"),
     (SMOOTH, (0, (6, 1.5))),
     (THIRD, (0, (3, 1, 1, 1))),
     (IDEAL, (0, (1, 1))),
@@ -110,7 +110,8 @@ def pieces(x: Series, y: Series, chosen: npt.NDArray[np.bool_]) -> tuple[Series,
     drawn = np.zeros(x.size, dtype=bool)
     drawn[:-1] |= chosen
     drawn[1:] |= chosen
-    # where two chosen pieces are parted by one that is not, both of its ends are drawn: a gap goes in between
+    # where two chosen pieces are separated by one that is not, both of its ends are drawn: a gap goes in
+    # between
     gaps = np.flatnonzero(~chosen & drawn[:-1] & drawn[1:]) + 1
     broken_x, broken_y = (np.insert(np.where(drawn, values, np.nan), gaps, np.nan) for values in (x, y))
     return broken_x, broken_y

@@ -6,7 +6,7 @@ import math
 from typing import NamedTuple
 
 
-class Unit(NamedTuple):
+class DisplayUnit(NamedTuple):
     """A unit that is shown: its name, and how many of it one SI unit is."""
 
     name: str
@@ -16,27 +16,48 @@ class Unit(NamedTuple):
 ROUNDED = 1.0 - 1e-9  # so that a thousandth of something is read as that whichever way it was rounded
 LITTLE = 1e-3  # share of a quantity, in whose unit a smaller change is told
 DEGREES = 180.0 / math.pi
-ANGLES = {"rad": Unit("deg", DEGREES), "rad/s": Unit("deg/s", DEGREES), "rad/s^2": Unit("deg/s²", DEGREES)}
-FLOW = Unit("l/min", 6e4)
+ANGLES = {
+    "rad": DisplayUnit("deg", DEGREES),
+    "rad/s": DisplayUnit("deg/s", DEGREES),
+    "rad/s^2": DisplayUnit("deg/s²", DEGREES),
+}
+FLOW = DisplayUnit("l/min", 6e4)
 QUANTITIES = {
     "s": "time", "m": "length", "m/s": "speed", "N": "force", "N m": "moment", "J": "energy",
     "rad": "angle", "rad/s": "angular velocity", "rad/s^2": "angular acceleration",
     "Pa": "pressure", "m^3/s": "flow", "1": "share",
 }  # fmt: skip
 # for each unit: below which size what is shown, the smallest first
-SIZES: dict[str, tuple[tuple[float, Unit], ...]] = {
-    "m": ((1e-4, Unit("µm", 1e6)), (1.0, Unit("mm", 1e3)), (math.inf, Unit("m", 1.0))),
-    "m/s": ((1e-4, Unit("µm/s", 1e6)), (0.3, Unit("mm/s", 1e3)), (math.inf, Unit("m/s", 1.0))),
-    "N": ((0.1, Unit("mN", 1e3)), (1e3, Unit("N", 1.0)), (math.inf, Unit("kN", 1e-3))),
-    "N m": ((0.1, Unit("mN m", 1e3)), (1e3, Unit("N m", 1.0)), (math.inf, Unit("kN m", 1e-3))),
-    "J": ((1e-4, Unit("µJ", 1e6)), (0.1, Unit("mJ", 1e3)), (1e3, Unit("J", 1.0)), (math.inf, Unit("kJ", 1e-3))),
-    "Pa": ((1e3, Unit("Pa", 1.0)), (1e5, Unit("kPa", 1e-3)), (math.inf, Unit("MPa", 1e-6))),
-    "Hz": ((1e3, Unit("Hz", 1.0)), (math.inf, Unit("kHz", 1e-3))),
-    "s": ((1e-3, Unit("µs", 1e6)), (0.1, Unit("ms", 1e3)), (math.inf, Unit("s", 1.0))),
+SIZES: dict[str, tuple[tuple[float, DisplayUnit], ...]] = {
+    "m": ((1e-4, DisplayUnit("µm", 1e6)), (1.0, DisplayUnit("mm", 1e3)), (math.inf, DisplayUnit("m", 1.0))),
+    "m/s": (
+        (1e-4, DisplayUnit("µm/s", 1e6)),
+        (0.3, DisplayUnit("mm/s", 1e3)),
+        (math.inf, DisplayUnit("m/s", 1.0)),
+    ),
+    "N": ((0.1, DisplayUnit("mN", 1e3)), (1e3, DisplayUnit("N", 1.0)), (math.inf, DisplayUnit("kN", 1e-3))),
+    "N m": (
+        (0.1, DisplayUnit("mN m", 1e3)),
+        (1e3, DisplayUnit("N m", 1.0)),
+        (math.inf, DisplayUnit("kN m", 1e-3)),
+    ),
+    "J": (
+        (1e-4, DisplayUnit("µJ", 1e6)),
+        (0.1, DisplayUnit("mJ", 1e3)),
+        (1e3, DisplayUnit("J", 1.0)),
+        (math.inf, DisplayUnit("kJ", 1e-3)),
+    ),
+    "Pa": (
+        (1e3, DisplayUnit("Pa", 1.0)),
+        (1e5, DisplayUnit("kPa", 1e-3)),
+        (math.inf, DisplayUnit("MPa", 1e-6)),
+    ),
+    "Hz": ((1e3, DisplayUnit("Hz", 1.0)), (math.inf, DisplayUnit("kHz", 1e-3))),
+    "s": ((1e-3, DisplayUnit("µs", 1e6)), (0.1, DisplayUnit("ms", 1e3)), (math.inf, DisplayUnit("s", 1.0))),
 }
 
 
-def readable(unit: str, size: float) -> Unit:
+def readable(unit: str, size: float) -> DisplayUnit:
     """The unit in which a quantity is read best.
 
     Degrees for radians, litres a minute; mm, kN and the like by the size of the quantity; others as they are.
@@ -50,11 +71,13 @@ def readable(unit: str, size: float) -> Unit:
     if unit == "m^3/s":
         return FLOW
     if size <= 0.0 or not math.isfinite(size):
-        return Unit(unit, 1.0)
-    return next((shown for limit, shown in SIZES.get(unit, ()) if size < limit * ROUNDED), Unit(unit, 1.0))
+        return DisplayUnit(unit, 1.0)
+    return next(
+        (shown for limit, shown in SIZES.get(unit, ()) if size < limit * ROUNDED), DisplayUnit(unit, 1.0)
+    )
 
 
-def readable_change(unit: str, size: float, change: float) -> Unit:
+def readable_change(unit: str, size: float, change: float) -> DisplayUnit:
     """The unit in which changes of a quantity are read best, if they are not next to nothing of it.
 
     Arguments:

@@ -15,7 +15,7 @@ from support_exudyn.model.loads.falling_block import FallingBlock
 from support_exudyn.model.to_space import at, copies
 from support_exudyn.postprocessing.look.poses import planar_pins
 from support_exudyn.postprocessing.look.shapes import bar, bored, hull, plate, together, tube
-from support_exudyn.postprocessing.look.solid import Look, Role, Solid, Strut
+from support_exudyn.postprocessing.look.solid import DrawnColumn, Look, Role, Solid
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.values.value import Vector2
 
@@ -95,8 +95,12 @@ def _joining(parts: Sequence[Polygon], half_width: float) -> Polygon:
 def _pins(scenario: Scenario, layers: Mapping[str, float], thickness: float, margin: float) -> Iterator[Solid]:
     """Journals, through both bodies and a little out of them, on the one that has not the bore."""
     for name, pin in planar_pins(scenario).items():
-        body, centre, loose = pin.journal.body, pin.journal.point[:2], pin.loose
-        radius = loose.contact.bearing.journal_radius if loose else 0.97 * bore_radius(scenario, name, margin)
+        body, centre, with_clearance = pin.journal.body, pin.journal.point[:2], pin.with_clearance
+        radius = (
+            with_clearance.contact.bearing.journal_radius
+            if with_clearance
+            else 0.97 * bore_radius(scenario, name, margin)
+        )
         ends = [layers[pin.first.body], layers[pin.second.body]]
         near, far = min(ends) - 0.6 * thickness, max(ends) + 0.5 * thickness
         on_ground = [(GROUND, [z for _, z, _ in copies(None)])]
@@ -129,9 +133,9 @@ def extent(linkage: Linkage) -> float:
 
 def bore_radius(scenario: Scenario, pin: str, margin: float) -> float:
     """The radius of a pin's bore [m], as far as the scenario knows it."""
-    loose = scenario.clearance_pins.get(pin)
-    if loose is not None:
-        return loose.contact.bearing.bore_radius
+    with_clearance = scenario.clearance_pins.get(pin)
+    if with_clearance is not None:
+        return with_clearance.contact.bearing.bore_radius
     ideal = scenario.friction_pins.get(pin)
     return ideal.radius if ideal is not None and ideal.radius is not None else BORE * margin
 
@@ -162,7 +166,7 @@ def _pairs(scenario: Scenario) -> Mapping[str, float]:
     return {**width.pairs, **of_columns}
 
 
-def _struts(scenario: Scenario, name: str, radius: float) -> Iterator[Strut]:
+def _struts(scenario: Scenario, name: str, radius: float) -> Iterator[DrawnColumn]:
     """A column as cylinder and rod; radius: of the cylinder [m]."""
     column: Column = scenario.linkage.columns[name]
     width = scenario.machine.widths()
@@ -174,7 +178,7 @@ def _struts(scenario: Scenario, name: str, radius: float) -> Iterator[Strut]:
         part = side if scenario.dimensions == 3 else ""
         foot, head = column.foot + part * (column.foot in pairs), column.head + part * (column.head in pairs)
         ends = at(column.foot_point, z), at(column.head_point, z)
-        yield Strut(name + side, foot, head, *ends, cylinder, rod)
+        yield DrawnColumn(name + side, foot, head, *ends, cylinder, rod)
 
 
 def blocks(scenario: Scenario) -> list[Solid]:

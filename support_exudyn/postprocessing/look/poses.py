@@ -13,7 +13,7 @@ from support_exudyn.model.linkage import GROUND, Body
 from support_exudyn.model.pins import ClearancePin
 from support_exudyn.model.spatial_linkage import SpatialBody
 from support_exudyn.model.to_space import at
-from support_exudyn.postprocessing.look.solid import Strut
+from support_exudyn.postprocessing.look.solid import DrawnColumn
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import Vector3
@@ -131,15 +131,15 @@ def turned(angle: Series, roll: Series, yaw: Series) -> Series:
     turn = _about_z(angle)
     for _ in range(MOST_CORRECTIONS):
         slope = np.zeros((angle.size, 3, 3))
-        seen = np.empty_like(asked)
+        context = np.empty_like(asked)
         for c in range(3):
             r, k = (c + 1) % 3, (c + 2) % 3
             axis = turn[:, :, c]
-            seen[:, c] = np.arctan2(axis[:, r], axis[:, c])
+            context[:, c] = np.arctan2(axis[:, r], axis[:, c])
             share = axis[:, k] / (axis[:, c] ** 2 + axis[:, r] ** 2)
             slope[:, c, k] = 1.0
             slope[:, c, c], slope[:, c, r] = -share * axis[:, c], -share * axis[:, r]
-        off = (asked - seen + np.pi) % (2.0 * np.pi) - np.pi
+        off = (asked - context + np.pi) % (2.0 * np.pi) - np.pi
         if not np.abs(off).max(initial=0.0) > ROUNDING:
             break
         correction = np.linalg.solve(slope, off[:, :, None])[:, :, 0]
@@ -174,15 +174,15 @@ class StrutPose:
     turning: Series
 
     def cylinder(self, points: Series) -> tuple[Series, Series]:
-        """Positions [m] and velocities [m/s] of points (m, 3) of `Strut.cylinder`."""
+        """Positions [m] and velocities [m/s] of points (m, 3) of `DrawnColumn.cylinder`."""
         return self.foot + points @ self.axes.T, self.foot_velocity + points @ self.turning.T
 
     def rod(self, points: Series) -> tuple[Series, Series]:
-        """Positions [m] and velocities [m/s] of points (m, 3) of `Strut.rod`."""
+        """Positions [m] and velocities [m/s] of points (m, 3) of `DrawnColumn.rod`."""
         return self.head + points @ self.axes.T, self.head_velocity + points @ self.turning.T
 
 
-def strut_pose(strut: Strut, poses: Poses, record: int) -> StrutPose:
+def strut_pose(strut: DrawnColumn, poses: Poses, record: int) -> StrutPose:
     """A strut of a run at a record."""
     foot, foot_velocity = _end(poses, strut.foot, np.array([strut.foot_point]), record)
     head, head_velocity = _end(poses, strut.head, np.array([strut.head_point]), record)
@@ -228,7 +228,7 @@ def _across(vector: Series, unit: Series) -> Series:
 
 
 @dataclass(frozen=True)
-class End:
+class PinEnd:
     """A body, or "ground", and the point of it at which the pin is, start posture [m]."""
 
     body: str
@@ -242,26 +242,26 @@ class PlacedPin:
     Arguments:
         name: as the channels know it.
         first, second: its two ends.
-        loose: the scenario's pin if it has clearance, else None.
+        with_clearance: the scenario's pin if it has clearance, else None.
     """
 
     name: str
-    first: End
-    second: End
-    loose: ClearancePin | None
+    first: PinEnd
+    second: PinEnd
+    with_clearance: ClearancePin | None
 
     @property
     def bore_is_second(self) -> bool:
         """The second body carries the bore; of an ideal pin the first one counts as doing so."""
-        return self.loose is not None and self.loose.bore == "second"
+        return self.with_clearance is not None and self.with_clearance.bore == "second"
 
     @property
-    def bore(self) -> End:
+    def bore(self) -> PinEnd:
         """The body that carries the bore, and its centre."""
         return self.second if self.bore_is_second else self.first
 
     @property
-    def journal(self) -> End:
+    def journal(self) -> PinEnd:
         """The body that carries the journal, and its centre."""
         return self.first if self.bore_is_second else self.second
 
@@ -270,9 +270,11 @@ def placed_pins(scenario: Scenario) -> list[PlacedPin]:
     """All pins of a scenario, in the order of its machine; guides are none."""
     if scenario.dimensions == 2:
         return list(planar_pins(scenario).values())
-    loose = scenario.clearance_pins
+    with_clearance = scenario.clearance_pins
     return [
-        PlacedPin(name, End(b.first, b.first_point), End(b.second, b.second_point), loose.get(b.pin))
+        PlacedPin(
+            name, PinEnd(b.first, b.first_point), PinEnd(b.second, b.second_point), with_clearance.get(b.pin)
+        )
         for name, b in scenario.space.bearings.items()
         if not b.is_guide
     ]
@@ -280,10 +282,13 @@ def placed_pins(scenario: Scenario) -> list[PlacedPin]:
 
 def planar_pins(scenario: Scenario) -> dict[str, PlacedPin]:
     """The pins of the plane, by name, also of a scenario in space."""
-    loose = scenario.clearance_pins
+    with_clearance = scenario.clearance_pins
     return {
         name: PlacedPin(
-            name, End(p.first, at(p.first_point, 0.0)), End(p.second, at(p.second_point, 0.0)), loose.get(name)
+            name,
+            PinEnd(p.first, at(p.first_point, 0.0)),
+            PinEnd(p.second, at(p.second_point, 0.0)),
+            with_clearance.get(name),
         )
         for name, p in scenario.linkage.pins.items()
     }

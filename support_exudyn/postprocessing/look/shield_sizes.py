@@ -109,6 +109,6 @@ def _distance_of_eyes(scenario: Scenario) -> float:
 
 
 def _bore(scenario: Scenario) -> float | None:
-    """The radius of its loose pins' bores [m]; None without one."""
+    """The radius of its clearance pins' bores [m]; None without one."""
     radii = [pin.contact.bearing.bore_radius for pin in scenario.clearance_pins.values()]
     return max(radii, default=None)

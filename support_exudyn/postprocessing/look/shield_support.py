@@ -13,7 +13,7 @@ from trimesh import Trimesh
 
 from support_exudyn.machines.four_bar_shield import FourBarShield
 from support_exudyn.machines.shield_layout import TAIL
-from support_exudyn.model.columns import TwoBodyColumn
+from support_exudyn.model.columns import CylinderAndRod
 from support_exudyn.model.linkage import GROUND, Column, lumped
 from support_exudyn.model.plane_geometry import minus, moved, parts_of
 from support_exudyn.model.to_space import LEFT, RIGHT, SIDES, at
@@ -21,7 +21,7 @@ from support_exudyn.postprocessing.look.plain import blocks
 from support_exudyn.postprocessing.look.poses import planar_pins
 from support_exudyn.postprocessing.look.shapes import ROUND, bar, cylinder_and_rod, plate, together, tube
 from support_exudyn.postprocessing.look.shield_sizes import Sizes, sizes, standing
-from support_exudyn.postprocessing.look.solid import Look, Role, Solid, Strut
+from support_exudyn.postprocessing.look.solid import DrawnColumn, Look, Role, Solid
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.values.value import Vector2
 
@@ -72,9 +72,9 @@ class _Support:
             *self._pins(),
             *blocks(self.scenario),
         ]
-        struts: list[Strut] = []
+        struts: list[DrawnColumn] = []
         for name, column in {**self.columns, **self.jacks}.items():
-            if isinstance(self.scenario.columns.get(name), TwoBodyColumn):
+            if isinstance(self.scenario.columns.get(name), CylinderAndRod):
                 solids.extend(self._column_bodies(name, column))
             else:
                 struts.extend(self._struts(name, column))
@@ -263,7 +263,7 @@ class _Support:
         """The radius of a cylinder [m]; a ram's is smaller than that of a column on the base."""
         return self.sizes.column if name in self.standing else RAM * self.sizes.column
 
-    def _struts(self, name: str, column: Column) -> Iterator[Strut]:
+    def _struts(self, name: str, column: Column) -> Iterator[DrawnColumn]:
         """Both columns of a pair, or the jack in the middle."""
         cylinder, rod = self._meshes(name, column)
         sides = SIDES.items() if column.driven else (("", 0.0),)
@@ -271,7 +271,7 @@ class _Support:
             z = sign * self._beside(name)
             foot, head = at(column.foot_point, z), at(column.head_point, z)
             label = f"{name}_{side}" if side else name
-            yield Strut(label, column.foot, column.head, foot, head, cylinder, rod)
+            yield DrawnColumn(label, column.foot, column.head, foot, head, cylinder, rod)
 
     def _column_bodies(self, name: str, column: Column) -> Iterator[Solid]:
         """The shapes of a column without mass, on the bodies that this one is made of."""

@@ -44,7 +44,7 @@ class Solid:
 
 
 @dataclass(frozen=True)
-class Strut:
+class DrawnColumn:
     """A column without a mass of its own: a rod that slides in a cylinder, between points of two bodies.
 
     Arguments:
@@ -75,7 +75,7 @@ class Look:
     """
 
     solids: tuple[Solid, ...]
-    struts: tuple[Strut, ...]
+    struts: tuple[DrawnColumn, ...]
     floor: float
 
 

@@ -8,8 +8,8 @@ from support_exudyn.model.pins import ClearancePin
 from support_exudyn.postprocessing.figures.style import CONTACT, FLIGHT, IDEAL
 from support_exudyn.postprocessing.render.movie import Moments
 from support_exudyn.postprocessing.render.panels import TRAIL, Inset, PinView, Strip, round_down, said, usual
-from support_exudyn.postprocessing.render.scene import Scene
-from support_exudyn.postprocessing.render.sheet import FAINT, INK, Box, Image, Sheet
+from support_exudyn.postprocessing.render.scene import RenderedScene
+from support_exudyn.postprocessing.render.sheet import FAINT, INK, Box, Canvas, Image
 from support_exudyn.postprocessing.render.stage import Camera
 from support_exudyn.scenario.scenario import Scenario
 
@@ -50,11 +50,11 @@ class Painter:
     """
 
     def __init__(
-        self, scene: Scene, layout: Layout, camera: Camera, pin: PinView | None, moments: Moments
+        self, scene: RenderedScene, layout: Layout, camera: Camera, pin: PinView | None, moments: Moments
     ) -> None:
         self._scene, self._layout, self._camera, self._pin = scene, layout, camera, pin
         self._moments, self._time = moments, scene.poses.time
-        self._sheet = Sheet(layout.width, layout.height)
+        self._sheet = Canvas(layout.width, layout.height)
         self._inset: Inset | None = None
         u, (left, _, right, bottom) = layout.unit, layout.line
         text = title(scene.result.scenario, pin)
@@ -127,10 +127,10 @@ class Painter:
     def _arrow(self, pin: PinView, record: int, force: np.ndarray, cut: bool) -> None:
         """Draw the arrow of the force in the machine's picture, and a mark on the pin."""
         u, (left, top, *_) = self._layout.unit, self._layout.picture
-        x, y = self._camera.pixels(np.array([self._scene.seen(pin, record)]))[0]
+        x, y = self._camera.pixels(np.array([self._scene.context(pin, record)]))[0]
         place = (left + float(x), top + float(y))
         along = self._camera.arrow(np.array([*force, 0.0])) / self._camera.scale * self._scale
-        mark = IDEAL if pin.bore is None else CONTACT if pin.bore.touching[record] else FLIGHT
+        mark = IDEAL if pin.bore is None else CONTACT if pin.bore.closed[record] else FLIGHT
         self._sheet.disc(place, 8.0 * u, mark, 1.5 * u)
         tip = (place[0] + float(along[0]), place[1] + float(along[1]))
         self._sheet.arrow(place, tip, self._colour, 8.0 * u, cut)
@@ -142,16 +142,16 @@ def title(scenario: Scenario, pin: PinView | None) -> str:
     if scenario.dimensions == 3:
         words[0] += " in space"
     if pin is not None and pin.bore is not None:
-        words.append(f"{pin.name.replace('_', ' ')}: {_of_loose(pin.bore.pin)}")
+        words.append(f"{pin.name.replace('_', ' ')}: {_of_clearance(pin.bore.pin)}")
     elif not scenario.clearance_pins:
         words.append("ideal pins")
     more = len(scenario.clearance_pins) - (pin is not None and pin.bore is not None)
     if more > 0:
-        words.append(f"{more} more loose pin{'s' * (more > 1)}")
+        words.append(f"{more} more clearance pin{'s' * (more > 1)}")
     return "  \u00b7  ".join(words)
 
 
-def _of_loose(pin: ClearancePin) -> str:
+def _of_clearance(pin: ClearancePin) -> str:
     """Clearance and friction in words."""
     clearance = f"radial clearance {1e3 * pin.contact.bearing.clearance:.4g} mm"
     friction = pin.contact.friction

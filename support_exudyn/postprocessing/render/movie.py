@@ -31,7 +31,7 @@ class Moments:
     """The times of frames.
 
     Frames need not be at records: each shows the record next to its time, for between records nobody knows
-    whether a journal has touched. In slow motion one record may so be seen in several frames.
+    whether a journal has been in contact. In slow motion one record may so be seen in several frames.
 
     Arguments:
         times: of the frames [s].

@@ -17,7 +17,7 @@ from support_exudyn.model.pins import ClearancePin
 from support_exudyn.postprocessing.figures.style import CONTACT, FLIGHT, IDEAL, draw_pieces, pieces
 from support_exudyn.postprocessing.look.poses import Poses, placed_pins
 from support_exudyn.postprocessing.look.solid import COLOURS, Role
-from support_exudyn.postprocessing.render.sheet import FAINT, INK, RULE, SMALLEST_FONT, Box, Point, Sheet
+from support_exudyn.postprocessing.render.sheet import FAINT, INK, RULE, SMALLEST_FONT, Box, Canvas, Point
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError, short
 
@@ -34,12 +34,12 @@ class Bore:
             that of the middle of the bearing.
         touching: whether it is in contact, shape (n,).
         carrier: name of the body that has the bore.
-        can_tilt: whether the journal may touch with an edge while its middle is away from the wall.
+        can_tilt: whether the journal may make contact with an edge while its middle is away from the wall.
     """
 
     pin: ClearancePin
     eccentricity: Series
-    touching: npt.NDArray[np.bool_]
+    closed: npt.NDArray[np.bool_]
     carrier: str
     can_tilt: bool = False
 
@@ -70,13 +70,14 @@ class PinView:
 
 
 def pin_names(result: Result) -> list[str]:
-    """All pins, by what channels call them; loose ones first."""
-    known = sorted(placed_pins(result.scenario), key=lambda pin: pin.loose is None)
+    """All pins, by what channels call them; those with clearance first."""
+    known = sorted(placed_pins(result.scenario), key=lambda pin: pin.with_clearance is None)
     return [pin.name for pin in known]
 
 
 def pin_view(result: Result, name: str | None = None) -> PinView | None:
-    """A pin by its name; None: the first loose one, or the first of all, or nothing if the machine has no pins.
+    """A pin by its name; None: the first with clearance, or the first of all, or nothing if the machine has no
+    pins.
 
     Raises InputError if there is no such pin, or if a channel that this needs was not recorded.
     """
@@ -90,10 +91,10 @@ def pin_view(result: Result, name: str | None = None) -> PinView | None:
     sign = -1.0 if pin.bore_is_second else 1.0
     force = sign * np.column_stack([result.recorded(f"pin.{name}.force_{axis}", WHY) for axis in "xy"])
     path = Poses(result).of(pin.bore.body).path(pin.bore.point)
-    if pin.loose is None:
+    if pin.with_clearance is None:
         return PinView(name, pin.second.body.replace("_", " "), force, path, None)
     bore = Bore(
-        pin.loose,
+        pin.with_clearance,
         _eccentricity(result, name),
         np.hypot(*force.T) > 0.0,
         pin.bore.body,
@@ -177,7 +178,7 @@ class Inset:
         """The words for how much the clearance is enlarged."""
         return f"clearance \u00d7 {said(self.factor)}"
 
-    def draw_still(self, sheet: Sheet) -> None:
+    def draw_still(self, sheet: Canvas) -> None:
         """Draw what does not change: the bore, and what is said of it."""
         u, (left, top, right, bottom) = self._unit, self._box
         sheet.box(self._box, "#eef0f2", 6 * u)
@@ -189,7 +190,7 @@ class Inset:
         carrier = "base" if self._bore.carrier == GROUND else self._bore.carrier.replace("_", " ")
         sheet.write((left + 8 * u, bottom - 8 * u), f"bore in {carrier}", 13 * u, FAINT)
 
-    def draw(self, sheet: Sheet, record: int, first: int, force: Point, cut: bool) -> None:
+    def draw(self, sheet: Canvas, record: int, first: int, force: Point, cut: bool) -> None:
         """Draw the journal at a record.
 
         Arguments:
@@ -202,14 +203,14 @@ class Inset:
         at = float(x[-1]), float(y[-1])
         sheet.disc(at, self._radius - self._gap, JOURNAL)
         sheet.circle(self.centre, self._gap, "#9a9a9a", 1.2 * u)
-        before = self._bore.touching[first:record]
+        before = self._bore.closed[first:record]
         for chosen, colour in ((~before, FLIGHT), (before, CONTACT)):
             if chosen.any():
                 sheet.line(*pieces(x, y, chosen), colour, 2.0 * u)
-        touching = bool(self._bore.touching[record])
-        colour, word, ink = (CONTACT, "contact", CONTACT) if touching else (FLIGHT, "free flight", FLIGHT_TEXT)
-        if touching:
-            tail = self._touched(at)
+        closed = bool(self._bore.closed[record])
+        colour, word, ink = (CONTACT, "contact", CONTACT) if closed else (FLIGHT, "free flight", FLIGHT_TEXT)
+        if closed:
+            tail = self._struck(at)
             if tail != at:
                 sheet.disc(tail, 6.0 * u, CONTACT, 1.2 * u)
             shorter = min(1.0, LONGEST * self._radius / max(math.hypot(*force), 1e-9))
@@ -225,8 +226,8 @@ class Inset:
         x, y = self._scale * self._bore.eccentricity[records].T
         return self.centre[0] - x, self.centre[1] - y
 
-    def _touched(self, at: Point) -> Point:
-        """Where on the wall it touches; its middle, if a tilted one does so elsewhere along the pin."""
+    def _struck(self, at: Point) -> Point:
+        """Where on the wall it makes contact; its middle, if a tilted one does so elsewhere along the pin."""
         (x, y), away = self.centre, math.dist(at, self.centre)
         if away < (1.0 - ROUNDING) * self._gap:
             return at
@@ -250,11 +251,11 @@ class Strip:
         self._start, self._length = start, max(end - start, 1e-12)
         inside = (time >= start - 1e-12) & (time <= end + 1e-12)
         self._time, self._force = time[inside], pin.size[inside] / 1e3
-        self._touching = None if pin.bore is None else pin.bore.touching[inside]
+        self._touching = None if pin.bore is None else pin.bore.closed[inside]
         self._peak = float(self._force.max(initial=0.0))
         self._top = min(CUT * usual(self._force), 1.08 * self._peak) if self._peak > 0.0 else 1.0
 
-    def draw_still(self, sheet: Sheet) -> None:
+    def draw_still(self, sheet: Canvas) -> None:
         """Draw all but the cursor."""
         u, (left, top, right, _) = self._unit, self._box
         axes = sheet.axes_in(self._box)
@@ -289,7 +290,7 @@ class Strip:
         widths = (3.0 * u, 1.3 * u)
         draw_pieces(axes, self._time, force, pressed, widths, solid_capstyle="butt", clip_on=False)
 
-    def cursor(self, sheet: Sheet, time: float, force: float) -> None:
+    def cursor(self, sheet: Canvas, time: float, force: float) -> None:
         """Draw the cursor at a time [s], with a dot at the force [N]."""
         u, (left, top, right, bottom) = self._unit, self._box
         x = left + (time - self._start) / self._length * (right - left)

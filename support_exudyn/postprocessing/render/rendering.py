@@ -17,7 +17,7 @@ from support_exudyn.postprocessing.render import movie as movies
 from support_exudyn.postprocessing.render.frame import Layout, Painter
 from support_exudyn.postprocessing.render.movie import Moments, moment, moments
 from support_exudyn.postprocessing.render.panels import pin_view
-from support_exudyn.postprocessing.render.scene import Scene
+from support_exudyn.postprocessing.render.scene import RenderedScene
 from support_exudyn.postprocessing.render.sheet import Image as Picture
 from support_exudyn.postprocessing.render.stage import Stage
 from support_exudyn.simulation.result import Result
@@ -74,7 +74,7 @@ def render(
         movie: "gif", "mp4" (needs the extra [movie]) or "none".
         movie_path: None: the folder's name with the movie's ending, without "_frames".
         size: width and height of frames [pixels], even, 320 x 180 to 3840 x 2160.
-        pin: whose journal and force are shown; None: the first loose pin, or the first of all.
+        pin: whose journal and force are shown; None: the first clearance pin, or the first of all.
         progress: is told the share that is done.
 
     Raises InputError if one of these is out of its range or a channel was not recorded, OSError if something
@@ -127,7 +127,7 @@ class _Show:
 
     def __init__(self, result: Result, size: tuple[int, int], pin: str | None, shown: Moments) -> None:
         _check_size(size)
-        self._scene = Scene(result)
+        self._scene = RenderedScene(result)
         self._shown = shown
         view = pin_view(result, pin)
         layout = Layout(*size, view is not None)

@@ -14,7 +14,7 @@ from support_exudyn.postprocessing.look.poses import Poses, strut_pose
 from support_exudyn.postprocessing.look.solid import COLOURS, Look, Role, Solid
 from support_exudyn.postprocessing.render.panels import PinView
 from support_exudyn.postprocessing.render.scenery import GAP, Label, Surroundings, surroundings
-from support_exudyn.postprocessing.render.stage import Camera, Prop, fitted
+from support_exudyn.postprocessing.render.stage import Camera, MeshItem, fitted
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import Vector3
 
@@ -23,7 +23,7 @@ UNTURNED = np.eye(3)
 NOWHERE = np.zeros(3)
 
 
-class Scene:
+class RenderedScene:
     """The scene of a run. Raises InputError if the run has not recorded where its bodies are."""
 
     def __init__(self, result: Result) -> None:
@@ -72,15 +72,15 @@ class Scene:
                 found.append(top + load.gap - load.descent.extension(float(self.poses.time[record])))
         return min(found, default=None)
 
-    def props(self) -> list[Prop]:
+    def props(self) -> list[MeshItem]:
         """All surfaces, each in axes of its own."""
         found = []
         for solid in self.look.solids:
             mesh = solid.mesh.copy()
             mesh.apply_translation(-np.array(self.poses.of(solid.body).start))
-            found.append(Prop(mesh, COLOURS[solid.role]))
+            found.append(MeshItem(mesh, COLOURS[solid.role]))
         for strut in self.look.struts:
-            found += [Prop(strut.cylinder, COLOURS[Role.CYLINDER]), Prop(strut.rod, COLOURS[Role.ROD])]
+            found += [MeshItem(strut.cylinder, COLOURS[Role.CYLINDER]), MeshItem(strut.rod, COLOURS[Role.ROD])]
         around = self.surroundings
         return found if around is None else [*found, *around.props, around.roof]
 
@@ -117,7 +117,7 @@ class Scene:
         x, y, z = word.place
         return [*self.surroundings.labels, Label(word.text, (x, y + self.roof(record), z), word.light)]
 
-    def seen(self, pin: PinView, record: int) -> Vector3:
+    def context(self, pin: PinView, record: int) -> Vector3:
         """The place of that end of a pin which the camera sees [m]."""
         x, y, _ = pin.path[record]
         ends = [s.mesh.bounds[0, 2] for s in self.look.solids if s.name.startswith(f"pin_{pin.name}")]

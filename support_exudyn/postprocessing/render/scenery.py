@@ -16,7 +16,7 @@ from trimesh.convex import convex_hull
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.postprocessing.look.shapes import plate, together
 from support_exudyn.postprocessing.look.solid import Colour
-from support_exudyn.postprocessing.render.stage import Prop
+from support_exudyn.postprocessing.render.stage import MeshItem
 from user_forces.values.value import Vector3
 
 FLOOR: Colour = (0.74, 0.72, 0.68)
@@ -27,7 +27,7 @@ DARK: Colour = (0.40, 0.38, 0.36)
 STEEP = 0.5  # how far the heap leans back, of its depth
 SEED = 5  # of the rocks: they always lie alike
 COURSES = 8  # of rocks, one on the other
-GAP = 0.02  # between things that do not touch, of the machine's length
+GAP = 0.02  # between things that do not make contact, of the machine's length
 BEHIND = 0.30  # how far the goaf reaches, of the machine's length
 
 
@@ -52,8 +52,8 @@ class Surroundings:
         points: corners that should be in the picture (n, 3) [m].
     """
 
-    props: tuple[Prop, ...]
-    roof: Prop
+    props: tuple[MeshItem, ...]
+    roof: MeshItem
     roof_height: float
     labels: tuple[Label, ...]
     roof_label: Label
@@ -87,17 +87,22 @@ def surroundings(machine: Series, floor: float, roof_height: float, half_width: 
         [(right, floor), (back, floor), (back - STEEP * (back - right), floor + heap), (right, floor + heap)]
     )
     rocks = list(_rocks(right, back, floor, heap, deep))
-    props = [Prop(ground, FLOOR), Prop(coal, COAL), Prop(plate(behind, 0.8 * deep, 0.4 * deep), DARK), *rocks]
+    props = [
+        MeshItem(ground, FLOOR),
+        MeshItem(coal, COAL),
+        MeshItem(plate(behind, 0.8 * deep, 0.4 * deep), DARK),
+        *rocks,
+    ]
     labels = (
         Label("coal\nface", (0.5 * (face + left), floor + 0.5 * height, 0.0), light=True),
         Label("floor", (face - 0.16 * length, floor - 0.0175 * length, -1.25 * half_width)),
         Label("goaf", (right + 0.22 * (back - right), floor + 0.95 * height, 0.0)),
     )
-    corners = [prop.mesh.bounding_box.vertices for prop in props]
+    corners = [mesh_item.mesh.bounding_box.vertices for mesh_item in props]
     above = np.array([[face, roof_height + thick, deep], [edge, roof_height + thick, deep]])
     return Surroundings(
         tuple(props),
-        Prop(roof, ROOF),
+        MeshItem(roof, ROOF),
         roof_height,
         labels,
         Label("roof", (0.5 * (face + edge), 0.5 * thick, 0.0)),
@@ -110,7 +115,7 @@ def _slab(left: float, right: float, low: float, high: float, near: float, far: 
     return plate(box(left, low, right, high), 0.5 * (near + far), far - near)
 
 
-def _rocks(right: float, left: float, floor: float, height: float, deep: float) -> Iterator[Prop]:
+def _rocks(right: float, left: float, floor: float, height: float, deep: float) -> Iterator[MeshItem]:
     """A heap that leans away from the machine, of one surface to a colour."""
     random = np.random.default_rng(SEED)
     found: list[list[Trimesh]] = [[] for _ in ROCKS]
@@ -124,7 +129,7 @@ def _rocks(right: float, left: float, floor: float, height: float, deep: float) 
             found[random.integers(len(ROCKS))].append(_rock(random, place, radius))
     for colour, rocks in zip(ROCKS, found, strict=True):
         if rocks:
-            yield Prop(together(rocks), colour)
+            yield MeshItem(together(rocks), colour)
 
 
 def _rock(random: np.random.Generator, place: Series, radius: float) -> Trimesh:

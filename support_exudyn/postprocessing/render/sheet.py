@@ -30,7 +30,7 @@ FAINT = "#6b6b6b"
 RULE = "#c9c9c9"
 
 
-class Sheet:
+class Canvas:
     """A picture of a size [pixels]; places on it count to the right and down from its upper left corner."""
 
     def __init__(self, width: int, height: int) -> None:

@@ -48,9 +48,12 @@ class Camera:
 
     def pixels(self, points: Series) -> Pixels:
         """The pixels (n, 2) of points (n, 3), to the right and down from the upper left corner."""
-        seen = self.rotation.apply(np.atleast_2d(points) - np.array(self.centre))
+        context = self.rotation.apply(np.atleast_2d(points) - np.array(self.centre))
         return np.column_stack(
-            [0.5 * self.width_px + self.scale * seen[:, 0], 0.5 * self.height_px - self.scale * seen[:, 1]]
+            [
+                0.5 * self.width_px + self.scale * context[:, 0],
+                0.5 * self.height_px - self.scale * context[:, 1],
+            ]
         )
 
     def arrow(self, vector: Series) -> Pixels:
@@ -70,8 +73,8 @@ def fitted(points: Series, width_px: int, height_px: int, margins: tuple[int, in
     margins: what is kept free of the picture, left, top, right, bottom [pixels].
     """
     rotation = direction_of_view()
-    seen = rotation.apply(points)
-    low, high = seen.min(axis=0), seen.max(axis=0)
+    context = rotation.apply(points)
+    low, high = context.min(axis=0), context.max(axis=0)
     left, above, right, below = margins
     free_x, free_y = max(width_px - left - right, 1), max(height_px - above - below, 1)
     wide, tall = (max(side, 1e-9) for side in (high - low)[:2])
@@ -92,7 +95,7 @@ FILL_FROM = (0.8, 0.25, 0.7, 0.0)
 
 
 @dataclass(frozen=True)
-class Prop:
+class MeshItem:
     """Something on the stage.
 
     Arguments:
@@ -109,12 +112,12 @@ class Prop:
 class Stage:
     """All props, and pictures of them."""
 
-    def __init__(self, props: Sequence[Prop], camera: Camera, threads: int = 1) -> None:
+    def __init__(self, props: Sequence[MeshItem], camera: Camera, threads: int = 1) -> None:
         self._container = exu.SystemContainer()
         self._system = self._container.AddSystem()
         self._camera = camera
-        for prop in props:
-            self._add(prop)
+        for mesh_item in props:
+            self._add(mesh_item)
         self._system.Assemble()
         self._settings(camera, threads)
         renderer = self._container.renderer
@@ -124,12 +127,12 @@ class Stage:
         window.renderWindowSize = [camera.width_px, camera.height_px]
         turn = [float(angle) for angle in camera.rotation.as_rotvec()]
         # its zoom is half of what is seen, and its centre is measured in the axes of the picture
-        seen = camera.rotation.apply(camera.centre)
-        renderer.SetModelView(0.5 * camera.height, turn, [float(seen[0]), float(seen[1]), 0.0])
+        context = camera.rotation.apply(camera.centre)
+        renderer.SetModelView(0.5 * camera.height, turn, [float(context[0]), float(context[1]), 0.0])
 
-    def _add(self, prop: Prop) -> None:
+    def _add(self, mesh_item: MeshItem) -> None:
         """A body that nothing moves."""
-        drawn = engine_surface(prop.mesh, prop.colour, prop.edges).placed()
+        drawn = engine_surface(mesh_item.mesh, mesh_item.colour, mesh_item.edges).placed()
         node = self._system.AddNode(NodeRigidBodyEP(referenceCoordinates=[0, 0, 0, 1, 0, 0, 0]))
         self._system.AddObject(
             ObjectRigidBody(

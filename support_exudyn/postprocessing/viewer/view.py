@@ -19,7 +19,7 @@ from exudyn.basicUtilities import SetSolutionState
 from support_exudyn.formulations.engine_settings import quiet_engine
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.postprocessing.export.solution_file import Solution, check_fits, read_solution, rows
-from support_exudyn.postprocessing.viewer.viewer_model import SHOWN, DressedModel, dressed
+from support_exudyn.postprocessing.viewer.viewer_model import SHOWN, ViewerModel, model_for_viewer
 from support_exudyn.simulation.provenance import installed
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError, short
@@ -171,7 +171,7 @@ class Window:
     model: what is shown. solution: the rows, as the engine's viewer takes them.
     """
 
-    model: DressedModel
+    model: ViewerModel
     solution: Solution
 
     def show(self, row: int) -> None:
@@ -205,7 +205,7 @@ def window(
     for sentence in differing_versions(result):
         print(f"warning: {sentence}", file=sys.stderr)
     read = None if solution is None else read_solution(solution)
-    model = dressed(result.scenario)
+    model = model_for_viewer(result.scenario)
     container = model.scene.container
     try:
         if read is not None and solution is not None:
@@ -251,7 +251,7 @@ def _prepare(settings: Any, text: str, size: tuple[int, int]) -> None:
     settings.openGL.light1.position = [2.0, 4.0, 10.0, 0.0]
 
 
-def _camera(model: DressedModel, solution: Solution, size: tuple[int, int]) -> tuple[float, list[float]]:
+def _camera(model: ViewerModel, solution: Solution, size: tuple[int, int]) -> tuple[float, list[float]]:
     """Half the height that is seen [m], and where one looks in the axes of the screen [m]: at all rows."""
     low, high = reach(model, solution)
     x, y, z = 0.5 * (low + high)
@@ -259,7 +259,7 @@ def _camera(model: DressedModel, solution: Solution, size: tuple[int, int]) -> t
     return 0.5 * MARGIN * max(height, width * size[1] / size[0]), [-x, y, -z]
 
 
-def reach(model: DressedModel, solution: Solution) -> tuple[Series, Series]:
+def reach(model: ViewerModel, solution: Solution) -> tuple[Series, Series]:
     """The least and largest coordinates (3,) that anything drawn has in any of the rows [m]."""
     corners: list[Series] = []
     for row in np.unique(np.linspace(0, solution["nRows"] - 1, MOST_LOOKED_AT).astype(int)):
@@ -273,6 +273,6 @@ def reach(model: DressedModel, solution: Solution) -> tuple[Series, Series]:
     return points.min(axis=0), points.max(axis=0)
 
 
-def _show(model: DressedModel, solution: Solution, row: int) -> None:
+def _show(model: ViewerModel, solution: Solution, row: int) -> None:
     """Let the engine's state that is drawn be a row."""
     SetSolutionState(model.scene.mbs, solution, row, exudyn.ConfigurationType.Visualization)

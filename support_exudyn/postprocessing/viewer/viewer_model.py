@@ -22,7 +22,7 @@ from support_exudyn.model.linkage import GROUND
 from support_exudyn.postprocessing.look import looks
 from support_exudyn.postprocessing.look.poses import PlacedPin, placed_pins, strut_axes
 from support_exudyn.postprocessing.look.shapes import tube
-from support_exudyn.postprocessing.look.solid import COLOURS, Colour, Look, Role, Solid, Strut, solids_of
+from support_exudyn.postprocessing.look.solid import COLOURS, Colour, DrawnColumn, Look, Role, Solid, solids_of
 from support_exudyn.postprocessing.viewer.engine_graphics import EngineSurface, engine_surface
 from support_exudyn.scenario.scenario import Scenario
 from user_forces import JournalBearing
@@ -37,10 +37,10 @@ POSITION = exudyn.OutputVariableType.Position
 
 
 @dataclass(frozen=True)
-class DressedModel:
+class ViewerModel:
     """A model and its look.
 
-    scene: the model; its `release` ends it. look: all that is drawn, journals of loose pins with it.
+    scene: the model; its `release` ends it. look: all that is drawn, journals of clearance pins with it.
     """
 
     scene: Model
@@ -55,13 +55,19 @@ class DressedModel:
         return np.array(self.scene.mbs.GetObjectOutputBody(item.object, POSITION, local, SHOWN))
 
 
-def dressed(scenario: Scenario) -> DressedModel:
+def model_for_viewer(scenario: Scenario) -> ViewerModel:
     """The model of a scenario, as `model` makes it, with the look of its machine."""
     scene, look = model(scenario), looks.look(scenario)
-    loose = [(pin, pin.loose.contact.bearing) for pin in placed_pins(scenario) if pin.loose is not None]
-    rims = [_rim(pin, bearing, look) for pin, bearing in loose]
-    whole = replace(look, solids=(*look.solids, *(_journal(pin, bearing, look) for pin, bearing in loose)))
-    shown = DressedModel(scene, whole)
+    with_clearance = [
+        (pin, pin.with_clearance.contact.bearing)
+        for pin in placed_pins(scenario)
+        if pin.with_clearance is not None
+    ]
+    rims = [_rim(pin, bearing, look) for pin, bearing in with_clearance]
+    whole = replace(
+        look, solids=(*look.solids, *(_journal(pin, bearing, look) for pin, bearing in with_clearance))
+    )
+    shown = ViewerModel(scene, whole)
     for name, item in scene.bodies.items():
         drawn = [_of_solid(solid, _axes(scene, name)) for solid in solids_of(whole, name)]
         drawn += [_of_rim(rim, _axes(scene, name)) for body, rim in rims if body == name]
@@ -122,7 +128,7 @@ def _of_rim(points: Series, axes: Axes = STILL) -> dict[str, Any]:
 # --- columns ---
 
 
-def _parts(shown: DressedModel, strut: Strut) -> Iterator[Callable[[], dict[str, Any]]]:
+def _parts(shown: ViewerModel, strut: DrawnColumn) -> Iterator[Callable[[], dict[str, Any]]]:
     """Cylinder and rod of a column; called, they are where the state that is shown has them."""
     cylinder = engine_surface(strut.cylinder, COLOURS[Role.CYLINDER])
     rod = engine_surface(strut.rod, COLOURS[Role.ROD])
@@ -135,7 +141,7 @@ def _parts(shown: DressedModel, strut: Strut) -> Iterator[Callable[[], dict[str,
     yield partial(part, rod, 1)
 
 
-# --- loose pins ---
+# --- clearance pins ---
 
 
 def _reach(pin: PlacedPin, radius: float, look: Look) -> tuple[float, float]:

@@ -47,7 +47,7 @@ class Tried:
 
 
 @dataclass(frozen=True)
-class Table:
+class EvidenceTable:
     """All scenes that have been tried.
 
     scenes: in any order. fullest: of each family the name of the scene with the most elements. said: of each
@@ -82,7 +82,7 @@ class Table:
             temporary.write_text(json.dumps(data, indent=1, allow_nan=False) + "\n", encoding="utf-8")
 
     @staticmethod
-    def load(path: Path) -> Table:
+    def load(path: Path) -> EvidenceTable:
         """Read it. Raises InputError if it is not such a table, OSError if it cannot be read."""
         return _table(contents(path, LARGEST_FILE), str(path))
 
@@ -105,19 +105,19 @@ def fields_of(scenario: Scenario) -> dict[str, Any]:
 
 
 @cache
-def committed() -> Table:
+def committed() -> EvidenceTable:
     """The table that comes with the program."""
     file = resources.files("support_exudyn.simulation.evidence") / "scene_detail.json"
     return _table(file.read_bytes(), file.name)
 
 
-def _table(content: bytes, where: str) -> Table:
+def _table(content: bytes, where: str) -> EvidenceTable:
     try:
         data = json.loads(content.decode("utf-8"))
         if data["format"] != FORMAT:
             raise KeyError(f"format is {short(data['format'])}, expected {FORMAT!r}")
         scenes = tuple(map(_tried, data["scenes"]))
-        table = Table(scenes, _texts(data["fullest"]), _texts(data["said"]))
+        table = EvidenceTable(scenes, _texts(data["fullest"]), _texts(data["said"]))
         names = [(scene.family, scene.name) for scene in scenes]
         for family in {family for family, _ in names if family}:
             if (family, table.fullest[family]) not in names:
@@ -127,7 +127,7 @@ def _table(content: bytes, where: str) -> Table:
         raise InputError(f"{where}: is nested too deep; allowed: a table of tried scenes") from None
     except (KeyError, TypeError, ValueError, AttributeError, OverflowError) as error:
         raise InputError(
-            f"{where}: not a table of tried scenes, or damaged ({error}); allowed: what `Table.save` wrote"
+            f"{where}: not a table of tried scenes, or damaged ({error}); allowed: what `save` wrote"
         ) from None
 
 

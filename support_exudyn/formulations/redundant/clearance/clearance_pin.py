@@ -1,4 +1,4 @@
-"""A pin with clearance over a run: what it remembers, when it touches, and its force on the engine."""
+"""A pin with clearance over a run: what it remembers, when it makes contact, and its force on the engine."""
 
 from __future__ import annotations
 
@@ -16,19 +16,19 @@ from support_exudyn.formulations.redundant.clearance.pin_motion import Course, M
 from support_exudyn.formulations.redundant.clearance.python_force import PythonForce
 from support_exudyn.formulations.redundant.clearance.steep_friction import EngineForce, SteepFriction
 from support_exudyn.formulations.redundant.clearance.symbolic_force import SymbolicForce
-from support_exudyn.mechanics.contact_state import Mobility, Onset, PinMemory
-from support_exudyn.mechanics.pressed_pins import NOT_KNOWN, Mobilities
+from support_exudyn.mechanics.contact_state import InverseMass, Onset, PinMemory
+from support_exudyn.mechanics.pressed_pins import NOT_KNOWN, EffectiveMasses
 from support_exudyn.scenario.solver_settings import SolverSettings
 from user_forces.compilation.flat import flat_force
 from user_forces.contact import ContactForce, JournalContact
 from user_forces.lawful import PROBED, look
-from user_forces.normal.law import Touch
+from user_forces.normal.law import Impact
 from user_forces.values.value import Vector2
 
-SHALLOW = 1e-9  # depth [m] at which a law is probed that has only just been touched
+SHALLOW = 1e-9  # depth [m] at which a law is probed that has only just been been in contact
 
 
-class LoosePin:
+class ClearanceJoint:
     """One clearance pin of a scene.
 
     Arguments:
@@ -37,9 +37,9 @@ class LoosePin:
         moving: how bore and journal move.
         bore_spin: tells the angular velocity of the bore's body now [rad/s].
         find_mobilities: tells how the journal answers impulses now.
-        settings: of the solver: what evaluates the force, how many steps are in an impact, whether touches and
-            partings are located.
-        share: of the contact that mobilities are told for.
+        settings: of the solver: what evaluates the force, how many steps are in an impact, whether impacts and
+            separations are located.
+        share: of the contact that inverse effective masses are told for.
     """
 
     def __init__(
@@ -48,15 +48,15 @@ class LoosePin:
         connector: PinConnector,
         moving: Moving,
         bore_spin: Callable[[], float],
-        find_mobilities: Callable[[], Mobilities],
+        find_inverse_masses: Callable[[], EffectiveMasses],
         settings: SolverSettings,
         share: float = 1.0,
     ) -> None:
-        self.contact, self.connector, self.find_mobilities = contact, connector, find_mobilities
+        self.contact, self.connector, self.find_inverse_masses = contact, connector, find_inverse_masses
         self.locates, self.share = settings.locate, share
         self.frames = PinFrames(connector, moving, bore_spin)
         self._on_line = connector.at is Attachment.LINE
-        self.impact = ImpactSteps(contact.normal, settings.impact_steps)
+        self.impact_steps = ImpactSteps(contact.normal, settings.impact_steps)
 
         def engine_force(straight: bool) -> EngineForce:
             if settings.backend == "symbolic":
@@ -66,16 +66,19 @@ class LoosePin:
         self._friction = SteepFriction(contact.friction, engine_force)
         self.connector.set_force(self.engine_force.function)
         self._force = flat_force(contact)
-        # whether the force depends on more than the touch from step to step
+        # whether the force depends on more than the impact from step to step
         self._changes = contact.friction.has_state or connector.at is Attachment.MIDDLE or self.frames.turns
-        self._touch: tuple[object, ...] = ()
+        self._impact: tuple[object, ...] = ()
         # at the last accepted step
         self.kept = PinMemory(False, 0.0, 0.0, 0.0)
-        self._alone = NOT_KNOWN.alone  # the journal's mobility by itself, when the memory's was found
+        self._alone = (
+            NOT_KNOWN.alone
+        )  # the journal's inverse effective mass by itself, when the memory's was found
         # the step being tried
         self.memory = self.kept  # with which its force is computed
-        # in the axes of the connector's displacement: the memory's mobility, and that of the journal by itself
-        self._here = self._alone_here = self.memory.mobility
+        # in the axes of the connector's displacement: the memory's inverse effective mass, and that of the
+        # journal by itself
+        self._here = self._alone_here = self.memory.inverse_mass
         self.reached = self.memory  # at its end
         self.force: ContactForce = contact.force(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, None)
         self.onset: Onset | None = None
@@ -84,7 +87,7 @@ class LoosePin:
         self._step = 0.0  # its length [s]
         self._motion = Relative(0.0, 0.0, 0.0, 0.0)  # at its end
         self._mass = 1.0  # that moves as the depth does at its end, while in contact [kg]
-        self._least_mass = 1.0  # the same if no other loose pin holds anything, which steps follow [kg]
+        self._least_mass = 1.0  # the same if no other clearance pin holds anything, which steps follow [kg]
         # at the end of the last accepted step
         self._swing_step = math.inf  # see `longest_step`
         self._angle: float | None = None  # of the journal's place in the bore [rad]
@@ -108,20 +111,22 @@ class LoosePin:
     @property
     def longest_step(self) -> float:
         """The longest step [s] for the impact going on, or for what friction holds at the end of the last."""
-        return min(self.impact.step, self._swing_step)
+        return min(self.impact_steps.step, self._swing_step)
 
     # --- called by the solver ---
 
-    def start(self, memory: PinMemory, mobilities: Mobilities, turn: float, bore: tuple[float, float]) -> None:
+    def start(
+        self, memory: PinMemory, inverse_masses: EffectiveMasses, turn: float, bore: tuple[float, float]
+    ) -> None:
         """Begin the run.
 
         Arguments:
             memory: of the pin.
-            mobilities: of its journal.
+            inverse effective masses: of its journal.
             turn: of the journal against the bore since the start posture [rad].
             bore: angle and spin of the bore [rad], [rad/s].
         """
-        self.kept = self._renewed(memory, mobilities)
+        self.kept = self._renewed(memory, inverse_masses)
         self.frames.start(turn, bore)
 
     @contextmanager
@@ -142,12 +147,12 @@ class LoosePin:
         finally:
             self.connector.set_force(self.engine_force.function)
 
-    def plainly(self, touch_speed: float) -> None:
-        """Let the force act whenever there is depth, as for a touch with this speed [m/s].
+    def plainly(self, impact_velocity: float) -> None:
+        """Let the force act whenever there is depth, as for a impact with this speed [m/s].
 
         For recipes that do without `begin_try`, `after_newton` and `accept`.
         """
-        self._recall(self.kept._replace(in_contact=True, approach_speed=touch_speed))
+        self._recall(self.kept._replace(in_contact=True, impact_velocity=impact_velocity))
 
     def jumped(self, memory: PinMemory) -> None:
         """Velocities have jumped after the last step; the memory since then."""
@@ -171,13 +176,13 @@ class LoosePin:
         if not reached.in_contact and self._friction.part():
             self._let_act()
         if was_in_contact and not reached.in_contact and self.onsets:
-            self.onsets[-1] = self.onsets[-1].parted(t, -reached.rate)
+            self.onsets[-1] = self.onsets[-1].separated(t, -reached.rate)
         self.frames.accept()
         if self.locates:
-            after = self.impact.follow if self.onset is None else self.impact.touch
-            unknown = self._on_line and (self.onset is not None or not self.impact.calm(reached.depth))
+            after = self.impact_steps.follow if self.onset is None else self.impact_steps.impact
+            unknown = self._on_line and (self.onset is not None or not self.impact_steps.calm(reached.depth))
             after(reached.depth, reached.rate, self._find_least_mass() if unknown else self._least_mass)
-            self._swing_step = self.impact.swing_step(self._swing_time())
+            self._swing_step = self.impact_steps.swing_step(self._swing_time())
         if self.onset is not None:
             self.onsets.append(self.onset)
             self.onset = None
@@ -199,7 +204,7 @@ class LoosePin:
         return Course(path, start.slip, before, self._motion, end.slip, angle, self.contact.bearing.clearance)
 
     def _place_angle(self) -> float:
-        """Direction of the journal's place at the end of the step, in the axes of mobilities [rad]."""
+        """Direction of the journal's place at the end of the step, in the axes of effective masses [rad]."""
         x, y = self._motion[:2]
         return math.atan2(y, x) - self.frames.bores_axes
 
@@ -209,9 +214,9 @@ class LoosePin:
             return self.force
         motion, memory, mass = self.course.at(x), self.memory, self._mass
         if not self._on_line:
-            mass = self._turned(memory.mobility).mass(motion.x, motion.y)
-        touch = memory.in_contact, memory.approach_speed, mass, memory.deflection, memory.slip
-        return self._force(*motion[:4], *motion.spins(self.connector.at), *touch, x * self._step)
+            mass = self._turned(memory.inverse_mass).mass(motion.x, motion.y)
+        impact = memory.in_contact, memory.impact_velocity, mass, memory.deflection, memory.slip
+        return self._force(*motion[:4], *motion.spins(self.connector.at), *impact, x * self._step)
 
     def _size_within(self, x: float) -> float:
         force = self.force_within(x)
@@ -225,12 +230,12 @@ class LoosePin:
     def probe(self, name: str) -> None:
         """Raise LawError if a law is no number where the last step began, or a little deeper and faster."""
         memory, contact = self.memory, self.contact
-        touch = Touch(memory.approach_speed, self._mass)
+        impact = Impact(memory.impact_velocity, self._mass)
         for more in PROBED:
             depth, slip = more * max(memory.depth, SHALLOW), more * memory.slip
             if depth > contact.normal.largest_depth:  # of which the law has its own words
                 return
-            normal = contact.normal(depth, memory.rate, touch)
+            normal = contact.normal(depth, memory.rate, impact)
             friction = contact.friction(slip, max(0.0, normal), memory.deflection)
             look(contact, depth, memory.rate, slip, normal, friction, pin=name)
 
@@ -248,7 +253,7 @@ class LoosePin:
     def begin_impact(self) -> None:
         """Let the depth of a closed pin swing from now on: at the start, or after a jump of speed."""
         if self.locates and self.kept.depth > 0.0:
-            self.impact.begin(self.kept.depth, self.kept.rate, self._find_least_mass())
+            self.impact_steps.begin(self.kept.depth, self.kept.rate, self._find_least_mass())
 
     def _find_least_mass(self) -> float:
         """Mass [kg] that moves at least as the depth does, where the journal is now."""
@@ -273,7 +278,7 @@ class LoosePin:
             start.in_contact
             and (again := self._friction.after_newton(force, self._step, self._mass)) is not None
         ):
-            self._touch = ()  # another line is laid
+            self._impact = ()  # another line is laid
             self._recall(start)
             return again
         depth, rate, slip = force[:3]
@@ -296,7 +301,7 @@ class LoosePin:
     def _let_act(self) -> None:
         """Another force acts from now on, which has been told nothing yet."""
         self.connector.set_force(self.engine_force.function)
-        self._touch = ()
+        self._impact = ()
 
     def _decided(self, start: PinMemory, verdict: Verdict) -> float | None:
         """The answer to the engine that follows from a verdict."""
@@ -324,44 +329,47 @@ class LoosePin:
 
     def _impact_step(self, speed: float) -> float:
         """Length of the steps [s] in an impact of this speed [m/s] that begins where the journal is."""
-        return self.impact.length(speed, self.find_mobilities().alone.mass(*self._place()))
+        return self.impact_steps.length(speed, self.find_inverse_masses().alone.mass(*self._place()))
 
     def _completed(self, verdict: Verdict) -> PinMemory:
         """The verdict's memory with what the laws need besides."""
         memory = verdict.memory
         if verdict.action is Action.REPEAT:
-            return self._renewed(memory, self.find_mobilities())._replace(deflection=0.0)
+            return self._renewed(memory, self.find_inverse_masses())._replace(deflection=0.0)
         if verdict.onset is not None or verdict.anew:
-            memory = self._renewed(memory, self.find_mobilities())
+            memory = self._renewed(memory, self.find_inverse_masses())
         sticks = memory.in_contact and verdict.onset is None
         return memory.slid(self.force.slip, self.force.deflection if sticks else 0.0)
 
-    def _renewed(self, memory: PinMemory, mobilities: Mobilities) -> PinMemory:
-        """A memory with the mobility that laws go by from now on; steps go by that of the journal by itself."""
-        self._alone = mobilities.alone
-        return memory.with_mobility(mobilities.held)
+    def _renewed(self, memory: PinMemory, inverse_masses: EffectiveMasses) -> PinMemory:
+        """A memory with the inverse effective mass that laws go by from now on.
+
+        Steps go by that of the journal by itself.
+        """
+        self._alone = inverse_masses.alone
+        return memory.with_inverse_mass(inverse_masses.held)
 
     def _recall(self, memory: PinMemory) -> None:
         self.memory = memory
-        touch = memory[:2] + memory[6:]  # all but its motion
-        if touch != self._touch or self._changes:
-            self._touch = touch
-            self._here, self._alone_here = self._turned(memory.mobility), self._turned(self._alone)
+        impact = memory[:2] + memory[6:]  # all but its motion
+        if impact != self._impact or self._changes:
+            self._impact = impact
+            self._here, self._alone_here = self._turned(memory.inverse_mass), self._turned(self._alone)
             self._friction.lay()
             frames = self.frames
             self.engine_force.load(memory, self._here, self._step, frames.guessed_spin, frames.guessed_turn)
 
-    def _turned(self, mobility: Mobility) -> Mobility:
-        """A mobility in the bore's axes, in those of the connector's displacement."""
+    def _turned(self, inverse_mass: InverseMass) -> InverseMass:
+        """An inverse effective mass in the bore's axes, in those of the connector's displacement."""
         angle = self.frames.bores_axes
-        return mobility.turned(angle) if angle else mobility
+        return inverse_mass.turned(angle) if angle else inverse_mass
 
     def _contact_force(self, motion: Relative) -> ContactForce:
         x, y, vx, vy, _, _ = motion
-        in_contact, approach_speed, _, _, slip, deflection, *_ = self.memory
+        in_contact, impact_velocity, _, _, slip, deflection, *_ = self.memory
         if in_contact and not self._on_line:
             self._mass, self._least_mass = self._here.mass(x, y), self._alone_here.mass(x, y)
         spins = motion.spins(self.connector.at)
         return self._force(
-            x, y, vx, vy, *spins, in_contact, approach_speed, self._mass, deflection, slip, self._step
+            x, y, vx, vy, *spins, in_contact, impact_velocity, self._mass, deflection, slip, self._step
         )

@@ -17,12 +17,12 @@ from functools import partial
 from types import SimpleNamespace
 from typing import Any, NamedTuple, cast
 
-from support_exudyn.mechanics.contact_state import Mobility
+from support_exudyn.mechanics.contact_state import InverseMass
 from user_forces.compilation.flat import asks_for_mass
 from user_forces.contact import ContactForce, JournalContact, SlipHistory
 from user_forces.expressions.scalar import hypot, maximum
 from user_forces.friction.frictionless import Frictionless
-from user_forces.normal.law import Touch
+from user_forces.normal.law import Impact
 
 
 class Attachment(Enum):
@@ -73,12 +73,18 @@ class Relative(NamedTuple):
 
 
 def line_force(contact: JournalContact, depth: float, rate: float, speed: float) -> float:
-    """The push [N] that depends on depth [m] and rate [m/s] alone, in a touch with a speed [m/s]."""
-    return maximum(contact.normal(depth, rate, Touch(speed, math.nan)), 0.0)
+    """The push [N] that depends on depth [m] and rate [m/s] alone, in a impact with a speed [m/s]."""
+    return maximum(contact.normal(depth, rate, Impact(speed, math.nan)), 0.0)
 
 
 def central_force(
-    contact: JournalContact, x: float, y: float, distance: float, rate: float, speed: float, mobility: Mobility
+    contact: JournalContact,
+    x: float,
+    y: float,
+    distance: float,
+    rate: float,
+    speed: float,
+    inverse_mass: InverseMass,
 ) -> tuple[float, float]:
     """The depth [m], and the push over the distance [N/m], which times both centres' displacement is the force.
 
@@ -86,10 +92,10 @@ def central_force(
         contact: bearing and laws.
         x, y: journal's centre minus bore's, across the axis [m]; distance: of both centres [m].
         rate: of the distance [m/s].
-        speed, mobility: of the touch [m/s], and of the journal, in the axes of x and y.
+        speed, inverse_mass: of the impact [m/s], and of the journal, in the axes of x and y.
     """
     depth = contact.bearing.depth(distance)
-    asked = contact.normal(depth, rate, Touch(speed, mobility.mass(x, y)))
+    asked = contact.normal(depth, rate, Impact(speed, inverse_mass.mass(x, y)))
     return depth, maximum(asked, 0.0) / distance
 
 
@@ -98,15 +104,15 @@ def rough_force(
     at: Attachment,
     motion: Relative,
     speed: float,
-    mobility: Mobility,
+    inverse_mass: InverseMass,
     history: SlipHistory,
 ) -> tuple[ContactForce, float]:
     """The force, and the arm [m] of its friction about the point at which the connector lets it act.
 
     Arguments as of `central_force`; history: of friction laws with a state, the step whose end this is.
     """
-    touch = Touch(speed, mobility.mass(motion.x, motion.y))
-    found = contact.force(*motion[:4], *motion.spins(at), touch, history)
+    impact = Impact(speed, inverse_mass.mass(motion.x, motion.y))
+    found = contact.force(*motion[:4], *motion.spins(at), impact, history)
     eccentricity = hypot(motion.x, motion.y)
     share = {Attachment.JOURNAL: 0.0, Attachment.MIDDLE: 0.5, Attachment.BORE: 1.0}[at]
     return found, found.journal_arm + share * eccentricity

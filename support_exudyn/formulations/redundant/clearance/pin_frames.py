@@ -50,7 +50,7 @@ class PinFrames:
         self.guessed_spin = 0.0  # of the bore at its end [rad/s]
         self.guessed_turn = 0.0  # between the marker frames at its end [rad]
         self._spin_repeats = 0
-        self.seen: tuple[Motion, Motion] | None = None  # motions of bore and journal at its end, if asked
+        self.context: tuple[Motion, Motion] | None = None  # motions of bore and journal at its end, if asked
 
     @property
     def bores_axes(self) -> float:
@@ -70,7 +70,7 @@ class PinFrames:
 
     def jumped(self) -> None:
         """Velocities have jumped after the last step."""
-        self.seen = None
+        self.context = None
         if self.turns:
             self._bore = self.moving.now()[0][4:]
 
@@ -136,8 +136,8 @@ class PinFrames:
         return Relative(scale * x, scale * y, vx, vy, spin, self._tried_spin)
 
     def _from_coordinates(self) -> Relative:
-        self.seen = self.moving.now()
-        (bx, by, bvx, bvy, bore_angle, bore_spin), journal = self.seen
+        self.context = self.moving.now()
+        (bx, by, bvx, bvy, bore_angle, bore_spin), journal = self.context
         x, y, vx, vy, journal_angle, spin = journal
         x, y, vx, vy, turning = x - bx, y - by, vx - bvx, vy - bvy, spin - bore_spin
         if self.connector.bore_on_ground:
@@ -154,7 +154,7 @@ class PinFrames:
 
     def place(self) -> tuple[float, float]:
         """Where the journal is now in its bore, in the bore's axes [m]."""
-        (bx, by, _, _, angle, _), (x, y, *_) = self.seen or self.moving.now()
+        (bx, by, _, _, angle, _), (x, y, *_) = self.context or self.moving.now()
         x, y = x - bx, y - by
         if self.connector.bore_on_ground:
             return x, y

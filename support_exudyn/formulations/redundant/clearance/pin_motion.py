@@ -75,8 +75,8 @@ def in_plane(displacement: Sequence[float], velocity: Sequence[float]) -> tuple[
         return x, y, vx, vy
     distance = math.hypot(across, z)
     rate = (x * vx + y * vy + z * vz) / distance - (x * vx + y * vy) / across
-    stretch = distance / across
-    return stretch * x, stretch * y, vx + rate * x / across, vy + rate * y / across
+    run_of_steps = distance / across
+    return run_of_steps * x, run_of_steps * y, vx + rate * x / across, vy + rate * y / across
 
 
 class Course(NamedTuple):

@@ -1,6 +1,6 @@
 """A contact's force as the engine's user function in Python: one flat function without calls of methods.
 
-What changes from step to step (the touch, the state of friction) are names of the function's own module, which
+What changes from step to step (the impact, the state of friction) are names of the function's own module, which
 are set before a step is tried; there it also leaves the arguments of its last call.
 """
 
@@ -18,15 +18,24 @@ from support_exudyn.formulations.redundant.clearance.connector_force import (
     rough_force,
     straightened,
 )
-from support_exudyn.mechanics.contact_state import Mobility, PinMemory
-from user_forces.compilation.flat import Formulas, Line, compiled, depth_check, lines, needed, text, traceable
+from support_exudyn.mechanics.contact_state import InverseMass, PinMemory
+from user_forces.compilation.flat import (
+    Formulas,
+    SourceLine,
+    compiled,
+    depth_check,
+    lines,
+    needed,
+    text,
+    traceable,
+)
 from user_forces.contact import JournalContact, SlipHistory
 from user_forces.expressions.scalar import hypot
 
 MOTION = ["x", "y", "vx", "vy", "turning", "bore_spin"]
 LINE = ["offset", "slope"]
 RIGID = "displacement, rotation, velocity, angular_velocity, k, d, j0, j1, o"  # of the rigid-body connector
-MEMORY = ["speed", "mobility_xx", "mobility_xy", "mobility_yy", "deflection", "slip", "step"]
+MEMORY = ["speed", "inverse_mass_xx", "inverse_mass_xy", "inverse_mass_yy", "deflection", "slip", "step"]
 
 
 class PythonForce:
@@ -45,7 +54,7 @@ class PythonForce:
         self._has_state = contact.friction.has_state
         formulas = traceable(contact)
         if straight:
-            formulas = straightened(formulas, *(Line(name, {}) for name in LINE))
+            formulas = straightened(formulas, *(SourceLine(name, {}) for name in LINE))
         if at is Attachment.LINE:
             source = _line(formulas)
         elif at in (Attachment.CENTRAL, Attachment.SPACE):
@@ -72,17 +81,17 @@ class PythonForce:
         found: tuple[Any, ...] = self._names["last"]
         return found
 
-    def load(self, memory: PinMemory, mobility: Mobility, step: float, *others: float) -> None:
+    def load(self, memory: PinMemory, inverse_mass: InverseMass, step: float, *others: float) -> None:
         """Set what the force depends on besides the motion.
 
         Arguments:
             memory: of the pin, at the start of the step.
-            mobility: its, in the axes of the connector's displacement.
+            inverse_mass: its, in the axes of the connector's displacement.
             step: its length [s].
         """
         names = self._names
         names["in_contact"], names["speed"] = memory[:2]
-        names["mobility_xx"], names["mobility_xy"], names["mobility_yy"] = mobility
+        names["inverse_mass_xx"], names["inverse_mass_xy"], names["inverse_mass_yy"] = inverse_mass
         if self._has_state:
             names["deflection"], names["slip"], names["step"] = memory.deflection, memory.slip, step
 
@@ -108,7 +117,7 @@ def _central(contact: JournalContact, at: Attachment) -> list[str]:
     if at is Attachment.SPACE:
         distance, product = hypot(distance, way[2]), product + way[2] * velocity[2]
     x, y = way[:2]
-    found = central_force(contact, x, y, distance, product / distance, speed, Mobility(xx, xy, yy))
+    found = central_force(contact, x, y, distance, product / distance, speed, InverseMass(xx, xy, yy))
     depth, share = map(text, found)
     pull = [f"{share} * {axis}" for axis in axes]
     size, arguments = 3, "displacement, velocity, k, d, o"
@@ -138,7 +147,7 @@ def _rough(contact: JournalContact, at: Attachment) -> list[str]:
         x, y = scale * dx, scale * dy
         placed = ["dx, dy, _ = displacement", "turn = rotation[2]", "bore_spin = find_spin()"]
     history = SlipHistory(deflection, slip, step)
-    found, arm = rough_force(contact, at, Relative(x, y, *motion), speed, Mobility(xx, xy, yy), history)
+    found, arm = rough_force(contact, at, Relative(x, y, *motion), speed, InverseMass(xx, xy, yy), history)
     moment = text(-arm * found.friction_force)
     forces = [text(-found.force_x), text(-found.force_y)]
     return _source(

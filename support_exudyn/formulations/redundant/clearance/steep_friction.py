@@ -76,7 +76,7 @@ class SteepFriction:
         return True
 
     def part(self) -> bool:
-        """Let the law act again, for the surfaces have parted; return whether a line acted."""
+        """Let the law act again, for the surfaces have separated; return whether a line acted."""
         straight, self._line = self._line is not None, None
         return straight
 

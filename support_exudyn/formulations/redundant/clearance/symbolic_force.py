@@ -2,7 +2,7 @@
 """A contact's force as an expression that the engine evaluates by itself.
 
 The laws are called once, with `Symbol`s in place of numbers; what comes back is the expression of the same
-formulas. What changes from step to step (the touch, the state of friction) stands in named variables of the
+formulas. What changes from step to step (the impact, the state of friction) stands in named variables of the
 expression, which Python sets before a step is tried.
 """
 
@@ -26,7 +26,7 @@ from support_exudyn.formulations.redundant.clearance.connector_force import (
     rough_force,
     straightened,
 )
-from support_exudyn.mechanics.contact_state import Mobility, PinMemory
+from support_exudyn.mechanics.contact_state import InverseMass, PinMemory
 from user_forces.contact import SMALLEST, JournalContact, SlipHistory
 from user_forces.expressions.scalar import Expression, hypot, maximum, where
 
@@ -123,7 +123,7 @@ class SymbolicForce:
             return engine.Real(f"pin{number}_{name}", value)
 
         self._surface = variable("surface", APART)  # depth beyond which there is a force [m]
-        self._touch = [variable("speed"), *(variable(f"mobility_{axes}") for axes in ("xx", "xy", "yy"))]
+        self._impact = [variable("speed"), *(variable(f"inverse_mass_{axes}") for axes in ("xx", "xy", "yy"))]
         self._history = [variable("deflection"), variable("slip"), variable("step")]
         self._bore_spin = variable("bore_spin")
         self._scale = variable("scale", 1.0)
@@ -135,21 +135,27 @@ class SymbolicForce:
         # kept alive here: the engine's function refers to it
         self.function = CreateSymbolicUserFunction(mbs, self.expression(), self.name, itemTypeName=item)
 
-    def load(self, memory: PinMemory, mobility: Mobility, step: float, bore_spin: float, turn: float) -> None:
+    def load(
+        self, memory: PinMemory, inverse_mass: InverseMass, step: float, bore_spin: float, turn: float
+    ) -> None:
         """Set what the force depends on besides the motion.
 
         Arguments:
             memory: of the pin, at the start of the step.
-            mobility: its, in the axes of the connector's displacement.
+            inverse_mass: its, in the axes of the connector's displacement.
             step: its length [s].
             bore_spin: expected at its end [rad/s].
             turn: between the marker frames, expected at its end [rad].
         """
-        touch = (memory.in_contact, memory.approach_speed, *mobility)  # seldom changes, and setting takes time
-        if touch != self._loaded:
-            self._loaded = touch
+        impact = (
+            memory.in_contact,
+            memory.impact_velocity,
+            *inverse_mass,
+        )  # seldom changes, and setting takes time
+        if impact != self._loaded:
+            self._loaded = impact
             self._surface.SetValue(0.0 if memory.in_contact else APART)
-            _set(self._touch, touch[1:])
+            _set(self._impact, impact[1:])
         if self._contact.friction.has_state:
             _set(self._history, (memory.deflection, memory.slip, step))
         if self._at is Attachment.MIDDLE:
@@ -203,7 +209,7 @@ class SymbolicForce:
         distance = unknown(displacement.NormL2())
         rate = unknown(displacement * velocity) / distance
         x, y = unknown(displacement[0]), unknown(displacement[1])
-        depth, share = central_force(self._contact, x, y, distance, rate, self._speed, self._mobility)
+        depth, share = central_force(self._contact, x, y, distance, rate, self._speed, self._inverse_mass)
         return real(self._if_pressed(depth, share)) * displacement
 
     def _rigid(self, displacement: Any, velocity: Any, angular_velocity: Any) -> Any:
@@ -217,7 +223,7 @@ class SymbolicForce:
         vx, vy = unknown(velocity[0]), unknown(velocity[1])
         motion = Relative(x, y, vx, vy, unknown(angular_velocity[2]), unknown(self._bore_spin))
         history = SlipHistory(*(unknown(variable) for variable in self._history))
-        found, arm = rough_force(self._contact, self._at, motion, self._speed, self._mobility, history)
+        found, arm = rough_force(self._contact, self._at, motion, self._speed, self._inverse_mass, history)
         away = maximum(hypot(x, y), SMALLEST)
         nx, ny = x / away, y / away
         along = engine.Vector([real(nx), real(ny), *_zeros(4)])
@@ -232,11 +238,11 @@ class SymbolicForce:
 
     @property
     def _speed(self) -> float:
-        return unknown(self._touch[0])
+        return unknown(self._impact[0])
 
     @property
-    def _mobility(self) -> Mobility:
-        return Mobility(*(unknown(variable) for variable in self._touch[1:]))
+    def _inverse_mass(self) -> InverseMass:
+        return InverseMass(*(unknown(variable) for variable in self._impact[1:]))
 
 
 def _set(variables: Iterable[Any], values: Iterable[object]) -> None:

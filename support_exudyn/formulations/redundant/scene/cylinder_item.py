@@ -23,7 +23,7 @@ from exudyn.itemInterface import (
     ObjectConnectorSpringDamper,
 )
 
-from support_exudyn.mechanics.cylinder_chambers import FilledCylinder
+from support_exudyn.mechanics.cylinder_chambers import PreloadedCylinder
 from support_exudyn.model.hydraulic_cylinder import ClosedInlet
 
 UNIT = 1e6  # of pressures in the engine [Pa]
@@ -41,15 +41,17 @@ class CylinderItem:
         settles: whether it has to be able to take part in a search for static equilibrium.
     """
 
-    def __init__(self, mbs: Any, filled: FilledCylinder, markers: list[Any], settles: bool) -> None:
-        model, column = filled.model, filled.column
-        self.filled = filled
+    def __init__(
+        self, mbs: Any, preloaded: PreloadedCylinder, markers: list[Any], is_in_equilibrium: bool
+    ) -> None:
+        model, column = preloaded.model, preloaded.column
+        self.preloaded = preloaded
         self.opening = 0.0
         self._mbs, self._data, self._markers = mbs, mbs.systemData, markers
         self.node = mbs.AddNode(
             NodeGenericODE1(
                 referenceCoordinates=[0.0, 0.0],
-                initialCoordinates=[p / UNIT for p in filled.start_pressures],
+                initialCoordinates=[p / UNIT for p in preloaded.start_pressures],
                 numberOfODE1Coordinates=2,
             )
         )
@@ -73,7 +75,7 @@ class CylinderItem:
         )
         # while a static equilibrium is looked for, the closed oil is a spring
         self._spring: Any = None
-        if settles:
+        if is_in_equilibrium:
             spring = ObjectConnectorSpringDamper(markerNumbers=markers, activeConnector=False)
             self._spring = mbs.AddObject(spring)
         self.first = -1
@@ -86,15 +88,15 @@ class CylinderItem:
     @property
     def moves(self) -> bool:
         """Whether its valve has to be followed: any that may open, for an inlet need not have breaks."""
-        return not isinstance(self.filled.model.inlet, ClosedInlet)
+        return not isinstance(self.preloaded.model.inlet, ClosedInlet)
 
     def open_to(self, t: float) -> None:
         """Let the valve be as it is at time t [s]."""
-        self._set(self.filled.model.inlet.opening(t))
+        self._set(self.preloaded.model.inlet.opening(t))
 
     def switch(self, t: float) -> None:
         """Let the valve be as it is just after a break t [s]."""
-        inlet = self.filled.model.inlet
+        inlet = self.preloaded.model.inlet
         self._set(inlet.opening(t) + inlet.opening_jump(t))
 
     def _set(self, opening: float) -> None:
@@ -123,13 +125,13 @@ class CylinderItem:
     def tell_rates(self, state: Any = CURRENT) -> None:
         """Give the engine the pressures' rates that belong to the state and the valve."""
         rates = self._data.GetODE1Coordinates_t(state)
-        own = self.filled.pressure_rates(*self.motion(state), self.pressures(state), self.opening)
+        own = self.preloaded.pressure_rates(*self.motion(state), self.pressures(state), self.opening)
         rates[self.first : self.first + 2] = [rate / UNIT for rate in own]
         self._data.SetODE1Coordinates_t(rates, state)
 
     def powers(self) -> tuple[float, float]:
         """Power of pump and tank, and what valve and seals dissipate, now [W]."""
-        return self.filled.powers(self.motion()[1], self.pressures(), self.opening)
+        return self.preloaded.powers(self.motion()[1], self.pressures(), self.opening)
 
     @contextmanager
     def settling(self) -> Iterator[None]:
@@ -144,15 +146,15 @@ class CylinderItem:
             put(self.object, "activeConnector", True)
             put(self._spring, "activeConnector", False)
         pressures = self._data.GetODE1Coordinates(INITIAL)
-        found = self.filled.closed_pressures(self.motion(INITIAL)[0])
+        found = self.preloaded.closed_pressures(self.motion(INITIAL)[0])
         pressures[self.first : self.first + 2] = [p / UNIT for p in found]
         self._data.SetODE1Coordinates(pressures, INITIAL)
         self.tell_rates(INITIAL)
 
     def follow(self) -> None:
         """Give the spring the stiffness and the force of the closed oil at the initial length."""
-        model, length = self.filled.model, self.motion(INITIAL)[0]
-        stiffness = model.stiffness(length - self.filled.column.start_length)
-        force = model.force(*self.filled.closed_pressures(length), 0.0)
+        model, length = self.preloaded.model, self.motion(INITIAL)[0]
+        stiffness = model.stiffness(length - self.preloaded.column.start_length)
+        force = model.force(*self.preloaded.closed_pressures(length), 0.0)
         self._mbs.SetObjectParameter(self._spring, "stiffness", stiffness)
         self._mbs.SetObjectParameter(self._spring, "referenceLength", length + force / stiffness)

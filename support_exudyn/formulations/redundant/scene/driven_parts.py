@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any, TypeVar
 
 from support_exudyn.mechanics.body_coordinates import ColumnItem, CrankItem
-from support_exudyn.mechanics.oil_column import FilledColumn
+from support_exudyn.mechanics.oil_column import PreloadedColumn
 from support_exudyn.model.drives.drive import Drive
 from user_forces.lawful import LawError
 
@@ -19,7 +19,7 @@ Item = TypeVar("Item")
 class OilColumnItem:
     """A column of oil in the engine."""
 
-    filled: FilledColumn
+    preloaded: PreloadedColumn
     object: Any
 
 
@@ -81,11 +81,11 @@ class DrivenParts:
         for rigid in self.rigid:
             put(rigid.object, "distance", rigid.column.start_length + extension)
         for oil in self.oil:
-            stiffness = oil.filled.model.stiffness(extension)
-            put(oil.object, "referenceLength", oil.filled.natural_length(extension))
+            stiffness = oil.preloaded.model.stiffness(extension)
+            put(oil.object, "referenceLength", oil.preloaded.natural_length(extension))
             put(oil.object, "velocityOffset", speed)
             put(oil.object, "stiffness", stiffness)
-            put(oil.object, "damping", stiffness * oil.filled.model.damping_time)
+            put(oil.object, "damping", stiffness * oil.preloaded.model.damping_time)
         for crank in self.cranks:
             put(crank.object, "offset", speed if self.velocity_level else extension)
 

@@ -8,7 +8,7 @@ from typing import Any, Protocol
 
 import exudyn
 
-from support_exudyn.formulations.redundant.clearance.clearance_pin import LoosePin
+from support_exudyn.formulations.redundant.clearance.clearance_pin import ClearanceJoint
 from support_exudyn.formulations.redundant.scene.cylinder_item import CylinderItem
 from support_exudyn.formulations.redundant.scene.driven_parts import DrivenParts
 from support_exudyn.formulations.redundant.scene.load_item import LoadItem
@@ -50,17 +50,17 @@ class EngineScene(ABC):
     """The model of one scenario, assembled and ready for the solver.
 
     scenario: what is modelled. container: owns the system, and must live as long as it. mbs: the system.
-    bodies: all that move, each an item with its data as `body`. loose_pins: everything that may touch and
-    part. compliant_pins: pins whose force follows from their deflection. frictions: of ideal pins. loads: what
-    presses on the machine. weights: loads of the engine, by body. driven: all columns and cranks, by the drive
-    that they follow. cylinders: the columns that follow none.
+    bodies: all that move, each an item with its data as `body`. clearance_pins: everything that may make
+    contact and part. compliant_pins: pins whose force follows from their deflection. frictions: of ideal pins.
+    loads: what presses on the machine. weights: loads of the engine, by body. driven: all columns and cranks,
+    by the drive that they follow. cylinders: the columns that follow none.
     """
 
     scenario: Scenario
     container: Any
     mbs: Any
     bodies: Mapping[str, Any]
-    loose_pins: Mapping[str, LoosePin]
+    clearance_joints: Mapping[str, ClearanceJoint]
     compliant_pins: Mapping[str, CompliantItem]
     frictions: Mapping[str, PinFriction]
     loads: Mapping[str, LoadItem]
@@ -106,11 +106,11 @@ class EngineScene(ABC):
 
     @abstractmethod
     def contact(self, name: str, state: Any) -> ContactForce:
-        """What the laws say of one of `loose_pins` in a state of the engine, its surfaces being apart."""
+        """What the laws say of one of `clearance_pins` in a state of the engine, its surfaces being apart."""
 
     def refresh_memory(self) -> None:
         """Tell every clearance pin that velocities have jumped; contacts that go on go on."""
-        for name, pin in self.loose_pins.items():
+        for name, pin in self.clearance_joints.items():
             state = self.contact(name, CURRENT)
             pin.jumped(pin.kept._replace(depth=state.depth, rate=state.rate, slip=state.slip))
 
@@ -124,10 +124,10 @@ class EngineScene(ABC):
 
 
 def first_memory(force: ContactForce) -> PinMemory:
-    """The memory of a pin at the start, from what its laws say: a journal that is pressed touches just now."""
-    touching = force.depth > 0.0
-    speed = max(0.0, force.rate) if touching else 0.0
-    return PinMemory(touching, speed, depth=force.depth, rate=force.rate, slip=force.slip)
+    """The memory of a pin at the start, from what its laws say: a journal that is pressed impacts just now."""
+    closed = force.depth > 0.0
+    speed = max(0.0, force.rate) if closed else 0.0
+    return PinMemory(closed, speed, depth=force.depth, rate=force.rate, slip=force.slip)
 
 
 def slide(scene: EngineScene, rest: float) -> None:

@@ -5,8 +5,8 @@
 The engine's constraint gives the force, its spring-damper between two rotations takes the moment. Newton's
 iterations find both together as long as forces change smoothly. In the short steps of impacts, and after jumps
 of the drive, the multipliers of its iterates are far off, and what depends on them throws it off for good:
-beside loose pins, and with drives that jump, the force is that at the end of the last step, an error of first
-order.
+beside clearance pins, and with drives that jump, the force is that at the end of the last step, an error of
+first order.
 """
 
 from __future__ import annotations

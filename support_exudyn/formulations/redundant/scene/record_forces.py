@@ -9,20 +9,20 @@ import numpy as np
 
 from support_exudyn.formulations.redundant.scene.scene import Scene
 from support_exudyn.mechanics.body_motion import BodyMotion
-from support_exudyn.mechanics.channels import MOTION, Part
+from support_exudyn.mechanics.channels import MOTION, DataNeeds
 from support_exudyn.mechanics.contact_history import acting
 from support_exudyn.mechanics.drive_acceleration import accelerations
 from support_exudyn.mechanics.joint_forces import JointForces
-from support_exudyn.mechanics.reactions import Held, direction, equations, push, twist, weight_of
+from support_exudyn.mechanics.reactions import HeldJoints, direction, equations, push, twist, weight_of
 from support_exudyn.mechanics.trajectory import CompliantSeries, ContactSeries, LoadSeries, Series
 
-FOLLOWING = Part.ACCELERATION | Part.JOINTS
-APPLIED = Part.CONTACTS | Part.OIL | Part.LOADS
+FOLLOWING = DataNeeds.ACCELERATION | DataNeeds.JOINTS
+APPLIED = DataNeeds.CONTACTS | DataNeeds.OIL | DataNeeds.LOADS
 # Friction of a pin depends on its force, and that on friction, by its coefficient times radius over lever.
 FRICTION_ROUNDS, SETTLED = 30, 1e-13
 
 
-def with_causes(needed: Part) -> Part:
+def with_causes(needed: DataNeeds) -> DataNeeds:
     """What has to be known for parts of a trajectory: also what accelerations and reactions follow from."""
     return needed | MOTION | APPLIED if needed & FOLLOWING else needed
 
@@ -54,7 +54,7 @@ class Following:
 def following(scene: Scene, motion: BodyMotion, time: Series, applied: Applied) -> Following:
     """Accelerations and reactions at the records [s], from positions and velocities."""
     scenario, linkage = scene.scenario, scene.linkage
-    held = Held(
+    held = HeldJoints(
         [linkage.pins[name] for name in scene.ideal_pins],
         [linkage.columns[name] for name in scene.rigid_columns],
         [linkage.cranks[name] for name in scene.cranks],

@@ -10,7 +10,7 @@ from typing import Any
 import exudyn
 import numpy as np
 
-from support_exudyn.formulations.redundant.clearance.clearance_pin import LoosePin
+from support_exudyn.formulations.redundant.clearance.clearance_pin import ClearanceJoint
 from support_exudyn.formulations.redundant.clearance.pin_motion import PinEnd, PinMotion
 from support_exudyn.formulations.redundant.scene.cylinder_item import CylinderItem
 from support_exudyn.formulations.redundant.scene.driven_parts import DrivenParts, OilColumnItem
@@ -25,7 +25,7 @@ from support_exudyn.formulations.redundant.scene.load_item import LoadItem
 from support_exudyn.formulations.redundant.scene.pin_friction import PinFriction
 from support_exudyn.mechanics.body_coordinates import BodyItem, ColumnItem, CrankItem, IdealItem, SlideItem
 from support_exudyn.mechanics.kinetics import Kinetics, Matrix
-from support_exudyn.mechanics.pressed_pins import Mobilities, mobilities, normal
+from support_exudyn.mechanics.pressed_pins import EffectiveMasses, inverse_masses, normal
 from support_exudyn.mechanics.trajectory import Impulse
 from support_exudyn.model.linkage import GROUND, Linkage
 from support_exudyn.scenario.scenario import Scenario
@@ -45,7 +45,7 @@ class Scene(EngineScene):
     bodies: dict[str, BodyItem]
     ideal_pins: dict[str, IdealItem]
     frictions: dict[str, PinFriction]  # of ideal pins
-    loose_pins: dict[str, LoosePin]
+    clearance_joints: dict[str, ClearanceJoint]
     compliant_pins: dict[str, CompliantItem]
     rigid_columns: dict[str, ColumnItem]
     oil_columns: dict[str, OilColumnItem]
@@ -66,18 +66,18 @@ class Scene(EngineScene):
         """Masses and constraints as matrices with all pins ideal and all columns rigid."""
         return Kinetics(self.linkage, self.bodies, tuple(self.linkage.pins), tuple(self.linkage.columns))
 
-    def mobilities(self, name: str, state: Any = CURRENT) -> Mobilities:
+    def inverse_masses(self, name: str, state: Any = CURRENT) -> EffectiveMasses:
         """How a clearance pin's journal answers impulses, by itself and with the other pins as pressed."""
         position = self.mbs.systemData.GetODE2Coordinates(state)
-        answers = self.kinetics.pin_mobility(position, name, self._pressed(name, position))
+        answers = self.kinetics.pin_inverse_mass(position, name, self._pressed(name, position))
         angle = self.bore_angle(name, position)
         axes = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
-        return mobilities(answers, axes)
+        return inverse_masses(answers, axes)
 
     def _pressed(self, name: str, position: Matrix) -> dict[str, Matrix]:
         """Normals of all clearance pins but one that are pressed."""
         found = {}
-        for other, pin in self.loose_pins.items():
+        for other, pin in self.clearance_joints.items():
             if other != name:
                 x, y = self.kinetics.relative(position, self.linkage.pins[other])[0].tolist()
                 along = normal(x, y, pin.contact.bearing.clearance)
@@ -155,7 +155,7 @@ class Scene(EngineScene):
         """Let friction of ideal pins know about their forces at the start, if it turns them then.
 
         The solver's first accelerations follow from forces of friction, which follow from those of the pins:
-        without, the first step would be taken with none. Forces of loose pins and oil are left out of it.
+        without, the first step would be taken with none. Forces of clearance pins and oil are left out of it.
         """
         data = self.mbs.systemData
         position, velocity = data.GetODE2Coordinates(INITIAL), data.GetODE2Coordinates_t(INITIAL)
@@ -181,12 +181,12 @@ class Scene(EngineScene):
         """See `EngineScene`."""
         data = self.mbs.systemData
         position, rates = data.GetODE2Coordinates(INITIAL), data.GetODE2Coordinates_t(INITIAL)
-        for name, pin in self.loose_pins.items():
+        for name, pin in self.clearance_joints.items():
             bore, journal = self.ends(name)
             turn = self._turn(journal, position) - self._turn(bore, position)
             bore_motion = self.bore_angle(name, position), self._turn(bore, rates)
             memory = first_memory(self.contact(name, INITIAL))
-            pin.start(memory, self.mobilities(name, INITIAL), turn, bore_motion)
+            pin.start(memory, self.inverse_masses(name, INITIAL), turn, bore_motion)
 
     def pin_motion(self, name: str) -> PinMotion:
         """How the journal of a clearance pin moves in its bore."""
@@ -204,7 +204,7 @@ class Scene(EngineScene):
 
     def contact(self, name: str, state: Any) -> ContactForce:
         """See `EngineScene`."""
-        pin = self.loose_pins[name]
+        pin = self.clearance_joints[name]
 
         def relative(what: Any) -> tuple[float, float]:
             journal = self.mbs.GetMarkerOutput(pin.connector.journal_marker, what, state)

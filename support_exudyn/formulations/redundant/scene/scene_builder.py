@@ -19,7 +19,7 @@ from exudyn.itemInterface import (
     ObjectRigidBody2D,
 )
 
-from support_exudyn.formulations.redundant.clearance.clearance_pin import LoosePin
+from support_exudyn.formulations.redundant.clearance.clearance_pin import ClearanceJoint
 from support_exudyn.formulations.redundant.clearance.connector import Mount, PinConnector, frame
 from support_exudyn.formulations.redundant.scene.bushing import BushingItem
 from support_exudyn.formulations.redundant.scene.cylinder_item import CylinderItem
@@ -106,19 +106,19 @@ class _Builder(EngineBuilder):
         place = point if body == GROUND else self.bodies[body].local(point)
         return Mount(self.item(body), frame(place), body == GROUND)
 
-    def clearance_pin(self, scene: Scene, name: str, connector: PinConnector) -> LoosePin:
+    def clearance_pin(self, scene: Scene, name: str, connector: PinConnector) -> ClearanceJoint:
         """The pin of a connector in the whole scene."""
         node = self.node(scene.ends(name)[0])
 
         def bore_spin() -> float:
             return float(self.mbs.GetNodeOutput(node, exudyn.OutputVariableType.Coordinates_t)[2])
 
-        return LoosePin(
+        return ClearanceJoint(
             self.scenario.clearance_pins[name].contact,
             connector,
             scene.pin_motion(name),
             bore_spin,
-            partial(scene.mobilities, name),
+            partial(scene.inverse_masses, name),
             self.scenario.solver,
         )
 
@@ -160,7 +160,7 @@ class _Builder(EngineBuilder):
         rigid = {
             name: self.add_rigid_column(column)
             for name, column in linkage.columns.items()
-            if name not in scenario.giving
+            if name not in scenario.compliant_columns
         }
         cranks = {name: self.add_crank(crank) for name, crank in linkage.cranks.items()}
         slides = {name: self.add_slide(slide) for name, slide in linkage.slides.items()}
@@ -170,10 +170,10 @@ class _Builder(EngineBuilder):
             )
             for name, load in scenario.loads.items()
         }
-        settles = scenario.start == "settled"
+        is_in_equilibrium = scenario.start == "settled"
         cylinders = {
-            name: CylinderItem(mbs, filled, self.ends(linkage.columns[name]), settles)
-            for name, filled in fill_cylinders(linkage, scenario.cylinders, scenario.gravity).items()
+            name: CylinderItem(mbs, preloaded, self.ends(linkage.columns[name]), is_in_equilibrium)
+            for name, preloaded in fill_cylinders(linkage, scenario.cylinders, scenario.gravity).items()
         }
         heavy = linkage.bodies if any(scenario.gravity) else {}
         weights = {name: self.add_weight(name, body) for name, body in heavy.items()}
@@ -183,9 +183,9 @@ class _Builder(EngineBuilder):
             name: replace(item, first=int(data.GetNodeLTGODE2(item.node)[0]))
             for name, item in self.bodies.items()
         }
-        filled = fill(linkage, scenario.oil_columns, scenario.gravity)
+        preloaded = fill(linkage, scenario.oil_columns, scenario.gravity)
         rigid_columns = {n: ColumnItem(linkage.columns[n], o, multiplier(o)) for n, o in rigid.items()}
-        oil_columns = {name: OilColumnItem(filled[name], o) for name, o in oil.items()}
+        oil_columns = {name: OilColumnItem(preloaded[name], o) for name, o in oil.items()}
         crank_items = {n: CrankItem(linkage.cranks[n], o, multiplier(o)) for n, o in cranks.items()}
         scene = Scene(
             scenario=scenario,
@@ -195,7 +195,7 @@ class _Builder(EngineBuilder):
             bodies=bodies,
             ideal_pins={name: IdealItem(o, multiplier(o)) for name, o in self.ideal.items()},
             frictions=frictions,
-            loose_pins={},
+            clearance_joints={},
             compliant_pins=self.compliant,
             rigid_columns=rigid_columns,
             oil_columns=oil_columns,
@@ -212,7 +212,7 @@ class _Builder(EngineBuilder):
             friction.assembled(scene.ideal_pins[name].first, *turns)
             friction.lagged = bool(self.connectors) or scenario.jumps
         for name, connector in self.connectors.items():
-            scene.loose_pins[name] = self.clearance_pin(scene, name, connector)
+            scene.clearance_joints[name] = self.clearance_pin(scene, name, connector)
         scene.drive_to(0.0)
         scene.start_moving()
         for cylinder in cylinders.values():

@@ -1,4 +1,4 @@
-"""Static equilibrium with loose pins, so that a run can start settled."""
+"""Static equilibrium with clearance pins, so that a run can start settled."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from support_exudyn.mechanics.body_coordinates import BodyItem
 # The engine solves at the end of its only step of loads, 1 s by default: drives and loads, which are told the
 # time, would be settled as they are then.
 AT_THE_START = 1e-30  # [s]
-# A journal in the middle of its bore has no stiffness. A centring spring in every loose pin is there at
+# A journal in the middle of its bore has no stiffness. A centring spring in every clearance pin is there at
 # first, stiff enough to hold the weight of the machine within the clearance, and is then taken away.
 # What Newton's method still changes tells whether it is done. What is left of the forces does not: contacts are
 # so stiff that the rounding of coordinates of 300 m is thousands of times what is left of them near the origin.
@@ -28,7 +28,7 @@ CLOSE = 1e-11  # [m]
 ROUNDINGS = 64.0  # of the coordinates
 
 
-def settle(scene: EngineScene) -> None:
+def find_static_equilibrium(scene: EngineScene) -> None:
     """Make the static equilibrium under gravity the initial state of the scene, at rest.
 
     Elastic contact without friction. Velocities the machine asks for are set to zero. What loads bring along
@@ -43,11 +43,11 @@ def settle(scene: EngineScene) -> None:
     def stiffness(clearance: float) -> Callable[[], float]:
         return lambda: share * weight / clearance
 
-    hanging = _hanging(scene)
+    load_suspension = _load_suspension(scene)
     with ExitStack() as for_a_while:
-        for load, pull in hanging.values():
+        for load, pull in load_suspension.values():
             for_a_while.enter_context(load.hung(pull))
-        for pin in scene.loose_pins.values():
+        for pin in scene.clearance_joints.values():
             for_a_while.enter_context(pin.settling(stiffness(pin.contact.bearing.clearance)))
         for cylinder in scene.cylinders.values():
             for_a_while.enter_context(cylinder.settling())
@@ -58,7 +58,7 @@ def settle(scene: EngineScene) -> None:
                 cylinder.follow()
             scene.reset_memory()  # of where journals have shifted to along their bores
     velocity = 0.0 * data.GetODE2Coordinates_t(INITIAL)
-    for name in hanging:
+    for name in load_suspension:
         item = scene.bodies[name]
         if isinstance(item, BodyItem):  # loads are planar
             velocity[item.first : item.first + 3] = *item.body.velocity, item.body.spin
@@ -66,7 +66,7 @@ def settle(scene: EngineScene) -> None:
     scene.reset_memory()
 
 
-def _hanging(scene: EngineScene) -> dict[str, tuple[LoadItem, Any]]:
+def _load_suspension(scene: EngineScene) -> dict[str, tuple[LoadItem, Any]]:
     """By body that a load brings along, the load and the body's weight."""
     brought = {item.load.against(name): item for name, item in scene.loads.items()}
     return {body: (item, scene.weights[body]) for body, item in brought.items() if body in scene.weights}
@@ -90,7 +90,7 @@ def _solve(scene: EngineScene) -> None:
         raise SimulationError(
             Failure(
                 "no static equilibrium was found",
-                "Is every body held by pins and columns, and does gravity press the loose pins? "
+                "Is every body held by pins and columns, and does gravity press the clearance pins? "
                 "Otherwise start concentric.",
                 0.0,
             )

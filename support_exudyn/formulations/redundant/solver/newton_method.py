@@ -10,7 +10,7 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from support_exudyn.formulations.redundant.clearance.clearance_pin import LoosePin
+from support_exudyn.formulations.redundant.clearance.clearance_pin import ClearanceJoint
 from support_exudyn.scenario.scenario import Scenario
 
 ROUNDINGS = 10.0  # of a coordinate, by which steep friction scatters: what the method is asked for then
@@ -36,14 +36,14 @@ class NewtonMethod:
     """
 
     def __init__(
-        self, solver: Any, settings: Any, scenario: Scenario, pins: Sequence[LoosePin], unknowns: int
+        self, solver: Any, settings: Any, scenario: Scenario, pins: Sequence[ClearanceJoint], unknowns: int
     ) -> None:
         self._solver = solver
         self._settings = settings
         self._pins = pins
         self._unknowns = unknowns
         self._size = max(math.hypot(*body.centre) for body in scenario.linkage.bodies.values())  # [m]
-        self._scatters = False  # whether steep friction does, see `LoosePin.rounding`
+        self._scatters = False  # whether steep friction does, see `ClearanceJoint.rounding`
         self.failures = NewtonFailures(scenario.step)
 
     def begin(self, step: float) -> None:
@@ -66,7 +66,7 @@ class NewtonMethod:
         """Take note of a solved step of this length [s]."""
         if self.failures.wants_new_jacobians:
             self._solver.newton.useModifiedNewton = self._settings.useModifiedNewton
-        self.failures.solved(taken, any(pin.impact.begins_with_a_jump for pin in self._pins))
+        self.failures.solved(taken, any(pin.impact_steps.begins_with_a_jump for pin in self._pins))
 
 
 class NewtonFailures:

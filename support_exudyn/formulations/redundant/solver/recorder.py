@@ -12,19 +12,19 @@ import numpy as np
 from support_exudyn.formulations.redundant.scene.driven_parts import OilColumnItem
 from support_exudyn.formulations.redundant.scene.engine_scene import EngineScene
 from support_exudyn.formulations.redundant.solver.within_steps import RunningIntegrals, StepEnd, between
-from support_exudyn.mechanics.channels import EVERYTHING, Part
+from support_exudyn.mechanics.channels import EVERYTHING, DataNeeds
 from support_exudyn.mechanics.contact_state import PinMemory
 from support_exudyn.mechanics.trajectory import Series
 
 # of a StepEnd after its time
-STATE = (Part.POSITION, Part.VELOCITY, Part.CONTACTS)
+STATE = (DataNeeds.POSITION, DataNeeds.VELOCITY, DataNeeds.CONTACTS)
 
 
 @dataclass(frozen=True)
 class History:
     """Raw states at the records, one row each; see `channels` for what they mean.
 
-    time (n,); position, velocity (n, coordinates); memory (n, loose pins, fields of PinMemory);
+    time (n,); position, velocity (n, coordinates); memory (n, clearance pins, fields of PinMemory);
     pressure (n, 2 cylinders) as the engine has it; work, damping_loss, friction_loss (n,) [J]. What was not to
     be kept has rows without columns; integrals that were not are zero.
     """
@@ -44,16 +44,16 @@ class Recorder:
 
     Arguments:
         scene: that is run.
-        needs: what is to be kept, see `recipes`.
+        needs: what is to be kept, see `channel_definitions`.
     """
 
-    def __init__(self, scene: EngineScene, needs: Part = EVERYTHING) -> None:
+    def __init__(self, scene: EngineScene, needs: DataNeeds = EVERYTHING) -> None:
         duration = scene.scenario.duration
         # rigid columns that are held and ideal pins neither work nor lose anything
         works = any(parts.oil or (parts.multipliers and parts.moves(duration)) for parts in scene.driven)
-        self.integrates = Part.INTEGRALS in needs and bool(
+        self.integrates = DataNeeds.INTEGRALS in needs and bool(
             works
-            or scene.loose_pins
+            or scene.clearance_joints
             or scene.compliant_pins
             or scene.frictions
             or scene.loads
@@ -62,9 +62,9 @@ class Recorder:
         self._kept = tuple(part in needs for part in STATE)
         self.energies = RunningIntegrals(3)  # work of the drive, losses by damping and by friction
         self._data = scene.mbs.systemData
-        self._pins = tuple(scene.loose_pins.items())
+        self._pins = tuple(scene.clearance_joints.items())
         self._compliant = tuple(scene.compliant_pins.values())
-        self._looks = scene.scenario.solver.audit  # whether what is lost is
+        self._looks = scene.scenario.solver.result_checks  # whether what is lost is
         self._driven = tuple((parts.drive, parts.multipliers, parts.oil) for parts in scene.driven)
         self._frictions = tuple(scene.frictions.items())
         self._loads = tuple(scene.loads.items())
@@ -74,7 +74,7 @@ class Recorder:
         self._time = array("d")
         self._states = tuple(array("d") for _ in STATE)
         self._totals = array("d")
-        self._keeps_pressures = bool(self._cylinders) and Part.OIL in needs
+        self._keeps_pressures = bool(self._cylinders) and DataNeeds.OIL in needs
         self._pressures = array("d")
         self._powers_now = (0.0, 0.0, 0.0)  # [W]
         self._start: StepEnd | None = None  # of the step going on
@@ -107,7 +107,7 @@ class Recorder:
         if self._start is None:
             raise RuntimeError("begin_step: was not called before the step")
         state = between(self._start, self._state(end), t)
-        # in contact or not, with which touch: as over all of the step
+        # in contact or not, with which impact: as over all of the step
         state.memory[:, :2] = self._start.memory[:, :2]
         self._keep(t, (state.position, state.velocity, state.memory), state.totals.tolist())
 
@@ -181,7 +181,7 @@ class Recorder:
                 # the multiplier of a distance is the tension, that of a crank's angle the moment against it
                 columns -= speed * sum(float(multipliers[n]) for n in struts)
             for item in oil:
-                work, loss = item.filled.powers(*self._length(item), drive.extension(t), speed)
+                work, loss = item.preloaded.powers(*self._length(item), drive.extension(t), speed)
                 columns += work
                 damping += loss
         for name, load in self._loads:
@@ -214,5 +214,5 @@ class Recorder:
 
 
 def _memories(pins: Series | Sequence[PinMemory]) -> Series:
-    """Memory of all loose pins, shape (loose pins, fields of PinMemory)."""
+    """Memory of all clearance pins, shape (clearance pins, fields of PinMemory)."""
     return np.asarray(pins, dtype=np.float64).reshape(-1, len(PinMemory._fields))

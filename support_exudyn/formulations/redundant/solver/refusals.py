@@ -60,7 +60,7 @@ def unlawful(scene: EngineScene, ahead: float) -> tuple[str, str] | None:
             load.probe(ahead, name)
         for name, friction in scene.frictions.items():
             friction.probe(name)
-        for name, pin in scene.loose_pins.items():
+        for name, pin in scene.clearance_joints.items():
             pin.probe(name)
     except LawError as error:
         return str(error), UNLAWFUL

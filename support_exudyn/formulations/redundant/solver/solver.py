@@ -1,8 +1,8 @@
 """The generalised-alpha solver with impacts located in time.
 
-Steps lie on the grid of a StepPlan. A step in which a clearance pin touches is cut so that it ends at
-the touch, and the remainder of the grid step follows. The engine's own step control is left out of it:
-the size of every step is set here before it is tried. Where nothing can touch, the engine runs by itself
+Steps lie on the grid of a StepPlan. A step in which a clearance pin makes contact is cut so that it ends at
+the impact, and the remainder of the grid step follows. The engine's own step control is left out of it:
+the size of every step is set here before it is tried. Where nothing can make contact, the engine runs by itself
 from record to record, see `stretches`.
 
 Two traps of Exudyn 1.13.6 that this avoids: a rejected step loses the algorithmic accelerations of
@@ -26,9 +26,12 @@ from support_exudyn.formulations.redundant.scene.engine_scene import EngineScene
 from support_exudyn.formulations.redundant.solver.newton_method import NewtonMethod
 from support_exudyn.formulations.redundant.solver.recorder import Recorder
 from support_exudyn.formulations.redundant.solver.refusals import ADVICE, FEWER_STEPS, STEEP, unlawful, why
-from support_exudyn.formulations.redundant.solver.step_growth import SmoothSteps, smooth_steps
+from support_exudyn.formulations.redundant.solver.step_growth import StepGrowth, step_growth
 from support_exudyn.formulations.redundant.solver.symbolic_drive import turns_by_itself
-from support_exudyn.formulations.redundant.solver.uninterrupted_steps import Stretch, solve_in_stretches
+from support_exudyn.formulations.redundant.solver.uninterrupted_steps import (
+    UninterruptedSteps,
+    solve_uninterrupted,
+)
 from support_exudyn.formulations.time_grid import StepPlan
 from support_exudyn.mechanics.oil_column import force_rounding
 from support_exudyn.mechanics.trajectory import Counts, Impulse
@@ -48,15 +51,15 @@ FEW_STEPS = 5
 MUCH_SHORTER = 8.0
 
 
-class Run:
+class SolverRun:
     """One integration of a scene from 0 to its duration."""
 
     def __init__(self, scene: EngineScene, recorder: Recorder, progress: Progress) -> None:
         scenario = scene.scenario
         self.scene = scene
-        self.pins = tuple(scene.loose_pins.values())
+        self.pins = tuple(scene.clearance_joints.values())
         self.frictions = tuple(scene.frictions.values())
-        self.strikers = tuple(item for item in scene.loads.values() if item.load.strikes)
+        self.impacting_loads = tuple(item for item in scene.loads.values() if item.load.impacts_machine)
         self.data = scene.mbs.systemData
         self.recorder = recorder
         self.progress = progress
@@ -76,7 +79,7 @@ class Run:
             scenario.solver,
             scenario.duration,
             unknowns,
-            force_rounding([item.filled for parts in scene.driven for item in parts.oil])
+            force_rounding([item.preloaded for parts in scene.driven for item in parts.oil])
             + sum(pin.rounding for pin in scene.compliant_pins.values()),
             bool(self.cylinders),
         )
@@ -85,7 +88,7 @@ class Run:
         # what a load does need not show in accelerations, and long steps would pass over where it begins
         # and pressures are not interpolated at records that a step passes over
         grows = scenario.solver.growth > 1.0 and not scene.loads and not scene.cylinders
-        self.smooth = smooth_steps(scene) if grows else None
+        self.smooth = step_growth(scene) if grows else None
         self.time = 0.0  # end of the last accepted step
         self.steps = self.cut_steps = self.failed_newton = 0
         self.most_steps = scenario.solver.most_steps
@@ -94,16 +97,22 @@ class Run:
         newton = self.settings.timeIntegration.newton
         self.newton = NewtonMethod(self.solver, newton, scenario, self.pins, unknowns)
         # whether anything of the model has to follow a drive, and whether Python has to see every step
-        self.follows = self.valves or any(parts.moves(scenario.duration) for parts in scene.driven)
-        self.watches = bool(self.pins or self.frictions or self.strikers) or self.smooth is not None
+        self.has_prescribed_motion = self.valves or any(
+            parts.moves(scenario.duration) for parts in scene.driven
+        )
+        self.needs_step_callbacks = (
+            bool(self.pins or self.frictions or self.impacting_loads) or self.smooth is not None
+        )
         columns = any(parts.rigid or parts.oil for parts in scene.driven if parts.moves(scenario.duration))
         if (
             (columns or self.valves)
             and recorder.integrates
             and scenario.step * FEW_STEPS > scenario.record_period
         ):
-            self.watches = True  # it is called in every step anyway, and a stretch costs more than it saves
-        self.audited = -math.inf  # end of the last step that the recorder has been told of [s]
+            self.needs_step_callbacks = (
+                True  # it is called in every step anyway, and a stretch costs more than it saves
+            )
+        self.checked = -math.inf  # end of the last step that the recorder has been told of [s]
 
     def go(self) -> Counts:
         """Integrate. Raises SimulationError if the run cannot be finished."""
@@ -118,10 +127,10 @@ class Run:
         self.connect()
         try:
             with quiet_engine():
-                if self.watches:
+                if self.needs_step_callbacks:
                     finished = self.solver.SolveSystem(mbs, self.settings)
                 else:
-                    finished = self._go_in_stretches()
+                    finished = self._go_uninterrupted()
         except LawError as error:  # between two stretches
             raise SimulationError(self._failure(str(error), UNLAWFUL)) from error
         except exudyn.ExudynError as error:
@@ -144,32 +153,32 @@ class Run:
     def connect(self) -> None:
         """Have the engine call what has to see every step, and nothing else."""
         mbs = self.scene.mbs
-        if self.watches:
+        if self.needs_step_callbacks:
             mbs.SetPreStepUserFunction(self._before_try)
             if self.pins:
                 mbs.SetPostNewtonUserFunction(self._after_newton)
             mbs.SetPostStepUserFunction(self._after_step)
             return
-        if self.follows and not turns_by_itself(self.scene):
+        if self.has_prescribed_motion and not turns_by_itself(self.scene):
             mbs.SetPreStepUserFunction(self._follow)
         if self.recorder.integrates:
-            mbs.SetPostStepUserFunction(self._audit)
+            mbs.SetPostStepUserFunction(self._result_checks)
 
-    def _go_in_stretches(self) -> bool:
+    def _go_uninterrupted(self) -> bool:
         """Integrate where nothing is to be decided between one record or break and the next."""
         mbs, finished = self.scene.mbs, False
         try:
-            finished = solve_in_stretches(self.solver, mbs, self.settings, self._stretch, self._arrive)
+            finished = solve_uninterrupted(self.solver, mbs, self.settings, self._stretch, self._arrive)
         finally:
             if not finished:
                 self.time = float(self.data.GetTime())  # inside a stretch
         return finished
 
-    def _stretch(self, t: float) -> Stretch | None:
+    def _stretch(self, t: float) -> UninterruptedSteps | None:
         """The equal steps from t [s] on."""
         if t >= self.plan.duration * (1.0 - 1e-12):
             return None
-        return Stretch(*self.plan.stretch(t, self._longest_step(t)))
+        return UninterruptedSteps(*self.plan.run_of_steps(t, self._longest_step(t)))
 
     def _arrive(self, t: float, steps: int, repeats: int) -> float:
         """A stretch of so many steps has ended at t [s]; so many had to be repeated."""
@@ -177,7 +186,7 @@ class Run:
         self.failed_newton += repeats
         self._count()
         if t == 0.0 and self.recorder.integrates:  # before the speed jumps; the engine tells the start later
-            self._audit(self.scene.mbs, t)
+            self._result_checks(self.scene.mbs, t)
         return self._arrived(t)
 
     # --- called by the engine ---
@@ -205,10 +214,10 @@ class Run:
         self.scene.drive_to(t)
         return True
 
-    def _audit(self, mbs: Any, t: float) -> bool:
+    def _result_checks(self, mbs: Any, t: float) -> bool:
         """Count the energies of a step that nothing else sees; the start of a stretch is told twice."""
-        if t > self.audited:
-            self.audited = t
+        if t > self.checked:
+            self.checked = t
             self.recorder.after_step(t, bool(self.plan.breaks_at(t)))
         return True
 
@@ -217,7 +226,7 @@ class Run:
         again, shortest = False, math.inf
         name = ""
         try:
-            for name, pin in self.scene.loose_pins.items():  # noqa: B007 - is told if one fails
+            for name, pin in self.scene.clearance_joints.items():  # noqa: B007 - is told if one fails
                 step = pin.after_newton(t)
                 if step is not None:
                     again, shortest = True, min(shortest, step)
@@ -242,7 +251,7 @@ class Run:
             self.steps += 1
             self._look_for_limits()
             self.newton.solved(taken)
-            for name, pin in self.scene.loose_pins.items():
+            for name, pin in self.scene.clearance_joints.items():
                 kink = kink or pin.onset is not None
                 try:
                     pin.accept(t)
@@ -297,14 +306,14 @@ class Run:
     def _is_to_be_cut(self, taken: float, following: float) -> bool:
         """Whether far shorter steps follow on one of this length [s], or the next will be cut.
 
-        It will if a loose pin touches or parts in it.
+        It will if a clearance pin begins or ends a contact in it.
         """
         if not self.pins or not self.locates:
             return False
         if following < taken / MUCH_SHORTER:
             return True
         for pin in self.pins:
-            if pin.impact.step == math.inf:
+            if pin.impact_steps.step == math.inf:
                 depth = pin.reached.depth
                 if depth * (depth + 2.0 * following * pin.reached.rate) < 0.0:
                     return True
@@ -326,18 +335,18 @@ class Run:
         if self.newton.failures.too_many:
             reason = f"Newton's method has failed {self.failed_newton} times, and needs next to no step"
             raise SimulationError(self._failure(reason, STEEP))
-        if not self.scene.scenario.solver.audit:
+        if not self.scene.scenario.solver.result_checks:
             return
-        for name, pin in self.scene.loose_pins.items():
+        for name, pin in self.scene.clearance_joints.items():
             bearing = pin.contact.bearing
             if pin.reached.depth > DEEPEST * bearing.bore_radius:
                 raise SimulationError(self._failure(too_deep(name, pin.reached.depth, bearing), SOFT))
 
-    def _look_for_smoothness(self, t: float, smooth: SmoothSteps) -> None:
+    def _look_for_smoothness(self, t: float, smooth: StepGrowth) -> None:
         """See whether steps after t may be longer, and keep the records that the last has passed over."""
         for passed in self.plan.records_between(self.time, t):
             self.recorder.record_between(passed, t)
-        at_rest = all(pin.impact.step == math.inf and pin.reached.depth > 0.0 for pin in self.pins)
+        at_rest = all(pin.impact_steps.step == math.inf and pin.reached.depth > 0.0 for pin in self.pins)
         if at_rest and not self.repeated and not self.plan.follows_break(t):
             smooth.follow(t - self.time, self.data.GetODE2Coordinates_tt())
         else:
@@ -369,8 +378,8 @@ class Run:
         largest = self.newton.failures.length
         for pin in self.pins:
             largest = min(largest, pin.longest_step)
-        for striker in self.strikers:
-            largest = min(largest, striker.longest_step(t, self.impact_steps))
+        for impacting_load in self.impacting_loads:
+            largest = min(largest, impacting_load.longest_step(t, self.impact_steps))
         if self.locates and self.plan.follows_break(t):
             largest = min(largest, self.plan.step / BREAK_REFINEMENT)
         return largest
@@ -391,8 +400,8 @@ class Run:
         state: dict[str, float] = {"step": float(self.solver.it.currentStepSize)}
         for name, spin in self.scene.spins().items():
             state[f"{name}.angular_velocity"] = spin
-        for name, pin in self.scene.loose_pins.items():
+        for name, pin in self.scene.clearance_joints.items():
             state[f"pin.{name}.depth"] = pin.memory.depth
             state[f"pin.{name}.rate"] = pin.memory.rate
-            state[f"pin.{name}.approach_speed"] = pin.memory.approach_speed
+            state[f"pin.{name}.impact_velocity"] = pin.memory.impact_velocity
         return Failure(reason, advice, self.time, state, finer=advice is not FEWER_STEPS)

@@ -23,7 +23,7 @@ CALM_STEPS = 4
 CALM = 0.25
 
 
-class SmoothSteps:
+class StepGrowth:
     """Length of the steps while nothing is in an impact.
 
     Arguments:
@@ -67,12 +67,10 @@ class SmoothSteps:
         return math.sqrt(float(self._mass @ (acceleration * acceleration)))
 
 
-def smooth_steps(scene: EngineScene) -> SmoothSteps:
+def step_growth(scene: EngineScene) -> StepGrowth:
     """How the steps of a scene grow."""
     scenario = scene.scenario
     step = min(scenario.step, scenario.record_period)
     longest = scenario.solver.growth * scenario.step
     mass = sum(item.body.mass for item in scene.bodies.values())
-    return SmoothSteps(
-        step, longest, scene.coordinate_masses(), math.sqrt(mass) * math.hypot(*scenario.gravity)
-    )
+    return StepGrowth(step, longest, scene.coordinate_masses(), math.sqrt(mass) * math.hypot(*scenario.gravity))

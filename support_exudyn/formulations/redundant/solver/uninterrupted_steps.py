@@ -13,18 +13,18 @@ from typing import Any, NamedTuple
 ROUNDING = 1e-6  # of a step
 
 
-class Stretch(NamedTuple):
+class UninterruptedSteps(NamedTuple):
     """Equal steps: where the last ends [s], and how many they are."""
 
     end: float
     steps: int
 
 
-def solve_in_stretches(
+def solve_uninterrupted(
     solver: Any,
     mbs: Any,
     settings: Any,
-    following: Callable[[float], Stretch | None],
+    following: Callable[[float], UninterruptedSteps | None],
     arrive: Callable[[float, int, int], float],
 ) -> bool:
     """Integrate from 0; whether it could be finished.
@@ -40,15 +40,15 @@ def solve_in_stretches(
         return False
     it = solver.it
     t = arrive(0.0, 0, 0)
-    while (stretch := following(t)) is not None:
-        size = (stretch.end - float(it.currentTime)) / stretch.steps
-        it.endTime = stretch.end
+    while (run_of_steps := following(t)) is not None:
+        size = (run_of_steps.end - float(it.currentTime)) / run_of_steps.steps
+        it.endTime = run_of_steps.end
         it.maxStepSize = it.currentStepSize = size
         if not solver.SolveSteps(mbs, settings):
             return False
         t = float(it.currentTime)
-        if abs(t - stretch.end) < ROUNDING * size:  # of a sum of steps; the next stretch makes up for it
-            t = stretch.end
+        if abs(t - run_of_steps.end) < ROUNDING * size:  # of a sum of steps; the next stretch makes up for it
+            t = run_of_steps.end
         repeats = max(0, round(math.log2(size / float(it.currentStepSize))))
         t = arrive(t, int(it.currentStepIndex) - 1, repeats)  # the engine counts from 1 in every stretch
     solver.FinalizeSolver(mbs, settings)

@@ -57,7 +57,7 @@ class RunningIntegrals:
 class StepEnd(NamedTuple):
     """State of a run at an end of a step.
 
-    time: [s]. position, velocity, acceleration (coordinates,). memory (loose pins, fields of PinMemory).
+    time: [s]. position, velocity, acceleration (coordinates,). memory (clearance pins, fields of PinMemory).
     totals (3,): integrals over time [J]. powers (3,): their rates [W].
     """
 

@@ -15,7 +15,7 @@ from support_exudyn.mechanics.contact_history import RelativeMotion, journal_arm
 from support_exudyn.mechanics.drive_acceleration import accelerations as drive_accelerations
 from support_exudyn.mechanics.oil_column import OilSeries
 from support_exudyn.mechanics.space.accelerations import accelerations
-from support_exudyn.mechanics.space.constraints import Row, direction_of
+from support_exudyn.mechanics.space.constraints import Constraint, direction_of
 from support_exudyn.mechanics.space.kinetics import inertias, weight
 from support_exudyn.mechanics.space.motion import SpatialMotion, cross, motion_of
 from support_exudyn.mechanics.space.reactions import inertia_forces, reactions
@@ -27,7 +27,7 @@ from user_forces.friction.frictionless import Frictionless
 
 @dataclass(frozen=True)
 class SectionSeries:
-    """A section of a loose bearing over time.
+    """A section of a clearance bearing over time.
 
     motion: of its journal. contact: depths and forces in the axes of the bore. force: of the bore on the
     journal (n, 3) [N], ground's axes. point: where it acts (n, 3) [m].
@@ -115,8 +115,10 @@ class Observation:
         apart, relative = self.span(name)
         length = np.linalg.norm(apart, axis=1)
         moving = length, np.einsum("ni,ni->n", apart, relative) / length, extension, speed
-        filled = self.scene.oil_columns[name].filled
-        return OilSeries(filled.force(*moving), filled.energy(length, extension), *filled.powers(*moving))
+        preloaded = self.scene.oil_columns[name].preloaded
+        return OilSeries(
+            preloaded.force(*moving), preloaded.energy(length, extension), *preloaded.powers(*moving)
+        )
 
     def span(self, column: str) -> tuple[Series, Series]:
         """The vector from foot to head of a column, and its rate, (n, 3) each."""
@@ -138,7 +140,7 @@ class Observation:
         return accelerations(self.motion, self.scene.rows, driven, self._applied - turning)
 
     @cached_property
-    def held(self) -> dict[Row, Series]:
+    def held(self) -> dict[Constraint, Series]:
         """Force of everything that is held, (n,) each; see `reactions`."""
         left = inertia_forces(self.motion, self.accelerations) - self._applied
         rows = self.scene.all_rows
@@ -146,7 +148,7 @@ class Observation:
 
     @cached_property
     def _applied(self) -> Series:
-        """Weights and forces of oil and loose bearings on all bodies, (n, b, 6)."""
+        """Weights and forces of oil and clearance bearings on all bodies, (n, b, 6)."""
         weights = weight(self.scene.linkage, self.scene.gravity).reshape(1, -1, 6)
         forces = np.tile(weights, (self.motion.count, 1, 1))
         for name, oil in self.oil.items():
@@ -173,7 +175,7 @@ class Observation:
 
     def column_force(self, name: str) -> Series:
         """Force that pushes a column's ends apart (n,) [N]."""
-        return self.oil[name].force if name in self.oil else self.held[Row(name, "column")]
+        return self.oil[name].force if name in self.oil else self.held[Constraint(name, "column")]
 
     def bearing_load(self, name: str) -> tuple[Series, Series]:
         """Force of the first body on the second [N], moment about the bearing's middle [N m], (n, 3) each."""

@@ -23,9 +23,9 @@ from support_exudyn.formulations.redundant.scene.pin_friction import PinFriction
 from support_exudyn.formulations.redundant.space.section_pin import SectionPin
 from support_exudyn.formulations.redundant.space.sections import ends
 from support_exudyn.mechanics.body_coordinates import ColumnItem
-from support_exudyn.mechanics.contact_state import Mobility
-from support_exudyn.mechanics.pressed_pins import Mobilities, held, normal
-from support_exudyn.mechanics.space.constraints import End, Row, all_rows, independent, matrix
+from support_exudyn.mechanics.contact_state import InverseMass
+from support_exudyn.mechanics.pressed_pins import EffectiveMasses, held, normal
+from support_exudyn.mechanics.space.constraints import BearingEnd, Constraint, all_rows, independent, matrix
 from support_exudyn.mechanics.space.kinetics import SpatialKinetics
 from support_exudyn.mechanics.space.motion import COORDINATES, SpatialMotion, motion_of, parameter_rates
 from support_exudyn.mechanics.space.reactions import reactions
@@ -37,7 +37,7 @@ from user_forces.values.value import Vector3
 
 
 @dataclass(frozen=True)
-class BodyItem:
+class SpatialBodyItem:
     """A moving body in the engine: its node, object and the first of its seven coordinates."""
 
     body: SpatialBody
@@ -57,11 +57,11 @@ class SpatialScene(EngineScene):
     linkage: SpatialLinkage
     container: Any  # owns the system: must live as long as it
     mbs: Any
-    bodies: dict[str, BodyItem]
-    rows: Sequence[Row]
-    all_rows: Sequence[Row]
-    loose_pins: dict[str, SectionPin]
-    sections: dict[str, list[SectionPin]]  # of every loose bearing
+    bodies: dict[str, SpatialBodyItem]
+    rows: Sequence[Constraint]
+    all_rows: Sequence[Constraint]
+    clearance_joints: dict[str, SectionPin]
+    sections: dict[str, list[SectionPin]]  # of every clearance bearing
     rigid_columns: dict[str, ColumnItem]
     oil_columns: dict[str, OilColumnItem]
     driven: tuple[DrivenParts, ...]  # all columns, by the drive that they follow
@@ -105,7 +105,7 @@ class SpatialScene(EngineScene):
         """Masses and the constraints of the model as matrices."""
         return SpatialKinetics(self.motion(state), self.rows)
 
-    def mobilities(self, name: str, state: Any = CURRENT) -> Mobilities:
+    def inverse_masses(self, name: str, state: Any = CURRENT) -> EffectiveMasses:
         """How the middle of a bearing's journal answers impulses, in its bore's axes, for its pin's law.
 
         A bearing of a pair has a share of its pin's force and energy, so the law of the pin is told the mass
@@ -124,7 +124,7 @@ class SpatialScene(EngineScene):
         others = [normals[other][None] @ along[other] for other in normals if other not in parts]
         answers = kinetics.answers(np.concatenate([along[name], together, *others]))
         alone, pressed = bearings[name].share * answers[:2, :2], share * held(answers[2:, 2:])
-        return Mobilities(Mobility.of(alone), Mobility.of(pressed))
+        return EffectiveMasses(InverseMass.of(alone), InverseMass.of(pressed))
 
     def _normals(self, state: Any) -> dict[str, Series]:
         """Along which the journals are pressed that are, in the axes of their bores."""
@@ -132,16 +132,16 @@ class SpatialScene(EngineScene):
         at = data.GetODE2Coordinates(state).tolist(), data.GetODE2Coordinates_t(state).tolist()
         for name, group in self.sections.items():
             clearance = group[0].contact.bearing.clearance
-            touching = (normal(*pin.moving.when(*at)[1][:2], clearance) for pin in group)
-            if any(one is not None for one in touching):
+            closed = (normal(*pin.moving.when(*at)[1][:2], clearance) for pin in group)
+            if any(one is not None for one in closed):
                 x, y = group[0].whole.moving.when(*at)[1][:2]
                 size = np.hypot(x, y)
                 if size > 0.0:  # else it is wedged, and pressed in no direction
                     found[name] = np.array([x, y]) / size
         return found
 
-    def ends_of(self, name: str) -> tuple[End, End]:
-        """Bore and journal of a loose bearing."""
+    def ends_of(self, name: str) -> tuple[BearingEnd, BearingEnd]:
+        """Bore and journal of a clearance bearing."""
         bearing = self.linkage.bearings[name]
         return ends(bearing, self.scenario.clearance_pins[bearing.pin].bore)
 
@@ -200,24 +200,24 @@ class SpatialScene(EngineScene):
         """See `EngineScene`."""
         data = self.mbs.systemData
         at = data.GetODE2Coordinates(INITIAL).tolist(), data.GetODE2Coordinates_t(INITIAL).tolist()
-        for pin in self.loose_pins.values():
+        for pin in self.clearance_joints.values():
             pin.look_beside(*at)
         for name, group in self.sections.items():
-            mobilities = self.mobilities(name, INITIAL)
+            inverse_masses = self.inverse_masses(name, INITIAL)
             for n, pin in enumerate(group):
                 bore, journal = pin.moving.when(*at)
                 memory = first_memory(self.contact(f"{name}[{n}]", INITIAL))
-                pin.start(memory, mobilities, journal[4], (0.0, bore[5]))
+                pin.start(memory, inverse_masses, journal[4], (0.0, bore[5]))
 
     def contact(self, name: str, state: Any) -> ContactForce:
         """See `EngineScene`."""
-        pin, data = self.loose_pins[name], self.mbs.systemData
+        pin, data = self.clearance_joints[name], self.mbs.systemData
         at = data.GetODE2Coordinates(state).tolist(), data.GetODE2Coordinates_t(state).tolist()
         bore, (x, y, vx, vy, _, spin) = pin.moving.when(*at)
         return pin.contact.force(x, y, vx, vy, bore[5], spin, None)
 
 
-def rates(rows: Sequence[Row], speeds: Mapping[str, float]) -> Series:
+def rates(rows: Sequence[Constraint], speeds: Mapping[str, float]) -> Series:
     """Rates of all rows: of columns as told [m/s], else 0."""
     return np.array([speeds[row.name] if row.kind == "column" else 0.0 for row in rows])
 

@@ -22,10 +22,10 @@ from exudyn.itemInterface import (
 from support_exudyn.formulations.redundant.clearance.connector import Mount, PinConnector
 from support_exudyn.formulations.redundant.scene.driven_parts import OilColumnItem, by_drive
 from support_exudyn.formulations.redundant.scene.engine_builder import EngineBuilder
-from support_exudyn.formulations.redundant.space.scene import BodyItem, SpatialScene
+from support_exudyn.formulations.redundant.space.scene import SpatialBodyItem, SpatialScene
 from support_exudyn.formulations.redundant.space.section_pin import (
-    Journal,
     SectionEnd,
+    SectionJournal,
     SectionMover,
     SectionPin,
     marker_frame,
@@ -33,8 +33,8 @@ from support_exudyn.formulations.redundant.space.section_pin import (
 )
 from support_exudyn.formulations.redundant.space.sections import ends, sections
 from support_exudyn.mechanics.body_coordinates import ColumnItem
-from support_exudyn.mechanics.oil_column import FilledColumn, fill
-from support_exudyn.mechanics.space.constraints import End, Kind, all_rows, frame_of, independent, matrix
+from support_exudyn.mechanics.oil_column import PreloadedColumn, fill
+from support_exudyn.mechanics.space.constraints import BearingEnd, Kind, all_rows, frame_of, independent, matrix
 from support_exudyn.mechanics.space.motion import COORDINATES, motion_of, parameter_rates
 from support_exudyn.model.columns import OilColumn
 from support_exudyn.model.linkage import GROUND
@@ -52,7 +52,7 @@ class _Builder(EngineBuilder):
         self.linkage = linkage
         self.bodies = {name: self.add_body(body) for name, body in linkage.bodies.items()}
 
-    def add_body(self, body: SpatialBody) -> BodyItem:
+    def add_body(self, body: SpatialBody) -> SpatialBodyItem:
         rates = parameter_rates(np.array([1.0, 0.0, 0.0, 0.0]), np.array(body.spin))
         node = self.mbs.AddNode(
             NodeRigidBodyEP(
@@ -61,7 +61,7 @@ class _Builder(EngineBuilder):
             )
         )
         item = self.mbs.AddObject(ObjectRigidBody(mass=body.mass, inertia=body.inertia, nodeNumber=node))
-        return BodyItem(body, node, item, first=-1)
+        return SpatialBodyItem(body, node, item, first=-1)
 
     def centre(self, body: str) -> Vector3:
         return (0.0, 0.0, 0.0) if body == GROUND else self.linkage.bodies[body].centre
@@ -71,7 +71,7 @@ class _Builder(EngineBuilder):
         local = np.array(point) - np.array(self.centre(body))
         return MarkerBodyPosition(bodyNumber=self.item(body), localPosition=local)
 
-    def frame_marker(self, end: End) -> Any:
+    def frame_marker(self, end: BearingEnd) -> Any:
         """A marker in the middle of a bore or journal, its z along the axis."""
         frame = marker_frame(end, 0.0, self.centre(end.body))
         return self.mbs.AddMarker(MarkerBodyRigid(bodyNumber=self.item(end.body), localHT=frame))
@@ -80,7 +80,7 @@ class _Builder(EngineBuilder):
         markers = [self.frame_marker(end) for end in ends(bearing, "first")]
         return self.mbs.AddObject(joint(bearing, held, markers))
 
-    def mount(self, end: End, place: float) -> Mount:
+    def mount(self, end: BearingEnd, place: float) -> Mount:
         """Where a section of a bore or a journal is."""
         frame = marker_frame(end, place, self.centre(end.body))
         return Mount(self.item(end.body), frame, end.body == GROUND)
@@ -116,7 +116,7 @@ class _Builder(EngineBuilder):
             at_bore, at_journal = (self.section_end(scene, end, place) for end in (bore, journal))
             return SectionMover(data, at_bore, at_journal, connector.at)
 
-        whole = Journal(mover(0.0, connectors[0]), partial(scene.mobilities, name))
+        whole = SectionJournal(mover(0.0, connectors[0]), partial(scene.inverse_masses, name))
         return [
             SectionPin(
                 pin.contact,
@@ -134,7 +134,9 @@ class _Builder(EngineBuilder):
 
     def build(self) -> SpatialScene:
         scenario, linkage = self.scenario, self.linkage
-        loose = [name for name, bearing in linkage.bearings.items() if bearing.pin in scenario.clearance_pins]
+        with_clearance = [
+            name for name, bearing in linkage.bearings.items() if bearing.pin in scenario.clearance_pins
+        ]
         on_oil = [name for name, column in linkage.columns.items() if column.column in scenario.oil_columns]
         candidates = all_rows(
             linkage, list(scenario.clearance_pins), [name for name in linkage.columns if name not in on_oil]
@@ -150,7 +152,7 @@ class _Builder(EngineBuilder):
             row.name: self.add_rigid_column(linkage.columns[row.name]) for row in rows if row.kind == "column"
         }
         oil = {name: self.add_oil_column(linkage.columns[name]) for name in on_oil}
-        connectors = {name: self.add_connectors(linkage.bearings[name]) for name in loose}
+        connectors = {name: self.add_connectors(linkage.bearings[name]) for name in with_clearance}
         if any(scenario.gravity):
             for name, body in linkage.bodies.items():
                 self.add_weight(name, body)
@@ -163,7 +165,9 @@ class _Builder(EngineBuilder):
         rigid_items: dict[str, ColumnItem] = {
             name: ColumnItem(linkage.columns[name], item, self.multiplier(item)) for name, item in rigid.items()
         }
-        oil_items = {name: OilColumnItem(filled, oil[name]) for name, filled in self.filled(oil).items()}
+        oil_items = {
+            name: OilColumnItem(preloaded, oil[name]) for name, preloaded in self.preloaded(oil).items()
+        }
         scene = SpatialScene(
             scenario=scenario,
             linkage=linkage,
@@ -172,7 +176,7 @@ class _Builder(EngineBuilder):
             bodies=bodies,
             rows=rows,
             all_rows=candidates,
-            loose_pins={},
+            clearance_joints={},
             sections={},
             rigid_columns=rigid_items,
             oil_columns=oil_items,
@@ -180,13 +184,13 @@ class _Builder(EngineBuilder):
         )
         for name, group in connectors.items():
             scene.sections[name] = pins = self.section_pins(scene, name, group)
-            scene.loose_pins.update({f"{name}[{n}]": pin for n, pin in enumerate(pins)})
+            scene.clearance_joints.update({f"{name}[{n}]": pin for n, pin in enumerate(pins)})
         scene.drive_to(0.0)
         scene.start_moving()
         scene.reset_memory()
         return scene
 
-    def filled(self, oil: dict[str, Any]) -> dict[str, FilledColumn]:
+    def preloaded(self, oil: dict[str, Any]) -> dict[str, PreloadedColumn]:
         """Oil columns that hold the machine: those of the plane, each side with its share of the area."""
         plane = fill(self.scenario.linkage, self.scenario.oil_columns, self.scenario.gravity)
         found = {}
@@ -197,7 +201,7 @@ class _Builder(EngineBuilder):
             found[name] = replace(whole, model=model)
         return found
 
-    def section_end(self, scene: SpatialScene, end: End, place: float) -> SectionEnd:
+    def section_end(self, scene: SpatialScene, end: BearingEnd, place: float) -> SectionEnd:
         """Where a section of a bore or a journal stands in the engine's coordinates."""
         frame = np.array(marker_frame(end, place, self.centre(end.body)))
         first = None if end.body == GROUND else scene.bodies[end.body].first

@@ -1,4 +1,4 @@
-"""One section of a loose bearing over a run: a pin with clearance like those of the plane, and how it moves."""
+"""One section of a bearing with clearance over a run: a clearance pin like those of the plane."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ import numpy as np
 
 from support_exudyn.formulations.impact_steps import ImpactSteps
 from support_exudyn.formulations.peak_force import NEAR_PEAK, has_a_top, peak
-from support_exudyn.formulations.redundant.clearance.clearance_pin import LoosePin
+from support_exudyn.formulations.redundant.clearance.clearance_pin import ClearanceJoint
 from support_exudyn.formulations.redundant.clearance.connector import PinConnector
 from support_exudyn.formulations.redundant.clearance.connector_force import Attachment
 from support_exudyn.formulations.redundant.clearance.pin_motion import Motion, in_plane
 from support_exudyn.formulations.redundant.space.sections import ON_LINE, Section
 from support_exudyn.mechanics.contact_state import Onset, PinMemory
-from support_exudyn.mechanics.pressed_pins import Mobilities
-from support_exudyn.mechanics.space.constraints import End, frame_of
+from support_exudyn.mechanics.pressed_pins import EffectiveMasses
+from support_exudyn.mechanics.space.constraints import BearingEnd, frame_of
 from support_exudyn.scenario.solver_settings import SolverSettings
 from user_forces.contact import JournalContact
 from user_forces.normal.part import PartOf
@@ -185,8 +185,8 @@ def half_way(axes: Axes, along: Vector) -> Axes:
     return turned(first), turned(second), middle
 
 
-class Journal:
-    """What the sections of one loose bearing share: where its middle is and how it answers impulses.
+class SectionJournal:
+    """What the sections of one clearance bearing share: where its middle is and how it answers impulses.
 
     Both are asked for by every section in every step of an impact, and found once.
 
@@ -195,28 +195,28 @@ class Journal:
         find_mobilities: tells how its middle answers impulses now, in the axes of its bore.
     """
 
-    def __init__(self, moving: SectionMover, find_mobilities: Callable[[], Mobilities]) -> None:
+    def __init__(self, moving: SectionMover, find_inverse_masses: Callable[[], EffectiveMasses]) -> None:
         self.moving = moving
-        self._find_mobilities = find_mobilities
-        self._mobilities: Mobilities | None = None
+        self._find_mobilities = find_inverse_masses
+        self._inverse_masses: EffectiveMasses | None = None
         self._place: Vector2 | None = None
         self.sections: list[SectionPin] = []
         self.onsets: list[Onset] = []  # of the journal, which was all apart
         self.largest_force = 0.0  # [N], at any time
         self._bound = 0.0  # of the force at the end of the last step [N]
         self._places: list[Vector2] = []  # of the sections in the bore at its end, bore's axes [m]
-        # of each section: whether it was in contact before the step, and its touch in it
+        # of each section: whether it was in contact before the step, and its impact in it
         self._before: list[tuple[bool, Onset | None]] = []
 
     def moved(self) -> None:
         """The bodies are elsewhere now."""
-        self._mobilities = self._place = None
+        self._inverse_masses = self._place = None
 
-    def mobilities(self) -> Mobilities:
+    def inverse_masses(self) -> EffectiveMasses:
         """How the middle of the journal answers impulses, in the axes of its bore."""
-        if self._mobilities is None:
-            self._mobilities = self._find_mobilities()
-        return self._mobilities
+        if self._inverse_masses is None:
+            self._inverse_masses = self._find_mobilities()
+        return self._inverse_masses
 
     def place(self) -> Vector2:
         """The place of the journal's middle in its bore, in the bore's axes [m]."""
@@ -226,15 +226,15 @@ class Journal:
         return self._place
 
     def accepted(self, was_in_contact: bool, onset: Onset | None, t: float) -> None:
-        """A section has kept a step to t [s]: was it in contact before, and the touch in it, if any."""
+        """A section has kept a step to t [s]: was it in contact before, and the impact in it, if any."""
         self._before.append((was_in_contact, onset))
         if len(self._before) < len(self.sections):
             return
-        touches = [touch for _, touch in self._before if touch is not None]
-        # a journal touches when all that was in contact before has parted
-        if touches and all(touch is not None for was, touch in self._before if was):
-            self.onsets.append(min(touches))
-        self._look_for_parting(t)
+        impacts = [impact for _, impact in self._before if impact is not None]
+        # a journal makes contact when all that was in contact before has separated
+        if impacts and all(impact is not None for was, impact in self._before if was):
+            self.onsets.append(min(impacts))
+        self._look_for_separation(t)
         self._before.clear()
         forces = [pin.force for pin in self.sections]
         before, self._bound = self._bound, sum(f.normal_force + abs(f.friction_force) for f in forces)
@@ -246,13 +246,13 @@ class Journal:
             if has:
                 self.largest_force = peak(self._resultant, self.largest_force)
 
-    def _look_for_parting(self, t: float) -> None:
-        """If in the step to t [s] the last sections have parted: note when, and the highest speed of these."""
+    def _look_for_separation(self, t: float) -> None:
+        """If in the step to t [s] the last sections have separated: note when, and their highest speed."""
         if not self.onsets or any(pin.kept.in_contact for pin in self.sections):
             return
-        parted = [-pin.kept.rate for pin, (was, _) in zip(self.sections, self._before, strict=True) if was]
-        if parted:
-            self.onsets[-1] = self.onsets[-1].parted(t, max(parted))
+        separated = [-pin.kept.rate for pin, (was, _) in zip(self.sections, self._before, strict=True) if was]
+        if separated:
+            self.onsets[-1] = self.onsets[-1].separated(t, max(separated))
 
     def _bound_within(self, fraction: float) -> float:
         """What the force is at most [N] at a fraction of the step just accepted."""
@@ -271,8 +271,8 @@ class Journal:
         return math.hypot(total_x, total_y)
 
 
-class SectionPin(LoosePin):
-    """One section of a loose bearing.
+class SectionPin(ClearanceJoint):
+    """One section of a clearance bearing.
 
     Arguments:
         contact: of the whole pin.
@@ -290,16 +290,16 @@ class SectionPin(LoosePin):
         connector: PinConnector,
         moving: SectionMover,
         bore_spin: Callable[[], float],
-        whole: Journal,
+        whole: SectionJournal,
         section: Section,
-        ends: tuple[End, End],
+        ends: tuple[BearingEnd, BearingEnd],
         *,
         slides: bool,
         settings: SolverSettings,
     ) -> None:
         part = part_of(contact, section)
-        super().__init__(part, connector, moving, bore_spin, whole.mobilities, settings, section.share)
-        self.impact = ImpactSteps(contact.normal, settings.impact_steps)  # steps of the whole
+        super().__init__(part, connector, moving, bore_spin, whole.inverse_masses, settings, section.share)
+        self.impact_steps = ImpactSteps(contact.normal, settings.impact_steps)  # steps of the whole
         self.section, self.whole, self.moving, self.ends, self.slides = section, whole, moving, ends, slides
         whole.sections.append(self)
         self._beside = 0.0, 0.0  # where the journal is along the bore at the last accepted step [m], [m/s]
@@ -315,26 +315,26 @@ class SectionPin(LoosePin):
         self.connector.slide(*self.moving.shifts)
 
     def begin_try(self, step: float) -> None:
-        """See `LoosePin`."""
+        """See `ClearanceJoint`."""
         if self.slides:
             self._meet(self._beside[0] + step * self._beside[1])
         super().begin_try(step)
 
     def after_newton(self, t: float) -> float | None:
-        """See `LoosePin`."""
+        """See `ClearanceJoint`."""
         if self is self.whole.sections[0]:
             self.whole.moved()
         return super().after_newton(t)
 
     def jumped(self, memory: PinMemory) -> None:
-        """See `LoosePin`."""
+        """See `ClearanceJoint`."""
         if self is self.whole.sections[0]:
             self.whole.moved()
         super().jumped(memory)
         self.look_beside(*self.moving.coordinates())
 
     def accept(self, t: float) -> None:
-        """See `LoosePin`."""
+        """See `ClearanceJoint`."""
         before = self.kept.in_contact, self.onset
         super().accept(t)
         if self.slides:
@@ -350,7 +350,7 @@ def part_of(contact: JournalContact, section: Section) -> JournalContact:
     return replace(contact, normal=PartOf(law=contact.normal, share=section.share))
 
 
-def marker_frame(end: End, place: float, centre: Vector3) -> list[list[float]]:
+def marker_frame(end: BearingEnd, place: float, centre: Vector3) -> list[list[float]]:
     """Frame of a section on its body, in the body's axes (4 x 4), its z along the bearing."""
     frame = np.eye(4)
     frame[:3, :3] = frame_of(end.axis)

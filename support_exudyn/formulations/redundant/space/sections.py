@@ -5,7 +5,8 @@ from place to place, and the force is the mean along the axis,
 
     F = 1/L integral of law(depth(s)) ds,   s from -L/2 to L/2
 
-taken by Gauss and Lobatto's rule, whose outermost points are the edges: a tilted journal touches there first.
+taken by Gauss and Lobatto's rule, whose outermost points are the edges: a tilted journal makes contact there
+first.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from support_exudyn.formulations.redundant.clearance.connector_force import Attachment
-from support_exudyn.mechanics.space.constraints import End, frame_of
+from support_exudyn.mechanics.space.constraints import BearingEnd, frame_of
 from support_exudyn.mechanics.space.motion import SpatialMotion, cross
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.spatial_linkage import Bearing
@@ -52,10 +53,10 @@ def lobatto(number: int) -> tuple[Series, Series]:
     return places, weights / weights.sum()
 
 
-def ends(bearing: Bearing, bore: Literal["first", "second"]) -> tuple[End, End]:
+def ends(bearing: Bearing, bore: Literal["first", "second"]) -> tuple[BearingEnd, BearingEnd]:
     """Bore and journal."""
-    first = End(bearing.first, bearing.first_point, bearing.first_axis)
-    second = End(bearing.second, bearing.second_point, bearing.second_axis)
+    first = BearingEnd(bearing.first, bearing.first_point, bearing.first_axis)
+    second = BearingEnd(bearing.second, bearing.second_point, bearing.second_axis)
     return (first, second) if bore == "first" else (second, first)
 
 
@@ -78,7 +79,7 @@ class SectionMotion(NamedTuple):
 
 
 def section_motion(
-    motion: SpatialMotion, bore: End, journal: End, place: float, at: Attachment, slides: bool
+    motion: SpatialMotion, bore: BearingEnd, journal: BearingEnd, place: float, at: Attachment, slides: bool
 ) -> SectionMotion:
     """How a section moves: displacement of its centres and its rate, the plain difference of velocities.
 
@@ -117,10 +118,17 @@ def section_motion(
     safe = np.where(away, across, 1.0)
     distance = np.hypot(across, z)
     rate = (x * vx + y * vy + z * vz) / np.where(away, distance, 1.0) - (x * vx + y * vy) / safe
-    stretch = np.where(away, distance / safe, 1.0)
+    run_of_steps = np.where(away, distance / safe, 1.0)
     rate = np.where(away, rate, 0.0)
     return SectionMotion(
-        stretch * x, stretch * y, vx + rate * x / safe, vy + rate * y / safe, *spins, axes, displacement, centre
+        run_of_steps * x,
+        run_of_steps * y,
+        vx + rate * x / safe,
+        vy + rate * y / safe,
+        *spins,
+        axes,
+        displacement,
+        centre,
     )
 
 

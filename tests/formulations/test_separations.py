@@ -55,15 +55,17 @@ def test_a_free_impact_parts_as_fast_as_its_law_delivers(impact_steps: int, back
     onset = only(simulate(tried))
     assert onset.speed == pytest.approx(SPEED, rel=1e-9)  # free flight is exact
     # second-order error of an impact in N steps: measured 0.6/N^2 and 0.7/N^2
-    assert onset.parting_speed == pytest.approx(DELIVERED * SPEED, rel=impact_steps**-2.0)
+    assert onset.separation_velocity == pytest.approx(DELIVERED * SPEED, rel=impact_steps**-2.0)
 
 
 def test_the_time_of_a_parting_is_that_of_the_records() -> None:
     tried = scenario(LAW)
     result = simulate(replace(tried, record_period=tried.duration / 4000))
-    length = only(result).parting_time - only(result).time
+    length = only(result).separation_time - only(result).time
     # a thousandth of the impact's steps, of which it has 512
-    assert only(result).parting_time == pytest.approx(seen_parting(result, "pin.pin.depth"), abs=1e-4 * length)
+    assert only(result).separation_time == pytest.approx(
+        seen_parting(result, "pin.pin.depth"), abs=1e-4 * length
+    )
 
 
 def test_without_locating_a_parting_is_where_its_step_ends() -> None:
@@ -71,11 +73,11 @@ def test_without_locating_a_parting_is_where_its_step_ends() -> None:
     tried = replace(tried, step=tried.duration / 2000, record_period=tried.duration / 2000)
     result = simulate(tried)
     onset, true = only(result), seen_parting(result, "pin.pin.depth")
-    assert true <= onset.parting_time <= true + 1.001 * tried.step
-    n = round(onset.parting_time / tried.step)
+    assert true <= onset.separation_time <= true + 1.001 * tried.step
+    n = round(onset.separation_time / tried.step)
     assert result["pin.pin.depth"][n] <= 0.0 < result["pin.pin.depth"][n - 1]
     # the force is missed or added within a step of the 100 of the impact: measured 1e-4
-    assert onset.parting_speed == pytest.approx(DELIVERED * SPEED, rel=1e-3)
+    assert onset.separation_velocity == pytest.approx(DELIVERED * SPEED, rel=1e-3)
 
 
 @pytest.mark.parametrize("locate", [True, False])
@@ -83,10 +85,10 @@ def test_a_contact_that_has_not_parted_has_no_end(locate: bool) -> None:
     tried = scenario(LAW, solver=SolverSettings(locate=locate))
     tried = replace(tried, step=tried.duration / 2000)
     ended = only(simulate(tried))
-    middle = 0.5 * (ended.time + ended.parting_time)
+    middle = 0.5 * (ended.time + ended.separation_time)
     onset = only(simulate(replace(tried, duration=middle, record_period=middle)))
     assert onset[:2] == pytest.approx(ended[:2], rel=1e-6)  # the last step is of another length
-    assert (onset.parting_time, onset.parting_speed) == (math.inf, 0.0)
+    assert (onset.separation_time, onset.separation_velocity) == (math.inf, 0.0)
 
 
 # --- formulations ---
@@ -128,30 +130,31 @@ def test_formulations_part_as_fast_as_the_law_delivers(formulation: str, bore: s
         )
     )
     # 512 steps an impact, a tolerance of 1e-7: as above; and the arc
-    assert only(result).parting_speed == pytest.approx(DELIVERED * SPEED, rel=2e-5)
+    assert only(result).separation_velocity == pytest.approx(DELIVERED * SPEED, rel=2e-5)
     # records are 1 ms apart
-    seen = seen_parting(result, "pin.pin.depth")
-    assert only(result).parting_time == pytest.approx(seen, abs=1e-3)
+    context = seen_parting(result, "pin.pin.depth")
+    assert only(result).separation_time == pytest.approx(context, abs=1e-3)
     # it flies back at that speed, along the arc
-    late = -result["pin.pin.depth"][-1] / (result.time[-1] - only(result).parting_time)
-    assert late == pytest.approx(only(result).parting_speed, rel=1e-4)
+    late = -result["pin.pin.depth"][-1] / (result.time[-1] - only(result).separation_time)
+    assert late == pytest.approx(only(result).separation_velocity, rel=1e-4)
 
 
 def test_in_space_edges_and_the_whole_part_as_in_the_plane() -> None:
     plane = loose_support(1.5, 0.0, drive=Held(), duration=0.05)
     space = simulate(replace(plane, dimensions=3))
     flat = simulate(plane).onsets[PIN]
-    assert flat[0].parting_time < 0.03  # else the test says nothing
+    assert flat[0].separation_time < 0.03  # else the test says nothing
     for name in (PIN, f"{PIN}.left", f"{PIN}.right"):
         assert len(space.onsets[name]) == len(flat)
         for one, other in zip(space.onsets[name], flat, strict=True):
-            # the same motion to 1e-9, and partings lie at the ends of steps of 5 us: measured 2e-9 s, 3e-7 m/s
-            assert one.parting_time == pytest.approx(other.parting_time, abs=1e-7)
-            assert one.parting_speed == pytest.approx(other.parting_speed, abs=1e-5)
+            # the same motion to 1e-9, and separations lie at the ends of steps of 5 us: measured 2e-9 s, 3e-7
+            # m/s
+            assert one.separation_time == pytest.approx(other.separation_time, abs=1e-7)
+            assert one.separation_velocity == pytest.approx(other.separation_velocity, abs=1e-5)
 
 
 def test_a_journal_in_space_has_parted_when_its_last_section_has() -> None:
-    # the right edge flies ahead, touches first, and is thrown back last
+    # the right edge flies ahead, impacts first, and is thrown back last
     ball = (0.02, 0.02, 0.02, 0.0, 0.0, 0.0)
     middle, across = (0.0, 0.0, 0.0), (0.0, 0.0, 1.0)
     bodies = {
@@ -181,12 +184,12 @@ def test_a_journal_in_space_has_parted_when_its_last_section_has() -> None:
         )
     )
     whole, left, right = (result.onsets[name][0] for name in ("pin", "pin.left", "pin.right"))
-    assert right.time < left.time < left.parting_time < right.parting_time  # else the test says nothing
+    assert right.time < left.time < left.separation_time < right.separation_time  # else the test says nothing
     assert len(result.onsets["pin"]) == 1
     assert whole == right
     ended = simulate(replace(result.scenario, duration=0.0062))  # the right one alone is in contact
-    assert ended.onsets["pin.left"][0].parting_time == pytest.approx(left.parting_time, rel=1e-9)
-    assert ended.onsets["pin"][0].parting_time == math.inf
+    assert ended.onsets["pin.left"][0].separation_time == pytest.approx(left.separation_time, rel=1e-9)
+    assert ended.onsets["pin"][0].separation_time == math.inf
 
 
 # --- files ---
@@ -195,7 +198,7 @@ def test_a_journal_in_space_has_parted_when_its_last_section_has() -> None:
 def test_a_file_keeps_how_contacts_ended(tmp_path: Path) -> None:
     result = simulate(loose_support(1.5, 0.0, drive=Held(), duration=0.04))
     first, last = result.onsets[PIN][0], result.onsets[PIN][-1]
-    assert first.time < first.parting_time < last.time
-    assert 0.0 < first.parting_speed < first.speed
-    assert last.parting_time == math.inf
+    assert first.time < first.separation_time < last.time
+    assert 0.0 < first.separation_velocity < first.speed
+    assert last.separation_time == math.inf
     assert Result.load(result.save(tmp_path / "run.h5")).onsets == result.onsets

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from support_exudyn import Onset, Result
-from support_exudyn.postprocessing import summary as account
+from support_exudyn.postprocessing import summary as summary
 from support_exudyn.simulation.estimate import Estimate
 from tests import synthetic
 from tests.cases.run_cases import FORCE, PIN, loose_support
@@ -17,8 +17,8 @@ from user_forces import InputError
 
 TIME = np.arange(11) * 0.1
 SCENARIO = loose_support(1.5, 0.25)
-# a touch that parts, one that goes on into the next, one that goes on to the end
-TOUCHES = [
+# an impact that parts, one that goes on into the next, one that goes on to the end
+IMPACTS = [
     Onset(0.1, 0.2, 0.1025, 0.18),
     Onset(0.3, 0.05, math.inf, math.nan),
     Onset(0.6, 2.0, math.inf, math.nan),
@@ -27,44 +27,44 @@ TOUCHES = [
 
 def run(**channels: tuple[np.ndarray, str]) -> Result:
     """A force of 1 kN up to 0.5 s, and of 4 kN afterwards."""
-    found = synthetic.journal(SCENARIO, TIME, 0.0 * TIME, 0.0 * TIME, TOUCHES, **channels)
+    found = synthetic.journal(SCENARIO, TIME, 0.0 * TIME, 0.0 * TIME, IMPACTS, **channels)
     force = replace(found.channels[FORCE], values=np.where(TIME < 0.55, 1e3, 4e3))
     return replace(found, channels={**found.channels, FORCE: force}, largest_force={PIN: 9e4})
 
 
 def test_numbers_are_of_the_piece_that_was_asked_for() -> None:
-    rows = {row[0]: row[1:] for row in account.came_out(run(), 0.4, 0.7)}
+    rows = {row[0]: row[1:] for row in summary.came_out(run(), 0.4, 0.7)}
     assert rows[f"{FORCE}.mean"] == ("2.5", "", "kN")
     assert rows[f"{FORCE}.spread"] == ("1.5", "", "kN")
     assert rows[f"{FORCE}.largest"] == ("4", "", "kN")
     assert rows[f"pin.{PIN}.largest_force, any step of the run"] == ("90", "", "kN")
-    assert {row[0]: row[1] for row in account.came_out(run(), 0.0, 0.5)}[f"{FORCE}.mean"] == "1"
+    assert {row[0]: row[1] for row in summary.came_out(run(), 0.0, 0.5)}[f"{FORCE}.mean"] == "1"
     with pytest.raises(InputError, match="0 records lie between"):
-        account.came_out(run(), 7.0, 8.0)
+        summary.came_out(run(), 7.0, 8.0)
 
 
 def test_energies_are_those_at_the_end_and_the_largest_that_is_missing() -> None:
     found = run(energy__work=(3e3 * TIME, "J"), energy__balance=(np.where(TIME == 0.5, -0.02, 0.01), "J"))
-    rows = {row[0]: row[1:] for row in account.came_out(found, 0.0, 0.5)}
+    rows = {row[0]: row[1:] for row in summary.came_out(found, 0.0, 0.5)}
     assert rows["energy.work at the end"] == ("3", "", "kJ")
     assert rows["energy not accounted for, largest"] == ("20", "", "mJ")
 
 
 def test_touches_are_told_with_what_followed() -> None:
-    assert account.touches(run()) == [
+    assert summary.impacts(run()) == [
         (PIN, "1 of 3", "0.1 s", "2.5 ms", "200 mm/s", "180 mm/s"),
-        (PIN, "2 of 3", "0.3 s", "to the next touch", "50 mm/s", ""),
+        (PIN, "2 of 3", "0.3 s", "to the next impact", "50 mm/s", ""),
         (PIN, "3 of 3", "0.6 s", "to the end", "2 m/s", ""),
     ]
-    assert account.touches(replace(run(), onsets={PIN: ()})) == [(PIN, "none", "", "", "", "")]
+    assert summary.impacts(replace(run(), onsets={PIN: ()})) == [(PIN, "none", "", "", "", "")]
 
 
 def test_channels_have_their_least_mean_and_largest_value_in_the_piece() -> None:
     found = run(canopy__angle=(np.radians(10.0) * (TIME - 0.5), "rad"), tip__x=(-3.0 + 0.0 * TIME, "m"))
-    angle, x = account.of_channels(found, ["canopy.angle", "tip.x"], 0.0, math.inf)
+    angle, x = summary.of_channels(found, ["canopy.angle", "tip.x"], 0.0, math.inf)
     assert angle == ("canopy.angle", "deg", "-5", "0", "5", "meaning of canopy.angle")
     assert x[1:5] == ("m", "-3", "-3", "-3")
-    assert account.of_channels(found, ["canopy.angle"], 0.5, 0.9)[0][2:5] == ("0", "2", "4")
+    assert summary.of_channels(found, ["canopy.angle"], 0.5, 0.9)[0][2:5] == ("0", "2", "4")
 
 
 @pytest.mark.parametrize(
@@ -77,23 +77,23 @@ def test_channels_have_their_least_mean_and_largest_value_in_the_piece() -> None
         (Estimate(2.0, math.inf, "N"), ("2", "not known", "N")),
     ],
 )
-def test_a_number_has_the_digits_of_its_error(found: Estimate, row: account.Row) -> None:
-    assert account.with_error(found) == row
+def test_a_number_has_the_digits_of_its_error(found: Estimate, row: summary.Row) -> None:
+    assert summary.with_error(found) == row
 
 
 @pytest.mark.parametrize(("bore", "body"), [("first", "ground"), ("second", "rear_link")])
 def test_a_loose_pin_is_told_with_its_clearance_and_the_body_of_its_bore(bore: str, body: str) -> None:
     pin = replace(SCENARIO.clearance_pins[PIN], bore=bore)
-    rows = dict(account.what_was_run(replace(run(), scenario=replace(SCENARIO, pins={PIN: pin}))))
+    rows = dict(summary.what_was_run(replace(run(), scenario=replace(SCENARIO, pins={PIN: pin}))))
     assert rows[f"pin {PIN}"].startswith(f"1.5 mm clearance in a bore of 65.5 mm radius in {body}, Lankarani")
     assert "front_base" in rows["ideal pins"]
     assert PIN not in rows["ideal pins"]
 
 
 def test_whether_an_accuracy_was_met_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
-    assert dict(account.how(run()))["accuracy"].startswith("none was asked for")
+    assert dict(summary.how(run()))["accuracy"].startswith("none was asked for")
     for error, word in ((0.004, "met"), (0.04, "NOT met")):
         monkeypatch.setattr(Result, "worst_error", error)
-        said = dict(account.how(replace(run(), goal=0.01, coarser=run())))
+        said = dict(summary.how(replace(run(), goal=0.01, coarser=run())))
         assert said["accuracy"] == f"0.01 asked for, {error:g} estimated: {word}"
         assert "all runs" in said["wall time"]

@@ -36,7 +36,7 @@ APART = 1e-4  # [m] that what is joined may be apart
 DRIFTED = "Take constraint_index 3, a smaller `step` or a smaller `solver.newton_tolerance`."
 
 
-def audit(scenario: Scenario, outcome: Outcome, channels: Mapping[str, Channel]) -> Failure | None:
+def result_checks(scenario: Scenario, outcome: Outcome, channels: Mapping[str, Channel]) -> Failure | None:
     """The first reason not to believe a run; None if there is none. channels: all, whatever is asked for."""
     return next(_reasons(scenario, outcome, channels), None)
 
@@ -102,7 +102,7 @@ def _who_loses(scenario: Scenario, kind: str) -> str:
     found = [f"pins.{name} = {type(law).__name__}" for name, law in laws.items()]
     if kind == "damping_loss":
         found += [f"loads.{name} = {type(load).__name__}" for name, load in scenario.loads.items()]
-        found += [f"columns.{name}" for name in scenario.giving]
+        found += [f"columns.{name}" for name in scenario.compliant_columns]
     return "of " + ", ".join(found)
 
 
@@ -163,7 +163,7 @@ def joints_apart(scenario: Scenario, outcome: Outcome) -> Series | None:
             apart = motion.place(pin.first, pin.first_point) - motion.place(pin.second, pin.second_point)
             gaps = np.maximum(gaps, np.hypot(*apart.T))
     for name, column in linkage.columns.items():
-        if name not in scenario.giving:
+        if name not in scenario.compliant_columns:
             span = motion.place(column.head, column.head_point) - motion.place(column.foot, column.foot_point)
             drive = scenario.drive_of(name)
             wanted = column.start_length + np.array([drive.extension(t) for t in time.tolist()])

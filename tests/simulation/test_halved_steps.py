@@ -29,7 +29,7 @@ from support_exudyn.simulation import halved_steps
 from support_exudyn.simulation.estimate import disagreement
 from support_exudyn.simulation.halved_steps import LARGEST_ERROR, MOST_RUNS
 from support_exudyn.simulation.reported_numbers import measures
-from support_exudyn.simulation.single_run import run_once
+from support_exudyn.simulation.single_run import single_run
 from tests.cases.run_cases import FORCE, PIN, loose_support, support
 from tests.formulations.test_formulations import SCENES
 from user_forces import InputError
@@ -135,7 +135,7 @@ def test_the_worst_error_covers_the_distance_from_the_true_run(fall: Result, tig
 
 @pytest.mark.parametrize("formulation", ["tree", "reduced"])
 def test_methods_with_error_control_have_theirs(formulation: str) -> None:
-    scene = SCENES["loose support on oil"] if formulation == "tree" else FALL
+    scene = SCENES["clearance support on oil"] if formulation == "tree" else FALL
     scene = replace(scene, formulation=formulation, duration=0.03, solver=SolverSettings(tolerance=1e-6))
     result = simulate(scene, errors=True)
     tight = simulate(replace(scene, solver=SolverSettings(tolerance=1e-10)))
@@ -151,18 +151,18 @@ def test_no_touch_is_known_better_than_a_step_may_be_though_all_runs_came_to_it_
     scene = loose_support(0.1, drive=drive, duration=0.012, formulation="reduced")
     result = simulate(replace(scene, solver=SolverSettings(tolerance=1e-5)), errors=True)
     tight = simulate(replace(scene, solver=SolverSettings(tolerance=1e-12)))
-    touch, exact = result.onsets[PIN][0], tight.onsets[PIN][0]
+    impact, exact = result.onsets[PIN][0], tight.onsets[PIN][0]
     assert result.coarser is not None
-    assert result.coarser.onsets[PIN][0].time == pytest.approx(touch.time, rel=1e-7)
+    assert result.coarser.onsets[PIN][0].time == pytest.approx(impact.time, rel=1e-7)
     numbers = result.numbers()
     for field in ("time", "speed"):
         number = numbers[f"pin.{PIN}.onset_1.{field}"]
         # measured: a fifth of it
-        assert 0.01 * number.error < abs(getattr(touch, field) - getattr(exact, field)) < number.error
+        assert 0.01 * number.error < abs(getattr(impact, field) - getattr(exact, field)) < number.error
 
 
 AT_REST = replace(
-    SCENES["loose support on oil"], drive=Held(), start="settled", duration=0.05, formulation="tree"
+    SCENES["clearance support on oil"], drive=Held(), start="settled", duration=0.05, formulation="tree"
 )
 
 
@@ -193,15 +193,15 @@ def test_runs_that_are_the_same_whatever_their_tolerance_are_not_certain() -> No
 
 
 def test_what_newtons_method_leaves_is_among_the_errors() -> None:
-    # 1.6e-8 of the first touch's speed is wrong in all runs, which differ by 1e-12 of it
+    # 1.6e-8 of the first impact's speed is wrong in all runs, which differ by 1e-12 of it
     drive = UniformSpeed(stroke=0.003, start=0.003, end=0.02)
     scene = loose_support(0.3, drive=drive, duration=0.01, formulation="redundant")
     exact = simulate(replace(scene, formulation="reduced", solver=SolverSettings(tolerance=1e-11)))
     for run in (simulate(scene, accuracy=1e-4), simulate(replace(scene, step=1e-4), errors=True)):
-        touch = run.numbers()[f"pin.{PIN}.onset_1.speed"]
-        true = abs(touch.value - exact.onsets[PIN][0].speed)
-        assert true > 1e-9 * touch.value
-        assert true <= touch.error < 1e-6 * touch.value
+        impact = run.numbers()[f"pin.{PIN}.onset_1.speed"]
+        true = abs(impact.value - exact.onsets[PIN][0].speed)
+        assert true > 1e-9 * impact.value
+        assert true <= impact.error < 1e-6 * impact.value
 
 
 def test_ideal_pins_have_theirs() -> None:
@@ -222,16 +222,16 @@ def test_a_machine_at_rest_is_certain() -> None:
 
 
 def plant(monkeypatch: pytest.MonkeyPatch, factors: Sequence[float]) -> None:
-    """Runs whose forces in the loose pin are so many times as large, one after another; then the last two."""
+    """Runs whose forces in the clearance pin are so many times as large; then the last two."""
     left = chain(factors, cycle(factors[-2:]))
 
     def run(scenario: Scenario, progress: Progress) -> Result:
-        result, factor = run_once(replace(scenario, duration=0.03), progress), next(left)
+        result, factor = single_run(replace(scenario, duration=0.03), progress), next(left)
         force = result.channels[FORCE]
         wrong = replace(force, values=factor * force.values)
         return replace(result, channels={**result.channels, FORCE: wrong})
 
-    monkeypatch.setattr(halved_steps, "run_once", run)
+    monkeypatch.setattr(halved_steps, "single_run", run)
 
 
 @pytest.mark.parametrize("factors", [(1.0, 1.0, 1.05), (1.0, 1.0001, 1.05)])
@@ -289,9 +289,9 @@ def fail_first(monkeypatch: pytest.MonkeyPatch, failure: Failure, often: int) ->
         begun.append(scenario)
         if len(begun) <= often:
             raise SimulationError(failure)
-        return run_once(replace(scenario, duration=0.03), progress)
+        return single_run(replace(scenario, duration=0.03), progress)
 
-    monkeypatch.setattr(halved_steps, "run_once", run)
+    monkeypatch.setattr(halved_steps, "single_run", run)
     return begun
 
 
@@ -319,7 +319,7 @@ def test_a_run_that_fails_ends_it(monkeypatch: pytest.MonkeyPatch) -> None:
         begun.append(scenario)
         raise SimulationError(Failure("the solver gave up", "Take a smaller step.", 0.01))
 
-    monkeypatch.setattr(halved_steps, "run_once", run)
+    monkeypatch.setattr(halved_steps, "single_run", run)
     with pytest.raises(SimulationError, match="gave up"):
         simulate(FALL, errors=True)
     assert len(begun) == 1
@@ -332,7 +332,7 @@ def test_where_there_are_no_finer_settings_nothing_is_run(monkeypatch: pytest.Mo
         begun.append(scenario)
         raise AssertionError
 
-    monkeypatch.setattr(halved_steps, "run_once", run)
+    monkeypatch.setattr(halved_steps, "single_run", run)
     many = replace(FALL, solver=SolverSettings(impact_steps=MOST_IMPACT_STEPS // 4 + 1))
     with pytest.raises(InputError, match=r"impact_steps = 1000\d: allowed: "):
         simulate(many, errors=True)

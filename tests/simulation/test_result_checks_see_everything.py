@@ -12,7 +12,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from support_exudyn import ClearancePin, Failure, Held, OilColumn, Scenario, SolverSettings, bore_area, simulate
-from support_exudyn.simulation import audit as looking
+from support_exudyn.simulation import result_checks as looking
 from tests.cases.run_cases import PIN, loose_support, support
 from user_forces import JournalBearing, JournalContact, LankaraniNikravesh
 
@@ -56,7 +56,7 @@ def verdict(scene: str) -> Failure:
 def test_a_refusal_is_the_same_whatever_is_recorded(scene: str, data: st.DataObject) -> None:
     scenario, reason = WRONG[scene]
     assert reason in verdict(scene).reason
-    names = st.lists(st.sampled_from(list(scenario.recipes)), max_size=3, unique=True)
+    names = st.lists(st.sampled_from(list(scenario.channel_definitions)), max_size=3, unique=True)
     found = simulate(replace(scenario, channels=tuple(data.draw(names))), throw=False)
     assert found == verdict(scene)
 
@@ -86,5 +86,5 @@ def test_every_look_is_taken_whatever_is_recorded(
 
 
 def test_without_an_audit_only_what_is_asked_is_recorded() -> None:
-    scenario = replace(soft(), channels=("tip.x",), solver=SolverSettings(audit=False), duration=0.02)
+    scenario = replace(soft(), channels=("tip.x",), solver=SolverSettings(result_checks=False), duration=0.02)
     assert set(simulate(scenario).channels) == {"time", "tip.x"}

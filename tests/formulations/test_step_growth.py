@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.polynomial import Polynomial
 
-from support_exudyn.formulations.redundant.solver.step_growth import CALM_STEPS, SMOOTH, SmoothSteps
+from support_exudyn.formulations.redundant.solver.step_growth import CALM_STEPS, SMOOTH, StepGrowth
 from support_exudyn.formulations.redundant.solver.within_steps import StepEnd, between
 
 MASS = np.array([2.0, 2.0, 1.0])
@@ -14,11 +14,11 @@ WEIGHT = math.sqrt(2.0) * 9.81
 LARGEST = SMOOTH * WEIGHT / math.sqrt(2.0)  # change of an acceleration in x that is allowed [m/s^2]
 
 
-def steps(longest: float = 16.0) -> SmoothSteps:
-    return SmoothSteps(1.0, longest, MASS, WEIGHT)
+def steps(longest: float = 16.0) -> StepGrowth:
+    return StepGrowth(1.0, longest, MASS, WEIGHT)
 
 
-def followed(smooth: SmoothSteps, change: float, count: int) -> list[float]:
+def followed(smooth: StepGrowth, change: float, count: int) -> list[float]:
     """Sizes after each of so many steps over which an acceleration changes by so much."""
     sizes, acceleration = [], np.zeros(3)
     for _ in range(count):
@@ -46,7 +46,7 @@ def test_steps_halve_at_once_when_they_change_much() -> None:
 
 
 def test_large_accelerations_are_the_measure_if_they_are_larger_than_gravity() -> None:
-    smooth = SmoothSteps(1.0, 16.0, MASS, 0.0)
+    smooth = StepGrowth(1.0, 16.0, MASS, 0.0)
     for n in range(CALM_STEPS + 1):
         smooth.follow(1.0, np.array([1e5 * (1.0 + 0.2 * SMOOTH * n), 0.0, 0.0]))
     assert smooth.size == 2.0

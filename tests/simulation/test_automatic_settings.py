@@ -21,7 +21,7 @@ from support_exudyn.simulation.automatic_settings import (
     GOAL_OF_SHARES,
     IMPACT_STEPS,
     LARGEST_TOLERANCE,
-    MOST_RUBBING,
+    MOST_FRICTION_TIMES,
     RESTING,
     settings_for,
 )
@@ -63,7 +63,7 @@ def test_a_backend_that_is_asked_for_decides_too() -> None:
 
 
 def rubbing(scene: Scenario, ramp: float) -> Scenario:
-    """The same with friction in its loose pins, whose ramp is so wide [m/s]."""
+    """The same with friction in its clearance pins, whose ramp is so wide [m/s]."""
     friction = Ambrosio(sliding_coefficient=0.25, static_speed=1e-4, dynamic_speed=1e-4 + ramp)
     pins = {
         name: replace(pin, contact=replace(pin.contact, friction=friction))
@@ -74,14 +74,14 @@ def rubbing(scene: Scenario, ramp: float) -> Scenario:
 
 @pytest.mark.parametrize(
     ("scene", "explicit"),
-    [(DROP, "reduced"), (SCENES["loose support on oil"], "tree"), (replace(DROP, duration=2.0), "reduced")],
+    [(DROP, "reduced"), (SCENES["clearance support on oil"], "tree"), (replace(DROP, duration=2.0), "reduced")],
 )
 def test_friction_too_steep_for_explicit_steps_is_left_to_the_implicit_ones(
     scene: Scenario, explicit: str
 ) -> None:
     # the time in which friction stops what slides is as long as the ramp is wide
     wide = 1e-2
-    steepest = wide * scene.duration / (MOST_RUBBING * timescales(rubbing(scene, wide)).rubbing)
+    steepest = wide * scene.duration / (MOST_FRICTION_TIMES * timescales(rubbing(scene, wide)).rubbing)
     assert 1e-9 < steepest < wide  # there are such friction laws
     assert settings_for(rubbing(scene, 1.05 * steepest), 1e-3).formulation == explicit
     steep = rubbing(scene, 0.95 * steepest)
@@ -165,6 +165,6 @@ def test_only_the_formulations_that_come_first_are_looked_at(monkeypatch: pytest
         return self.name == "tree"
 
     monkeypatch.setattr(Formulation, "covers", covers)
-    scene = replace(SCENES["loose support on oil"], accuracy=1e-3)
+    scene = replace(SCENES["clearance support on oil"], accuracy=1e-3)
     assert settings_for(scene, 1e-3).formulation == "tree"
     assert asked == ["reduced", "tree"]

@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from support_exudyn import ClearancePin, OilColumn, Scenario, SolverSettings, bore_area, ravn_slider_crank
-from support_exudyn.mechanics.channels import EVERYTHING, Part, Recipe, chosen
+from support_exudyn.mechanics.channels import EVERYTHING, ChannelDefinition, DataNeeds, chosen
 from support_exudyn.mechanics.trajectory import Trajectory
 from support_exudyn.scenario.recorded_channels import channels, needs
 from tests.cases.machine_cases import contact, support
@@ -19,19 +19,24 @@ from user_forces import InputError, Value
 
 SUPPORT = support()
 OIL = OilColumn(bore_area=bore_area(0.25, 2), oil_length=0.5, bulk_modulus=1.5e9)
-LOOSE = {"rear_base": ClearancePin(contact=contact())}
+WITH_CLEARANCE = {"rear_base": ClearancePin(contact=contact())}
 PLAIN = Scenario(machine=SUPPORT, duration=1.0)
-NAMES = list(PLAIN.recipes)
+NAMES = list(PLAIN.channel_definitions)
 
 
 def scenario(*asked: str, **changes: Any) -> Scenario:
-    """Without an audit, which looks at everything."""
-    fields = {"machine": SUPPORT, "duration": 1.0, "channels": asked, "solver": SolverSettings(audit=False)}
+    """Without result checks, which looks at everything."""
+    fields = {
+        "machine": SUPPORT,
+        "duration": 1.0,
+        "channels": asked,
+        "solver": SolverSettings(result_checks=False),
+    }
     return Scenario(**fields | changes)
 
 
 def names(one: Scenario) -> list[str]:
-    return chosen(one.recipes, one.channels)
+    return chosen(one.channel_definitions, one.channels)
 
 
 def test_an_audit_needs_everything() -> None:
@@ -83,18 +88,18 @@ def test_they_come_back_from_json(asked: list[str]) -> None:
 
 
 P, V, A, J, C, O, I = (  # noqa: E741
-    Part.POSITION,
-    Part.VELOCITY,
-    Part.ACCELERATION,
-    Part.JOINTS,
-    Part.CONTACTS,
-    Part.OIL,
-    Part.INTEGRALS,
+    DataNeeds.POSITION,
+    DataNeeds.VELOCITY,
+    DataNeeds.ACCELERATION,
+    DataNeeds.JOINTS,
+    DataNeeds.CONTACTS,
+    DataNeeds.OIL,
+    DataNeeds.INTEGRALS,
 )
 
 
 @pytest.mark.parametrize(
-    ("pattern", "ideal", "loose", "oil"),
+    ("pattern", "ideal", "with_clearance", "oil"),
     [
         ("tip.*", P, P, P),
         ("*_column.length", P, P, P),
@@ -104,18 +109,18 @@ P, V, A, J, C, O, I = (  # noqa: E741
         ("*.angular_acceleration", A, A, A),
         ("pin.rear_base.*", J, P | V | C, J),
         ("pin.front_base.*", J, J, J),
-        ("*_column.force", J, J, P | V | Part.OIL),
+        ("*_column.force", J, J, P | V | DataNeeds.OIL),
         ("energy.potential", P, P, P),
-        ("energy.elastic", Part.NOTHING, P | V | C, P | V | Part.OIL),
+        ("energy.elastic", DataNeeds.NOTHING, P | V | C, P | V | DataNeeds.OIL),
         ("energy.*_loss", I, I, I),
         ("energy.work", I, I, I),
-        ("energy.balance", P | V | I, P | V | I | C, P | V | I | Part.OIL),
-        ("time", Part.NOTHING, Part.NOTHING, Part.NOTHING),
+        ("energy.balance", P | V | I, P | V | I | C, P | V | I | DataNeeds.OIL),
+        ("time", DataNeeds.NOTHING, DataNeeds.NOTHING, DataNeeds.NOTHING),
     ],
 )
-def test_what_is_needed(pattern: str, ideal: Part, loose: Part, oil: Part) -> None:
+def test_what_is_needed(pattern: str, ideal: DataNeeds, with_clearance: DataNeeds, oil: DataNeeds) -> None:
     assert needs(scenario(pattern)) == ideal
-    assert needs(scenario(pattern, pins=LOOSE)) == loose
+    assert needs(scenario(pattern, pins=WITH_CLEARANCE)) == with_clearance
     assert needs(scenario(pattern, columns=dict.fromkeys(SUPPORT.linkage().columns, OIL))) == oil
 
 
@@ -126,18 +131,18 @@ def test_what_is_needed_is_enough(name: str) -> None:
     linkage, part = one.linkage, needs(one)
     rows = 3
 
-    def motion(which: Part) -> np.ndarray:
+    def motion(which: DataNeeds) -> np.ndarray:
         return np.ones((rows, 3 * len(linkage.bodies) if which in part else 0))
 
     def named(known: object, shape: tuple[int, ...]) -> dict[str, np.ndarray]:
-        return {key: np.ones(shape) for key in known} if Part.JOINTS in part else {}  # type: ignore[attr-defined]
+        return {key: np.ones(shape) for key in known} if DataNeeds.JOINTS in part else {}  # type: ignore[attr-defined]
 
-    integral = np.ones(rows if Part.INTEGRALS in part else 0)
+    integral = np.ones(rows if DataNeeds.INTEGRALS in part else 0)
     run = Trajectory(
         time=np.arange(rows, dtype=float),
-        position=motion(Part.POSITION),
-        velocity=motion(Part.VELOCITY),
-        acceleration=motion(Part.ACCELERATION),
+        position=motion(DataNeeds.POSITION),
+        velocity=motion(DataNeeds.VELOCITY),
+        acceleration=motion(DataNeeds.ACCELERATION),
         ideal_pins=named(linkage.pins, (rows, 2)),
         contacts={},
         columns=named(linkage.columns, (rows,)),
@@ -152,6 +157,8 @@ def test_what_is_needed_is_enough(name: str) -> None:
 
 
 def test_of_cranks_and_guides() -> None:
-    known: dict[str, Recipe] = Scenario(machine=ravn_slider_crank(), duration=1.0).recipes
+    known: dict[str, ChannelDefinition] = Scenario(
+        machine=ravn_slider_crank(), duration=1.0
+    ).channel_definitions
     for name in ("crank.moment", "guide.force", "guide.moment"):
-        assert known[name].needs == Part.JOINTS
+        assert known[name].needs == DataNeeds.JOINTS

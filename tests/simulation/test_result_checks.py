@@ -26,13 +26,13 @@ from support_exudyn.formulations.limits import DEEPEST
 from support_exudyn.formulations.redundant.run import run
 from support_exudyn.mechanics.trajectory import Outcome, Trajectory
 from support_exudyn.scenario.recorded_channels import Channel, channels
-from support_exudyn.simulation.audit import (
+from support_exudyn.simulation.result_checks import (
     APART,
     GIVEN_BACK,
     OPEN,
-    audit,
     energy_open,
     joints_apart,
+    result_checks,
     rounding_of_energy,
     turned_over,
 )
@@ -85,7 +85,7 @@ def refused(failure: Failure | None, reason: str, record: int) -> None:
 
 
 def test_a_good_run_passes(outcome: Outcome, found: Found) -> None:
-    assert audit(SCENARIO, outcome, found) is None
+    assert result_checks(SCENARIO, outcome, found) is None
     open_by, allowed = energy_open(SCENARIO, found)
     assert open_by.max() < 0.01 * allowed  # else the tests below would say little
     apart = joints_apart(SCENARIO, outcome)
@@ -96,22 +96,24 @@ def test_a_good_run_passes(outcome: Outcome, found: Found) -> None:
 @pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
 def test_a_number_that_is_none_is_refused(outcome: Outcome, found: Found, value: float) -> None:
     spoilt = changed(found, "tip.x", 7, value)
-    refused(audit(SCENARIO, outcome, spoilt), "tip.x is no longer a finite number", 7)
+    refused(result_checks(SCENARIO, outcome, spoilt), "tip.x is no longer a finite number", 7)
 
 
 def test_a_journal_that_is_too_deep_is_refused(outcome: Outcome, found: Found) -> None:
     radius = SCENARIO.clearance_pins[PIN].contact.bearing.bore_radius
     deep = changed(found, DEPTH, 20, 1.01 * DEEPEST * radius)
-    refused(audit(SCENARIO, outcome, deep), f"the journal of {PIN} is 13.2 mm deep in a bore of 65.5 mm", 20)
-    assert audit(SCENARIO, outcome, changed(found, DEPTH, 20, 0.99 * DEEPEST * radius)) is None
+    refused(
+        result_checks(SCENARIO, outcome, deep), f"the journal of {PIN} is 13.2 mm deep in a bore of 65.5 mm", 20
+    )
+    assert result_checks(SCENARIO, outcome, changed(found, DEPTH, 20, 0.99 * DEEPEST * radius)) is None
 
 
 def test_energy_that_does_not_add_up_is_refused(outcome: Outcome, found: Found) -> None:
     _, allowed = energy_open(SCENARIO, found)
     for sign in (-1.0, 1.0):
-        failure = audit(SCENARIO, outcome, opened(found, sign * 1.01 * allowed))
+        failure = result_checks(SCENARIO, outcome, opened(found, sign * 1.01 * allowed))
         refused(failure, "energy does not add up: it is open by", 30)
-        assert audit(SCENARIO, outcome, opened(found, sign * 0.98 * allowed)) is None
+        assert result_checks(SCENARIO, outcome, opened(found, sign * 0.98 * allowed)) is None
 
 
 def test_what_is_allowed_is_a_share_of_what_was_turned_over(found: Found) -> None:
@@ -128,7 +130,9 @@ def test_a_loss_that_becomes_less_is_refused(outcome: Outcome, found: Found, nam
         less = found[f"energy.{name}"].values.copy()
         less[20:] += 1.0 - less[20]  # else a loss of nothing could not become less
         less[30:] -= share * allowed - (less[30:] - less[20:29].max())
-        failure = audit(SCENARIO, outcome, {**found, f"energy.{name}": replace(found["time"], values=less)})
+        failure = result_checks(
+            SCENARIO, outcome, {**found, f"energy.{name}": replace(found["time"], values=less)}
+        )
         if wrong:
             refused(failure, f"energy.{name} becomes less by", 30)
             assert failure is not None
@@ -156,7 +160,9 @@ def test_what_bristles_have_stored_may_be_given_back(outcome: Outcome, found: Fo
     ):
         less = np.full(51, 1e4)
         less[30:] -= share * (stored + allowed)
-        failure = audit(sticking, run_with, {**found, f"energy.{name}": replace(found["time"], values=less)})
+        failure = result_checks(
+            sticking, run_with, {**found, f"energy.{name}": replace(found["time"], values=less)}
+        )
         assert (failure is not None) == wrong
 
 
@@ -166,16 +172,16 @@ def test_a_machine_at_rest_may_be_off_by_rounding() -> None:
 
 
 def test_an_ideal_pin_that_comes_apart_is_refused(outcome: Outcome, found: Found) -> None:
-    failure = audit(SCENARIO, moved(outcome, 12, 1.5 * APART), found)
+    failure = result_checks(SCENARIO, moved(outcome, 12, 1.5 * APART), found)
     refused(failure, "what is joined is 0.15 mm apart; allowed: 0.1 mm", 12)
-    assert audit(SCENARIO, moved(outcome, 12, 0.9 * APART), found) is None
+    assert result_checks(SCENARIO, moved(outcome, 12, 0.9 * APART), found) is None
 
 
 def test_a_rigid_column_of_another_length_is_refused(outcome: Outcome, found: Found) -> None:
     # as if the columns had not followed their drive; at the end they would be longer by so much
     for share, wrong in ((1.5, True), (0.9, False)):
         driven = replace(SCENARIO, drive=Steady(rate=share * APART / SCENARIO.duration))
-        failure = audit(driven, outcome, found)
+        failure = result_checks(driven, outcome, found)
         assert (failure is not None) == wrong
         if failure is not None:
             assert "what is joined is 0.15 mm apart" in failure.reason
@@ -184,12 +190,12 @@ def test_a_rigid_column_of_another_length_is_refused(outcome: Outcome, found: Fo
 def test_a_loose_pin_and_columns_of_oil_may_come_apart(outcome: Outcome, found: Found) -> None:
     oil = OilColumn(bore_area=0.1, oil_length=0.5, bulk_modulus=1.5e9)
     names = [name for name, column in SCENARIO.linkage.columns.items() if column.driven]
-    giving = replace(SCENARIO, columns=dict.fromkeys(names, oil), drive=Steady(rate=0.1))
-    assert audit(giving, outcome, found) is None
-    with_gap = joints_apart(replace(SCENARIO, pins={}), outcome)  # as if the loose pin were ideal
+    compliant_columns = replace(SCENARIO, columns=dict.fromkeys(names, oil), drive=Steady(rate=0.1))
+    assert result_checks(compliant_columns, outcome, found) is None
+    with_gap = joints_apart(replace(SCENARIO, pins={}), outcome)  # as if the clearance pin were ideal
     assert with_gap is not None
     assert with_gap.max() > 1e-3  # it falls through its clearance of 1.5 mm
-    assert audit(SCENARIO, outcome, found) is None
+    assert result_checks(SCENARIO, outcome, found) is None
 
 
 # --- in a run ---
@@ -228,5 +234,5 @@ def test_a_run_that_comes_out_wrong_is_refused_unless_asked_for(
     with pytest.raises(SimulationError, match=WRONG[change]) as caught:
         simulate(scenario)
     assert caught.value.failure.time == pytest.approx(5e-3, rel=1e-12)  # rounding
-    unseen = simulate(replace(scenario, solver=SolverSettings(audit=False)))
+    unseen = simulate(replace(scenario, solver=SolverSettings(result_checks=False)))
     assert unseen.time.size == 11
