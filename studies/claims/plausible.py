@@ -176,7 +176,7 @@ def _scaled(point: Vector2, scale: float) -> Vector2:
 
 
 def pin(sample: Sample, clearance_mm: float) -> ClearancePin:
-    """The clearance rear-link pin of a sample; the pin's size is the paper's."""
+    """The rear-link clearance pin of a sample; the pin's size is the paper's."""
     bearing = paper_machine.bearing(clearance_mm)
     form = external_contact_stiffness if sample["stiffness"] == "external" else internal_contact_stiffness
     law = POWER_LAWS[str(sample["law"])]

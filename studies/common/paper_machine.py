@@ -1,4 +1,4 @@
-"""The paper's case: the reference support with a clearance rear-link pin, and what the paper prints of it."""
+"""The paper's case: the reference support with a rear-link clearance pin, and what the paper prints of it."""
 
 from __future__ import annotations
 

@@ -109,7 +109,7 @@ def rest_direction() -> tuple[float, float]:
 
 
 def fallen(point: Point) -> Scenario:
-    """The support, held, with a clearance rear pin whose journal falls and bounces."""
+    """The support, held, with clearance in the rear pin whose journal falls and bounces."""
     return Scenario(
         machine=reference_support(), pins={PIN: near(point).pin}, solver=settings(point), **times(point)
     )

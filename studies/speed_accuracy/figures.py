@@ -16,7 +16,7 @@ PANELS: dict[str, Callable[[WayRun], float]] = {
     "mean force": lambda row: row.errors["mean"],
     "spread": lambda row: row.errors["spread"],
     "peak force": lambda row: row.errors["peak"],
-    "impact velocitys": lambda row: max(row.errors[f"onset {n}"] for n in (1, 2, 3)),
+    "impact velocities": lambda row: max(row.errors[f"onset {n}"] for n in (1, 2, 3)),
     "path [m]": lambda row: row.errors["path"],
     "acceleration": lambda row: row.errors["acceleration"],
 }

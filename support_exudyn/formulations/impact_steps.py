@@ -87,7 +87,7 @@ class ImpactSteps:
         return self._length == math.inf and not (depth > 0.0 and abs(depth - self._depth) > QUIET * depth)
 
     def follow(self, depth: float, rate: float, mass: float) -> None:
-        """A step has been accepted, without a impact at its end; state and effective mass at its end."""
+        """A step has been accepted, without an impact at its end; state and effective mass at its end."""
         if self._halvings:
             self._halvings -= 1
         calm, self._depth = self.calm(depth), depth

@@ -1,4 +1,4 @@
-"""The hydraulic support with a clearance rear-link pin in its free coordinates: turns of canopy and rear link.
+"""The hydraulic support with a rear-link clearance pin in its free coordinates: turns of canopy and rear link.
 
 Equations of motion by virtual power, and what follows from them. For every body: mass times acceleration minus
 weight, times the velocity that a free coordinate gives its centre of mass, plus the same for its turning. Both

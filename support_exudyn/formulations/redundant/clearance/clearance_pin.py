@@ -148,7 +148,7 @@ class ClearanceJoint:
             self.connector.set_force(self.engine_force.function)
 
     def plainly(self, impact_velocity: float) -> None:
-        """Let the force act whenever there is depth, as for a impact with this speed [m/s].
+        """Let the force act whenever there is depth, as for an impact with this speed [m/s].
 
         For recipes that do without `begin_try`, `after_newton` and `accept`.
         """

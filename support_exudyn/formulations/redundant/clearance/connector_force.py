@@ -73,7 +73,7 @@ class Relative(NamedTuple):
 
 
 def line_force(contact: JournalContact, depth: float, rate: float, speed: float) -> float:
-    """The push [N] that depends on depth [m] and rate [m/s] alone, in a impact with a speed [m/s]."""
+    """The push [N] that depends on depth [m] and rate [m/s] alone, in an impact with a speed [m/s]."""
     return maximum(contact.normal(depth, rate, Impact(speed, math.nan)), 0.0)
 
 
