@@ -15,6 +15,7 @@ import pytest
 from scipy.optimize import root
 
 from support_exudyn import Result
+from support_exudyn.__main__ import main
 from support_exudyn.files.machines.read import read_machine
 from support_exudyn.machines.four_column_support import HydraulicSupport
 
@@ -26,6 +27,25 @@ def blocks() -> list[tuple[str, str]]:
     """Kind and text of the section's blocks of code, in their order."""
     section = README.read_text(encoding="utf-8").partition(SECTION)[2].partition("\n## ")[0]
     return re.findall(r"```(\w+)\n(.*?)```", section, re.DOTALL)
+
+
+def test_all_commands_work_on_a_run_of_a_moment(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    for kind, text in blocks():
+        if kind == "toml":
+            name = text.partition("\n")[0].removeprefix("# ")
+            short = re.sub(r"^(duration_s|end_s) = 2", r"\1 = 0.1", text, flags=re.MULTILINE)
+            Path(name).write_text(short.replace("[0.5, 1.0, 1.5, 2.0]", "[1.0, 2.0]"), encoding="utf-8")
+            continue
+        for line in text.splitlines():
+            command = shlex.split(line.replace("--still 1", "--still 0.05"))[1:]
+            here = ["--workers", "1"] if command[0] == "sweep" else []
+            assert main([*command, *here]) == 0, line
+            assert "error" not in capsys.readouterr().err
+    assert {"shield_check.png", "loose_0.05s.png"} <= {path.name for path in Path().glob("*.png")}
+    assert list(Path("sizes_sweep/figures").glob("*.png"))
 
 
 @pytest.fixture(scope="module")
@@ -58,6 +78,7 @@ def test_every_file_and_command_of_the_page_is_tried() -> None:
     assert [kind for kind, _ in blocks() if kind not in ("toml", "sh")] == []
 
 
+@pytest.mark.slow  # the runs of the page take half a minute
 def test_the_answer_is_that_of_the_page(folder: Path) -> None:
     text = " ".join(README.read_text(encoding="utf-8").partition(SECTION)[2].split())
     found = re.search(r"the tip goes ([\d.]+) ± ([\d.]+) mm to the rear and ([\d.]+) ± ([\d.]+) mm up", text)
@@ -72,6 +93,7 @@ def test_the_answer_is_that_of_the_page(folder: Path) -> None:
     assert float(row[8]) == pytest.approx(-back, abs=back_error)
 
 
+@pytest.mark.slow  # the runs of the page take half a minute
 def test_the_tip_moves_as_geometry_has_it(folder: Path) -> None:
     """The journal lies where the bore's force holds it; all lengths stay, and the four-bar closes anew."""
     ideal, with_clearance = (Result.load(folder / f"{name}.h5") for name in ("ideal", "with_clearance"))
@@ -112,6 +134,7 @@ def shifted(machine: HydraulicSupport, stroke: float, offset: np.ndarray) -> np.
     return turned(points["tip"], found[4:6], found[6]) - points["tip"]
 
 
+@pytest.mark.slow  # the runs of the page take half a minute
 def test_the_sweep_is_a_straight_line(folder: Path) -> None:
     rows = (folder / "sizes_sweep" / "table.csv").read_text(encoding="utf-8").splitlines()
     head = [json.loads(cell) for cell in rows[0].split(",")]
@@ -132,6 +155,7 @@ def test_the_sweep_is_a_straight_line(folder: Path) -> None:
     assert tips[3] == pytest.approx(np.polyval(line, sizes[3]), abs=4e-5)
 
 
+@pytest.mark.slow  # the runs of the page take half a minute
 def test_pictures_and_figures_are_there(folder: Path) -> None:
     written = {path.relative_to(folder).as_posix() for path in folder.rglob("*.png")}
     assert {"shield_check.png", "loose_1s.png"} <= written
