@@ -1,7 +1,5 @@
 """`python -m studies`: all studies, each into a folder of its own, and the report on them."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 from collections.abc import Sequence

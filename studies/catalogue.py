@@ -1,7 +1,5 @@
 """All studies, in the order of the report. A new one is its folder and a line here."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 from studies.claims import run as claims

@@ -3,8 +3,6 @@
 `python -m studies.readme_pictures` writes them to studies/pictures; with names only those.
 """
 
-from __future__ import annotations
-
 import argparse
 import sys
 from collections.abc import Callable, Mapping, Sequence

@@ -3,8 +3,6 @@
 `python -m studies.report` writes both again from the results that are there.
 """
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Sequence
 from pathlib import Path

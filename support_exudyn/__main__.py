@@ -1,7 +1,5 @@
 """`python -m support_exudyn COMMAND ...`, see `support_exudyn.commands.parser`."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Sequence
 

@@ -3,8 +3,6 @@
 A law's name is that of its file. Its docstring has the paragraph "Source: ...", with the year in brackets.
 """
 
-from __future__ import annotations
-
 import inspect
 import re
 from importlib import import_module

@@ -1,7 +1,5 @@
 """Journal, normal law and friction law together: the force of a bore on its journal."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 from user_forces.expressions.scalar import hypot, is_number, maximum, where

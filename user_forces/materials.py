@@ -1,7 +1,5 @@
 """Elastic data of materials, and the stiffness coefficient K of laws F = K depth^1.5 that follows from them."""
 
-from __future__ import annotations
-
 import math
 from typing import Annotated
 

@@ -4,8 +4,6 @@ Every figure is a ratio of times taken in turns in this very run; none is assert
 last run that was kept stands in `studies/benchmarking/RESULTS.md`. Needs a C compiler for one row, and numba.
 """
 
-from __future__ import annotations
-
 import math
 import sys
 from collections.abc import Callable, Iterator, Sequence

@@ -8,8 +8,6 @@ tolerance to "reference" too, and every number is judged as `studies.benchmarkin
 is kept in the folder, so that an interrupted command goes on where it was.
 """
 
-from __future__ import annotations
-
 import argparse
 import csv
 import json

@@ -10,8 +10,6 @@ what the order of the method makes of the one before. Where it is far below, abo
 way, the number does not converge, and counts against a run only where the distances themselves are small.
 """
 
-from __future__ import annotations
-
 import hashlib
 import math
 from collections.abc import Iterator, Mapping, Sequence

@@ -1,7 +1,5 @@
 """Whether the errors that runs to an accuracy estimate are those that they have."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace

@@ -5,8 +5,6 @@ and drives are drawn from what is physically sensible. The same seed and number 
 else is drawn.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace

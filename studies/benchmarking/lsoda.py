@@ -5,8 +5,6 @@ separations, which `solve_ivp` locates, the equations are smooth and the initial
 No friction, no gravity.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple

@@ -1,7 +1,5 @@
 """What is said of a process: wall times, the machine, memory, and what importing the package takes."""
 
-from __future__ import annotations
-
 import os
 import platform
 import subprocess

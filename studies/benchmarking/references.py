@@ -5,8 +5,6 @@ formulation; its own error is the distance from another run: one at ten times th
 coordinates, or for columns of oil the tree against rigid bodies with constraints.
 """
 
-from __future__ import annotations
-
 import json
 import sys
 from collections.abc import Mapping, Sequence

@@ -1,7 +1,5 @@
 """The scenes on which speed is set against accuracy."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 

@@ -9,8 +9,6 @@ The table of the last measurement that was kept is `studies/benchmarking/SWEEPS.
     python -m studies.benchmarking.sweep_overhead && cp results/sweep_overhead/SWEEPS.md studies/benchmarking/
 """
 
-from __future__ import annotations
-
 import sys
 import tempfile
 import time

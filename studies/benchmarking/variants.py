@@ -1,7 +1,5 @@
 """Ways to compute a scene, ours and those of others, and what they cost."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace

@@ -3,8 +3,6 @@
 `yardstick.c` has the formulas. Here it is compiled, told the machine, run and read.
 """
 
-from __future__ import annotations
-
 import json
 import math
 import shutil

@@ -1,7 +1,5 @@
 """How each claim of the paper is judged; the claims themselves stand in claims.toml."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Which data of a machine decide a judgement: the bound, or the two together, that foretells most of them."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Pictures of the verdicts: shares of machines, and where the paper's numbers lie among them."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -5,8 +5,6 @@ of its inputs and of the program's sources: a run that was killed goes on where 
 program starts anew. A machine that cannot be run is a row too, with the reason.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 import math

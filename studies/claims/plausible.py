@@ -4,8 +4,6 @@ Each factor is a range or a list of choices with the reason for it, see factors.
 every factor; machine, pin and drive follow from it.
 """
 
-from __future__ import annotations
-
 import inspect
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace

@@ -5,8 +5,6 @@ mode 2, the ideal pin and 1.5 mm in mode 1. How fast the distances of the three 
 error of every measure, as it does of runs to an accuracy.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 

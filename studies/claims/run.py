@@ -4,8 +4,6 @@ Every claim of abstract, sections 3 to 5 and conclusions is judged on the refere
 machines: a Latin hypercube over all data that the paper does not give.
 """
 
-from __future__ import annotations
-
 import csv
 from collections import Counter
 from collections.abc import Sequence

@@ -1,7 +1,5 @@
 """From judgements of many machines to a verdict in words."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

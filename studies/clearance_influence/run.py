@@ -4,8 +4,6 @@ The support stands still for 3 s, while the journal falls from the middle of its
 and rises by 500 mm in the next 2 s. Ideal pin against 1.5 mm, with friction and without.
 """
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Callable, Mapping, Sequence
 

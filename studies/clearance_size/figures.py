@@ -1,7 +1,5 @@
 """Counterparts of Fig. 6 to 11 of the paper."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 
 from matplotlib.axes import Axes

@@ -4,8 +4,6 @@ Ideal pin, 0.5, 1.0, 1.5 and 2.0 mm, with the friction assumed throughout and wi
 the rear link, path of the canopy's tip, angles of the columns.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 

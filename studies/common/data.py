@@ -1,7 +1,5 @@
 """Data of studies that lie beside their modules as TOML."""
 
-from __future__ import annotations
-
 import sys
 from importlib.resources import files
 from typing import Any

@@ -1,7 +1,5 @@
 """Text and tables as Markdown that reads well in a terminal too."""
 
-from __future__ import annotations
-
 import re
 import textwrap
 from collections.abc import Iterable, Sequence

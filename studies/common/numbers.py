@@ -1,7 +1,5 @@
 """Numbers that studies report, with their errors: from runs, in tables, in sentences and in summary.json."""
 
-from __future__ import annotations
-
 import json
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence

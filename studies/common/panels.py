@@ -1,7 +1,5 @@
 """What figures of several studies do with their panels."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 from matplotlib.axes import Axes

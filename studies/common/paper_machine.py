@@ -1,7 +1,5 @@
 """The paper's case: the reference support with a rear-link clearance pin, and what the paper prints of it."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from support_exudyn import (

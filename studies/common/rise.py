@@ -4,8 +4,6 @@ A run is anything that hands out channels by name (`support_exudyn.Result` and o
 5 s; records lie every millisecond.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal, Protocol

@@ -1,7 +1,5 @@
 """Runs of studies: in parallel, under a progress bar, at ever shorter steps, and kept as files."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """What a study is and how it is run: its options, its folder, and everything that it leaves there."""
 
-from __future__ import annotations
-
 import argparse
 import os
 import sys

@@ -5,8 +5,6 @@ with a list; "## Figures" with a list of "stem: caption"; and "## Tables", where
 "### name", its title and, if there is one, its caption. The rows of the tables come from the study.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property

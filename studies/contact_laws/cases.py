@@ -1,7 +1,5 @@
 """What the study of contact laws runs: free impacts and rises under every law."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

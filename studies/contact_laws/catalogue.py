@@ -1,7 +1,5 @@
 """The laws that are compared, by the names under which studies report them: all that `user_forces` has."""
 
-from __future__ import annotations
-
 from dataclasses import fields
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Pictures of what contact laws deliver and change."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 
 import numpy as np

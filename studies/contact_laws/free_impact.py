@@ -1,7 +1,5 @@
 """One free impact of a law: as a scenario, as measured, and by scipy in one dimension."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

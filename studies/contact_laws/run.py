@@ -5,8 +5,6 @@ the closed form, and loops of force over depth. Then the support rises under eac
 normal laws and with each friction law; and with the textbook treatment of a contact that does not part.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 
 from studies.common import paper_machine, rise

@@ -1,7 +1,5 @@
 """Runs of the drive modes: both modes, both pins, all kinds of columns; and the recipe that has no limit."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from studies.benchmarking.peers.stock import peak_acceleration

@@ -1,7 +1,5 @@
 """Counterparts of Fig. 13 of the paper, and the rise on hydraulic cylinders."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What is measured of the drive modes; on hydraulic cylinders also motion, pressures, flow and losses."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping
 from typing import Literal

@@ -5,8 +5,6 @@ on rigid columns, which pass a jump of speed on as an impulse, on columns of oil
 limit, and on hydraulic cylinders, which no displacement drives but the oil that a valve lets in.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 from studies.common.numbers import Found, by_case

@@ -1,7 +1,5 @@
 """Tables of the drive modes, and what converges under step halving."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
 

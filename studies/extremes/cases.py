@@ -1,7 +1,5 @@
 """All cases of the study: grids for the maps, the box, and random corners of every kind."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from functools import partial

@@ -1,7 +1,5 @@
 """Stability maps: where a run is good, how large its error is, and where theory has its limits."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass

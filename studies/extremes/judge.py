@@ -9,8 +9,6 @@ A run is good if it has finished and what can be asked of it is so:
 - so does, where there is one, an independent formulation of the same scene.
 """
 
-from __future__ import annotations
-
 import math
 import time
 import traceback

@@ -5,8 +5,6 @@ with friction there, and on oil columns; held at rest; and a slider-crank with c
 as long. A run is measured in the process that calls; for memory that should be a fresh one.
 """
 
-from __future__ import annotations
-
 import math
 import time
 from collections.abc import Callable, Sequence

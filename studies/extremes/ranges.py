@@ -1,7 +1,5 @@
 """What the extremes are: ranges of all that is varied, and the box of what is physically sensible."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Literal, NamedTuple

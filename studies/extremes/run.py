@@ -5,8 +5,6 @@ far beyond what is sensible, in grids and random corners; and runs of a thousand
 see `studies.extremes.judge`.
 """
 
-from __future__ import annotations
-
 import json
 import math
 from collections import Counter

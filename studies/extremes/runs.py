@@ -1,7 +1,5 @@
 """All cases and long runs in parallel processes, each watched: hangs and crashes are silent failures, too."""
 
-from __future__ import annotations
-
 import signal
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager

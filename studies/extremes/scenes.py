@@ -1,7 +1,5 @@
 """Scenes at the extremes, made from a point of the ranges and what is special to a group."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from functools import cache

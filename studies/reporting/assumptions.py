@@ -1,7 +1,5 @@
 """All data that the studies put in, each marked as printed in the paper or assumed."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from studies.common import paper_machine

@@ -1,7 +1,5 @@
 """The report as one HTML page that needs nothing from elsewhere, and as Markdown for a terminal."""
 
-from __future__ import annotations
-
 import base64
 import os
 import re

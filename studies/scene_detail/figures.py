@@ -1,7 +1,5 @@
 """Change against cost, columns driven apart, and the plane beside space."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 
 import numpy as np

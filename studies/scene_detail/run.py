@@ -5,8 +5,6 @@ plainest scene and taken from the fullest, and every number comes with its numer
 follows which scene a question needs.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 

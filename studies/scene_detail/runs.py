@@ -1,7 +1,5 @@
 """Runs of all scenes, and the processor time of each: that of a shared machine is what others leave of it."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass, replace

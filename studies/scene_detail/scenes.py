@@ -1,7 +1,5 @@
 """The scenes: elements added to the plainest, taken from the fullest, both in space, and combined."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import Any, Literal

@@ -1,7 +1,5 @@
 """Tables of the study."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 
 from studies.common.numbers import brief

@@ -5,8 +5,6 @@ with restitution 0.9 and the stiffness of internal contact; start with the veloc
 the journal in the middle of its bore. Without friction, and with a coefficient of 0.03.
 """
 
-from __future__ import annotations
-
 import math
 import sys
 from collections.abc import Mapping, Sequence

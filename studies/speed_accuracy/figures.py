@@ -1,7 +1,5 @@
 """Work-precision diagrams."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
 

@@ -5,8 +5,6 @@ ways, one after the other on one core, and compared with a stored tight referenc
 an accuracy instead of settings: are the errors that they estimate those that they have?
 """
 
-from __future__ import annotations
-
 import math
 import time
 from collections.abc import Callable, Iterator, Sequence

@@ -1,7 +1,5 @@
 """Which pins are clearance, with how much clearance and friction, in the cases of `which_pin`."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import combinations

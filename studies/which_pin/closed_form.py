@@ -12,8 +12,6 @@ work that the pin force of a unit force at that point does along the way (virtua
 belong together). First order: the way is small against the links.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

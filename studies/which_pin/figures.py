@@ -1,7 +1,5 @@
 """Pictures of which pin matters: shifts of the tip, forces, shaking, and the shift under other loads."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What `which_pin` measures of a run, against the one with ideal pins."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """What the closed form says of clearance pins: over the rise of a run, and under other loads."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache

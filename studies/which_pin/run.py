@@ -4,8 +4,6 @@
 the tip's position, to the forces and to the shaking in the rise.
 """
 
-from __future__ import annotations
-
 from studies.common.numbers import by_case
 from studies.common.runs import run_with_errors
 from studies.common.study import Options, Study, StudyOutcome

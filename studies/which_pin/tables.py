@@ -1,7 +1,5 @@
 """Rankings and tables of `which_pin`."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from itertools import combinations

@@ -1,7 +1,5 @@
 """`chart STORE X Y`: a number of a sweep's runs over what was varied, as PNG and PDF."""
 
-from __future__ import annotations
-
 import argparse
 import re
 

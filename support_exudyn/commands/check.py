@@ -1,7 +1,5 @@
 """`check FILE`: what can be said of a machine before it is run."""
 
-from __future__ import annotations
-
 import argparse
 import json
 from functools import partial

@@ -1,7 +1,5 @@
 """What all command lines share: options that are refused in a line, and errors that are said in a sentence."""
 
-from __future__ import annotations
-
 import argparse
 import json
 import math

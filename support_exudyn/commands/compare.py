@@ -1,7 +1,5 @@
 """`compare FIRST SECOND [CHANNEL...]`: by how much a second run differs from a first."""
 
-from __future__ import annotations
-
 import argparse
 import math
 from collections.abc import Mapping

@@ -1,7 +1,5 @@
 """`export RUN`: a run for other programs."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 import time

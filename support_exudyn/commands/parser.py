@@ -5,8 +5,6 @@ it with the arguments that were given and raises InputError, OSError or Simulati
 module's. A further one is a file here and its name in NAMES.
 """
 
-from __future__ import annotations
-
 import argparse
 import sys
 from collections.abc import Iterable, Iterator, Sequence

@@ -1,7 +1,5 @@
 """`render RUN`: frames and a movie of a run."""
 
-from __future__ import annotations
-
 import argparse
 import re
 import sys

@@ -1,7 +1,5 @@
 """`run FILE`: a scenario's file, simulated and saved."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 from pathlib import Path

@@ -1,7 +1,5 @@
 """`scenario RUN`: the scenario of a run as TOML, from which `run` makes the same run again."""
 
-from __future__ import annotations
-
 import argparse
 from dataclasses import replace
 

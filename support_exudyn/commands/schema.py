@@ -1,7 +1,5 @@
 """`schema KIND`: the JSON Schema of a kind of file, for editors."""
 
-from __future__ import annotations
-
 import argparse
 import json
 from collections.abc import Callable

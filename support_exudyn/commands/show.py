@@ -1,7 +1,5 @@
 """`show RUN [CHANNEL...]`: what a run was and what came out, as tables in the terminal."""
 
-from __future__ import annotations
-
 import argparse
 import math
 from typing import Any

@@ -3,8 +3,6 @@
 Numbers in tables are whole, words are broken at the width of the terminal.
 """
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Callable, Sequence
 from dataclasses import asdict

@@ -1,7 +1,5 @@
 """`view RUN`: the run in Exudyn's solution viewer, in a window."""
 
-from __future__ import annotations
-
 import argparse
 
 from support_exudyn.commands.command_line import add_run, count, folder

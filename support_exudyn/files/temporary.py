@@ -1,7 +1,5 @@
 """Temporary folders of our own: what a killed process leaves is known for ours, and nothing else is removed."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import stat

@@ -1,7 +1,5 @@
 """How functions of numbers are compiled by numba: the same numbers in every process, kept on disk."""
 
-from __future__ import annotations
-
 import hashlib
 from collections.abc import Callable
 from functools import cache

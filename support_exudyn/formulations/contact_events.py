@@ -5,8 +5,6 @@ rate at both ends. In free flight its error is of fourth order in the step, and 
 zero depth is its slope where it crosses zero.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from enum import Enum

@@ -1,7 +1,5 @@
 """What errors of the engine mean, in words of the field."""
 
-from __future__ import annotations
-
 import re
 
 UNSOLVABLE = (

@@ -1,7 +1,5 @@
 """What the engine is told before a run: its settings, and to be quiet."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any

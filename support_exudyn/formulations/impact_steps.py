@@ -1,7 +1,5 @@
 """How finely a contact is stepped: short steps from an impact on, until what swings in it has become small."""
 
-from __future__ import annotations
-
 import math
 
 from user_forces.normal.law import Impact, NormalLaw

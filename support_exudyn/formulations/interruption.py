@@ -1,7 +1,5 @@
 """Interruptions from the console."""
 
-from __future__ import annotations
-
 import signal
 import threading
 from collections.abc import Iterator

@@ -1,15 +1,10 @@
 """Limits that all formulations share."""
 
-from __future__ import annotations
-
 import math
 import sys
-from typing import TYPE_CHECKING
 
+from support_exudyn.scenario.scenario import Scenario
 from user_forces.journal import JournalBearing
-
-if TYPE_CHECKING:
-    from support_exudyn.scenario.scenario import Scenario
 
 # Depth of a journal as a share of the bore's radius. Laws and geometry are those of small depths; the reference
 # support meets 1 % of it.

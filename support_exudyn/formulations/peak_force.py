@@ -4,8 +4,6 @@ Laws have corners, where what limits the damping changes: between the ends of st
 at either, by a share of the step and not of its square.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 

@@ -1,7 +1,5 @@
 """How a run tells how far it is."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 Progress = Callable[[float], None]  # is told the share that is done, 0 to 1

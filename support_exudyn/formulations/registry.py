@@ -4,8 +4,6 @@
 `run(scenario, progress)` gives its Outcome; it raises SimulationError if the run cannot be finished.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from importlib import import_module
 from typing import Literal, Protocol, cast

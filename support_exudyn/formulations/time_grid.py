@@ -1,7 +1,5 @@
 """Which times the solver lands on."""
 
-from __future__ import annotations
-
 import math
 from bisect import bisect_left, bisect_right
 from collections.abc import Iterable

@@ -1,7 +1,5 @@
 """Whether the two columns of a support can follow drives that are not alike."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import pairwise
 from typing import TypeVar

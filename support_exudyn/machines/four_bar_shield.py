@@ -13,8 +13,6 @@ x forward (towards the coal face), y up, both sides lumped into one plane. The f
 freedom and the canopy on its hinge another.
 """
 
-from __future__ import annotations
-
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence

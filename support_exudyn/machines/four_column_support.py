@@ -13,8 +13,6 @@ x forward (towards the coal face), y up. With all pins ideal the two column leng
 the four-bar has one degree of freedom and the canopy on its hinge another.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -8,8 +8,6 @@
  '-----------'
 """
 
-from __future__ import annotations
-
 from support_exudyn.model.linkage import Body, Linkage, PinPlace
 from support_exudyn.model.machine import Machine
 from user_forces.values.units import Kilograms, Metres, MetresPerSecond

@@ -1,7 +1,5 @@
 """What a machine's data file holds: the machine, and what a scenario may ask for besides."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 

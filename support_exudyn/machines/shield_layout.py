@@ -1,7 +1,5 @@
 """A four-bar shield support in its start posture: what its pivots must be, the closed four-bar, the linkage."""
 
-from __future__ import annotations
-
 import math
 from abc import ABC
 from collections.abc import Collection, Mapping

@@ -13,8 +13,6 @@ x forward (towards the coal face), y up. With all pins ideal the lengths of leg 
 a scenario drives it otherwise, the ram follows the leg so that the canopy keeps level.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass

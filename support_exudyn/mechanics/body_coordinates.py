@@ -1,7 +1,5 @@
 """Where the parts of a linkage stand in the engine."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any, Protocol
 

@@ -1,7 +1,5 @@
 """Where points of bodies are over time, from the bodies' coordinates."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from functools import cached_property
 

@@ -1,7 +1,5 @@
 """A bushing at the records of a run: its force and moment from the motion of its bodies, and its channels."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

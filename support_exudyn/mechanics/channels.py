@@ -3,8 +3,6 @@
 They are known before a run, so that nothing is kept or computed that nobody asks for.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Iterable
 from dataclasses import dataclass, field
 from difflib import get_close_matches

@@ -1,7 +1,5 @@
 """A clearance pin at all records, from the motion of its bodies and what it remembers."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """Hydraulic cylinders in their place: what they carry at the start, their pressures, energy and power."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Second derivatives of drives, which say only how far they are and how fast."""
 
-from __future__ import annotations
-
 from bisect import bisect_left
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Extremes of what has a sign, and how far records miss them."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A linkage whose clearance journals do not start in the middle of their bores."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import replace

@@ -7,8 +7,6 @@ For a body whose other forces are known, force and moment of its last joint foll
 Its partner then has one unknown joint less.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 

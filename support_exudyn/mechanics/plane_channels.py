@@ -1,7 +1,5 @@
 """All channels of a linkage in the plane by name, see `channels`."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Mapping
 
 import numpy as np

@@ -11,8 +11,6 @@ a free impact then stores at most half of this mass times its initial impact vel
 by the mass (`IndentationVelocity`) deliver their restitution. Pins that are apart transmit nothing.
 """
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

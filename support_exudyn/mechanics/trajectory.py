@@ -1,7 +1,5 @@
 """What every formulation hands over of a run: motion and forces at the records, and what happened between."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import NamedTuple, Protocol

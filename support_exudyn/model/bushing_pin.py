@@ -1,7 +1,5 @@
 """A linear bushing in place of a pin: springs and dampers in two directions and about the axis."""
 
-from __future__ import annotations
-
 from typing import Literal
 
 from support_exudyn.model.pins import Pin, Refusal

@@ -1,7 +1,5 @@
 """What the engine needs to know of a machine: bodies, pins and columns in their start posture."""
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from collections.abc import Collection, Mapping
 

@@ -1,7 +1,5 @@
 """Points and circles in the plane."""
 
-from __future__ import annotations
-
 import math
 
 from user_forces.values.value import Vector2

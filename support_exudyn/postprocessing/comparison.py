@@ -1,7 +1,5 @@
 """What differs between two runs, record by record, with its error."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterable
 from typing import NamedTuple

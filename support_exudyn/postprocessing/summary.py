@@ -1,7 +1,5 @@
 """What a run was and what came out of it, in words and numbers with their units."""
 
-from __future__ import annotations
-
 import dataclasses
 import math
 from collections.abc import Iterable, Mapping

@@ -1,7 +1,5 @@
 """From a trajectory to named channels with units: those that the scenario asks for."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import reduce

@@ -1,7 +1,5 @@
 """How fast a scene moves, as known before it runs: what its steps have to follow."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from itertools import pairwise

@@ -1,7 +1,5 @@
 """What of a scenario has to fit its machine."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 

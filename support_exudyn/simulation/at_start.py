@@ -5,8 +5,6 @@ for an error of its own: so it ends the program at once, which has begun nothing
 letters that the console has not: they are then written in others.
 """
 
-from __future__ import annotations
-
 import codecs
 import io
 import os

@@ -1,7 +1,5 @@
 """From an accuracy to settings: formulation, step, steps of an impact, tolerance."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 

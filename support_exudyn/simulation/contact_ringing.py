@@ -17,8 +17,6 @@ W its inverse effective mass, k and c stiffness and damping of the law. Friction
 nothing below some speed of sliding.
 """
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

@@ -29,15 +29,17 @@ the worst true error is 4.1 times the estimated one (22), and estimates are 5 (r
 as large in the median, 7.5 in a mixture of all kinds. The command tells it of any other seed.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
+from support_exudyn.formulations.limits import rounding_of_positions
+from support_exudyn.formulations.registry import formulation
+from support_exudyn.scenario.scenario import Scenario
+from support_exudyn.simulation.recorded_run import RecordedRun
 from support_exudyn.simulation.reported_numbers import (
     ROUNDING,
     Measure,
@@ -48,12 +50,6 @@ from support_exudyn.simulation.reported_numbers import (
     over,
     path_of,
 )
-
-if TYPE_CHECKING:
-    from support_exudyn.scenario.scenario import Scenario
-    from support_exudyn.simulation.recorded_run import RecordedRun
-from support_exudyn.formulations.limits import rounding_of_positions
-from support_exudyn.formulations.registry import formulation
 
 Values = npt.NDArray[np.float64]  # of any shape
 # share of a number's own d1 / d2 that its r is at least, and the most of that: where steps are chosen by a

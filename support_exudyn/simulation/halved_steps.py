@@ -5,8 +5,6 @@ not, if errors are too large to tell anything, or if steps were too long for the
 halved again, a few times. If that does not help, nothing is known of the numbers, and the run is refused.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from support_exudyn.formulations.contract import Failure, SimulationError

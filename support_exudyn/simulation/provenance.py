@@ -1,7 +1,5 @@
 """With what a run was made."""
 
-from __future__ import annotations
-
 import platform
 from datetime import datetime, timezone
 from functools import cache

@@ -13,8 +13,6 @@ the fewest elements. It is applied to the table that the study has written, so t
 that table: one machine, one stroke.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any

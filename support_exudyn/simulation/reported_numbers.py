@@ -1,22 +1,18 @@
 """The numbers that every result reports, and how each is measured."""
 
-from __future__ import annotations
-
 import math
 import numbers
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
+from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.mechanics.extremes import largest, missed
+from support_exudyn.scenario.scenario import Scenario
+from support_exudyn.simulation.recorded_run import RecordedRun
 from user_forces.values.value import InputError, short
-
-if TYPE_CHECKING:
-    from support_exudyn.mechanics.contact_state import Onset
-    from support_exudyn.scenario.scenario import Scenario
-    from support_exudyn.simulation.recorded_run import RecordedRun
 
 Series = npt.NDArray[np.float64]
 NEWTON = 5.0  # tolerances of Newton's method that are left of a number at any step; 1.6 of an impact's speed
@@ -44,7 +40,7 @@ def measured(scenario: Scenario) -> tuple[str, ...]:
     )
 
 
-Measure = Callable[["RecordedRun"], float]
+Measure = Callable[[RecordedRun], float]
 
 
 def _nothing(run: RecordedRun) -> float:

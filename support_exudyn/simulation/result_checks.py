@@ -4,8 +4,6 @@ A run that fails is refused, because nothing else tells that its numbers mean no
 that a run passes does not make it accurate.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The entry: scenario in, result out."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Literal, overload

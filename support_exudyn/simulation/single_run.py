@@ -1,7 +1,5 @@
 """One run of a scenario with the settings that it has."""
 
-from __future__ import annotations
-
 import gc
 import time
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """Runs to an accuracy: settings chosen before the run, errors estimated after it, refined until as asked."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """The runs of a sweep on a Dask cluster; its machines need not see this one's disk."""
 
-from __future__ import annotations
-
 import logging
 import sys
 import tempfile

@@ -3,8 +3,6 @@
 A scenario is made of the table of a scenario file, with fields of it and of its machine's file replaced.
 """
 
-from __future__ import annotations
-
 import copy
 import math
 import tempfile

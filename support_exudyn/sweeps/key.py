@@ -1,7 +1,5 @@
 """The key of a run: the same for the same inputs and the same program, another for any others."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 import sys

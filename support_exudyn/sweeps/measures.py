@@ -1,7 +1,5 @@
 """The numbers of a run that a sweep notes."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping
 from fnmatch import fnmatchcase

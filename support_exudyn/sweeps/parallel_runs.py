@@ -1,7 +1,5 @@
 """Several runs side by side, in processes of their own."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 
 from support_exudyn.formulations.contract import Failure

@@ -3,8 +3,6 @@
 The points of a plan are all combinations of some values, lists side by side, or a Latin hypercube.
 """
 
-from __future__ import annotations
-
 import itertools
 import json
 import math

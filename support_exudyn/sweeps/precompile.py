@@ -1,7 +1,5 @@
 """Compiling ahead of time."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from support_exudyn.files.machines import reference_support

@@ -1,7 +1,5 @@
 """A sweep: what the store does not hold is run, and the table is written."""
 
-from __future__ import annotations
-
 import os
 import pickle
 import time

@@ -1,7 +1,5 @@
 """The table of a sweep: a row for every run of the plan, in its order."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Sequence
 from decimal import Decimal

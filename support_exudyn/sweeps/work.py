@@ -1,7 +1,5 @@
 """What is done for a run of a sweep, and the runs in processes on this machine."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Generator, Iterable, Iterator
 from dataclasses import dataclass

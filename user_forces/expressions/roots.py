@@ -3,8 +3,6 @@
 scipy.optimize takes a third of a second to import, so that is left until a root is asked for.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 RTOL = 8.881784197001252e-16  # four roundings, the least that is allowed

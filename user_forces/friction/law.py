@@ -1,7 +1,5 @@
 """What a friction law is."""
 
-from __future__ import annotations
-
 import math
 from abc import ABC, abstractmethod
 

@@ -1,7 +1,5 @@
 """Laws for a cylinder in a cylindrical bore that touch along a line of length L."""
 
-from __future__ import annotations
-
 import math
 from abc import abstractmethod
 from typing import ClassVar

@@ -6,8 +6,6 @@ stay damped as its last impact happened to be, or without bound after a soft one
 law.
 """
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 
 from user_forces.expressions.scalar import maximum, sqrt

@@ -1,7 +1,5 @@
 """Laws F = F_el (1 + chi rate / w): an elastic force that is larger on the way in than on the way out."""
 
-from __future__ import annotations
-
 import math
 from abc import abstractmethod
 from dataclasses import field

@@ -1,7 +1,5 @@
 """Laws whose elastic force is K depth^n."""
 
-from __future__ import annotations
-
 from typing import Annotated
 
 from pydantic import Field

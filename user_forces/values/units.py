@@ -5,8 +5,6 @@ a quantity that carries its unit, as pint makes them; data files give it as `cle
 `Unit.read`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from decimal import Context, Decimal

@@ -1,7 +1,5 @@
 """A machine in the engine's redundant coordinates, its clearance pin marked and nothing in it."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Any

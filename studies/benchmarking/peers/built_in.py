@@ -1,7 +1,5 @@
 """The engine's own contact in the bare scene with the bare solver, and our connector in its place."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace

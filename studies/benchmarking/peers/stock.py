@@ -5,8 +5,6 @@ floats, the initial impact velocity is noted at the end of the step in which the
 alpha makes equal steps.
 """
 
-from __future__ import annotations
-
 import math
 import time
 from collections.abc import Callable

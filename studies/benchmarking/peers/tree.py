@@ -5,8 +5,6 @@ variables are left, which explicit solvers refuse. The crank keeps its speed by 
 is nothing. DOPRI5 chooses its steps by their error.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -4,8 +4,6 @@ A further kind of machine is a class of values with a method `data`, whose field
 line in `FILES`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import replace
 from difflib import get_close_matches

@@ -1,7 +1,5 @@
 """Displacements over time from CSV."""
 
-from __future__ import annotations
-
 import csv
 import io
 from collections.abc import Callable, Sequence

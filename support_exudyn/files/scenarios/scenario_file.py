@@ -1,7 +1,5 @@
 """Scenarios as TOML files, and the JSON Schema of these files."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path

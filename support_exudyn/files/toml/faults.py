@@ -1,7 +1,5 @@
 """Where in a file something stands, and what is said of all that is wrong in it."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping
 from decimal import Decimal
 from difflib import get_close_matches

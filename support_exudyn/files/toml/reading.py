@@ -1,7 +1,5 @@
 """Tables of files are read as values, by what the values' classes declare."""
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Callable, Iterable, Mapping

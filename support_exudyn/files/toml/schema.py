@@ -1,7 +1,5 @@
 """JSON Schemas of files, made from what the classes declare, by which editors complete and check TOML."""
 
-from __future__ import annotations
-
 import inspect
 from collections.abc import Mapping
 from decimal import Decimal

@@ -5,8 +5,6 @@ our own. `group`: the item is a value of one of a `GroupShape` of classes. `name
 `Names` that are asked for when it is read.
 """
 
-from __future__ import annotations
-
 import inspect
 import operator
 import re

@@ -1,7 +1,5 @@
 """TOML files and texts as tables, and back; numbers with a point are decimals, rounded once by their unit."""
 
-from __future__ import annotations
-
 import re
 import sys
 import textwrap

@@ -1,7 +1,5 @@
 """Values are written as tables of files, whole, so that reading gives the same value to the bit."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from decimal import Decimal
 from typing import Any

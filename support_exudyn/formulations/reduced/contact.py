@@ -4,8 +4,6 @@ The force is that of the family F = K depth^n (1 + chi rate / w) with Ambrosio's
 compiled from its source. As in `user_forces.contact` it acts at one point of space on both bodies.
 """
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """What the reduced formulation covers; everything else is refused with what to do instead."""
 
-from __future__ import annotations
-
 from typing import NoReturn, cast
 
 from support_exudyn.formulations.reduced import slider_crank, support_model

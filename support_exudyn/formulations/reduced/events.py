@@ -4,8 +4,6 @@ A step is looked at in parts. Over a part the depth is the cubic that fits depth
 that leaves in doubt whether something happens, the step is too long, and is made again shorter.
 """
 
-from __future__ import annotations
-
 import math
 
 from support_exudyn.formulations.compiled import compiled

@@ -1,7 +1,5 @@
 """The run of a support with ideal pins: the posture follows from the columns alone."""
 
-from __future__ import annotations
-
 import math
 
 from support_exudyn.formulations.compiled import compiled, entry

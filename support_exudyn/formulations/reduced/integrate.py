@@ -1,7 +1,5 @@
 """The run of a support with a clearance pin: steps of chosen length, cut at impacts and separations."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Where numbers stand in the arrays that compiled functions work on, and what the drive does by its numbers."""
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """What the reduced formulation needs of a machine, and the bodies of one at the records."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple, Protocol

@@ -1,7 +1,5 @@
 """What is written down of a run: records and the largest force."""
 
-from __future__ import annotations
-
 import math
 
 from support_exudyn.formulations.compiled import compiled

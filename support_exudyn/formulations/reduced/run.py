@@ -1,7 +1,5 @@
 """The run of the reduced formulation: scenario in, outcome out."""
 
-from __future__ import annotations
-
 from itertools import count
 
 import numpy as np

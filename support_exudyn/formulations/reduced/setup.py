@@ -1,7 +1,5 @@
 """From a scenario to the arrays of one run, which compiled functions read and fill."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass

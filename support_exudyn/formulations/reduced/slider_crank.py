@@ -1,7 +1,5 @@
 """The slider-crank with a clearance slider pin in its free coordinates: turn of the rod, way of the slider."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

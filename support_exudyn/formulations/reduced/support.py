@@ -5,8 +5,6 @@ weight, times the velocity that a free coordinate gives its centre of mass, plus
 sums equal the power of the contact force.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 from support_exudyn.formulations.compiled import compiled, inlined

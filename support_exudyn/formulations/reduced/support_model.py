@@ -1,7 +1,5 @@
 """The hydraulic support for the reduced formulation: its parameters, and its bodies at the records."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

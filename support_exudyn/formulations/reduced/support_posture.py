@@ -5,8 +5,6 @@ canopy, so I lies where two circles meet, whose radii are the lengths of the col
 about I and A meet, C sits on the shield beam, and the rear link hangs on C.
 """
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

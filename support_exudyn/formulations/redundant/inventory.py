@@ -1,7 +1,5 @@
 """What the engine holds for a scenario in the redundant formulation, counted in the engine itself."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

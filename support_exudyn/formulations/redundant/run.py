@@ -3,8 +3,6 @@
 It covers every scenario and is the reference for the others.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import TypeVar
 

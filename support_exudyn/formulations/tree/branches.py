@@ -9,8 +9,6 @@
 Coordinate of a link: its turn against the one that carries it [rad], 0 at the start.
 """
 
-from __future__ import annotations
-
 from collections.abc import Container
 from dataclasses import dataclass
 from functools import cached_property

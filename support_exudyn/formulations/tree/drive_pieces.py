@@ -1,7 +1,5 @@
 """The drives in pieces, on each of which all are cubics of time, so that every stage of a step knows them."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import NamedTuple
 

@@ -8,8 +8,6 @@ the joint and x turned by 90 degrees written as x', link b moves with (c_b - p_j
 over the links that both, or j, carry; b_b is the acceleration of the centre of mass without any q''.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property

@@ -1,7 +1,5 @@
 """The tree in the engine, its explicit solver, of which every step is chosen here, and the steps of a run."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from typing import Any
 

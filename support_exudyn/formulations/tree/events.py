@@ -3,8 +3,6 @@
 Between both ends of a step the journal moves against the bore as the cubic that fits place and velocity there.
 """
 
-from __future__ import annotations
-
 import math
 from enum import Enum
 from typing import NamedTuple

@@ -1,7 +1,5 @@
 """The generalised forces of a tree and its clearance pins; the engine asks for them at every stage."""
 
-from __future__ import annotations
-
 import math
 from typing import Any, NamedTuple
 

@@ -1,7 +1,5 @@
 """The run: steps of chosen length, cut at impacts and separations and where the drive has its breaks."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from typing import Any

@@ -11,8 +11,6 @@ All functions of this file work on these arrays:
 Points come in pairs: first bore and journal of each clearance pin, then foot and head of each column.
 """
 
-from __future__ import annotations
-
 import math
 
 from support_exudyn.formulations.compiled import entry

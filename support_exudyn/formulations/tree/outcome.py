@@ -1,7 +1,5 @@
 """What a finished run says: all forces at chosen instants, motion at the records, integrals, largest forces."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property

@@ -1,7 +1,5 @@
 """The run of the tree formulation: scenario in, outcome out; what is not covered is refused with what to do."""
 
-from __future__ import annotations
-
 import math
 from typing import NoReturn
 

@@ -1,7 +1,5 @@
 """How a tree starts: its rates, its static equilibrium, and what its clearance pins remember."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

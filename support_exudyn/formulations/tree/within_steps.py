@@ -4,8 +4,6 @@ The motion is the quintic that fits place, velocity and acceleration at both end
 what is known at five points of every step (Gauss-Lobatto, exact to degree 7).
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """What can be said of a machine before it is run: mobility, closure, dead centres, statics, doubts."""
 
-from __future__ import annotations
-
 from support_exudyn.machines.check.report import CheckReport, CheckTable
 from support_exudyn.machines.check.shield import check_shield
 from support_exudyn.machines.check.slider_crank import check_crank

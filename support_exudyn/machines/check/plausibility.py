@@ -1,7 +1,5 @@
 """What a colleague would ask about a support's file: units, masses, pivots, what is missing."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping
 from typing import Any

@@ -1,7 +1,5 @@
 """What a check came to: tables in mm, degrees and kN, warnings, and numbers in SI."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any

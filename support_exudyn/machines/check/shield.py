@@ -1,7 +1,5 @@
 """The check of a shield support."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field

@@ -1,7 +1,5 @@
 """A shield support over its stroke: postures, angles, forces, and where it would lock beyond."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Any

@@ -1,7 +1,5 @@
 """The check of a slider-crank."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field

@@ -1,7 +1,5 @@
 """Degrees of freedom of a linkage, and the forces that hold its weight: ideal pins, massless columns."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

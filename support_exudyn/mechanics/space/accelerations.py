@@ -4,8 +4,6 @@ See `mechanics.reactions`: the engine's own are differences of positions over th
 a kink of a drive they swing about the right ones.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 

@@ -4,8 +4,6 @@ Names are those of the plane where they mean the same. A pin or column that ther
 each, and under the planar name the force of both, and the mean of lengths and angles.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, Protocol

@@ -6,8 +6,6 @@ says nothing new. Such rows are left out of the model, by which no motion change
 what holds the same is beyond rigid bodies; see `reactions`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache

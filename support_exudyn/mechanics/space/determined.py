@@ -5,8 +5,6 @@ determined if it is zero for all that C^T takes to zero: loads that the bearings
 other force to balance. Judged in the start posture.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Sequence
 from functools import cached_property
 

@@ -5,8 +5,6 @@ As in the plane (`mechanics.kinetics`), with velocities v and omega of every bod
     M dv + C^T L = b,    C dv = c
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -8,8 +8,6 @@ parameters from 1, 0, 0, 0. Arrays have the instants first, then the bodies in t
 with G the 3 x 4 matrix of the Euler parameters p, in the ground's axes.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import NamedTuple
 

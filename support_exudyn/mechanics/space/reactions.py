@@ -9,8 +9,6 @@ those with the least sum of squares (moments count as forces at 1 m), which load
 parallel links half each. Which loads that leaves open is told by `determined`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A block of rock that falls on a machine."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import replace

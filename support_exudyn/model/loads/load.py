@@ -1,7 +1,5 @@
 """What every load is: a force on a point of a body that follows from time and the point's motion."""
 
-from __future__ import annotations
-
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Mapping

@@ -1,7 +1,5 @@
 """A roof that comes down on a machine."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 from support_exudyn.model.drives.drive import Drive

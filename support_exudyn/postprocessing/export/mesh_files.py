@@ -4,8 +4,6 @@ Everything is in SI; names of fields end in their unit. What is written are reco
 nothing between them.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Sequence
 from pathlib import Path

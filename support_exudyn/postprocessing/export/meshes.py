@@ -1,7 +1,5 @@
 """The machine of a run as a surface mesh that moves, and its pins as points, with names for their numbers."""
 
-from __future__ import annotations
-
 import csv
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field

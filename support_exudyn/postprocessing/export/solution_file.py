@@ -6,8 +6,6 @@ rows as records: time, then coordinates (see `coordinates`) and their rates; acc
 which a run does not keep all, are not among them.
 """
 
-from __future__ import annotations
-
 import ast
 import errno
 import re

@@ -1,7 +1,5 @@
 """All channels of a run as tables for other programs: CSV, and plain HDF5."""
 
-from __future__ import annotations
-
 import csv
 import json
 from collections.abc import Sequence

@@ -1,7 +1,5 @@
 """Several files that belong together, written all or none."""
 
-from __future__ import annotations
-
 import errno
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager, suppress

@@ -1,7 +1,5 @@
 """Quick look: channels of a run over time."""
 
-from __future__ import annotations
-
 import math
 import textwrap
 from collections.abc import Sequence

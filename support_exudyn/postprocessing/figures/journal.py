@@ -1,7 +1,5 @@
 """A clearance pin of a run, ready to be drawn: where its journal is in the bore, when in contact."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from difflib import get_close_matches

@@ -1,7 +1,5 @@
 """Journal orbit: the path of the journal's centre within the clearance circle."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Poincare view: a run seen once in a period, or at every impact."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from typing import Any, NamedTuple

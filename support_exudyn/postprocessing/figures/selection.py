@@ -1,7 +1,5 @@
 """What of a run is looked at: channels by names and patterns, and a piece between two times."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Collection, Sequence
 from difflib import get_close_matches

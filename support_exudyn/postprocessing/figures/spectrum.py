@@ -1,7 +1,5 @@
 """Spectrum of a pin force: amplitudes by frequency, and how they change over time."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

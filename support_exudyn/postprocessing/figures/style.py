@@ -1,7 +1,5 @@
 """One look for all figures."""
 
-from __future__ import annotations
-
 import textwrap
 from contextlib import AbstractContextManager
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Units at the border: what a figure or a table shows for SI and radians inside."""
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """What a machine looks like that says no more of it: plates around the points at which bodies are joined."""
 
-from __future__ import annotations
-
 import math
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence

@@ -1,7 +1,5 @@
 """Where bodies, struts and pins are at the records of a run, of every formulation, in plane and space."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import lru_cache
 

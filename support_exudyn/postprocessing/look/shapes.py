@@ -1,7 +1,5 @@
 """Simple solids, by shapely's outlines and trimesh's surfaces; hydraulic cylinders among them."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Sequence
 

@@ -1,7 +1,5 @@
 """Thicknesses and widths of a shield support that is known by its pivots."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

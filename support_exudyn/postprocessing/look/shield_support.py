@@ -1,7 +1,5 @@
 """What a shield support looks like: proportions of a real one about the pivots of the machine."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial

@@ -1,7 +1,5 @@
 """What is drawn: solids that move with a body, struts from one body to another, and their colours."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from enum import Enum
 

@@ -1,7 +1,5 @@
 """A frame: the machine as the ray tracer sees it, and what is written and drawn on and beside it."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from support_exudyn.model.pins import ClearancePin

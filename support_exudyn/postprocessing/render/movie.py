@@ -1,7 +1,5 @@
 """The times of frames and which records they show; movies of frames: GIF by Pillow, MP4 by imageio-ffmpeg."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass

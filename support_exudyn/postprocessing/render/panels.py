@@ -1,7 +1,5 @@
 """What stands beside and below the machine on a frame: the journal in its bore, and force over time."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

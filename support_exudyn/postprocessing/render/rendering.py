@@ -1,7 +1,5 @@
 """Frames and movies of a run, as files and as pictures."""
 
-from __future__ import annotations
-
 import os
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass

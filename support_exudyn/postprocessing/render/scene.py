@@ -1,7 +1,5 @@
 """A run as a scene: the machine's surfaces, what stands around them, and where all of it is at a record."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from functools import cached_property
 

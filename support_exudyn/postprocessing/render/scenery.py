@@ -3,8 +3,6 @@
 Roof, coal face and goaf are cut through in the plane of symmetry, so that they hide nothing of the machine.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """A picture on which matplotlib draws in pixels: what stands still once, what moves anew on every frame."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """A camera that stands still, and a scene of the engine without mechanics: surfaces where a run has them."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any

@@ -1,7 +1,5 @@
 """Surfaces as the engine draws them."""
 
-from __future__ import annotations
-
 from typing import Any, NamedTuple
 
 import numpy as np

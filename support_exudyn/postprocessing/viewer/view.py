@@ -1,7 +1,5 @@
 """Exudyn's solution viewer on a run: its model with the look of the machine, moving as it did."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 import tempfile

@@ -4,8 +4,6 @@ Only what is drawn is added: surfaces of the bodies, and bodies of the ground, w
 equations stay those of the model that runs.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import partial

@@ -1,7 +1,5 @@
 """A pin with clearance over a run: what it remembers, when it makes contact, and its force on the engine."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager

@@ -9,8 +9,6 @@ other the engine's displacement is longer than the distance of the points by (a/
 momentum is lost. The journal's marker frame is therefore turned along, so that a stays small.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from typing import Any, NamedTuple

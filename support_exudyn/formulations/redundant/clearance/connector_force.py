@@ -9,8 +9,6 @@ Formulas take numbers or expressions: `python_force` writes them out as source, 
 expressions. At the ends of steps and at the records `JournalContact.force` tells all parts of the same force.
 """
 
-from __future__ import annotations
-
 import math
 from enum import Enum
 from functools import partial

@@ -5,8 +5,6 @@ frames, which are lined up before a step that turns them apart. Without friction
 and a bore that turns has to be told: the mass that moves hangs on directions in the bore.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 

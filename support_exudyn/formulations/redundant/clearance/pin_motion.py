@@ -1,7 +1,5 @@
 """How a journal moves in its bore, from the engine's coordinates of both bodies."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from typing import Any, NamedTuple, Protocol

@@ -4,8 +4,6 @@ What changes from step to step (the impact, the state of friction) are names of 
 are set before a step is tried; there it also leaves the arguments of its last call.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import Any
 

@@ -12,8 +12,6 @@ on the friction, by a softness that two solutions tell. So the step ends with th
 The line is laid when Newton's method has failed, and stands until the surfaces part.
 """
 
-from __future__ import annotations
-
 import math
 import sys
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """A bushing in the engine: its own spring-dampers, one in the axes of the ground and one about the pin."""
 
-from __future__ import annotations
-
 import math
 import sys
 from typing import Any

@@ -9,8 +9,6 @@ those at the start, nor that they jump where a valve opens at once: they are tol
 after would be of first order.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any

@@ -1,7 +1,5 @@
 """Columns and cranks in the engine that follow the same drive."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """What builders of models in the engine share, in the plane and in space."""
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from functools import cached_property

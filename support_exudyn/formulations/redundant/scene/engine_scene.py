@@ -1,7 +1,5 @@
 """The model of a scenario in the engine as the solver sees it, be it in the plane or in space."""
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from typing import Any, Protocol

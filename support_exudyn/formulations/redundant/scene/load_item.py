@@ -1,8 +1,6 @@
 # ruff: noqa: N803 - the engine goes by the names of arguments
 """Loads in the engine: a connector between the loaded point and what it is loaded from."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager

@@ -9,8 +9,6 @@ beside clearance pins, and with drives that jump, the force is that at the end o
 first order.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """What follows at the records of a redundant run from its motion: accelerations, and forces of what is held."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 

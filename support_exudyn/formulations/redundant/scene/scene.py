@@ -1,7 +1,5 @@
 """The model of a scenario in the engine, ready for the solver; `scene_builder` makes it."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from functools import cached_property

@@ -1,7 +1,5 @@
 """Static equilibrium with clearance pins, so that a run can start settled."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from contextlib import ExitStack

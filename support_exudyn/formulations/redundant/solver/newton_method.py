@@ -4,8 +4,6 @@ Where it does not converge the engine shortens the step. With friction that is s
 every longer one would fail again, so that the next ones have the length that could be solved, and grow.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from typing import Any

@@ -1,7 +1,5 @@
 """What is kept of a run: states at the records, and integrals over all steps."""
 
-from __future__ import annotations
-
 from array import array
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Why a run could not go on, in words: reason and advice."""
 
-from __future__ import annotations
-
 from support_exudyn.formulations import engine_errors
 from support_exudyn.formulations.engine_errors import explained, first_line
 from support_exudyn.formulations.redundant.scene.engine_scene import EngineScene

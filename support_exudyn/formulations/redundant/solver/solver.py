@@ -10,8 +10,6 @@ generalised alpha if `discontinuous.maxIterations` is 1 or used up; and its reco
 leave the grid.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -6,8 +6,6 @@ accelerations change by. In a smooth motion the local error is the step squared 
 Steps grow twofold while the change is small, and halve at once when it is not.
 """
 
-from __future__ import annotations
-
 import math
 
 from support_exudyn.formulations.redundant.scene.engine_scene import EngineScene

@@ -4,8 +4,6 @@ The engine takes an expression for the angle of a crank. For the length of a rig
 a parameter, which Python sets before every step.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

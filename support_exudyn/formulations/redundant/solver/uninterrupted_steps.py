@@ -4,8 +4,6 @@ The engine's own loop over steps is entered once a stretch. What generalised alp
 in the solver, so that this is one integration: only where its steps end is told anew.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from typing import Any, NamedTuple

@@ -1,7 +1,5 @@
 """Between the ends of steps: integrals over time of powers, and states for records inside a step."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """A run in space at its records: motion, contacts, reactions, energies, each computed when it is asked for."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 

@@ -1,7 +1,5 @@
 """The model of a scenario in space, ready for the solver; `scene_builder` makes it."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property

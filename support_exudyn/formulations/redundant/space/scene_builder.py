@@ -1,7 +1,5 @@
 """From a scenario to a model in space: bodies with Euler parameters, bearings, columns with spherical ends."""
 
-from __future__ import annotations
-
 from collections.abc import Collection
 from dataclasses import replace
 from functools import partial

@@ -9,8 +9,6 @@ taken by Gauss and Lobatto's rule, whose outermost points are the edges: a tilte
 first.
 """
 
-from __future__ import annotations
-
 from typing import Literal, NamedTuple
 
 import numpy as np
