@@ -25,7 +25,7 @@ from support_exudyn.simulation.recorded_run import RecordedRun
 from support_exudyn.simulation.reported_numbers import measures
 from user_forces.values.value import InputError, Value, cleaned
 
-FORMAT = "support_exudyn result 4"
+FORMAT = "support_exudyn result 5"
 DAMAGES = (OSError, LookupError, AttributeError, TypeError, ValueError, RuntimeError, MemoryError)
 
 

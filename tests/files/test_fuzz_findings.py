@@ -239,7 +239,7 @@ def test_machine_files_that_were_a_traceback_are_refused(
 
 
 SCENE = {"name": "a", "family": "f", "seconds": 1.0, "steps": 1, "fields": {}, "numbers": {}}
-TABLE = {"format": "support_exudyn scene detail 1", "fullest": {"f": "a"}, "said": {}, "scenes": [SCENE]}
+TABLE = {"format": "support_exudyn scene detail 2", "fullest": {"f": "a"}, "said": {}, "scenes": [SCENE]}
 
 
 @pytest.mark.parametrize(

@@ -109,7 +109,7 @@ def test_what_cannot_be_written_is_said_before_the_work(tmp_path: Path, place: o
 
 
 def test_a_run_is_not_overwritten(tmp_path: Path) -> None:
-    (tmp_path / "b.bin").write_bytes(b"support_exudyn result 4\n")
+    (tmp_path / "b.bin").write_bytes(b"support_exudyn result 5\n")
     with pytest.raises(InputError, match=r"b\.bin: is a run, which would be lost"):
         write(tmp_path, "new")
     assert list(texts(tmp_path)) == ["b.bin"]

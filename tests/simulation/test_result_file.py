@@ -219,11 +219,11 @@ def test_a_coarser_run_without_a_channel_is_refused(estimated: Result, tmp_path:
 def test_a_file_of_another_version_says_so(result: Result, tmp_path: Path) -> None:
     path = result.save(tmp_path / "run.h5")
     image = path.read_bytes()[BLOCK:]
-    path.write_bytes(with_checksum(image, "support_exudyn result 5"))
-    with pytest.raises(InputError, match=r"format is '.* result 5', expected '.* result 4'"):
+    path.write_bytes(with_checksum(image, "support_exudyn result 6"))
+    with pytest.raises(InputError, match=r"format is '.* result 6', expected '.* result 5'"):
         Result.load(path)
     path.write_bytes(image)  # versions before had no digest
-    with pytest.raises(InputError, match=r"an HDF5 file without a digest, as no version from '.* result 4' on"):
+    with pytest.raises(InputError, match=r"an HDF5 file without a digest, as no version from '.* result 5' on"):
         Result.load(path)
 
 

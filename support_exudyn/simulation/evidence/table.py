@@ -17,7 +17,7 @@ from support_exudyn.simulation.estimate import Estimate
 from user_forces.values.value import InputError, Value, short
 
 LARGEST_FILE = 100_000_000  # bytes
-FORMAT = "support_exudyn scene detail 1"
+FORMAT = "support_exudyn scene detail 2"
 FIELDS = ("pins", "columns", "parts", "start", "dimensions")  # of a scenario: what an element of the model is
 
 
