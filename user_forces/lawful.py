@@ -3,7 +3,7 @@
 A force is a finite number. At rest a contact pushes. What a law takes besides its elastic part resists the
 motion, and so does friction: damping and friction lose energy and never give any. A friction law with a state
 is a spring, too, and may give back what it has stored: what it loses is looked at over longer times, in the
-audit.
+result checks.
 """
 
 from __future__ import annotations

@@ -140,7 +140,7 @@ def force_table(found: Found) -> TextTable:
     """Counterpart of Table 3."""
     rows = []
     for case in (IDEAL, *(case for mu in FRICTIONS for case in _cases(found, mu))):
-        mean, spread, shaking = (found[f"{n}_pin_force", case] for n in ("mean", "std", "rms_fluctuation"))
+        mean, spread, shaking = (found[f"{n}_pin_force", case] for n in ("mean", "std", "rms"))
         rows.append((case, cell(mean), printed(mean), cell(spread), printed(spread), cell(shaking)))
     header = ("case", "mean [N]", "paper", "standard deviation [N]", "paper", "RMS fluctuation [N]")
     return TextTable(header, tuple(rows))

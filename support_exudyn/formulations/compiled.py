@@ -101,12 +101,15 @@ def _is_kept_only_while_unchanged(dispatcher: Any) -> bool:
     """Let compiled code on disk be used only as long as no file that it may come from has changed.
 
     By itself numba looks at the file of the function alone, and would go on using old code of functions that it
-    calls from other files. It has no public way to tell it; without this nothing is kept on disk.
+    calls from other files. It has no public way to tell it; without this nothing is kept on disk. The stamp
+    stands in the version too: that is looked at before anything else of a kept file is read, which may name
+    classes that are no longer there.
     """
     kept: Any = getattr(getattr(dispatcher, "_cache", None), "_cache_file", None)
-    if not hasattr(kept, "_source_stamp"):
+    if not (hasattr(kept, "_source_stamp") and hasattr(kept, "_version")):
         return False
     kept._source_stamp = STAMP
+    kept._version = f"{kept._version}, {STAMP[0]}"
     return True
 
 

@@ -1,7 +1,7 @@
 """A four-bar shield support in its start posture: what its pivots must be, the closed four-bar, the linkage."""
 
 import math
-from abc import ABC
+from abc import ABC, abstractmethod
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -101,6 +101,10 @@ class ShieldLayout(Machine, ABC, Generic[P]):
     tail_hinge: Metres[Vector2] | None = None
     tail_jack_foot: Metres[Vector2] | None = None
     tail_jack_head: Metres[Vector2] | None = None
+
+    @abstractmethod
+    def extended(self, extension: float, near: P | None = None) -> P | None:
+        """Posture with the driven columns longer than at the start by `extension` [m], or None."""
 
     @classmethod
     def pivots(cls) -> tuple[str, ...]:

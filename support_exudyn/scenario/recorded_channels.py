@@ -33,7 +33,7 @@ class Channel:
 
 
 def channels(scenario: Scenario, run: Trajectory | ObservedRun) -> dict[str, Channel]:
-    """The channels that a scenario asks for, by name; all if its run is audited, which looks at all of them."""
+    """The channels that a scenario asks for, by name; all if the result checks look at all of them."""
     context = EvaluationContext(scenario.linkage, scenario.gravity, run) if isinstance(run, Trajectory) else run
     channel_definitions = scenario.channel_definitions if scenario.solver.result_checks else _asked(scenario)
     return {
@@ -48,7 +48,7 @@ def asked(scenario: Scenario, found: Mapping[str, Channel]) -> dict[str, Channel
 
 
 def needs(scenario: Scenario) -> DataNeeds:
-    """What of a run its channels are computed from: everything if it is audited, whatever is asked for."""
+    """What of a run its channels are computed from: everything if results are checked."""
     if scenario.solver.result_checks or scenario.channels == ALL_CHANNELS:
         return EVERYTHING
     return reduce(or_, (definition.needs for definition in _asked(scenario).values()), DataNeeds.NOTHING)

@@ -57,10 +57,10 @@ class SolverSettings(Value):
             64, the edges among them. Where a pin is not tilted any number gives the same; a tilted one on oil
             columns driven unequally by 2 % is right to 2 % with 5 and to 4e-4 with 9.
         most_steps: after how many steps, repeated ones among them, a run is given up, from 1 to 1e12.
-        audit: whether a run is refused whose energy does not add up by 5 % of what was turned over, whose
-            joints come apart by 0.1 mm, or whose journals are deeper in their bores than a fifth of the radius;
-            and one in which a law, load or drive gives no number, or gives energy where it should lose some. It
-            looks at everything, whatever is recorded.
+        result_checks: whether a run is refused whose energy does not add up by 5 % of what was turned over,
+            whose joints come apart by 0.1 mm, or whose journals are deeper in their bores than a fifth of the
+            radius; and one in which a law, load or drive gives no number, or gives energy where it should lose
+            some. It looks at everything, whatever is recorded.
     """
 
     integrator: Literal["generalised_alpha", "trapezoidal"] = "generalised_alpha"

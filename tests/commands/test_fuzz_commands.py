@@ -141,7 +141,7 @@ def nothing_runs(monkeypatch: pytest.MonkeyPatch) -> list[Options]:
     monkeypatch.setattr(all_studies, "rebuild", lambda *_: 0)
     monkeypatch.setattr(report, "rebuild", lambda *_: 0)
     monkeypatch.setattr(
-        scene_detail, "Table", SimpleNamespace(load=lambda _: SimpleNamespace(save=lambda _: 0))
+        scene_detail, "EvidenceTable", SimpleNamespace(load=lambda _: SimpleNamespace(save=lambda _: 0))
     )
     return noted
 

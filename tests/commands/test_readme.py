@@ -33,7 +33,7 @@ def test_the_example_runs(
     lines = said(1, capsys)
     assert float(lines[0].split()[0]) > 58000.0  # the static force in the low posture
     assert float(lines[1].split()[0]) < 1e-3
-    assert (tmp_path / "with_clearance.h5").stat().st_size > 0
+    assert (tmp_path / "pin_1mm.h5").stat().st_size > 0
 
 
 def test_the_picture_is_there() -> None:

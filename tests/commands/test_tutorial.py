@@ -44,7 +44,7 @@ def test_all_commands_work_on_a_run_of_a_moment(
             here = ["--workers", "1"] if command[0] == "sweep" else []
             assert main([*command, *here]) == 0, line
             assert "error" not in capsys.readouterr().err
-    assert {"shield_check.png", "loose_0.05s.png"} <= {path.name for path in Path().glob("*.png")}
+    assert {"shield_check.png", "pin_1mm_0.05s.png"} <= {path.name for path in Path().glob("*.png")}
     assert list(Path("sizes_sweep/figures").glob("*.png"))
 
 
@@ -158,6 +158,6 @@ def test_the_sweep_is_a_straight_line(folder: Path) -> None:
 @pytest.mark.slow  # the runs of the page take half a minute
 def test_pictures_and_figures_are_there(folder: Path) -> None:
     written = {path.relative_to(folder).as_posix() for path in folder.rglob("*.png")}
-    assert {"shield_check.png", "loose_1s.png"} <= written
+    assert {"shield_check.png", "pin_1mm_1s.png"} <= written
     assert any(name.startswith("sizes_sweep/figures/") for name in written)
-    assert any(name.startswith("loose_figures/") for name in written)
+    assert any(name.startswith("pin_1mm_figures/") for name in written)

@@ -171,7 +171,7 @@ def test_one_table_drives_several_columns() -> None:
 
 
 def test_columns_of_two_bodies_take_their_masses_from_the_machine() -> None:
-    found = scenario(TOP + '[columns.front_column]\ntype = "TwoBodyColumn"\nrod_mass_kg = 300')
+    found = scenario(TOP + '[columns.front_column]\ntype = "CylinderAndRod"\nrod_mass_kg = 300')
     expected = replace(cylinders_and_rods()["front_column"], rod_mass=300.0)
     assert found.columns == {"front_column": expected}
 
@@ -328,7 +328,7 @@ def test_files_are_written_whole(tmp_path: Path) -> None:
         (TOP + "drives.table = 3", "a.toml: drives.table = 3: allowed: a table of type "),
         (TOP + "channels = ['tip.z']", "a.toml: channels = 'tip.z'"),
         (
-            TOP + "[columns.front_column]\ntype = 'TwoBodyColumn'\nrod_mass = 3",
+            TOP + "[columns.front_column]\ntype = 'CylinderAndRod'\nrod_mass = 3",
             "a.toml: columns.front_column.rod_mass: is written with its unit; allowed: rod_mass_kg, rod_mass_t",
         ),
         (TOP + "duration_min = 1", "a.toml: duration_min: has another unit; allowed: duration_s, duration_ms"),

@@ -175,7 +175,9 @@ def test_in_space_too() -> None:
 
 def pin(depth: float, rate: float, step: float = math.inf) -> SimpleNamespace:
     """A clearance pin with a depth and its rate at the end of a step; step: of an impact that goes on."""
-    return SimpleNamespace(impact=SimpleNamespace(step=step), reached=SimpleNamespace(depth=depth, rate=rate))
+    return SimpleNamespace(
+        impact_steps=SimpleNamespace(step=step), reached=SimpleNamespace(depth=depth, rate=rate)
+    )
 
 
 @pytest.mark.parametrize(

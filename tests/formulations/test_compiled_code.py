@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pickle
+from pathlib import Path
 from typing import Any
 
 import numba
@@ -44,3 +46,14 @@ def test_a_law_that_cannot_be_kept_is_compiled_all_the_same(monkeypatch: pytest.
     source = "def law(depth, rate, slip, speed, mass, constants, out):\n    return constants[0] * depth"
     assert compiled.compiled_law(source).address > 0
     assert asked == [True, False]
+
+
+def test_what_an_older_program_has_kept_is_not_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It may name classes that are no longer there."""
+    monkeypatch.setattr(numba.config, "CACHE_DIR", str(tmp_path))
+    dispatcher = compiled._kept(twice)
+    index = Path(dispatcher._cache._cache_file._index_path)
+    index.parent.mkdir(parents=True, exist_ok=True)
+    index.write_bytes(pickle.dumps(numba.__version__) + b"\x80\x04cno.module\nNoClass\n.")
+    assert dispatcher(21.0) == 42.0
+    assert compiled.STAMP[0].encode() in index.read_bytes()

@@ -280,8 +280,8 @@ class NoLoad(AppliedForce):
 
 
 @pytest.mark.parametrize("kind", [Pushing, NoLoad])
-@pytest.mark.parametrize("with_clearance", [False, True])
-def test_a_load_is_refused(kind: type[AppliedForce], with_clearance: bool) -> None:
+@pytest.mark.parametrize("clearance", [False, True])
+def test_a_load_is_refused(kind: type[AppliedForce], clearance: bool) -> None:
     press = kind(body="canopy", point=(0.5, 3.0), full_force=(0.0, -1e4))
-    scene = with_clearance(Spring()) if with_clearance else support(drive=Held())
+    scene = with_clearance(Spring()) if clearance else support(drive=Held())
     refused(replace(scene, loads={"press": press}, duration=0.01), "press", kind.__name__)

@@ -14,7 +14,8 @@ import pytest
 from support_exudyn import ravn_slider_crank
 from support_exudyn.files.machines import load_machine
 from support_exudyn.files.machines.read import read_machine
-from support_exudyn.machines.check import Report, check_machine
+from support_exudyn.machines.check import CheckReport as Report
+from support_exudyn.machines.check import check_machine
 from support_exudyn.machines.check.shield import check_shield
 from support_exudyn.machines.check.shield_stroke import Shield, Station, _between, _cross, _station, stations
 from support_exudyn.machines.check.statics import mobility

@@ -11,7 +11,7 @@ from studies.common.paper_machine import oil_columns
 from support_exudyn import (
     CubicStep,
     Drive,
-    HeldJoints,
+    Held,
     Reciprocating,
     Scenario,
     SolverSettings,
@@ -78,7 +78,7 @@ def test_forces_are_those_of_free_coordinates_also_after_a_break(drive: Drive) -
 @pytest.mark.parametrize("columns", [{}, oil_columns(), cylinders_and_rods()])
 def test_short_steps_show_no_rounding_in_forces(columns: dict) -> None:  # type: ignore[type-arg]
     # the journal falls freely: nothing shakes. Multipliers scatter by 1e5 N at this step
-    scene = loose_support(duration=1e-3, drive=HeldJoints(), step=5e-7, record_period=1e-4, columns=columns)
+    scene = loose_support(duration=1e-3, drive=Held(), step=5e-7, record_period=1e-4, columns=columns)
     result = simulate(replace(scene, solver=SolverSettings(impact_steps=64, backend="symbolic")))
     for name in ("pin.front_base.force", "pin.shield_canopy.force", "canopy.angular_acceleration"):
         values = result[name]

@@ -98,7 +98,7 @@ def test_common_records_of_different_periods_are_compared(runs: Path) -> None:
 def test_the_table_is_in_engineers_units(runs: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["compare", str(runs / "ideal.h5"), str(runs / "with_clearance.h5"), "--from", "0.1"]) == 0
     told = capsys.readouterr().out
-    assert "loose.h5 less ideal.h5, 0.1 to 0.4 s (± numerical errors of both runs)" in told
+    assert "with_clearance.h5 less ideal.h5, 0.1 to 0.4 s (± numerical errors of both runs)" in told
     row = next(line.split() for line in told.splitlines() if line.strip().startswith("tip.x"))
     ideal, with_clearance = of(runs, "ideal", "with_clearance")
     assert row[1] == "mm"

@@ -128,7 +128,7 @@ def test_a_channel_that_hardly_changes_is_shown_from_its_middle() -> None:
 
 
 def test_one_touch_is_no_section() -> None:
-    with pytest.raises(InputError, match="impacts 1 times"):
+    with pytest.raises(InputError, match="1 impacts"):
         poincare(closed([0.2]))
 
 

@@ -475,7 +475,7 @@ def test_leftovers_of_killed_processes_go_and_files_of_others_stay(bouncing: Res
 
 
 def test_a_folder_that_cannot_be_made_is_named(bouncing: Result, tmp_path: Path) -> None:
-    (tmp_path / "file").impact()
+    (tmp_path / "file").touch()
     with pytest.raises(OSError, match=r"a folder should be; it cannot be written: '.*file/frames'"):
         render(bouncing, tmp_path / "file" / "frames", end=0.04, size=SIZE)
 
@@ -507,9 +507,9 @@ def test_the_command_writes_beside_the_run(
     assert sorted(path.name for path in tmp_path.iterdir()) == [
         "with_clearance.gif",
         "with_clearance.h5",
-        "loose_frames",
+        "with_clearance_frames",
     ]
-    assert sorted(path.name for path in (tmp_path / "loose_frames").iterdir()) == [
+    assert sorted(path.name for path in (tmp_path / "with_clearance_frames").iterdir()) == [
         *("frame_0000.png", "frame_0001.png")
     ]
     assert "2 frames" in capsys.readouterr().out
@@ -520,7 +520,7 @@ def test_the_command_writes_a_still(
 ) -> None:
     path = bouncing.save(tmp_path / "with_clearance.h5")
     assert main(["render", str(path), "--size", "320x180", "--still", "0.1"]) == 0
-    with Image.open(tmp_path / "loose_0.1s.png") as picture:
+    with Image.open(tmp_path / "with_clearance_0.1s.png") as picture:
         assert picture.size == SIZE
     assert main(["render", str(path), "--still", "0.1", "--out", str(tmp_path / "a.jpg")]) == 1
     assert ".png" in capsys.readouterr().err

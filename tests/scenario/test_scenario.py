@@ -511,7 +511,7 @@ def test_a_name_that_is_taken_is_refused() -> None:
 
 @pytest.mark.parametrize("formulation", [tree_coverage, reduced_coverage])
 def test_columns_of_two_bodies_and_rigid_jacks_need_the_redundant_formulation(formulation: Any) -> None:
-    with pytest.raises(InputError, match=r"columns\.front_column = TwoBodyColumn.*'redundant' covers it"):
+    with pytest.raises(InputError, match=r"columns\.front_column = CylinderAndRod.*'redundant' covers it"):
         formulation.check(scenario(columns=HEAVY))
     oil = OilColumn(bore_area=0.1, oil_length=0.5, bulk_modulus=1e9)
     columns = dict.fromkeys(HEAVY, oil) if formulation is tree_coverage else {}

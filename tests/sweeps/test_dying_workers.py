@@ -138,7 +138,7 @@ def test_the_pool_is_as_large_as_before(pool: Workers, tmp_path: Path) -> None:
 
 
 def meet(place: int, folder: Path) -> bool:
-    (folder / f"here {place}").impact()
+    (folder / f"here {place}").touch()
     return wait_until((folder / f"here {1 - place}").exists, 30.0)
 
 

@@ -13,7 +13,7 @@ from support_exudyn import Result, Scenario
 from support_exudyn.__main__ import main
 from support_exudyn.files.whole_file import writing_alone
 from support_exudyn.formulations.contract import Failure, SimulationError
-from support_exudyn.sweeps import Outcome, read_sweep, read_table, sweep, work
+from support_exudyn.sweeps import SweepOutcome, read_sweep, read_table, sweep, work
 from support_exudyn.sweeps.run import known
 from support_exudyn.sweeps.store import Store
 from support_exudyn.sweeps.work import Task
@@ -35,7 +35,7 @@ def ran(monkeypatch: pytest.MonkeyPatch) -> list[Task]:
     return done
 
 
-def do(path: Path, **options: object) -> Outcome:
+def do(path: Path, **options: object) -> SweepOutcome:
     return sweep(read_sweep(path), path.parent / "store", **options)  # type: ignore[arg-type]
 
 

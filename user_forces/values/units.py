@@ -22,6 +22,9 @@ EXACT = Context(prec=80)  # digits, far more than two numbers are ever told apar
 TELLING = (15, 17, 20)  # digits: mostly the first will do; the last tell any two numbers apart
 
 
+LEVELS = 4  # of lists in lists, which is more than any field has
+
+
 @dataclass(frozen=True)
 class Unit:
     """The unit of a field, as metadata of its type.
@@ -49,13 +52,13 @@ class Unit:
         rounded = (Context(prec=digits).create_decimal(exact) for digits in TELLING)
         return _plain(next(one for one in rounded if self.read(one, ending) == number))
 
-    def magnitude(self, item: Any) -> Any:
+    def magnitude(self, item: Any, levels: int = LEVELS) -> Any:
         """Plain numbers in SI from a quantity with a unit, or several in a list; anything else as it is.
 
-        Raises ValueError if the quantity is not one of this kind.
+        levels: of lists in lists that are looked into. Raises ValueError if the quantity is not one of this kind.
         """
-        if isinstance(item, (list, tuple)):
-            return tuple(map(self.magnitude, item))
+        if levels and isinstance(item, (list, tuple)):
+            return tuple(self.magnitude(one, levels - 1) for one in item)
         if not carries_unit(item):
             return item
         try:

@@ -36,7 +36,7 @@ def check(scenario: Scenario) -> None:
         if isinstance(column, HydraulicCylinder):
             _refuse(f"columns.{name}", "HydraulicCylinder, whose pressures are coordinates too", "OilColumn")
         if isinstance(column, CylinderAndRod):
-            _refuse(f"columns.{name}", "TwoBodyColumn, whose slide closes a loop", "OilColumn")
+            _refuse(f"columns.{name}", "CylinderAndRod, whose slide closes a loop", "OilColumn")
     for name, load in scenario.loads.items():
         _refuse(f"loads.{name}", type(load).__name__, "no loads")
     for name, pin in scenario.pins.items():

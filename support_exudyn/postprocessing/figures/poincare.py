@@ -256,8 +256,8 @@ def _by_impact(result: Result, shown: JournalPath, start: float, until: float) -
     if len(shown.impacts) < FEWEST_IMPACTS:
         why = "it is in contact throughout" if shown.in_contact.all() else "the drive has too few periods there"
         raise InputError(
-            f"a section of pin {shown.pin} from {said(result, start, until)}: it makes contact "
-            f"{len(shown.impacts)} times, and {why}; allowed: at least {FEWEST_IMPACTS} impacts, or "
+            f"a section of pin {shown.pin} from {said(result, start, until)}: it has "
+            f"{len(shown.impacts)} impacts, and {why}; allowed: at least {FEWEST_IMPACTS} impacts, or "
             f"{FEWEST_PERIODS} periods of a periodic drive"
         )
     speeds = np.array([impact.speed for impact in shown.impacts])

@@ -276,7 +276,7 @@ class SectionPin(ClearanceJoint):
 
     Arguments:
         contact: of the whole pin.
-        connector, moving, bore_spin, settings: as of LoosePin.
+        connector, moving, bore_spin, settings: as of ClearanceJoint.
         whole: what it shares with the other sections.
         section: its place and share.
         ends: bore and journal.
