@@ -43,7 +43,7 @@ def work(chosen: Options) -> StudyOutcome:
         "found": found,
         "orders": {name: tables.in_order(shifts) for name, shifts in means.items()},
         "shifts": {name: sum(shifts.values()) for name, shifts in means.items()},
-        "rms_orders": [row for row in conditions.rows if row[0].startswith("RMS fluctuation")],
+        "rms_orders": [row for row in conditions.rows if row[0].startswith("rms")],
         "rankings": rankings,
         "forces": forces,
     }

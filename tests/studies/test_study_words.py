@@ -65,7 +65,7 @@ def test_rankings_know_the_errors(errors: float, sign: str) -> None:
         *reversed(PINS), which_pin_cases.ALL, which_pin_cases.IDEAL,
     ]  # fmt: skip
     assert "is the same with every" in said(
-        "conditions", [row for row in rows if row[0].startswith("RMS fluctuation")]
+        "conditions", [row for row in rows if row[0].startswith("rms")]
     )
 
 

@@ -55,7 +55,7 @@ class Unit:
     def magnitude(self, item: Any, levels: int = LEVELS) -> Any:
         """Plain numbers in SI from a quantity with a unit, or several in a list; anything else as it is.
 
-        levels: of lists in lists that are looked into. Raises ValueError if the quantity is not one of this kind.
+        levels: of nested lists that are looked into. Raises ValueError if the quantity is not one of this kind.
         """
         if levels and isinstance(item, (list, tuple)):
             return tuple(self.magnitude(one, levels - 1) for one in item)
