@@ -33,7 +33,10 @@ def settings_for(scenario: Scenario, goal: float) -> Scenario:
     plain = replace(scenario, accuracy=None)
     name = scenario.formulation
     if name == "auto":
-        name = _cheapest(plain)
+        # a Python function of the contact is what the redundant formulation may call; it decides of no other
+        free = replace(plain, solver=replace(plain.solver, backend="auto"))
+        name = _cheapest(free if plain.solver.backend == "python" else plain)
+        plain = free if name in ERROR_CONTROLLED else plain
     formulation(name).check(plain)
     finer = math.sqrt(GOAL_OF_SHARES / goal)
     times = timescales(plain)
@@ -41,7 +44,7 @@ def settings_for(scenario: Scenario, goal: float) -> Scenario:
     impacts = plain.clearance_pins or any(load.impacts_machine for load in plain.loads.values())
     impact_steps = round(IMPACT_STEPS * finer) if impacts else FEWEST_IMPACT_STEPS
     solver = replace(
-        scenario.solver,
+        plain.solver,
         impact_steps=min(max(impact_steps, FEWEST_IMPACT_STEPS), MOST_AT_FIRST),
         tolerance=min(max(TOLERANCE_FOR_GOAL * goal, SMALLEST_TOLERANCE), LARGEST_TOLERANCE),
     )

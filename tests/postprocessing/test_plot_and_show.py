@@ -46,7 +46,7 @@ def both(*stems: str) -> set[str]:
 
 def test_without_a_wish_an_overview_is_drawn(runs: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["plot", str(runs / "with_clearance.h5")]) == 0
-    out = runs / "loose_figures"
+    out = runs / "with_clearance_figures"
     expected = both("overview", "orbit_rear_base", "poincare_rear_base", "spectrum_rear_base")
     assert names(out) == expected
     assert {Path(line).name for line in capsys.readouterr().out.splitlines()} == expected

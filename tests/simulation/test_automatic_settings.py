@@ -58,8 +58,10 @@ def test_a_backend_that_is_asked_for_decides_too() -> None:
     symbolic = replace(DROP, solver=SolverSettings(backend="symbolic"))
     assert settings_for(symbolic, 1e-3).formulation == "redundant"
     python = replace(DROP, solver=SolverSettings(backend="python"))
-    assert settings_for(python, 1e-3).formulation == "redundant"
-    assert settings_for(python, 1e-3).solver.backend == "python"
+    assert settings_for(python, 1e-3).formulation == "reduced"  # which has no Python function to choose
+    assert settings_for(python, 1e-3).solver.backend == "auto"
+    named = settings_for(replace(python, formulation="redundant"), 1e-3)
+    assert (named.formulation, named.solver.backend) == ("redundant", "python")
 
 
 def rubbing(scene: Scenario, ramp: float) -> Scenario:

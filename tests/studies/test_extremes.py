@@ -263,11 +263,11 @@ def test_energy_that_does_not_add_up_is_caught(struck: Result) -> None:
 
 
 def test_an_impact_that_gives_back_more_than_its_law_is_caught(struck: Result) -> None:
-    (impact,) = struck.onsets["pin"]
+    (onset,) = struck.onsets["pin"]
     law = struck.scenario.clearance_pins["pin"].contact.normal
     for share, outcome in ((1.02, SILENT), (1.004, GOOD)):  # 0.5 % are allowed
-        speed = share * law.delivered_restitution * impact.speed
-        wrong = replace(struck, onsets={"pin": (impact._replace(separation_velocity=speed),)})
+        speed = share * law.delivered_restitution * onset.speed
+        wrong = replace(struck, onsets={"pin": (onset._replace(separation_velocity=speed),)})
         found = judged(impact, wrong)
         assert found.outcome == outcome
         assert ("a free impact gives back" in found.reason) == (outcome == SILENT)

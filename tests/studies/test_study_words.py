@@ -64,9 +64,7 @@ def test_rankings_know_the_errors(errors: float, sign: str) -> None:
     assert [row[0] for row in which_pin_tables.ranking_table(found, "by the shaking", 0.25).rows] == [
         *reversed(PINS), which_pin_cases.ALL, which_pin_cases.IDEAL,
     ]  # fmt: skip
-    assert "is the same with every" in said(
-        "conditions", [row for row in rows if row[0].startswith("rms")]
-    )
+    assert "is the same with every" in said("conditions", [row for row in rows if row[0].startswith("rms")])
 
 
 def test_sums_are_said_to_add_up_if_they_do() -> None:
