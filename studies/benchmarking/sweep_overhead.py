@@ -176,7 +176,7 @@ def study(chosen: Options) -> None:
 def main(argv: Sequence[str] | None = None) -> int:
     """Entry of `python -m studies.benchmarking.sweep_overhead`."""
     description = (__doc__ or "").splitlines()[0]
-    return run_main(study, options(STUDY, argv, description, taken=()))
+    return run_main(study, options(f"benchmarking.{STUDY}", argv, description, taken=()))
 
 
 if __name__ == "__main__":

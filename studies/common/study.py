@@ -103,7 +103,7 @@ def options(
 ) -> Options:
     """Options of a study from the command line; taken: which it has a use for, besides the folder."""
     parser = Parser(prog=f"python -m studies.{study}", description=description)
-    add_options(parser, Path("results") / study, taken)
+    add_options(parser, Path("results") / study.rpartition(".")[2], taken)
     given = parser.parse_args(argv)
     return Options(given.out, given.quick, given.workers, given.machines)
 

@@ -389,14 +389,16 @@ def figures(chosen: list[Case]) -> Mapping[str, float]:
     }
 
 
-def test_estimates_cover_the_true_errors_without_much_overstatement(checked: list[Case]) -> None:
+def test_estimates_cover_the_true_errors_without_much_overstatement(
+    checked: list[Case], request: pytest.FixtureRequest
+) -> None:
     for kind in cases():
         print(kind, figures([case for case in checked if case.kind == kind]))
     for goal in GOALS:
         print(goal, figures([case for case in checked if case.goal == goal]))
     everything = figures(checked)
     print("all", everything)
-    assert everything["numbers"] > 1_500
+    assert everything["numbers"] > (10_000 if request.node.callspec.params["checked"] == 1 else 1_500)
     # what is promised
     assert everything["covered"] >= 0.98
     assert everything["worst"] < 5.0  # measured: 3.1
