@@ -77,7 +77,7 @@ def _with_errors(runs: Sequence[Result], values: Sequence[Values]) -> dict[str, 
 
 
 def evidence(data: Mapping[str, Mapping[str, list[float]]]) -> Evidence:
-    """The same for judging."""
+    """The evidence of the runs, for judging."""
     return Evidence(
         {
             case: {name: Measured(value, error) for name, (value, error) in row.items()}

@@ -36,7 +36,7 @@ def scenarios(quick: bool) -> dict[str, Scenario]:
 
 
 def by_the_engine(quick: bool) -> dict[str, Scenario]:
-    """The same by rigid bodies and constraints, at the longest of their steps; the quick form has fewer."""
+    """The cases by rigid bodies and constraints, at the longest of their steps; the quick form has fewer."""
     settings = SolverSettings(impact_steps=16 if quick else 256, backend="symbolic")
     cases = {
         case: replace(rise, formulation="redundant", solver=settings, accuracy=None)

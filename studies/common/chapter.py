@@ -62,7 +62,7 @@ class Sheet:
         return shown
 
     def markdown(self) -> str:
-        """As a pipe table, or as a list if it is wide and its rows would be very long."""
+        """The table with pipes, or as a list if it is wide and its rows would be very long."""
         table = pipe_table(self.header, self.rows, self.left_columns)
         if self.wide and len(table.partition("\n")[0]) > WIDEST:
             table = record_list(self.header, self.rows)

@@ -96,7 +96,7 @@ def clearance_rise(
     *,
     symbolic: bool = False,
 ) -> Scenario:
-    """The same with clearance in the rear-link pin, its journal concentric at the start.
+    """The rise with clearance in the rear-link pin, its journal concentric at the start.
 
     symbolic: let the engine evaluate the contact, a quarter faster, the same within rounding.
     """
@@ -106,7 +106,8 @@ def clearance_rise(
 
 
 def to_accuracy(rise: Scenario, quick: bool) -> Scenario:
-    """The same by whatever formulation is cheapest, to an accuracy that leaves nothing open in what is printed.
+    """The scenario by whatever formulation is cheapest, to an accuracy that leaves nothing open in what is
+    printed.
 
     quick: only to a thousandth of pin forces and paths.
     """
@@ -139,5 +140,5 @@ def hydraulic_cylinders(inlet: Inlet) -> dict[str, HydraulicCylinder]:
 
 
 def on_cylinders(rise: Scenario, inlet: Inlet) -> Scenario:
-    """The same run on hydraulic cylinders, which this inlet moves in place of the drive."""
+    """The run on hydraulic cylinders, which this inlet moves in place of the drive."""
     return replace(rise, columns=hydraulic_cylinders(inlet), drive=Held(), drives={})

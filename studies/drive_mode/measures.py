@@ -57,7 +57,7 @@ MIDDLE = (3.6, 4.4)  # of the rise, ramps of mode 2 excluded [s]
 
 
 def extension(result: Result, column: str) -> np.ndarray:
-    """Of a column since the start (n,) [m]."""
+    """The extension of a column since the start (n,) [m]."""
     length = result[f"{column}.length"]
     return np.asarray(length - length[0])
 

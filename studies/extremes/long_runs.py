@@ -221,7 +221,7 @@ def _measured(
 
 
 def slope(times: Series, values: Series) -> float:
-    """Of the straight line that fits values best, per second."""
+    """The slope of the straight line that fits values best, per second."""
     apart = times - times.mean()
     return float(apart @ values / (apart @ apart))
 

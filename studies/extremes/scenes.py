@@ -68,7 +68,7 @@ class OtherSettings(TypedDict, total=False):
 
 
 def settings(point: Point, **more: Unpack[OtherSettings]) -> SolverSettings:
-    """Of a run whose steps are chosen."""
+    """The settings of a run whose steps are chosen."""
     return SolverSettings(
         spectral_radius=point.spectral_radius, impact_steps=IMPACT_STEPS, most_steps=MOST_STEPS, **more
     )

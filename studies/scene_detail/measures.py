@@ -42,11 +42,11 @@ class Change:
         return abs(self.value) <= self.error
 
     def of(self, size: float) -> Change:
-        """The same in per cent of a size."""
+        """The number in per cent of a size."""
         return Change(100.0 * self.value / size, 100.0 * self.error / abs(size))
 
     def scaled(self, scale: float) -> Change:
-        """The same in another unit."""
+        """The number in another unit."""
         return Change(scale * self.value, scale * self.error)
 
 

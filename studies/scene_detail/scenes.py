@@ -61,12 +61,12 @@ class DetailScene:
 
     @property
     def begin(self) -> float:
-        """Of the stroke [s]."""
+        """The start of the stroke [s]."""
         return self.scenario.drive.breaks[0]
 
     @property
     def end(self) -> float:
-        """Of the stroke [s]."""
+        """The end of the stroke [s]."""
         return self.scenario.drive.breaks[-1]
 
     @property

@@ -229,7 +229,7 @@ def _gone_on(end: PinMemory, anew: bool, forgets: bool) -> Verdict:
 def judge_at_ends(
     start: PinMemory, depth: float, rate: float, end_time: float, step: float, forgets: bool
 ) -> Verdict:
-    """The same without locating anything, as plain recipes do: every step stands.
+    """The verdict without locating anything, as plain recipes do: every step stands.
 
     An impact or a separation counts from the end of the step in which it happens, so that a contact begins with
     some depth, and with the speed it has there. What impacts and parts within a step is missed.

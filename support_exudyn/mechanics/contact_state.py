@@ -34,7 +34,7 @@ class InverseMass(NamedTuple):
         return square / maximum(along, square / HEAVIEST)
 
     def turned(self, angle: float) -> InverseMass:
-        """The same in axes against which its own are turned by an angle [rad]."""
+        """The matrix in axes against which its own are turned by an angle [rad]."""
         c, s = math.cos(angle), math.sin(angle)
         xx, xy, yy = self
         cross = c * s * (xx - yy) + (c * c - s * s) * xy
@@ -60,7 +60,7 @@ class PinMemory(NamedTuple):
     inverse_mass_yy: float = 1.0
 
     def at(self, depth: float, rate: float, slip: float, deflection: float) -> PinMemory:
-        """The same contact at another depth [m], rate [m/s], slip [m/s] and deflection [m]."""
+        """The contact at another depth [m], rate [m/s], slip [m/s] and deflection [m]."""
         in_contact, impact_velocity, _, _, _, _, xx, xy, yy = self
         return PinMemory(in_contact, impact_velocity, depth, rate, slip, deflection, xx, xy, yy)
 
@@ -74,17 +74,17 @@ class PinMemory(NamedTuple):
         return InverseMass(self.inverse_mass_xx, self.inverse_mass_xy, self.inverse_mass_yy)
 
     def with_inverse_mass(self, inverse_mass: InverseMass) -> PinMemory:
-        """The same with another inverse effective mass."""
+        """The contact with another inverse effective mass."""
         return self._replace(
             inverse_mass_xx=inverse_mass.xx, inverse_mass_xy=inverse_mass.xy, inverse_mass_yy=inverse_mass.yy
         )
 
     def moved(self, depth: float, rate: float) -> PinMemory:
-        """The same at another depth [m] and rate [m/s]. (`_replace` takes three times as long.)"""
+        """The contact at another depth [m] and rate [m/s]. (`_replace` takes three times as long.)"""
         return self.at(depth, rate, self.slip, self.deflection)
 
     def slid(self, slip: float, deflection: float) -> PinMemory:
-        """The same with another slip [m/s] and deflection [m]."""
+        """The contact with another slip [m/s] and deflection [m]."""
         return self.at(self.depth, self.rate, slip, deflection)
 
     def impact(self, x: float, y: float) -> Impact | None:
@@ -107,5 +107,5 @@ class Onset(NamedTuple):
     separation_velocity: float = 0.0  # at which they leave each other at zero depth [m/s]
 
     def separated(self, time: float, speed: float) -> Onset:
-        """The same contact, which has ended at a time [s] at this speed [m/s]."""
+        """The contact after it has ended at a time [s] at this speed [m/s]."""
         return self._replace(separation_time=time, separation_velocity=max(0.0, speed))

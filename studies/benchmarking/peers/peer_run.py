@@ -83,7 +83,7 @@ def _crossing(first: float, last: float, first_slope: float, last_slope: float) 
 
 @contextmanager
 def undisturbed() -> Iterator[None]:
-    """No output of the engine, no collection of garbage: neither is part of what is measured."""
+    """The engine is silent and garbage is not collected: neither is part of what is measured."""
     with quiet_engine(), paused_collector():
         yield
 

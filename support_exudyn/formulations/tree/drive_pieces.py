@@ -69,6 +69,6 @@ def extension(cubic: Matrix, t: float | Matrix) -> Matrix:
 
 
 def speed(cubic: Matrix, t: float | Matrix) -> Matrix:
-    """The same for its rate [m/s]."""
+    """The rate of the extension [m/s], see `extension`."""
     s = t - cubic[..., 0]
     return np.asarray(cubic[..., 2] + s * (2.0 * cubic[..., 3] + s * 3.0 * cubic[..., 4]))

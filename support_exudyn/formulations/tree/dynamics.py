@@ -43,7 +43,7 @@ class TreePosture:
 
     @cached_property
     def turn(self) -> Matrix:
-        """Of every link from the start on [rad], shape (m, n)."""
+        """The turn of every link from the start on [rad], shape (m, n)."""
         return self._summed(self.position)
 
     @cached_property
@@ -72,7 +72,7 @@ class TreePosture:
 
     @cached_property
     def centre_velocity(self) -> Matrix:
-        """Of the centres of mass [m/s]."""
+        """The velocities of the centres of mass [m/s]."""
         joint = np.zeros((*self.position.shape, 2))
         spin = self.spin[:, :, None]
         for n, arm in enumerate(self._joint_arms):
@@ -134,7 +134,7 @@ class TreePosture:
         )
 
     def acceleration(self, acceleration: Matrix) -> Matrix:
-        """Of the centres of mass [m/s^2], from q'' [rad/s^2], shape (m, n)."""
+        """The accelerations of the centres of mass [m/s^2], from q'' [rad/s^2], shape (m, n)."""
         return np.asarray(np.einsum("mbjx,mj->mbx", self.reach, acceleration) + self.bias)
 
 

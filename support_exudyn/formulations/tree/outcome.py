@@ -60,7 +60,7 @@ class Observation:
 
     @cached_property
     def motion(self) -> BodyMotion:
-        """Of all bodies; accelerations are left out."""
+        """The motion of all bodies; accelerations are left out."""
         return self.at.posture.motion()
 
     @cached_property
@@ -91,7 +91,7 @@ class Observation:
         return accelerations(self.at.posture, self.gravity, [*self.pin_forces.values(), *self._column_forces()])
 
     def powers(self) -> Matrix:
-        """Of the drive, of damping and of friction [W], shape (3, m)."""
+        """The powers of the drive, of damping and of friction [W], shape (3, m)."""
         total = np.zeros((3, len(self.at.time)))
         for column in self.columns.values():
             total[0] += column.work

@@ -66,7 +66,7 @@ _SHAPES = np.linalg.inv(np.vander(POINTS, increasing=True)).T
 
 
 def weights(fraction: Matrix) -> Matrix:
-    """Of the points, for the integral from the start to fractions (m,) of a step of length 1; shape (m, 5)."""
+    """Weights of the points for the integral up to fractions (m,) of a step of length 1; shape (m, 5)."""
     powers = fraction[:, None] ** np.arange(1, 6) / np.arange(1, 6)
     return np.asarray(powers @ _SHAPES.T)
 
