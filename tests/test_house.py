@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 from collections import defaultdict
 from pathlib import Path
 
@@ -41,6 +42,16 @@ def test_no_file_is_long() -> None:
     files = [path for package in PACKAGES for path in (ROOT / package).rglob("*.py")]
     lines = {path.relative_to(ROOT).as_posix(): len(path.read_text("utf-8").splitlines()) for path in files}
     assert {name: count for name, count in lines.items() if count > LONGEST} == {}
+
+
+def test_no_two_classes_have_one_name() -> None:
+    places = defaultdict(list)
+    for package in PACKAGES:
+        for path in (ROOT / package).rglob("*.py"):
+            for item in ast.parse(path.read_text("utf-8")).body:
+                if isinstance(item, ast.ClassDef):
+                    places[item.name].append(path.relative_to(ROOT).as_posix())
+    assert {name: found for name, found in places.items() if len(found) > 1} == {}
 
 
 def test_nothing_is_loose_at_the_root() -> None:

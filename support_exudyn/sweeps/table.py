@@ -30,7 +30,7 @@ MEANINGS = {
 }
 
 
-class _Column:
+class _NumberColumn:
     """Numbers by rows; NaN where there is none."""
 
     def __init__(self, rows: int, unit: str) -> None:
@@ -50,7 +50,7 @@ class SweepTable:
         self.status: list[str] = ["waiting"] * self._size
         self._reasons: list[str] = [""] * self._size
         self._wall_times = np.full(self._size, np.nan)
-        self._columns: dict[str, _Column] = {}
+        self._columns: dict[str, _NumberColumn] = {}
 
     def set(self, number: int, row: StoredRun) -> None:
         """Note a row at its place."""
@@ -58,7 +58,7 @@ class SweepTable:
         self._reasons[number] = row.reason
         self._wall_times[number] = np.nan if row.wall_time is None else row.wall_time
         for place, (name, (value, error, unit)) in enumerate(row.numbers.items()):
-            column = self._columns.setdefault(name, _Column(self._size, unit))
+            column = self._columns.setdefault(name, _NumberColumn(self._size, unit))
             column.values[number], column.there[number] = value, True
             column.errors[number] = np.nan if error is None else error
             column.rank = min(column.rank, (number, place))

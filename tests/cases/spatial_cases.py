@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from support_exudyn import Body, Column, Linkage, Machine, PinPlace, Scenario
 from support_exudyn.formulations.redundant.run import run
-from support_exudyn.formulations.redundant.space.observation import Observation
+from support_exudyn.formulations.redundant.space.observation import SpatialObservation
 from support_exudyn.mechanics.trajectory import Outcome
 from support_exudyn.model.spatial_linkage import Bearing, SpatialBody, SpatialLinkage
 from user_forces import (
@@ -81,10 +81,10 @@ def contact(friction: float = 0.0, by_depth: bool = False) -> JournalContact:
     )
 
 
-def observed(scenario: Scenario) -> tuple[Observation, Outcome]:
+def observed(scenario: Scenario) -> tuple[SpatialObservation, Outcome]:
     """A run, with the motion that no channel shows."""
     outcome = run(scenario, lambda share: None)
-    assert isinstance(outcome.trajectory, Observation)
+    assert isinstance(outcome.trajectory, SpatialObservation)
     return outcome.trajectory, outcome
 
 
@@ -94,7 +94,7 @@ def matrix_of(inertia: tuple[float, ...]) -> np.ndarray:
     return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
 
 
-def momenta(context: Observation, about: Vector = (0.0, 0.0, 0.0)) -> tuple[np.ndarray, np.ndarray]:
+def momenta(context: SpatialObservation, about: Vector = (0.0, 0.0, 0.0)) -> tuple[np.ndarray, np.ndarray]:
     """Linear and angular momentum of all bodies (n, 3), the latter about a fixed point."""
     motion = context.motion
     linear, angular = np.zeros((2, motion.count, 3))

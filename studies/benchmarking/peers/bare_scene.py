@@ -113,7 +113,7 @@ def start_velocities(machine: Any, speed: float) -> dict[str, tuple[float, float
     }
 
 
-class _Builder:
+class _BareBuilder:
     def __init__(self, scenario: Scenario) -> None:
         self.scenario = scenario
         self.linkage = scenario.machine.linkage()
@@ -191,7 +191,7 @@ def bare_scene(scenario: Scenario, aside: float = 0.0) -> BareScene:
     aside: of the bore's centre from where it belongs, along x [m].
     """
     name, contact, bore_on = clearance_contact(scenario)
-    builder = _Builder(scenario)
+    builder = _BareBuilder(scenario)
     scene = builder.scene(name)
     pin = scene.linkage.pins[name]
     sides = [(pin.first, pin.first_point), (pin.second, pin.second_point)]
@@ -205,4 +205,4 @@ def ideal_scene(scenario: Scenario) -> BareScene:
     """The model of a scenario without clearance pins; raises InputError if it is not covered."""
     if scenario.clearance_pins or scenario.columns or scenario.loads or scenario.friction_pins:
         raise InputError("a competitor with ideal pins takes rigid columns, no loads and no friction")
-    return _Builder(scenario).scene()
+    return _BareBuilder(scenario).scene()

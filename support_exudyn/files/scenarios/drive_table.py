@@ -27,7 +27,7 @@ Line = tuple[int, list[str]]  # its number in the file, its items
 
 
 @dataclass(frozen=True)
-class _Column:
+class _FileColumn:
     """A column of a file: its name without unit, the title as it stands there, its unit, its place."""
 
     name: str
@@ -130,7 +130,7 @@ def _lines(path: Path) -> list[Line]:
     return found
 
 
-def _columns(lines: Sequence[Line], path: Path, turns: Turns | None) -> dict[str, _Column]:
+def _columns(lines: Sequence[Line], path: Path, turns: Turns | None) -> dict[str, _FileColumn]:
     """The columns by name, from the first line."""
     number, titles = lines[0]
     where = f"{path}: line {number}"
@@ -159,12 +159,12 @@ def _columns(lines: Sequence[Line], path: Path, turns: Turns | None) -> dict[str
     return found
 
 
-def _column(title: str, place: int, where: str) -> _Column:
+def _column(title: str, place: int, where: str) -> _FileColumn:
     name, _, ending = title.rpartition("_")
     units = (TIME,) if name == "time" else (LENGTH, ANGLE)
     for unit in units:
         if name and ending in unit.endings:
-            return _Column(name, title, unit, ending, place)
+            return _FileColumn(name, title, unit, ending, place)
     allowed = [f"_{ending}" for unit in units for ending in unit.endings]
     raise InputError(
         f"{where}: column {place + 1} = {short(title)}: has no unit at its end; allowed: time_s or time_ms, "
@@ -172,7 +172,7 @@ def _column(title: str, place: int, where: str) -> _Column:
     )
 
 
-def _check_times(times: Sequence[float], lines: Sequence[Line], column: _Column, path: Path) -> None:
+def _check_times(times: Sequence[float], lines: Sequence[Line], column: _FileColumn, path: Path) -> None:
     if len(times) < 2:
         raise InputError(f"{path}: has {len(times)} points; allowed: two at least")
     for n, time in enumerate(times):

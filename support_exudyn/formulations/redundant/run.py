@@ -24,7 +24,7 @@ from support_exudyn.formulations.redundant.scene.scene_builder import build
 from support_exudyn.formulations.redundant.scene.static_equilibrium import find_static_equilibrium
 from support_exudyn.formulations.redundant.solver.recorder import History, Recorder
 from support_exudyn.formulations.redundant.solver.solver import SolverRun
-from support_exudyn.formulations.redundant.space.observation import Observation
+from support_exudyn.formulations.redundant.space.observation import SpatialObservation
 from support_exudyn.formulations.redundant.space.scene import SpatialScene
 from support_exudyn.formulations.redundant.space.scene_builder import build as build_in_space
 from support_exudyn.mechanics.body_motion import BodyMotion
@@ -114,7 +114,7 @@ def _outcome_in_space(scene: SpatialScene, progress: Progress) -> Outcome:
         f"{name}.{side}": group[n] for name, group in groups for side, n in EDGES.items() if len(group) > 1
     }
     return Outcome(
-        trajectory=Observation(scene, recorder.history()),
+        trajectory=SpatialObservation(scene, recorder.history()),
         onsets={name: tuple(group[0].whole.onsets) for name, group in groups}
         | {name: tuple(pin.onsets) for name, pin in edges.items()},
         largest_force={name: group[0].whole.largest_force for name, group in groups}

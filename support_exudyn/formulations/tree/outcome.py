@@ -43,7 +43,7 @@ class Instants:
 
 
 @dataclass(frozen=True)
-class Observation:
+class TreeObservation:
     """What is to be seen at some instants.
 
     Arguments:
@@ -199,7 +199,7 @@ class EvaluatedRun:
             ),
         )
 
-    def _trajectory(self, inside: Observation, needed: DataNeeds) -> Trajectory:
+    def _trajectory(self, inside: TreeObservation, needed: DataNeeds) -> Trajectory:
         """At the records; what is not needed is left out. inside: at the points of quadrature of all steps."""
         time = record_times(self.scenario.duration, self.scenario.record_period)
         number = np.clip(np.searchsorted(self.time, time - CLOSE) - 1, 0, len(self.step) - 1)
@@ -231,7 +231,7 @@ class EvaluatedRun:
             friction_loss=integrals[2],
         )
 
-    def _joint_forces(self, context: Observation, motion: BodyMotion) -> JointForces:
+    def _joint_forces(self, context: TreeObservation, motion: BodyMotion) -> JointForces:
         columns = {name: column.force for name, column in context.columns.items()}
         known = {name: PinForce(pin.force, pin.point) for name, pin in context.pin_forces.items()}
         return open_joint_forces(motion, self.scenario.gravity, columns, known)
@@ -245,21 +245,21 @@ class EvaluatedRun:
         context = self._look(each, np.full(len(each), fraction), position, velocity)
         return Ends(position, velocity, context.accelerations())
 
-    def _within(self, number: Numbers, fraction: Matrix) -> Observation:
+    def _within(self, number: Numbers, fraction: Matrix) -> TreeObservation:
         """At fractions of steps."""
         return self._look(number, fraction, *motion_within(self._start, self._end, self.step, number, fraction))
 
-    def _look(self, number: Numbers, fraction: Matrix, position: Matrix, velocity: Matrix) -> Observation:
+    def _look(self, number: Numbers, fraction: Matrix, position: Matrix, velocity: Matrix) -> TreeObservation:
         instants = Instants(
             time=self.time[number] + fraction * self.step[number],
             posture=TreePosture(self.tree, position, velocity),
             cubic=self._cubic[number],
             memories={name: memory[number] for name, memory in self._memories.items()},
         )
-        return Observation(instants, self.scenario.clearance_pins, self.preloaded, self.scenario.gravity)
+        return TreeObservation(instants, self.scenario.clearance_pins, self.preloaded, self.scenario.gravity)
 
 
-def _sizes(context: Observation, pin: str) -> Matrix:
+def _sizes(context: TreeObservation, pin: str) -> Matrix:
     """Magnitudes of the force of a clearance pin [N]."""
     contact = context.contacts[pin]
     return np.asarray(np.hypot(contact.normal_force, contact.friction_force))

@@ -28,7 +28,7 @@ AXES = ("x", "y", "z")
 TOWARDS = ("forward", "up", "to the right")
 
 
-class SectionSeries(Protocol):
+class SectionContext(Protocol):
     """A section of a clearance bearing over time."""
 
     @property
@@ -40,7 +40,7 @@ class SectionSeries(Protocol):
         """Depths and forces of its contact."""
 
 
-class Observation(Protocol):
+class SpatialContext(Protocol):
     """A run in space at its records, shape (n, ...), from which channels are computed."""
 
     @property
@@ -52,7 +52,7 @@ class Observation(Protocol):
         """Accelerations of the centres and rates of the spins of all bodies (n, b, 6) [m/s^2], [rad/s^2]."""
 
     @property
-    def sections(self) -> Mapping[str, Sequence[SectionSeries]]:
+    def sections(self) -> Mapping[str, Sequence[SectionContext]]:
         """The sections of every clearance bearing."""
 
     @property
@@ -147,28 +147,28 @@ def _of_body(name: str, body: SpatialBody, n: int) -> ChannelDefinitions:
 
 
 def _definition(
-    unit: str, meaning: str, needs: DataNeeds, values: Callable[[Observation], Series]
+    unit: str, meaning: str, needs: DataNeeds, values: Callable[[SpatialContext], Series]
 ) -> ChannelDefinition:
     return ChannelDefinition(unit, meaning, needs, values)
 
 
-def _place_of(n: int, k: int, start: float) -> Callable[[Observation], Series]:
+def _place_of(n: int, k: int, start: float) -> Callable[[SpatialContext], Series]:
     return lambda context: start + context.motion.displacement[:, n, k]
 
 
-def _entry(what: str, n: int, k: int) -> Callable[[Observation], Series]:
+def _entry(what: str, n: int, k: int) -> Callable[[SpatialContext], Series]:
     return lambda context: np.asarray(getattr(context.motion, what)[:, n, k])
 
 
-def _turn(context: Observation, n: int, row: int, column: int) -> Series:
+def _turn(context: SpatialContext, n: int, row: int, column: int) -> Series:
     """Angle by which an axis of the body has turned towards another of the ground (n,) [rad]."""
     turn = context.motion.turn[:, n]
     return np.asarray(np.unwrap(np.arctan2(turn[:, row, column], turn[:, column, column])))
 
 
 def _of_point(name: str) -> ChannelDefinitions:
-    def path(k: int) -> Callable[[Observation], Series]:
-        def place(context: Observation) -> Series:
+    def path(k: int) -> Callable[[SpatialContext], Series]:
+        def place(context: SpatialContext) -> Series:
             point = context.motion.linkage.points[name]
             return context.motion.point(point.body, point.point).position[:, k]
 
@@ -181,11 +181,11 @@ def _of_point(name: str) -> ChannelDefinitions:
 
 
 def _of_column(name: str, oil: bool) -> ChannelDefinitions:
-    def angle(context: Observation) -> Series:
+    def angle(context: SpatialContext) -> Series:
         apart, _ = context.span(name)
         return np.asarray(np.arctan2(apart[:, 1], apart[:, 0]))
 
-    def length(context: Observation) -> Series:
+    def length(context: SpatialContext) -> Series:
         return np.asarray(np.linalg.norm(context.span(name)[0], axis=1))
 
     return {
@@ -223,14 +223,14 @@ def _of_pair(whole: str, parts: Iterable[str], known: ChannelDefinitions) -> Cha
     )
 
 
-def _sum_of_bearings(parts: Iterable[str]) -> Callable[[Observation], Series]:
-    def force(context: Observation) -> Series:
+def _sum_of_bearings(parts: Iterable[str]) -> Callable[[SpatialContext], Series]:
+    def force(context: SpatialContext) -> Series:
         return np.asarray(np.sum([context.loads[part][0] for part in parts], axis=0))
 
     return force
 
 
-def _forces(prefix: str, needs: DataNeeds, force: Callable[[Observation], Series]) -> ChannelDefinitions:
+def _forces(prefix: str, needs: DataNeeds, force: Callable[[SpatialContext], Series]) -> ChannelDefinitions:
     """The channels of a pin's force; force: of the first body on the second (n, 3) [N]."""
     found = {
         f"{prefix}.force": _definition(
@@ -245,7 +245,7 @@ def _forces(prefix: str, needs: DataNeeds, force: Callable[[Observation], Series
 
 
 def _of_guide(name: str) -> ChannelDefinitions:
-    def magnitude(which: int) -> Callable[[Observation], Series]:
+    def magnitude(which: int) -> Callable[[SpatialContext], Series]:
         return lambda context: np.asarray(np.linalg.norm(context.loads[name][which], axis=1))
 
     return {
@@ -254,7 +254,7 @@ def _of_guide(name: str) -> ChannelDefinitions:
     }
 
 
-def _component(vector: Callable[[Observation], Series], k: int) -> Callable[[Observation], Series]:
+def _component(vector: Callable[[SpatialContext], Series], k: int) -> Callable[[SpatialContext], Series]:
     return lambda context: vector(context)[:, k]
 
 
@@ -278,7 +278,7 @@ def _of_clearance(name: str) -> ChannelDefinitions:
         what: str,
         unit: str,
         meaning: str,
-        values: Callable[[Sequence[SectionSeries]], Series],
+        values: Callable[[Sequence[SectionContext]], Series],
         needs: DataNeeds = CONTACT,
     ) -> ChannelDefinitions:
         return {
@@ -316,37 +316,37 @@ def _of_clearance(name: str) -> ChannelDefinitions:
     return found
 
 
-def _sum(what: str) -> Callable[[Sequence[SectionSeries]], Series]:
+def _sum(what: str) -> Callable[[Sequence[SectionContext]], Series]:
     return lambda sections: np.asarray(np.sum([getattr(s.contact, what) for s in sections], axis=0))
 
 
-def _mean_slip(sections: Sequence[SectionSeries]) -> Series:
+def _mean_slip(sections: Sequence[SectionContext]) -> Series:
     return np.asarray(np.mean([s.contact.slip for s in sections], axis=0))
 
 
-def _speed(sections: Sequence[SectionSeries]) -> Series:
+def _speed(sections: Sequence[SectionContext]) -> Series:
     return np.asarray(np.max([s.contact.impact_velocity for s in sections], axis=0))
 
 
-def _deepest(sections: Sequence[SectionSeries]) -> Series:
+def _deepest(sections: Sequence[SectionContext]) -> Series:
     return np.asarray(np.max([s.contact.depth for s in sections], axis=0))
 
 
-def _of_section(what: str, place: int) -> Callable[[Sequence[SectionSeries]], Series]:
+def _of_section(what: str, place: int) -> Callable[[Sequence[SectionContext]], Series]:
     return lambda sections: np.asarray(getattr(sections[place].contact, what))
 
 
-def _x(place: int) -> Callable[[Sequence[SectionSeries]], Series]:
+def _x(place: int) -> Callable[[Sequence[SectionContext]], Series]:
     return lambda sections: sections[place].eccentricity[0]
 
 
-def _y(place: int) -> Callable[[Sequence[SectionSeries]], Series]:
+def _y(place: int) -> Callable[[Sequence[SectionContext]], Series]:
     return lambda sections: sections[place].eccentricity[1]
 
 
 def _middle(
-    axis: Callable[[int], Callable[[Sequence[SectionSeries]], Series]],
-) -> Callable[[Sequence[SectionSeries]], Series]:
+    axis: Callable[[int], Callable[[Sequence[SectionContext]], Series]],
+) -> Callable[[Sequence[SectionContext]], Series]:
     """The journal is straight: its middle is between its edges."""
     return lambda sections: 0.5 * (axis(0)(sections) + axis(-1)(sections))
 
@@ -355,7 +355,7 @@ def _of_energy() -> ChannelDefinitions:
     integrals = DataNeeds.INTEGRALS
     stored = CONTACT | OIL
 
-    def known(what: str) -> Callable[[Observation], Series]:
+    def known(what: str) -> Callable[[SpatialContext], Series]:
         return lambda context: np.asarray(getattr(context, what))
 
     table: dict[str, tuple[str, DataNeeds, Any]] = {

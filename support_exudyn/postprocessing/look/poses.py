@@ -226,7 +226,7 @@ def _across(vector: Series, unit: Series) -> Series:
 
 
 @dataclass(frozen=True)
-class PinEnd:
+class DrawnEnd:
     """A body, or "ground", and the point of it at which the pin is, start posture [m]."""
 
     body: str
@@ -244,8 +244,8 @@ class PlacedPin:
     """
 
     name: str
-    first: PinEnd
-    second: PinEnd
+    first: DrawnEnd
+    second: DrawnEnd
     with_clearance: ClearancePin | None
 
     @property
@@ -254,12 +254,12 @@ class PlacedPin:
         return self.with_clearance is not None and self.with_clearance.bore == "second"
 
     @property
-    def bore(self) -> PinEnd:
+    def bore(self) -> DrawnEnd:
         """The body that carries the bore, and its centre."""
         return self.second if self.bore_is_second else self.first
 
     @property
-    def journal(self) -> PinEnd:
+    def journal(self) -> DrawnEnd:
         """The body that carries the journal, and its centre."""
         return self.first if self.bore_is_second else self.second
 
@@ -271,7 +271,10 @@ def placed_pins(scenario: Scenario) -> list[PlacedPin]:
     with_clearance = scenario.clearance_pins
     return [
         PlacedPin(
-            name, PinEnd(b.first, b.first_point), PinEnd(b.second, b.second_point), with_clearance.get(b.pin)
+            name,
+            DrawnEnd(b.first, b.first_point),
+            DrawnEnd(b.second, b.second_point),
+            with_clearance.get(b.pin),
         )
         for name, b in scenario.space.bearings.items()
         if not b.is_guide
@@ -284,8 +287,8 @@ def planar_pins(scenario: Scenario) -> dict[str, PlacedPin]:
     return {
         name: PlacedPin(
             name,
-            PinEnd(p.first, at(p.first_point, 0.0)),
-            PinEnd(p.second, at(p.second_point, 0.0)),
+            DrawnEnd(p.first, at(p.first_point, 0.0)),
+            DrawnEnd(p.second, at(p.second_point, 0.0)),
             with_clearance.get(name),
         )
         for name, p in scenario.linkage.pins.items()

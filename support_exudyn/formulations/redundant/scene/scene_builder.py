@@ -39,7 +39,7 @@ from support_exudyn.scenario.scenario import Scenario
 from user_forces.values.value import Vector2
 
 
-class _Builder(EngineBuilder):
+class _PlaneBuilder(EngineBuilder):
     def __init__(self, scenario: Scenario) -> None:
         super().__init__(scenario)
         self.linkage = scenario.linkage
@@ -224,4 +224,4 @@ class _Builder(EngineBuilder):
 
 def build(scenario: Scenario) -> Scene:
     """The engine's model of a scenario at its start, before any settling."""
-    return _Builder(scenario).build()
+    return _PlaneBuilder(scenario).build()

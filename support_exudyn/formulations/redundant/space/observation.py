@@ -43,7 +43,7 @@ class SectionSeries:
 
 
 @dataclass(frozen=True)
-class Observation:
+class SpatialObservation:
     """A finished run.
 
     Arguments:

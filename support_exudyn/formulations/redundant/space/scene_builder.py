@@ -44,7 +44,7 @@ SHIFTS: tuple[Kind, ...] = ("across_1", "across_2", "along")
 TILTS: tuple[Kind, ...] = ("tilt_1", "tilt_2")
 
 
-class _Builder(EngineBuilder):
+class _SpaceBuilder(EngineBuilder):
     def __init__(self, scenario: Scenario, linkage: SpatialLinkage) -> None:
         super().__init__(scenario)
         self.linkage = linkage
@@ -234,4 +234,4 @@ def _in_ground_axes(bearing: Bearing, held: Collection[Kind]) -> bool:
 
 def build(scenario: Scenario) -> SpatialScene:
     """The engine's model of a scenario in space at its start, before any settling."""
-    return _Builder(scenario, scenario.space).build()
+    return _SpaceBuilder(scenario, scenario.space).build()
