@@ -111,7 +111,7 @@ class Story:
     finished: list[Marks]  # what was there after each kill
 
 
-@pytest.fixture(scope="module", params=[Often(6, 4, 1), pytest.param(Often(12, 10, 4), marks=pytest.mark.slow)])
+@pytest.fixture(scope="module", params=[Often(4, 2, 1), pytest.param(Often(12, 10, 4), marks=pytest.mark.slow)])
 def story(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Story:
     often: Often = request.param
     whole, killed = tmp_path_factory.mktemp("whole"), tmp_path_factory.mktemp("killed")
