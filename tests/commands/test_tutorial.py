@@ -84,7 +84,7 @@ def test_the_answer_is_that_of_the_page(folder: Path) -> None:
     found = re.search(r"the tip goes ([\d.]+) ± ([\d.]+) mm to the rear and ([\d.]+) ± ([\d.]+) mm up", text)
     assert found is not None
     back, back_error, up, up_error = map(float, found.groups())
-    ideal, with_clearance = (Result.load(folder / f"{name}.h5") for name in ("ideal", "with_clearance"))
+    ideal, with_clearance = (Result.load(folder / f"{name}.h5") for name in ("ideal", "pin_1mm"))
     # the page's own errors cover those of the runs and the rounding of what is printed
     assert 1e3 * float((ideal["tip.x"] - with_clearance["tip.x"]).mean()) == pytest.approx(back, abs=back_error)
     assert 1e3 * float((with_clearance["tip.y"] - ideal["tip.y"]).mean()) == pytest.approx(up, abs=up_error)
@@ -96,7 +96,7 @@ def test_the_answer_is_that_of_the_page(folder: Path) -> None:
 @pytest.mark.slow  # the runs of the page take half a minute
 def test_the_tip_moves_as_geometry_has_it(folder: Path) -> None:
     """The journal lies where the bore's force holds it; all lengths stay, and the four-bar closes anew."""
-    ideal, with_clearance = (Result.load(folder / f"{name}.h5") for name in ("ideal", "with_clearance"))
+    ideal, with_clearance = (Result.load(folder / f"{name}.h5") for name in ("ideal", "pin_1mm"))
     machine = read_machine("shield.toml", folder).machine
     assert isinstance(machine, HydraulicSupport)
     record = 1000  # 1 s, in mid-rise, where the columns have extended by half the stroke

@@ -81,10 +81,10 @@ def test_every_machine_is_a_row_with_its_data_and_judgements(out: Path) -> None:
         assert all(machine[name] in ("holds", "fails", "open") for name in judged) or machine["failure"]
 
 
-def test_a_finished_hypercube_is_not_run_again(out: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_finished_hypercube_is_not_run_again(out: Path, request: pytest.FixtureRequest) -> None:
     before = {path: path.stat().st_mtime_ns for path in (out / "machines").iterdir()}
     text = (out / "table.txt").read_text(encoding="utf-8")
-    written("claims", ROUGH, out)
+    written("claims", request.node.callspec.params["out"], out)
     assert {path: path.stat().st_mtime_ns for path in (out / "machines").iterdir()} == before
     assert (out / "table.txt").read_text(encoding="utf-8") == text
 
