@@ -27,7 +27,7 @@ def shortest_step(rounding: float, largest: float) -> float:
 
     rounding: of positions [m].
     """
-    return min(SHARE_OF_STEP * largest, math.cbrt(rounding * largest / ACCELERATION))
+    return min(SHARE_OF_STEP * largest, float(np.cbrt(rounding * largest / ACCELERATION)))
 
 
 class StepPlan:

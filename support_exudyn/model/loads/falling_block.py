@@ -6,6 +6,7 @@ from dataclasses import replace
 from functools import cached_property
 from typing import Annotated
 
+import numpy as np
 from pydantic import Field
 
 from support_exudyn.model.linkage import Body, Linkage, Slide
@@ -90,7 +91,7 @@ class FallingBlock(Load):
     @property
     def side(self) -> float:
         """Side of a cube of the block's mass and density [m]."""
-        return float(math.cbrt(self.mass / self.density))
+        return float(np.cbrt(self.mass / self.density))
 
     @property
     def first_speed(self) -> float:
