@@ -1,4 +1,4 @@
-"""Any pin of a linkage is ideal or loose by one field."""
+"""Any pin of a linkage is ideal or with clearance by one field."""
 
 from __future__ import annotations
 

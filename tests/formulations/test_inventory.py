@@ -135,8 +135,8 @@ CASES: dict[str, tuple[Scenario, int, int]] = {
     "one clearance pin, no friction": (scenario(pins={"rear_base": with_clearance(friction=False)}), 1, 3),
     "one clearance pin, symbolic": (scenario(pins=ONE_LOOSE, solver=SYMBOLIC), 0, 3),
     "two clearance pins": (scenario(pins=dict.fromkeys(PINS[:2], with_clearance())), 2, 3),
-    "all loose": (scenario(pins=dict.fromkeys(PINS, with_clearance())), 5, 3),
-    "all loose, no friction, no gravity": (
+    "all with clearance": (scenario(pins=dict.fromkeys(PINS, with_clearance())), 5, 3),
+    "all with clearance, no friction, no gravity": (
         scenario(pins=dict.fromkeys(PINS, with_clearance(friction=False)), gravity=(0.0, 0.0)),
         5,
         3,
@@ -151,7 +151,7 @@ CASES: dict[str, tuple[Scenario, int, int]] = {
     # the engine follows the roof by itself; energies remain
     "roof": (scenario(loads={"roof": over_the_canopy(0.1)}), 0, 1),
     "roof, no energies": (scenario(loads={"roof": over_the_canopy(0.1)}, channels=NO_ENERGY), 0, 0),
-    "roof in the heads of columns, loose": (
+    "roof in the heads of columns, clearance": (
         scenario(
             loads={"roof": over_the_canopy(0.1, point=SUPPORT.linkage().columns["front_column"].head_point)},
             pins=ONE_LOOSE,
@@ -182,7 +182,7 @@ CASES: dict[str, tuple[Scenario, int, int]] = {
         0,
         2,
     ),
-    "slider-crank, loose": (
+    "slider-crank, clearance": (
         scenario(machine=ravn_slider_crank(), pins={"slider_pin": with_clearance()}, drive=Steady(rate=500.0)),
         1,
         3,
@@ -264,7 +264,7 @@ LEVELS: dict[str, dict[str, Any]] = {
     "ideal": {},
     "no gravity": {"gravity": (0.0, 0.0)},
     "with_clearance": {"pins": ONE_LOOSE},
-    "all loose": {"pins": dict.fromkeys(PINS, with_clearance())},
+    "all with clearance": {"pins": dict.fromkeys(PINS, with_clearance())},
     "oil": {"columns": dict.fromkeys(("front_column", "rear_column"), OIL)},
     "two bodies": {"columns": cylinders_and_rods()},
     "two bodies on oil": {"columns": cylinders_and_rods(OIL)},

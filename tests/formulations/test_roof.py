@@ -51,9 +51,9 @@ BODIES = ("rear_link", "front_link", "shield", "canopy")
 WITH_CLEARANCE = loose_support().pins
 KINDS = {
     "rigid, ideal": {},
-    "rigid, loose": {"pins": WITH_CLEARANCE},
+    "rigid, clearance": {"pins": WITH_CLEARANCE},
     "oil, ideal": {"columns": ON_OIL},
-    "oil, loose": {"columns": ON_OIL, "pins": WITH_CLEARANCE},
+    "oil, clearance": {"columns": ON_OIL, "pins": WITH_CLEARANCE},
 }
 # by how much the support gives under 10 MN [m]: two columns of oil side by side, of 2.9e8 N/m each
 GIVES = {name: TEN_MEGANEWTONS / 5.89e8 if "oil" in name else 0.0 for name in KINDS}
@@ -226,7 +226,7 @@ def test_the_roof_on_rigid_columns_is_known_to_the_last_digit() -> None:
     assert result["energy.work"][-1] == pytest.approx(TEN_MEGANEWTONS**2 / HARD / 2.0, rel=1e-5)
 
 
-@pytest.mark.parametrize("kind", ["rigid, loose", "oil, loose"])
+@pytest.mark.parametrize("kind", ["rigid, clearance", "oil, clearance"])
 def test_a_loose_pin_is_pressed_with_the_force_of_statics(kind: str) -> None:
     # one that soon rests
     base = WITH_CLEARANCE[PIN].contact
@@ -325,7 +325,7 @@ def test_runs_to_an_accuracy_know_the_roof() -> None:
 
 
 def test_a_result_under_a_roof_survives_its_file(tmp_path: object) -> None:
-    result = pressed("oil, loose")
+    result = pressed("oil, clearance")
     read = Result.load(result.save(f"{tmp_path}/roof.h5"))
     assert read.scenario == result.scenario
     for name in ("roof.force", "roof.gap", "energy.elastic"):

@@ -65,12 +65,12 @@ SCENES: dict[str, Callable[[float], Scenario]] = {
     "load": lambda t: support(loads={"press": pressed(t)}, **SHORT),
     "growing steps": lambda t: support(drive=cubic(t), solver=SolverSettings(growth=8), **SHORT),
     "with_clearance": lambda t: loose_support(0.5, 0.25, drive=cubic(t), start="settled", **SHORT),
-    "loose, struck": lambda t: loose_support(0.5, 0.25, drive=uniform(t), start="settled", **SHORT),
-    "loose, growing steps": lambda t: loose_support(
+    "clearance, struck": lambda t: loose_support(0.5, 0.25, drive=uniform(t), start="settled", **SHORT),
+    "clearance, growing steps": lambda t: loose_support(
         0.5, 0.25, drive=cubic(t), start="settled", solver=SolverSettings(growth=8), **SHORT
     ),
     "space": lambda t: support(drive=uniform(t), dimensions=3, **SHORT),
-    "loose in space": lambda t: loose_support(
+    "clearance in space": lambda t: loose_support(
         0.5, drive=cubic(t), dimensions=3, start="settled", **SHORT | {"duration": 0.015}
     ),
     "tree": lambda t: loose_support(0.5, 0.25, drive=cubic(t), columns=OILS, formulation="tree", **SHORT),

@@ -57,8 +57,10 @@ SCENES = {
     "oil": support(**SHORT, columns=OILS),
     "one column of oil": support(**SHORT, columns={"rear_column": OIL}),
     "with_clearance": loose_support(0.5, 0.25, **SHORT),
-    "loose, growing steps": loose_support(0.5, 0.25, **SHORT, solver=SolverSettings(growth=8), start="settled"),
-    "loose, friction with a state": support(**SHORT, pins={PIN: ClearancePin(contact=BRISTLES)}),
+    "clearance, growing steps": loose_support(
+        0.5, 0.25, **SHORT, solver=SolverSettings(growth=8), start="settled"
+    ),
+    "clearance, friction with a state": support(**SHORT, pins={PIN: ClearancePin(contact=BRISTLES)}),
     "slider-crank": Scenario(
         machine=ravn_slider_crank(), drive=Steady(rate=500.0), duration=0.005, step=1e-5, record_period=1e-4
     ),
@@ -103,7 +105,7 @@ def history(scenario: Scenario) -> History:
 
 
 @pytest.mark.parametrize(
-    "scene", ["ideal, driven", "ideal, growing steps", "with_clearance", "loose, growing steps"]
+    "scene", ["ideal, driven", "ideal, growing steps", "with_clearance", "clearance, growing steps"]
 )
 def test_nothing_is_kept_that_nobody_asked_for(scene: str) -> None:
     one = unaudited(SCENES[scene])  # result checks looks at everything
