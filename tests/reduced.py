@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from support_exudyn import Result, Scenario, simulate
-from support_exudyn.formulations.progress import Progress, silent
+from support_exudyn.formulations.contract import Progress, silent
 from support_exudyn.formulations.reduced import setup
 from support_exudyn.scenario.solver_settings import MOST_STEPS
 

@@ -1,1 +1,1 @@
-"""clearance_influence"""
+"""What does a clearance change, against ideal pins?"""

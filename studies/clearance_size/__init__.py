@@ -1,1 +1,1 @@
-"""clearance_size"""
+"""What does the size of the clearance do to the rise?"""

@@ -1,1 +1,1 @@
-"""contact_laws"""
+"""Do the laws deliver what they promise?"""

@@ -1,1 +1,1 @@
-"""drive_mode"""
+"""What does the way of letting oil in do?"""

@@ -27,7 +27,7 @@ from support_exudyn import (
     Steady,
     reference_support,
 )
-from support_exudyn.formulations.progress import Progress, silent
+from support_exudyn.formulations.contract import Progress, silent
 from support_exudyn.formulations.registry import formulation
 from support_exudyn.mechanics.trajectory import Outcome
 from support_exudyn.scenario.recorded_channels import Channel, channels

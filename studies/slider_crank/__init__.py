@@ -1,1 +1,1 @@
-"""slider_crank"""
+"""Does the program agree with others on the slider-crank?"""

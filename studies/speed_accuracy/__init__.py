@@ -1,1 +1,1 @@
-"""speed_accuracy"""
+"""What does an accuracy cost?"""

@@ -1,1 +1,1 @@
-"""which_pin"""
+"""Which pin matters?"""

@@ -11,8 +11,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any, NoReturn
 
-from support_exudyn.formulations.contract import SimulationError, told
-from support_exudyn.formulations.progress import Progress
+from support_exudyn.formulations.contract import Progress, SimulationError, told
 from support_exudyn.simulation.at_start import EXIT_CODE, INTERRUPTED, be_interruptible, be_readable
 from support_exudyn.sweeps.workers import NoProcessError, ProcessEndedError
 from user_forces.values.value import InputError, cleaned, short

@@ -1,1 +1,1 @@
-"""formulations"""
+"""Equations of motion and their integration, see the README."""

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from importlib import import_module
 from typing import Literal, Protocol, cast
 
+from support_exudyn.formulations.contract import Progress
 from support_exudyn.formulations.interruption import put_off
-from support_exudyn.formulations.progress import Progress
 from support_exudyn.mechanics.trajectory import Outcome
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.values.value import InputError

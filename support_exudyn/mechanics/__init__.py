@@ -1,1 +1,1 @@
-"""mechanics"""
+"""Motion, matrices, joint forces, oil and channels."""

@@ -1,1 +1,1 @@
-"""scenario"""
+"""What determines a run, and whether it fits together."""

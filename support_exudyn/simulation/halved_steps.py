@@ -7,8 +7,7 @@ halved again, a few times. If that does not help, nothing is known of the number
 
 from dataclasses import replace
 
-from support_exudyn.formulations.contract import Failure, SimulationError
-from support_exudyn.formulations.progress import Progress
+from support_exudyn.formulations.contract import Failure, Progress, SimulationError
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scenario.solver_settings import REFINED_TOLERANCE, SMALLEST_TOLERANCE
 from support_exudyn.simulation.estimate import disagreement, rounding_share

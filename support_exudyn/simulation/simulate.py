@@ -4,8 +4,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Literal, overload
 
-from support_exudyn.formulations.contract import Failure, SimulationError, told
-from support_exudyn.formulations.progress import Progress, silent
+from support_exudyn.formulations.contract import Failure, Progress, SimulationError, silent, told
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scenario.scenario_data import Accuracy
 from support_exudyn.simulation.halved_steps import run_halving_steps

@@ -5,9 +5,7 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from support_exudyn.formulations.contract import Failure, SimulationError
-from support_exudyn.formulations.engine_errors import first_line
-from support_exudyn.formulations.progress import Progress
+from support_exudyn.formulations.contract import Failure, Progress, SimulationError, first_line
 from support_exudyn.formulations.registry import formulation
 from support_exudyn.scenario.recorded_channels import asked, channels
 from support_exudyn.scenario.scenario import Scenario

@@ -5,8 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from support_exudyn.formulations.contract import SimulationError
-from support_exudyn.formulations.progress import Progress, silent
+from support_exudyn.formulations.contract import Progress, SimulationError, silent
 from support_exudyn.mechanics.channels import ALL_CHANNELS
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scenario.solver_settings import MOST_SECTIONS

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from support_exudyn.files.machines import reference_support
 from support_exudyn.formulations import reduced, tree
-from support_exudyn.formulations.progress import silent
+from support_exudyn.formulations.contract import silent
 from support_exudyn.model.columns import OilColumn
 from support_exudyn.model.pins import ClearancePin
 from support_exudyn.scenario.scenario import Scenario

@@ -12,7 +12,7 @@ import pytest
 
 from studies.extremes import long_runs
 from support_exudyn import Drive, Reciprocating, Scenario, SolverSettings, Steady, reference_support, simulate
-from support_exudyn.formulations.progress import silent
+from support_exudyn.formulations.contract import silent
 from support_exudyn.formulations.redundant.solver.solver import SolverRun
 from support_exudyn.formulations.registry import formulation
 from support_exudyn.mechanics.contact_state import PinMemory

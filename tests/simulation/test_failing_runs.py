@@ -19,7 +19,7 @@ from support_exudyn import (
     SimulationError,
     simulate,
 )
-from support_exudyn.formulations.engine_errors import explained
+from support_exudyn.formulations.contract import explained
 from support_exudyn.sweeps.parallel_runs import run_all
 from tests.cases.run_cases import Pair, loose_support, paper_contact
 from tests.formulations.test_momentum import ONE, TWO

@@ -1,1 +1,1 @@
-"""compilation"""
+"""The source of a law as plain code, for compilers."""

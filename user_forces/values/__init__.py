@@ -1,1 +1,1 @@
-"""values"""
+"""Checked values and their units."""

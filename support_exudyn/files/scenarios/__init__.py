@@ -1,1 +1,1 @@
-"""scenarios"""
+"""Scenario files: reading, short forms, drives from tables."""

@@ -1,1 +1,1 @@
-"""toml"""
+"""Values as TOML: fields, units, messages."""

@@ -5,8 +5,7 @@ from itertools import count
 import numpy as np
 
 from support_exudyn.formulations.compiled import on_arrays
-from support_exudyn.formulations.contract import Failure, SimulationError
-from support_exudyn.formulations.progress import Progress
+from support_exudyn.formulations.contract import Failure, Progress, SimulationError
 from support_exudyn.formulations.reduced import layout
 from support_exudyn.formulations.reduced.contact import accelerations
 from support_exudyn.formulations.reduced.equations import law_at

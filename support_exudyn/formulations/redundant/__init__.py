@@ -1,1 +1,1 @@
-"""redundant"""
+"""Rigid bodies with constraints in Exudyn, under generalised alpha."""

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Any
 
-from support_exudyn.formulations.progress import silent
+from support_exudyn.formulations.contract import silent
 from support_exudyn.formulations.redundant.run import check, model
 from support_exudyn.formulations.redundant.solver.recorder import Recorder
 from support_exudyn.formulations.redundant.solver.solver import SolverRun

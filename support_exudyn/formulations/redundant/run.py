@@ -8,7 +8,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from support_exudyn.formulations.progress import Progress
+from support_exudyn.formulations.contract import Progress
 from support_exudyn.formulations.redundant.scene.cylinder_item import UNIT, CylinderItem
 from support_exudyn.formulations.redundant.scene.engine_scene import EngineScene
 from support_exudyn.formulations.redundant.scene.load_item import load_series

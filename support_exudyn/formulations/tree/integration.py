@@ -6,10 +6,8 @@ from typing import Any
 
 import exudyn
 
-from support_exudyn.formulations.contract import Failure, SimulationError
-from support_exudyn.formulations.engine_errors import explained
+from support_exudyn.formulations.contract import Failure, Progress, SimulationError, explained
 from support_exudyn.formulations.engine_settings import quiet_engine
-from support_exudyn.formulations.progress import Progress
 from support_exudyn.formulations.tree.drive_pieces import Piece
 from support_exudyn.formulations.tree.engine import SMALLEST_STEP, Engine, TreeHistory, settings
 from support_exudyn.formulations.tree.events import EventKind, event

@@ -5,7 +5,7 @@ from typing import NoReturn
 
 import numpy as np
 
-from support_exudyn.formulations.progress import Progress
+from support_exudyn.formulations.contract import Progress
 from support_exudyn.formulations.tree.branches import ClearanceError, LoopError, Tree, branches
 from support_exudyn.formulations.tree.drive_pieces import pieces
 from support_exudyn.formulations.tree.dynamics import TreePosture, pin_inverse_mass

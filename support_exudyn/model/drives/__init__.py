@@ -1,1 +1,1 @@
-"""drives"""
+"""How driven parts move, one kind a file."""

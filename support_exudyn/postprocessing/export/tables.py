@@ -11,7 +11,7 @@ import h5py
 import numpy as np
 
 from support_exudyn.files.whole_file import whole_file
-from support_exudyn.formulations.progress import Progress, silent
+from support_exudyn.formulations.contract import Progress, silent
 from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.postprocessing.export.sampling import Sampling

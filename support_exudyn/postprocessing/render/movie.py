@@ -11,7 +11,7 @@ import numpy.typing as npt
 from PIL import Image
 from PIL.ImageColor import getrgb
 
-from support_exudyn.formulations.progress import Progress
+from support_exudyn.formulations.contract import Progress
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.postprocessing.figures.selection import nearest
 from support_exudyn.postprocessing.figures.style import CONTACT, FLIGHT

@@ -9,7 +9,7 @@ from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
 from support_exudyn.files.whole_file import whole_file
-from support_exudyn.formulations.progress import Progress, silent
+from support_exudyn.formulations.contract import Progress, silent
 from support_exudyn.postprocessing.export.whole_set import whole_set
 from support_exudyn.postprocessing.render import movie as movies
 from support_exudyn.postprocessing.render.frame import Layout, Painter

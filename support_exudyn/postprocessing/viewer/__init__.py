@@ -1,1 +1,1 @@
-"""viewer"""
+"""The solution viewer of the engine, with the machine as it looks."""

@@ -1,1 +1,1 @@
-"""clearance"""
+"""A clearance pin in the engine: its connector, force and memory."""

@@ -1,1 +1,1 @@
-"""solver"""
+"""Steps, events, records and failures of a run in the engine."""

@@ -1,7 +1,6 @@
 """Why a run could not go on, in words: reason and advice."""
 
-from support_exudyn.formulations import engine_errors
-from support_exudyn.formulations.engine_errors import explained, first_line
+from support_exudyn.formulations.contract import ENGINE_ADVICE, explained, first_line
 from support_exudyn.formulations.redundant.scene.engine_scene import EngineScene
 from user_forces.lawful import UNLAWFUL, LawError
 from user_forces.normal.law import LoadError
@@ -39,7 +38,7 @@ def why(error: Exception, scene: EngineScene, ahead: float) -> tuple[str, str]:
         return first_line(cause), ADVICE
     if cause is not None:
         raise cause from None
-    return unlawful(scene, ahead) or (explained(error), engine_errors.ADVICE)
+    return unlawful(scene, ahead) or (explained(error), ENGINE_ADVICE)
 
 
 def unlawful(scene: EngineScene, ahead: float) -> tuple[str, str] | None:

@@ -16,10 +16,9 @@ from typing import Any
 import exudyn
 
 from support_exudyn.formulations.contact_events import SHARE
-from support_exudyn.formulations.contract import Failure, SimulationError
+from support_exudyn.formulations.contract import Failure, Progress, SimulationError
 from support_exudyn.formulations.engine_settings import SMALLEST_STEP, engine_settings, quiet_engine
 from support_exudyn.formulations.limits import DEEPEST, SOFT, rounding_of_positions, too_deep
-from support_exudyn.formulations.progress import Progress
 from support_exudyn.formulations.redundant.scene.engine_scene import EngineScene, slide
 from support_exudyn.formulations.redundant.solver.newton_method import NewtonMethod
 from support_exudyn.formulations.redundant.solver.recorder import Recorder

@@ -1,1 +1,1 @@
-"""space"""
+"""The model in space: sections of a bearing, joints, what is observed."""
