@@ -37,11 +37,11 @@ def _unseen(axes: Axes) -> list[Text]:
     found: list[Text] = []
     for axis in (axes.xaxis, axes.yaxis):
         low, high = sorted(axis.get_view_interval())
-        clearance = 1e-9 * (high - low)
+        margin = 1e-9 * (high - low)
         context = [
             tick
             for tick in (*axis.get_major_ticks(), *axis.get_minor_ticks())
-            if low - clearance <= tick.get_loc() <= high + clearance
+            if low - margin <= tick.get_loc() <= high + margin
         ]
         kept = {id(text) for tick in context for text in (tick.label1, tick.label2)}
         kept |= {id(axis.label), id(axis.offsetText)}

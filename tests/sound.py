@@ -102,8 +102,8 @@ def sound_drive(item: Drive) -> None:
         assert -math.inf < low <= 0.0 <= high < math.inf
         for t in times:
             if t <= duration:  # rounding of three products
-                clearance = 1e-14 * max(high, -low) + 1e-300
-                assert low - clearance <= item.extension(t) <= high + clearance
+                margin = 1e-14 * max(high, -low) + 1e-300
+                assert low - margin <= item.extension(t) <= high + margin
 
 
 def sound_scenario(item: Scenario) -> None:

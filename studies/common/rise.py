@@ -72,7 +72,7 @@ class Peak:
         return self.scale * TAKEN[self.extreme](run[self.channel][between(run, self.begin, self.end)])
 
     def missed(self, run: Result) -> float:
-        """By how much it may be exceeded between records."""
+        """The amount by which a peak may be exceeded between records."""
         inside = between(run, self.begin, self.end)
         values, time = run[self.channel][inside], run.time[inside]
         return self.scale * missed(self.extreme, values, time, run.scenario.breaks)

@@ -61,12 +61,8 @@ def check_moments(moments: Moments | None, inertia: float) -> None:
     if moments is None:
         return
     xx, yy, xy = moments
-    clearance = ROUNDING * inertia + sys.float_info.min  # half of the smallest number is 0
-    if (
-        abs(xx + yy - inertia) > clearance
-        or min(xx, yy) < -clearance
-        or xy * xy > xx * yy + clearance * inertia
-    ):
+    margin = ROUNDING * inertia + sys.float_info.min  # half of the smallest number is 0
+    if abs(xx + yy - inertia) > margin or min(xx, yy) < -margin or xy * xy > xx * yy + margin * inertia:
         raise ValueError(
             f"moments = {moments}: allowed: xx and yy >= 0 that add up to the inertia, {inertia} kg m^2, and "
             "xy^2 <= xx yy"

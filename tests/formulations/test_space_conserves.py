@@ -103,7 +103,7 @@ def test_both_backends_run_the_same(space: SpatialLinkage, bore: Bore, friction:
     assert len(one.onsets["pin"]) == len(other.onsets["pin"])
 
 
-@settings(few, max_examples=3)  # each has hundreds of thousands of records
+@settings(few)
 @given(space=placements(), bore=bores, friction=st.sampled_from([0.0, 0.3]))
 def test_the_force_in_a_loose_bearing_is_what_accelerates_a_free_body(
     space: SpatialLinkage, bore: Bore, friction: float

@@ -150,12 +150,12 @@ def test_pin_and_column_forces_are_those_of_equilibrium(name: str, tmp_path: Pat
     for station in stations(machine, data.stroke, 5):
         exact = equilibrium(machine, station)
         # rounding of systems whose condition is some thousand; forces of 1e5 N
-        clearance = 1e-6
-        assert station.forces.error < clearance
+        margin = 1e-6
+        assert station.forces.error < margin
         for pin, force in station.forces.pins.items():
-            assert force == pytest.approx(exact[pin], abs=clearance), pin
+            assert force == pytest.approx(exact[pin], abs=margin), pin
         for column, push in station.forces.columns.items():
-            assert push == pytest.approx(exact[column], abs=clearance), column
+            assert push == pytest.approx(exact[column], abs=margin), column
 
 
 @pytest.mark.parametrize("name", SHIELDS)

@@ -20,7 +20,7 @@ from support_exudyn.scenario.solver_settings import ERROR_CONTROLLED
 from tests.metamorphic.moving import FROM_THE_START
 from tests.strategies import OFTEN
 
-FEW = 8  # scenes of each relation in a run of the tests; in a longer profile as many as that says
+FEW = 20  # scenes of each relation in a run of the tests; in a longer profile as many as that says
 TELLING = (
     0.05  # distance of the coarse run, as a share of a channel's largest value, above which nothing is told
 )

@@ -26,7 +26,7 @@ def runs(tmp_path_factory: pytest.TempPathFactory) -> Path:
     with_clearance = replace(loose_support(1.0, 0.25, duration=0.4), drive=STROKE, start="settled")
     simulate(ideal, accuracy="draft").save(folder / "ideal.h5")
     simulate(with_clearance, accuracy="draft").save(folder / "with_clearance.h5")
-    simulate(with_clearance, accuracy="standard").save(folder / "fine.h5")
+    simulate(with_clearance, accuracy="reference").save(folder / "fine.h5")
     simulate(ideal).save(folder / "plain.h5")
     simulate(replace(ideal, record_period=4e-3)).save(folder / "rare.h5")
     simulate(replace(ideal, record_period=3e-3)).save(folder / "other.h5")

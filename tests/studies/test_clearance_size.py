@@ -136,7 +136,9 @@ def test_the_angular_velocity_keeps_its_course(out: Path) -> None:
     ideal = Result.load(out / "runs" / "ideal.h5")
     for size in ("0p5", "1p0", "1p5", "2p0"):
         run = Result.load(out / "runs" / f"{size}mm_mu0p25.h5")
-        assert rise.likeness(run, ideal, rise.SPEED) > 0.9999  # a RMS fluctuation of 1 % of the range, filtered
+        assert (
+            rise.likeness(run, ideal, rise.SPEED) > 0.9999
+        )  # an RMS fluctuation of 1 % of the range, filtered
         assert rise.likeness(run, ideal, rise.FORCE) > 0.99
 
 

@@ -1,4 +1,4 @@
-"""No friction."""
+"""A contact has no friction."""
 
 from user_forces.friction.law import FrictionLaw
 from user_forces.values.value import value

@@ -100,7 +100,7 @@ class Model(Protocol):
         """By how much the free coordinates differ between two postures of the linkage."""
 
     def reaches(self, machine: Any) -> tuple[float, float]:
-        """By how much the journal moves with the free coordinates."""
+        """The displacement of the journal per unit of the free coordinates."""
 
     def fall(self, machine: Any, speed: float) -> float:
         """Acceleration of the journal without its contact besides gravity's [m/s^2] at a speed of the drive."""
