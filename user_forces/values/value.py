@@ -40,14 +40,15 @@ def carries_unit(item: Any) -> bool:
 
 def _number(item: Any) -> float:
     """A plain float from a number of any kind, also a decimal or one of numpy; text and truths are none."""
-    if carries_unit(item):  # where a field has a unit that has been taken off
-        if not item.dimensionless:
-            raise ValueError("Input should be a number without a unit")
-        item = item.to_base_units().magnitude
-    if isinstance(item, np.ndarray) and item.ndim == 0:
-        item = item.item()
-    if isinstance(item, bool) or not isinstance(item, (numbers.Real, Decimal)):
-        raise ValueError("Input should be a number")
+    if type(item) not in (float, int):  # tables have a million that are
+        if carries_unit(item):  # where a field has a unit that has been taken off
+            if not item.dimensionless:
+                raise ValueError("Input should be a number without a unit")
+            item = item.to_base_units().magnitude
+        if isinstance(item, np.ndarray) and item.ndim == 0:
+            item = item.item()
+        if isinstance(item, bool) or not isinstance(item, (numbers.Real, Decimal)):
+            raise ValueError("Input should be a number")
     try:
         number = float(item)
     except (ValueError, OverflowError):  # a signalling decimal; a whole number of 400 digits
