@@ -68,33 +68,35 @@ def bounce(law: NormalLaw, duration: float, **changes: Any) -> Result:
 LAWS = [
     Exact(stiffness=STIFFNESS, restitution=0.5),
     pytest.param(Exact(stiffness=STIFFNESS, restitution=0.8), marks=pytest.mark.slow),
-    Exact(stiffness=STIFFNESS, restitution=0.05),
+    pytest.param(Exact(stiffness=STIFFNESS, restitution=0.05), marks=pytest.mark.slow),
     LankaraniNikravesh(stiffness=STIFFNESS, restitution=0.3, damping_speed=ImpactVelocity()),
     KelvinVoigt(stiffness=1e7, damping=1e3),
-    AdamsImpact(stiffness=STIFFNESS, full_damping=1e4, full_damping_depth=2e-5),
+    pytest.param(
+        AdamsImpact(stiffness=STIFFNESS, full_damping=1e4, full_damping_depth=2e-5), marks=pytest.mark.slow
+    ),
 ]
 
 
 @pytest.mark.parametrize("law", LAWS, ids=lambda law: f"{type(law).__name__}-{vars(law).get('restitution')}")
 def test_bounces_end_in_resting_contact(law: NormalLaw) -> None:
-    result = bounce(law, 2.0)
+    result = bounce(law, 0.5)
     onsets = result.onsets["ring"]
     assert len(onsets) >= 1
-    late = result.time > 1.5
+    late = result.time > 0.45
     # at rest: no impact any more, and the depth is that of the weight
-    assert onsets[-1].time < 1.5
+    assert onsets[-1].time < 0.4
     np.testing.assert_allclose(
         result["pin.ring.depth"][late], law.resting_depth(MASS * GRAVITY), rtol=1e-3
     )  # what is left of the vibration
     # steps do not shrink: half a second at rest takes the steps of the grid and no more
-    longer = bounce(law, 2.5)
+    longer = bounce(law, 1.0)
     assert longer.counts.steps - result.counts.steps == round(0.5 / 5e-4)
     assert longer.onsets["ring"] == onsets
 
 
 def test_speeds_of_bounces_fall_by_the_restitution_till_the_weight_matters() -> None:
     law = Exact(stiffness=STIFFNESS, restitution=0.8)
-    onsets = bounce(law, 2.0).onsets["ring"]
+    onsets = bounce(law, 0.4).onsets["ring"]
     assert onsets[0].speed == pytest.approx(math.sqrt(2.0 * GRAVITY * CLEARANCE), rel=1e-9)  # free fall
     for one, other in pairwise(onsets[:6]):
         # the weight presses during the contact, which takes a share m g depth / (m v^2) of the energy
@@ -102,11 +104,11 @@ def test_speeds_of_bounces_fall_by_the_restitution_till_the_weight_matters() -> 
         assert other.speed / one.speed == pytest.approx(0.8, abs=GRAVITY * depth / one.speed**2)
 
 
-@pytest.mark.parametrize("backend", ["python", pytest.param("symbolic", marks=pytest.mark.slow)])
+@pytest.mark.parametrize("backend", ["python", "symbolic"])
 def test_rejected_steps_leave_no_trace(backend: str) -> None:
     # grids that reject different steps give the same impacts
     law = Exact(stiffness=STIFFNESS, restitution=0.6)
-    settings = SolverSettings(backend=backend, impact_steps=2000)
+    settings = SolverSettings(backend=backend, impact_steps=200)
     runs = [bounce(law, 0.2, step=step, solver=settings) for step in (1e-3, 3.7e-4, 1e-4)]
     assert all(run.counts.cut_steps > 5 for run in runs)
     for run in runs[1:]:

@@ -44,7 +44,7 @@ def test_one_closed_chamber_is_a_column_of_oil() -> None:
     runs = [
         simulate(
             loose_support(
-                columns=dict.fromkeys(("front_column", "rear_column"), one), drive=Held(), duration=0.2
+                columns=dict.fromkeys(("front_column", "rear_column"), one), drive=Held(), duration=0.1
             )
         )
         for one in (cylinder, oil)
@@ -58,7 +58,11 @@ def test_one_closed_chamber_is_a_column_of_oil() -> None:
 
 
 @pytest.mark.parametrize(
-    "inlet", [SuddenOpening(start=0.1, end=0.3, extent=0.5), RampedOpening(start=0.1, end=0.3, ramp=0.1)]
+    "inlet",
+    [
+        pytest.param(SuddenOpening(start=0.1, end=0.3, extent=0.5), marks=pytest.mark.slow),
+        RampedOpening(start=0.1, end=0.3, ramp=0.1),
+    ],
 )
 def test_energy_adds_up_with_loose_pins_and_valves(inlet: Inlet) -> None:
     scenario = on_cylinders(True, inlet, duration=0.35)

@@ -54,8 +54,15 @@ def test_a_journal_pressed_in_starts_with_the_force_of_its_law(bore: str) -> Non
     assert result["energy.elastic"][0] == pytest.approx(normal.elastic_energy(deep), rel=1e-7)
 
 
-@BORES
-@pytest.mark.parametrize("over", [0.0, 1e-4])
+@pytest.mark.parametrize(
+    ("bore", "over"),
+    [
+        ("first", 1e-4),
+        ("second", 0.0),
+        pytest.param("first", 0.0, marks=pytest.mark.slow),
+        pytest.param("second", 1e-4, marks=pytest.mark.slow),
+    ],
+)
 def test_the_tree_and_space_start_and_go_on_alike(bore: str, over: float) -> None:
     # pressed in on the side from which it flies across the bore, or free
     place = (0.0, -sense(bore) * (CLEARANCE + over)) if over else (1e-3, -5e-4)

@@ -23,6 +23,10 @@ def drop(step: float, backend: str, **laws: NormalLaw | FrictionLaw) -> Result:
     return simulate(replace(base, pins={PIN: pin}))
 
 
+# that both do the same under every law: `test_symbolic`
+BACKENDS = pytest.mark.parametrize("backend", ["python", pytest.param("symbolic", marks=pytest.mark.slow)])
+
+
 def check(coarse: Result, fine: Result) -> None:
     for result in (coarse, fine):
         first = result.onsets[PIN][0]
@@ -37,14 +41,14 @@ def check(coarse: Result, fine: Result) -> None:
         assert one.speed == pytest.approx(other.speed, rel=1e-4)
 
 
-@pytest.mark.parametrize("backend", ["python", "symbolic"])
+@BACKENDS
 @pytest.mark.parametrize("name", catalogue.normal_laws(1.5, 0.9))
 def test_normal_laws(name: str, backend: str) -> None:
     law = catalogue.normal_laws(1.5, 0.9)[name]
     check(drop(1e-3, backend, normal=law), drop(2.3e-4, backend, normal=law))
 
 
-@pytest.mark.parametrize("backend", ["python", "symbolic"])
+@BACKENDS
 @pytest.mark.parametrize("name", catalogue.friction_laws(0.25))
 def test_friction_laws(name: str, backend: str) -> None:
     law = catalogue.friction_laws(0.25)[name]

@@ -115,7 +115,7 @@ def bounced(rock: FallingBlock, duration: float) -> np.ndarray:
     return found.y[:, -1]
 
 
-@pytest.mark.parametrize("restitution", [0.3, 0.7])
+@pytest.mark.parametrize("restitution", [pytest.param(0.3, marks=pytest.mark.slow), 0.7])
 def test_weight_and_all_bounces_are_as_in_an_independent_solution(restitution: float) -> None:
     rock = block(restitution=restitution)
     for duration in (0.5, 0.95):
@@ -225,8 +225,7 @@ def test_on_a_spring_it_converges_to_an_independent_solution_with_second_order()
     ("place", "pins"),
     [
         *((place, "ideal") for place in PLACES),
-        ("tip", "with_clearance"),
-        *(pytest.param(place, "with_clearance", marks=pytest.mark.slow) for place in ("middle", "rear")),
+        *(pytest.param(place, "with_clearance", marks=pytest.mark.slow) for place in PLACES),
     ],
 )
 def test_on_the_support_energies_add_up_and_half_the_steps_give_the_same(place: str, pins: str) -> None:

@@ -88,6 +88,13 @@ def run(scene: str, way: str) -> Result:
 
 PAIRS = [(scene, "reduced", "redundant") for scene in SCENES]
 PAIRS += [(scene, "tree", "redundant") for scene in ON_OIL]
+# of which every part is in another scene, too
+SLOW = ("up and down", "slider-crank", "rise on oil, damped by depth")
+EVERY_PAIR = pytest.mark.parametrize(
+    "pair",
+    [pytest.param(pair, marks=[pytest.mark.slow] if pair[0] in SLOW else []) for pair in PAIRS],
+    ids=", ".join,
+)
 
 
 def closeness(first: str, second: str) -> float:
@@ -96,7 +103,7 @@ def closeness(first: str, second: str) -> float:
     return 1e-3 if "redundant" in (first, second) else 2e-6
 
 
-@pytest.mark.parametrize("pair", PAIRS, ids=", ".join)
+@EVERY_PAIR
 def test_channels_are_the_same(pair: tuple[str, str, str]) -> None:
     scene, *ways = pair
     one, other = (run(scene, way) for way in ways)
@@ -108,7 +115,7 @@ def test_channels_are_the_same(pair: tuple[str, str, str]) -> None:
     assert set(one.largest_force) == set(other.largest_force)
 
 
-@pytest.mark.parametrize("pair", PAIRS, ids=", ".join)
+@EVERY_PAIR
 def test_touches_are_the_same(pair: tuple[str, str, str]) -> None:
     scene, *ways = pair
     one, other = (run(scene, way) for way in ways)
@@ -128,7 +135,7 @@ def test_touches_are_the_same(pair: tuple[str, str, str]) -> None:
         assert struck.energy == pytest.approx(theirs.energy, rel=close)
 
 
-@pytest.mark.parametrize("pair", PAIRS, ids=", ".join)
+@EVERY_PAIR
 def test_means_and_spreads_are_the_same(pair: tuple[str, str, str]) -> None:
     scene, *ways = pair
     one, other = (run(scene, way) for way in ways)
@@ -152,7 +159,7 @@ def test_means_and_spreads_are_the_same(pair: tuple[str, str, str]) -> None:
         assert abs(mine.std() - theirs.std()) <= 5.0 * allowed, name
 
 
-@pytest.mark.parametrize("pair", PAIRS, ids=", ".join)
+@EVERY_PAIR
 def test_energies_are_the_same_and_add_up(pair: tuple[str, str, str]) -> None:
     scene, *ways = pair
     one, other = (run(scene, way) for way in ways)
@@ -167,7 +174,10 @@ def test_energies_are_the_same_and_add_up(pair: tuple[str, str, str]) -> None:
         assert result.energy_error <= share * turned, way
 
 
-@pytest.mark.parametrize("scene", ["rise", "slider-crank, friction, bore in the rod", "rise on oil"])
+@pytest.mark.parametrize(
+    "scene",
+    ["rise", pytest.param("slider-crank, friction, bore in the rod", marks=pytest.mark.slow), "rise on oil"],
+)
 def test_runs_to_an_accuracy_agree_within_what_they_say(scene: str) -> None:
     scenario = (SCENES | ON_OIL)[scene]
     others = ("tree",) if scene in ON_OIL else ("reduced",)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from functools import cache
 from typing import Any, Literal
 
 import numpy as np
@@ -36,6 +37,7 @@ def contact(damping: DampingSpeed, friction: FrictionLaw = Frictionless()) -> Jo
     return JournalContact(bearing=BEARING, normal=normal, friction=friction)
 
 
+@cache
 def fly(law: JournalContact, bore: Literal["first", "second"], backend: Backend) -> Result:
     """Two free bodies that turn against each other, joined by the pin alone."""
     scenario = Scenario(

@@ -27,7 +27,10 @@ IMPACTS = 3e-5
 A_SECOND = 1e-7
 
 
-@pytest.mark.parametrize("name", [long_runs.IDEAL, long_runs.SMOOTH, long_runs.DRY, long_runs.OIL])
+@pytest.mark.parametrize(
+    "name",
+    [long_runs.IDEAL, pytest.param(long_runs.SMOOTH, marks=pytest.mark.slow), long_runs.DRY, long_runs.OIL],
+)
 def test_a_support_raised_and_lowered_for_long_neither_drifts_nor_loses_energy(name: str) -> None:
     duration = 24.0
     found = long_runs.run(long_runs.scene(name, duration), name)
@@ -55,7 +58,7 @@ def test_what_has_come_to_rest_stays_at_rest_and_costs_little() -> None:
 
 @pytest.mark.parametrize("name", [long_runs.IDEAL, long_runs.DRY])
 def test_memory_grows_by_the_numbers_that_are_recorded_and_no_more(name: str) -> None:
-    duration = 16.0
+    duration = 8.0
     scene = long_runs.scene(name, duration)
     held: list[int] = []
 

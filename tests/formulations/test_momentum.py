@@ -55,7 +55,7 @@ def momenta(result: Result, one: Body, two: Body) -> tuple[np.ndarray, np.ndarra
 
 
 @pytest.mark.parametrize("bore", ["first", "second"])
-@pytest.mark.parametrize("turn", [0.0, 1.0, 3.0])
+@pytest.mark.parametrize("turn", [0.0, pytest.param(1.0, marks=pytest.mark.slow), 3.0])
 def test_momentum_is_kept_whichever_body_carries_the_bore(bore: Bore, turn: float) -> None:
     two = Body(**{**vars(TWO), "angle": TWO.angle + turn})
     result = fly(ONE, two, bore)
@@ -69,7 +69,7 @@ def test_momentum_is_kept_whichever_body_carries_the_bore(bore: Bore, turn: floa
     np.testing.assert_allclose(angular, angular[0], rtol=1e-6)
 
 
-@pytest.mark.parametrize("bore", ["first", "second"])
+@pytest.mark.parametrize("bore", ["first", pytest.param("second", marks=pytest.mark.slow)])
 def test_momentum_is_kept_while_the_bodies_turn_against_each_other(bore: Bore) -> None:
     # two links as heavy as the support's, which turn by 2 rad against each other in half a second: with
     # marker frames that stay behind, 1e-4 of the angular momentum is lost

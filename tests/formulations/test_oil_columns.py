@@ -119,11 +119,12 @@ def test_stiffer_oil_tends_to_rigid_columns_with_order_one() -> None:
         pytest.param(BOTH, CubicStep(start=0.5, end=1.5), marks=pytest.mark.slow),
         pytest.param(BOTH, UniformSpeed(start=0.5, end=2.5), marks=pytest.mark.slow),
         pytest.param(ONE_OF_OIL, CubicStep(start=0.5, end=1.5), marks=pytest.mark.slow),
-        (ONE_OF_OIL, UniformSpeed(start=0.5, end=2.5)),
+        pytest.param(ONE_OF_OIL, UniformSpeed(start=0.5, end=2.5), marks=pytest.mark.slow),
+        (ONE_OF_OIL, UniformSpeed(start=0.1, end=2.1)),
     ],
 )
 def test_energy_adds_up(drive: Drive, columns: dict[str, OilColumn | RigidColumn]) -> None:
-    result = simulate(loose_support(drive=drive, columns=columns, duration=0.8))
+    result = simulate(loose_support(drive=drive, columns=columns, duration=drive.start + 0.3))
     # the journal's fall makes the oil vibrate at 40 Hz, which generalised alpha damps a little between impacts:
     # 2e-4 at the default step, and 1e-3 where a sudden start makes it vibrate far more
     allowed = 3e-4 if isinstance(drive, CubicStep) else 1e-3

@@ -248,7 +248,7 @@ WAYS: dict[str, dict[str, object]] = {
 }
 
 
-@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize("way", ["python", pytest.param("symbolic", marks=pytest.mark.slow), "tree"])
 def test_an_impact_on_a_pressed_bar_delivers_the_laws_restitution(way: str) -> None:
     stop = Hertz(stiffness=1e13)
     machine = Levers(speed=0.2, resting=CLEARANCE + stop.resting_depth(0.5 * 0.3 * 0.1))
@@ -270,7 +270,7 @@ def rattling(way: str) -> Result:
     return simulate(Scenario(machine=machine, pins=pins, **fields))  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize("way", ["symbolic", "tree"])
+@pytest.mark.parametrize("way", [pytest.param("symbolic", marks=pytest.mark.slow), "tree"])
 def test_formulations_agree_on_two_pins_in_series(way: str) -> None:
     one, other = rattling("python"), rattling(way)
     for pin in ("hit", "stop"):

@@ -148,13 +148,24 @@ def law(damping: ImpactVelocity | IndentationVelocity) -> LankaraniNikravesh:
     return LankaraniNikravesh(stiffness=2.7130538e10, restitution=0.5, damping_speed=damping)
 
 
-@pytest.mark.parametrize("bore", ["first", "second"])
-@pytest.mark.parametrize("mu", [0.0, 0.25])
+DAMPING = {"impact": ImpactVelocity(floor=1e-3), "depth": IndentationVelocity()}
+
+
 @pytest.mark.parametrize(
-    "damping", [ImpactVelocity(floor=1e-3), IndentationVelocity()], ids=["impact", "depth"]
+    ("damping", "mu", "bore"),
+    [
+        ("impact", 0.0, "first"),
+        ("impact", 0.25, "second"),
+        ("depth", 0.0, "second"),
+        ("depth", 0.25, "first"),
+        pytest.param("impact", 0.0, "second", marks=pytest.mark.slow),
+        pytest.param("impact", 0.25, "first", marks=pytest.mark.slow),
+        pytest.param("depth", 0.0, "first", marks=pytest.mark.slow),
+        pytest.param("depth", 0.25, "second", marks=pytest.mark.slow),
+    ],
 )
-def test_a_drop_is_the_engines(damping: ImpactVelocity | IndentationVelocity, mu: float, bore: str) -> None:
-    scenario = dropping(law(damping), mu, bore)
+def test_a_drop_is_the_engines(damping: str, mu: float, bore: str) -> None:
+    scenario = dropping(law(DAMPING[damping]), mu, bore)
     theirs, ours = simulate_redundant(scenario), simulate_reduced(scenario, 1e-8)
     first, second = (np.array(result.onsets[PIN]) for result in (theirs, ours))
     # the engine's errors at 256 steps an impact; each impact magnifies those of the last
@@ -201,7 +212,7 @@ def test_ideal_channels_are_the_engines(drive: str) -> None:
     assert ours.energy_error < 1e-8
 
 
-@pytest.mark.parametrize("with_clearance", [False, True])
+@pytest.mark.parametrize("with_clearance", [False, pytest.param(True, marks=pytest.mark.slow)])
 def test_jumps_of_the_columns_speed_are_the_engines(with_clearance: bool) -> None:
     drive = UniformSpeed(stroke=0.1, start=0.2, end=0.4)
     # a period that does not divide the duration, and records that do not meet the jumps
@@ -249,17 +260,15 @@ DRIVES: dict[str, Drive] = {
 @pytest.mark.parametrize("drive", DRIVES)
 @pytest.mark.parametrize("bore", ["first", "second"])
 @pytest.mark.parametrize("mu", [0.0, 0.25])
-@pytest.mark.parametrize(
-    "damping", [ImpactVelocity(floor=1e-3), IndentationVelocity()], ids=["impact", "depth"]
-)
+@pytest.mark.parametrize("damping", DAMPING)
 def test_the_familys_formulas_are_the_source_of_its_laws(
-    damping: ImpactVelocity | IndentationVelocity,
+    damping: str,
     mu: float,
     bore: str,
     drive: str,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    scenario = replace(dropping(law(damping), mu, bore), drive=DRIVES[drive], duration=0.12)
+    scenario = replace(dropping(law(DAMPING[damping]), mu, bore), drive=DRIVES[drive], duration=0.12)
     family = simulate_reduced(scenario, 1e-9)
     from_its_source(monkeypatch)
     source = simulate_reduced(scenario, 1e-9)

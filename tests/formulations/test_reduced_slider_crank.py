@@ -38,6 +38,9 @@ def scene(drive: str, bore: str, mu: float) -> Scenario:
     return slider_crank(0.02 if held else 2e-3, pins={SLIDER_PIN: pin}, **changes)
 
 
+SLOW = (("steady", "first"), ("from rest", "second"), ("held", "second"))  # others show as much
+
+
 def check_onsets(result: Result, time: float, speed: float) -> None:
     onsets = np.array(result.onsets[SLIDER_PIN])
     np.testing.assert_allclose(onsets[:, 0], TIMES, rtol=0, atol=time)
@@ -80,8 +83,15 @@ def test_the_familys_formulas_are_the_source_of_its_laws(
         assert result.energy_error < 1e-5
 
 
-@BORES
-@EVERY_DRIVE
+@pytest.mark.parametrize(
+    ("drive", "bore"),
+    [
+        ("steady", "second"),
+        ("from rest", "first"),
+        ("held", "first"),
+        *(pytest.param(*case, marks=pytest.mark.slow) for case in SLOW),
+    ],
+)
 def test_all_channels_are_the_engines(drive: str, bore: str) -> None:
     mu = 0.0 if (drive, bore) == ("from rest", "first") else 0.1
     scenario = scene(drive, bore, mu)
@@ -126,7 +136,7 @@ def test_the_moment_of_the_crank_does_the_work() -> None:
     np.testing.assert_allclose(result["energy.work"], work, rtol=0, atol=1e-4 * largest)
 
 
-@BORES
+@pytest.mark.parametrize("bore", ["first", pytest.param("second", marks=pytest.mark.slow)])
 def test_a_law_that_asks_for_the_moving_mass(bore: str, monkeypatch: pytest.MonkeyPatch) -> None:
     # restitution 0.3: from the third impact on the pin is pressed on again while the rod turns
     law = LankaraniNikravesh(stiffness=5e10, restitution=0.3, damping_speed=IndentationVelocity())

@@ -17,7 +17,14 @@ CASES = {
 }
 
 
-@pytest.fixture(scope="module", params=CASES, ids=str)
+SLOW = (1.5, 0.25)  # the other case of friction is cheaper
+
+
+@pytest.fixture(
+    scope="module",
+    params=[pytest.param(case, marks=[pytest.mark.slow] if case == SLOW else []) for case in CASES],
+    ids=str,
+)
 def run(request: pytest.FixtureRequest) -> tuple[tuple[float, ...], Result]:
     return CASES[request.param], simulate(loose_support(*request.param))
 

@@ -73,7 +73,7 @@ def test_the_rise_is_the_same_after_the_dwell_or_without_it() -> None:
         return float(result[FORCE][rise].mean())
 
     step = 5e-4
-    whole = mean(loose_support(1.5, step=step), 3.0)
+    whole = mean(loose_support(1.5, step=step, drive=CubicStep(start=1.0, end=3.0), duration=3.0), 1.0)
     quick = mean(
         loose_support(1.5, step=step, drive=CubicStep(start=0.0, end=2.0), duration=2.0, start="settled"), 0.0
     )

@@ -17,7 +17,7 @@ from user_forces import (
 )
 
 CLEARANCES = np.array([1e-3, 1e-4, 1e-5, 1e-6])  # [m]
-RISE = {"drive": CubicStep(start=0.0, end=2.0), "duration": 2.0, "step": 1e-3}
+RISE = {"drive": CubicStep(start=0.0, end=2.0), "duration": 1.0, "step": 1e-3}
 
 
 def rise(clearance: float) -> Result:
@@ -69,7 +69,7 @@ def test_depth_shrinks_with_the_cube_root_of_the_clearance(with_clearance: list[
 def test_force_tends_to_that_of_the_ideal_pin_with_first_order(
     ideal: Result, with_clearance: list[Result]
 ) -> None:
-    inside = (ideal.time > 0.1) & (ideal.time < 1.999)  # between the jumps of the drive's acceleration
+    inside = ideal.time > 0.1  # behind the jump of the drive's acceleration
     errors = np.array([_rms(result, ideal, inside) for result in with_clearance])
     # linear in where the journal stands; the depth is not the same throughout, hence the margin
     np.testing.assert_allclose(orders(errors, eccentricity(with_clearance)), 1.0, atol=0.02)

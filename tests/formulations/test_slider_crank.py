@@ -76,7 +76,7 @@ def test_onsets_converge_with_second_order() -> None:
     assert errors[0] / errors[1] > 10.0
 
 
-@pytest.mark.parametrize("backend", ["python", "symbolic"])
+@pytest.mark.parametrize("backend", ["python", pytest.param("symbolic", marks=pytest.mark.slow)])
 def test_it_runs_with_friction(backend: str) -> None:
     # over the crank angles in which the journal settles against the bore
     scenario = loose_slider_crank(REVOLUTION / 4, 0.03, solver=SolverSettings(backend=backend))

@@ -46,14 +46,17 @@ def scenario(
         machine=InSpace(space=space),
         pins={"pin": pin},
         dimensions=3,
-        duration=0.02,
+        duration=0.01,
         step=5e-5,
         gravity=(0.0, 0.0),
         solver=SolverSettings(impact_steps=impact_steps, backend=backend, sections=3),
     )
 
 
-@pytest.mark.parametrize(("friction", "by_depth"), [(0.0, False), (0.0, True), (0.3, False)])
+@pytest.mark.parametrize(
+    ("friction", "by_depth"),
+    [pytest.param(0.0, False, marks=pytest.mark.slow), (0.0, True), (0.3, False)],
+)
 @few
 @given(space=placements(), bore=bores, backend=backends, about=vectors(1.0))
 def test_two_free_bodies_keep_their_momenta(
@@ -77,7 +80,7 @@ def test_two_free_bodies_keep_their_momenta(
     assert lost >= (-1e-6 * start if by_depth else 0.0) or not outcome.onsets["pin"]
 
 
-@pytest.mark.parametrize("friction", [0.0, 0.3])
+@pytest.mark.parametrize("friction", [pytest.param(0.0, marks=pytest.mark.slow), 0.3])
 @few
 @given(space=placements(on_ground=True), bore=bores, backend=backends)
 def test_a_body_on_the_ground_loses_what_the_audit_says(
@@ -153,7 +156,7 @@ def test_a_shift_along_the_bore_does_not_press_the_journal(friction: float) -> N
     space = SpatialLinkage(
         bodies={"one": still, "two": replace(still, velocity=(0.0, 0.0, 0.5))}, bearings={"pin": bearing}
     )
-    result = simulate(scenario(space, "first", "python", friction, by_depth=False))
+    result = simulate(replace(scenario(space, "first", "python", friction, by_depth=False), duration=0.02))
     assert result["two.z"][-1] == pytest.approx(0.01, rel=1e-9)  # rounding: nothing holds it
     assert result["two.z"][-1] > 5 * CLEARANCE
     assert not result.onsets["pin"]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pickle
 from dataclasses import replace
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -73,8 +74,10 @@ CASES: dict[str, Scenario] = {
 }
 
 
-def both(scenario: Scenario) -> tuple[Result, Result]:
-    return simulate(scenario), simulate(replace(scenario, dimensions=3))
+@cache
+def both(case: str) -> tuple[Result, Result]:
+    """A case in the plane and in space."""
+    return simulate(CASES[case]), simulate(replace(CASES[case], dimensions=3))
 
 
 def in_space(result: Result, planar: str) -> list[str]:
@@ -84,9 +87,14 @@ def in_space(result: Result, planar: str) -> list[str]:
     return [name for name in names if name in result.channels]
 
 
-@pytest.mark.parametrize("case", CASES)
+SLOW = ("with_clearance", "both_of_a_pair", "depth_speed", "sections_2", "bodies")  # others show as much
+
+
+@pytest.mark.parametrize(
+    "case", [pytest.param(case, marks=[pytest.mark.slow] if case in SLOW else []) for case in CASES]
+)
 def test_what_moves_alike_on_both_sides_moves_as_in_the_plane(case: str) -> None:
-    plane, space = both(CASES[case])
+    plane, space = both(case)
     where = [f"{body}.angle" for body in plane.scenario.linkage.bodies]
     where += [f"{name}.{axis}" for name in ("tip", *plane.scenario.linkage.bodies) for axis in ("x", "y")]
     for name in where:
@@ -128,7 +136,7 @@ def test_what_moves_alike_on_both_sides_moves_as_in_the_plane(case: str) -> None
 
 @pytest.mark.parametrize("case", ["uniform", "uniform_loose"])
 def test_impulses_of_both_columns_add_up(case: str) -> None:
-    plane, space = both(CASES[case])
+    plane, space = both(case)
     assert len(plane.impulses) == len(space.impulses) > 0
     for one, other in zip(space.impulses, plane.impulses, strict=True):
         assert one.time == other.time
@@ -141,7 +149,7 @@ def test_impulses_of_both_columns_add_up(case: str) -> None:
 
 
 def test_both_columns_of_a_pair_carry_half_each() -> None:
-    plane, space = both(CASES["oil"])
+    plane, space = both("oil")
     for name in ("front_column", "rear_column"):
         largest = np.abs(plane[f"{name}.force"]).max()
         # as positions, times 1e8 N/m
@@ -153,7 +161,7 @@ def test_both_columns_of_a_pair_carry_half_each() -> None:
 
 
 def test_energies_are_those_of_the_plane() -> None:
-    plane, space = both(CASES["ideal"])
+    plane, space = both("ideal")
     for energy in ("kinetic", "potential", "work"):
         # the work is that of the multipliers of one of the two columns that hold the same; of 4 kJ
         np.testing.assert_allclose(
@@ -161,11 +169,18 @@ def test_energies_are_those_of_the_plane() -> None:
         )
 
 
-def test_a_scenario_is_saved_swept_and_pickled(tmp_path: Any) -> None:
-    scenario = replace(
-        CASES["with_clearance"], dimensions=3, duration=0.02, channels=("tip.*", "pin.rear_base*")
-    )
-    result = simulate(scenario)
+SAVED = replace(CASES["with_clearance"], dimensions=3, duration=0.02, channels=("tip.*", "pin.rear_base*"))
+
+
+@pytest.mark.slow  # another process has to be started
+def test_a_scenario_is_swept() -> None:
+    (other,) = run_all({"one": SAVED}, workers=1).values()
+    assert isinstance(other, Result)
+    np.testing.assert_array_equal(other["tip.y"], simulate(SAVED)["tip.y"])
+
+
+def test_a_scenario_is_saved_and_pickled(tmp_path: Any) -> None:
+    scenario, result = SAVED, simulate(SAVED)
     again = Result.load(result.save(tmp_path / "run.h5"))
     assert again.scenario == scenario
     assert again.onsets == result.onsets
@@ -176,9 +191,6 @@ def test_a_scenario_is_saved_swept_and_pickled(tmp_path: Any) -> None:
         assert again.unit(name) == channel.unit
     assert pickle.loads(pickle.dumps(scenario)) == scenario
     assert pickle.loads(pickle.dumps(result)).onsets == result.onsets
-    (other,) = run_all({"one": scenario}, workers=1).values()
-    assert isinstance(other, Result)
-    np.testing.assert_array_equal(other["tip.y"], result["tip.y"])
 
 
 def test_channels_asked_for_are_the_same_bits() -> None:

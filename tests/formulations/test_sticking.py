@@ -103,7 +103,7 @@ def test_laws_without_a_state_leave_the_step_as_it_is() -> None:
     assert result.counts.steps < 1.2 * 0.05 / 5e-4 + 64  # and those after the break
 
 
-@pytest.mark.parametrize("dynamic_speed", [1e-2, 1e-4])
+@pytest.mark.parametrize("dynamic_speed", [pytest.param(1e-2, marks=pytest.mark.slow), 1e-4])
 def test_steep_friction_at_the_default_step_loses_what_it_should(dynamic_speed: float) -> None:
     steep = Ambrosio(sliding_coefficient=0.25, static_speed=1e-2 * dynamic_speed, dynamic_speed=dynamic_speed)
     coarse, finer = (simulate(scene(steep, duration=0.2, step=step)) for step in (5e-4, 5e-5))

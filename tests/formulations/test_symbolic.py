@@ -321,13 +321,19 @@ ONE = Body(mass=3.0, inertia=0.02, centre=(0.1, 0.2), angle=0.3, velocity=(0.1, 
 TWO = Body(mass=2.0, inertia=0.01, centre=(0.3, 0.1), angle=-1.0, velocity=(-0.4, 0.2), spin=-5.0)
 
 
-@pytest.mark.parametrize("bore", ["first", "second"])
+RUBBING = Ambrosio(sliding_coefficient=0.3)
+WITH_BRISTLES = LuGre(static_coefficient=0.3, sliding_coefficient=0.2)
+
+
 @pytest.mark.parametrize(
-    "friction",
+    ("friction", "bore"),
     [
-        Frictionless(),
-        Ambrosio(sliding_coefficient=0.3),
-        LuGre(static_coefficient=0.3, sliding_coefficient=0.2),
+        (Frictionless(), "first"),
+        (RUBBING, "second"),
+        (WITH_BRISTLES, "first"),
+        pytest.param(Frictionless(), "second", marks=pytest.mark.slow),
+        pytest.param(RUBBING, "first", marks=pytest.mark.slow),
+        pytest.param(WITH_BRISTLES, "second", marks=pytest.mark.slow),
     ],
     ids=kind_of,
 )
@@ -370,8 +376,12 @@ CYLINDERS = {"bearing": BEARING, "length": LENGTH, "effective_modulus": MODULUS,
     [
         (LankaraniNikravesh(stiffness=2.7e10, restitution=0.9), Ambrosio(sliding_coefficient=0.25)),
         (TEXTBOOK, BengisuAkay(static_coefficient=0.3, sliding_coefficient=0.2)),
-        (Johnson(**CYLINDERS), Threlfall(sliding_coefficient=0.25)),
-        (Liu(**CYLINDERS), BrownMcPhee(static_coefficient=0.3, sliding_coefficient=0.2)),
+        pytest.param(Johnson(**CYLINDERS), Threlfall(sliding_coefficient=0.25), marks=pytest.mark.slow),
+        pytest.param(
+            Liu(**CYLINDERS),
+            BrownMcPhee(static_coefficient=0.3, sliding_coefficient=0.2),
+            marks=pytest.mark.slow,
+        ),
         (
             AdamsImpact(stiffness=3.16e9, full_damping=5e4, full_damping_depth=1e-4),
             Stribeck(static_coefficient=0.3, sliding_coefficient=0.2),

@@ -53,7 +53,7 @@ def test_a_rigid_jack_holds_the_tail_beam_as_if_it_were_fixed(lumped: Result) ->
 
 
 def test_a_rigid_jack_holds_it_through_impacts_too() -> None:
-    scenario = loose_support(drive=RISE, duration=0.3)
+    scenario = loose_support(drive=RISE, duration=0.15)
     one, other = simulate(scenario), simulate(replace(scenario, parts=RIGID))
     # impacts multiply what Newton's tolerance leaves; of 0.44 MN
     np.testing.assert_allclose(other["tip.y"], one["tip.y"], atol=1e-8)
@@ -100,7 +100,7 @@ def test_stiffer_jacks_tend_to_the_fixed_tail_beam_with_order_one() -> None:
 
 
 def test_a_soft_jack_follows_the_tree() -> None:
-    scene = {"drive": RISE, "duration": 0.3, "columns": oil_columns(), "parts": SOFT}
+    scene = {"drive": RISE, "duration": 0.15, "columns": oil_columns(), "parts": SOFT}
     tree = simulate(loose_support(formulation="tree", **scene))
     redundant = simulate(loose_support(step=1e-4, **scene))
     # measured 2e-7 m and 4e-7 rad: the redundant formulation's errors of impacts and steps
@@ -115,7 +115,7 @@ def test_a_soft_jack_follows_the_tree() -> None:
 def test_energy_adds_up_with_all_that_there_is() -> None:
     hinge = ClearancePin(contact=paper_contact(1.0, 0.25))
     columns = cylinders_and_rods(oil_columns()["front_column"])
-    scenario = support(drive=RISE, duration=0.3, columns=columns, parts=SOFT, pins={"shield_tail": hinge})
+    scenario = support(drive=RISE, duration=0.15, columns=columns, parts=SOFT, pins={"shield_tail": hinge})
     result = simulate(scenario)
     assert len(result.onsets["shield_tail"]) > 1
     # impacts make three cushions of oil vibrate, which generalised alpha damps a little, with second order

@@ -76,7 +76,11 @@ def both(drive: str, columns: str) -> tuple[Result, Result]:
     return simulate(scene), simulate(replace(scene, formulation="redundant"))
 
 
-CASES = [("mode 2", "oil"), ("mode 1", "oil"), ("mode 2", "stiff")]
+CASES = [
+    ("mode 2", "oil"),
+    pytest.param(("mode 2", "stiff"), marks=pytest.mark.slow),
+    ("mode 1", "oil"),
+]
 
 
 @pytest.mark.parametrize("case", CASES)
@@ -209,7 +213,7 @@ def test_records_do_not_change_the_run() -> None:
 
 
 @pytest.mark.parametrize("name", ["exact", "kelvin_voigt", "anagnostopoulos", "johnson"])
-@pytest.mark.parametrize("restitution", [0.3, 0.9])
+@pytest.mark.parametrize("restitution", [0.3, pytest.param(0.9, marks=pytest.mark.slow)])
 def test_laws_of_every_kind(name: str, restitution: float) -> None:
     # one that forgets an impact when it is pressed on again, a dashpot, one that asks for tension, cylinders
     pin = ClearancePin(contact=replace(paper_contact(1.5, 0.0), normal=normal_laws(1.5, restitution)[name]))
@@ -285,7 +289,7 @@ class Bars(Machine):
 
 def test_a_pendulum_without_any_loose_pin_swings_as_it_should() -> None:
     result = simulate(
-        Scenario(machine=Bars(number=1, spin=3.0), duration=2.0, formulation="tree", record_period=0.01)
+        Scenario(machine=Bars(number=1, spin=3.0), duration=1.0, formulation="tree", record_period=0.01)
     )
     about_pivot = 1.0 + 10.0 * 0.25
     turn, spin = result["bar0.angle"], result["bar0.angular_velocity"]
@@ -437,8 +441,15 @@ PRESSED_AGAIN = {
 }
 
 
-@pytest.mark.parametrize("bore", ["first", "second"])
-@pytest.mark.parametrize("law", PRESSED_AGAIN)
+@pytest.mark.parametrize(
+    ("law", "bore"),
+    [
+        ("forgets", "second"),
+        ("asks for the mass", "first"),
+        pytest.param("forgets", "first", marks=pytest.mark.slow),
+        pytest.param("asks for the mass", "second", marks=pytest.mark.slow),
+    ],
+)
 def test_a_contact_that_is_pressed_on_again_renews_what_it_remembers(law: str, bore: str) -> None:
     pin = ClearancePin(contact=replace(paper_contact(1.5, 0.0), normal=PRESSED_AGAIN[law]), bore=bore)
     scene = tree(1e-9, drive=Held(), duration=0.08, pins={PIN: pin})

@@ -71,7 +71,7 @@ def test_a_sudden_inlet_is_an_impulse_in_both() -> None:
 
 def test_loose_pins_and_oil_work() -> None:
     drop = replace(RISE, drive=CubicStep(stroke=0.05, start=0.1, end=0.3), duration=0.4, step=5e-4)
-    with_clearance = simulate(replace(drop, pins={"rear_base": clearance_joint(1.5, 0.25)}))
+    with_clearance = simulate(replace(drop, pins={"rear_base": clearance_joint(1.5, 0.25)}, duration=0.15))
     assert len(with_clearance.onsets["rear_base"]) > 0
     oil = {
         name: OilColumn(bore_area=bore_area(bore, 2), oil_length=0.5, bulk_modulus=1.5e9)

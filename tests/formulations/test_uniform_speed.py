@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -27,8 +28,9 @@ from tests.cases.run_cases import FORCE, loose_support, slider_crank, support
 from user_forces import value
 
 
-def rise(step: float, **changes: object) -> Result:
-    return simulate(support(drive=UniformSpeed(), duration=3.5, step=step, **changes))
+@cache
+def rise(step: float) -> Result:
+    return simulate(support(drive=UniformSpeed(), duration=3.5, step=step))
 
 
 def test_velocities_after_the_jump_are_the_closed_form_ones() -> None:
@@ -65,7 +67,7 @@ def test_force_just_after_the_jump_does_not_grow_as_the_step_shrinks() -> None:
 def test_energy_adds_up_over_the_jump() -> None:
     ideal = rise(5e-4)
     assert ideal.energy_error < 1e-6 * ideal["energy.work"][-1]  # second order in the step
-    with_clearance = simulate(loose_support(drive=UniformSpeed(), duration=3.5))
+    with_clearance = simulate(loose_support(drive=UniformSpeed(start=0.5, end=2.5), duration=1.0))
     assert with_clearance.energy_error < 1e-4 * with_clearance.dissipated  # asked of every run
     assert len(with_clearance.impulses) == 1
 

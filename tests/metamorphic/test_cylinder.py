@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -84,6 +85,7 @@ def compared(scene: Scenario, cylinders: Mapping[str, HydraulicCylinder], hoses:
     replace(one, allowed=both).check(other, rounding=curved)
 
 
+@pytest.mark.slow  # the other test has as many kinds of scenes, and is less strict
 @given(scene=at_rest())
 @scenes()
 def test_with_much_oil_in_its_hoses(scene: tuple[Scenario, Mapping[str, HydraulicCylinder]]) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -84,6 +85,7 @@ def test_a_support_as_a_tree(scene: Scenario, milliseconds: int) -> None:
     delayed(scene, milliseconds)
 
 
+@pytest.mark.slow
 @given(scene=drawn.in_bodies().map(settled), milliseconds=DWELLS)
 @scenes(8)
 def test_a_support_of_bodies(scene: Scenario, milliseconds: int) -> None:

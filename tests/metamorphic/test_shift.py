@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -44,6 +45,7 @@ def test_a_support_of_bodies(scene: Scenario, way: tuple[float, float]) -> None:
     shifted(scene, way)
 
 
+@pytest.mark.slow
 @given(scene=drawn.cranks(reduced=False), way=NEAR)
 @scenes(2)
 def test_a_slider_crank_of_bodies(scene: Scenario, way: tuple[float, float]) -> None:

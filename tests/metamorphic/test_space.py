@@ -67,7 +67,12 @@ def carries_alike(plane: Run, space: EvaluationContext) -> None:
         assert off <= allowed, f"{name}: off by {off:.3g} of {largest:.3g} N, allowed {allowed:.3g}"
 
 
-@pytest.mark.parametrize("pin", PINS)
+SLOW = ("front_shield", "rear_base")  # as the other pin of a pair, and of no pair, respectively
+
+
+@pytest.mark.parametrize(
+    "pin", [pytest.param(pin, marks=[pytest.mark.slow] if pin in SLOW else []) for pin in PINS]
+)
 @given(data=st.data())
 @scenes(5)
 def test_a_support_with_a_loose_pin(pin: str, data: st.DataObject) -> None:
