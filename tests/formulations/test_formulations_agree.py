@@ -176,7 +176,11 @@ def test_energies_are_the_same_and_add_up(pair: tuple[str, str, str]) -> None:
 
 @pytest.mark.parametrize(
     "scene",
-    ["rise", pytest.param("slider-crank, friction, bore in the rod", marks=pytest.mark.slow), "rise on oil"],
+    [
+        pytest.param("rise", marks=pytest.mark.slow),
+        pytest.param("slider-crank, friction, bore in the rod", marks=pytest.mark.slow),
+        "rise on oil",
+    ],
 )
 def test_runs_to_an_accuracy_agree_within_what_they_say(scene: str) -> None:
     scenario = (SCENES | ON_OIL)[scene]

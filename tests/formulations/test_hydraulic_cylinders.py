@@ -61,7 +61,7 @@ def test_the_speed_under_an_open_valve_and_the_pressure_after_it() -> None:
 @pytest.mark.parametrize(
     ("inlet", "times"),
     [
-        (SuddenOpening(start=0.02, end=0.15, extent=0.8), (0.02, 0.15)),
+        pytest.param(SuddenOpening(start=0.02, end=0.15, extent=0.8), (0.02, 0.15), marks=pytest.mark.slow),
         (RampedOpening(start=0.02, end=0.2, ramp=0.05), (0.02, 0.07, 0.15, 0.2)),
         (SuddenOpening(start=0.0, end=0.15, extent=-0.3), (0.15,)),
     ],

@@ -56,9 +56,9 @@ def test_what_has_come_to_rest_stays_at_rest_and_costs_little() -> None:
     assert longer.counts.steps - result.counts.steps == pytest.approx(20.0 / 0.1, abs=2)
 
 
-@pytest.mark.parametrize("name", [long_runs.IDEAL, long_runs.DRY])
+@pytest.mark.parametrize("name", [long_runs.IDEAL, pytest.param(long_runs.DRY, marks=pytest.mark.slow)])
 def test_memory_grows_by_the_numbers_that_are_recorded_and_no_more(name: str) -> None:
-    duration = 8.0
+    duration = 16.0
     scene = long_runs.scene(name, duration)
     held: list[int] = []
 

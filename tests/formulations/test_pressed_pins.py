@@ -266,7 +266,7 @@ def rattling(way: str) -> Result:
     """A hammer that falls on a bar in a stop, both of ordinary stiffness."""
     pins = dict.fromkeys(("hit", "stop"), with_clearance(Exact(stiffness=1e9, restitution=0.8)))
     machine = Levers(light=3.0, resting=0.9 * CLEARANCE, speed=0.05)
-    fields = {"duration": 0.06, "step": 1e-5, "record_period": 1e-4} | WAYS[way]
+    fields = {"duration": 0.045, "step": 1e-5, "record_period": 1e-4} | WAYS[way]
     return simulate(Scenario(machine=machine, pins=pins, **fields))  # type: ignore[arg-type]
 
 

@@ -10,18 +10,17 @@ import pytest
 
 from support_exudyn import ClearancePin, Held, Scenario, SimulationError, SolverSettings
 from tests.cases.law_cases import (
-    APPROXIMATIONS,
     BEARING,
-    LOGARITHMIC_LAWS,
     NORMAL_LAWS,
     STATELESS_FRICTION,
     cylinder_law,
     kind_of,
+    one_of_a_formula,
 )
 from tests.cases.run_cases import PIN, loose_support, paper_contact
 from tests.formulations.test_every_law_is_located import SPEED, TIME
 from tests.reduced import same_channels, simulate_reduced, simulate_redundant
-from user_forces import Anagnostopoulos, Flores, FrictionLaw, Johnson, KelvinVoigt, NormalLaw, value
+from user_forces import Anagnostopoulos, FrictionLaw, Johnson, KelvinVoigt, NormalLaw, value
 from user_forces.expressions.scalar import exp, magnitude, where
 
 
@@ -59,15 +58,7 @@ def check(scenario: Scenario) -> None:
     assert ours.energy_error < 2e-5
 
 
-# laws of one formula with another number in it
-ALIKE = (*set(APPROXIMATIONS) - {Flores}, *set(LOGARITHMIC_LAWS) - {Johnson})
-
-
-@pytest.mark.parametrize(
-    "law",
-    [pytest.param(law, marks=[pytest.mark.slow] if type(law) in ALIKE else []) for law in NORMAL_LAWS],
-    ids=kind_of,
-)
+@pytest.mark.parametrize("law", one_of_a_formula(NORMAL_LAWS), ids=kind_of)
 def test_normal_laws(law: NormalLaw) -> None:
     check(drop(normal=law))
 

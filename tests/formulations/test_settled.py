@@ -64,6 +64,7 @@ def test_it_is_where_a_concentric_start_comes_to_rest() -> None:
     assert fallen["tip.x"][-1] == pytest.approx(result["tip.x"][0], abs=1e-8)
 
 
+@pytest.mark.slow
 def test_the_rise_is_the_same_after_the_dwell_or_without_it() -> None:
     from support_exudyn import CubicStep
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from support_exudyn import ClearancePin, CubicStep, Result, simulate
+from support_exudyn import ClearancePin, CubicStep, Result, SolverSettings, simulate
 from tests.cases.run_cases import FORCE, PIN, support
 from user_forces import (
     STEEL,
@@ -25,7 +25,7 @@ def rise(clearance: float) -> Result:
     bearing = JournalBearing(bore_radius=0.0655, clearance=clearance)
     law = Exact(stiffness=internal_contact_stiffness(bearing, STEEL, STEEL_35CRMO), restitution=0.1)
     pin = ClearancePin(contact=JournalContact(bearing=bearing, normal=law))
-    return simulate(support(pins={PIN: pin}, start="settled", **RISE))
+    return simulate(support(pins={PIN: pin}, start="settled", solver=SolverSettings(impact_steps=64), **RISE))
 
 
 @pytest.fixture(scope="module")

@@ -308,7 +308,7 @@ def test_energy_adds_up_where_the_machine_rolls_in_its_loose_pins() -> None:
         drive=Held(),
         drives=dict.fromkeys(("front_column_left", "rear_column_left"), apart),
         pins=pins,
-        duration=0.06,
+        duration=0.04,
         solver=SolverSettings(impact_steps=128, sections=3),
     )
     result = simulate(scenario)

@@ -87,7 +87,14 @@ def in_space(result: Result, planar: str) -> list[str]:
     return [name for name in names if name in result.channels]
 
 
-SLOW = ("with_clearance", "both_of_a_pair", "depth_speed", "sections_2", "bodies")  # others show as much
+SLOW = (
+    "with_clearance",
+    "both_of_a_pair",
+    "depth_speed",
+    "sections_2",
+    "bodies",
+    "bore_second",
+)  # others show as much
 
 
 @pytest.mark.parametrize(

@@ -33,6 +33,7 @@ from tests.cases.law_cases import (
     NORMAL_LAWS,
     STATELESS_FRICTION,
     kind_of,
+    one_of_a_formula,
 )
 from tests.cases.run_cases import PIN, Pair, loose_support
 from user_forces import (
@@ -228,7 +229,7 @@ def contact_of(normal: NormalLaw, friction: FrictionLaw = SMOOTH) -> JournalCont
 grounds = st.sampled_from(["bore", "journal", None])
 
 
-@pytest.mark.parametrize("normal", NORMAL_LAWS, ids=kind_of)
+@pytest.mark.parametrize("normal", one_of_a_formula(NORMAL_LAWS), ids=kind_of)
 @settings(max_examples=40, deadline=None)
 @given(state=states(), ground=grounds)
 @example(state=MIDDLE, ground=None)

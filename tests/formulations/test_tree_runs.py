@@ -125,6 +125,8 @@ def test_the_redundant_formulation_tends_to_the_tree() -> None:
 
 # --- its own accuracy ---
 
+FRICTIONS = (pytest.param(0.0, marks=pytest.mark.slow), 0.25)
+
 
 @cache
 def rise(tolerance: float, friction: float) -> Result:
@@ -155,7 +157,7 @@ def test_the_mass_that_moves_is_that_of_the_bores_axes_where_both_bodies_turn() 
     assert simulate(engine).largest_force["front_shield"] == pytest.approx(right, rel=5e-6)
 
 
-@pytest.mark.parametrize("friction", [0.0, 0.25])
+@pytest.mark.parametrize("friction", FRICTIONS)
 def test_errors_fall_with_the_tolerance(friction: float) -> None:
     exact = rise(1e-11, friction)
 
@@ -169,7 +171,7 @@ def test_errors_fall_with_the_tolerance(friction: float) -> None:
     assert off(1e-6) < 1e-5
 
 
-@pytest.mark.parametrize("friction", [0.0, 0.25])
+@pytest.mark.parametrize("friction", FRICTIONS)
 def test_the_first_touches_are_right_at_a_loose_tolerance(friction: float) -> None:
     for one, other in zip(
         rise(1e-5, friction).onsets[PIN][:2], rise(1e-11, friction).onsets[PIN][:2], strict=True
@@ -178,7 +180,7 @@ def test_the_first_touches_are_right_at_a_loose_tolerance(friction: float) -> No
         assert one.time == pytest.approx(other.time, abs=1e-6)
 
 
-@pytest.mark.parametrize("friction", [0.0, 0.25])
+@pytest.mark.parametrize("friction", FRICTIONS)
 def test_energy_adds_up(friction: float) -> None:
     for tolerance, allowed in ((1e-5, 1e-4), (1e-7, 1e-5), (1e-11, 1e-8)):
         result = rise(tolerance, friction)
@@ -430,7 +432,7 @@ def test_nothing_of_a_run_stays_behind() -> None:
     simulate(tree(1e-5, drive=Held(), duration=0.01))
     gc.collect()
     # the engine would keep what its user functions refer to, and the collector does not see through it
-    assert not [item for item in gc.get_objects() if isinstance(item, Integration)]
+    assert not [item for item in gc.get_objects() if type(item) is Integration]
 
 
 # --- contacts that are pressed on again ---
