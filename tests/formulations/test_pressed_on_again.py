@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cache
 
 import pytest
 
@@ -93,6 +94,7 @@ def test_a_turn_that_is_met_is_not_met_again(number: int, onsets: int) -> None:
 # --- the tree ---
 
 
+@cache
 def on_oil(number: int, tolerance: float) -> Result:
     """A drawn scene with oil in its columns, in the tree."""
     oil = OilColumn(bore_area=0.05, oil_length=0.8, bulk_modulus=1.5e9)

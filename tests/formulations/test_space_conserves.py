@@ -112,7 +112,7 @@ def test_the_force_in_a_loose_bearing_is_what_accelerates_a_free_body(
     space: SpatialLinkage, bore: Bore, friction: float
 ) -> None:
     scene = scenario(space, bore, "python", friction, by_depth=False)
-    context, _ = observed(replace(scene, record_period=RECORDS))
+    context, _ = observed(replace(scene, duration=6e-3, record_period=RECORDS))
     force, _ = context.loads["pin"]
     largest = np.abs(force).max()
     assume(largest > 0.0)

@@ -216,6 +216,7 @@ def test_an_accuracy_is_met_in_space() -> None:
     assert result.scenario.dimensions == 3
 
 
+@pytest.mark.slow
 def test_refined_runs_tell_the_error() -> None:
     scenario = replace(CASES["depth_speed"], dimensions=3, duration=0.03)
     finer = scenario.refined()

@@ -77,7 +77,7 @@ def both(drive: str, columns: str) -> tuple[Result, Result]:
 
 
 CASES = [
-    ("mode 2", "oil"),
+    pytest.param(("mode 2", "oil"), marks=pytest.mark.slow),
     pytest.param(("mode 2", "stiff"), marks=pytest.mark.slow),
     ("mode 1", "oil"),
 ]
