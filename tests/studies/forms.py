@@ -9,6 +9,8 @@ from __future__ import annotations
 
 import time
 from collections.abc import Mapping
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -20,18 +22,25 @@ from studies.common.study import Options, run_main
 from studies.scene_detail import run as scene_detail
 from studies.scene_detail.runs import Timed
 from support_exudyn import Result, Scenario, simulate
+from support_exudyn.postprocessing.figures import style
 from support_exudyn.sweeps.workers import Workers
 from tests.at_once import at_once
 
 ROUGH, QUICK = "rough", "quick"
 FORMS = [ROUGH, pytest.param(QUICK, marks=pytest.mark.slow)]
 on_the_quick_form = pytest.mark.parametrize("out", FORMS[1:], indirect=True)  # where errors are looked at
+COARSER = {"which_pin": 2.0, "drive_mode": 2.0}  # rough steps and times between records are so much longer
 
 _run_cases = runs.run_cases
 
 
-def _once(cases: Mapping[str, Scenario], workers: int | Workers) -> dict[str, Result]:
+def _once(cases: Mapping[str, Scenario], workers: int | Workers, coarser: float) -> dict[str, Result]:
     first = {name.partition(", steps / ")[0]: case for name, case in cases.items()}  # the coarsest come last
+    if coarser != 1.0:
+        first = {
+            name: replace(case, step=coarser * case.step, record_period=coarser * case.record_period)
+            for name, case in first.items()
+        }
     found = _run_cases(first, workers)
     return {name: found[name.partition(", steps / ")[0]] for name in cases}
 
@@ -50,7 +59,8 @@ def written(study: str, form: str, folder: Path, machines: int | None = None) ->
     """The folder into which a study has written its results, in one of the forms."""
     with pytest.MonkeyPatch.context() as patch:
         if form == ROUGH:
-            patch.setattr(runs, "run_cases", _once)
+            patch.setattr(runs, "run_cases", partial(_once, coarser=COARSER.get(study, 1.0)))
+            patch.setitem(style.STYLE, "savefig.dpi", 60)
             patch.setattr(scene_detail, "run_timed", _once_timed)
         assert run_main(STUDIES[study], Options(folder, quick=True, workers=at_once(), machines=machines)) == 0
     return folder

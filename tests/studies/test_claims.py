@@ -1,4 +1,4 @@
-"""The verdicts, on the quick form of the study: eight machines."""
+"""The verdicts, on the quick form of the study: eight machines; the rough form has three."""
 
 from __future__ import annotations
 
@@ -12,12 +12,19 @@ import pytest
 from studies.claims import run as study
 from studies.claims.claim_list import CLAIMS
 from studies.common.chapter import Chapter
-from tests.studies.forms import FORMS, ROUGH, written
+from tests.studies.forms import FORMS, QUICK, ROUGH, written
+
+MACHINES = {ROUGH: 3, QUICK: None}  # asked for; the quick form is left its own choice
 
 
 @pytest.fixture(scope="module", params=FORMS)
-def out(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return written("claims", request.param, tmp_path_factory.mktemp("results"))
+def form(request: pytest.FixtureRequest) -> str:
+    return str(request.param)
+
+
+@pytest.fixture(scope="module")
+def out(form: str, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return written("claims", form, tmp_path_factory.mktemp("results"), MACHINES[form])
 
 
 @pytest.fixture(scope="module")
@@ -70,10 +77,10 @@ def test_our_numbers_are_those_of_the_engine(numbers: dict[tuple[str, str], dict
     assert numbers["impulse", "1.5 mm, mode 1"]["value"] == pytest.approx(1154.94, rel=1e-4)
 
 
-def test_every_machine_is_a_row_with_its_data_and_judgements(out: Path) -> None:
+def test_every_machine_is_a_row_with_its_data_and_judgements(out: Path, form: str) -> None:
     with (out / "machines.csv").open(encoding="utf-8", newline="") as file:
         machines = list(csv.DictReader(file))
-    assert len(machines) == study.QUICK_MACHINES
+    assert len(machines) == (MACHINES[form] or study.QUICK_MACHINES)
     judged = [name for name in machines[0] if name.startswith("claim_")]
     assert len(judged) == sum(c.judge is not None and not c.alone for c in CLAIMS)
     for machine in machines:
@@ -81,17 +88,17 @@ def test_every_machine_is_a_row_with_its_data_and_judgements(out: Path) -> None:
         assert all(machine[name] in ("holds", "fails", "open") for name in judged) or machine["failure"]
 
 
-def test_a_finished_hypercube_is_not_run_again(out: Path, request: pytest.FixtureRequest) -> None:
+@pytest.mark.slow  # the hypercube alone is started again in test_hypercube.py
+def test_a_finished_hypercube_is_not_run_again(out: Path, form: str) -> None:
     before = {path: path.stat().st_mtime_ns for path in (out / "machines").iterdir()}
     text = (out / "table.txt").read_text(encoding="utf-8")
-    written("claims", request.node.callspec.params["out"], out)
+    written("claims", form, out, MACHINES[form])
     assert {path: path.stat().st_mtime_ns for path in (out / "machines").iterdir()} == before
     assert (out / "table.txt").read_text(encoding="utf-8") == text
 
 
-def test_the_number_of_machines_is_a_parameter(tmp_path: Path) -> None:
-    written("claims", ROUGH, tmp_path, machines=2)
-    assert len(list((tmp_path / "machines").iterdir())) == 2
+def test_the_number_of_machines_is_a_parameter(out: Path, form: str) -> None:
+    assert len(list((out / "machines").iterdir())) == (MACHINES[form] or study.QUICK_MACHINES)
 
 
 @pytest.mark.parametrize("wrong", ["0", "-3", "many"])

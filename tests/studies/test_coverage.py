@@ -237,6 +237,17 @@ def test_wrong_words_are_refused(words: list[str], capsys: pytest.CaptureFixture
 
 def test_a_scene_is_covered_and_a_planted_fault_is_not(monkeypatch: pytest.MonkeyPatch) -> None:
     scene = CRANK
+    runs: list[tuple[Scenario, Result]] = []
+
+    def once(scenario: Scenario, throw: bool = True) -> Result:
+        """The fault is planted in what is made of runs, which are the same."""
+        for known, run in runs:
+            if known == scenario:
+                return run
+        runs.append((scenario, simulate(scenario, throw=throw)))  # type: ignore[arg-type]
+        return runs[-1][1]
+
+    monkeypatch.setattr(covered, "simulate", once)
     right = share(list(covered.rows(scene)))
     assert (right.refused, right.numbers > 20) == (0, True)
     assert right.covered > 0.9

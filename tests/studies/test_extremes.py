@@ -231,7 +231,7 @@ def test_an_error_that_is_reported_too_small_is_seen_by_half_the_steps(
 
 def test_so_it_is_in_a_run_to_an_accuracy() -> None:
     point = Point(pace=0.2)
-    scene = replace(scenes.boxed(point, 1e-3, scenes.gentle(point)), formulation="redundant")
+    scene = replace(scenes.boxed(point, 1e-2, scenes.gentle(point)), formulation="redundant")
     result = simulate(scene)
     assert judged(lambda: scene, result).outcome == GOOD
     found = judged(lambda: scene, boasting(result))
@@ -446,7 +446,8 @@ def few() -> list[Case]:
 
 
 def _first(case: Case) -> bool:
-    cheap = {"step_s": 4e-4, "clearance_m": 1e-2}  # the longer ones
+    # the longer steps, and friction that is not steep
+    cheap = {"step_s": 4e-4, "clearance_m": 1e-2, "static_speed_m_s": 1e-4}
     return all(float(case.values[name]) > least for name, least in cheap.items() if name in case.values) and (
         float(case.values.get("speed_m_s", 1.0)) > 0.5
     )

@@ -3,24 +3,29 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from studies.common.chapter import Chapter
+from studies.common.study import Options, run_main
 from studies.slider_crank import run as study
 from support_exudyn import Result
 from support_exudyn.postprocessing.figures import style
 from tests import figure_checks
+from tests.at_once import at_once
 
 
 @pytest.fixture(scope="module")
 def numbers(tmp_path_factory: pytest.TempPathFactory) -> dict[tuple[str, str], dict[str, Any]]:
     out = tmp_path_factory.mktemp("results")
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(study, "REVOLUTION", study.REVOLUTION / 9.0)  # 1.33 ms
-        assert study.main(["--out", str(out), "--workers", "2"]) == 0
+        whole = study.scenarios(quick=False)
+        part = {name: replace(case, duration=case.duration / 9.0) for name, case in whole.items()}  # 1.33 ms
+        patch.setattr(study, "scenarios", lambda quick: part)
+        assert run_main(study.study, Options(out, quick=False, workers=at_once())) == 0
     assert (out / "slider_crank.png").read_bytes().startswith(b"\x89PNG")
     assert "onset 5 speed" in Path(out / "table.txt").read_text(encoding="utf-8")
     with style.look():
