@@ -55,7 +55,7 @@ def _right_elsewhere(met: Mask, holds: Mask, half: Mask) -> float:
 def _search(met: Mask, holds: Mask) -> tuple[tuple[int, ...], bool, float]:
     """Places of the best bound or two, whether they say where it does not hold, and how often that is right."""
     single = max((_best(met, holds != other, other) for other in (False, True)), key=_right)
-    double = max((_best_pair(met, holds != other, other) for other in (False, True)), key=_right)
+    double = max(_best_pairs(met, holds), key=_right)
     return double if _right(double) >= _right(single) + PAIR_GAIN else single
 
 
@@ -69,13 +69,17 @@ def _best(met: Mask, goal: Mask, other: bool) -> tuple[tuple[int, ...], bool, fl
     return (best,), other, float(right[best])
 
 
-def _best_pair(met: Mask, goal: Mask, other: bool) -> tuple[tuple[int, ...], bool, float]:
-    """The same for two bounds that are both met."""
-    ones = met.astype(float)
-    # right: met and to be, or neither
-    right = ((ones * (2.0 * goal - 1.0)) @ ones.T + (~goal).sum()) / len(goal)
-    one, two = divmod(int(np.argmax(right)), len(met))
-    return (one, two), other, float(right[one, two])
+def _best_pairs(met: Mask, holds: Mask) -> list[tuple[tuple[int, ...], bool, float]]:
+    """The two bounds that are best if what meets both holds, and those if all else does."""
+    ones = met.astype(np.float32)  # which counts exactly
+    # of the machines that meet both, those that hold less those that do not
+    excess = np.where(holds, ones, -ones) @ ones.T
+    found: list[tuple[tuple[int, ...], bool, float]] = []
+    for other, place in ((False, excess.argmax()), (True, excess.argmin())):
+        one, two = divmod(int(place), len(met))
+        more = -float(excess[one, two]) if other else float(excess[one, two])
+        found.append(((one, two), other, (more + np.count_nonzero(holds == other)) / len(holds)))
+    return found
 
 
 def _bounds(samples: Sequence[Sample]) -> tuple[list[str], Mask]:
