@@ -156,6 +156,7 @@ def joints_apart(scenario: Scenario, outcome: Outcome) -> Series | None:
     linkage, time = scenario.linkage, run.time
     motion = BodyMotion(linkage, run.position, run.velocity, run.acceleration)
     gaps = np.zeros_like(time)
+    extensions: dict[int, Series] = {}  # of drives, which columns share
     for name, pin in linkage.pins.items():
         if scenario.pin(name).holds:
             apart = motion.place(pin.first, pin.first_point) - motion.place(pin.second, pin.second_point)
@@ -164,7 +165,9 @@ def joints_apart(scenario: Scenario, outcome: Outcome) -> Series | None:
         if name not in scenario.compliant_columns:
             span = motion.place(column.head, column.head_point) - motion.place(column.foot, column.foot_point)
             drive = scenario.drive_of(name)
-            wanted = column.start_length + np.array([drive.extension(t) for t in time.tolist()])
+            if id(drive) not in extensions:
+                extensions[id(drive)] = np.array([drive.extension(t) for t in time.tolist()])
+            wanted = column.start_length + extensions[id(drive)]
             gaps = np.maximum(gaps, np.abs(np.hypot(*span.T) - wanted))
     for slide in linkage.slides.values():
         apart = motion.place(slide.body, slide.point) - motion.place(slide.against, slide.point)
