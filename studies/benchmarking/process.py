@@ -68,4 +68,6 @@ def importing() -> str:
         float(subprocess.run([sys.executable, "-c", IMPORT], capture_output=True, text=True, check=True).stdout)
         for _ in range(IMPORTS)
     ]
-    return f"Importing the package takes {min(times):.2f} s beyond exudyn's import (of {IMPORTS}; asked: 0.5 s)."
+    return (
+        f"Importing the package takes {min(times):.2f} s beyond exudyn's import (of {IMPORTS}; asked: 0.5 s)."
+    )

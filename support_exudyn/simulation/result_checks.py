@@ -156,6 +156,7 @@ def joints_apart(scenario: Scenario, outcome: Outcome) -> Series | None:
     linkage, time = scenario.linkage, run.time
     motion = BodyMotion(linkage, run.position, run.velocity, run.acceleration)
     gaps = np.zeros_like(time)
+    drives = {name: scenario.drive_of(name) for name in linkage.columns}
     extensions: dict[int, Series] = {}  # of drives, which columns share
     for name, pin in linkage.pins.items():
         if scenario.pin(name).holds:
@@ -164,7 +165,7 @@ def joints_apart(scenario: Scenario, outcome: Outcome) -> Series | None:
     for name, column in linkage.columns.items():
         if name not in scenario.compliant_columns:
             span = motion.place(column.head, column.head_point) - motion.place(column.foot, column.foot_point)
-            drive = scenario.drive_of(name)
+            drive = drives[name]
             if id(drive) not in extensions:
                 extensions[id(drive)] = np.array([drive.extension(t) for t in time.tolist()])
             wanted = column.start_length + extensions[id(drive)]
