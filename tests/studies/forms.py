@@ -29,11 +29,7 @@ from tests.at_once import at_once
 ROUGH, QUICK = "rough", "quick"
 FORMS = [ROUGH, pytest.param(QUICK, marks=pytest.mark.slow)]
 on_the_quick_form = pytest.mark.parametrize("out", FORMS[1:], indirect=True)  # where errors are looked at
-COARSER = {
-    "which_pin": 3.0,
-    "drive_mode": 4.0,
-    "contact_laws": 2.0,
-}  # rough steps and times between records are so much longer
+COARSER = {"which_pin": 3.0, "drive_mode": 4.0, "contact_laws": 2.0}  # times as long rough steps and records
 
 _run_cases = runs.run_cases
 

@@ -1,4 +1,4 @@
-"""The findings of the study, on its quick form."""
+"""The findings of the study; its quick form is run by two processes."""
 
 from __future__ import annotations
 
@@ -17,11 +17,14 @@ from support_exudyn import Result
 from support_exudyn.postprocessing.figures import style
 from tests import figure_checks
 from tests.studies.another_way import by_the_engine, off
+from tests.studies.forms import FORMS, ROUGH, on_the_quick_form, written
 
 
-@pytest.fixture(scope="module")
-def out(tmp_path_factory: pytest.TempPathFactory) -> Path:
+@pytest.fixture(scope="module", params=FORMS)
+def out(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("results")
+    if request.param == ROUGH:
+        return written("clearance_influence", ROUGH, folder)
     assert study.main(["--quick", "--out", str(folder), "--workers", "2"]) == 0
     return folder
 
@@ -135,7 +138,7 @@ def test_impacts_at_the_start_exceed_the_load_several_times(
         assert numbers["largest_pin_force", case]["value"] > 7.0 * 58778.944
 
 
-@pytest.mark.slow  # the engine takes seconds a run; formulations are compared by short runs elsewhere
+@on_the_quick_form  # the engine takes seconds a run; formulations are compared by short runs elsewhere
 def test_printed_errors_cover_the_distance_from_another_formulation(
     out: Path, numbers: dict[tuple[str, str], dict[str, Any]]
 ) -> None:
