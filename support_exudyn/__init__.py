@@ -24,17 +24,17 @@ from support_exudyn.machines.slider_crank import SliderCrank, ravn_slider_crank
 from support_exudyn.machines.two_leg_shield import TwoLegShield
 from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.mechanics.trajectory import Impulse
-from support_exudyn.model.bushing_pin import BushingPin
-from support_exudyn.model.columns import (
-    ColumnModel,
+from support_exudyn.model.actuators import (
+    ActuatorModel,
     CylinderAndRod,
     Lumped,
     OilColumn,
     OwnBody,
     PartModel,
-    RigidColumn,
+    RigidActuator,
     bore_area,
 )
+from support_exudyn.model.bushing_pin import BushingPin
 from support_exudyn.model.drives.drive import (
     CubicStep,
     Drive,
@@ -52,7 +52,7 @@ from support_exudyn.model.hydraulic_cylinder import (
     RampedOpening,
     SuddenOpening,
 )
-from support_exudyn.model.linkage import Body, Column, Crank, Linkage, Part, PinPlace, Slide, TracePoint
+from support_exudyn.model.linkage import Body, Crank, LinearActuator, Linkage, Part, PinPlace, Slide, TracePoint
 from support_exudyn.model.loads import AppliedForce, FallingBlock, Load, LoadedPoint, Roof
 from support_exudyn.model.machine import Machine
 from support_exudyn.model.pins import ClearancePin, IdealPin, Pin
@@ -69,14 +69,13 @@ if TYPE_CHECKING:
     from support_exudyn.postprocessing.export.solution_file import save_solution
 
 __all__ = [
+    "ActuatorModel",
     "AppliedForce",
     "Body",
     "BushingPin",
     "Channel",
     "ClearancePin",
     "ClosedInlet",
-    "Column",
-    "ColumnModel",
     "Crank",
     "CubicStep",
     "CylinderAndRod",
@@ -91,6 +90,7 @@ __all__ = [
     "ImpactStand",
     "Impulse",
     "Inlet",
+    "LinearActuator",
     "Linkage",
     "Load",
     "LoadedPoint",
@@ -107,7 +107,7 @@ __all__ = [
     "Reciprocating",
     "Recommendation",
     "Result",
-    "RigidColumn",
+    "RigidActuator",
     "Roof",
     "Scenario",
     "SimulationError",

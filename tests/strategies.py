@@ -184,7 +184,7 @@ SCRAPS: tuple[Any, ...] = (
         {"a": {"type": 3}},
     ),
     *({"type": "Steady", "rate": 1e300}, {"type": "NormalLaw"}, {"type": "Stroke"}, {"type": "PowerLaw"}),
-    *({"type": "ColumnModel"}, {"type": ""}, {"type": None}, {"type": []}, {"type": "Scenario"}),
+    *({"type": "ActuatorModel"}, {"type": ""}, {"type": None}, {"type": []}, {"type": "Scenario"}),
 )
 # what only a program can hand over
 ODDITIES: tuple[Callable[[], Any], ...] = (
@@ -271,12 +271,12 @@ def seeds() -> tuple[Value, ...]:
         machine=support, pins={"rear_base": with_clearance}, drive=CubicStep(), duration=5.0, record_period=0.01
     )
     heavy = dataclasses.replace(
-        rise, columns=cylinders_and_rods(), pins={"front_base": rubbing}, solver=SolverSettings(sections=7)
+        rise, actuators=cylinders_and_rods(), pins={"front_base": rubbing}, solver=SolverSettings(sections=7)
     )
-    space = dataclasses.replace(rise, dimensions=3, columns={"front_column": oil}, channels=("tip.*",))
+    space = dataclasses.replace(rise, dimensions=3, actuators={"front_column": oil}, channels=("tip.*",))
     apart = dataclasses.replace(
         rise,
-        columns={"front_column": oil, "rear_column": oil},
+        actuators={"front_column": oil, "rear_column": oil},
         drive=CubicStep(stroke=0.2),
         drives={"rear_column": UniformSpeed(stroke=0.1)},
         accuracy="draft",

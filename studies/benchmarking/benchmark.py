@@ -243,7 +243,7 @@ def space_lines() -> Iterator[BenchmarkLine]:
         "1.5 mm, no friction": paper_machine.clearance_rise(1.5, 0.0, 5e-4),
         "1.5 mm, friction": paper_machine.clearance_rise(1.5, 0.25, 5e-4),
         "1.5 mm, friction, oil columns": replace(
-            paper_machine.clearance_rise(1.5, 0.25, 5e-4), columns=paper_machine.oil_columns()
+            paper_machine.clearance_rise(1.5, 0.25, 5e-4), actuators=paper_machine.oil_columns()
         ),
         "ideal pins": paper_machine.ideal_rise(1e-3),
     }

@@ -243,7 +243,7 @@ def _several_pins(random: np.random.Generator) -> Scenario:
 def _on_oil(random: np.random.Generator) -> Scenario:
     """Columns of oil; a third of these scenes ask for the engine's formulation where the tree would do."""
     name = _some_pin(random, rear=0.6)
-    scene = _scene(random, reference_support(), {name: _pin(random)}, 0.2, columns=_columns(_oil(random)))
+    scene = _scene(random, reference_support(), {name: _pin(random)}, 0.2, actuators=_columns(_oil(random)))
     return replace(scene, formulation="redundant") if random.uniform() < 0.33 else scene
 
 
@@ -260,7 +260,7 @@ def _on_cylinders(random: np.random.Generator) -> Scenario:
     cylinder = replace(cylinder, bulk_modulus=_between(random, 7e8, 2e9))
     columns: dict[str, HydraulicCylinder] = {"front_column": cylinder, "rear_column": cylinder}
     pins = {paper_machine.CLEARANCE_PIN: _pin(random)} if random.uniform() < 0.8 else {}
-    scene = _scene(random, reference_support(), pins, 0.3, columns=columns, drive=Held())
+    scene = _scene(random, reference_support(), pins, 0.3, actuators=columns, drive=Held())
     return replace(scene, duration=duration, record_period=duration / RECORDS, start="concentric")
 
 
@@ -282,7 +282,7 @@ def _under_block(random: np.random.Generator) -> Scenario:
     pins = {_some_pin(random): _pin(random)} if random.uniform() < 0.6 else {}
     columns = _columns(_oil(random)) if random.uniform() < 0.5 else {}
     return replace(
-        _scene(random, machine, pins, 0.12, columns=columns, loads={"rock": block}), start="concentric"
+        _scene(random, machine, pins, 0.12, actuators=columns, loads={"rock": block}), start="concentric"
     )
 
 
@@ -291,7 +291,7 @@ def _tail_beam(random: np.random.Generator) -> Scenario:
     columns = _columns(_oil(random)) if random.uniform() < 0.5 else {}
     pins = {paper_machine.CLEARANCE_PIN: _pin(random)}
     parts = {"tail_beam": OwnBody(jack=jack)}
-    return _scene(random, reference_support(), pins, 0.15, parts=parts, columns=columns)
+    return _scene(random, reference_support(), pins, 0.15, parts=parts, actuators=columns)
 
 
 def _crank(random: np.random.Generator) -> Scenario:
@@ -313,7 +313,7 @@ def _crank(random: np.random.Generator) -> Scenario:
 def _in_space(random: np.random.Generator) -> Scenario:
     name = _some_pin(random, rear=0.5)
     columns = _columns(_oil(random)) if random.uniform() < 0.5 else {}
-    return _scene(random, reference_support(), {name: _pin(random)}, 0.08, columns=columns, dimensions=3)
+    return _scene(random, reference_support(), {name: _pin(random)}, 0.08, actuators=columns, dimensions=3)
 
 
 KINDS: Mapping[str, Callable[[np.random.Generator], Scenario]] = {

@@ -58,7 +58,7 @@ def _scenes() -> dict[str, BenchmarkScene]:
         "rise, friction": _support("rise: 1.5 mm, friction 0.25", dry, 3.0),
         "rise, oil": _support(
             "rise on oil columns: 1.5 mm, no friction",
-            replace(smooth, columns=paper_machine.oil_columns()),
+            replace(smooth, actuators=paper_machine.oil_columns()),
             3.0,
         ),
         "slider-crank": BenchmarkScene(

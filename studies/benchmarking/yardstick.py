@@ -83,7 +83,7 @@ def _numbers(scenario: Scenario, tolerance: float) -> list[float]:
     machine, drive = scenario.machine, scenario.drive
     if not isinstance(machine, HydraulicSupport) or not isinstance(drive, CubicStep):
         raise InputError("the yardstick takes a HydraulicSupport and a CubicStep")
-    if scenario.columns or scenario.drives or scenario.own_bodies or scenario.friction_pins:
+    if scenario.actuators or scenario.drives or scenario.own_bodies or scenario.friction_pins:
         raise InputError("the yardstick takes rigid columns and one drive")
     if tuple(scenario.clearance_pins) != (PIN,) or scenario.start != "concentric":
         raise InputError(f"the yardstick takes one clearance pin, {PIN}, and start = 'concentric'")

@@ -98,7 +98,7 @@ def oil_scenarios(quick: bool) -> dict[str, Scenario]:
             duration=OIL_START + 0.4,
             step=step,
             record_period=step,
-            columns=paper_machine.oil_columns(),
+            actuators=paper_machine.oil_columns(),
             solver=settings,
         )
         for case in (OIL, OIL_IDEAL)
@@ -120,7 +120,7 @@ def _measures(runs: Mapping[str, Result], window: str) -> dict[str, Values]:
 
 def _struck(impulse: Impulse) -> float:
     """Sum of magnitudes over the columns [N s]."""
-    return sum(abs(value) for value in impulse.columns.values())
+    return sum(abs(value) for value in impulse.actuators.values())
 
 
 def _run_measures(run: rise.MeasuredRun, ideal: rise.MeasuredRun, window: str) -> Values:

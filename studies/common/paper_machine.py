@@ -141,4 +141,4 @@ def hydraulic_cylinders(inlet: Inlet) -> dict[str, HydraulicCylinder]:
 
 def on_cylinders(rise: Scenario, inlet: Inlet) -> Scenario:
     """The run on hydraulic cylinders, which this inlet moves in place of the drive."""
-    return replace(rise, columns=hydraulic_cylinders(inlet), drive=Held(), drives={})
+    return replace(rise, actuators=hydraulic_cylinders(inlet), drive=Held(), drives={})

@@ -36,8 +36,8 @@ def scenarios(quick: bool) -> dict[str, Scenario]:
         if columns == "cylinder":
             return replace(paper_machine.on_cylinders(base, paper_machine.INLETS[mode]), duration=END)
         if columns == "oil":
-            return replace(base, columns=paper_machine.oil_columns(), record_period=min(step, OIL_PERIOD))
-        return replace(base, columns={})
+            return replace(base, actuators=paper_machine.oil_columns(), record_period=min(step, OIL_PERIOD))
+        return replace(base, actuators={})
 
     return {
         case_name(mode, pin, columns): run(mode, pin, columns)

@@ -40,7 +40,7 @@ MEASURES: dict[str, tuple[str, Get]] = {
 
 
 def _impulse(column: str, place: int) -> Get:
-    return lambda r: r.impulses[place].columns[column]
+    return lambda r: r.impulses[place].actuators[column]
 
 
 IMPULSES: dict[str, Get] = {

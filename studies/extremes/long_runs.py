@@ -122,7 +122,7 @@ def _support(duration: float, sliding_coefficient: float | None = None, drive: D
 
 def _on_oil(duration: float) -> Scenario:
     columns: dict[str, OilColumn] = paper_machine.oil_columns()
-    return replace(_support(duration, 0.0), columns=columns)
+    return replace(_support(duration, 0.0), actuators=columns)
 
 
 def _crank(duration: float) -> Scenario:

@@ -163,7 +163,7 @@ def with_solver(point: Point, **solver: Unpack[OtherSettings]) -> Scenario:
 
 def on_oil(point: Point, **solver: Unpack[OtherSettings]) -> Scenario:
     """The fall on columns of oil, which any integrator covers."""
-    return replace(with_solver(point, **solver), columns=paper_machine.oil_columns())
+    return replace(with_solver(point, **solver), actuators=paper_machine.oil_columns())
 
 
 def weightless(point: Point) -> Scenario:
@@ -260,7 +260,7 @@ def under_roof(point: Point, force: float, stiffness: float, oil: bool) -> Scena
     return replace(
         fallen(replace(point, step_s=min(point.step_s, 1e-3))),
         loads={"roof": roof},
-        columns=paper_machine.oil_columns() if oil else {},
+        actuators=paper_machine.oil_columns() if oil else {},
         duration=max(0.1, 0.12 * point.pace),
     )
 
@@ -322,7 +322,7 @@ def in_space(point: Point) -> Scenario:
 
 def heavy_columns(point: Point) -> Scenario:
     """The fall with columns of two bodies each."""
-    return replace(fallen(point), columns=cylinders_and_rods())
+    return replace(fallen(point), actuators=cylinders_and_rods())
 
 
 def rest_angle(random: np.random.Generator) -> float:

@@ -27,7 +27,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--stroke-mm",
         type=partial(number, low=-FARTHEST, high=FARTHEST),
         metavar="S",
-        help="by how much the columns extend from the start on [mm]; by default what the file says",
+        help="by how much the actuators extend from the start on [mm]; by default what the file says",
     )
     add("--json", action="store_true", help="one JSON object, SI units, on standard output")
 

@@ -111,7 +111,7 @@ def _overview(result: Result, given: argparse.Namespace) -> tuple[dict[str, Draw
     names = [f"pin.{with_clearance[0]}.force", f"pin.{with_clearance[0]}.depth"] if with_clearance else []
     if not with_clearance:
         names = [f"pin.{pin}.force" for pin in result.scenario.linkage.pins]
-    names += [*points, *(f"{column}.force" for column in result.scenario.linkage.columns)]
+    names += [*points, *(f"{actuator}.force" for actuator in result.scenario.linkage.actuators)]
     names = [name for name in names if name in result.channels]
     found = _of_channels(result, given, names or [n for n in result.channels if n != "time"][:8])
     of_pin = _of_pin(result, given, with_clearance[0]) if with_clearance else {}

@@ -69,7 +69,7 @@ UNSOLVABLE = (
 
 
 ENGINE_ADVICE = (
-    "Look whether the posture is at a dead centre, and if two pins, columns or guides hold the same bodies "
+    "Look whether the posture is at a dead centre, and if two pins, actuators or guides hold the same bodies "
     "in the same way; if not, try a smaller step."
 )
 PLACE = re.compile(r"\s*\[(Python )?file .*\]", re.IGNORECASE)  # in a source, which says nothing to a user

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from support_exudyn.model.columns import CylinderAndRod
+from support_exudyn.model.actuators import CylinderAndRod
 from support_exudyn.model.machine import Machine
 
 
@@ -12,8 +12,9 @@ class MachineData:
     """A machine as its file describes it.
 
     machine: bodies, pivots, masses. name: what it is called. bore_radii: of pins [m], by name, for scenarios
-    that give a pin a clearance. columns: masses of columns, by name, for scenarios that model them as two
-    bodies. stroke: by how much its columns extend from the start posture on in use [m], None if it is not said.
+    that give a pin a clearance. actuators: masses of linear actuators, by name, for scenarios that model them
+    as two bodies. stroke: by how much its actuators extend from the start posture on in use [m], None if it is
+    not said.
     sources: where the data come from, by what they are of. kind: as the file says. assumed: what was assumed
     because the file does not say it, in sentences.
     """
@@ -21,7 +22,7 @@ class MachineData:
     machine: Machine
     name: str = ""
     bore_radii: Mapping[str, float] = field(default_factory=dict)
-    columns: Mapping[str, CylinderAndRod] = field(default_factory=dict)
+    actuators: Mapping[str, CylinderAndRod] = field(default_factory=dict)
     stroke: float | None = None
     sources: Mapping[str, str] = field(default_factory=dict)
     kind: str = ""

@@ -14,7 +14,7 @@ from typing_extensions import Self
 from support_exudyn.model.linkage import (
     GROUND,
     Body,
-    Column,
+    LinearActuator,
     Linkage,
     Part,
     TracePoint,
@@ -140,7 +140,7 @@ class ShieldLayout(Machine, ABC, Generic[P]):
         known = {
             "spreads": (*BODIES, TAIL, *(f"{name}_{part}" for name in columns for part in ("cylinder", "rod"))),
             "pairs": ("front_link",),
-            "columns": columns,
+            "actuators": columns,
             "lengths": (*PINS, "shield_tail"),
             "points": ("tip",),
         }
@@ -271,17 +271,17 @@ class ShieldLayout(Machine, ABC, Generic[P]):
         """The tail beam, which can be a body of its own, with its jack."""
         return {TAIL: "tail_jack"}
 
-    def detailed(self, columns: Collection[str], parts: Collection[str]) -> Linkage:
+    def detailed(self, actuators: Collection[str], parts: Collection[str]) -> Linkage:
         """A support as four moving bodies, five pins, two columns and the canopy tip.
 
         Arguments:
-            columns: names of those whose mass no part stands for.
+            actuators: names of those whose mass no part stands for.
             parts: names of those that are bodies of their own: the tail beam or none.
 
         Raises InputError if nothing is left of a body, or data of the tail beam are missing.
         """
         p = self.start()
-        left_out = {*(column + RODS for column in columns), *parts}
+        left_out = {*(column + RODS for column in actuators), *parts}
         turned = {"rear_link": p.rear_link, "front_link": p.front_link, "shield": p.shield, "canopy": p.canopy}
         anchors = {  # a point of each body: where it is in the reference posture and at the start
             "rear_link": (self.rear_base, self.rear_base),
@@ -315,8 +315,8 @@ class ShieldLayout(Machine, ABC, Generic[P]):
                 "front_shield": pinned("front_link", "shield", p.front_shield),
                 "shield_canopy": pinned("shield", "canopy", p.hinge),
             },
-            columns={
-                name: Column(
+            actuators={
+                name: LinearActuator(
                     foot=strut.foot[0],
                     head=strut.head[0],
                     foot_point=self.place(*strut.foot, p),
@@ -356,14 +356,14 @@ class ShieldLayout(Machine, ABC, Generic[P]):
             angle=direction(at_start(hinge), at_start(lump.centre)),
             moments=turned_moments(lump.second_moments, p.shield),
         )
-        jack = Column(
+        jack = LinearActuator(
             foot="shield", head=TAIL, foot_point=at_start(foot), head_point=at_start(head), driven=False
         )
         return replace(
             linkage,
             bodies={**linkage.bodies, TAIL: body},
             pins={**linkage.pins, "shield_tail": pinned("shield", TAIL, at_start(hinge))},
-            columns={**linkage.columns, self.jacks[TAIL]: jack},
+            actuators={**linkage.actuators, self.jacks[TAIL]: jack},
         )
 
 

@@ -31,7 +31,7 @@ class IdealItem:
 
 
 class Strut(Protocol):
-    """A column of the plane or of space."""
+    """An actuator of the plane or of space."""
 
     @property
     def start_length(self) -> float:
@@ -40,10 +40,10 @@ class Strut(Protocol):
 
 
 @dataclass(frozen=True)
-class ColumnItem:
-    """A rigid driven column in the engine: its object and its multiplier."""
+class ActuatorItem:
+    """A rigid driven actuator in the engine: its object and its multiplier."""
 
-    column: Strut
+    actuator: Strut
     object: Any
     multiplier: int
 

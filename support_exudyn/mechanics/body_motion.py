@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from support_exudyn.mechanics.trajectory import Series
-from support_exudyn.model.linkage import GROUND, Column, Linkage
+from support_exudyn.model.linkage import GROUND, LinearActuator, Linkage
 from support_exudyn.model.plane_geometry import minus
 from user_forces.values.value import Vector2
 
@@ -95,9 +95,12 @@ class BodyMotion:
             self.velocity[:, i : i + 2],
         )
 
-    def lengthening(self, column: Column) -> tuple[Series, Series]:
-        """Length of a column (n,) [m] and its rate (n,) [m/s]."""
-        foot, head = self.point(column.foot, column.foot_point), self.point(column.head, column.head_point)
+    def lengthening(self, actuator: LinearActuator) -> tuple[Series, Series]:
+        """Length of an actuator (n,) [m] and its rate (n,) [m/s]."""
+        foot, head = (
+            self.point(actuator.foot, actuator.foot_point),
+            self.point(actuator.head, actuator.head_point),
+        )
         apart, relative = head.position - foot.position, head.velocity - foot.velocity
         length = np.hypot(*apart.T)
         return length, (apart * relative).sum(axis=1) / length

@@ -22,7 +22,7 @@ from user_forces.values.value import Vector2
 class DataNeeds(Flag):
     """Parts of a Trajectory.
 
-    JOINTS: forces of ideal pins, cranks, guides and rigid columns; CONTACTS: pins with clearance and others
+    JOINTS: forces of ideal pins, cranks, guides and rigid actuators; CONTACTS: pins with clearance and others
     whose force follows from the motion; OIL: columns of oil; INTEGRALS: work and losses so far, which have to
     be followed at every step; LOADS: what presses on it.
     """
@@ -74,11 +74,11 @@ class EvaluationContext:
         return self._paths[name]
 
     def span(self, name: str) -> Series:
-        """The vector from foot to head of a column (n, 2) [m]."""
+        """The vector from foot to head of an actuator (n, 2) [m]."""
         if name not in self._paths:
-            column = self.linkage.columns[name]
-            foot = self.motion.place(column.foot, column.foot_point)
-            self._paths[name] = self.motion.place(column.head, column.head_point) - foot
+            actuator = self.linkage.actuators[name]
+            foot = self.motion.place(actuator.foot, actuator.foot_point)
+            self._paths[name] = self.motion.place(actuator.head, actuator.head_point) - foot
         return self._paths[name]
 
     @cached_property

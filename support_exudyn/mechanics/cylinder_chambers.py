@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.oil_column import static_loads
 from support_exudyn.mechanics.trajectory import CylinderSeries, Series
-from support_exudyn.model.columns import Quantity
+from support_exudyn.model.actuators import Quantity
 from support_exudyn.model.hydraulic_cylinder import HydraulicCylinder
-from support_exudyn.model.linkage import Column, Linkage
+from support_exudyn.model.linkage import LinearActuator, Linkage
 from user_forces.values.value import Vector2
 
 
@@ -17,10 +17,10 @@ from user_forces.values.value import Vector2
 class PreloadedCylinder:
     """A cylinder in its place.
 
-    column: that it is. model: of it. load: that it carries at the start, pushing its ends apart [N].
+    actuator: that it is. model: of it. load: that it carries at the start, pushing its ends apart [N].
     """
 
-    column: Column
+    actuator: LinearActuator
     model: HydraulicCylinder
     load: float
 
@@ -35,7 +35,7 @@ class PreloadedCylinder:
     def closed_pressures(self, length: float) -> tuple[float, float]:
         """Pressures [Pa] at another length [m], no oil having flowed since the start."""
         before = self.model.volumes(0.0)
-        after = self.model.volumes(length - self.column.start_length)
+        after = self.model.volumes(length - self.actuator.start_length)
         piston, rod = (
             pressure + self.model.bulk_modulus * math.log(one / other)
             for pressure, one, other in zip(self.start_pressures, before, after, strict=True)
@@ -47,7 +47,7 @@ class PreloadedCylinder:
     ) -> tuple[float, float]:
         """Rates of the pressures in both chambers [Pa/s]."""
         model = self.model
-        volumes = model.volumes(length - self.column.start_length)
+        volumes = model.volumes(length - self.actuator.start_length)
         flow, rod_flow = model.flows(*pressures, opening)
         return (
             float(model.bulk_modulus / volumes[0] * (flow - model.bore_area * rate)),
@@ -56,7 +56,7 @@ class PreloadedCylinder:
 
     def energy(self, length: Quantity, pressure: Quantity, rod_pressure: Quantity) -> Quantity:
         """Energy stored in the oil of both chambers [J]."""
-        piston, rod = self.model.volumes(length - self.column.start_length)
+        piston, rod = self.model.volumes(length - self.actuator.start_length)
         density = self.model.energy_density
         return piston * density(pressure) + rod * density(rod_pressure)
 
@@ -79,8 +79,8 @@ class PreloadedCylinder:
         return supply, loss
 
     def series(self, motion: BodyMotion, pressures: Series, opening: Series) -> CylinderSeries:
-        """The column over time, with these pressures (n, 2) [Pa] and openings (n,)."""
-        length, rate = motion.lengthening(self.column)
+        """The actuator over time, with these pressures (n, 2) [Pa] and openings (n,)."""
+        length, rate = motion.lengthening(self.actuator)
         model, (piston, rod) = self.model, pressures.T
         return CylinderSeries(
             model.force(piston, rod, rate),
@@ -95,10 +95,10 @@ class PreloadedCylinder:
 def fill_cylinders(
     linkage: Linkage, models: Mapping[str, HydraulicCylinder], gravity: Vector2
 ) -> dict[str, PreloadedCylinder]:
-    """Cylinders that hold the machine in its start posture, all pins ideal and the other columns rigid."""
+    """Cylinders that hold the machine in its start posture, all pins ideal and the other actuators rigid."""
     if not models:
         return {}
     loads = static_loads(linkage, gravity)
     return {
-        name: PreloadedCylinder(linkage.columns[name], model, loads[name]) for name, model in models.items()
+        name: PreloadedCylinder(linkage.actuators[name], model, loads[name]) for name, model in models.items()
     }

@@ -20,7 +20,7 @@ LARGEST = 10.0  # [m], [rad]: nothing moves so far
 def eccentric(linkage: Linkage, offsets: Mapping[str, Vector2]) -> Linkage:
     """The linkage with journals moved in their bores, all else held together.
 
-    Of the postures in which the other pins are closed, guides are followed, and columns and cranks are where
+    Of the postures in which the other pins are closed, guides are followed, and actuators and cranks are where
     they were, the one that is reached by the steps of least mass times distance squared.
 
     Arguments:
@@ -43,7 +43,7 @@ def eccentric(linkage: Linkage, offsets: Mapping[str, Vector2]) -> Linkage:
             break
     raise InputError(
         f"eccentricity of {', '.join(moved)} = {', '.join(map(str, moved.values()))} m: the linkage cannot be "
-        "laid out so; allowed: what columns, guides and the other pins leave free, such as (0, 0)"
+        "laid out so; allowed: what actuators, guides and the other pins leave free, such as (0, 0)"
     )
 
 
@@ -53,12 +53,12 @@ def _missing(closed: Kinetics, position: Matrix, offsets: Mapping[str, Vector2])
     missing: list[float] = []
     for name, place in linkage.pins.items():
         missing += list(np.array(_offset(place, offsets.get(name))) - closed.relative(position, place)[0])
-    for column in linkage.columns.values():
+    for actuator in linkage.actuators.values():
         foot, head = (
             closed.point(position, body, point)[0]
-            for body, point in ((column.foot, column.foot_point), (column.head, column.head_point))
+            for body, point in ((actuator.foot, actuator.foot_point), (actuator.head, actuator.head_point))
         )
-        missing.append(column.start_length - math.dist(foot, head))
+        missing.append(actuator.start_length - math.dist(foot, head))
     missing += [-_turn(closed, position, crank.body) for crank in linkage.cranks.values()]
     for slide in linkage.slides.values():
         carrier = _turn(closed, position, slide.against)
@@ -100,9 +100,9 @@ def _laid_out(closed: Kinetics, position: Matrix) -> Linkage:
             )
             for name, pin in linkage.pins.items()
         },
-        columns={
+        actuators={
             name: replace(one, foot_point=at(one.foot, one.foot_point), head_point=at(one.head, one.head_point))
-            for name, one in linkage.columns.items()
+            for name, one in linkage.actuators.items()
         },
         points={name: replace(one, point=at(one.body, one.point)) for name, one in linkage.points.items()},
         slides={

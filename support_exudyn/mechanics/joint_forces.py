@@ -64,7 +64,7 @@ class _Balance:
 def open_joint_forces(
     motion: BodyMotion,
     gravity: Vector2,
-    columns: Mapping[str, Series],
+    actuators: Mapping[str, Series],
     known: Mapping[str, PinForce],
 ) -> JointForces:
     """Forces of all ideal pins, cranks and slides.
@@ -72,20 +72,20 @@ def open_joint_forces(
     Arguments:
         motion: of all bodies.
         gravity: [m/s^2].
-        columns: force of every column (n,) [N], positive if it pushes its ends apart.
+        actuators: force of every actuator (n,) [N], positive if it pushes its ends apart.
         known: forces of the pins that are known, by name; the others must leave no closed loop.
 
     Raises ValueError if they do.
     """
     linkage = motion.linkage
     left = _Balance(motion, gravity)
-    for name, push in columns.items():
-        column = linkage.columns[name]
-        foot = motion.point(column.foot, column.foot_point).position
-        head = motion.point(column.head, column.head_point).position
+    for name, push in actuators.items():
+        actuator = linkage.actuators[name]
+        foot = motion.point(actuator.foot, actuator.foot_point).position
+        head = motion.point(actuator.head, actuator.head_point).position
         along = (head - foot) / np.linalg.norm(head - foot, axis=1)[:, None]
-        left.take(column.head, push[:, None] * along, head)
-        left.take(column.foot, -push[:, None] * along, foot)
+        left.take(actuator.head, push[:, None] * along, head)
+        left.take(actuator.foot, -push[:, None] * along, foot)
     for name, pin in known.items():
         place = linkage.pins[name]
         left.take(place.second, pin.force, pin.point)

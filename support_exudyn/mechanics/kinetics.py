@@ -1,6 +1,6 @@
 """Masses and constraints of a scene as matrices, for what happens at an instant.
 
-Mass matrix M and constraint Jacobian C (ideal pins, rigid columns, cranks, slides) give the change of
+Mass matrix M and constraint Jacobian C (ideal pins, rigid actuators, cranks, slides) give the change of
 velocities dv and the impulses L under generalised impulses b and a change c of the constraints' rates:
 
     M dv + C^T L = b,    C dv = c
@@ -27,25 +27,25 @@ def kinetics_of(
 ) -> Kinetics:
     """Matrices of a linkage by itself, coordinates in the order of its bodies.
 
-    ideal, rigid: names of the pins that are closed, and of the columns that are rigid; all by default.
+    ideal, rigid: names of the pins that are closed, and of the actuators that are rigid; all by default.
     """
     bodies = {name: BodyItem(body, None, None, 3 * n) for n, (name, body) in enumerate(linkage.bodies.items())}
     pins = tuple(linkage.pins) if ideal is None else ideal
-    return Kinetics(linkage, bodies, pins, tuple(linkage.columns) if rigid is None else rigid)
+    return Kinetics(linkage, bodies, pins, tuple(linkage.actuators) if rigid is None else rigid)
 
 
 @dataclass(frozen=True)
 class Kinetics:
     """Matrices of a linkage, whose bodies stand in the engine or not.
 
-    linkage: the mechanism. bodies: where each body's coordinates stand. ideal, columns: names of the pins that
-    are closed and of the columns that are rigid, in the order of their rows.
+    linkage: the mechanism. bodies: where each body's coordinates stand. ideal, actuators: names of the pins
+    that are closed and of the actuators that are rigid, in the order of their rows.
     """
 
     linkage: Linkage
     bodies: dict[str, BodyItem]
     ideal: Sequence[str]
-    columns: Sequence[str]
+    actuators: Sequence[str]
 
     def mass(self) -> Matrix:
         """Diagonal of the mass matrix, shape (n,)."""
@@ -63,13 +63,13 @@ class Kinetics:
         return self.mass() * along
 
     def rows(self, position: Matrix) -> Matrix:
-        """Jacobian C, shape (m, n): two rows an ideal pin, one a rigid column, one a crank, two a slide."""
+        """Jacobian C, shape (m, n): two rows an ideal pin, one a rigid actuator, one a crank, two a slide."""
         rows: list[Matrix] = []
         for name in self.ideal:
             rows += list(self.relative(position, self.linkage.pins[name])[1])
-        for column in (self.linkage.columns[name] for name in self.columns):
-            foot, foot_rate = self.point(position, column.foot, column.foot_point)
-            head, head_rate = self.point(position, column.head, column.head_point)
+        for actuator in (self.linkage.actuators[name] for name in self.actuators):
+            foot, foot_rate = self.point(position, actuator.foot, actuator.foot_point)
+            head, head_rate = self.point(position, actuator.head, actuator.head_point)
             along = (head - foot) / np.linalg.norm(head - foot)
             rows.append(along @ (head_rate - foot_rate))
         rows += [self.turning(position.size, crank.body) for crank in self.linkage.cranks.values()]
@@ -97,14 +97,14 @@ class Kinetics:
         return row
 
     def driven(self) -> slice:
-        """Which of the rows can be driven: rigid columns, then cranks."""
+        """Which of the rows can be driven: rigid actuators, then cranks."""
         first = 2 * len(self.ideal)
-        return slice(first, first + len(self.columns) + len(self.linkage.cranks))
+        return slice(first, first + len(self.actuators) + len(self.linkage.cranks))
 
     def rates(self, speed: Callable[[str], float]) -> Matrix:
-        """Rates of all rows, shape (m,): of rigid columns and cranks as told by name [m/s], [rad/s], else 0."""
+        """Rates of all rows, (m,): of rigid actuators and cranks as told by name [m/s], [rad/s], else 0."""
         rates = np.zeros(self.driven().stop + 2 * len(self.linkage.slides))
-        rates[self.driven()] = [speed(name) for name in (*self.columns, *self.linkage.cranks)]
+        rates[self.driven()] = [speed(name) for name in (*self.actuators, *self.linkage.cranks)]
         return rates
 
     def point(self, position: Matrix, body: str, point: Vector2) -> tuple[Matrix, Matrix]:

@@ -1,4 +1,4 @@
-"""Columns of oil: what they carry at the start, and their force, energy and power; see `columns.OilColumn`."""
+"""Columns of oil: what they carry at the start; their force, energy and power; see `actuators.OilColumn`."""
 
 from __future__ import annotations
 
@@ -12,23 +12,23 @@ import numpy as np
 from support_exudyn.mechanics.body_motion import BodyMotion, PointMotion
 from support_exudyn.mechanics.kinetics import kinetics_of
 from support_exudyn.mechanics.trajectory import Series
-from support_exudyn.model.columns import OilColumn, Quantity
+from support_exudyn.model.actuators import OilColumn, Quantity
 from support_exudyn.model.drives.drive import Drive
-from support_exudyn.model.linkage import Column, Linkage
+from support_exudyn.model.linkage import LinearActuator, Linkage
 from user_forces.values.value import Vector2
 
 
 @dataclass(frozen=True)
-class PreloadedColumn:
-    """A column of oil in its place, and by how much its oil is compressed at the start [m]."""
+class PreloadedActuator:
+    """An actuator on oil in its place, and by how much its oil is compressed at the start [m]."""
 
-    column: Column
+    actuator: LinearActuator
     model: OilColumn
     precompression: float
 
     def natural_length(self, extension: Quantity) -> Quantity:
         """Length [m] at which the oil carries nothing."""
-        return self.column.start_length + self.precompression + extension
+        return self.actuator.start_length + self.precompression + extension
 
     def force(self, length: Quantity, rate: Quantity, extension: Quantity, speed: Quantity) -> Quantity:
         """Force that pushes the ends apart [N]."""
@@ -58,12 +58,14 @@ class PreloadedColumn:
 
     def ends(self, motion: BodyMotion) -> tuple[PointMotion, PointMotion]:
         """Motions of foot and head."""
-        column = self.column
-        return motion.point(column.foot, column.foot_point), motion.point(column.head, column.head_point)
+        actuator = self.actuator
+        return motion.point(actuator.foot, actuator.foot_point), motion.point(
+            actuator.head, actuator.head_point
+        )
 
     def series(self, motion: BodyMotion, extension: Series, speed: Series) -> OilSeries:
-        """The column over time, while the drive has these extensions [m] and speeds [m/s], shape (n,)."""
-        length, rate = motion.lengthening(self.column)
+        """The actuator over time, while the drive has these extensions [m] and speeds [m/s], shape (n,)."""
+        length, rate = motion.lengthening(self.actuator)
         moving = length, rate, extension, speed
         return OilSeries(self.force(*moving), self.energy(length, extension), *self.powers(*moving))
 
@@ -72,7 +74,7 @@ LENGTHS = 4  # that are rounded, each by up to half a unit in its last place, un
 
 
 class OilSeries(NamedTuple):
-    """A column over time, shape (n,) each.
+    """An actuator over time, shape (n,) each.
 
     force: that pushes the ends apart [N]. energy: stored [J]. work, loss: power of the drive, and of the
     damping [W].
@@ -85,39 +87,39 @@ class OilSeries(NamedTuple):
 
 
 def static_loads(linkage: Linkage, gravity: Vector2) -> dict[str, float]:
-    """What every column carries in the start posture, all pins ideal [N]; positive pushes its ends apart."""
+    """What every actuator carries in the start posture, all pins ideal [N]; positive pushes its ends apart."""
     closed = kinetics_of(linkage)
     weight = closed.weight(gravity)
     tensions = closed.respond(np.zeros(weight.size), weight, 0.0)[1][closed.driven()]
-    return {name: -float(tension) for name, tension in zip(linkage.columns, tensions, strict=False)}
+    return {name: -float(tension) for name, tension in zip(linkage.actuators, tensions, strict=False)}
 
 
-def fill(linkage: Linkage, models: Mapping[str, OilColumn], gravity: Vector2) -> dict[str, PreloadedColumn]:
+def fill(linkage: Linkage, models: Mapping[str, OilColumn], gravity: Vector2) -> dict[str, PreloadedActuator]:
     """Columns of oil that hold the machine in its start posture, all pins ideal and the others rigid."""
     if not models:
         return {}
     loads = static_loads(linkage, gravity)
     return {
-        name: PreloadedColumn(linkage.columns[name], model, loads[name] / model.stiffness(0.0))
+        name: PreloadedActuator(linkage.actuators[name], model, loads[name] / model.stiffness(0.0))
         for name, model in models.items()
     }
 
 
-def force_rounding(columns: Iterable[PreloadedColumn]) -> float:
-    """Scatter [N] of the forces of these columns that the rounding of lengths causes."""
+def force_rounding(actuators: Iterable[PreloadedActuator]) -> float:
+    """Scatter [N] of the forces of these actuators that the rounding of lengths causes."""
     return sum(
-        LENGTHS * sys.float_info.epsilon * one.model.stiffness(0.0) * _size(one.column) for one in columns
+        LENGTHS * sys.float_info.epsilon * one.model.stiffness(0.0) * _size(one.actuator) for one in actuators
     )
 
 
-def _size(column: Column) -> float:
-    """The largest of the numbers that a column's length is computed from [m]."""
-    ends = (*column.foot_point, *column.head_point)
-    return max(column.start_length, *map(abs, ends))
+def _size(actuator: LinearActuator) -> float:
+    """The largest of the numbers that an actuator's length is computed from [m]."""
+    ends = (*actuator.foot_point, *actuator.head_point)
+    return max(actuator.start_length, *map(abs, ends))
 
 
-def oil_series(preloaded: PreloadedColumn, motion: BodyMotion, drive: Drive, time: Series) -> OilSeries:
-    """A column over time [s]."""
+def oil_series(preloaded: PreloadedActuator, motion: BodyMotion, drive: Drive, time: Series) -> OilSeries:
+    """An actuator over time [s]."""
     extension = np.array([drive.extension(t) for t in time.tolist()])
     speed = np.array([drive.speed(t) for t in time.tolist()])
     return preloaded.series(motion, extension, speed)

@@ -34,7 +34,7 @@ def channel_definitions(
     Arguments:
         linkage: the mechanism.
         pins: all that are not ideal, by name.
-        oil: names of the columns that no constraint holds.
+        oil: names of the actuators that no constraint holds.
         loads: what presses on the machine, by name.
         cylinders: names of those columns of oil that have a valve and pressures.
     """
@@ -43,8 +43,8 @@ def channel_definitions(
         found |= _of_body(name, body, 3 * n)
     for name in linkage.points:
         found |= _of_point(name)
-    for name in linkage.columns:
-        found |= _of_column(name, name in oil)
+    for name in linkage.actuators:
+        found |= _of_actuator(name, name in oil)
         if name in cylinders:
             found |= _of_cylinder(name)
     for name in linkage.cranks:
@@ -110,7 +110,7 @@ def _of_point(name: str) -> ChannelDefinitions:
     }
 
 
-def _of_column(name: str, oil: bool) -> ChannelDefinitions:
+def _of_actuator(name: str, oil: bool) -> ChannelDefinitions:
     def angle(context: EvaluationContext) -> Series:
         dx, dy = context.span(name).T
         direction: Series = np.arctan2(dy, dx)
@@ -129,7 +129,7 @@ def _of_column(name: str, oil: bool) -> ChannelDefinitions:
             "N",
             "pushes its ends apart if positive",
             OIL if oil else DataNeeds.JOINTS,
-            lambda context: context.run.columns[name],
+            lambda context: context.run.actuators[name],
         ),
     }
 

@@ -1,4 +1,4 @@
-"""Accelerations, and forces of ideal pins, rigid columns, cranks and guides at all records, from the motion.
+"""Accelerations, and forces of ideal pins, rigid actuators, cranks and guides at all records, from the motion.
 
 Mass matrix M and constraint Jacobian C of one instant give both from the forces f that are applied and from
 what drives do to the lengths and angles that are held, c:
@@ -18,7 +18,7 @@ import numpy as np
 
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.trajectory import Series
-from support_exudyn.model.linkage import GROUND, Column, Crank, PinPlace, Slide
+from support_exudyn.model.linkage import GROUND, Crank, LinearActuator, PinPlace, Slide
 from user_forces.values.value import Vector2
 
 SHIFT = 1e-5  # [m], [rad] by which bodies go on, at most, where it is looked how rows turn with them
@@ -30,18 +30,18 @@ ROUNDS = 2
 
 @dataclass(frozen=True)
 class HeldJoints:
-    """What is held, in the order of its rows: two an ideal pin, one a column, one a crank, two a guide."""
+    """What is held, in the order of its rows: two an ideal pin, one an actuator, one a crank, two a guide."""
 
     pins: Sequence[PinPlace]
-    columns: Sequence[Column]
+    actuators: Sequence[LinearActuator]
     cranks: Sequence[Crank]
     slides: Sequence[Slide]
 
     @property
     def driven(self) -> slice:
-        """The rows that drives move: columns, then cranks."""
+        """The rows that drives move: actuators, then cranks."""
         first = 2 * len(self.pins)
-        return slice(first, first + len(self.columns) + len(self.cranks))
+        return slice(first, first + len(self.actuators) + len(self.cranks))
 
     @property
     def guided(self) -> slice:
@@ -80,11 +80,11 @@ class _Rows:
             for along in (np.tile(axis, (self.shape[0], 1)) for axis in ((1.0, 0.0), (0.0, 1.0)))
         ]
 
-    def column(self, column: Column) -> Series:
-        """The rate of a column's length."""
-        along = direction(self.motion, column)
-        head = self.point(column.head, column.head_point, along)
-        return head - self.point(column.foot, column.foot_point, along)
+    def actuator(self, actuator: LinearActuator) -> Series:
+        """The rate of an actuator's length."""
+        along = direction(self.motion, actuator)
+        head = self.point(actuator.head, actuator.head_point, along)
+        return head - self.point(actuator.foot, actuator.foot_point, along)
 
     def slide(self, slide: Slide) -> list[Series]:
         """The rates of a guide: of its point's distance from the line, which may turn, and of the angle."""
@@ -99,9 +99,12 @@ class _Rows:
         return [distance, self.turn(slide.body) - carrier]
 
 
-def direction(motion: BodyMotion, column: Column) -> Series:
-    """The direction from foot to head of a column (n, 2)."""
-    foot, head = motion.place(column.foot, column.foot_point), motion.place(column.head, column.head_point)
+def direction(motion: BodyMotion, actuator: LinearActuator) -> Series:
+    """The direction from foot to head of an actuator (n, 2)."""
+    foot, head = (
+        motion.place(actuator.foot, actuator.foot_point),
+        motion.place(actuator.head, actuator.head_point),
+    )
     span = head - foot
     along: Series = span / np.linalg.norm(span, axis=1)[:, None]
     return along
@@ -111,7 +114,7 @@ def matrix(motion: BodyMotion, held: HeldJoints) -> Series:
     """C: the rows of all that is held at every instant, (n, rows, 3 b)."""
     of = _Rows(motion)
     rows = [row for place in held.pins for row in of.pin(place)]
-    rows += [of.column(column) for column in held.columns]
+    rows += [of.actuator(actuator) for actuator in held.actuators]
     rows += [of.turn(crank.body) for crank in held.cranks]
     rows += [row for slide in held.slides for row in of.slide(slide)]
     return np.stack(rows, axis=1) if rows else np.zeros((len(motion.position), 0, motion.position.shape[1]))
@@ -159,7 +162,7 @@ def equations(motion: BodyMotion, held: HeldJoints, driven: Series) -> Equations
     Arguments:
         motion: positions and velocities of all bodies.
         held: what is held.
-        driven: second derivatives of what drives move, (n, columns and cranks) [m/s^2], [rad/s^2].
+        driven: second derivatives of what drives move, (n, actuators and cranks) [m/s^2], [rad/s^2].
     """
     bodies = motion.linkage.bodies.values()
     mass = np.array([part for body in bodies for part in (body.mass, body.mass, body.inertia)])

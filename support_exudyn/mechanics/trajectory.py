@@ -84,10 +84,10 @@ class Trajectory:
     time (n,) [s]. position, velocity, acceleration (n, 3 b): x, y, turn of each body in the order of
     `Linkage.bodies`, positions from those at the start. ideal_pins: force of the first body on the second
     (n, 2) [N], by name. friction_moments: of ideal pins with friction, on the second body (n,) [N m].
-    contacts: clearance pins by name. columns: force (n,) [N] that pushes the ends apart.
+    contacts: clearance pins by name. actuators: force (n,) [N] that pushes the ends apart.
     cranks: moment of the drive on the crank (n,) [N m]. slides: magnitude of force across and of moment (n, 2).
-    oil_energy: stored in all columns (n,) [J]. work: of the drive so far, damping_loss, friction_loss: so far
-    (n,) [J]. loads: by name. cylinders: of columns, by name. compliant_pins: by name.
+    oil_energy: stored in all actuators (n,) [J]. work: of the drive so far, damping_loss, friction_loss: so far
+    (n,) [J]. loads: by name. cylinders: of actuators, by name. compliant_pins: by name.
     """
 
     time: Series
@@ -96,7 +96,7 @@ class Trajectory:
     acceleration: Series
     ideal_pins: Mapping[str, Series]
     contacts: Mapping[str, ContactSeries]
-    columns: Mapping[str, Series]
+    actuators: Mapping[str, Series]
     cranks: Mapping[str, Series]
     slides: Mapping[str, Series]
     oil_energy: Series
@@ -150,12 +150,12 @@ class Counts:
 class Impulse:
     """A jump of velocities at an instant.
 
-    time: [s]. columns: impulse of each rigid column [N s], positive in compression. energy: given to the bodies
-    by it [J]. cranks: angular impulse on each crank [N m s].
+    time: [s]. actuators: impulse of each rigid actuator [N s], positive in compression. energy: given to the
+    bodies by it [J]. cranks: angular impulse on each crank [N m s].
     """
 
     time: float
-    columns: dict[str, float]
+    actuators: dict[str, float]
     energy: float
     cranks: dict[str, float] = field(default_factory=dict)
 
@@ -165,7 +165,7 @@ class Outcome:
     """A finished run of a formulation.
 
     trajectory: at the records. onsets: for each clearance pin the beginnings of contact. largest_force: for
-    each clearance pin the largest force [N] at any time. impulses: where the speed of rigid columns or cranks
+    each clearance pin the largest force [N] at any time. impulses: where the speed of rigid actuators or cranks
     jumped.
     counts: what the solver did.
     """

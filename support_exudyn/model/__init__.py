@@ -1,1 +1,1 @@
-"""The linkage and what belongs to it: bodies, pins, columns, drives, loads."""
+"""The linkage and what belongs to it: bodies, pins, linear actuators, drives, loads."""

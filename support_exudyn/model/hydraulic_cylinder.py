@@ -1,4 +1,4 @@
-"""A column that is a hydraulic cylinder: two chambers of oil behind a valve, and how the valve opens.
+"""An actuator that is a hydraulic cylinder: two chambers of oil behind a valve, and how the valve opens.
 
     dp0/dt = B / V0 (Q0 - A0 v),    V0 = A0 (h0 + e) + H0      piston side
     dp1/dt = B / V1 (Q1 + A1 v),    V1 = A1 (h1 - e) + H1      rod side
@@ -21,7 +21,7 @@ from typing import Annotated
 import numpy as np
 from pydantic import Field, model_validator
 
-from support_exudyn.model.columns import ColumnModel, Quantity
+from support_exudyn.model.actuators import ActuatorModel, Quantity
 from user_forces.values.units import (
     CubicMetres,
     CubicMetresPerSecond,
@@ -39,7 +39,8 @@ Opening = Annotated[Real, Field(ge=-1.0, le=1.0)]
 class Inlet(Value, ABC):
     """Opening of a cylinder's valve, from -1 to 1, over time.
 
-    Positive: the pump is connected to the piston side and the tank to the rod side, so that the column extends.
+    Positive: the pump is connected to the piston side and the tank to the rod side, so that the actuator
+        extends.
     Negative: the other way round. Zero: both sides are closed. The contract is that of a drive's speed: between
     two neighbouring `breaks` the opening is smooth; at a break it may jump by `opening_jump`. The solver lands
     on every break.
@@ -90,7 +91,7 @@ class SuddenOpening(Inlet):
 
     Arguments:
         start, end: when it opens and closes [s], 3 and 5 by default; end > start >= 0.
-        extent: of the opening, from -1 to 1, 1 by default: fully open so that the column extends.
+        extent: of the opening, from -1 to 1, 1 by default: fully open so that the actuator extends.
     """
 
     start: Seconds[NonNegative] = 3.0
@@ -129,7 +130,7 @@ class RampedOpening(Inlet):
     Arguments:
         start, end: when it begins to open and is closed again [s], 3 and 5 by default; end > start >= 0.
         ramp: how long it takes to open, and to close [s], 0.5 by default; > 0, at most half of end - start.
-        extent: of the opening between the ramps, from -1 to 1, 1 by default: fully open so that the column
+        extent: of the opening between the ramps, from -1 to 1, 1 by default: fully open so that the actuator
             extends.
     """
 
@@ -165,8 +166,8 @@ class RampedOpening(Inlet):
 
 
 @value
-class HydraulicCylinder(ColumnModel):
-    """A massless column that is a hydraulic cylinder: it moves by the oil that its valve lets in.
+class HydraulicCylinder(ActuatorModel):
+    """A massless actuator that is a hydraulic cylinder: it moves by the oil that its valve lets in.
 
     No drive moves it. Until the valve opens, the oil in both chambers carries the static load of the start
     posture with ideal pins: the chamber that the load presses has the pressure for it, the other one that of
@@ -177,7 +178,7 @@ class HydraulicCylinder(ColumnModel):
     Arguments:
         bore_area: of the piston, all cylinders of a pair together [m^2], > 0.
         rod_side_area: the annulus around the rod, all together [m^2], > 0.
-        oil_length: length of the oil under the piston at the start [m], > 0, less than the column.
+        oil_length: length of the oil under the piston at the start [m], > 0, less than the actuator.
         rod_side_length: length of the oil around the rod at the start [m], > 0: by so much it can extend.
         bulk_modulus: of the oil or emulsion, with what hoses and cylinders give [Pa], > 0.
         system_pressure: of the pump [Pa], > tank_pressure.
@@ -206,15 +207,15 @@ class HydraulicCylinder(ColumnModel):
     inlet: Inlet = field(default_factory=ClosedInlet)
 
     def check_length(self, length: float, name: str) -> None:
-        """Raise InputError if the cylinder does not fit into a column of this length [m] at the start."""
+        """Raise InputError if the cylinder does not fit into an actuator of this length [m] at the start."""
         if self.oil_length >= length:
             raise InputError(
-                f"columns.{name}.oil_length = {self.oil_length} m: the column is {length:.4g} m long at the "
-                "start; allowed: less than that"
+                f"actuators.{name}.oil_length = {self.oil_length} m: the actuator is {length:.4g} m long at "
+                "the start; allowed: less than that"
             )
         if self.system_pressure <= self.tank_pressure:
             raise InputError(
-                f"columns.{name}.system_pressure = {self.system_pressure} Pa: allowed: > tank_pressure = "
+                f"actuators.{name}.system_pressure = {self.system_pressure} Pa: allowed: > tank_pressure = "
                 f"{self.tank_pressure} Pa"
             )
 

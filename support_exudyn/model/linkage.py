@@ -1,4 +1,4 @@
-"""A linkage: bodies, pins, columns, cranks and slides."""
+"""A linkage: bodies, pins, linear actuators, cranks and slides."""
 
 from __future__ import annotations
 
@@ -156,8 +156,8 @@ def pinned(first: str, second: str, point: Vector2) -> PinPlace:
 
 
 @value
-class Column(Value):
-    """A strut of prescribed length between two bodies.
+class LinearActuator(Value):
+    """A linear actuator: a strut of prescribed length between two bodies; mining machines call it a column.
 
     Arguments:
         foot, head: names of the bodies, one of them may be "ground".
@@ -232,7 +232,7 @@ class Linkage(Value):
     Arguments:
         bodies: moving bodies by name.
         pins: pins by name.
-        columns: driven columns and struts by name.
+        actuators: driven actuators and struts by name.
         points: traced points by name.
         cranks: driven cranks by name.
         slides: straight guides by name.
@@ -240,7 +240,7 @@ class Linkage(Value):
 
     bodies: Mapping[str, Body]
     pins: Mapping[str, PinPlace] = field(default_factory=dict)
-    columns: Mapping[str, Column] = field(default_factory=dict)
+    actuators: Mapping[str, LinearActuator] = field(default_factory=dict)
     points: Mapping[str, TracePoint] = field(default_factory=dict)
     cranks: Mapping[str, Crank] = field(default_factory=dict)
     slides: Mapping[str, Slide] = field(default_factory=dict)
@@ -253,8 +253,8 @@ class Linkage(Value):
 
     @property
     def driven(self) -> tuple[str, ...]:
-        """Names of all parts that follow a drive: columns, then cranks."""
-        return *(name for name, column in self.columns.items() if column.driven), *self.cranks
+        """Names of all parts that follow a drive: actuators, then cranks."""
+        return *(name for name, actuator in self.actuators.items() if actuator.driven), *self.cranks
 
     @model_validator(mode="after")
     def _names_are_known(self) -> Linkage:
@@ -264,7 +264,7 @@ class Linkage(Value):
             if pin.first == pin.second:
                 raise ValueError(f"pins.{name} = {pin.first!r} twice: allowed: two different bodies")
         used = [(f"pins.{k}", b) for k, p in self.pins.items() for b in (p.first, p.second)]
-        used += [(f"columns.{k}", b) for k, c in self.columns.items() for b in (c.foot, c.head)]
+        used += [(f"actuators.{k}", b) for k, c in self.actuators.items() for b in (c.foot, c.head)]
         used += [(f"slides.{k}.against", s.against) for k, s in self.slides.items()]
         used += [(f"points.{k}", p.body) for k, p in self.points.items()]
         moving = [(f"cranks.{k}", c.body) for k, c in self.cranks.items()]

@@ -1,4 +1,4 @@
-"""What the engine needs to know of a machine: bodies, pins and columns in their start posture."""
+"""What the engine needs to know of a machine: bodies, pins and actuators in their start posture."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Collection, Mapping
@@ -42,23 +42,24 @@ class Machine(Value, ABC):
         """Parts that can be bodies of their own, each with the name of the jack that locks it; here none."""
         return {}
 
-    def detailed(self, columns: Collection[str], parts: Collection[str]) -> Linkage:
+    def detailed(self, actuators: Collection[str], parts: Collection[str]) -> Linkage:
         """The mechanism for a scenario that models more of it.
 
         Arguments:
-            columns: names of those that get a mass of their own: the parts that stand for it are left out.
+            actuators: names of those that get a mass of their own: the parts that stand for it are left out.
             parts: names of those, among `jacks`, that are to be bodies with a hinge and a jack, which is a
-                column that is not driven.
+                actuator that is not driven.
 
         By default the same as `linkage`. Raises InputError if the machine lacks data for it.
         """
-        del columns, parts
+        del actuators, parts
         return self.linkage()
 
     def check_extension(self, lowest: float, highest: float) -> None:
         """Raise InputError if the drive cannot be extended over this range from the start.
 
-        The range is in m for columns and in rad for cranks; a machine that can follow any has nothing to check.
+        The range is in m for actuators and in rad for cranks; a machine that can follow any has nothing to
+        check.
         """
         del lowest, highest
 

@@ -1,4 +1,4 @@
-"""What the engine needs to know of a machine in space: bodies, bearings and columns in their start posture."""
+"""What the engine needs to know of a machine in space: bodies, bearings, actuators in their start posture."""
 
 from __future__ import annotations
 
@@ -103,21 +103,21 @@ class Bearing(Value):
 
 
 @value
-class SpatialColumn(Value):
+class SpatialActuator(Value):
     """A strut of prescribed length with spherical ends.
 
     Arguments:
         foot, head: names of the bodies, one of them may be "ground".
         foot_point, head_point: its ends [m], start posture.
-        column: name of the planar column that this is a part of.
-        share: of the planar column's piston area that is here.
+        actuator: name of the planar actuator that this is a part of.
+        share: of the planar actuator's piston area that is here.
     """
 
     foot: str
     head: str
     foot_point: Vector3
     head_point: Vector3
-    column: str
+    actuator: str
     share: Share = 1.0
 
     @property
@@ -144,25 +144,25 @@ class SpatialLinkage(Value):
     """A mechanism in space in its start posture; x forward, y up, z to the right of who looks forward; SI.
 
     Arguments:
-        bodies, bearings, columns, points: by name.
+        bodies, bearings, actuators, points: by name.
     """
 
     bodies: Mapping[str, SpatialBody]
     bearings: Mapping[str, Bearing] = field(default_factory=dict)
-    columns: Mapping[str, SpatialColumn] = field(default_factory=dict)
+    actuators: Mapping[str, SpatialActuator] = field(default_factory=dict)
     points: Mapping[str, SpatialPoint] = field(default_factory=dict)
 
     @model_validator(mode="after")
     def _names_are_known(self) -> SpatialLinkage:
         used = [(f"bearings.{k}", b) for k, p in self.bearings.items() for b in (p.first, p.second)]
-        used += [(f"columns.{k}", b) for k, c in self.columns.items() for b in (c.foot, c.head)]
+        used += [(f"actuators.{k}", b) for k, c in self.actuators.items() for b in (c.foot, c.head)]
         used += [(f"points.{k}", p.body) for k, p in self.points.items()]
         check_bodies(used, self.bodies)
         return self
 
-    def parts_of_column(self, column: str) -> tuple[str, ...]:
-        """Names of the columns that make up a planar one."""
-        return tuple(name for name, one in self.columns.items() if one.column == column)
+    def parts_of_actuator(self, actuator: str) -> tuple[str, ...]:
+        """Names of the actuators that make up a planar one."""
+        return tuple(name for name, one in self.actuators.items() if one.actuator == actuator)
 
     def parts_of_pin(self, pin: str) -> dict[str, Bearing]:
         """The bearings that make up a planar pin, by name."""

@@ -1,8 +1,8 @@
 """From a planar linkage and its lateral dimensions to the same machine in space.
 
-Symmetric about the plane z = 0. What the plane lumps from two (front links, columns) is two again, called
+Symmetric about the plane z = 0. What the plane lumps from two (front links, actuators) is two again, called
 NAME_left (z < 0) and NAME_right, each with half the mass, stiffness and piston area. A body of a pair is held
-along z and against tilting by its first pin; in its others it may shift along the pin. Columns stand on
+along z and against tilting by its first pin; in its others it may shift along the pin. Actuators stand on
 spherical ends, also those in two bodies, whose rod may slide and turn in its cylinder.
 """
 
@@ -13,11 +13,11 @@ from collections.abc import Iterator, Mapping
 from dataclasses import field, fields
 from typing import Literal
 
-from support_exudyn.model.linkage import GROUND, Body, Column, Linkage, PinPlace, TracePoint
+from support_exudyn.model.linkage import GROUND, Body, LinearActuator, Linkage, PinPlace, TracePoint
 from support_exudyn.model.spatial_linkage import (
     Bearing,
+    SpatialActuator,
     SpatialBody,
-    SpatialColumn,
     SpatialLinkage,
     SpatialPoint,
 )
@@ -33,14 +33,14 @@ class Width(Value):
         spreads: by body, the radius of gyration about the plane of symmetry [m] (of a body of uniform width b:
             b / sqrt(12)); of a body that there are two of, about the plane of each. 0 where none is given.
         pairs: by body, half the distance [m] of the two that it stands for in the plane.
-        columns: by column, half the distance [m] of the two that it stands for.
+        actuators: by actuator, half the distance [m] of the two that it stands for.
         lengths: by pin, its length [m]; of a pin of a pair, of each. 0 where none is given.
         points: by traced point, half the distance [m] of two more of it, left and right.
     """
 
     spreads: Mapping[str, Metres[NonNegative]] = field(default_factory=dict)
     pairs: Mapping[str, Metres[Positive]] = field(default_factory=dict)
-    columns: Mapping[str, Metres[Positive]] = field(default_factory=dict)
+    actuators: Mapping[str, Metres[Positive]] = field(default_factory=dict)
     lengths: Mapping[str, Metres[Positive]] = field(default_factory=dict)
     points: Mapping[str, Metres[Positive]] = field(default_factory=dict)
 
@@ -62,7 +62,8 @@ Copy = tuple[str, float, float]  # suffix of its name, z [m], share
 def lift(linkage: Linkage, width: Width) -> SpatialLinkage:
     """The machine in space.
 
-    Raises InputError if the linkage has cranks, or guides other than those of columns, or a body has no width.
+    Raises InputError if the linkage has cranks, or guides other than those of actuators, or a body has no
+    width.
     """
     pairs = _pairs(linkage, width)
     _check(linkage, width, pairs)
@@ -74,27 +75,27 @@ def lift(linkage: Linkage, width: Width) -> SpatialLinkage:
         },
         bearings={name: bearing for pin in linkage.pins for name, bearing in _bearings(linkage, width, pin)}
         | {name: bearing for guide in linkage.slides for name, bearing in _guides(linkage, width, guide)},
-        columns={
-            name + side: _column(name, column, z, share, side, pairs)
-            for name, column in linkage.columns.items()
-            for side, z, share in copies(width.columns.get(name))
+        actuators={
+            name + side: _actuator(name, actuator, z, share, side, pairs)
+            for name, actuator in linkage.actuators.items()
+            for side, z, share in copies(width.actuators.get(name))
         },
         points={name: point for each in linkage.points for name, point in _points(linkage, width, each)},
     )
 
 
 def _pairs(linkage: Linkage, width: Width) -> dict[str, float]:
-    """Half the distance of all bodies that there are two of: those that are named, and those of columns."""
+    """Half the distance of all bodies that there are two of: those that are named, and those of actuators."""
     found = dict(width.pairs)
     for slide in linkage.slides.values():
-        for name, column in linkage.columns.items():
-            if name in width.columns and {column.foot, column.head} == {slide.against, slide.body}:
-                found[slide.against] = found[slide.body] = width.columns[name]
+        for name, actuator in linkage.actuators.items():
+            if name in width.actuators and {actuator.foot, actuator.head} == {slide.against, slide.body}:
+                found[slide.against] = found[slide.body] = width.actuators[name]
     return found
 
 
-def _in_columns(linkage: Linkage) -> set[str]:
-    """Bodies of columns, whose ends are spherical."""
+def _in_actuators(linkage: Linkage) -> set[str]:
+    """Bodies of actuators, whose ends are spherical."""
     return {body for slide in linkage.slides.values() for body in (slide.against, slide.body)}
 
 
@@ -107,20 +108,20 @@ def copies(half_distance: float | None) -> list[Copy]:
 
 def _check(linkage: Linkage, width: Width, pairs: Mapping[str, float]) -> None:
     for name in linkage.cranks:
-        raise InputError(f"cranks.{name}: not covered in space; allowed: pins and columns")
+        raise InputError(f"cranks.{name}: not covered in space; allowed: pins and actuators")
     for name, slide in linkage.slides.items():
         if slide.body not in pairs or slide.against not in pairs:
-            raise InputError(f"slides.{name}: not covered in space; allowed: guides of columns in two bodies")
+            raise InputError(f"slides.{name}: not covered in space; allowed: guides of actuators in two bodies")
     for name in linkage.bodies:
         if width.spreads.get(name, 0.0) <= 0.0:
             raise InputError(
                 f"width.spreads.{name}: missing; allowed: > 0, without which nothing resists its roll"
             )
-    for name, column in linkage.columns.items():
-        for body in (column.foot, column.head):
-            if body in width.pairs and name not in width.columns:
+    for name, actuator in linkage.actuators.items():
+        for body in (actuator.foot, actuator.head):
+            if body in width.pairs and name not in width.actuators:
                 raise InputError(
-                    f"columns.{name} on {body}, which is a pair: not covered; allowed: single bodies"
+                    f"actuators.{name} on {body}, which is a pair: not covered; allowed: single bodies"
                 )
 
 
@@ -152,7 +153,7 @@ def _bearings(linkage: Linkage, width: Width, name: str) -> Iterator[tuple[str, 
             f"pins.{name}: joins pairs {' and '.join(paired)} at different distances; allowed: one"
         )
     holds: frozenset[Literal["tilt", "along"]] = frozenset({"tilt", "along"})
-    if any(body in _in_columns(linkage) for body in paired):
+    if any(body in _in_actuators(linkage) for body in paired):
         holds = frozenset({"along"})
     elif any(_first_pin(linkage, body) != name for body in paired):
         holds = frozenset()
@@ -182,7 +183,7 @@ def _first_pin(linkage: Linkage, body: str) -> str:
 
 
 def _guides(linkage: Linkage, width: Width, name: str) -> Iterator[tuple[str, Bearing]]:
-    """The rod of a column in its cylinder, left and right."""
+    """The rod of an actuator in its cylinder, left and right."""
     slide = linkage.slides[name]
     axis = (math.cos(slide.direction), math.sin(slide.direction), 0.0)
     for side, z, share in copies(_pairs(linkage, width)[slide.body]):
@@ -203,15 +204,15 @@ def _guides(linkage: Linkage, width: Width, name: str) -> Iterator[tuple[str, Be
         )
 
 
-def _column(
-    name: str, column: Column, z: float, share: float, side: str, pairs: Mapping[str, float]
-) -> SpatialColumn:
-    return SpatialColumn(
-        foot=column.foot + side * (column.foot in pairs),
-        head=column.head + side * (column.head in pairs),
-        foot_point=at(column.foot_point, z),
-        head_point=at(column.head_point, z),
-        column=name,
+def _actuator(
+    name: str, actuator: LinearActuator, z: float, share: float, side: str, pairs: Mapping[str, float]
+) -> SpatialActuator:
+    return SpatialActuator(
+        foot=actuator.foot + side * (actuator.foot in pairs),
+        head=actuator.head + side * (actuator.head in pairs),
+        foot_point=at(actuator.foot_point, z),
+        head_point=at(actuator.head_point, z),
+        actuator=name,
         share=share,
     )
 

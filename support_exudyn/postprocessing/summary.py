@@ -34,7 +34,7 @@ def what_was_run(result: Result) -> list[Row]:
     rows += [(f"pin {name}", _pin(result, name, pin)) for name, pin in scenario.pins.items()]
     if others:
         rows.append(("ideal pins", ", ".join(others)))
-    parts = {**scenario.columns, **scenario.parts, **scenario.loads}
+    parts = {**scenario.actuators, **scenario.parts, **scenario.loads}
     rows += [(name, words(part)) for name, part in parts.items()]
     rows += [("drive", words(scenario.drive))]
     rows += [(f"drive of {name}", words(drive)) for name, drive in scenario.drives.items()]

@@ -14,8 +14,8 @@ from support_exudyn.mechanics.channels import ALL_CHANNELS, ChannelDefinition
 from support_exudyn.mechanics.initial_eccentricity import eccentric
 from support_exudyn.mechanics.plane_channels import channel_definitions
 from support_exudyn.mechanics.space.channels import channel_definitions as spatial_channel_definitions
-from support_exudyn.model.columns import (
-    ColumnModel,
+from support_exudyn.model.actuators import (
+    ActuatorModel,
     CylinderAndRod,
     OilColumn,
     OwnBody,
@@ -46,13 +46,13 @@ class ScenarioData(Value, ABC):
     Arguments:
         machine: what is simulated.
         pins: for each pin that is not ideal (or to say so), what it is, by name.
-        columns: for each column that is not rigid and massless (or to say so), what it is, by name.
+        actuators: for each actuator that is not rigid and massless (or to say so), what it is, by name.
         parts: for each part that is not fixed to its body (or to say so), what it is, by name.
-        drive: how all driven parts move: columns extend [m], cranks turn [rad]. Into an oil column it lets oil.
-            A `HydraulicCylinder` follows none, it has an inlet of its own.
-        drives: for each driven part, a column or crank, that moves otherwise, how it does, by name. A part that
-            follows another by the machine's making, such as the ram of a two-leg shield, does so unless it is
-            named here.
+        drive: how all driven parts move: actuators extend [m], cranks turn [rad]. Into an oil column it lets
+            oil. A `HydraulicCylinder` follows none, it has an inlet of its own.
+        drives: for each driven part, an actuator or crank, that moves otherwise, how it does, by name. A part
+            that follows another by the machine's making, such as the ram of a two-leg shield, does so unless it
+            is named here.
         loads: what presses on the machine besides its weight, by name; in the plane, redundant formulation.
         duration: end time [s], > 0; the run starts at 0.
         dimensions: 2: in the plane, both sides of a machine lumped; 3: in space, for machines that know their
@@ -84,7 +84,7 @@ class ScenarioData(Value, ABC):
 
     machine: Machine
     pins: Mapping[str, Pin] = field(default_factory=dict)
-    columns: Mapping[str, ColumnModel] = field(default_factory=dict)
+    actuators: Mapping[str, ActuatorModel] = field(default_factory=dict)
     parts: Mapping[str, PartModel] = field(default_factory=dict)
     drive: Drive = field(default_factory=Held)
     drives: Mapping[str, Drive] = field(default_factory=dict)
@@ -134,12 +134,14 @@ class ScenarioData(Value, ABC):
 
     def _modelled(self) -> Linkage:
         """The same with all journals where the machine has them."""
-        heavy = {name: column for name, column in self.columns.items() if isinstance(column, CylinderAndRod)}
+        heavy = {
+            name: actuator for name, actuator in self.actuators.items() if isinstance(actuator, CylinderAndRod)
+        }
         if not heavy and not self.own_bodies:
             return self.machine.linkage()
         linkage = self.machine.detailed(tuple(heavy), tuple(self.own_bodies))
         for name, model in heavy.items():
-            if name in linkage.columns and linkage.columns[name].driven:
+            if name in linkage.actuators and linkage.actuators[name].driven:
                 linkage = with_cylinder_and_rod(linkage, name, model)
         return linkage
 
@@ -149,12 +151,12 @@ class ScenarioData(Value, ABC):
         return self.machine.in_space(self.linkage)
 
     def drive_of(self, name: str) -> Drive:
-        """The drive that a column or crank follows; `Held` for a column that is not driven or is a cylinder."""
+        """The drive that an actuator or crank follows; `Held` for one that is not driven, or is a cylinder."""
         whole = name
-        if self.dimensions == 3 and name in self.space.columns:  # one of a pair
-            whole = self.space.columns[name].column
-        columns = self.linkage.columns
-        if whole in self.cylinders or (whole in columns and not columns[whole].driven):
+        if self.dimensions == 3 and name in self.space.actuators:  # one of a pair
+            whole = self.space.actuators[name].actuator
+        actuators = self.linkage.actuators
+        if whole in self.cylinders or (whole in actuators and not actuators[whole].driven):
             return Held()
         said = self.drives.get(name, self.drives.get(whole))
         if said is not None:
@@ -184,17 +186,17 @@ class ScenarioData(Value, ABC):
         """The drives of all driven parts of the plane, by name; in space once for either side."""
         if self.dimensions == 2:
             return ({name: self.drive_of(name) for name in self.driven},)
-        parts = {name: self.space.parts_of_column(name) for name in self.linkage.driven}
+        parts = {name: self.space.parts_of_actuator(name) for name in self.linkage.driven}
         sides = ({name: self.drive_of(part[n % len(part)]) for name, part in parts.items()} for n in (0, 1))
         return tuple(sides)
 
     @property
     def driven(self) -> tuple[str, ...]:
-        """Names of all parts that follow a drive: columns, then cranks."""
+        """Names of all parts that follow a drive: actuators, then cranks."""
         if self.dimensions == 2:
             return tuple(name for name in self.linkage.driven if name not in self.cylinders)
-        columns = self.space.columns.items()
-        return tuple(name for name, column in columns if self.linkage.columns[column.column].driven)
+        actuators = self.space.actuators.items()
+        return tuple(name for name, actuator in actuators if self.linkage.actuators[actuator.actuator].driven)
 
     @cached_property
     def drives_in_use(self) -> tuple[Drive, ...]:
@@ -217,7 +219,9 @@ class ScenarioData(Value, ABC):
         """All channels that could be asked for, by name."""
         if self.dimensions == 3:
             return spatial_channel_definitions(self.space, self.clearance_pins, self.oil_columns)
-        return channel_definitions(self.linkage, self.pins, self.compliant_columns, self.loads, self.cylinders)
+        return channel_definitions(
+            self.linkage, self.pins, self.compliant_actuators, self.loads, self.cylinders
+        )
 
     @property
     def goal(self) -> float | None:
@@ -246,18 +250,18 @@ class ScenarioData(Value, ABC):
 
     @property
     def oil_columns(self) -> dict[str, OilColumn]:
-        """The columns that give, and jacks that do, by name."""
+        """The actuators that give, and jacks that do, by name."""
         jacks = {self.machine.jacks[name]: part.jack for name, part in self.own_bodies.items()}
-        return {name: oil for name, column in {**self.columns, **jacks}.items() if (oil := column.oil)}
+        return {name: oil for name, actuator in {**self.actuators, **jacks}.items() if (oil := actuator.oil)}
 
     @property
     def cylinders(self) -> dict[str, HydraulicCylinder]:
-        """The columns that are hydraulic cylinders, by name."""
-        return {name: one for name, one in self.columns.items() if isinstance(one, HydraulicCylinder)}
+        """The actuators that are hydraulic cylinders, by name."""
+        return {name: one for name, one in self.actuators.items() if isinstance(one, HydraulicCylinder)}
 
     @property
-    def compliant_columns(self) -> tuple[str, ...]:
-        """Names of the columns whose length no constraint holds: those of oil and cylinders."""
+    def compliant_actuators(self) -> tuple[str, ...]:
+        """Names of the actuators whose length no constraint holds: those of oil and cylinders."""
         return *self.oil_columns, *self.cylinders
 
     @property

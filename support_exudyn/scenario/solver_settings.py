@@ -26,8 +26,8 @@ class SolverSettings(Value):
             spectral radius and needs constraints of index 2.
         constraint_index: 3: constraints hold the positions; 2: the velocities, so that pins drift apart (on the
             support by 1e-9 m in a rise, 1e-6 m in a second of impacts). The engine's generalised alpha has 3
-            only. With 2 cranks follow the drive's speed, and rigid columns that move are refused: the engine's
-            have no speed.
+            only. With 2 cranks follow the drive's speed, and rigid actuators that move are refused: the
+            engine's have no speed.
         spectral_radius: rho at infinite frequency, from 0 (all high-frequency content damped out in a
             step) to 1 (none). At 0.5 the joint forces are quiet at small steps; at 0.9 rounding
             shows in them below a step of 0.2 ms.
@@ -55,7 +55,7 @@ class SolverSettings(Value):
             "auto": compiled in the reduced formulation, else Python.
         sections: in how many places along its axis the contact of a clearance pin is evaluated in space, 2 to
             64, the edges among them. Where a pin is not tilted any number gives the same; a tilted one on oil
-            columns driven unequally by 2 % is right to 2 % with 5 and to 4e-4 with 9.
+            actuators driven unequally by 2 % is right to 2 % with 5 and to 4e-4 with 9.
         most_steps: after how many steps, repeated ones among them, a run is given up, from 1 to 1e12.
         result_checks: whether a run is refused whose energy does not add up by 5 % of what was turned over,
             whose joints come apart by 0.1 mm, or whose journals are deeper in their bores than a fifth of the

@@ -173,7 +173,7 @@ def _loaded_rate(system: Kinetics, name: str, load: Load) -> Matrix:
 def _compliant(scenario: Scenario) -> list[float]:
     """One over the angular frequency of what stiff loads and compliant pins hold, in the start posture [s]."""
     linkage = scenario.linkage
-    rigid = tuple(column for column in linkage.columns if column not in scenario.compliant_columns)
+    rigid = tuple(actuator for actuator in linkage.actuators if actuator not in scenario.compliant_actuators)
     free = kinetics_of(linkage, scenario.held_pins, rigid)
     still, found = np.zeros(3 * len(linkage.bodies)), []
     springs: list[tuple[tuple[float, ...], Matrix]]

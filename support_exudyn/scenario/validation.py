@@ -45,7 +45,7 @@ def check(scenario: ScenarioData) -> None:
         raise ValueError(
             f"record_period = {scenario.record_period} s: allowed: at most the duration, {scenario.duration} s"
         )
-    _check_columns(scenario, linkage)
+    _check_actuators(scenario, linkage)
     _check_drives(scenario, linkage)
     if scenario.channels != ALL_CHANNELS:
         check_patterns(scenario.channel_definitions, scenario.channels)
@@ -61,7 +61,7 @@ def _check_space(scenario: ScenarioData) -> None:
             f"formulation = {scenario.formulation!r}: is planar; allowed in space: 'auto', 'redundant'"
         )
     for name in scenario.cylinders:
-        raise ValueError(f"columns.{name} = HydraulicCylinder: is planar; allowed in space: OilColumn")
+        raise ValueError(f"actuators.{name} = HydraulicCylinder: is planar; allowed in space: OilColumn")
     for name, pin in scenario.pins.items():
         if refused := pin.refused_by("space"):
             part, what, allowed = refused
@@ -76,37 +76,37 @@ def _check_space(scenario: ScenarioData) -> None:
 
 
 def _check_pairs(scenario: ScenarioData, space: SpatialLinkage) -> None:
-    """Rigid columns of a pair cannot be driven apart: what they stand under is rigid, too."""
-    for name, column in space.columns.items():
-        if column.column in scenario.oil_columns:
+    """Rigid actuators of a pair cannot be driven apart: what they stand under is rigid, too."""
+    for name, actuator in space.actuators.items():
+        if actuator.actuator in scenario.oil_columns:
             continue
-        for other in space.parts_of_column(column.column):
+        for other in space.parts_of_actuator(actuator.actuator):
             if scenario.drive_of(other) != scenario.drive_of(name):
                 raise ValueError(
                     f"drives.{name}: is not the drive of {other}, and both are rigid; "
-                    "allowed for a pair of rigid columns: one drive, or columns of oil"
+                    "allowed for a pair of rigid actuators: one drive, or columns of oil"
                 )
 
 
-def _check_columns(scenario: ScenarioData, linkage: Linkage) -> None:
-    driven = [name for name, column in linkage.columns.items() if column.driven]
-    for name, column in scenario.columns.items():
+def _check_actuators(scenario: ScenarioData, linkage: Linkage) -> None:
+    driven = [name for name, actuator in linkage.actuators.items() if actuator.driven]
+    for name, actuator in scenario.actuators.items():
         if name not in driven:
             raise ValueError(
-                f"columns.{name}: the machine has no such column; allowed: {', '.join(driven) or 'none'}"
+                f"actuators.{name}: the machine has no such actuator; allowed: {', '.join(driven) or 'none'}"
             )
-        for one in scenario.space.parts_of_column(name) if scenario.dimensions == 3 else (name,):
-            column.check_extension(scenario.drive_of(one).span(scenario.duration)[0], one)
-        if isinstance(column, HydraulicCylinder):
-            column.check_length(linkage.columns[name].start_length, name)
+        for one in scenario.space.parts_of_actuator(name) if scenario.dimensions == 3 else (name,):
+            actuator.check_extension(scenario.drive_of(one).span(scenario.duration)[0], one)
+        if isinstance(actuator, HydraulicCylinder):
+            actuator.check_length(linkage.actuators[name].start_length, name)
             if name in scenario.drives:
                 raise ValueError(
                     f"drives.{name}: is a HydraulicCylinder, which follows no drive; allowed: none, but "
-                    f"columns.{name}.inlet"
+                    f"actuators.{name}.inlet"
                 )
     if scenario.cylinders and not scenario.driven and scenario.drive != Held():
         raise ValueError(
-            f"drive = {type(scenario.drive).__name__}: nothing follows it, for all columns are "
+            f"drive = {type(scenario.drive).__name__}: nothing follows it, for all actuators are "
             "HydraulicCylinder, which move by their inlet; allowed: Held()"
         )
 
@@ -137,7 +137,7 @@ def _check_motion(scenario: ScenarioData, drives: Mapping[str, Drive]) -> None:
 
 def _check_loads(scenario: ScenarioData) -> None:
     linkage = scenario.unloaded
-    taken = {"pin", "energy", "time", *linkage.bodies, *linkage.points, *linkage.driven, *linkage.columns}
+    taken = {"pin", "energy", "time", *linkage.bodies, *linkage.points, *linkage.driven, *linkage.actuators}
     taken |= {*linkage.pins, *linkage.slides}
     for name, load in scenario.loads.items():
         if scenario.dimensions == 3:

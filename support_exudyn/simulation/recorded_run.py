@@ -22,7 +22,7 @@ class RecordedRun:
     scenario: what was run. channels: quantities over time by name, see `result["tip.x"]`.
     onsets: for each clearance pin the beginnings of contact. largest_force: for each clearance pin the
     largest force [N] at any time, also inside steps. impulses: where the speed of
-    rigid columns or cranks jumped. counts: what the solver did.
+    rigid actuators or cranks jumped. counts: what the solver did.
     wall_time: [s], of building, settling and integrating, of all runs that an accuracy took.
     provenance: versions and platform.
     goal: the accuracy that was asked for, None if none was; `scenario` then has the settings that were chosen.

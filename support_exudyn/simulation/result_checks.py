@@ -100,7 +100,7 @@ def _who_loses(scenario: Scenario, kind: str) -> str:
     found = [f"pins.{name} = {type(law).__name__}" for name, law in laws.items()]
     if kind == "damping_loss":
         found += [f"loads.{name} = {type(load).__name__}" for name, load in scenario.loads.items()]
-        found += [f"columns.{name}" for name in scenario.compliant_columns]
+        found += [f"actuators.{name}" for name in scenario.compliant_actuators]
     return "of " + ", ".join(found)
 
 
@@ -111,9 +111,11 @@ def _pistons_at_ends(scenario: Scenario, outcome: Outcome) -> Iterator[Failure]:
         return
     motion = BodyMotion(scenario.linkage, run.position, run.velocity, run.acceleration)
     for name, cylinder in scenario.cylinders.items():
-        column = scenario.linkage.columns[name]
-        span = motion.place(column.head, column.head_point) - motion.place(column.foot, column.foot_point)
-        extension = np.hypot(*span.T) - column.start_length
+        actuator = scenario.linkage.actuators[name]
+        span = motion.place(actuator.head, actuator.head_point) - motion.place(
+            actuator.foot, actuator.foot_point
+        )
+        extension = np.hypot(*span.T) - actuator.start_length
         for end, beyond in (
             ("drawn in", extension < -cylinder.oil_length),
             ("extended", extension > cylinder.rod_side_length),
@@ -146,7 +148,7 @@ def turned_over(channels: Mapping[str, Channel]) -> float:
 
 
 def joints_apart(scenario: Scenario, outcome: Outcome) -> Series | None:
-    """Largest distance of what ideal pins, rigid columns and guides hold together, at the records (n,) [m].
+    """Largest distance of what ideal pins, rigid actuators and guides hold together, at the records (n,) [m].
 
     None for runs in space.
     """
@@ -156,19 +158,21 @@ def joints_apart(scenario: Scenario, outcome: Outcome) -> Series | None:
     linkage, time = scenario.linkage, run.time
     motion = BodyMotion(linkage, run.position, run.velocity, run.acceleration)
     gaps = np.zeros_like(time)
-    drives = {name: scenario.drive_of(name) for name in linkage.columns}
-    extensions: dict[int, Series] = {}  # of drives, which columns share
+    drives = {name: scenario.drive_of(name) for name in linkage.actuators}
+    extensions: dict[int, Series] = {}  # of drives, which actuators share
     for name, pin in linkage.pins.items():
         if scenario.pin(name).holds:
             apart = motion.place(pin.first, pin.first_point) - motion.place(pin.second, pin.second_point)
             gaps = np.maximum(gaps, np.hypot(*apart.T))
-    for name, column in linkage.columns.items():
-        if name not in scenario.compliant_columns:
-            span = motion.place(column.head, column.head_point) - motion.place(column.foot, column.foot_point)
+    for name, actuator in linkage.actuators.items():
+        if name not in scenario.compliant_actuators:
+            span = motion.place(actuator.head, actuator.head_point) - motion.place(
+                actuator.foot, actuator.foot_point
+            )
             drive = drives[name]
             if id(drive) not in extensions:
                 extensions[id(drive)] = np.array([drive.extension(t) for t in time.tolist()])
-            wanted = column.start_length + extensions[id(drive)]
+            wanted = actuator.start_length + extensions[id(drive)]
             gaps = np.maximum(gaps, np.abs(np.hypot(*span.T) - wanted))
     for slide in linkage.slides.values():
         apart = motion.place(slide.body, slide.point) - motion.place(slide.against, slide.point)

@@ -5,7 +5,7 @@ from dataclasses import replace
 from support_exudyn.files.machines import reference_support
 from support_exudyn.formulations import reduced, tree
 from support_exudyn.formulations.contract import silent
-from support_exudyn.model.columns import OilColumn
+from support_exudyn.model.actuators import OilColumn
 from support_exudyn.model.pins import ClearancePin
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.contact import JournalContact
@@ -27,4 +27,4 @@ def precompile() -> None:
     reduced.run(with_clearance, silent)
     reduced.run(replace(with_clearance, pins={}), silent)
     oil = OilColumn(bore_area=0.1, oil_length=0.5, bulk_modulus=1.5e9)
-    tree.run(replace(with_clearance, columns=dict.fromkeys(with_clearance.linkage.columns, oil)), silent)
+    tree.run(replace(with_clearance, actuators=dict.fromkeys(with_clearance.linkage.actuators, oil)), silent)

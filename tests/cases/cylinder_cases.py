@@ -8,10 +8,10 @@ from typing import Any
 
 from support_exudyn import (
     Body,
-    Column,
     Held,
     HydraulicCylinder,
     Inlet,
+    LinearActuator,
     Linkage,
     Machine,
     Result,
@@ -45,7 +45,9 @@ class Ram(Machine):
     def linkage(self) -> Linkage:
         return Linkage(
             bodies={"ram": Body(mass=MASS, inertia=1.0, centre=(0.0, 1.6))},
-            columns={"jack": Column(foot=GROUND, head="ram", foot_point=(0.0, 0.0), head_point=(0.0, 1.6))},
+            actuators={
+                "jack": LinearActuator(foot=GROUND, head="ram", foot_point=(0.0, 0.0), head_point=(0.0, 1.6))
+            },
             slides={"guide": Slide(body="ram", point=(0.0, 1.6), direction=0.5 * math.pi)},
         )
 
@@ -54,7 +56,7 @@ def lift(cylinder: HydraulicCylinder, duration: float, step: float = 5e-4, recor
     return simulate(
         Scenario(
             machine=Ram(),
-            columns={"jack": cylinder},
+            actuators={"jack": cylinder},
             drive=Held(),
             duration=duration,
             step=step,
@@ -69,5 +71,5 @@ def opened(inlet: Inlet, **changes: Any) -> HydraulicCylinder:
 
 def on_cylinders(with_clearance: bool, inlet: Inlet | None = None, **changes: Any) -> Scenario:
     cylinder = CYLINDER if inlet is None else opened(inlet)
-    columns = dict.fromkeys(("front_column", "rear_column"), cylinder)
-    return (loose_support if with_clearance else support)(columns=columns, drive=Held(), **changes)
+    actuators = dict.fromkeys(("front_column", "rear_column"), cylinder)
+    return (loose_support if with_clearance else support)(actuators=actuators, drive=Held(), **changes)

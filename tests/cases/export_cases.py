@@ -26,7 +26,7 @@ MOVING = UniformSpeed(stroke=0.05, start=0.0, end=0.2)  # [m] in [s]
 def run(kind: str) -> Result:
     """A short run.
 
-    The support with a clearance pin in "plane" or "space", there also "tilted" by columns that are driven
+    The support with a clearance pin in "plane" or "space", there also "tilted" by actuators that are driven
     apart; with "ideal" pins; or the "slider-crank".
     """
     if kind == "tilted":
@@ -45,7 +45,7 @@ def tilted() -> Scenario:
     return loose_support(
         1.5,
         0.25,
-        columns=oil_columns(),
+        actuators=oil_columns(),
         drive=Held(),
         drives={"front_column_right": CubicStep(start=0.0, end=0.04, stroke=8e-3)},
         duration=0.05,

@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 from hypothesis import strategies as st
 
-from support_exudyn import Body, Column, Linkage, Machine, PinPlace, Scenario
+from support_exudyn import Body, LinearActuator, Linkage, Machine, PinPlace, Scenario
 from support_exudyn.formulations.redundant.run import run
 from support_exudyn.formulations.redundant.space.observation import SpatialObservation
 from support_exudyn.mechanics.trajectory import Outcome
@@ -54,11 +54,11 @@ class InSpace(Machine):
                 )
                 for b in space.bearings.values()
             },
-            columns={
-                c.column: Column(
+            actuators={
+                c.actuator: LinearActuator(
                     foot=c.foot, head=c.head, foot_point=c.foot_point[:2], head_point=c.head_point[:2]
                 )
-                for c in space.columns.values()
+                for c in space.actuators.values()
             },
         )
 

@@ -46,17 +46,17 @@ ROOF = Roof(
 RUBBING = IdealPin(friction=CubicCoulomb(sliding_coefficient=0.1), radius=0.06)
 SCENARIOS = {
     "redundant": BASE,
-    "tree": replace(BASE, machine=reference_support(), formulation="tree", columns=oil_columns()),
+    "tree": replace(BASE, machine=reference_support(), formulation="tree", actuators=oil_columns()),
     "reduced": replace(BASE, formulation="reduced", solver=replace(BASE.solver, tolerance=1e-6)),
     "space": replace(BASE, dimensions=3, duration=0.03, record_period=0.005),
     "accuracy": replace(BASE, accuracy="draft", channels=("tip.*",)),
-    "oil": replace(BASE, columns=oil_columns(), start="settled"),
-    "two bodies": replace(BASE, columns=cylinders_and_rods(), pins={"front_base": RUBBING}),
+    "oil": replace(BASE, actuators=oil_columns(), start="settled"),
+    "two bodies": replace(BASE, actuators=cylinders_and_rods(), pins={"front_base": RUBBING}),
     "tail beam": replace(BASE, parts={"tail_beam": OwnBody(jack=JACK)}),
-    "load": replace(BASE, loads={"roof": ROOF}, columns=oil_columns()),
+    "load": replace(BASE, loads={"roof": ROOF}, actuators=oil_columns()),
     "table": replace(BASE, drive=POINTS),
     "jumps": replace(BASE, drive=replace(POINTS, between="linear")),
-    "apart": replace(BASE, columns=oil_columns(), drives={"rear_column": POINTS}),
+    "apart": replace(BASE, actuators=oil_columns(), drives={"rear_column": POINTS}),
     "crank": Scenario(
         machine=ravn_slider_crank(), drive=Steady(rate=500.0), duration=0.01, step=1e-5, record_period=1e-4
     ),
@@ -107,7 +107,7 @@ def test_a_run_tells_what_came_out_and_where_it_is(tmp_path: Path, capsys: pytes
         assert any(line.strip().startswith(word) for line in lines)
     result = Result.load(tmp_path / "columns_apart.h5")
     assert result.scenario == read_scenario(tmp_path / "columns_apart.toml")
-    # the columns' lengths are 160 and 150 mm more than at the start, within what oil gives: 1.5 mm at 300 kN
+    # the actuators' lengths are 160 and 150 mm more than at the start, within what oil gives: 1.5 mm at 300 kN
     ends = {name: float(np.ptp(result[f"{name}.length"])) for name in ("front_column", "rear_column")}
     assert ends == pytest.approx({"front_column": 0.16, "rear_column": 0.15}, abs=1.5e-3)
 

@@ -36,9 +36,9 @@ def read_or_refused(path: Path) -> None:
     machine = taken_or_refused(lambda: load_support(path), f"{path}: ")
     if machine is not None:
         sound(machine)
-    columns = taken_or_refused(lambda: cylinders_and_rods(path=path), f"{path}: ")
-    for column in (columns or {}).values():
-        sound(column)
+    actuators = taken_or_refused(lambda: cylinders_and_rods(path=path), f"{path}: ")
+    for actuator in (actuators or {}).values():
+        sound(actuator)
 
 
 @given(text=some.mangled(st.just(MACHINE)))

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from support_exudyn import ImpactStand, Linkage, Scenario, SolverSettings, load_support, reference_support
-from support_exudyn.model.columns import ColumnModel, PartModel
+from support_exudyn.model.actuators import ActuatorModel, PartModel
 from support_exudyn.model.linkage import Body, Part, bar
 from support_exudyn.model.spatial_linkage import Bearing
 from support_exudyn.simulation.evidence.table import EvidenceTable
@@ -143,7 +143,7 @@ def test_a_body_cannot_be_called_type_which_data_could_not_keep() -> None:
         Linkage(bodies={"type": Body(mass=1.0, inertia=1.0, **BALL)})
 
 
-@pytest.mark.parametrize("kind", [ColumnModel, PartModel])
+@pytest.mark.parametrize("kind", [ActuatorModel, PartModel])
 def test_of_a_class_that_only_groups_others_nothing_can_be_made(kind: type[Value]) -> None:
     with pytest.raises(InputError, match=rf"^{kind.__name__}: is a kind of values; allowed: "):
         kind()

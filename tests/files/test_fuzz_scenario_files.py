@@ -22,7 +22,7 @@ step_ms = 0.5
 clearance_mm = 1.5
 bore_radius_mm = 65.5
 friction = {type = "CubicCoulomb", sliding_coefficient = 0.2}
-[columns.front_column]
+[actuators.front_column]
 type = "CylinderAndRod"
 rod_mass_kg = 300
 drive = {type = "OilColumn", bore_area_mm2 = 1e5, oil_length_mm = 500, bulk_modulus_GPa = 1.5}

@@ -151,11 +151,11 @@ def test_the_machines_file_says_its_stroke_and_bores() -> None:
 def test_drives_apart() -> None:
     found = scenario(
         TOP
-        + "[drives.front_column]\nmode = 1\n[columns.front_column]\n"
+        + "[drives.front_column]\nmode = 1\n[actuators.front_column]\n"
         + 'type = "OilColumn"\nbore_area_mm2 = 1e5\noil_length_mm = 500\nbulk_modulus_GPa = 1.5'
     )
     assert found.drives == {"front_column": UniformSpeed()}
-    assert found.columns == {"front_column": OilColumn(bore_area=0.1, oil_length=0.5, bulk_modulus=1.5e9)}
+    assert found.actuators == {"front_column": OilColumn(bore_area=0.1, oil_length=0.5, bulk_modulus=1.5e9)}
 
 
 def test_a_drive_from_a_table(tmp_path: Path) -> None:
@@ -164,16 +164,16 @@ def test_a_drive_from_a_table(tmp_path: Path) -> None:
     assert found.drive == TableDrive(times=(0.0, 1.0), extensions=(0.0, 0.1), between="linear")
 
 
-def test_one_table_drives_several_columns() -> None:
+def test_one_table_drives_several_actuators() -> None:
     with resources.as_file(EXAMPLES / "columns_apart.toml") as path:
         found = read_scenario(path)
         assert found.drives == read_drives(path.with_name("columns_apart.csv"))
 
 
-def test_columns_of_two_bodies_take_their_masses_from_the_machine() -> None:
-    found = scenario(TOP + '[columns.front_column]\ntype = "CylinderAndRod"\nrod_mass_kg = 300')
+def test_actuators_of_two_bodies_take_their_masses_from_the_machine() -> None:
+    found = scenario(TOP + '[actuators.front_column]\ntype = "CylinderAndRod"\nrod_mass_kg = 300')
     expected = replace(cylinders_and_rods()["front_column"], rod_mass=300.0)
-    assert found.columns == {"front_column": expected}
+    assert found.actuators == {"front_column": expected}
 
 
 def test_a_machine_of_its_own_file(tmp_path: Path) -> None:
@@ -209,7 +209,7 @@ def test_scenarios_are_read_as_they_were_written(data: st.DataObject) -> None:
     written = data.draw(some.values(Scenario))
     found = scenario(scenario_text(written))
     assert found == written
-    for name in ("pins", "columns", "parts", "drives", "loads"):  # the order of forces in a sum
+    for name in ("pins", "actuators", "parts", "drives", "loads"):  # the order of forces in a sum
         assert list(getattr(found, name)) == list(getattr(written, name))
 
 
@@ -266,8 +266,12 @@ def test_files_are_written_whole(tmp_path: Path) -> None:
             "a.toml: pins.rear: the machine has no such pin; allowed: rear_base, ",
         ),
         (
-            TOP + "[columns.front]\ntype = 'RigidColumn'",
-            "a.toml: columns.front: the machine has no such column; allowed: front_column, rear_column",
+            TOP + "[actuators.front]\ntype = 'RigidActuator'",
+            "a.toml: actuators.front: the machine has no such actuator; allowed: front_column, rear_column",
+        ),
+        (
+            TOP + "[columns.front_column]\ntype = 'RigidActuator'",
+            "a.toml: columns: unknown key; allowed: name, description, errors, machine, pins, actuators, ",
         ),
         (TOP + "[drives.x]\nmode = 1", "a.toml: drives.x: the machine has no such driven part; allowed: "),
         (TOP + WITH_CLEARANCE.replace("1.5", "-1"), "a.toml: pins.rear_base.clearance_mm = -1: allowed: > 0"),
@@ -328,8 +332,9 @@ def test_files_are_written_whole(tmp_path: Path) -> None:
         (TOP + "drives.table = 3", "a.toml: drives.table = 3: allowed: a table of type "),
         (TOP + "channels = ['tip.z']", "a.toml: channels = 'tip.z'"),
         (
-            TOP + "[columns.front_column]\ntype = 'CylinderAndRod'\nrod_mass = 3",
-            "a.toml: columns.front_column.rod_mass: is written with its unit; allowed: rod_mass_kg, rod_mass_t",
+            TOP + "[actuators.front_column]\ntype = 'CylinderAndRod'\nrod_mass = 3",
+            "a.toml: actuators.front_column.rod_mass: is written with its unit; "
+            "allowed: rod_mass_kg, rod_mass_t",
         ),
         (TOP + "duration_min = 1", "a.toml: duration_min: has another unit; allowed: duration_s, duration_ms"),
         (
@@ -413,8 +418,8 @@ def test_a_machine_of_nearly_the_same_name_is_told(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        (TOP + "drive.table = 'a.csv'", "columns of machines extend; allowed: names that end by _mm, _m"),
-        (TOP + "drives.rear_column.table = 'a.csv'", "columns of machines extend"),
+        (TOP + "drive.table = 'a.csv'", "linear actuators extend; allowed: names that end by _mm, _m"),
+        (TOP + "drives.rear_column.table = 'a.csv'", "linear actuators extend"),
         (
             'machine = "slider_crank"\nduration_s = 1\ndrive = {table = "a.csv", column = "other"}',
             "cranks turn",
@@ -425,7 +430,7 @@ def test_a_machine_of_nearly_the_same_name_is_told(tmp_path: Path) -> None:
         ),
     ],
 )
-def test_angles_drive_cranks_and_lengths_columns(tmp_path: Path, text: str, said: str) -> None:
+def test_angles_drive_cranks_and_lengths_actuators(tmp_path: Path, text: str, said: str) -> None:
     """By the number alone 10 degrees would be 175 mm."""
     (tmp_path / "a.csv").write_text("time_s,turn_deg,other_mm\n0,0,0\n1,10,10\n")
     (tmp_path / "b.csv").write_text("time_s,crank_mm\n0,0\n1,10\n")

@@ -114,8 +114,8 @@ def test_short_forms_are_taken(text: str) -> None:
         TOP + "drive = {type = 'CubicStep', stroke = 3}",
         TOP + "drive.table = 3",
         TOP + "drives.table = 3",
-        TOP + "columns.front_column = {type = 'CylinderAndRod', rod_mass = 3}",
-        TOP + "columns.front_column.type = 'OilColumn'",
+        TOP + "actuators.front_column = {type = 'CylinderAndRod', rod_mass = 3}",
+        TOP + "actuators.front_column.type = 'OilColumn'",
         TOP + "channels = 'tip.x'",
     ],
 )

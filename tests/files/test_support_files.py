@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from support_exudyn import OilColumn, RigidColumn, cylinders_and_rods, load_support, reference_support
+from support_exudyn import OilColumn, RigidActuator, cylinders_and_rods, load_support, reference_support
 from support_exudyn.model.linkage import lumped
 from tests.cases.machine_cases import PARTS, PIVOTS, PIVOTS_MM, support
 from user_forces import InputError
@@ -234,7 +234,7 @@ def test_columns_of_the_reference_support_are_uniform_bars() -> None:
     columns = cylinders_and_rods()
     assert sorted(columns) == ["front_column", "rear_column"]
     for column in columns.values():
-        assert (column.cylinder_mass, column.rod_mass, column.drive) == (300.0, 200.0, RigidColumn())
+        assert (column.cylinder_mass, column.rod_mass, column.drive) == (300.0, 200.0, RigidActuator())
         # one rounding from mm to m
         assert (column.cylinder_centre, column.rod_centre) == pytest.approx((0.45, 0.45), rel=1e-15)
         assert column.cylinder_inertia == pytest.approx(300.0 * 0.81 / 12.0, rel=1e-14)

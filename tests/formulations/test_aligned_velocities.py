@@ -156,7 +156,7 @@ def test_in_space_too() -> None:
     scene.set_velocities(random.normal(size=6 * len(scene.bodies)))
     time = 0.037
     kinetics = scene.kinetics()
-    speeds = {name: scene.scenario.drive_of(name).speed(time) for name in scene.rigid_columns}
+    speeds = {name: scene.scenario.drive_of(name).speed(time) for name in scene.rigid_actuators}
     assert all(abs(speed) > 0.1 for speed in speeds.values())
     wanted = rates(kinetics.rows, speeds)
     rows, mass = matrix(kinetics.motion, kinetics.rows)[0], kinetics.mass()

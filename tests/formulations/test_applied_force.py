@@ -52,10 +52,10 @@ def test_a_body_that_it_accelerates_gets_its_work() -> None:
     assert result.energy_error < 1e-4 * 0.5 * MASS * speed**2
 
 
-@pytest.mark.parametrize("columns", [{}, ON_OIL], ids=["rigid", "oil"])
+@pytest.mark.parametrize("actuators", [{}, ON_OIL], ids=["rigid", "oil"])
 @pytest.mark.parametrize("force", [(0.0, -MEGANEWTON), (2e5, -5e5)])
-def test_columns_and_pins_carry_what_statics_say(columns: dict[str, object], force: Vector2) -> None:
-    result = pressed(pressing(force), columns=columns)
+def test_actuators_and_pins_carry_what_statics_say(actuators: dict[str, object], force: Vector2) -> None:
+    result = pressed(pressing(force), actuators=actuators)
     linkage = result.scenario.linkage
     closed = kinetics_of(linkage)
     position = np.concatenate(
@@ -76,7 +76,7 @@ def test_columns_and_pins_carry_what_statics_say(columns: dict[str, object], for
     for n, name in enumerate(linkage.pins):
         size = float(np.hypot(*found[2 * n : 2 * n + 2]))
         assert result[f"pin.{name}.force"][-1] == pytest.approx(size, rel=1e-6)
-    for name, pull in zip(linkage.columns, found[closed.driven()], strict=True):
+    for name, pull in zip(linkage.actuators, found[closed.driven()], strict=True):
         assert result[f"{name}.force"][-1] == pytest.approx(-pull, rel=1e-6)
     # 1 MN over some tenths of a millimetre of oil
     assert result.energy_error < 1e-4 * max(1.0, result["energy.work"].max())
@@ -86,7 +86,7 @@ def test_a_support_can_start_settled_under_it() -> None:
     base = loose_support().pins[PIN].contact
     pin = ClearancePin(contact=replace(base, normal=replace(base.normal, damping_speed=IndentationVelocity())))
     load = pressing(start=0.0, end=0.0)
-    result = pressed(load, pins={PIN: pin}, columns=ON_OIL, start="settled", drive=Held(), duration=0.05)
+    result = pressed(load, pins={PIN: pin}, actuators=ON_OIL, start="settled", drive=Held(), duration=0.05)
     # at rest at once: what is left of the static solver's tolerance
     assert np.ptp(result["tip.y"]) < 1e-7
     assert np.ptp(result["front_column.force"]) < 1e-4 * result["front_column.force"][0]

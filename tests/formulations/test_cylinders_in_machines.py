@@ -1,4 +1,4 @@
-"""Hydraulic cylinders among clearance pins, rigid columns and loads; and what runs on them must say."""
+"""Hydraulic cylinders among clearance pins, rigid actuators and loads; and what runs on them must say."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def test_a_machine_with_closed_valves_stays_where_it_is() -> None:
         # rounding of a length of 1.6 m, over a second; 1e-9 m was asked for
         assert np.ptp(result[f"{name}.length"]) < 1e-12
         assert np.ptp(result[f"{name}.pressure"]) < 1.0  # [Pa]
-    np.testing.assert_allclose(result[FORCE], 58778.944, rtol=1e-6)  # as with rigid columns
+    np.testing.assert_allclose(result[FORCE], 58778.944, rtol=1e-6)  # as with rigid actuators
     settled = simulate(on_cylinders(True, start="settled", duration=0.3))
     # the journal has sunk, and pressures have changed with the posture
     assert np.ptp(settled["rear_column.length"]) < 1e-10
@@ -44,7 +44,7 @@ def test_one_closed_chamber_is_a_column_of_oil() -> None:
     runs = [
         simulate(
             loose_support(
-                columns=dict.fromkeys(("front_column", "rear_column"), one), drive=Held(), duration=0.1
+                actuators=dict.fromkeys(("front_column", "rear_column"), one), drive=Held(), duration=0.1
             )
         )
         for one in (cylinder, oil)
@@ -79,7 +79,7 @@ def test_a_ram_is_set_against_a_roof_with_the_pressure_of_the_pump() -> None:
     roof = Roof(body="ram", point=(0.0, 1.6), gap=0.03, stiffness=1e9, descent=Held(), damping=1e-3)
     cylinder = opened(SuddenOpening(start=0.05, end=2.0), damping=5e4)
     scenario = Scenario(
-        machine=Ram(), loads={"roof": roof}, columns={"jack": cylinder}, drive=Held(), duration=1.0, step=5e-4
+        machine=Ram(), loads={"roof": roof}, actuators={"jack": cylinder}, drive=Held(), duration=1.0, step=5e-4
     )
     result = simulate(scenario)
     # the trapezoidal rule hops about the end by the flow of a step, some 100 Pa
@@ -89,11 +89,11 @@ def test_a_ram_is_set_against_a_roof_with_the_pressure_of_the_pump() -> None:
     assert result.energy_error < 1e-4 * result["energy.work"][-1]
 
 
-def test_cylinders_stand_beside_rigid_columns_whose_speed_jumps() -> None:
-    columns = {"front_column": opened(SuddenOpening(start=0.1, end=0.3, extent=0.5))}
-    scenario = support(columns=columns, drive=UniformSpeed(start=0.1, end=2.1), duration=0.2)
+def test_cylinders_stand_beside_rigid_actuators_whose_speed_jumps() -> None:
+    actuators = {"front_column": opened(SuddenOpening(start=0.1, end=0.3, extent=0.5))}
+    scenario = support(actuators=actuators, drive=UniformSpeed(start=0.1, end=2.1), duration=0.2)
     coarse, fine = (simulate(replace(scenario, step=step)) for step in (5e-4, 2.5e-4))
-    assert list(fine.impulses[0].columns) == ["rear_column"]
+    assert list(fine.impulses[0].actuators) == ["rear_column"]
     assert fine.energy_error < 0.4 * coarse.energy_error  # 0.25 for second order
     assert fine.energy_error < 1e-4 * fine["energy.work"][-1]
 

@@ -20,7 +20,7 @@ def apart() -> Result:
     return simulate(support(drive=FRONT, drives={"rear_column": REAR}, duration=0.5, step=1e-3))
 
 
-def test_columns_driven_apart_bring_the_support_where_their_lengths_say(apart: Result) -> None:
+def test_actuators_driven_apart_bring_the_support_where_their_lengths_say(apart: Result) -> None:
     machine = reference_support()
     start = machine.start()
     before = np.array(machine.column_lengths(start))
@@ -43,7 +43,7 @@ def test_columns_driven_apart_bring_the_support_where_their_lengths_say(apart: R
         assert turned == pytest.approx(posture.rear_link - start.rear_link, abs=1e-8)
 
 
-def test_energy_adds_up_where_columns_are_driven_apart(apart: Result) -> None:
+def test_energy_adds_up_where_actuators_are_driven_apart(apart: Result) -> None:
     assert apart["energy.work"].max() > 500.0
     # Each by its own force and speed. At a break of one drive the force on the other, which moves, jumps, and
     # overshoots for some of the refined steps after it: 6e-5 at 1 ms, of first order in the step
@@ -60,13 +60,13 @@ def test_a_part_that_is_told_the_same_drive_changes_nothing(apart: Result) -> No
         np.testing.assert_array_equal(one[name], other[name])  # the same numbers in the same order
 
 
-def test_a_jump_of_one_column_strikes_the_other_too() -> None:
+def test_a_jump_of_one_actuator_strikes_the_other_too() -> None:
     drive = UniformSpeed(stroke=0.05, start=0.1, end=0.3)
     result = simulate(support(drives={"front_column": drive}, duration=0.2))
     (impulse,) = result.impulses
     # only the front column moves, and so only its impulse does work: the impulse times half the speed; rounding
-    assert impulse.energy == pytest.approx(0.5 * 0.25 * impulse.columns["front_column"], rel=1e-9)
-    assert abs(impulse.columns["rear_column"]) > 1.0
+    assert impulse.energy == pytest.approx(0.5 * 0.25 * impulse.actuators["front_column"], rel=1e-9)
+    assert abs(impulse.actuators["rear_column"]) > 1.0
     np.testing.assert_allclose(result["rear_column.length"], result["rear_column.length"][0], atol=1e-11)
     # a step after the jump is known by its end only: second order of the step, of 40 J
     assert result.energy_error < 1e-3 * impulse.energy
@@ -75,7 +75,7 @@ def test_a_jump_of_one_column_strikes_the_other_too() -> None:
 def test_a_jump_of_an_oil_column_strikes_nothing() -> None:
     drive = UniformSpeed(stroke=0.05, start=0.1, end=0.3)
     result = simulate(
-        support(drives={"front_column": drive}, columns={"front_column": OIL}, duration=0.15, step=1e-4)
+        support(drives={"front_column": drive}, actuators={"front_column": OIL}, duration=0.15, step=1e-4)
     )
     assert result.impulses == ()
     assert result.energy_error < 1e-3 * result["energy.work"][-1]  # as above
@@ -92,7 +92,7 @@ def test_the_tree_follows_the_drives_too() -> None:
     scene = {
         "drive": FRONT,
         "drives": {"rear_column": REAR},
-        "columns": {"front_column": OIL, "rear_column": OIL},
+        "actuators": {"front_column": OIL, "rear_column": OIL},
         "duration": 0.22,
     }
     tree = simulate(loose_support(formulation="tree", **scene))

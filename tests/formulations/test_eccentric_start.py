@@ -66,7 +66,7 @@ def test_a_journal_pressed_in_starts_with_the_force_of_its_law(bore: str) -> Non
 def test_the_tree_and_space_start_and_go_on_alike(bore: str, over: float) -> None:
     # pressed in on the side from which it flies across the bore, or free
     place = (0.0, -sense(bore) * (CLEARANCE + over)) if over else (1e-3, -5e-4)
-    scenario = eccentric(*place, bore, columns=oil_columns())
+    scenario = eccentric(*place, bore, actuators=oil_columns())
     flat = simulate(scenario)
     tree = simulate(replace(scenario, formulation="tree"))
     space = simulate(replace(scenario, dimensions=3))

@@ -49,7 +49,7 @@ def block(**changes: object) -> FallingBlock:
 
 
 def on_the_held(rock: FallingBlock, **changes: object) -> Scenario:
-    """The block over the reference support on rigid columns and ideal pins, which nothing moves."""
+    """The block over the reference support on rigid actuators and ideal pins, which nothing moves."""
     fields: dict[str, object] = {"machine": reference_support(), "loads": {"rock": rock}, "duration": 0.5}
     return Scenario(**fields | changes)
 
@@ -144,9 +144,9 @@ def test_it_comes_to_rest_with_its_weight() -> None:
     depth = (MASS * G / 1e9) ** (1.0 / 1.5)
     assert result["rock.force"][-1] == pytest.approx(MASS * G, rel=2e-3)  # what is left of swings
     assert result["rock.gap"][-1] == pytest.approx(-depth, rel=2e-3)
-    columns = result["front_column.force"][-1] + result["rear_column.force"][-1]
+    actuators = result["front_column.force"][-1] + result["rear_column.force"][-1]
     before = result["front_column.force"][100] + result["rear_column.force"][100]
-    assert columns - before == pytest.approx(MASS * G, rel=0.02)  # columns lean by some degrees
+    assert actuators - before == pytest.approx(MASS * G, rel=0.02)  # actuators lean by some degrees
 
 
 # --- on what gives ---
@@ -235,7 +235,7 @@ def test_on_the_support_energies_add_up_and_half_the_steps_give_the_same(place: 
         else {}
     )
     scene = on_the_held(
-        block(point=PLACES[place]), columns=ON_OIL, pins=with_clearance, duration=0.4,
+        block(point=PLACES[place]), actuators=ON_OIL, pins=with_clearance, duration=0.4,
         solver=SolverSettings(impact_steps=128),
     )  # fmt: skip
     coarse, fine = simulate(scene), simulate(scene.refined())
@@ -283,7 +283,7 @@ def test_it_can_be_saved_and_read(tmp_path: object) -> None:
 @pytest.mark.parametrize("rock", [block(), block(height=0.1, speed=1.0)], ids=["dropped", "thrown"])
 def test_it_hangs_while_the_support_settles(rock: FallingBlock) -> None:
     with_clearance = {paper_machine.CLEARANCE_PIN: paper_machine.clearance_joint(1.5, 0.0)}
-    scene = on_the_held(rock, columns=ON_OIL, pins=with_clearance, start="settled", duration=0.06)
+    scene = on_the_held(rock, actuators=ON_OIL, pins=with_clearance, start="settled", duration=0.06)
     result, alone = simulate(scene), simulate(replace(scene, loads={}))
     # before it strikes the support stands as without it; Newton's tolerance of the static solution
     assert result["tip.y"] == pytest.approx(alone["tip.y"], abs=1e-9)

@@ -58,7 +58,7 @@ SCENES: dict[str, Callable[[Any], Scenario]] = {
     "settled": lambda m: Scenario(machine=m, pins=with_clearance(), start="settled", drive=RISE, duration=0.05),
     "settled, at rest": lambda m: Scenario(machine=m, pins=with_clearance(), start="settled", duration=0.02),
     "settled on oil": lambda m: Scenario(
-        machine=m, columns=dict.fromkeys(("front_column", "rear_column"), OIL), start="settled", duration=0.02
+        machine=m, actuators=dict.fromkeys(("front_column", "rear_column"), OIL), start="settled", duration=0.02
     ),
     "eccentric": lambda m: Scenario(machine=m, pins=with_clearance(eccentricity=(0.0, -0.001)), duration=0.02),
     "reduced": lambda m: Scenario(machine=m, pins=with_clearance(), formulation="reduced", duration=0.02),

@@ -29,8 +29,8 @@ def with_a_state() -> Scenario:
 SCENES = {
     "clearance support": loose_support(drive=Held(), duration=0.02),
     "ideal support": support(drive=Held(), duration=0.02),
-    "clearance support on oil": loose_support(drive=Held(), duration=0.02, columns=BOTH),
-    "ideal support on oil": support(drive=Held(), duration=0.02, columns=BOTH),
+    "clearance support on oil": loose_support(drive=Held(), duration=0.02, actuators=BOTH),
+    "ideal support on oil": support(drive=Held(), duration=0.02, actuators=BOTH),
     "settled support": loose_support(drive=Held(), duration=0.02, start="settled"),
     "friction with a state": with_a_state(),
     "clearance slider-crank": loose_slider_crank(1e-4),

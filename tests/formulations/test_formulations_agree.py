@@ -63,13 +63,13 @@ SCENES = {
     "slider-crank, friction, bore in the rod": turning(0.1, "second"),
 }
 ON_OIL = {
-    "drop on oil": loose_support(1.0, 0.25, drive=Held(), duration=0.05, columns=BOTH),
-    "rise on oil": loose_support(1.0, 0.0, drive=RISE, duration=0.06, columns=BOTH),
+    "drop on oil": loose_support(1.0, 0.25, drive=Held(), duration=0.05, actuators=BOTH),
+    "rise on oil": loose_support(1.0, 0.0, drive=RISE, duration=0.06, actuators=BOTH),
     "up and down on oil": loose_support(
-        1.0, drive=Reciprocating(stroke=0.02, period=0.1), duration=0.06, columns=BOTH
+        1.0, drive=Reciprocating(stroke=0.02, period=0.1), duration=0.06, actuators=BOTH
     ),
     "rise on oil, damped by depth": support(
-        drive=RISE, duration=0.12, columns=BOTH, pins=pressed_apart(1.0, 0.0, "first")
+        drive=RISE, duration=0.12, actuators=BOTH, pins=pressed_apart(1.0, 0.0, "first")
     ),
 }
 WAYS = {  # with settings that are ten times as fine as what is asserted needs

@@ -47,8 +47,8 @@ def test_the_speed_under_an_open_valve_and_the_pressure_after_it() -> None:
     # what rings has died out to 1e-4 of the speed
     np.testing.assert_allclose(result["ram.velocity_y"][rising], speed, rtol=1e-3)
     assert result["jack.flow"][rising].mean() == pytest.approx(speed * 0.098, rel=1e-3)
-    # at rest again: the oil carries the weight, and the rod side is as much less than the tank's as the column
-    # has moved on after the valve had closed
+    # at rest again: the oil carries the weight, and the rod side is as much less than the tank's as the
+    # actuator has moved on after the valve had closed
     assert result["jack.force"][-1] == pytest.approx(MASS * GRAVITY, rel=1e-3)
     closing = int(np.searchsorted(result.time, 1.5))
     pressures = [result[f"jack.{name}"][[closing, -1]] for name in ("pressure", "rod_pressure")]
@@ -137,14 +137,14 @@ def test_the_whole_support_on_cylinders_is_that_of_another_integrator_to_second_
         q, v, p = y[:n], y[n : 2 * n], y[2 * n :]
         force, changes = weight.copy(), []
         for k, name in enumerate(names):
-            column = linkage.columns[name]
-            foot, foot_rate = pins.point(q, column.foot, column.foot_point)
-            head, head_rate = pins.point(q, column.head, column.head_point)
+            actuator = linkage.actuators[name]
+            foot, foot_rate = pins.point(q, actuator.foot, actuator.foot_point)
+            head, head_rate = pins.point(q, actuator.head, actuator.head_point)
             length = float(np.hypot(*(head - foot)))
             along = (head - foot) / length @ (head_rate - foot_rate)
             piston, rod = p[2 * k : 2 * k + 2]
             force += along * (0.098 * piston - 0.03 * rod)
-            e, speed = length - column.start_length, float(along @ v)
+            e, speed = length - actuator.start_length, float(along @ v)
             changes += [
                 1.5e9 / (0.098 * (0.5 + e) + 5e-3) * (flow(31.5e6 - piston) - 0.098 * speed),
                 1.5e9 / (0.03 * (1.0 - e) + 3e-3) * (flow(0.5e6 - rod) + 0.03 * speed),
@@ -184,7 +184,7 @@ class ThrownRam(Ram):
         return replace(still, bodies={"ram": ram})
 
 
-def test_closed_oil_of_a_column_that_moves_at_the_start_follows_its_length() -> None:
+def test_closed_oil_of_an_actuator_that_moves_at_the_start_follows_its_length() -> None:
     cylinder = opened(ClosedInlet())
     before = np.array(cylinder.volumes(0.0))
     pressures = np.array([(MASS * GRAVITY + 0.5e6 * 0.03) / 0.098, 0.5e6])
@@ -192,7 +192,7 @@ def test_closed_oil_of_a_column_that_moves_at_the_start_follows_its_length() -> 
     def error(step: float) -> float:
         run = simulate(
             Scenario(
-                machine=ThrownRam(speed=0.05), columns={"jack": cylinder}, drive=Held(), duration=0.02,
+                machine=ThrownRam(speed=0.05), actuators={"jack": cylinder}, drive=Held(), duration=0.02,
                 step=step, record_period=1e-3,
             )
         )  # fmt: skip

@@ -40,7 +40,7 @@ SUPPORT = support()
 PINS = tuple(SUPPORT.linkage().pins)
 RISE = CubicStep(stroke=0.01, start=0.0, end=0.1)
 OIL = OilColumn(bore_area=bore_area(0.25, 2), oil_length=0.5, bulk_modulus=1.5e9)
-EQUATIONS = {"pin": 2, "column": 1, "crank": 1, "slide": 2}  # of an ideal one in the plane
+EQUATIONS = {"pin": 2, "actuator": 1, "crank": 1, "slide": 2}  # of an ideal one in the plane
 
 
 def with_clearance(friction: bool = True) -> ClearancePin:
@@ -69,8 +69,8 @@ def places(
     for name, pin in linkage.pins.items():
         if name not in clearance_joints:
             found |= {(pin.first, pin.first_point), (pin.second, pin.second_point)}
-    for column in linkage.columns.values():
-        found |= {(column.foot, column.foot_point), (column.head, column.head_point)}
+    for actuator in linkage.actuators.values():
+        found |= {(actuator.foot, actuator.foot_point), (actuator.head, actuator.head_point)}
     for slide in linkage.slides.values():
         found |= {(slide.body, slide.point), (GROUND, slide.point)}
     for load in loads.values():
@@ -84,7 +84,7 @@ def places(
 
 def touches_ground(linkage: Linkage) -> bool:
     ends = {end for pin in linkage.pins.values() for end in (pin.first, pin.second)}
-    ends |= {end for column in linkage.columns.values() for end in (column.foot, column.head)}
+    ends |= {end for actuator in linkage.actuators.values() for end in (actuator.foot, actuator.head)}
     return GROUND in ends or bool(linkage.slides)
 
 
@@ -93,12 +93,12 @@ def counted(one: Scenario, user_functions: int, callbacks: int) -> Inventory:
     linkage, free = one.linkage, one.clearance_pins
     numbers = {
         "pin": len(linkage.pins) - len(free),
-        "column": len(linkage.columns) - len(one.oil_columns),
+        "actuator": len(linkage.actuators) - len(one.oil_columns),
         "crank": len(linkage.cranks),
         "slide": len(linkage.slides),
     }
     bodies = len(linkage.bodies)
-    connectors = sum(map(len, (linkage.pins, linkage.columns, linkage.cranks, linkage.slides, one.loads)))
+    connectors = sum(map(len, (linkage.pins, linkage.actuators, linkage.cranks, linkage.slides, one.loads)))
     weighed = any(one.gravity)
     return Inventory(
         coordinates=3 * bodies,
@@ -123,7 +123,7 @@ NO_ENERGY = ("tip.*", "pin.*")
 # scenario, functions of Python that compute forces, functions that the engine calls every step
 CASES: dict[str, tuple[Scenario, int, int]] = {
     "ideal, held": (scenario(), 0, 0),
-    "ideal, driven: the length of columns, energies": (scenario(drive=RISE), 0, 2),
+    "ideal, driven: the length of actuators, energies": (scenario(drive=RISE), 0, 2),
     "ideal, driven, no energies": (scenario(drive=RISE, channels=NO_ENERGY), 0, 1),
     "ideal, driven, energies that need no integral": (scenario(drive=RISE, channels=("energy.kinetic",)), 0, 1),
     "ideal, speed jumps": (scenario(drive=UniformSpeed(stroke=0.01, start=0.02, end=0.1)), 0, 2),
@@ -141,19 +141,19 @@ CASES: dict[str, tuple[Scenario, int, int]] = {
         5,
         3,
     ),
-    "oil, held: losses": (scenario(columns=dict.fromkeys(SUPPORT.linkage().columns, OIL)), 0, 1),
+    "oil, held: losses": (scenario(actuators=dict.fromkeys(SUPPORT.linkage().actuators, OIL)), 0, 1),
     "oil, held, no energies": (
-        scenario(columns=dict.fromkeys(SUPPORT.linkage().columns, OIL), channels=NO_ENERGY),
+        scenario(actuators=dict.fromkeys(SUPPORT.linkage().actuators, OIL), channels=NO_ENERGY),
         0,
         0,
     ),
-    "one column of oil, driven": (scenario(columns={"front_column": OIL}, drive=RISE), 0, 2),
+    "one column of oil, driven": (scenario(actuators={"front_column": OIL}, drive=RISE), 0, 2),
     # the engine follows the roof by itself; energies remain
     "roof": (scenario(loads={"roof": over_the_canopy(0.1)}), 0, 1),
     "roof, no energies": (scenario(loads={"roof": over_the_canopy(0.1)}, channels=NO_ENERGY), 0, 0),
-    "roof in the heads of columns, clearance": (
+    "roof in the heads of actuators, clearance": (
         scenario(
-            loads={"roof": over_the_canopy(0.1, point=SUPPORT.linkage().columns["front_column"].head_point)},
+            loads={"roof": over_the_canopy(0.1, point=SUPPORT.linkage().actuators["front_column"].head_point)},
             pins=ONE_LOOSE,
         ),
         1,
@@ -200,13 +200,14 @@ def test_there_is_what_the_linkage_needs(name: str) -> None:
 
 
 def test_the_support_in_plain_numbers() -> None:
-    # four bodies; five pins at two places each, two columns at two places each, four weights: nothing coincides
+    # four bodies; five pins at two places each, two actuators at two places each, four weights: nothing
+    # coincides
     assert inventory(scenario()) == Inventory(
         coordinates=12,
-        constraints=12,  # 5 pins of 2, 2 columns of 1
+        constraints=12,  # 5 pins of 2, 2 actuators of 1
         bodies=4,
         nodes=4,
-        objects=12,  # ground, 4 bodies, 5 pins, 2 columns
+        objects=12,  # ground, 4 bodies, 5 pins, 2 actuators
         connectors=7,
         markers=18,
         loads=4,
@@ -265,12 +266,12 @@ LEVELS: dict[str, dict[str, Any]] = {
     "no gravity": {"gravity": (0.0, 0.0)},
     "with_clearance": {"pins": ONE_LOOSE},
     "all with clearance": {"pins": dict.fromkeys(PINS, with_clearance())},
-    "oil": {"columns": dict.fromkeys(("front_column", "rear_column"), OIL)},
-    "two bodies": {"columns": cylinders_and_rods()},
-    "two bodies on oil": {"columns": cylinders_and_rods(OIL)},
+    "oil": {"actuators": dict.fromkeys(("front_column", "rear_column"), OIL)},
+    "two bodies": {"actuators": cylinders_and_rods()},
+    "two bodies on oil": {"actuators": cylinders_and_rods(OIL)},
     "tail beam": {"parts": {"tail_beam": OwnBody()}},
     "tail beam on oil": {"parts": TAIL},
-    "all": {"pins": dict.fromkeys(PINS, with_clearance()), "columns": cylinders_and_rods(OIL), "parts": TAIL},
+    "all": {"pins": dict.fromkeys(PINS, with_clearance()), "actuators": cylinders_and_rods(OIL), "parts": TAIL},
     "settled": {"pins": ONE_LOOSE, "start": "settled"},
 }
 LOADED: dict[str, dict[str, Any]] = {"roof": {"loads": {"roof": over_the_canopy(0.1)}, "pins": ONE_LOOSE}}

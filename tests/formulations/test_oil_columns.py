@@ -1,4 +1,4 @@
-"""Columns of oil against closed forms, rigid columns, and the energy balance."""
+"""Columns of oil against closed forms, rigid actuators, and the energy balance."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ import pytest
 
 from support_exudyn import (
     Body,
-    Column,
     CubicStep,
     Drive,
     Held,
+    LinearActuator,
     Linkage,
     Machine,
     OilColumn,
     Result,
-    RigidColumn,
+    RigidActuator,
     Scenario,
     Slide,
     UniformSpeed,
@@ -33,17 +33,19 @@ MASS, GRAVITY = 3000.0, 9.81
 AREA = bore_area(0.25, number=2)
 OIL = OilColumn(bore_area=AREA, oil_length=0.5, bulk_modulus=1.5e9)
 BOTH = {"front_column": OIL, "rear_column": OIL}
-ONE_OF_OIL = {"front_column": OIL, "rear_column": RigidColumn()}
+ONE_OF_OIL = {"front_column": OIL, "rear_column": RigidActuator()}
 
 
 @value
 class Ram(Machine):
-    """A ram of 3 t lifted by one upright column."""
+    """A ram of 3 t lifted by one upright actuator."""
 
     def linkage(self) -> Linkage:
         return Linkage(
             bodies={"ram": Body(mass=MASS, inertia=1.0, centre=(0.0, 1.0))},
-            columns={"jack": Column(foot=GROUND, head="ram", foot_point=(0.0, 0.0), head_point=(0.0, 1.0))},
+            actuators={
+                "jack": LinearActuator(foot=GROUND, head="ram", foot_point=(0.0, 0.0), head_point=(0.0, 1.0))
+            },
             slides={"guide": Slide(body="ram", point=(0.0, 1.0), direction=0.5 * math.pi)},
         )
 
@@ -51,7 +53,12 @@ class Ram(Machine):
 def lift(oil: OilColumn, drive: Drive, step: float = 1e-4, duration: float = 0.3) -> Result:
     return simulate(
         Scenario(
-            machine=Ram(), columns={"jack": oil}, drive=drive, duration=duration, step=step, record_period=1e-3
+            machine=Ram(),
+            actuators={"jack": oil},
+            drive=drive,
+            duration=duration,
+            step=step,
+            record_period=1e-3,
         )
     )
 
@@ -63,7 +70,7 @@ def test_a_machine_on_oil_stays_where_it_is() -> None:
     np.testing.assert_allclose(result["ram.y"], 1.0, atol=1e-12)
     np.testing.assert_allclose(result["jack.force"], MASS * GRAVITY, rtol=1e-9)
     # the whole support too, with ideal pins: its static forces are a linear solve
-    still = simulate(support(columns=BOTH, drive=Held(), duration=0.2))
+    still = simulate(support(actuators=BOTH, drive=Held(), duration=0.2))
     np.testing.assert_allclose(still[FORCE], 58778.944, rtol=1e-6)  # as printed in the reference
 
 
@@ -90,7 +97,7 @@ def test_a_sudden_start_follows_the_closed_form_of_a_damped_oscillator(share: fl
 def test_peaks_after_a_sudden_start_converge_with_second_order() -> None:
     def peak(step: float) -> float:
         drive = UniformSpeed(start=0.1, end=2.1)
-        return float(simulate(support(columns=BOTH, drive=drive, duration=0.3, step=step))[FORCE].max())
+        return float(simulate(support(actuators=BOTH, drive=drive, duration=0.3, step=step))[FORCE].max())
 
     coarse, middle, fine = (peak(step) for step in (1e-3, 5e-4, 2.5e-4))
     # the record on the peak stays the same, so the order shows: 4 for second order
@@ -99,13 +106,13 @@ def test_peaks_after_a_sudden_start_converge_with_second_order() -> None:
     assert fine > 2.0 * 58779.0  # the static force
 
 
-def test_stiffer_oil_tends_to_rigid_columns_with_order_one() -> None:
+def test_stiffer_oil_tends_to_rigid_actuators_with_order_one() -> None:
     drive = CubicStep(start=0.05, end=0.55, stroke=0.1)
     rigid = simulate(support(drive=drive, duration=0.3))
 
     def off(stiffer: float) -> float:
         oil = replace(OIL, bulk_modulus=stiffer * OIL.bulk_modulus)
-        soft = simulate(support(columns=dict.fromkeys(BOTH, oil), drive=drive, duration=0.3, step=2.5e-4))
+        soft = simulate(support(actuators=dict.fromkeys(BOTH, oil), drive=drive, duration=0.3, step=2.5e-4))
         late = rigid.time > 0.2  # the vibration of the start has died out
         return float(np.abs(soft["tip.y"] - rigid["tip.y"])[late].max())
 
@@ -114,7 +121,7 @@ def test_stiffer_oil_tends_to_rigid_columns_with_order_one() -> None:
 
 
 @pytest.mark.parametrize(
-    ("columns", "drive"),
+    ("actuators", "drive"),
     [
         pytest.param(BOTH, CubicStep(start=0.5, end=1.5), marks=pytest.mark.slow),
         pytest.param(BOTH, UniformSpeed(start=0.5, end=2.5), marks=pytest.mark.slow),
@@ -123,14 +130,14 @@ def test_stiffer_oil_tends_to_rigid_columns_with_order_one() -> None:
         (ONE_OF_OIL, UniformSpeed(start=0.1, end=2.1)),
     ],
 )
-def test_energy_adds_up(drive: Drive, columns: dict[str, OilColumn | RigidColumn]) -> None:
-    result = simulate(loose_support(drive=drive, columns=columns, duration=drive.start + 0.2))
+def test_energy_adds_up(drive: Drive, actuators: dict[str, OilColumn | RigidActuator]) -> None:
+    result = simulate(loose_support(drive=drive, actuators=actuators, duration=drive.start + 0.2))
     # the journal's fall makes the oil vibrate at 40 Hz, which generalised alpha damps a little between impacts:
     # 2e-4 at the default step, and 1e-3 where a sudden start makes it vibrate far more
     allowed = 3e-4 if isinstance(drive, CubicStep) else 1e-3
     assert result.energy_error < allowed * result.dissipated
-    rigid = [name for name, column in columns.items() if isinstance(column, RigidColumn)]
-    jumps = [sorted(impulse.columns) for impulse in result.impulses]
+    rigid = [name for name, actuator in actuators.items() if isinstance(actuator, RigidActuator)]
+    jumps = [sorted(impulse.actuators) for impulse in result.impulses]
     assert jumps == ([rigid] if rigid and isinstance(drive, UniformSpeed) else [])
 
 
@@ -145,11 +152,11 @@ def test_energy_adds_up_over_a_stroke_that_halves_the_stiffness() -> None:
 
 
 def test_wrong_oil_is_refused() -> None:
-    with pytest.raises(InputError, match=r"columns\.middle.*allowed: front_column, rear_column"):
-        support(columns={"middle": OIL})
+    with pytest.raises(InputError, match=r"actuators\.middle.*allowed: front_column, rear_column"):
+        support(actuators={"middle": OIL})
     oil = replace(OIL, oil_length=0.05)
     with pytest.raises(InputError, match=r"oil_length = 0\.05 m.*no oil is left"):
-        support(columns={"front_column": oil}, drive=CubicStep(stroke=-0.1))
+        support(actuators={"front_column": oil}, drive=CubicStep(stroke=-0.1))
     with pytest.raises(InputError, match="bulk_modulus"):
         OilColumn(bore_area=1.0, oil_length=1.0, bulk_modulus=0.0)
     with pytest.raises(InputError, match="diameter"):
@@ -157,7 +164,7 @@ def test_wrong_oil_is_refused() -> None:
 
 
 def test_oil_survives_the_result_file(tmp_path: object) -> None:
-    scenario = support(columns=BOTH, duration=0.01)
+    scenario = support(actuators=BOTH, duration=0.01)
     result = simulate(scenario)
     path = result.save(f"{tmp_path}/oil.h5")
     assert Result.load(path).scenario == scenario

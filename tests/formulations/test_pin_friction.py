@@ -118,7 +118,7 @@ def test_energy_adds_up_with_friction_in_all_pins() -> None:
     plain = simulate(support(drive=RISE, duration=0.5))
     more = fine["energy.work"][-1] - plain["energy.work"][-1]
     assert more == pytest.approx(fine["energy.friction_loss"][-1], rel=1e-4)
-    np.testing.assert_allclose(fine["tip.y"], plain["tip.y"], atol=1e-10)  # the columns' lengths say where
+    np.testing.assert_allclose(fine["tip.y"], plain["tip.y"], atol=1e-10)  # the actuators' lengths say where
 
 
 @pytest.mark.parametrize("sliding", [0.0, 0.25])
@@ -132,11 +132,11 @@ def test_energy_adds_up_with_friction_beside_a_loose_pin(sliding: float) -> None
     assert result.energy_error < 3e-4 * result.dissipated
 
 
-def test_energy_adds_up_with_friction_in_the_pins_of_columns_and_a_sudden_start() -> None:
+def test_energy_adds_up_with_friction_in_the_pins_of_actuators_and_a_sudden_start() -> None:
     pins: dict[str, Pin] = dict.fromkeys((*PINS, "front_column_foot", "rear_column_head"), SUPPORT_PIN)
     drive = UniformSpeed(stroke=0.05, start=0.05, end=0.25)
     result = simulate(
-        support(drive=drive, duration=0.3, pins=pins, columns=cylinders_and_rods(), start="settled")
+        support(drive=drive, duration=0.3, pins=pins, actuators=cylinders_and_rods(), start="settled")
     )
     assert len(result.impulses) == 2
     assert result.energy_error < 1e-3 * result.dissipated  # steps after a jump are known by their ends only

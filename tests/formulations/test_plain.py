@@ -21,7 +21,7 @@ PIN = support_model.PIN
 
 
 def scene(**changes: Any) -> Scenario:
-    """A fall through the clearance with a jump of the columns' speed, or what changes say."""
+    """A fall through the clearance with a jump of the actuators' speed, or what changes say."""
     fields: dict[str, Any] = {
         "machine": support(),
         "duration": 0.04,

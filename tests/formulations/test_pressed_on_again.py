@@ -96,11 +96,11 @@ def test_a_turn_that_is_met_is_not_met_again(number: int, onsets: int) -> None:
 
 @cache
 def on_oil(number: int, tolerance: float) -> Result:
-    """A drawn scene with oil in its columns, in the tree."""
+    """A drawn scene with oil in its actuators, in the tree."""
     oil = OilColumn(bore_area=0.05, oil_length=0.8, bulk_modulus=1.5e9)
-    columns = {"front_column": oil, "rear_column": oil}
+    actuators = {"front_column": oil, "rear_column": oil}
     solver = SolverSettings(tolerance=tolerance)
-    return simulate(replace(drawn(1, number), formulation="tree", columns=columns, solver=solver))
+    return simulate(replace(drawn(1, number), formulation="tree", actuators=actuators, solver=solver))
 
 
 # 22: a dip within a step of the tree: 5e-2 off. 34: a turn at the very start of a step was met at its end: 5e-4

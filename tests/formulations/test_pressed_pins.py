@@ -231,7 +231,7 @@ def on_oil(*pins: str, friction: float = 0.0, **changes: object) -> Scenario:
     fields: dict[str, object] = {
         "drive": CubicStep(start=0.01, end=0.15, stroke=0.03),
         "duration": 0.04,
-        "columns": oil_columns(),
+        "actuators": oil_columns(),
         "pins": {name: default_law(friction=friction) for name in pins},
         "start": "settled",
         "solver": SolverSettings(impact_steps=32),

@@ -148,7 +148,7 @@ REFUSED: dict[str, Case] = {
         "drive = UniformSpeed.*Held, Steady, CubicStep",
     ),
     "start": (lambda: scene(start="settled"), "auto", "start = 'settled'"),
-    "oil": (lambda: scene(columns={"rear_column": OIL}), "auto", "columns.rear_column = OilColumn"),
+    "oil": (lambda: scene(actuators={"rear_column": OIL}), "auto", "actuators.rear_column = OilColumn"),
     "other pin": (
         lambda: scene(pins={"front_base": hertz(1e10)}),
         "auto",

@@ -178,7 +178,7 @@ def test_a_drop_is_the_engines(damping: str, mu: float, bore: str) -> None:
     np.testing.assert_allclose(first[1:, 2:], second[1:, 2:], rtol=2e-2)
     for name, wrong in same_channels(ours, theirs).items():
         # 0.3 % after five impacts; a record beside an impact sees it before in one and after it in the other,
-        # and the engine's columns overshoot just after an impact: hence the median, and the final state
+        # and the engine's actuators overshoot just after an impact: hence the median, and the final state
         assert np.median(wrong) < 1e-3, name
         assert wrong[-1] < 5e-3, name
         if name.startswith(f"pin.{PIN}") and name.endswith(("force", "force_x", "force_y", "depth")):
@@ -213,7 +213,7 @@ def test_ideal_channels_are_the_engines(drive: str) -> None:
 
 
 @pytest.mark.parametrize("with_clearance", [False, pytest.param(True, marks=pytest.mark.slow)])
-def test_jumps_of_the_columns_speed_are_the_engines(with_clearance: bool) -> None:
+def test_jumps_of_the_actuators_speed_are_the_engines(with_clearance: bool) -> None:
     drive = UniformSpeed(stroke=0.1, start=0.2, end=0.4)
     # a period that does not divide the duration, and records that do not meet the jumps
     pins = dropping(law(ImpactVelocity(floor=1e-3)), 0.25, "first").pins if with_clearance else {}
@@ -225,7 +225,7 @@ def test_jumps_of_the_columns_speed_are_the_engines(with_clearance: bool) -> Non
     close = 1e-3 if with_clearance else 1e-8
     for got, expected in zip(ours.impulses, theirs.impulses, strict=True):
         assert got.time == expected.time
-        assert got.columns == pytest.approx(expected.columns, rel=close)
+        assert got.actuators == pytest.approx(expected.actuators, rel=close)
         assert got.energy == pytest.approx(expected.energy, rel=close)
     assert_same_channels(ours, theirs, 1e-3 if with_clearance else 1e-4, 5e-2 if with_clearance else 1e-4)
     # each jump does 300 to 400 J of work; measured 4e-10 and 3e-6 J
@@ -234,7 +234,7 @@ def test_jumps_of_the_columns_speed_are_the_engines(with_clearance: bool) -> Non
 
 
 @pytest.mark.parametrize("bore", ["first", "second"])
-def test_a_loose_support_on_columns_that_move_from_the_start_on(bore: str) -> None:
+def test_a_loose_support_on_actuators_that_move_from_the_start_on(bore: str) -> None:
     base = loose_support(0.5, 0.25, drive=Steady(rate=0.1), duration=0.05)
     scenario = replace(base, pins={PIN: replace(base.clearance_pins[PIN], bore=bore)})
     theirs, ours = simulate_redundant(scenario), simulate_reduced(scenario, 1e-8)
@@ -305,10 +305,10 @@ def test_a_loose_pin_transmits_no_impulse() -> None:
         simulate_reduced(scenario(drive=drive, duration=0.01)) for scenario in (support, loose_support)
     )
     (closed,), (free,) = ideal.impulses, with_clearance.impulses
-    # Bertrand's theorem: with fewer constraints the same speeds of the columns take less energy
+    # Bertrand's theorem: with fewer constraints the same speeds of the actuators take less energy
     assert free.energy < closed.energy
-    assert free.energy == pytest.approx(0.5 * 0.25 * sum(free.columns.values()), rel=1e-12)  # from rest
-    assert closed.energy == pytest.approx(0.5 * 0.25 * sum(closed.columns.values()), rel=1e-12)
+    assert free.energy == pytest.approx(0.5 * 0.25 * sum(free.actuators.values()), rel=1e-12)  # from rest
+    assert closed.energy == pytest.approx(0.5 * 0.25 * sum(closed.actuators.values()), rel=1e-12)
 
 
 def test_largest_force_is_that_of_the_peak_between_records() -> None:

@@ -53,8 +53,8 @@ WITH_CLEARANCE = loose_support().pins
 KINDS = {
     "rigid, ideal": {},
     "rigid, clearance": {"pins": WITH_CLEARANCE},
-    "oil, ideal": {"columns": ON_OIL},
-    "oil, clearance": {"columns": ON_OIL, "pins": WITH_CLEARANCE},
+    "oil, ideal": {"actuators": ON_OIL},
+    "oil, clearance": {"actuators": ON_OIL, "pins": WITH_CLEARANCE},
 }
 # by how much the support gives under 10 MN [m]: two columns of oil side by side, of 2.9e8 N/m each
 GIVES = {name: TEN_MEGANEWTONS / 5.89e8 if "oil" in name else 0.0 for name in KINDS}
@@ -152,11 +152,13 @@ def test_a_load_may_bring_its_own_mass_along() -> None:
     assert timescales(scene).resting == pytest.approx(math.sqrt(MASS / 5.0 / STIFFNESS), rel=1e-12)
 
 
-@pytest.mark.parametrize("columns", [pytest.param({}, marks=pytest.mark.slow), ON_OIL], ids=["rigid", "oil"])
-def test_a_block_that_falls_on_the_canopy_gives_its_energy_to_the_audit(columns: dict[str, OilColumn]) -> None:
+@pytest.mark.parametrize("actuators", [pytest.param({}, marks=pytest.mark.slow), ON_OIL], ids=["rigid", "oil"])
+def test_a_block_that_falls_on_the_canopy_gives_its_energy_to_the_audit(
+    actuators: dict[str, OilColumn],
+) -> None:
     block = BareBlock(body="canopy", point=OVER_THE_COLUMNS, mass=2000.0, gap=0.05, stiffness=1e8)
     result = simulate(
-        pressed_support(block, columns=columns, loads={"rock": block}, pins=WITH_CLEARANCE, step=1e-4)
+        pressed_support(block, actuators=actuators, loads={"rock": block}, pins=WITH_CLEARANCE, step=1e-4)
     )
     fallen = result.time < 0.1  # it lands after 0.101 s
     expected = OVER_THE_COLUMNS[1] - 0.5 * 9.81 * result.time**2
@@ -182,7 +184,7 @@ def pressed(kind: str, damping: float = 0.0) -> Result:
 
 
 def reactions(result: Result, row: int = -1) -> tuple[np.ndarray, np.ndarray]:
-    """Forces of pins (5, 2) and thrusts of columns (2,) from statics where a record has the bodies [N]."""
+    """Forces of pins (5, 2) and thrusts of actuators (2,) from statics where a record has the bodies [N]."""
     linkage = result.scenario.linkage
     closed = kinetics_of(linkage)
     position = np.concatenate(
@@ -199,17 +201,17 @@ def reactions(result: Result, row: int = -1) -> tuple[np.ndarray, np.ndarray]:
     rate = closed.point(position, "canopy", OVER_THE_COLUMNS)[1]
     force = force + np.array([0.0, -result["roof.force"][row]]) @ rate
     found = closed.respond(position, force, 0.0)[1]
-    # what the rows pull with is what the columns push with, and acts on the second bodies reversed
+    # what the rows pull with is what the actuators push with, and acts on the second bodies reversed
     return -found[:10].reshape(-1, 2), -found[closed.driven()]
 
 
 @pytest.mark.parametrize("kind", ["rigid, ideal", "oil, ideal"])
-def test_columns_and_pins_carry_what_statics_say(kind: str) -> None:
+def test_actuators_and_pins_carry_what_statics_say(kind: str) -> None:
     result = pressed(kind)
     assert result["roof.force"][-1] == pytest.approx(TEN_MEGANEWTONS, rel=0.01)  # by how much oil was guessed
-    pins, columns = reactions(result)
+    pins, actuators = reactions(result)
     # what is left of vibrations that the oil damps for 0.18 s
-    for name, thrust in zip(("front_column", "rear_column"), columns, strict=True):
+    for name, thrust in zip(("front_column", "rear_column"), actuators, strict=True):
         assert result[f"{name}.force"][-1] == pytest.approx(thrust, rel=1e-7)
         assert thrust > 4.9e6
     for name, force in zip(result.scenario.linkage.pins, pins, strict=True):
@@ -220,7 +222,7 @@ def test_columns_and_pins_carry_what_statics_say(kind: str) -> None:
     assert result["roof.force"][-1] == pytest.approx(HARD * depth, rel=1e-12)  # rounding
 
 
-def test_the_roof_on_rigid_columns_is_known_to_the_last_digit() -> None:
+def test_the_roof_on_rigid_actuators_is_known_to_the_last_digit() -> None:
     result = pressed("rigid, ideal")
     extension = np.array([result.scenario.loads["roof"].descent.extension(t) for t in result.time])
     expected = HARD * np.maximum(0.0, extension - GAP)  # the canopy stays where it is
@@ -296,9 +298,9 @@ def test_a_support_that_is_lowered_parts_from_the_roof() -> None:
     assert result["roof.force"][140] == pytest.approx(TEN_MEGANEWTONS, rel=1e-6)
     assert result["roof.force"][-1] == 0.0
     assert result["roof.gap"][-1] > 5e-3
-    # the columns have their forces back; Newton's tolerance of 1e-8 of what the roof has pressed with
+    # the actuators have their forces back; Newton's tolerance of 1e-8 of what the roof has pressed with
     assert result["front_column.force"][-1] == pytest.approx(alone["front_column.force"][-1], abs=0.2)
-    # what was stored has gone into the columns, which were lowered under load
+    # what was stored has gone into the actuators, which were lowered under load
     assert result["energy.elastic"][-1] == 0.0
     assert result["energy.work"][-1] == pytest.approx(alone["energy.work"][-1], abs=1.0)
     assert result.energy_error < 1.0  # of 50 kJ that came and went
@@ -306,7 +308,7 @@ def test_a_support_that_is_lowered_parts_from_the_roof() -> None:
 
 def test_forces_converge_with_second_order() -> None:
     lowered = over_the_canopy(GAP + 0.01 + GIVES["oil, ideal"], end=0.1)
-    scene = pressed_support(lowered, columns=ON_OIL, duration=0.12, channels=("roof.*", "pin.*"))
+    scene = pressed_support(lowered, actuators=ON_OIL, duration=0.12, channels=("roof.*", "pin.*"))
     coarse, middle, fine = (simulate(replace(scene, step=step)) for step in (1e-3, 5e-4, 2.5e-4))
     for name in ("roof.force", f"pin.{PIN}.force"):
         first = np.abs(coarse[name] - middle[name])[60:].max()
@@ -324,7 +326,7 @@ def test_steps_do_not_grow_past_a_landing() -> None:
 @pytest.mark.parametrize("gap", [0.0, 1e-3])
 def test_a_settled_start_takes_the_roof_as_it_is(gap: float) -> None:
     held = over_the_canopy(0.0, gap=gap, descent=Held())
-    scene = pressed_support(held, columns=ON_OIL, pins=WITH_CLEARANCE, start="settled", duration=0.05)
+    scene = pressed_support(held, actuators=ON_OIL, pins=WITH_CLEARANCE, start="settled", duration=0.05)
     result = simulate(scene)
     # a contact this stiff turns the Newton residual of 1e-8 into speeds of 1e-9 m/s
     assert np.abs(result["rear_link.angular_velocity"]).max() < 1e-8
@@ -336,7 +338,7 @@ def test_a_settled_start_takes_the_roof_as_it_is(gap: float) -> None:
 
 def test_runs_to_an_accuracy_know_the_roof() -> None:
     lowered = over_the_canopy(GAP + 0.01 + GIVES["oil, ideal"])
-    scene = pressed_support(lowered, columns=ON_OIL, duration=0.2)
+    scene = pressed_support(lowered, actuators=ON_OIL, duration=0.2)
     result = simulate(scene, accuracy="standard")
     assert result.met
     # a fifth of sqrt(m/k) and less; the default step is ten times as long as that of a reference

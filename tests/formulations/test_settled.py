@@ -103,8 +103,8 @@ def test_what_presses_later_has_no_part_in_the_start(kind: str) -> None:
         "force": AppliedForce(full_force=(0.0, -5e5), start=0.03, end=0.9, **on_canopy),
         "roof": Roof(descent=CubicStep(stroke=0.05, start=0.03, end=0.9), stiffness=1e7, gap=5e-3, **on_canopy),
     }
-    still = simulate(settled(columns=oil_columns(), duration=0.03))
-    pressed = simulate(settled(columns=oil_columns(), duration=0.03, loads={kind: loads[kind]}))
+    still = simulate(settled(actuators=oil_columns(), duration=0.03))
+    pressed = simulate(settled(actuators=oil_columns(), duration=0.03, loads={kind: loads[kind]}))
     for name in ("tip.y", "front_column.force", FORCE):  # Newton's tolerance, as above
         np.testing.assert_allclose(pressed[name], still[name], rtol=1e-6, err_msg=name)
 
@@ -112,7 +112,7 @@ def test_what_presses_later_has_no_part_in_the_start(kind: str) -> None:
 def test_what_presses_from_the_start_on_is_settled_under() -> None:
     at = reference_support().linkage().points["tip"]
     push = AppliedForce(body=at.body, point=at.point, full_force=(0.0, -1e4))
-    result = simulate(settled(columns=oil_columns(), duration=0.02, loads={"push": push}))
+    result = simulate(settled(actuators=oil_columns(), duration=0.02, loads={"push": push}))
     assert np.abs(result["canopy.angular_velocity"]).max() < 1e-8
-    light = simulate(settled(columns=oil_columns(), duration=0.02))
+    light = simulate(settled(actuators=oil_columns(), duration=0.02))
     assert result["front_column.force"][0] > light["front_column.force"][0] + 1e4  # it is a lever

@@ -15,7 +15,7 @@ from scipy.optimize import root
 
 from studies.common.paper_machine import oil_columns
 from support_exudyn import ClearancePin, CubicStep, Held, OilColumn, Scenario, SolverSettings, simulate
-from support_exudyn.model.spatial_linkage import Bearing, SpatialBody, SpatialColumn, SpatialLinkage
+from support_exudyn.model.spatial_linkage import Bearing, SpatialActuator, SpatialBody, SpatialLinkage
 from tests.cases.run_cases import paper_contact, support
 from tests.cases.spatial_cases import (
     CLEARANCE,
@@ -190,22 +190,24 @@ def test_a_pressed_journal_carries_the_integral_along_its_axis(shift: float, til
 # --- a support on oil columns that are driven apart ---
 
 
-def test_a_canopy_on_columns_driven_apart_rolls_as_far_as_its_oil_lets_it() -> None:
+def test_a_canopy_on_actuators_driven_apart_rolls_as_far_as_its_oil_lets_it() -> None:
     # the four-bar and the hinge stay in their plane: with ideal pins the machine has no way to roll, and the
-    # columns' oil takes all of the difference
+    # actuators' oil takes all of the difference
     apart = 1e-3
-    columns = oil_columns()
+    actuators = oil_columns()
     drive = CubicStep(start=0.0, end=0.1, stroke=apart)
     names = ("front_column_left", "rear_column_left")
     result = simulate(
-        support(dimensions=3, columns=columns, drive=Held(), drives=dict.fromkeys(names, drive), duration=0.5)
+        support(
+            dimensions=3, actuators=actuators, drive=Held(), drives=dict.fromkeys(names, drive), duration=0.5
+        )
     )
-    plane = simulate(support(columns=columns, drive=Held(), duration=0.02))
+    plane = simulate(support(actuators=actuators, drive=Held(), duration=0.02))
     for body in ("canopy.roll", "shield.roll", "rear_link.yaw"):
         np.testing.assert_allclose(result[body], 0.0, atol=1e-9)  # Newton's tolerance
-    # both columns of a pair have the same length; the oil of the left is compressed by so much more
+    # both actuators of a pair have the same length; the oil of the left is compressed by so much more
     for name in ("front_column", "rear_column"):
-        oil = columns[name].oil
+        oil = actuators[name].oil
         assert oil is not None
         left, right = result[f"{name}_left.force"][-1], result[f"{name}_right.force"][-1]
         each = 0.5 * plane[f"{name}.force"][-1]
@@ -218,7 +220,7 @@ def test_a_canopy_on_columns_driven_apart_rolls_as_far_as_its_oil_lets_it() -> N
 
 
 @pytest.mark.parametrize("beside", [0.05, -0.12])
-def test_a_loaded_plate_on_a_loose_hinge_and_two_columns_comes_to_rest_where_forces_balance(
+def test_a_loaded_plate_on_a_loose_hinge_and_two_actuators_comes_to_rest_where_forces_balance(
     beside: float,
 ) -> None:
     mass, half, length = 1000.0, 0.3, 0.5
@@ -233,22 +235,22 @@ def test_a_loaded_plate_on_a_loose_hinge_and_two_columns_comes_to_rest_where_for
         pin="pin",
     )
     body = SpatialBody(mass=mass, inertia=(100.0, 400.0, 300.0, 0.0, 0.0, 0.0), centre=(1.0, 0.2, beside))
-    columns = {
-        f"jack_{side}": SpatialColumn(
+    actuators = {
+        f"jack_{side}": SpatialActuator(
             foot="ground",
             head="a",
             foot_point=(2.0, -1.0, z),
             head_point=(2.0, 0.0, z),
-            column="jack",
+            actuator="jack",
             share=0.5,
         )
         for side, z in (("left", -half), ("right", half))
     }
-    space = SpatialLinkage(bodies={"a": body}, bearings={"pin": hinge}, columns=columns)
+    space = SpatialLinkage(bodies={"a": body}, bearings={"pin": hinge}, actuators=actuators)
     scenario = Scenario(
         machine=InSpace(space=space),
         pins={"pin": ClearancePin(contact=contact())},
-        columns={"jack": oil},
+        actuators={"jack": oil},
         dimensions=3,
         start="settled",
         duration=1e-3,
@@ -304,7 +306,7 @@ def test_energy_adds_up_where_the_machine_rolls_in_its_loose_pins() -> None:
     pins = {name: ClearancePin(contact=paper_contact(1.0, 0.1)) for name in ("rear_base", "rear_shield")}
     scenario = support(
         dimensions=3,
-        columns=oil_columns(),
+        actuators=oil_columns(),
         drive=Held(),
         drives=dict.fromkeys(("front_column_left", "rear_column_left"), apart),
         pins=pins,

@@ -48,12 +48,12 @@ CASES: dict[str, Scenario] = {
     "ideal": support(drive=RISE, duration=0.25),
     "with_clearance": loose_support(drive=RISE, duration=0.15),
     "friction": loose_support(1.5, 0.25, drive=Held(), duration=0.1),
-    "oil": loose_support(drive=RISE, duration=0.1, columns=oil_columns()),
+    "oil": loose_support(drive=RISE, duration=0.1, actuators=oil_columns()),
     "depth_speed": support(drive=Held(), duration=0.1, pins={PIN: default_law()}),
-    "tail": support(drive=RISE, duration=0.1, columns=oil_columns(), parts={"tail_beam": OwnBody(jack=JACK)}),
-    "bodies": support(drive=RISE, duration=0.1, columns=cylinders_and_rods()),
+    "tail": support(drive=RISE, duration=0.1, actuators=oil_columns(), parts={"tail_beam": OwnBody(jack=JACK)}),
+    "bodies": support(drive=RISE, duration=0.1, actuators=cylinders_and_rods()),
     "bodies_on_oil": support(
-        drive=RISE, duration=0.1, columns=cylinders_and_rods(oil_columns()["front_column"])
+        drive=RISE, duration=0.1, actuators=cylinders_and_rods(oil_columns()["front_column"])
     ),
     "uniform": support(drive=UniformSpeed(start=0.02, end=0.1, stroke=0.01), duration=0.15),
     "uniform_loose": loose_support(drive=UniformSpeed(start=0.02, end=0.1, stroke=0.01), duration=0.05),
@@ -142,20 +142,20 @@ def test_what_moves_alike_on_both_sides_moves_as_in_the_plane(case: str) -> None
 
 
 @pytest.mark.parametrize("case", ["uniform", "uniform_loose"])
-def test_impulses_of_both_columns_add_up(case: str) -> None:
+def test_impulses_of_both_actuators_add_up(case: str) -> None:
     plane, space = both(case)
     assert len(plane.impulses) == len(space.impulses) > 0
     for one, other in zip(space.impulses, plane.impulses, strict=True):
         assert one.time == other.time
         # same matrices, other elimination; loose: after an impact or two
         assert one.energy == pytest.approx(other.energy, rel=1e-6)
-        for name, impulse in other.columns.items():
-            sides = one.columns[f"{name}_left"], one.columns[f"{name}_right"]
+        for name, impulse in other.actuators.items():
+            sides = one.actuators[f"{name}_left"], one.actuators[f"{name}_right"]
             assert sum(sides) == pytest.approx(impulse, rel=1e-6)
             assert sides[0] == pytest.approx(sides[1], rel=1e-5)  # solved with a small lift; 2e-7
 
 
-def test_both_columns_of_a_pair_carry_half_each() -> None:
+def test_both_actuators_of_a_pair_carry_half_each() -> None:
     plane, space = both("oil")
     for name in ("front_column", "rear_column"):
         largest = np.abs(plane[f"{name}.force"]).max()
@@ -170,7 +170,7 @@ def test_both_columns_of_a_pair_carry_half_each() -> None:
 def test_energies_are_those_of_the_plane() -> None:
     plane, space = both("ideal")
     for energy in ("kinetic", "potential", "work"):
-        # the work is that of the multipliers of one of the two columns that hold the same; of 4 kJ
+        # the work is that of the multipliers of one of the two actuators that hold the same; of 4 kJ
         np.testing.assert_allclose(
             space[f"energy.{energy}"], plane[f"energy.{energy}"], atol=1e-3, err_msg=energy
         )

@@ -19,7 +19,7 @@ def run() -> Result:
         Scenario(
             machine=case.machine,
             pins=case.pins,
-            columns=oil_columns(),
+            actuators=oil_columns(),
             drive=Held(),
             drives={"front_column_right": CubicStep(start=0.01, end=0.2, stroke=4e-3)},
             duration=0.25,

@@ -78,7 +78,7 @@ def test_a_slider_with_clearance_flies_on() -> None:
 
 @pytest.mark.parametrize("rate", [0.25, -0.05])
 @pytest.mark.parametrize("with_clearance", [False, True])
-def test_columns_at_speed_start_with_the_velocities_of_the_closed_form(
+def test_actuators_at_speed_start_with_the_velocities_of_the_closed_form(
     rate: float, with_clearance: bool
 ) -> None:
     pins = {"rear_base": ClearancePin(contact=paper_contact(1.5, 0.0))} if with_clearance else {}

@@ -61,7 +61,7 @@ SCENES: dict[str, Callable[[float], Scenario]] = {
     "table": lambda t: support(drive=table(t, "smooth"), **SHORT),
     "table of lines": lambda t: support(drive=table(t, "linear"), **SHORT),
     "two drives": lambda t: support(drive=uniform(BREAK), drives={"front_column": uniform(t)}, **SHORT),
-    "oil": lambda t: support(drive=cubic(t), columns=OILS, **SHORT),
+    "oil": lambda t: support(drive=cubic(t), actuators=OILS, **SHORT),
     "load": lambda t: support(loads={"press": pressed(t)}, **SHORT),
     "growing steps": lambda t: support(drive=cubic(t), solver=SolverSettings(growth=8), **SHORT),
     "with_clearance": lambda t: loose_support(0.5, 0.25, drive=cubic(t), start="settled", **SHORT),
@@ -73,7 +73,7 @@ SCENES: dict[str, Callable[[float], Scenario]] = {
     "clearance in space": lambda t: loose_support(
         0.5, drive=cubic(t), dimensions=3, start="settled", **SHORT | {"duration": 0.015}
     ),
-    "tree": lambda t: loose_support(0.5, 0.25, drive=cubic(t), columns=OILS, formulation="tree", **SHORT),
+    "tree": lambda t: loose_support(0.5, 0.25, drive=cubic(t), actuators=OILS, formulation="tree", **SHORT),
     "reduced": lambda t: loose_support(0.5, 0.25, drive=cubic(t), formulation="reduced", **SHORT),
 }
 # of the forces: accelerations jump at smooth breaks by 10 m/s^2 and change within 10 ms, so that forces change
@@ -153,7 +153,7 @@ def test_a_touch_or_parting_just_before_a_record(event: str, before: float) -> N
 
 @pytest.mark.parametrize("rest", [1e-9, 1e-6, 1e-3])
 def test_a_rest_is_moved_over_by_the_rates(rest: float) -> None:
-    scene = build(loose_support(0.5, 0.25, columns=hydraulic_cylinders(ClosedInlet()), drive=Held(), **SHORT))
+    scene = build(loose_support(0.5, 0.25, actuators=hydraulic_cylinders(ClosedInlet()), drive=Held(), **SHORT))
     data = scene.mbs.systemData
     numbers = np.random.default_rng(3)
     at = data.GetODE2Coordinates() + 1e-4 * numbers.standard_normal(data.ODE2Size())

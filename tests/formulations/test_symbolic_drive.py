@@ -103,7 +103,7 @@ def test_cranks_need_python_only_for_drives_that_branch(drive: Drive, callbacks:
     assert inventory(replace(TURN, drive=drive)).callbacks == (callbacks + 1 if works else 0)
 
 
-def test_columns_need_python() -> None:
+def test_actuators_need_python() -> None:
     rise = Scenario(machine=support(), drive=Steady(rate=0.01), duration=0.1, channels=("tip.*",))
     assert inventory(_unaudited(rise)).callbacks == 1
     assert inventory(rise).callbacks == 2

@@ -19,7 +19,7 @@ def test_a_fine_table_of_a_cubic_step_drives_as_it_does() -> None:
     # a smooth table is of second order near the ends, where it rests, and of third elsewhere: its rise differs
     # by the acceleration there, 33 m/s^2, over an interval of 1 ms, squared, over 2: 17 um of 20 mm
     difference = np.abs(one["tip.y"] - other["tip.y"]).max()
-    assert difference < 17e-6 * 4.0  # the tip goes up to four times as far as the columns
+    assert difference < 17e-6 * 4.0  # the tip goes up to four times as far as the actuators
     assert difference > 0.0
 
 

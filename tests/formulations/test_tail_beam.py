@@ -101,7 +101,7 @@ def test_stiffer_jacks_tend_to_the_fixed_tail_beam_with_order_one() -> None:
 
 
 def test_a_soft_jack_follows_the_tree() -> None:
-    scene = {"drive": RISE, "duration": 0.15, "columns": oil_columns(), "parts": SOFT}
+    scene = {"drive": RISE, "duration": 0.15, "actuators": oil_columns(), "parts": SOFT}
     tree = simulate(loose_support(formulation="tree", **scene))
     redundant = simulate(loose_support(step=1e-4, **scene))
     # measured 2e-7 m and 4e-7 rad: the redundant formulation's errors of impacts and steps
@@ -115,11 +115,11 @@ def test_a_soft_jack_follows_the_tree() -> None:
 
 def test_energy_adds_up_with_all_that_there_is() -> None:
     hinge = ClearancePin(contact=paper_contact(1.0, 0.25))
-    columns = cylinders_and_rods(oil_columns()["front_column"])
+    actuators = cylinders_and_rods(oil_columns()["front_column"])
     scenario = support(
         drive=RISE,
         duration=0.15,
-        columns=columns,
+        actuators=actuators,
         parts=SOFT,
         pins={"shield_tail": hinge},
         solver=SolverSettings(impact_steps=128),
@@ -135,14 +135,14 @@ def test_a_rigid_jack_takes_part_in_the_impulse_of_a_sudden_start() -> None:
     drive = UniformSpeed(stroke=0.05, start=0.05, end=0.25)
     scenario = support(drive=drive, duration=0.1)
     (one,), (other,) = simulate(scenario).impulses, simulate(replace(scenario, parts=RIGID)).impulses
-    assert sorted(other.columns) == ["front_column", "rear_column", "tail_jack"]
+    assert sorted(other.actuators) == ["front_column", "rear_column", "tail_jack"]
     # the same masses are set in motion; rounding
-    for name, impulse in one.columns.items():
-        assert other.columns[name] == pytest.approx(impulse, rel=1e-9)
+    for name, impulse in one.actuators.items():
+        assert other.actuators[name] == pytest.approx(impulse, rel=1e-9)
     assert other.energy == pytest.approx(one.energy, rel=1e-9)
 
 
 def test_a_struck_tail_beam_on_oil_is_free() -> None:
     drive = UniformSpeed(stroke=0.05, start=0.05, end=0.25)
     (impulse,) = simulate(support(drive=drive, duration=0.1, parts=SOFT)).impulses
-    assert sorted(impulse.columns) == ["front_column", "rear_column"]
+    assert sorted(impulse.actuators) == ["front_column", "rear_column"]

@@ -32,7 +32,7 @@ from tests.cases.run_cases import PIN, loose_support
 
 GRAVITY = (0.5, -9.81)
 OIL = OilColumn(bore_area=0.1, oil_length=0.5, bulk_modulus=1.5e9)
-SCENE = loose_support(1.5, 0.2, columns={"front_column": OIL, "rear_column": OIL}, formulation="tree")
+SCENE = loose_support(1.5, 0.2, actuators={"front_column": OIL, "rear_column": OIL}, formulation="tree")
 TREE = branches(reference_support().linkage(), {PIN})
 STATE = (
     np.array([0.3, -0.5, 0.2, 0.7]),
@@ -139,7 +139,7 @@ def test_the_compiled_motion_is_that_of_the_posture(forces: Forces) -> None:
 
 
 def test_columns_of_oil_hold_the_closed_machine(forces: Forces) -> None:
-    # at the start, all pins closed: the columns carry the weight but for what the rear link's pin carries
+    # at the start, all pins closed: the actuators carry the weight but for what the rear link's pin carries
     forces(None, 0.0, 0, [0.0] * 4, [0.0] * 4)
     still = TreePosture(TREE, np.zeros((1, 4)), np.zeros((1, 4)))
     left = forces.moments() + mass_moment(still, SCENE.gravity)[0]

@@ -57,7 +57,7 @@ def tree(tolerance: float = 1e-8, friction: float = 0.25, **changes: object) -> 
     """The support on oil with a clearance of 1.5 mm."""
     fields: dict[str, object] = {
         "pins": {PIN: ClearancePin(contact=paper_contact(1.5, friction))},
-        "columns": BOTH,
+        "actuators": BOTH,
         "formulation": "tree",
         "solver": SolverSettings(tolerance=tolerance),
     }
@@ -70,9 +70,11 @@ DRIVES = {"mode 2": CubicStep(start=0.05, end=0.25, stroke=0.02), "mode 1": Unif
 
 
 @cache
-def both(drive: str, columns: str) -> tuple[Result, Result]:
+def both(drive: str, actuators: str) -> tuple[Result, Result]:
     """The same scene in the tree and in the redundant formulation."""
-    scene = tree(drive=DRIVES[drive], columns={"oil": BOTH, "stiff": STIFF}[columns], duration=0.15, step=2e-4)
+    scene = tree(
+        drive=DRIVES[drive], actuators={"oil": BOTH, "stiff": STIFF}[actuators], duration=0.15, step=2e-4
+    )
     return simulate(scene), simulate(replace(scene, formulation="redundant"))
 
 
@@ -145,7 +147,7 @@ def test_the_mass_that_moves_is_that_of_the_bores_axes_where_both_bodies_turn() 
     oil = OilColumn(bore_area=0.12847, oil_length=0.698, bulk_modulus=9.81e8, damping_time=1.26e-3)
     scene = support(
         pins={"front_shield": ClearancePin(contact=contact, bore="second", eccentricity=(3.1e-5, -4.65e-5))},
-        columns=dict.fromkeys(BOTH, oil),
+        actuators=dict.fromkeys(BOTH, oil),
         drive=Reciprocating(stroke=3.013e-3, period=0.1462),
         duration=0.0245,
         formulation="tree",
@@ -364,12 +366,12 @@ class Swaying(Drive):
 
 
 def test_what_is_not_covered_is_refused_with_what_to_do() -> None:
-    with pytest.raises(InputError, match=r"columns\.front_column = rigid.*allowed: OilColumn.*redundant"):
+    with pytest.raises(InputError, match=r"actuators\.front_column = rigid.*allowed: OilColumn.*redundant"):
         simulate(loose_support(formulation="tree"))
     with pytest.raises(
         InputError, match=r"pins\..* = ideal, which closes a loop.*clearance in one pin of every loop"
     ):
-        simulate(support(formulation="tree", columns=BOTH))
+        simulate(support(formulation="tree", actuators=BOTH))
     with pytest.raises(InputError, match=r"slides\.guide.*allowed: no slides"):
         simulate(replace(loose_slider_crank(1e-3), formulation="tree"))
     load_suspension = {
@@ -377,7 +379,7 @@ def test_what_is_not_covered_is_refused_with_what_to_do() -> None:
         "shield_canopy": ClearancePin(contact=paper_contact(1.0, 0.0)),
     }
     with pytest.raises(InputError, match=r"bodies\.canopy.*no chain of ideal pins to the ground"):
-        simulate(support(formulation="tree", columns=BOTH, pins=load_suspension))
+        simulate(support(formulation="tree", actuators=BOTH, pins=load_suspension))
     lugre = ClearancePin(contact=replace(paper_contact(1.0, 0.0), friction=friction_laws(0.25)["lugre"]))
     assert isinstance(lugre.contact.friction, LuGre)
     with pytest.raises(InputError, match=r"friction = LuGre.*laws without a state"):

@@ -42,7 +42,7 @@ def test_at_rest_forces_are_those_of_the_check(rise: Result, at: int) -> None:
         got = np.array([rise[f"pin.{pin}.force_x"][at], rise[f"pin.{pin}.force_y"][at]])
         # the solver's tolerance, 1e-8 of 1e5 N, and what is left of the ramp's end
         assert got == pytest.approx(force, abs=1.0), pin
-    for column, push in station.forces.columns.items():
+    for column, push in station.forces.actuators.items():
         assert rise[f"{column}.force"][at] == pytest.approx(push, abs=1.0)
 
 
@@ -77,7 +77,7 @@ def test_loose_pins_and_oil_work() -> None:
         name: OilColumn(bore_area=bore_area(bore, 2), oil_length=0.5, bulk_modulus=1.5e9)
         for name, bore in (("leg", 0.32), ("ram", 0.16))
     }
-    given = simulate(replace(drop, columns=oil))
+    given = simulate(replace(drop, actuators=oil))
     assert np.abs(given["canopy.angle"]).max() < 1e-2
     # the oil gives by less than 1 mm, k = 0.4 MN/mm at 1e5 N; the tip, 3 m before the hinge, by some of it
     ideal = simulate(drop)
@@ -115,5 +115,5 @@ def test_a_support_that_is_not_in_the_package_runs(tmp_path: Path) -> None:
     last = stations(machine, 0.6, 2)[-1]
     # joints closed within some 1e-12 m
     assert result["tip.x"][-1] == pytest.approx(last.posture.tip[0], abs=1e-9)
-    assert result["front_column.force"][-1] == pytest.approx(last.forces.columns["front_column"], abs=1.0)
+    assert result["front_column.force"][-1] == pytest.approx(last.forces.actuators["front_column"], abs=1.0)
     assert all(solid.mesh.is_watertight for solid in look(result.scenario).solids)

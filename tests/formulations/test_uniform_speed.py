@@ -1,4 +1,4 @@
-"""Drive mode 1: the columns' speed jumps, and so do all velocities, consistently."""
+"""Drive mode 1: the actuators' speed jumps, and so do all velocities, consistently."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ import pytest
 
 from support_exudyn import (
     Body,
-    Column,
     Crank,
+    LinearActuator,
     Linkage,
     Machine,
     Result,
@@ -50,12 +50,12 @@ def test_the_impulse_gives_the_kinetic_energy() -> None:
     result = rise(5e-4)
     (impulse,) = result.impulses
     assert impulse.time == 3.0
-    # the bodies were at rest: an impulse through columns that move at v does work of impulse times v/2
-    work = sum(impulse.columns.values()) * 0.25 / 2
+    # the bodies were at rest: an impulse through actuators that move at v does work of impulse times v/2
+    work = sum(impulse.actuators.values()) * 0.25 / 2
     assert impulse.energy == pytest.approx(work, rel=1e-9)  # rounding
     # the support has moved by 0.25 mm of its stroke of 500 mm since
     assert result["energy.kinetic"][3001] == pytest.approx(impulse.energy, rel=1e-3)
-    assert all(value > 0.0 for value in impulse.columns.values())
+    assert all(value > 0.0 for value in impulse.actuators.values())
 
 
 def test_force_just_after_the_jump_does_not_grow_as_the_step_shrinks() -> None:
@@ -93,7 +93,7 @@ def test_a_crank_that_jumps_to_speed_gets_an_angular_impulse() -> None:
     # rounding
     assert impulse.cranks == pytest.approx({"crank": inertia * speed}, rel=1e-12)
     assert impulse.energy == pytest.approx(0.5 * inertia * speed**2, rel=1e-12)
-    assert impulse.columns == {}
+    assert impulse.actuators == {}
     # the crank has turned by a thousandth of a radian since, and the slider is faster by as much
     assert result["energy.kinetic"][-1] == pytest.approx(impulse.energy, rel=1e-3)
     # the work of the drive counts it
@@ -102,7 +102,7 @@ def test_a_crank_that_jumps_to_speed_gets_an_angular_impulse() -> None:
 
 @value
 class RamAndWheel(Machine):
-    """A ram of 3 kg lifted by a column, and beside it a wheel of 0.2 kg m^2 turned by a crank."""
+    """A ram of 3 kg lifted by an actuator, and beside it a wheel of 0.2 kg m^2 turned by a crank."""
 
     def linkage(self) -> Linkage:
         return Linkage(
@@ -111,21 +111,23 @@ class RamAndWheel(Machine):
                 "wheel": Body(mass=5.0, inertia=0.2, centre=(2.0, 0.0)),
             },
             pins={"axle": pinned(GROUND, "wheel", (2.0, 0.0))},
-            columns={"jack": Column(foot=GROUND, head="ram", foot_point=(0.0, 0.0), head_point=(0.0, 1.0))},
+            actuators={
+                "jack": LinearActuator(foot=GROUND, head="ram", foot_point=(0.0, 0.0), head_point=(0.0, 1.0))
+            },
             cranks={"motor": Crank(body="wheel")},
             slides={"guide": Slide(body="ram", point=(0.0, 1.0), direction=0.5 * math.pi)},
         )
 
 
-def test_columns_and_cranks_get_impulses_of_their_own() -> None:
+def test_actuators_and_cranks_get_impulses_of_their_own() -> None:
     drive = UniformSpeed(stroke=0.4, start=0.0, end=0.1)  # 4 m/s and 4 rad/s
     result = simulate(Scenario(machine=RamAndWheel(), drive=drive, duration=0.01))
     (impulse,) = result.impulses
     # mass and inertia times speed, and half of that times the speed again; rounding
-    assert impulse.columns == pytest.approx({"jack": 12.0}, rel=1e-12)
+    assert impulse.actuators == pytest.approx({"jack": 12.0}, rel=1e-12)
     assert impulse.cranks == pytest.approx({"motor": 0.8}, rel=1e-12)
     assert impulse.energy == pytest.approx(24.0 + 1.6, rel=1e-12)
-    # after it the column carries the weight of 3 kg, and nothing turns the wheel, or the ram in its guide
+    # after it the actuator carries the weight of 3 kg, and nothing turns the wheel, or the ram in its guide
     np.testing.assert_allclose(result["jack.force"][1:], 3.0 * 9.81, rtol=1e-6)
     for name in ("motor.moment", "guide.moment", "guide.force"):
         np.testing.assert_allclose(result[name][1:], 0.0, atol=1e-6)

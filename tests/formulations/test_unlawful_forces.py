@@ -35,7 +35,7 @@ WAYS: Mapping[str, Mapping[str, Any]] = {
     "python": {"solver": SolverSettings(backend="python")},
     "symbolic": {"solver": SolverSettings(backend="symbolic")},
     "space": {"dimensions": 3},
-    "tree": {"formulation": "tree", "columns": {"front_column": OIL, "rear_column": OIL}},
+    "tree": {"formulation": "tree", "actuators": {"front_column": OIL, "rear_column": OIL}},
     "reduced": {"formulation": "reduced"},
     "accuracy": {"accuracy": "draft"},
 }

@@ -154,7 +154,7 @@ def test_pin_and_column_forces_are_those_of_equilibrium(name: str, tmp_path: Pat
         assert station.forces.error < margin
         for pin, force in station.forces.pins.items():
             assert force == pytest.approx(exact[pin], abs=margin), pin
-        for column, push in station.forces.columns.items():
+        for column, push in station.forces.actuators.items():
             assert push == pytest.approx(exact[column], abs=margin), column
 
 
@@ -173,7 +173,7 @@ def test_pushes_do_the_work_that_lifts_the_weight(name: str) -> None:
         lengths.append(station.lengths)
     assert before.stroke == 0.0
     assert after is None
-    work = sum(push * (lengths[1][n] - lengths[0][n]) for n, push in here.forces.columns.items())
+    work = sum(push * (lengths[1][n] - lengths[0][n]) for n, push in here.forces.actuators.items())
     # central difference: h^2 times third derivatives; lengths are met to 1e-11 m of 2e-4
     assert work == pytest.approx(energies[1] - energies[0], rel=1e-6)
 
@@ -192,7 +192,7 @@ def test_a_slider_crank_by_hand() -> None:
 
 def test_freedom_of_an_unheld_linkage() -> None:
     linkage = read_machine("two_leg_shield").machine.linkage()
-    with_clearance = mobility(replace(linkage, columns={"leg": linkage.columns["leg"]}))
+    with_clearance = mobility(replace(linkage, actuators={"leg": linkage.actuators["leg"]}))
     assert (with_clearance.free, with_clearance.driven, with_clearance.left) == (2, 1, 1)
 
 

@@ -420,7 +420,7 @@ def test_pins_join_the_right_bodies_at_the_right_place(pin: str, first: str, sec
 
 @pytest.mark.parametrize(("column", "length"), [("front_column", 1602.293), ("rear_column", 1611.659)])
 def test_columns_stand_between_base_and_canopy(column: str, length: float) -> None:
-    got = SUPPORT.linkage().columns[column]
+    got = SUPPORT.linkage().actuators[column]
     assert (got.foot, got.head) == ("ground", "canopy")
     # half of the last printed digit
     assert 1e3 * got.start_length == pytest.approx(length, abs=5e-4)
@@ -456,7 +456,7 @@ def test_the_tail_beam_leaves_the_shield_beam() -> None:
     # rounding
     assert together.centre == pytest.approx(whole.centre, abs=1e-14)
     assert together.inertia == pytest.approx(whole.inertia, rel=1e-13)
-    assert not detailed.columns["tail_jack"].driven
+    assert not detailed.actuators["tail_jack"].driven
     assert detailed.driven == plain.driven
     # the hinge is on the beam, a bar of 1050 mm: half of that from its centre, to 1 mm of the data
     hinge = detailed.pins["shield_tail"].first_point

@@ -121,7 +121,7 @@ P, V, A, J, C, O, I = (  # noqa: E741
 def test_what_is_needed(pattern: str, ideal: DataNeeds, with_clearance: DataNeeds, oil: DataNeeds) -> None:
     assert needs(scenario(pattern)) == ideal
     assert needs(scenario(pattern, pins=WITH_CLEARANCE)) == with_clearance
-    assert needs(scenario(pattern, columns=dict.fromkeys(SUPPORT.linkage().columns, OIL))) == oil
+    assert needs(scenario(pattern, actuators=dict.fromkeys(SUPPORT.linkage().actuators, OIL))) == oil
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -145,7 +145,7 @@ def test_what_is_needed_is_enough(name: str) -> None:
         acceleration=motion(DataNeeds.ACCELERATION),
         ideal_pins=named(linkage.pins, (rows, 2)),
         contacts={},
-        columns=named(linkage.columns, (rows,)),
+        actuators=named(linkage.actuators, (rows,)),
         cranks={},
         slides={},
         oil_energy=np.zeros(rows),

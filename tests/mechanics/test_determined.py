@@ -20,7 +20,7 @@ RIGID = Scenario(
     record_period=4e-3,
     dimensions=3,
 )
-ON_OIL = replace(RIGID, columns=oil_columns())
+ON_OIL = replace(RIGID, actuators=oil_columns())
 WITH_CLEARANCE = replace(ON_OIL, pins={"rear_base": clearance_joint(1.5, 0.0)})
 
 
@@ -42,11 +42,11 @@ def test_ideal_pins_share_tilting_at_will() -> None:
     assert shares(ON_OIL) == FRONT_LINKS | REAR_LINK
 
 
-def test_four_rigid_columns_under_a_rigid_canopy_do_too() -> None:
-    pairs = [(column, side) for column in ("front_column", "rear_column") for side in ("left", "right")]
+def test_four_rigid_actuators_under_a_rigid_canopy_do_too() -> None:
+    pairs = [(actuator, side) for actuator in ("front_column", "rear_column") for side in ("left", "right")]
     hinge = {f"shield_canopy.moment_{axis}" for axis in "xy"}
     assert shares(RIGID) == FRONT_LINKS | REAR_LINK | hinge | {
-        f"{column}_{side}.force" for column, side in pairs
+        f"{actuator}_{side}.force" for actuator, side in pairs
     }
 
 

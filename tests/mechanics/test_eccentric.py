@@ -34,9 +34,9 @@ def assert_laid_out(linkage: Linkage, of: Linkage, offsets: Offsets) -> None:
     """Pins are as far apart as asked, all else is held together, and bodies have kept their shapes."""
     for pin in linkage.pins:
         np.testing.assert_allclose(apart(linkage, pin), offsets.get(pin, (0.0, 0.0)), rtol=0, atol=CLOSE)
-    for name, column in linkage.columns.items():
-        assert math.dist(column.foot_point, column.head_point) == pytest.approx(
-            of.columns[name].start_length, abs=CLOSE
+    for name, actuator in linkage.actuators.items():
+        assert math.dist(actuator.foot_point, actuator.head_point) == pytest.approx(
+            of.actuators[name].start_length, abs=CLOSE
         )
     for name, body in linkage.bodies.items():
         ends = [
@@ -150,5 +150,5 @@ def test_an_eccentricity_that_the_linkage_cannot_reach_is_refused() -> None:
 
 def test_an_eccentricity_out_of_all_proportion_is_refused() -> None:
     pin = ClearancePin(contact=paper_contact(1.5, 0.0), eccentricity=(50.0, 0.0))
-    with pytest.raises(InputError, match=r"cannot be laid out so; allowed: what columns, guides"):
+    with pytest.raises(InputError, match=r"cannot be laid out so; allowed: what actuators, guides"):
         Scenario(machine=reference_support(), pins={PIN: pin}, duration=0.01, drive=Held())

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from support_exudyn import Body, Column, Linkage, PinPlace, Slide
+from support_exudyn import Body, LinearActuator, Linkage, PinPlace, Slide
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.joint_forces import PinForce, open_joint_forces
 from support_exudyn.model.linkage import GROUND, Crank, pinned
@@ -147,12 +147,14 @@ def test_a_guide_on_a_moving_body_pushes_that_back(
     assert found.cranks["drive"][0] == pytest.approx(total, abs=1e-10)
 
 
-def test_a_column_pushes_both_of_its_ends() -> None:
-    # a beam of 10 kg held level by a pin at its left end and a column under its right end
+def test_an_actuator_pushes_both_of_its_ends() -> None:
+    # a beam of 10 kg held level by a pin at its left end and an actuator under its right end
     linkage = Linkage(
         bodies={"beam": Body(mass=10.0, inertia=1.0, centre=(1.0, 0.0))},
         pins={"left": pinned(GROUND, "beam", (0.0, 0.0))},
-        columns={"mesh_item": Column(foot=GROUND, head="beam", foot_point=(3.0, -1.0), head_point=(2.0, 0.0))},
+        actuators={
+            "mesh_item": LinearActuator(foot=GROUND, head="beam", foot_point=(3.0, -1.0), head_point=(2.0, 0.0))
+        },
     )
     motion = motion_of(linkage, (np.array([1.0, 0.0]), np.zeros(2), (0.0, 0.0, 0.0)))
     push = 50.0 * math.sqrt(2.0)  # its vertical part at 2 m holds 100 N at 1 m

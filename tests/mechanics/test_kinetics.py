@@ -9,7 +9,17 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from support_exudyn import Body, ClearancePin, Column, Crank, Linkage, PinPlace, Scenario, Slide, SliderCrank
+from support_exudyn import (
+    Body,
+    ClearancePin,
+    Crank,
+    LinearActuator,
+    Linkage,
+    PinPlace,
+    Scenario,
+    Slide,
+    SliderCrank,
+)
 from support_exudyn.formulations.redundant.scene.engine_scene import INITIAL
 from support_exudyn.formulations.redundant.scene.scene_builder import build
 from support_exudyn.mechanics.body_coordinates import BodyItem
@@ -43,7 +53,7 @@ def kinetics(linkage: Linkage, *with_clearance: str) -> Kinetics:
         linkage,
         items,
         tuple(name for name in linkage.pins if name not in with_clearance),
-        tuple(linkage.columns),
+        tuple(linkage.actuators),
     )
 
 
@@ -251,7 +261,7 @@ def test_rows_are_the_rates_of_what_the_joints_hold(
     ends: tuple[Vector2, Vector2],
     direction: float,
 ) -> None:
-    # a column from far away, so that it always has a direction
+    # an actuator from far away, so that it always has a direction
     far = (ends[0][0] - 20.0, ends[0][1])
     linkage = Linkage(
         bodies={
@@ -259,7 +269,7 @@ def test_rows_are_the_rates_of_what_the_joints_hold(
             "b": Body(mass=1.0, inertia=1.0, centre=(0.0, 0.0)),
         },
         pins={"p": PinPlace(first="a", second="b", first_point=ends[0], second_point=ends[1])},
-        columns={"k": Column(foot="b", head="a", foot_point=far, head_point=ends[1])},
+        actuators={"k": LinearActuator(foot="b", head="a", foot_point=far, head_point=ends[1])},
         cranks={"c": Crank(body="b")},
         slides={"s": Slide(body="a", point=ends[0], direction=direction)},
     )
@@ -338,7 +348,7 @@ def test_response_obeys_momentum_and_constraints(
             "b": Body(mass=3.0, inertia=0.7, centre=(1.0, 0.0)),
         },
         pins={"p": pinned("a", "b", (0.5, 0.0))},
-        columns={"k": Column(foot=GROUND, head="a", foot_point=(0.0, -20.0), head_point=(0.2, 0.0))},
+        actuators={"k": LinearActuator(foot=GROUND, head="a", foot_point=(0.0, -20.0), head_point=(0.2, 0.0))},
     )
     system = kinetics(linkage)
     q, b, c = np.array(position), np.array(impulse), np.array([0.0, 0.0, jump])

@@ -29,7 +29,7 @@ STROKE = CubicStep(stroke=0.05, start=0.02, end=0.2)
 
 def heavy() -> Scenario:
     """With guides between bodies that turn."""
-    return support(columns=cylinders_and_rods(), duration=0.1)
+    return support(actuators=cylinders_and_rods(), duration=0.1)
 
 
 def test_rows_are_those_of_one_instant() -> None:
@@ -39,7 +39,7 @@ def test_rows_are_those_of_one_instant() -> None:
     motion = BodyMotion(linkage, position, velocity, velocity)
     held = HeldParts(
         list(linkage.pins.values()),
-        list(linkage.columns.values()),
+        list(linkage.actuators.values()),
         list(linkage.cranks.values()),
         list(linkage.slides.values()),
     )
@@ -57,7 +57,7 @@ def test_rows_are_those_of_one_instant() -> None:
 @pytest.mark.parametrize("speed", [0.0, 5e-324, 1e-200, 1e-7])
 def test_rows_hardly_turn_with_bodies_that_hardly_move(speed: float) -> None:
     linkage = heavy().linkage
-    held = HeldParts(list(linkage.pins.values()), list(linkage.columns.values()), [], [])
+    held = HeldParts(list(linkage.pins.values()), list(linkage.actuators.values()), [], [])
     still = np.zeros((1, 3 * len(linkage.bodies)))
     found = turning(BodyMotion(linkage, still, still + speed, still), held)
     assert np.abs(found).max() <= 100.0 * speed**2  # of rows that are some metres long
@@ -75,10 +75,10 @@ def test_forces_are_those_of_free_coordinates_also_after_a_break(drive: Drive) -
             )
 
 
-@pytest.mark.parametrize("columns", [{}, oil_columns(), cylinders_and_rods()])
-def test_short_steps_show_no_rounding_in_forces(columns: dict) -> None:  # type: ignore[type-arg]
+@pytest.mark.parametrize("actuators", [{}, oil_columns(), cylinders_and_rods()])
+def test_short_steps_show_no_rounding_in_forces(actuators: dict) -> None:  # type: ignore[type-arg]
     # the journal falls freely: nothing shakes. Multipliers scatter by 1e5 N at this step
-    scene = loose_support(duration=1e-3, drive=Held(), step=5e-7, record_period=1e-4, columns=columns)
+    scene = loose_support(duration=1e-3, drive=Held(), step=5e-7, record_period=1e-4, actuators=actuators)
     result = simulate(replace(scene, solver=SolverSettings(impact_steps=64, backend="symbolic")))
     for name in ("pin.front_base.force", "pin.shield_canopy.force", "canopy.angular_acceleration"):
         values = result[name]

@@ -35,7 +35,7 @@ from support_exudyn.mechanics.space.motion import (
     turning_matrix,
 )
 from support_exudyn.mechanics.space.reactions import inertia_forces, reactions
-from support_exudyn.model.spatial_linkage import Bearing, SpatialBody, SpatialColumn, SpatialLinkage
+from support_exudyn.model.spatial_linkage import Bearing, SpatialActuator, SpatialBody, SpatialLinkage
 from tests.cases.law_cases import NORMAL_LAWS
 from tests.cases.machine_cases import contact
 from user_forces import Impact, LankaraniNikravesh, LoadError, NormalLaw
@@ -84,7 +84,7 @@ BODY = {"mass": 2.0, "inertia": (1.0, 1.2, 0.9, 0.1, -0.05, 0.02)}
 
 @st.composite
 def machines(draw: st.DrawFn) -> SpatialLinkage:
-    """Two bodies, a bearing between them and one on the ground, a column from far away."""
+    """Two bodies, a bearing between them and one on the ground, an actuator from far away."""
     first, second = (SpatialBody(centre=draw(vectors), **BODY) for _ in range(2))
     axis, point = draw(directions()), draw(vectors)
     return SpatialLinkage(
@@ -103,8 +103,10 @@ def machines(draw: st.DrawFn) -> SpatialLinkage:
                 first="ground", second="a", first_point=point, second_point=point, first_axis=axis, pin="q"
             ),
         },
-        columns={
-            "k": SpatialColumn(foot="a", head="b", foot_point=(0.0, -20.0, 3.0), head_point=point, column="k")
+        actuators={
+            "k": SpatialActuator(
+                foot="a", head="b", foot_point=(0.0, -20.0, 3.0), head_point=point, actuator="k"
+            )
         },
     )
 
@@ -137,7 +139,7 @@ def test_rows_are_the_rates_of_what_is_held(
     shifts = [row for row in rows if not row.kind.startswith("tilt")]
 
     def held(q: np.ndarray) -> np.ndarray:
-        """Written out anew: coordinates of the second point in the first body's axes; length of the column."""
+        """Written out anew: coordinates of the second point in the first body's axes; the actuator's length."""
         where = {"ground": (np.eye(3), np.zeros(3), np.zeros(3))}
         for name, own in zip(linkage.bodies, q.reshape(2, 7), strict=True):
             p = own[3:] + UNTURNED
@@ -153,9 +155,9 @@ def test_rows_are_the_rates_of_what_is_held(
 
         found = []
         for row in shifts:
-            if row.kind == "column":
-                column = linkage.columns[row.name]
-                apart = point(column.head, column.head_point) - point(column.foot, column.foot_point)
+            if row.kind == "actuator":
+                actuator = linkage.actuators[row.name]
+                apart = point(actuator.head, actuator.head_point) - point(actuator.foot, actuator.foot_point)
                 found.append(np.linalg.norm(apart))
                 continue
             b = linkage.bearings[row.name]

@@ -1,4 +1,4 @@
-"""Scenes that are drawn: machines, pins, laws, friction, starts, columns, drives, loads, formulations.
+"""Scenes that are drawn: machines, pins, laws, friction, starts, actuators, drives, loads, formulations.
 
 Each is some hundredths of a second long, in which a journal that starts free strikes a few times.
 """
@@ -14,10 +14,10 @@ from hypothesis import strategies as st
 
 from studies.common.paper_machine import JACK, hydraulic_cylinders, oil_columns
 from support_exudyn import (
+    ActuatorModel,
     AppliedForce,
     ClearancePin,
     ClosedInlet,
-    ColumnModel,
     CubicStep,
     Drive,
     FallingBlock,
@@ -162,7 +162,7 @@ def with_clearance(
 
 @st.composite
 def strokes(draw: st.DrawFn, duration: float) -> Drive:
-    """Of columns; they begin and end between records."""
+    """Of actuators; they begin and end between records."""
     last = round(duration / MS)
     start = draw(half_milliseconds(0, last // 2))
     end = start + MS * draw(st.integers(last // 2, 2 * last))
@@ -176,23 +176,23 @@ def strokes(draw: st.DrawFn, duration: float) -> Drive:
     return draw(st.sampled_from(kinds))
 
 
-def columns_of(kind: Machine) -> tuple[str, ...]:
-    """Names of the columns."""
-    return tuple(kind.linkage().columns)
+def actuators_of(kind: Machine) -> tuple[str, ...]:
+    """Names of the actuators."""
+    return tuple(kind.linkage().actuators)
 
 
-def on_oil(kind: Machine) -> dict[str, ColumnModel]:
-    """All columns on oil."""
-    return dict.fromkeys(columns_of(kind), oil_columns()["front_column"])
+def on_oil(kind: Machine) -> dict[str, ActuatorModel]:
+    """All actuators on oil."""
+    return dict.fromkeys(actuators_of(kind), oil_columns()["front_column"])
 
 
 @st.composite
-def columns(draw: st.DrawFn, kind: Machine, name: str) -> Mapping[str, ColumnModel]:
-    """Of any kind, of one or both columns."""
+def actuators(draw: st.DrawFn, kind: Machine, name: str) -> Mapping[str, ActuatorModel]:
+    """Of any kind, of one or both actuators."""
     oil, cylinder = oil_columns()["front_column"], hydraulic_cylinders(ClosedInlet())["front_column"]
     opened = replace(cylinder, inlet=SuddenOpening(start=draw(half_milliseconds(0, 8)), end=0.1, extent=0.5))
     heavy = cylinders_and_rods(draw(st.sampled_from((None, oil)))) if name == "reference" else {}
-    one, two = columns_of(kind)
+    one, two = actuators_of(kind)
     kinds = ({}, {one: oil}, {one: oil, two: oil}, {one: opened, two: oil}, {two: cylinder}, heavy)
     return draw(st.sampled_from(kinds))
 
@@ -256,7 +256,7 @@ def in_a_tree(draw: st.DrawFn) -> Scenario:
     return Scenario(
         machine=kind,
         pins={draw(st.sampled_from(PINS[:4])): draw(with_clearance(0.0655, 2.7e10, False, apart=True))},
-        columns=on_oil(kind),
+        actuators=on_oil(kind),
         parts=draw(tails(kind)),
         drive=draw(strokes(duration)),
         start=draw(st.sampled_from(("concentric", "settled"))),
@@ -280,11 +280,11 @@ def in_bodies(draw: st.DrawFn, level: bool = True) -> Scenario:
     if draw(st.integers(0, 4)) == 0:
         rubbing = IdealPin(friction=CubicCoulomb(sliding_coefficient=0.1), radius=0.06)
         pins = {draw(st.sampled_from(PINS)): rubbing} | pins
-    made_of = draw(columns(kind, name))
+    made_of = draw(actuators(kind, name))
     return Scenario(
         machine=kind,
         pins=pins,
-        columns=made_of,
+        actuators=made_of,
         parts=draw(tails(kind)),
         loads=draw(loads(kind, level)),
         drive=draw(strokes(duration)) if len(cylinders_in(made_of)) < 2 else Held(),
@@ -297,10 +297,12 @@ def in_bodies(draw: st.DrawFn, level: bool = True) -> Scenario:
     )
 
 
-def cylinders_in(made_of: Mapping[str, ColumnModel]) -> list[str]:
-    """Columns that no drive moves."""
+def cylinders_in(made_of: Mapping[str, ActuatorModel]) -> list[str]:
+    """Actuators that no drive moves."""
     return [
-        name for name, column in made_of.items() if not isinstance(column, OilColumn) and column.oil is None
+        name
+        for name, actuator in made_of.items()
+        if not isinstance(actuator, OilColumn) and actuator.oil is None
     ]
 
 

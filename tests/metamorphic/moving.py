@@ -108,9 +108,9 @@ def moved_linkage(linkage: Linkage, move: Move) -> Linkage:
         name: replace(pin, first_point=move.point(pin.first_point), second_point=move.point(pin.second_point))
         for name, pin in linkage.pins.items()
     }
-    columns = {
+    actuators = {
         name: replace(one, foot_point=move.point(one.foot_point), head_point=move.point(one.head_point))
-        for name, one in linkage.columns.items()
+        for name, one in linkage.actuators.items()
     }
     points = {name: replace(one, point=move.point(one.point)) for name, one in linkage.points.items()}
     slides = {
@@ -118,7 +118,7 @@ def moved_linkage(linkage: Linkage, move: Move) -> Linkage:
         for name, one in linkage.slides.items()
     }
     cranks: Mapping[str, Crank] = linkage.cranks
-    return Linkage(bodies=bodies, pins=pins, columns=columns, points=points, cranks=cranks, slides=slides)
+    return Linkage(bodies=bodies, pins=pins, actuators=actuators, points=points, cranks=cranks, slides=slides)
 
 
 @value
@@ -134,8 +134,8 @@ class Moved(Machine):
     def linkage(self) -> Linkage:
         return moved_linkage(self.inner.linkage(), self._move)
 
-    def detailed(self, columns: Collection[str], parts: Collection[str]) -> Linkage:
-        return moved_linkage(self.inner.detailed(columns, parts), self._move)
+    def detailed(self, actuators: Collection[str], parts: Collection[str]) -> Linkage:
+        return moved_linkage(self.inner.detailed(actuators, parts), self._move)
 
     @property
     def _move(self) -> Move:

@@ -13,7 +13,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from support_exudyn import ColumnModel, Held, HydraulicCylinder, OilColumn, Reciprocating, Scenario
+from support_exudyn import ActuatorModel, Held, HydraulicCylinder, OilColumn, Reciprocating, Scenario
 from tests.metamorphic import drawn
 from tests.metamorphic.same import plain, run, scenes
 
@@ -62,22 +62,22 @@ def as_oil(cylinder: HydraulicCylinder) -> OilColumn:
 
 @st.composite
 def at_rest(draw: st.DrawFn) -> tuple[Scenario, Mapping[str, HydraulicCylinder]]:
-    """A support without cylinders, and closed ones for one or both of its columns, which are not driven."""
+    """A support without cylinders, and closed ones for one or both of its actuators, which are not driven."""
     scene = draw(drawn.in_bodies())
     drive = Held() if isinstance(scene.drive, Reciprocating) else scene.drive
-    names = drawn.columns_of(scene.machine)
+    names = drawn.actuators_of(scene.machine)
     chosen = names if draw(st.booleans()) else names[:1]
     found = {name: draw(preloaded()) for name in chosen}
-    return replace(scene, columns={}, drive=Held() if len(chosen) == 2 else drive), found
+    return replace(scene, actuators={}, drive=Held() if len(chosen) == 2 else drive), found
 
 
 def compared(scene: Scenario, cylinders: Mapping[str, HydraulicCylinder], hoses: float, curved: float) -> None:
     filled_up = {name: with_hoses(cylinder, hoses) for name, cylinder in cylinders.items()}
-    with_oil: dict[str, ColumnModel] = {name: as_oil(one) for name, one in filled_up.items()}
+    with_oil: dict[str, ActuatorModel] = {name: as_oil(one) for name, one in filled_up.items()}
     # all are told: what is said of the drive of a leg is the ram's, too
-    driven = {name: scene.drive for name in drawn.columns_of(scene.machine) if name not in cylinders}
-    oil = replace(scene, columns=with_oil, drives=driven | dict.fromkeys(cylinders, Held()))
-    one, two = run(oil), run(replace(scene, columns=filled_up, drives=driven))
+    driven = {name: scene.drive for name in drawn.actuators_of(scene.machine) if name not in cylinders}
+    oil = replace(scene, actuators=with_oil, drives=driven | dict.fromkeys(cylinders, Held()))
+    one, two = run(oil), run(replace(scene, actuators=filled_up, drives=driven))
     # methods differ, for pressures are coordinates: each has its error
     both = {name: allowed + two.allowed[name] for name, allowed in one.allowed.items()}
     other = dict(plain(two.result))

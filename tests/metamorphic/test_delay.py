@@ -52,14 +52,14 @@ def later(scene: Scenario, dwell: float) -> Scenario:
         assert isinstance(one, Held)
         return one
 
-    columns = dict(scene.columns)
-    for name, column in columns.items():
-        if isinstance(column, HydraulicCylinder) and isinstance(inlet := column.inlet, SuddenOpening):
+    actuators = dict(scene.actuators)
+    for name, actuator in actuators.items():
+        if isinstance(actuator, HydraulicCylinder) and isinstance(inlet := actuator.inlet, SuddenOpening):
             opens = replace(inlet, start=inlet.start + dwell, end=inlet.end + dwell)
-            columns[name] = replace(column, inlet=opens)
+            actuators[name] = replace(actuator, inlet=opens)
     return replace(
         scene,
-        columns=columns,
+        actuators=actuators,
         loads={name: load(one) for name, one in scene.loads.items()},
         drive=drive(scene.drive),
         duration=scene.duration + dwell,

@@ -21,13 +21,13 @@ SHARE, FORCE, NEAR = 5e-3, 2e-5, 1e-4  # of the errors, of the largest force, of
 
 @st.composite
 def with_a_loose_pin(draw: st.DrawFn, pin: str) -> Scenario:
-    """A support with this pin with clearance, its columns rigid or on oil."""
+    """A support with this pin with clearance, its actuators rigid or on oil."""
     duration = drawn.MS * draw(st.integers(10, 20))
     kind = drawn.machine(draw(st.sampled_from(drawn.SUPPORTS)))
     return Scenario(
         machine=kind,
         pins={pin: draw(drawn.with_clearance(0.0655, 2.7e10, compiled=False, apart=False))},
-        columns=drawn.on_oil(kind) if draw(st.booleans()) else {},
+        actuators=drawn.on_oil(kind) if draw(st.booleans()) else {},
         drive=draw(drawn.strokes(duration)),
         start=draw(st.sampled_from(("concentric", "settled"))),
         duration=duration,

@@ -47,7 +47,7 @@ def test_speed_adds_up_to_the_stroke(kind: type[Stroke], stroke: float, start: f
 
 
 @given(kind=kinds, stroke=strokes, start=starts, length=lengths, before=st.floats(0.0, 5.0))
-def test_columns_rest_before_the_start(
+def test_actuators_rest_before_the_start(
     kind: type[Stroke], stroke: float, start: float, length: float, before: float
 ) -> None:
     chosen = drive(kind, stroke, start, length)
@@ -56,7 +56,7 @@ def test_columns_rest_before_the_start(
 
 
 @given(kind=kinds, stroke=strokes, start=starts, length=lengths, after=st.floats(1e-6, 5.0))
-def test_columns_rest_at_their_stroke_after_the_end(
+def test_actuators_rest_at_their_stroke_after_the_end(
     kind: type[Stroke], stroke: float, start: float, length: float, after: float
 ) -> None:
     chosen = drive(kind, stroke, start, length)
@@ -158,7 +158,7 @@ def test_extension_stays_within_the_span(
 
 
 @given(t=times)
-def test_held_columns_do_not_move(t: float) -> None:
+def test_held_actuators_do_not_move(t: float) -> None:
     assert (Held().extension(t), Held().speed(t)) == (0.0, 0.0)
     assert Held().breaks == ()
     assert Held().span(5.0) == (0.0, 0.0)
@@ -167,7 +167,7 @@ def test_held_columns_do_not_move(t: float) -> None:
 @pytest.mark.parametrize(
     "chosen", [Held(), CubicStep(), UniformSpeed(), UniformSpeed(start=0.0), Reciprocating(period=2.0)]
 )
-def test_columns_start_at_rest(chosen: Drive) -> None:
+def test_actuators_start_at_rest(chosen: Drive) -> None:
     # a stroke that begins at the start begins with a jump and not with a speed
     assert chosen.initial_speed == 0.0
 

@@ -28,7 +28,7 @@ from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.channels import DataNeeds
 from support_exudyn.mechanics.cylinder_chambers import PreloadedCylinder, fill_cylinders
 from support_exudyn.mechanics.trajectory import CylinderSeries
-from support_exudyn.model.linkage import GROUND, Body, Column, Linkage
+from support_exudyn.model.linkage import GROUND, Body, LinearActuator, Linkage
 from support_exudyn.scenario.timescales import timescales
 from tests.cases.machine_cases import support
 from user_forces import InputError
@@ -44,11 +44,11 @@ CYLINDER = HydraulicCylinder(
     nominal_flow=6e-3,
     damping=1e4,
 )
-COLUMN = Column(foot=GROUND, head="ram", foot_point=(0.0, 0.0), head_point=(0.0, 1.6))
+ACTUATOR = LinearActuator(foot=GROUND, head="ram", foot_point=(0.0, 0.0), head_point=(0.0, 1.6))
 
 
 def preloaded(load: float = 4e4, **changes: Any) -> PreloadedCylinder:
-    return PreloadedCylinder(COLUMN, replace(CYLINDER, **changes), load)
+    return PreloadedCylinder(ACTUATOR, replace(CYLINDER, **changes), load)
 
 
 @pytest.mark.parametrize(
@@ -133,7 +133,7 @@ def test_wrong_cylinders_are_refused() -> None:
     machine = support()
 
     def scenario(**changes: Any) -> Any:
-        return Scenario(**({"machine": machine, "duration": 1.0, "drive": Held(), "columns": both} | changes))
+        return Scenario(**({"machine": machine, "duration": 1.0, "drive": Held(), "actuators": both} | changes))
 
     assert scenario().driven == ()
     assert not scenario().jumps
@@ -143,23 +143,23 @@ def test_wrong_cylinders_are_refused() -> None:
         scenario(drive=CubicStep())
     with pytest.raises(InputError, match=r"HydraulicCylinder: is planar; allowed in space: OilColumn"):
         scenario(machine=reference_support(), dimensions=3)
-    with pytest.raises(InputError, match=r"oil_length = 5\.0 m: the column is .* long"):
-        scenario(columns={"front_column": replace(CYLINDER, oil_length=5.0)})
+    with pytest.raises(InputError, match=r"oil_length = 5\.0 m: the actuator is .* long"):
+        scenario(actuators={"front_column": replace(CYLINDER, oil_length=5.0)})
     with pytest.raises(InputError, match=r"system_pressure = 1000\.0 Pa: allowed: > tank_pressure"):
-        scenario(columns={"front_column": replace(CYLINDER, system_pressure=1e3)})
+        scenario(actuators={"front_column": replace(CYLINDER, system_pressure=1e3)})
     for name in ("tree", "reduced"):
         with pytest.raises(InputError, match="HydraulicCylinder"):
             formulation(name).check(scenario(formulation=name))
-    # the other column follows the drive
-    mixed = scenario(columns={"front_column": CYLINDER}, drive=CubicStep())
+    # the other actuator follows the drive
+    mixed = scenario(actuators={"front_column": CYLINDER}, drive=CubicStep())
     assert mixed.driven == ("rear_column",)
-    assert mixed.compliant_columns == ("front_column",)
+    assert mixed.compliant_actuators == ("front_column",)
 
 
 def test_channels_and_breaks_are_those_of_the_valves() -> None:
     inlet = SuddenOpening(start=0.2, end=0.7)
     scenario = Scenario(
-        machine=support(), duration=1.0, columns={"front_column": replace(CYLINDER, inlet=inlet)}
+        machine=support(), duration=1.0, actuators={"front_column": replace(CYLINDER, inlet=inlet)}
     )
     assert {0.2, 0.7} <= set(scenario.breaks)
     channel_definitions = scenario.channel_definitions
@@ -178,12 +178,12 @@ def test_the_static_loads_fill_them() -> None:
 
 
 def test_the_ends_of_what_is_allowed() -> None:
-    length = support().linkage().columns["front_column"].start_length
+    length = support().linkage().actuators["front_column"].start_length
     CYLINDER.check_length(0.51, "jack")
-    with pytest.raises(InputError, match=r"columns\.jack\.oil_length = 0\.5 m"):
+    with pytest.raises(InputError, match=r"actuators\.jack\.oil_length = 0\.5 m"):
         CYLINDER.check_length(0.5, "jack")  # the oil would take all of it
     replace(CYLINDER, oil_length=0.999 * length).check_length(length, "jack")
-    with pytest.raises(InputError, match=r"columns\.jack\.system_pressure = 500000\.0 Pa: allowed: > tank"):
+    with pytest.raises(InputError, match=r"actuators\.jack\.system_pressure = 500000\.0 Pa: allowed: > tank"):
         replace(CYLINDER, system_pressure=0.5e6).check_length(length, "jack")
     for inlet in (SuddenOpening, RampedOpening):
         assert inlet(extent=-1.0).extent == -1.0
@@ -228,15 +228,15 @@ def test_steps_have_to_follow_the_valve() -> None:
     quick = replace(CYLINDER, inlet=RampedOpening(start=0.2, end=0.9, ramp=0.15))
     slow = replace(CYLINDER, inlet=SuddenOpening(start=0.2, end=0.9))
     scenario = Scenario(
-        machine=support(), duration=1.0, drive=Held(), columns={"front_column": slow, "rear_column": quick}
+        machine=support(), duration=1.0, drive=Held(), actuators={"front_column": slow, "rear_column": quick}
     )
     assert timescales(scenario).drive == pytest.approx(0.15)
 
 
 def test_flows_and_pressures_stand_under_their_names() -> None:
     inlet = SuddenOpening(start=0.0, end=1.0, extent=0.5)
-    columns = {"front_column": replace(CYLINDER, inlet=inlet)}
-    channel_definitions = Scenario(machine=support(), duration=1.0, columns=columns).channel_definitions
+    actuators = {"front_column": replace(CYLINDER, inlet=inlet)}
+    channel_definitions = Scenario(machine=support(), duration=1.0, actuators=actuators).channel_definitions
     series = CylinderSeries(*(np.full(1, float(n)) for n in range(7)))
     context = SimpleNamespace(run=SimpleNamespace(cylinders={"front_column": series}))
     for what, field in {
@@ -249,8 +249,10 @@ def test_flows_and_pressures_stand_under_their_names() -> None:
 
 
 @pytest.mark.parametrize("rate", [0.2, -0.3])
-def test_the_record_of_a_column_is_that_of_its_model(rate: float) -> None:
-    linkage = Linkage(bodies={"ram": Body(mass=1.0, inertia=1.0, centre=(0.0, 1.6))}, columns={"jack": COLUMN})
+def test_the_record_of_an_actuator_is_that_of_its_model(rate: float) -> None:
+    linkage = Linkage(
+        bodies={"ram": Body(mass=1.0, inertia=1.0, centre=(0.0, 1.6))}, actuators={"jack": ACTUATOR}
+    )
     motion = BodyMotion(linkage, np.array([[0.0, 0.1, 0.0]]), np.array([[0.0, rate, 0.0]]), np.zeros((1, 3)))
     one = preloaded()
     series = one.series(motion, np.array([[3e6, 1e6]]), np.array([0.5]))

@@ -164,9 +164,9 @@ def test_loads_in_space_are_refused() -> None:
 
 @pytest.mark.parametrize("formulation", ["tree", "reduced"])
 def test_formulations_that_know_no_loads_say_so(formulation: str) -> None:
-    columns = ON_OIL if formulation == "tree" else {}
+    actuators = ON_OIL if formulation == "tree" else {}
     scene = pressed_support(
-        over_the_canopy(0.1), formulation=formulation, columns=columns, pins=loose_support().pins
+        over_the_canopy(0.1), formulation=formulation, actuators=actuators, pins=loose_support().pins
     )
     with pytest.raises(InputError, match=r"loads\.roof = Roof: not covered by .* 'redundant' covers it"):
         simulate(scene)
@@ -198,10 +198,10 @@ def test_a_ram_on_its_roof_vibrates_with_its_mass() -> None:
     assert timescales(thrown(0.01, 1e-3)).resting == pytest.approx(math.sqrt(MASS / STIFFNESS), rel=1e-12)
 
 
-def test_a_canopy_on_rigid_columns_does_not_vibrate_under_a_roof() -> None:
+def test_a_canopy_on_rigid_actuators_does_not_vibrate_under_a_roof() -> None:
     press = over_the_canopy(0.1)
     assert timescales(pressed_support(press)).resting == math.inf
-    on_oil = timescales(pressed_support(press, columns=ON_OIL)).resting
+    on_oil = timescales(pressed_support(press, actuators=ON_OIL)).resting
     # some of the support's 7 t
     assert 500.0 < on_oil**2 * HARD < 7000.0
 

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from support_exudyn import Body, Column, Crank, Linkage, Machine, Part, PinPlace, Slide, TracePoint
+from support_exudyn import Body, Crank, LinearActuator, Linkage, Machine, Part, PinPlace, Slide, TracePoint
 from support_exudyn.model.linkage import bar, lumped, pinned
 from user_forces import InputError, Value, value
 
@@ -65,8 +65,11 @@ def test_first_moment_is_the_sum_over_the_parts(items: list[Part]) -> None:
     assert lump.mass * lump.centre[1] == pytest.approx(sum(p.mass * p.centre[1] for p in items), abs=scale)
 
 
-def test_start_length_of_a_column_is_the_distance_of_its_ends() -> None:
-    assert Column(foot="ground", head="a", foot_point=(1.0, 2.0), head_point=(4.0, 6.0)).start_length == 5.0
+def test_start_length_of_an_actuator_is_the_distance_of_its_ends() -> None:
+    assert (
+        LinearActuator(foot="ground", head="a", foot_point=(1.0, 2.0), head_point=(4.0, 6.0)).start_length
+        == 5.0
+    )
 
 
 def test_pin_between_two_bodies_is_at_one_point() -> None:
@@ -100,10 +103,10 @@ def test_a_pin_on_an_unknown_body_is_refused() -> None:
         Linkage(bodies={"a": BODY}, pins={"p": pinned("a", "b", (0.0, 0.0))})
 
 
-def test_a_column_on_an_unknown_body_is_refused() -> None:
-    column = Column(foot="b", head="a", foot_point=(0.0, 0.0), head_point=(1.0, 0.0))
-    with pytest.raises(InputError, match=r"columns\.c = 'b': no such body; allowed: ground, a"):
-        Linkage(bodies={"a": BODY}, columns={"c": column})
+def test_an_actuator_on_an_unknown_body_is_refused() -> None:
+    actuator = LinearActuator(foot="b", head="a", foot_point=(0.0, 0.0), head_point=(1.0, 0.0))
+    with pytest.raises(InputError, match=r"actuators\.c = 'b': no such body; allowed: ground, a"):
+        Linkage(bodies={"a": BODY}, actuators={"c": actuator})
 
 
 def test_a_point_of_an_unknown_body_is_refused() -> None:
@@ -133,10 +136,10 @@ def test_a_slide_of_a_body_against_itself_is_refused() -> None:
         Linkage(bodies={"a": BODY}, slides={"s": Slide(body="a", point=(0.0, 0.0), against="a")})
 
 
-def test_columns_that_are_not_driven_are_no_driven_parts() -> None:
+def test_actuators_that_are_not_driven_are_no_driven_parts() -> None:
     ends = {"foot": "ground", "head": "a", "foot_point": (0.0, 0.0), "head_point": (1.0, 0.0)}
-    columns = {"jack": Column(**ends), "strut": Column(**ends, driven=False)}
-    linkage = Linkage(bodies={"a": BODY}, columns=columns, cranks={"c": Crank(body="a")})
+    actuators = {"jack": LinearActuator(**ends), "strut": LinearActuator(**ends, driven=False)}
+    linkage = Linkage(bodies={"a": BODY}, actuators=actuators, cranks={"c": Crank(body="a")})
     assert linkage.driven == ("jack", "c")
 
 
@@ -146,7 +149,7 @@ def test_a_machine_has_no_details_unless_it_says_so() -> None:
             return Linkage(bodies={"a": BODY})
 
     assert Plain().jacks == {}
-    assert Plain().detailed(("column",), ()) == Plain().linkage()
+    assert Plain().detailed(("actuator",), ()) == Plain().linkage()
 
 
 def test_a_slide_is_along_x_unless_said_otherwise() -> None:
@@ -169,7 +172,7 @@ def test_a_linkage_comes_back_from_json() -> None:
     assert Value.from_data(json.loads(json.dumps(linkage.to_data()))) == linkage
 
 
-def test_a_machine_without_columns_takes_any_extension() -> None:
+def test_a_machine_without_actuators_takes_any_extension() -> None:
     @value
     class Pendulum(Machine):
         def linkage(self) -> Linkage:

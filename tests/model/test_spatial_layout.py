@@ -13,9 +13,9 @@ from hypothesis import strategies as st
 
 from support_exudyn import (
     Body,
-    Column,
     Crank,
     Held,
+    LinearActuator,
     Linkage,
     OilColumn,
     OwnBody,
@@ -51,7 +51,7 @@ def widths(draw: st.DrawFn) -> Width:
     return Width(
         spreads={name: draw(lengths) for name in LINKAGE.bodies},
         pairs=dict.fromkeys(pairs, distance),
-        columns={name: draw(lengths) for name in draw(st.sets(st.sampled_from(sorted(LINKAGE.columns))))},
+        actuators={name: draw(lengths) for name in draw(st.sets(st.sampled_from(sorted(LINKAGE.actuators))))},
         lengths={name: draw(lengths) for name in draw(st.sets(st.sampled_from(sorted(LINKAGE.pins))))},
         points={"tip": draw(lengths)} if draw(st.booleans()) else {},
     )
@@ -77,12 +77,12 @@ def test_both_sides_add_up_to_the_plane(width: Width) -> None:
         bearings = space.parts_of_pin(name)
         assert sum(b.share for b in bearings.values()) == 1.0
         assert {b.length for b in bearings.values()} == {width.lengths.get(name, 0.0)}
-    for name in LINKAGE.columns:
-        columns = {key: c for key, c in space.columns.items() if c.column == name}
-        assert set(columns) == ({f"{name}_left", f"{name}_right"} if name in width.columns else {name})
-        assert sum(c.share for c in columns.values()) == 1.0
-        for column in columns.values():
-            assert column.start_length == pytest.approx(LINKAGE.columns[name].start_length, rel=1e-14)
+    for name in LINKAGE.actuators:
+        actuators = {key: c for key, c in space.actuators.items() if c.actuator == name}
+        assert set(actuators) == ({f"{name}_left", f"{name}_right"} if name in width.actuators else {name})
+        assert sum(c.share for c in actuators.values()) == 1.0
+        for actuator in actuators.values():
+            assert actuator.start_length == pytest.approx(LINKAGE.actuators[name].start_length, rel=1e-14)
     assert set(space.points) == {"tip"} | ({"tip_left", "tip_right"} if width.points else set())
 
 
@@ -95,7 +95,7 @@ def test_names_and_sides_of_the_reference() -> None:
     assert space.bearings["front_shield_left"].holds == set()
     assert space.bearings["front_shield_right"].first == "front_link_right"
     assert space.bearings["front_shield_right"].second == "shield"
-    assert space.columns["rear_column_left"].head_point[2] == -0.31
+    assert space.actuators["rear_column_left"].head_point[2] == -0.31
     assert space.points["tip_right"].point[2] == 0.57
 
 
@@ -136,7 +136,7 @@ def test_a_slanted_bar_resists_turning_about_its_own_line_by_its_width_alone(deg
         ),
         (
             Width(spreads=dict.fromkeys(LINKAGE.bodies, 0.1), pairs={"canopy": 0.4}),
-            "columns.front_column on canopy",
+            "actuators.front_column on canopy",
         ),
     ],
 )
@@ -155,9 +155,9 @@ def test_points_on_pairs_cranks_and_slides_are_refused() -> None:
         lift(Linkage(bodies={"a": body}, pins=pin, cranks={"c": Crank(body="a")}), width)
     with pytest.raises(InputError, match=r"slides\.s: not covered in space"):
         lift(Linkage(bodies={"a": body}, slides={"s": Slide(body="a", point=(0.0, 0.0))}), width)
-    column = {"k": Column(foot="ground", head="a", foot_point=(0.0, -1.0), head_point=(0.0, 0.0))}
-    with pytest.raises(InputError, match=r"columns\.k on a, which is a pair"):
-        lift(Linkage(bodies={"a": body}, columns=column), width)
+    actuator = {"k": LinearActuator(foot="ground", head="a", foot_point=(0.0, -1.0), head_point=(0.0, 0.0))}
+    with pytest.raises(InputError, match=r"actuators\.k on a, which is a pair"):
+        lift(Linkage(bodies={"a": body}, actuators=actuator), width)
 
 
 @given(factor=st.floats(0.1, 10.0))
@@ -165,7 +165,7 @@ def test_a_larger_width_is_larger_in_all(factor: float) -> None:
     width = REFERENCE.width
     assert width is not None
     larger = width.scaled(factor)
-    for kind in ("spreads", "pairs", "columns", "lengths", "points"):
+    for kind in ("spreads", "pairs", "actuators", "lengths", "points"):
         before, after = getattr(width, kind), getattr(larger, kind)
         assert after == {name: factor * item for name, item in before.items()}
 
@@ -268,7 +268,7 @@ def test_the_reference_has_the_widths_of_its_file() -> None:
     assert width is not None
     assert width.spreads["rear_link"] == pytest.approx(0.7 / math.sqrt(12.0), rel=1e-15)
     assert width.pairs == {"front_link": 0.4}
-    assert width.columns == {"front_column": 0.31, "rear_column": 0.31}
+    assert width.actuators == {"front_column": 0.31, "rear_column": 0.31}
     assert width.lengths["rear_base"] == 0.7
     assert width.points == {"tip": 0.57}
 
@@ -323,7 +323,7 @@ def scenario(**changes: object) -> Scenario:
             "drives.front_column_left: is not the drive of front_column_right, .*allowed for a pair of rigid",
         ),
         ({"drives": {"front_column_middle": Held()}}, "no such driven part; allowed: .*front_column_left"),
-        ({"columns": {"front_column_left": cylinders_and_rods()["front_column"]}}, "no such column"),
+        ({"actuators": {"front_column_left": cylinders_and_rods()["front_column"]}}, "no such actuator"),
         ({"dimensions": 4}, "dimensions"),
         ({"channels": ("tip_middle.z",)}, "tip_middle"),
     ],
@@ -333,7 +333,7 @@ def test_what_is_not_covered_in_space_is_said(changes: dict[str, object], said: 
         scenario(**changes)
 
 
-def test_columns_of_a_pair_are_driven_by_their_own_names_only_in_space() -> None:
+def test_actuators_of_a_pair_are_driven_by_their_own_names_only_in_space() -> None:
     drive = UniformSpeed(start=0.1, end=0.5, stroke=0.01)
     both = {"front_column": drive}
     assert scenario(drives=both).drive_of("front_column_left") == drive
@@ -377,15 +377,15 @@ def test_refining_in_space_refines_sections_too() -> None:
     assert scenario(dimensions=2).refined().solver.sections == one.solver.sections
 
 
-def test_rigid_columns_of_a_pair_may_have_a_drive_of_their_own_if_it_is_one() -> None:
+def test_rigid_actuators_of_a_pair_may_have_a_drive_of_their_own_if_it_is_one() -> None:
     drive = CubicStep(start=0.1, end=0.5, stroke=0.01)
     both = scenario(drives={"front_column_left": drive, "front_column_right": drive})
     assert both.drive_of("front_column_left") == drive
     assert both.drive_of("rear_column_left") == Held()
 
 
-def test_oil_of_each_column_of_a_pair_has_to_reach() -> None:
+def test_oil_of_each_actuator_of_a_pair_has_to_reach() -> None:
     oil = OilColumn(bore_area=0.1, oil_length=0.02, bulk_modulus=1.5e9)
     lowered = {"front_column_right": CubicStep(start=0.1, end=0.5, stroke=-0.03)}
-    with pytest.raises(InputError, match=r"columns\.front_column_right\.oil_length = 0\.02 m"):
-        scenario(columns={"front_column": oil}, drives=lowered)
+    with pytest.raises(InputError, match=r"actuators\.front_column_right\.oil_length = 0\.02 m"):
+        scenario(actuators={"front_column": oil}, drives=lowered)

@@ -33,7 +33,7 @@ COLUMN = CylinderAndRod(
     rod_inertia=14.0,
 )
 PLAIN = Scenario(machine=reference_support(), drive=CubicStep(stroke=RISE), duration=5.0)
-HEAVY = replace(PLAIN, columns={"front_column": COLUMN, "rear_column": COLUMN})
+HEAVY = replace(PLAIN, actuators={"front_column": COLUMN, "rear_column": COLUMN})
 SCENES = {
     "ideal pins": PLAIN,
     "clearance pin": clearance_rise(1.5, 0.25, 1e-3),

@@ -124,7 +124,7 @@ COLUMNS = ("front_column", "rear_column")
 RISES = {
     "redundant": loose_support(1.5, 0.25, **RISE),
     "reduced": loose_support(1.5, 0.25, formulation="reduced", **RISE),
-    "tree": loose_support(1.5, 0.25, formulation="tree", columns=dict.fromkeys(COLUMNS, OIL), **RISE),
+    "tree": loose_support(1.5, 0.25, formulation="tree", actuators=dict.fromkeys(COLUMNS, OIL), **RISE),
     "crank": loose_slider_crank(2e-3, formulation="reduced"),
     "space": loose_support(1.5, 0.25, dimensions=3, **RISE),
 }

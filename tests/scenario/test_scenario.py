@@ -58,7 +58,7 @@ def test_clearance_larger_than_the_bore_is_refused() -> None:
 
 @pytest.mark.parametrize("kind", [CubicStep, UniformSpeed])
 @pytest.mark.parametrize("stroke", [5.0, -2.0])
-def test_columns_that_cannot_close_the_linkage_are_refused(
+def test_actuators_that_cannot_close_the_linkage_are_refused(
     kind: type[CubicStep] | type[UniformSpeed], stroke: float
 ) -> None:
     with pytest.raises(InputError, match=rf"column extension = {stroke} m: .*allowed: up to "):
@@ -78,7 +78,7 @@ def test_negative_step_is_refused() -> None:
 def test_unknown_field_is_refused() -> None:
     with pytest.raises(
         InputError,
-        match=r"Scenario\.speed = 3: unknown field; the fields are machine, pins, columns, parts, drive",
+        match=r"Scenario\.speed = 3: unknown field; the fields are machine, pins, actuators, parts, drive",
     ):
         scenario(speed=3)
 
@@ -274,7 +274,7 @@ def test_a_single_record_is_taken() -> None:
     assert scenario(record_period=5.0).record_period == 5.0
 
 
-def test_columns_are_held_and_pins_ideal_unless_said_otherwise() -> None:
+def test_actuators_are_held_and_pins_ideal_unless_said_otherwise() -> None:
     plain = scenario()
     assert plain.drive == Held()
     assert plain.clearance_pins == {}
@@ -410,12 +410,12 @@ def test_no_drive_may_move_from_a_settled_start() -> None:
         scenario(drives={"rear_column": Steady(rate=0.01)}, start="settled")
 
 
-def test_oil_is_checked_against_the_drive_of_its_own_column() -> None:
+def test_oil_is_checked_against_the_drive_of_its_own_actuator() -> None:
     oil = OilColumn(bore_area=0.1, oil_length=0.1, bulk_modulus=1e9)
     lowers = {"rear_column": CubicStep(stroke=-0.2)}
-    assert scenario(columns={"front_column": oil}, drives=lowers).drives == lowers
-    with pytest.raises(InputError, match=r"columns\.rear_column\.oil_length = 0\.1 m"):
-        scenario(columns={"rear_column": oil}, drives=lowers)
+    assert scenario(actuators={"front_column": oil}, drives=lowers).drives == lowers
+    with pytest.raises(InputError, match=r"actuators\.rear_column\.oil_length = 0\.1 m"):
+        scenario(actuators={"rear_column": oil}, drives=lowers)
 
 
 def test_the_reduced_formulation_takes_one_drive() -> None:
@@ -430,21 +430,21 @@ def test_the_reduced_formulation_takes_one_drive() -> None:
 HEAVY = cylinders_and_rods()
 
 
-def test_columns_of_two_bodies_bring_bodies_pins_and_a_guide() -> None:
-    plain, detailed = scenario().linkage, scenario(columns={"front_column": HEAVY["front_column"]}).linkage
+def test_actuators_of_two_bodies_bring_bodies_pins_and_a_guide() -> None:
+    plain, detailed = scenario().linkage, scenario(actuators={"front_column": HEAVY["front_column"]}).linkage
     assert set(detailed.bodies) - set(plain.bodies) == {"front_column_cylinder", "front_column_rod"}
     assert set(detailed.pins) - set(plain.pins) == {"front_column_foot", "front_column_head"}
     assert set(detailed.slides) == {"front_column_guide"}
-    column = detailed.columns["front_column"]
-    assert (column.foot, column.head) == ("front_column_cylinder", "front_column_rod")
-    assert column.start_length == plain.columns["front_column"].start_length
-    assert detailed.columns["rear_column"] == plain.columns["rear_column"]
+    actuator = detailed.actuators["front_column"]
+    assert (actuator.foot, actuator.head) == ("front_column_cylinder", "front_column_rod")
+    assert actuator.start_length == plain.actuators["front_column"].start_length
+    assert detailed.actuators["rear_column"] == plain.actuators["rear_column"]
 
 
 def test_a_detailed_scenario_comes_back_from_json() -> None:
     one = Scenario(
         machine=reference_support(),
-        columns=HEAVY,
+        actuators=HEAVY,
         parts={"tail_beam": OwnBody(jack=OilColumn(bore_area=0.01, oil_length=0.3, bulk_modulus=1e9))},
         drives={"rear_column": CubicStep(stroke=0.2)},
         duration=5.0,
@@ -454,12 +454,12 @@ def test_a_detailed_scenario_comes_back_from_json() -> None:
     assert one.drive_of("tail_jack") == Held()
 
 
-def test_oil_in_a_column_of_two_bodies_is_oil() -> None:
+def test_oil_in_an_actuator_of_two_bodies_is_oil() -> None:
     oil = OilColumn(bore_area=0.1, oil_length=0.1, bulk_modulus=1e9)
-    columns = cylinders_and_rods(oil)
-    assert scenario(columns=columns).oil_columns == {"front_column": oil, "rear_column": oil}
-    with pytest.raises(InputError, match=r"columns\.front_column\.drive\.oil_length = 0\.1 m"):
-        scenario(columns=columns, drive=CubicStep(stroke=-0.2))
+    actuators = cylinders_and_rods(oil)
+    assert scenario(actuators=actuators).oil_columns == {"front_column": oil, "rear_column": oil}
+    with pytest.raises(InputError, match=r"actuators\.front_column\.drive\.oil_length = 0\.1 m"):
+        scenario(actuators=actuators, drive=CubicStep(stroke=-0.2))
 
 
 def test_a_part_that_the_machine_does_not_have_is_refused() -> None:
@@ -473,13 +473,13 @@ def test_a_part_that_the_machine_has_no_data_of_is_refused() -> None:
 
 
 @pytest.mark.parametrize("name", ["jack", "tail_jack"])
-def test_only_driven_columns_are_columns_of_the_scenario(name: str) -> None:
-    said = rf"columns\.{name}: the machine has no such column; allowed: front_column, rear_column"
-    for column in (OilColumn(bore_area=0.1, oil_length=0.1, bulk_modulus=1e9), HEAVY["front_column"]):
+def test_only_driven_actuators_are_actuators_of_the_scenario(name: str) -> None:
+    said = rf"actuators\.{name}: the machine has no such actuator; allowed: front_column, rear_column"
+    for actuator in (OilColumn(bore_area=0.1, oil_length=0.1, bulk_modulus=1e9), HEAVY["front_column"]):
         with pytest.raises(InputError, match=said):
             Scenario(
                 machine=reference_support(),
-                columns={name: column},
+                actuators={name: actuator},
                 parts={"tail_beam": OwnBody()},
                 duration=1.0,
             )
@@ -498,23 +498,25 @@ def test_a_jack_follows_no_drive() -> None:
 def test_a_name_that_is_taken_is_refused() -> None:
     @value
     class Taken(HydraulicSupport):
-        def detailed(self, columns: Collection[str], parts: Collection[str]) -> Linkage:
-            linkage = super().detailed(columns, parts)
+        def detailed(self, actuators: Collection[str], parts: Collection[str]) -> Linkage:
+            linkage = super().detailed(actuators, parts)
             return dataclasses.replace(
                 linkage, bodies={**linkage.bodies, "rear_column_rod": linkage.bodies["shield"]}
             )
 
     fields = {f.name: getattr(SUPPORT, f.name) for f in dataclasses.fields(SUPPORT)}
-    with pytest.raises(InputError, match=r"columns\.rear_column: rear_column_rod is a name of the machine"):
-        scenario(machine=Taken(**fields), columns=HEAVY)
+    with pytest.raises(InputError, match=r"actuators\.rear_column: rear_column_rod is a name of the machine"):
+        scenario(machine=Taken(**fields), actuators=HEAVY)
 
 
 @pytest.mark.parametrize("formulation", [tree_coverage, reduced_coverage])
-def test_columns_of_two_bodies_and_rigid_jacks_need_the_redundant_formulation(formulation: Any) -> None:
-    with pytest.raises(InputError, match=r"columns\.front_column = CylinderAndRod.*'redundant' covers it"):
-        formulation.check(scenario(columns=HEAVY))
+def test_actuators_of_two_bodies_and_rigid_jacks_need_the_redundant_formulation(formulation: Any) -> None:
+    with pytest.raises(InputError, match=r"actuators\.front_column = CylinderAndRod.*'redundant' covers it"):
+        formulation.check(scenario(actuators=HEAVY))
     oil = OilColumn(bore_area=0.1, oil_length=0.5, bulk_modulus=1e9)
-    columns = dict.fromkeys(HEAVY, oil) if formulation is tree_coverage else {}
-    own = Scenario(machine=reference_support(), columns=columns, parts={"tail_beam": OwnBody()}, duration=1.0)
+    actuators = dict.fromkeys(HEAVY, oil) if formulation is tree_coverage else {}
+    own = Scenario(
+        machine=reference_support(), actuators=actuators, parts={"tail_beam": OwnBody()}, duration=1.0
+    )
     with pytest.raises(InputError, match=r"parts\.tail_beam.*'redundant' covers it"):
         formulation.check(own)

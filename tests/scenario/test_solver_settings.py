@@ -28,7 +28,7 @@ from user_forces import Exact, InputError
 
 INDEX_2: dict[str, object] = {"integrator": "trapezoidal", "constraint_index": 2}
 OIL = OilColumn(bore_area=bore_area(0.25, number=2), oil_length=0.5, bulk_modulus=1.5e9)
-COLUMNS = {"front_column": OIL, "rear_column": OIL}
+ACTUATORS = {"front_column": OIL, "rear_column": OIL}
 
 
 def drop(step: float = 5e-4, duration: float = 0.08, **solver: object) -> Result:
@@ -57,7 +57,7 @@ def test_trapezoidal_drop_converges_with_second_order() -> None:
 def rise_on_oil(step: float, **solver: object) -> Result:
     drive = CubicStep(start=0.0, end=0.5, stroke=0.1)
     settings = SolverSettings(**solver)
-    return simulate(support(columns=COLUMNS, drive=drive, duration=0.6, step=step, solver=settings))
+    return simulate(support(actuators=ACTUATORS, drive=drive, duration=0.6, step=step, solver=settings))
 
 
 def test_trapezoidal_rise_on_oil_converges_with_second_order() -> None:

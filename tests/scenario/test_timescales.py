@@ -247,7 +247,7 @@ def test_the_drives_time_is_its_stroke_or_a_cranks_turn() -> None:
     # one over its angular frequency
     rising = Reciprocating(stroke=0.1, period=math.pi)
     assert timescales(support(drive=rising)).drive == pytest.approx(0.5, rel=1e-15)
-    # columns that go on as they are have no time of their own
+    # actuators that go on as they are have no time of their own
     assert timescales(support(drive=Steady(rate=0.05), duration=1.0)).drive == math.inf
     assert timescales(support(drive=Held())).drive == math.inf
 

@@ -201,7 +201,7 @@ def test_a_goal_beyond_the_finest_steps_gives_what_can_be_had(monkeypatch: pytes
     assert made[-1].solver.impact_steps == 10000
     assert result.goal == 1e-7
     assert not result.met
-    # in steps of 4 us rounding shows in the forces of columns; that is told too
+    # in steps of 4 us rounding shows in the forces of actuators; that is told too
     assert 1e-7 < result.worst_error < math.inf
     assert all(math.isfinite(number.error) for number in result.numbers().values())
 

@@ -50,7 +50,7 @@ def test_one_that_is_asked_for_is_kept(name: str, scene: str) -> None:
 
 
 def test_one_that_does_not_cover_the_scene_is_refused() -> None:
-    with pytest.raises(InputError, match=r"columns\.front_column = rigid.*allowed: OilColumn"):
+    with pytest.raises(InputError, match=r"actuators\.front_column = rigid.*allowed: OilColumn"):
         settings_for(replace(DROP, formulation="tree"), 1e-3)
 
 

@@ -54,8 +54,8 @@ SCENES = {
     "ideal, struck": support(**SHORT | {"drive": UniformSpeed(stroke=0.002, start=0.011, end=0.04)}),
     "ideal, struck at once": support(**SHORT | {"drive": UniformSpeed(stroke=0.002, start=0.0, end=0.04)}),
     "ideal, growing steps": support(**SHORT, solver=SolverSettings(growth=8)),
-    "oil": support(**SHORT, columns=OILS),
-    "one column of oil": support(**SHORT, columns={"rear_column": OIL}),
+    "oil": support(**SHORT, actuators=OILS),
+    "one column of oil": support(**SHORT, actuators={"rear_column": OIL}),
     "with_clearance": loose_support(0.5, 0.25, **SHORT),
     "clearance, growing steps": loose_support(
         0.5, 0.25, **SHORT, solver=SolverSettings(growth=8), start="settled"
@@ -64,7 +64,7 @@ SCENES = {
     "slider-crank": Scenario(
         machine=ravn_slider_crank(), drive=Steady(rate=500.0), duration=0.005, step=1e-5, record_period=1e-4
     ),
-    "tree": loose_support(0.5, 0.25, **SHORT, columns=OILS, formulation="tree"),
+    "tree": loose_support(0.5, 0.25, **SHORT, actuators=OILS, formulation="tree"),
     "reduced": loose_support(0.5, 0.25, **SHORT, formulation="reduced"),
     "reduced, ideal": support(**SHORT, formulation="reduced"),
 }
@@ -238,7 +238,7 @@ def test_the_engine_alone_makes_the_steps_of_one_that_is_watched(
     assert alone.counts.failed_newton == looked_at.counts.failed_newton == 0
     for ours, theirs in zip(alone.impulses, looked_at.impulses, strict=True):
         # positions and velocities agree as below
-        assert ours.columns == pytest.approx(theirs.columns, rel=1e-7)
+        assert ours.actuators == pytest.approx(theirs.actuators, rel=1e-7)
     np.testing.assert_array_equal(alone.time, looked_at.time)
     for name in alone.channels:
         a, b = alone[name], looked_at[name]

@@ -443,11 +443,11 @@ def test_a_spread_and_a_least_value_near_zero_are_as_uncertain_as_the_values_the
     spread, mean = found[f"{FORCE}.spread"], found[f"{FORCE}.mean"]
     assert spread.value < 1e-7
     assert spread.error >= ROUNDING * mean.value
-    column = "front_column.force"
+    actuator = "front_column.force"
     least = np.linspace(1e-4, 1e5, exact().time.size)
-    run = with_channel(exact(), column, least)
+    run = with_channel(exact(), actuator, least)
     found = three(run, run, run).numbers()
-    assert found[f"{column}.min"].error - between_records(run, f"{column}.min") >= ROUNDING * 1e5
+    assert found[f"{actuator}.min"].error - between_records(run, f"{actuator}.min") >= ROUNDING * 1e5
 
 
 def test_a_path_that_goes_nowhere_is_measured_by_the_clearance() -> None:

@@ -136,7 +136,7 @@ def test_equations_without_a_solution_are_explained(machine: Machine) -> None:
         "the equations of a step could not be solved: the linkage may be at a dead"
     )
     assert failure.reason.endswith("(engine: GeneralMatrixEXUdense::Solve(...): matrix is not factorized!)")
-    assert "two pins, columns or guides hold the same bodies" in failure.advice
+    assert "two pins, actuators or guides hold the same bodies" in failure.advice
 
 
 def test_other_words_of_the_engine_follow_ours() -> None:

@@ -38,14 +38,14 @@ LONG = 1000.0  # [s] that the machine is simulated for: minutes of work
 
 OIL = OilColumn(bore_area=0.1, oil_length=0.5, bulk_modulus=1.5e9)
 PLANE = loose_support(1.5, 0.1, drive=Held(), duration=0.04)
-COLUMNS = dict.fromkeys(PLANE.linkage.columns, OIL)
+ACTUATORS = dict.fromkeys(PLANE.linkage.actuators, OIL)
 RUNS = {
     "plane": PLANE,
     "plane, ideal pins": replace(PLANE, pins={}),
     "plane, symbolic": replace(PLANE, solver=SolverSettings(backend="symbolic")),
     "space": replace(PLANE, dimensions=3),
     "space, ideal pins, one channel": replace(PLANE, dimensions=3, pins={}, channels=("tip.x",)),
-    "tree": replace(PLANE, formulation="tree", columns=COLUMNS),
+    "tree": replace(PLANE, formulation="tree", actuators=ACTUATORS),
     "with an accuracy": replace(PLANE, accuracy="draft", formulation="redundant"),
 }
 

@@ -15,9 +15,9 @@ from user_forces import InputError
 
 def held(formulation: str) -> Scenario:
     """The drop of the support, as the formulation covers it."""
-    columns = oil_columns() if formulation == "tree" else {}
+    actuators = oil_columns() if formulation == "tree" else {}
     return loose_support(
-        1.5, 0.25, drive=Held(), duration=0.03, step=1e-4, formulation=formulation, columns=columns
+        1.5, 0.25, drive=Held(), duration=0.03, step=1e-4, formulation=formulation, actuators=actuators
     )
 
 

@@ -177,8 +177,8 @@ def test_an_ideal_pin_that_comes_apart_is_refused(outcome: Outcome, found: Found
     assert result_checks(SCENARIO, moved(outcome, 12, 0.9 * APART), found) is None
 
 
-def test_a_rigid_column_of_another_length_is_refused(outcome: Outcome, found: Found) -> None:
-    # as if the columns had not followed their drive; at the end they would be longer by so much
+def test_a_rigid_actuator_of_another_length_is_refused(outcome: Outcome, found: Found) -> None:
+    # as if the actuators had not followed their drive; at the end they would be longer by so much
     for share, wrong in ((1.5, True), (0.9, False)):
         driven = replace(SCENARIO, drive=Steady(rate=share * APART / SCENARIO.duration))
         failure = result_checks(driven, outcome, found)
@@ -189,9 +189,9 @@ def test_a_rigid_column_of_another_length_is_refused(outcome: Outcome, found: Fo
 
 def test_a_loose_pin_and_columns_of_oil_may_come_apart(outcome: Outcome, found: Found) -> None:
     oil = OilColumn(bore_area=0.1, oil_length=0.5, bulk_modulus=1.5e9)
-    names = [name for name, column in SCENARIO.linkage.columns.items() if column.driven]
-    compliant_columns = replace(SCENARIO, columns=dict.fromkeys(names, oil), drive=Steady(rate=0.1))
-    assert result_checks(compliant_columns, outcome, found) is None
+    names = [name for name, actuator in SCENARIO.linkage.actuators.items() if actuator.driven]
+    compliant_actuators = replace(SCENARIO, actuators=dict.fromkeys(names, oil), drive=Steady(rate=0.1))
+    assert result_checks(compliant_actuators, outcome, found) is None
     with_gap = joints_apart(replace(SCENARIO, pins={}), outcome)  # as if the clearance pin were ideal
     assert with_gap is not None
     assert with_gap.max() > 1e-3  # it falls through its clearance of 1.5 mm

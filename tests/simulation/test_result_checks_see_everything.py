@@ -30,7 +30,7 @@ def soft(**changes: Any) -> Scenario:
 # each with why it is refused
 WRONG: dict[str, tuple[Scenario, str]] = {
     "redundant, deep": (soft(), "mm deep in a bore of 65.5 mm radius"),
-    "tree, deep": (soft(formulation="tree", columns=OILS), "mm deep in a bore of 65.5 mm radius"),
+    "tree, deep": (soft(formulation="tree", actuators=OILS), "mm deep in a bore of 65.5 mm radius"),
     "reduced, deep": (soft(formulation="reduced"), "mm deep in a bore of 65.5 mm radius"),
     "space, deep": (soft(dimensions=3), "mm deep in a bore of 65.5 mm radius"),
     "open": (

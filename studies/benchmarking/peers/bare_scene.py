@@ -33,8 +33,9 @@ from user_forces.values.value import InputError, Vector2
 class BareScene:
     """The model without its contact; to be assembled once that has been added.
 
-    container: owns the system, and must live as long as it. columns: the engine's objects and their lengths at
-    the start [m]. contact: of the clearance pin, if there is one; bore, journal: markers of both its centres;
+    container: owns the system, and must live as long as it. actuators: the engine's objects and their lengths
+    at the start [m]. contact: of the clearance pin, if there is one; bore, journal: markers of both its
+    centres;
     link: the body, not the ground or the slider, that it ends.
     """
 
@@ -43,7 +44,7 @@ class BareScene:
     container: Any
     mbs: Any
     nodes: dict[str, Any]
-    columns: list[tuple[Any, float]]
+    actuators: list[tuple[Any, float]]
     cranks: list[Any]
     contact: Any = None
     bore: Any = None
@@ -52,12 +53,12 @@ class BareScene:
     driven: float = 0.0  # extension that the engine has [m] or [rad]
 
     def drive_to(self, t: float) -> None:
-        """Set columns or cranks to where they are at time t [s]."""
+        """Set actuators or cranks to where they are at time t [s]."""
         extension = self.scenario.drive.extension(t)
         if extension == self.driven:
             return
         self.driven = extension
-        for item, length in self.columns:
+        for item, length in self.actuators:
             self.mbs.SetObjectParameter(item, "distance", length + extension)
         for item in self.cranks:
             self.mbs.SetObjectParameter(item, "offset", extension)
@@ -83,7 +84,7 @@ def clearance_contact(scenario: Scenario) -> tuple[str, JournalContact, str]:
         raise InputError(f"machine = {type(scenario.machine).__name__}: allowed: HydraulicSupport, SliderCrank")
     if (
         len(scenario.clearance_pins) != 1
-        or scenario.columns
+        or scenario.actuators
         or scenario.drives
         or scenario.own_bodies
         or scenario.friction_pins
@@ -91,7 +92,7 @@ def clearance_contact(scenario: Scenario) -> tuple[str, JournalContact, str]:
         or scenario.start != "concentric"
     ):
         raise InputError(
-            "a competitor takes one clearance pin, rigid columns, one drive, no loads and start = 'concentric'"
+            "a competitor takes one clearance pin, rigid actuators, one drive, no loads, start = 'concentric'"
         )
     ((name, pin),) = scenario.clearance_pins.items()
     return name, pin.contact, pin.bore
@@ -174,19 +175,19 @@ class _BareBuilder:
             if name != with_clearance:
                 ends = self.pair(pin.first, pin.first_point, pin.second, pin.second_point)
                 self.mbs.AddObject(ObjectJointRevolute2D(markerNumbers=ends))
-        columns = []
-        for one in self.linkage.columns.values():
+        actuators = []
+        for one in self.linkage.actuators.values():
             ends = self.pair(one.foot, one.foot_point, one.head, one.head_point)
             item = ObjectConnectorDistance(markerNumbers=ends, distance=one.start_length)
-            columns.append((self.mbs.AddObject(item), one.start_length))
+            actuators.append((self.mbs.AddObject(item), one.start_length))
         cranks = [self.add_crank(crank.body) for crank in self.linkage.cranks.values()]
         for slide in self.linkage.slides.values():
             self.add_slide(slide)
-        return BareScene(self.scenario, self.linkage, self.container, self.mbs, self.nodes, columns, cranks)
+        return BareScene(self.scenario, self.linkage, self.container, self.mbs, self.nodes, actuators, cranks)
 
 
 def bare_scene(scenario: Scenario, aside: float = 0.0) -> BareScene:
-    """Bodies, weights, ideal pins, columns, crank and guide of a scenario, and markers for its clearance pin.
+    """Bodies, weights, ideal pins, actuators, crank and guide of a scenario, and markers for its clearance pin.
 
     aside: of the bore's centre from where it belongs, along x [m].
     """
@@ -203,6 +204,6 @@ def bare_scene(scenario: Scenario, aside: float = 0.0) -> BareScene:
 
 def ideal_scene(scenario: Scenario) -> BareScene:
     """The model of a scenario without clearance pins; raises InputError if it is not covered."""
-    if scenario.clearance_pins or scenario.columns or scenario.loads or scenario.friction_pins:
-        raise InputError("a competitor with ideal pins takes rigid columns, no loads and no friction")
+    if scenario.clearance_pins or scenario.actuators or scenario.loads or scenario.friction_pins:
+        raise InputError("a competitor with ideal pins takes rigid actuators, no loads and no friction")
     return _BareBuilder(scenario).scene()

@@ -45,8 +45,8 @@ def run_built_in(
     """Run with generalised alpha.
 
     Arguments:
-        scenario: HydraulicSupport with rigid columns or SliderCrank, one clearance pin without friction, start
-            "concentric"; its own step and solver are not used.
+        scenario: HydraulicSupport with rigid actuators or SliderCrank, one clearance pin without friction,
+            start "concentric"; its own step and solver are not used.
         step: length of all steps [s]; a whole number of them should make a record period.
         contact: what gives the force: the engine's own contact, or our connector by one of its backends.
         watch_steps: let sensors write position and velocity of the pin at every step, from which onsets and the
@@ -121,7 +121,7 @@ def _ours(backend: Literal["python", "symbolic"], scenario: Scenario, step: floa
         container=ours,
         mbs=ours.mbs,
         nodes={name: item.node for name, item in ours.bodies.items()},
-        columns=[(item.object, item.column.start_length) for item in ours.rigid_columns.values()],
+        actuators=[(item.object, item.actuator.start_length) for item in ours.rigid_actuators.values()],
         cranks=[item.object for item in ours.cranks.values()],
         contact=pin.contact,
         bore=pin.connector.bore_marker,

@@ -199,8 +199,8 @@ def run_stock(scenario: Scenario, step: float) -> PeerRun:
     """Run the stock recipe.
 
     Arguments:
-        scenario: HydraulicSupport with rigid columns or SliderCrank, one clearance pin, start "concentric"; its
-            own step and solver are not used.
+        scenario: HydraulicSupport with rigid actuators or SliderCrank, one clearance pin, start "concentric";
+            its own step and solver are not used.
         step: length of all steps [s]; a whole number of them should make a record period.
 
     Raises InputError if the scenario is not covered, RuntimeError if the solver gives up.
@@ -235,7 +235,7 @@ def peak_acceleration(scenario: Scenario, step: float, body: str) -> float:
     acceleration is the engine's own, of its integrator, not one that follows from the motion.
 
     Arguments:
-        scenario: without clearance pins, of rigid columns; its own step and solver are not used.
+        scenario: without clearance pins, of rigid actuators; its own step and solver are not used.
         step: length of all steps [s].
         body: its name.
 

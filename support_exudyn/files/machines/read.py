@@ -19,7 +19,7 @@ from support_exudyn.files.toml.schema import Schemas, without
 from support_exudyn.files.toml.text import parsed, text_of
 from support_exudyn.machines.four_column_support import HydraulicSupport
 from support_exudyn.machines.machine_data import MachineData
-from support_exudyn.model.columns import CylinderAndRod, OilColumn, RigidColumn
+from support_exudyn.model.actuators import CylinderAndRod, OilColumn, RigidActuator
 from user_forces.values.value import InputError, short
 
 FILES: Mapping[str, type[FourColumnSupportFile | TwoLegShieldFile | SliderCrankFile]] = {
@@ -104,9 +104,9 @@ def load_support(path: str | Path) -> HydraulicSupport:
 
 
 def cylinders_and_rods(
-    drive: RigidColumn | OilColumn | None = None, path: str | Path | None = None
+    drive: RigidActuator | OilColumn | None = None, path: str | Path | None = None
 ) -> dict[str, CylinderAndRod]:
-    """Columns with mass, by name, for `Scenario.columns`: cylinder and rod each a uniform bar from its pin on.
+    """Columns with mass, by name, for `Scenario.actuators`: cylinder and rod, uniform bars from their pins on.
 
     Arguments:
         drive: what holds their lengths; rigid if nothing is said.
@@ -115,7 +115,7 @@ def cylinders_and_rods(
 
     Raises as `load_machine` does.
     """
-    columns = (shipped("reference") if path is None else load_machine(path)).columns
+    columns = (shipped("reference") if path is None else load_machine(path)).actuators
     return dict(columns) if drive is None else {k: replace(item, drive=drive) for k, item in columns.items()}
 
 

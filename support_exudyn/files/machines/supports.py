@@ -18,7 +18,7 @@ from support_exudyn.machines.four_column_support import HydraulicSupport
 from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.machines.shield_layout import BODIES, FRAME, PINS, RODS, TAIL
 from support_exudyn.machines.two_leg_shield import TwoLegShield
-from support_exudyn.model.columns import CylinderAndRod
+from support_exudyn.model.actuators import CylinderAndRod
 from support_exudyn.model.linkage import GROUND, Part, bar
 from support_exudyn.model.to_space import Width
 from user_forces.values.units import Kilograms, KilogramSquareMetres, Metres, Radians
@@ -209,7 +209,7 @@ class SupportFile(Value, ABC):
             machine,
             self.name,
             bore_radii=self.bore_radius,
-            columns={name: column.column() for name, column in self.columns.items()},
+            actuators={name: column.column() for name, column in self.columns.items()},
             stroke=self.stroke,
             sources=self.sources,
             kind=self.kind,
@@ -232,7 +232,7 @@ class SupportFile(Value, ABC):
                 name: evenly * (1e3 * size) / 1e3 for name, size in given["bodies"].items()
             },  # rounded as in mm
             pairs={name: 0.5 * size for name, size in given["pairs"].items()},
-            columns={name: 0.5 * size for name, size in given["columns"].items()},
+            actuators={name: 0.5 * size for name, size in given["columns"].items()},
             lengths=given["pins"],
             points={name: 0.5 * size for name, size in given["points"].items()},
         )

@@ -145,7 +145,7 @@ def _columns(lines: Sequence[Line], path: Path, turns: Turns | None) -> dict[str
     for one in columns:
         turning = None if turns is None or one.name == "time" else turns(one.name)
         if turning is not None and turning is not (one.unit is ANGLE):
-            driven, unit = ("cranks turn", ANGLE) if turning else ("columns of machines extend", LENGTH)
+            driven, unit = ("cranks turn", ANGLE) if turning else ("linear actuators extend", LENGTH)
             raise InputError(
                 f"{where}: column {one.place + 1} = {short(one.title)}: {driven}; allowed: names that end by "
                 f"{', '.join(f'_{ending}' for ending in unit.endings)}"

@@ -22,7 +22,7 @@ from support_exudyn.files.toml.text import load_toml, toml_text
 from support_exudyn.files.toml.writing import table_of
 from support_exudyn.files.whole_file import whole_file
 from support_exudyn.machines.machine_data import MachineData
-from support_exudyn.model.columns import ColumnModel, CylinderAndRod
+from support_exudyn.model.actuators import ActuatorModel, CylinderAndRod
 from support_exudyn.model.drives.drive import Drive
 from support_exudyn.model.machine import Machine
 from support_exudyn.model.pins import IdealPin, Pin
@@ -116,7 +116,7 @@ def _scenario(table: dict[str, Any], faults: Faults, folder: Path, machine: Mach
     """A scenario, or FAILED."""
     forms = ShortForms(folder, machine)
     reader = Reader(
-        faults, {Pin: forms.pin, ColumnModel: forms.column, Drive: forms.drive, Machine: forms.machine}
+        faults, {Pin: forms.pin, ActuatorModel: forms.actuator, Drive: forms.drive, Machine: forms.machine}
     )
     apart = forms.drives(reader, table)
     if apart:
@@ -167,9 +167,9 @@ def scenario_schema() -> dict[str, Any]:
     properties = top["properties"]
     drives = _short(schemas.table(DrivesFile))["properties"]
     properties["drives"] = {**properties["drives"], "properties": drives}
-    properties["columns"] = {
-        **properties["columns"],
-        "additionalProperties": _columns(schemas),
+    properties["actuators"] = {
+        **properties["actuators"],
+        "additionalProperties": _actuators(schemas),
     }
     properties = {**_short(schemas.table(ScenarioHead))["properties"], **properties}
     return schemas.whole("scenario of support-exudyn", {**top, "properties": properties})
@@ -186,9 +186,9 @@ def _ideal(schemas: Schemas) -> dict[str, Any]:
     return {**table, "properties": {"ideal": ideal, **table["properties"]}, "required": ["ideal"]}
 
 
-def _columns(schemas: Schemas) -> dict[str, Any]:
-    """The schema of columns; those of two bodies may leave out what the machine's file says."""
-    kinds = GroupShape((ColumnModel,)).kinds.values()
+def _actuators(schemas: Schemas) -> dict[str, Any]:
+    """The schema of actuators; those of two bodies may leave out what the machine's file says."""
+    kinds = GroupShape((ActuatorModel,)).kinds.values()
     tables = [
         schemas.table(kind, all_optional=True) if kind is CylinderAndRod else schemas.value(kind)
         for kind in kinds

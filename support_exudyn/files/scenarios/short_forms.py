@@ -1,4 +1,4 @@
-"""Short forms of a scenario's file: a machine by its name, pins, columns and drives in few words."""
+"""Short forms of a scenario's file: a machine by its name, pins, actuators and drives in few words."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from support_exudyn.files.toml.faults import Faults, Place, said
 from support_exudyn.files.toml.reading import FAILED, Failed, Reader
 from support_exudyn.files.toml.shapes import GroupShape
 from support_exudyn.machines.machine_data import MachineData
-from support_exudyn.model.columns import CylinderAndRod
+from support_exudyn.model.actuators import CylinderAndRod
 from support_exudyn.model.drives.drive import CubicStep, Drive, Stroke, UniformSpeed
 from support_exudyn.model.drives.table_drive import TableDrive
 from support_exudyn.model.machine import Machine
@@ -73,7 +73,7 @@ class DriveFile(Value):
 
 @value
 class DrivesFile(Value):
-    """Drives of several columns from one CSV file, `time_s,front_column_mm,rear_column_mm`.
+    """Drives of several actuators from one CSV file, `time_s,front_column_mm,rear_column_mm`.
 
     Arguments:
         table, between: as of `DriveFile`; each of its columns drives the part of the machine by its name.
@@ -131,7 +131,7 @@ def _own(name: str, folder: Path) -> str:
     return said(near[0]) if near else ""
 
 
-OF_CRANKS = 'none of cranks, for modes extend columns; type = "Steady" with rate_rpm, or a table in degrees'
+OF_CRANKS = 'none of cranks, for modes extend actuators; type = "Steady" with rate_rpm, or a table in degrees'
 
 
 class ShortForms:
@@ -174,13 +174,13 @@ class ShortForms:
                 reader.faults.add(place, line)
             return FAILED
 
-    def column(self, reader: Reader, item: Any, place: Place) -> Any:
-        """A column of two bodies whose masses the machine's file says."""
+    def actuator(self, reader: Reader, item: Any, place: Place) -> Any:
+        """An actuator of two bodies whose masses the machine's file says."""
         if not isinstance(item, dict) or item.get("type") != CylinderAndRod.__name__ or len(place) != 2:
             return None
-        if self.data is None or place[-1] not in self.data.columns:
+        if self.data is None or place[-1] not in self.data.actuators:
             return None
-        return reader.value(CylinderAndRod, item, place, self.data.columns[place[-1]])
+        return reader.value(CylinderAndRod, item, place, self.data.actuators[place[-1]])
 
     def drive(self, reader: Reader, item: Any, place: Place) -> Any:
         """A mode of the paper, or a column of a file."""
@@ -213,7 +213,7 @@ class ShortForms:
             return None
         linkage = self.data.machine.linkage()
         if name == "drive":  # of all
-            return None if linkage.cranks and linkage.columns else bool(linkage.cranks)
+            return None if linkage.cranks and linkage.actuators else bool(linkage.cranks)
         return name in linkage.cranks if name in linkage.driven else None
 
     def drives(self, reader: Reader, table: Mapping[str, Any]) -> dict[str, Any]:

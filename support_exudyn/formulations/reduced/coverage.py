@@ -6,7 +6,7 @@ from support_exudyn.formulations.reduced import slider_crank, support_model
 from support_exudyn.formulations.reduced.machine_model import Model
 from support_exudyn.machines.four_column_support import HydraulicSupport
 from support_exudyn.machines.slider_crank import SliderCrank
-from support_exudyn.model.columns import RigidColumn
+from support_exudyn.model.actuators import RigidActuator
 from support_exudyn.model.machine import Machine
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.compilation.flat import UnwrittenLawError, law_source
@@ -42,9 +42,13 @@ def check(scenario: Scenario) -> None:
             _refuse(f"drives.{name}", type(drive).__name__, "one drive for all parts")
     if scenario.start != "concentric":
         _refuse("start", repr(scenario.start), "'concentric'")
-    for name, column in scenario.columns.items():
-        if not isinstance(column, RigidColumn):
-            _refuse(f"columns.{name}", type(column).__name__, "RigidColumn, whose length is no free coordinate")
+    for name, actuator in scenario.actuators.items():
+        if not isinstance(actuator, RigidActuator):
+            _refuse(
+                f"actuators.{name}",
+                type(actuator).__name__,
+                "RigidActuator, whose length is no free coordinate",
+            )
     for name, load in scenario.loads.items():
         _refuse(f"loads.{name}", type(load).__name__, "no loads")
     for name, pin in scenario.pins.items():

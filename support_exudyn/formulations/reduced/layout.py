@@ -123,7 +123,7 @@ Matrix = npt.NDArray[np.float64]
 
 
 class DriveValues(NamedTuple):
-    """Extension [m] of columns or turn [rad] of a crank, its speed and its acceleration."""
+    """Extension [m] of actuators or turn [rad] of a crank, its speed and its acceleration."""
 
     extension: float
     speed: float

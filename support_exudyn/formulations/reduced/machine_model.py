@@ -27,12 +27,12 @@ class BodyPlace(NamedTuple):
 
 @dataclass(frozen=True)
 class Bodies:
-    """All bodies at the records, as in `Trajectory`; columns: forces (n,) [N]; pin_force: in the ideal pin."""
+    """All bodies at the records, as in `Trajectory`; actuators: forces (n,) [N]; pin_force: of an ideal pin."""
 
     position: Vector
     velocity: Vector
     acceleration: Vector
-    columns: Mapping[str, Vector]
+    actuators: Mapping[str, Vector]
     pin_force: tuple[Vector, Vector] | None = None
 
 
@@ -68,7 +68,7 @@ def moved(
 def placed(
     linkage: Linkage,
     places: Sequence[BodyPlace],
-    columns: Mapping[str, Vector],
+    actuators: Mapping[str, Vector],
     pin_force: tuple[Vector, Vector] | None = None,
 ) -> Bodies:
     """All bodies, in the order of the linkage's."""
@@ -82,7 +82,7 @@ def placed(
         together([(p.x - c[0], p.y - c[1], p.turn) for p, c in zip(places, centres, strict=True)]),
         together([(p.vx, p.vy, p.spin) for p in places]),
         together([(p.ax, p.ay, p.spin_rate) for p in places]),
-        columns,
+        actuators,
         pin_force,
     )
 
@@ -111,4 +111,4 @@ class Model(Protocol):
     def bodies(
         self, machine: Any, linkage: Linkage, p: list[float], rows: Matrix, accelerations: Matrix | None
     ) -> Bodies:
-        """Bodies and columns at the records."""
+        """Bodies and actuators at the records."""

@@ -78,7 +78,7 @@ def trajectory(scenario: Scenario, model: Model, p: list[float], rows: Matrix) -
         else:
             assert bodies.pin_force is not None
             known = PinForce(np.column_stack(bodies.pin_force), _place(motion, model.PIN))
-        joints = open_joint_forces(motion, scenario.gravity, bodies.columns, {model.PIN: known})
+        joints = open_joint_forces(motion, scenario.gravity, bodies.actuators, {model.PIN: known})
     losses = rows[layout.STATE_ROW + layout.DAMPING_LOSS : layout.STATE_ROW + layout.WORK]
     return Trajectory(
         time=rows[layout.TIME],
@@ -87,7 +87,7 @@ def trajectory(scenario: Scenario, model: Model, p: list[float], rows: Matrix) -
         acceleration=motion.acceleration,
         ideal_pins={name: force for name, force in joints.pins.items() if name not in scenario.clearance_pins},
         contacts={model.PIN: contact} if contact else {},
-        columns=bodies.columns,
+        actuators=bodies.actuators,
         cranks=joints.cranks,
         slides=joints.slides,
         oil_energy=np.zeros(rows.shape[1]),
@@ -206,8 +206,8 @@ def _outcome(scenario: Scenario, made: RunArrays) -> Outcome:
 
 
 def _impulse(row: list[float]) -> Impulse:
-    columns = {"front_column": row[layout.FRONT_IMPULSE], "rear_column": row[layout.REAR_IMPULSE]}
-    return Impulse(row[layout.JUMP_TIME], columns, row[layout.JUMP_ENERGY])
+    actuators = {"front_column": row[layout.FRONT_IMPULSE], "rear_column": row[layout.REAR_IMPULSE]}
+    return Impulse(row[layout.JUMP_TIME], actuators, row[layout.JUMP_ENERGY])
 
 
 def _failure(code: int, made: RunArrays, most_steps: int) -> Failure:

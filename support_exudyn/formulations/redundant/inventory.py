@@ -21,10 +21,10 @@ class Inventory:
     algebraic equations; in space one more for each body, which keeps its four parameters a rotation, and
     one without effect for each direction that a joint of the engine's leaves free. nodes: of bodies, and
     the fixed one of cranks. objects: bodies, connectors and the ground. connectors: objects between
-    markers: ideal and clearance pins (in space one for each section), columns, cranks, guides, and what presses
-    on the machine besides its weight. user_functions: forces and the like that Python computes, as often as
-    the solver asks, several times a step. callbacks: functions of Python that the engine calls at every
-    step.
+    markers: ideal and clearance pins (in space one for each section), actuators, cranks, guides, and what
+    presses on the machine besides its weight. user_functions: forces and the like that Python computes, as
+    often as the solver asks, several times a step. callbacks: functions of Python that the engine calls at
+    every step.
     """
 
     coordinates: int

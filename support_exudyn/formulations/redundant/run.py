@@ -59,7 +59,7 @@ def check(scenario: Scenario) -> None:
         )
     rigid = [
         name
-        for name in scenario.linkage.columns
+        for name in scenario.linkage.actuators
         if name not in scenario.oil_columns and scenario.drive_of(name).span(scenario.duration) != (0.0, 0.0)
     ]
     if scenario.solver.constraint_index == 2 and scenario.solver.integrator != "trapezoidal":
@@ -146,7 +146,7 @@ def trajectory(scene: Scene, history: History, needed: DataNeeds) -> Trajectory:
         for name, item in scene.cylinders.items()
         if DataNeeds.OIL in needed
     }
-    compliant_columns = {name: series.force for name, series in (oil | cylinders).items()}
+    compliant_actuators = {name: series.force for name, series in (oil | cylinders).items()}
     contacts = {
         name: contact_series(
             motion, scene.linkage.pins[name], scene.scenario.clearance_pins[name], history.memory[:, n]
@@ -164,7 +164,7 @@ def trajectory(scene: Scene, history: History, needed: DataNeeds) -> Trajectory:
     }
     found = Following(velocity[:, :0], JointForces(), {}, {})
     if needed & FOLLOWING:
-        found = following(scene, motion, history.time, Applied(contacts, compliant, compliant_columns, loads))
+        found = following(scene, motion, history.time, Applied(contacts, compliant, compliant_actuators, loads))
     return Trajectory(
         time=history.time,
         position=position,
@@ -173,7 +173,7 @@ def trajectory(scene: Scene, history: History, needed: DataNeeds) -> Trajectory:
         ideal_pins=found.joints.pins,
         contacts=contacts,
         friction_moments=found.friction_moments,
-        columns={**found.columns, **compliant_columns},
+        actuators={**found.actuators, **compliant_actuators},
         cranks=found.joints.cranks,
         slides=found.joints.slides,
         oil_energy=sum((series.energy for series in (oil | cylinders).values()), np.zeros_like(history.time)),

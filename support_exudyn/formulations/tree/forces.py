@@ -8,7 +8,7 @@ import numpy as np
 from support_exudyn.formulations.tree.branches import Matrix, Tree
 from support_exudyn.formulations.tree.loads import FORCE, TURN, WIDTH, evaluate, push
 from support_exudyn.mechanics.contact_state import InverseMass, Onset, PinMemory
-from support_exudyn.mechanics.oil_column import PreloadedColumn
+from support_exudyn.mechanics.oil_column import PreloadedActuator
 from support_exudyn.mechanics.pressed_pins import normal
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.model.pins import ClearancePin
@@ -136,21 +136,21 @@ class Forces:
     Arguments:
         tree: the bodies.
         scenario: clearance pins.
-        columns: of oil.
+        actuators: of oil.
     """
 
-    def __init__(self, tree: Tree, scenario: Scenario, columns: dict[str, PreloadedColumn]) -> None:
+    def __init__(self, tree: Tree, scenario: Scenario, actuators: dict[str, PreloadedActuator]) -> None:
         with_clearance = scenario.clearance_pins
         ends = [_ends(tree, name, with_clearance[name].bore == "first") for name in with_clearance]
         ends += [
-            ((c.column.foot, c.column.foot_point), (c.column.head, c.column.head_point))
-            for c in columns.values()
+            ((c.actuator.foot, c.actuator.foot_point), (c.actuator.head, c.actuator.head_point))
+            for c in actuators.values()
         ]
         self.tree = tree
         self.links = _links(tree)
         self.points = _points(tree, [end for pair in ends for end in pair])
-        self.columns = np.array([_column(preloaded) for preloaded in columns.values()]).reshape(-1, 4)
-        self.cubic: Matrix = np.zeros((len(columns), 5))  # of their drives, see `loads`
+        self.actuators = np.array([_actuator(preloaded) for preloaded in actuators.values()]).reshape(-1, 4)
+        self.cubic: Matrix = np.zeros((len(actuators), 5))  # of their drives, see `loads`
         self.work: Matrix = np.zeros((len(self.links) + len(self.points), WIDTH))
         arrays = self.links, self.points, self.work
         self.pins = {
@@ -163,7 +163,7 @@ class Forces:
         self.position: list[float] = []  # that were evaluated last: coordinates [rad] and rates [rad/s]
         self.velocity: list[float] = []
         self.evaluations = 0
-        self._arrays = self.links, self.points, self.columns, self.cubic, self.work
+        self._arrays = self.links, self.points, self.actuators, self.cubic, self.work
         self._force = self.work[: len(self.links), FORCE]
 
     def __call__(
@@ -214,7 +214,7 @@ def _points(tree: Tree, ends: list[tuple[str, Vector2]]) -> Matrix:
     return np.array(rows, dtype=np.float64).reshape(-1, 3)
 
 
-def _column(preloaded: PreloadedColumn) -> tuple[float, float, float, float]:
+def _actuator(preloaded: PreloadedActuator) -> tuple[float, float, float, float]:
     model = preloaded.model
     return (
         model.bulk_modulus * model.bore_area,

@@ -4,11 +4,11 @@ All functions of this file work on these arrays:
 
     links (n, 3): number of the carrier (-1: ground), joint from the carrier's joint, at the start [m]
     points (p, 3): number of the link (-1: ground), point from its joint, at the start [m]
-    columns (c, 4): bulk modulus times area [N], oil length [m], damping time [s], natural length [m]
-    drive (c, 5): a time [s], and coefficients of the cubic by which the column extends after it [m/s^k]
+    actuators (c, 4): bulk modulus times area [N], oil length [m], damping time [s], natural length [m]
+    drive (c, 5): a time [s], and coefficients of the cubic by which the actuator extends after it [m/s^k]
     work (n + p, 9): of joints, then of points: the quantities below
 
-Points come in pairs: first bore and journal of each clearance pin, then foot and head of each column.
+Points come in pairs: first bore and journal of each clearance pin, then foot and head of each actuator.
 """
 
 import math
@@ -73,12 +73,12 @@ def push(
 
 @entry
 def evaluate(
-    links: Matrix, points: Matrix, columns: Matrix, drive: Matrix, work: Matrix, t: float, *state: float
+    links: Matrix, points: Matrix, actuators: Matrix, drive: Matrix, work: Matrix, t: float, *state: float
 ) -> None:
-    """Motion and forces of columns at t [s] in a state: all coordinates [rad], then all rates [rad/s]."""
+    """Motion and forces of actuators at t [s] in a state: all coordinates [rad], then all rates [rad/s]."""
     move(links, points, work, state)
-    pins = points.shape[0] // 2 - columns.shape[0]
-    for c in range(columns.shape[0]):
+    pins = points.shape[0] // 2 - actuators.shape[0]
+    for c in range(actuators.shape[0]):
         after = t - drive[c, 0]
         extension = drive[c, 1] + after * (drive[c, 2] + after * (drive[c, 3] + after * drive[c, 4]))
         speed = drive[c, 2] + after * (2.0 * drive[c, 3] + after * 3.0 * drive[c, 4])
@@ -91,7 +91,7 @@ def evaluate(
         rate = (work[head, SPEED_X] - work[foot, SPEED_X]) * ux + (
             work[head, SPEED_Y] - work[foot, SPEED_Y]
         ) * uy
-        compression = columns[c, 3] + extension - length + columns[c, 2] * (speed - rate)
-        force = columns[c, 0] / (columns[c, 1] + extension) * compression
+        compression = actuators[c, 3] + extension - length + actuators[c, 2] * (speed - rate)
+        force = actuators[c, 0] / (actuators[c, 1] + extension) * compression
         # a force along the line through both points may act anywhere on it
         push(links, points, work, pair, work[foot, X], work[foot, Y], force * ux, force * uy)

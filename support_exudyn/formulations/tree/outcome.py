@@ -17,7 +17,7 @@ from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.channels import DataNeeds
 from support_exudyn.mechanics.contact_history import acting, contact_series, ends, of_depth
 from support_exudyn.mechanics.joint_forces import JointForces, PinForce, open_joint_forces
-from support_exudyn.mechanics.oil_column import OilSeries, PreloadedColumn
+from support_exudyn.mechanics.oil_column import OilSeries, PreloadedActuator
 from support_exudyn.mechanics.trajectory import ContactSeries, Counts, Outcome, Trajectory
 from support_exudyn.model.linkage import PinPlace
 from support_exudyn.model.pins import ClearancePin
@@ -32,7 +32,7 @@ from user_forces.values.value import Vector2
 class Instants:
     """Where and how the run is looked at.
 
-    time (m,) [s]. posture: at these times. cubic: of the drives of all columns (m, c, 5), see `loads`.
+    time (m,) [s]. posture: at these times. cubic: of the drives of all actuators (m, c, 5), see `loads`.
     memories: of clearance pins, by name (m, fields of PinMemory).
     """
 
@@ -49,13 +49,13 @@ class TreeObservation:
     Arguments:
         at: the instants.
         with_clearance: clearance pins, by name.
-        filled: columns, by name.
+        filled: actuators, by name.
         gravity: [m/s^2].
     """
 
     at: Instants
     with_clearance: Mapping[str, ClearancePin]
-    preloaded: Mapping[str, PreloadedColumn]
+    preloaded: Mapping[str, PreloadedActuator]
     gravity: Vector2
 
     @cached_property
@@ -72,9 +72,11 @@ class TreeObservation:
         }
 
     @cached_property
-    def columns(self) -> dict[str, OilSeries]:
-        """Columns by name."""
-        return {name: self._column(n, preloaded) for n, (name, preloaded) in enumerate(self.preloaded.items())}
+    def actuators(self) -> dict[str, OilSeries]:
+        """Actuators by name."""
+        return {
+            name: self._actuator(n, preloaded) for n, (name, preloaded) in enumerate(self.preloaded.items())
+        }
 
     @cached_property
     def pin_forces(self) -> dict[str, PointForce]:
@@ -88,14 +90,16 @@ class TreeObservation:
 
     def accelerations(self) -> Matrix:
         """q'' [rad/s^2] by the equations of motion, shape (m, n)."""
-        return accelerations(self.at.posture, self.gravity, [*self.pin_forces.values(), *self._column_forces()])
+        return accelerations(
+            self.at.posture, self.gravity, [*self.pin_forces.values(), *self._actuator_forces()]
+        )
 
     def powers(self) -> Matrix:
         """The powers of the drive, of damping and of friction [W], shape (3, m)."""
         total = np.zeros((3, len(self.at.time)))
-        for column in self.columns.values():
-            total[0] += column.work
-            total[1] += column.loss
+        for actuator in self.actuators.values():
+            total[0] += actuator.work
+            total[1] += actuator.loss
         for name, contact in self.contacts.items():
             bore, journal = ends(self.motion, self._place(name), self.with_clearance[name])
             offset, relative = journal.position - bore.position, journal.velocity - bore.velocity
@@ -133,18 +137,18 @@ class TreeObservation:
     def _place(self, name: str) -> PinPlace:
         return self.motion.linkage.pins[name]
 
-    def _column(self, number: int, preloaded: PreloadedColumn) -> OilSeries:
+    def _actuator(self, number: int, preloaded: PreloadedActuator) -> OilSeries:
         cubic = self.at.cubic[:, number]
         let_in = extension(cubic, self.at.time), speed(cubic, self.at.time)
         return preloaded.series(self.motion, *let_in)
 
-    def _column_forces(self) -> list[PointForce]:
+    def _actuator_forces(self) -> list[PointForce]:
         found = []
         for name, preloaded in self.preloaded.items():
             foot, head = (end.position for end in preloaded.ends(self.motion))
             along = (head - foot) / np.linalg.norm(head - foot, axis=1)[:, None]
-            force = self.columns[name].force[:, None] * along
-            found.append(PointForce(preloaded.column.foot, preloaded.column.head, force, head))
+            force = self.actuators[name].force[:, None] * along
+            found.append(PointForce(preloaded.actuator.foot, preloaded.actuator.head, force, head))
         return found
 
 
@@ -164,7 +168,7 @@ class EvaluatedRun:
     """
 
     def __init__(
-        self, tree: Tree, scenario: Scenario, preloaded: dict[str, PreloadedColumn], run: Integration
+        self, tree: Tree, scenario: Scenario, preloaded: dict[str, PreloadedActuator], run: Integration
     ) -> None:
         self.tree, self.scenario, self.preloaded, self.run = tree, scenario, preloaded, run
         history = run.history
@@ -189,7 +193,7 @@ class EvaluatedRun:
                 name: largest(_sizes(inside, name).reshape(-1, len(POINTS)), self._force_of(name))
                 for name in inside.contacts
             },
-            impulses=(),  # all columns give, so nothing is struck
+            impulses=(),  # all actuators give, so nothing is struck
             counts=Counts(
                 steps=run.steps,
                 cut_steps=run.cut_steps,
@@ -214,7 +218,7 @@ class EvaluatedRun:
             motion = context.at.posture.motion(context.accelerations())
         if DataNeeds.JOINTS in needed:
             joints = self._joint_forces(context, motion)
-        oil = context.columns if DataNeeds.OIL in needed else {}
+        oil = context.actuators if DataNeeds.OIL in needed else {}
         return Trajectory(
             time=time,
             position=motion.position,
@@ -222,19 +226,19 @@ class EvaluatedRun:
             acceleration=motion.acceleration,
             ideal_pins={n: force for n, force in joints.pins.items() if n not in self.scenario.clearance_pins},
             contacts=context.contacts if DataNeeds.CONTACTS in needed else {},
-            columns={name: column.force for name, column in oil.items()},
+            actuators={name: actuator.force for name, actuator in oil.items()},
             cranks={},
             slides={},
-            oil_energy=sum((column.energy for column in oil.values()), np.zeros_like(time)),
+            oil_energy=sum((actuator.energy for actuator in oil.values()), np.zeros_like(time)),
             work=integrals[0],
             damping_loss=integrals[1],
             friction_loss=integrals[2],
         )
 
     def _joint_forces(self, context: TreeObservation, motion: BodyMotion) -> JointForces:
-        columns = {name: column.force for name, column in context.columns.items()}
+        actuators = {name: actuator.force for name, actuator in context.actuators.items()}
         known = {name: PinForce(pin.force, pin.point) for name, pin in context.pin_forces.items()}
-        return open_joint_forces(motion, self.scenario.gravity, columns, known)
+        return open_joint_forces(motion, self.scenario.gravity, actuators, known)
 
     def _force_of(self, pin: str) -> Look:
         """Magnitude of the force [N] of a clearance pin at fractions of steps."""

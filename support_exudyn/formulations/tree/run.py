@@ -17,7 +17,7 @@ from support_exudyn.formulations.tree.start import first_memory, rates, settled
 from support_exudyn.mechanics.oil_column import fill
 from support_exudyn.mechanics.pressed_pins import EffectiveMasses, inverse_masses
 from support_exudyn.mechanics.trajectory import Outcome
-from support_exudyn.model.columns import CylinderAndRod
+from support_exudyn.model.actuators import CylinderAndRod
 from support_exudyn.model.hydraulic_cylinder import HydraulicCylinder
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.values.value import InputError
@@ -32,11 +32,11 @@ def check(scenario: Scenario) -> None:
     if scenario.solver.backend in ("symbolic", "compiled"):
         # setting the variables of an expression and asking for it takes longer than calling the law
         _refuse("solver.backend", repr(scenario.solver.backend), "'auto', 'python'")
-    for name, column in scenario.columns.items():
-        if isinstance(column, HydraulicCylinder):
-            _refuse(f"columns.{name}", "HydraulicCylinder, whose pressures are coordinates too", "OilColumn")
-        if isinstance(column, CylinderAndRod):
-            _refuse(f"columns.{name}", "CylinderAndRod, whose slide closes a loop", "OilColumn")
+    for name, actuator in scenario.actuators.items():
+        if isinstance(actuator, HydraulicCylinder):
+            _refuse(f"actuators.{name}", "HydraulicCylinder, whose pressures are coordinates too", "OilColumn")
+        if isinstance(actuator, CylinderAndRod):
+            _refuse(f"actuators.{name}", "CylinderAndRod, whose slide closes a loop", "OilColumn")
     for name, load in scenario.loads.items():
         _refuse(f"loads.{name}", type(load).__name__, "no loads")
     for name, pin in scenario.pins.items():
@@ -49,9 +49,9 @@ def check(scenario: Scenario) -> None:
     for kind, items in (("slides", linkage.slides), ("cranks", linkage.cranks)):
         for name in items:
             _refuse(f"{kind}.{name}", "a constraint that ties a branch to the ground", f"no {kind}")
-    for name in linkage.columns:
+    for name in linkage.actuators:
         if name not in scenario.oil_columns:
-            _refuse(f"columns.{name}", "rigid, a constraint that closes a loop", "OilColumn")
+            _refuse(f"actuators.{name}", "rigid, a constraint that closes a loop", "OilColumn")
     try:
         branches(linkage, scenario.clearance_pins)
     except LoopError as loop:

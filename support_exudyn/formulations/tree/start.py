@@ -20,7 +20,7 @@ from user_forces.values.value import InputError
 
 STILL = 1e-9  # [m/s] by which velocities of a machine may differ from those that its ideal pins allow
 BALANCED = 1e-9  # moment that may be left in equilibrium, as a share of the weight times 1 m
-UNSETTLED = "Is every body held by pins and columns, and does gravity press the pins? Else start concentric."
+UNSETTLED = "Is every body held by pins and actuators, and does gravity press the pins? Else start concentric."
 
 
 def rates(tree: Tree, scenario: Scenario) -> Matrix:

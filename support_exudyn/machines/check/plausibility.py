@@ -46,7 +46,7 @@ def missing(data: MachineData, machine: FourBarShield[Any]) -> Iterator[str]:
         yield "no [bore_radius_mm]: a scenario that gives a pin a clearance has to say its bore's radius"
     if machine.widths() is None:
         yield "no [width_mm]: it can be run in its plane only"
-    without = [name for name in machine.STRUTS if name not in data.columns]
+    without = [name for name in machine.STRUTS if name not in data.actuators]
     if without:
         yield f"no [columns.{without[0]}]: {' and '.join(without)} cannot be modelled as two bodies"
     tail = [part for part in machine.parts["shield"] if part.name == TAIL]

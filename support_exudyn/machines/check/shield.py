@@ -132,7 +132,7 @@ def _sheets(machine: Shield, told: Sequence[Station]) -> list[CheckTable]:
             row(
                 station,
                 *(_kilonewton(float(np.hypot(*station.forces.pins[name]))) for name in pins),
-                *(_kilonewton(station.forces.columns[name]) for name in columns),
+                *(_kilonewton(station.forces.actuators[name]) for name in columns),
                 *(_degrees(station.transmission[pin]) for pin in ("rear_shield", "front_shield")),
             )
             for station in told
@@ -191,7 +191,7 @@ def _station_data(station: Station) -> dict[str, Any]:
         "lengths_m": station.lengths,
         "transmission_rad": station.transmission,
         "pins_N": {name: force.tolist() for name, force in station.forces.pins.items()},
-        "columns_N": station.forces.columns,
+        "columns_N": station.forces.actuators,
     }
 
 
@@ -231,13 +231,13 @@ def _warnings(
 def _column_warnings(machine: Shield, fine: Sequence[Station]) -> Iterator[str]:
     weight = 9.81 * sum(part.mass for parts in machine.parts.values() for part in parts)
     for name, strut in machine.STRUTS.items():
-        pulls = [one for one in fine if one.forces.columns[name] < -HELD * weight]
+        pulls = [one for one in fine if one.forces.actuators[name] < -HELD * weight]
         both = strut.foot[0] != GROUND  # a ram works both ways
         if pulls and not both:
-            worst = min(pulls, key=lambda one: one.forces.columns[name])
+            worst = min(pulls, key=lambda one: one.forces.actuators[name])
             yield (
                 f"{name} pulls instead of pushing between stroke {_mm(pulls[0].stroke)} and "
-                f"{_mm(pulls[-1].stroke)} mm, by up to {_kilonewton(-worst.forces.columns[name])} kN"
+                f"{_mm(pulls[-1].stroke)} mm, by up to {_kilonewton(-worst.forces.actuators[name])} kN"
             )
         slopes = [math.asin(abs(math.sin(one.columns[name]))) for one in fine]
         if not both and min(slopes) < FLAT:

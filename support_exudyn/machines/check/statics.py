@@ -1,4 +1,4 @@
-"""Degrees of freedom of a linkage, and the forces that hold its weight: ideal pins, massless columns."""
+"""Degrees of freedom of a linkage, and the forces that hold its weight: ideal pins, massless actuators."""
 
 from dataclasses import dataclass
 
@@ -19,14 +19,14 @@ class Statics:
 
     Arguments:
         pins: of the first body on the second, by name, each (2,).
-        columns: pushes of columns, by name; negative: it pulls.
+        actuators: pushes of actuators, by name; negative: it pulls.
         cranks: moments that hold cranks [N m], by name.
         slides: force across the guide, by name.
         error: bound of the numerical error of any of them.
     """
 
     pins: dict[str, Array]
-    columns: dict[str, float]
+    actuators: dict[str, float]
     cranks: dict[str, float]
     slides: dict[str, float]
     error: float
@@ -50,7 +50,7 @@ def statics(linkage: Linkage, position: Array, gravity: Vector2 = GRAVITY) -> St
     taken = iter(forces[first:].tolist())
     return Statics(
         pins,
-        {name: next(taken) for name in linkage.columns},
+        {name: next(taken) for name in linkage.actuators},
         {name: next(taken) for name in linkage.cranks},
         {name: (next(taken), next(taken))[0] for name in linkage.slides},
         error,

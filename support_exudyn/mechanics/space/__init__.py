@@ -1,1 +1,1 @@
-"""Machines in space: bodies with Euler parameters, bearings of finite length, columns with spherical ends."""
+"""Machines in space: bodies with Euler parameters, bearings of finite length, actuators with spherical ends."""

@@ -1,7 +1,7 @@
 """Channels of a run in space by name, see `mechanics.channels`.
 
-Names are those of the plane where they mean the same. A pin or column that there are two of has the channels of
-each, and under the planar name the force of both, and the mean of lengths and angles.
+Names are those of the plane where they mean the same. A pin or actuator that there are two of has the channels
+of each, and under the planar name the force of both, and the mean of lengths and angles.
 """
 
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
@@ -59,17 +59,17 @@ class SpatialContext(Protocol):
     def loads(self) -> Mapping[str, tuple[Series, Series]]:
         """Force and moment in every bearing, of the first body on the second (n, 3) [N], [N m]."""
 
-    def column_force(self, name: str) -> Series:
-        """The force that pushes a column's ends apart (n,) [N]."""
+    def actuator_force(self, name: str) -> Series:
+        """The force that pushes an actuator's ends apart (n,) [N]."""
 
-    def span(self, column: str) -> tuple[Series, Series]:
-        """The vector from foot to head of a column (n, 3) [m], and its rate."""
+    def span(self, actuator: str) -> tuple[Series, Series]:
+        """The vector from foot to head of an actuator (n, 3) [m], and its rate."""
 
 
 def channel_definitions(
     linkage: SpatialLinkage, with_clearance: Collection[str], oil: Collection[str]
 ) -> ChannelDefinitions:
-    """All channels of a linkage in which these planar pins are with clearance and these planar columns on oil.
+    """All channels of a linkage in which these planar pins are with clearance, and these actuators on oil.
 
     The meaning of loads that rigid bodies do not determine says so.
     """
@@ -81,12 +81,12 @@ def channel_definitions(
         found |= _of_body(name, body, n)
     for name in linkage.points:
         found |= _of_point(name)
-    for name, column in linkage.columns.items():
-        found |= _said(_of_column(name, column.column in oil), ".force", loads.columns([name]))
-    for whole in dict.fromkeys(column.column for column in linkage.columns.values()):
-        parts = linkage.parts_of_column(whole)
+    for name, actuator in linkage.actuators.items():
+        found |= _said(_of_actuator(name, actuator.actuator in oil), ".force", loads.actuators([name]))
+    for whole in dict.fromkeys(actuator.actuator for actuator in linkage.actuators.values()):
+        parts = linkage.parts_of_actuator(whole)
         if parts != (whole,):
-            found |= _said(_of_pair(whole, parts, found), ".force", loads.columns(parts))
+            found |= _said(_of_pair(whole, parts, found), ".force", loads.actuators(parts))
     for name, bearing in linkage.bearings.items():
         channels = _of_guide(name) if bearing.is_guide else _of_bearing(name, bearing.pin in with_clearance)
         channels = _said(channels, ".force", loads.forces([name]))
@@ -180,7 +180,7 @@ def _of_point(name: str) -> ChannelDefinitions:
     }
 
 
-def _of_column(name: str, oil: bool) -> ChannelDefinitions:
+def _of_actuator(name: str, oil: bool) -> ChannelDefinitions:
     def angle(context: SpatialContext) -> Series:
         apart, _ = context.span(name)
         return np.asarray(np.arctan2(apart[:, 1], apart[:, 0]))
@@ -197,13 +197,13 @@ def _of_column(name: str, oil: bool) -> ChannelDefinitions:
             "N",
             "pushes its ends apart if positive",
             OIL if oil else REACTION,
-            lambda context: context.column_force(name),
+            lambda context: context.actuator_force(name),
         ),
     }
 
 
 def _of_pair(whole: str, parts: Iterable[str], known: ChannelDefinitions) -> ChannelDefinitions:
-    """The channels of a pair of columns, from those of each."""
+    """The channels of a pair of actuators, from those of each."""
 
     def together(what: str, unite: Callable[..., Series], said: str) -> ChannelDefinitions:
         each = [known[f"{part}.{what}"] for part in parts]

@@ -1,7 +1,7 @@
 """Constraints of a spatial linkage as rows of a matrix, and which of them say something of their own.
 
 A row gives the rate of one constraint from the velocities of all bodies, v and omega of each. Machines in space
-are held more often than they need: the second of two parallel links, or a fourth column under a rigid canopy,
+are held more often than they need: the second of two parallel links, or a fourth actuator under a rigid canopy,
 says nothing new. Such rows are left out of the model, by which no motion changes. How the load is shared among
 what holds the same is beyond rigid bodies; see `reactions`.
 """
@@ -20,12 +20,12 @@ from support_exudyn.model.spatial_linkage import Bearing, SpatialLinkage
 from user_forces.values.value import Vector3
 
 SAME = 1e-6  # share of a row that must be new, else it repeats others
-Kind = Literal["column", "across_1", "across_2", "along", "tilt_1", "tilt_2"]
+Kind = Literal["actuator", "across_1", "across_2", "along", "tilt_1", "tilt_2"]
 
 
 @dataclass(frozen=True)
 class Constraint:
-    """One constraint: of which bearing or column, and what it holds."""
+    """One constraint: of which bearing or actuator, and what it holds."""
 
     name: str
     kind: Kind
@@ -44,7 +44,7 @@ def frame_of(axis: Vector3) -> Series:
 
 
 def all_rows(linkage: SpatialLinkage, with_clearance: Sequence[str], rigid: Sequence[str]) -> list[Constraint]:
-    """What is held, if these planar pins are with clearance and these columns rigid; the columns last."""
+    """What is held, if these planar pins are with clearance and these actuators rigid; the actuators last."""
     rows: list[Constraint] = []
     bearings = linkage.bearings.items()
     for name, bearing in bearings:
@@ -54,28 +54,28 @@ def all_rows(linkage: SpatialLinkage, with_clearance: Sequence[str], rigid: Sequ
     for name, bearing in bearings:
         if "tilt" in bearing.holds and bearing.pin not in with_clearance:
             rows += [Constraint(name, "tilt_1"), Constraint(name, "tilt_2")]
-    return rows + [Constraint(name, "column") for name in rigid]
+    return rows + [Constraint(name, "actuator") for name in rigid]
 
 
 def matrix(motion: SpatialMotion, rows: Sequence[Constraint]) -> Series:
     """The rows at every instant, shape (n, rows, 6 bodies)."""
     found = np.zeros((motion.count, len(rows), 6 * len(motion.linkage.bodies)))
     for place, row in enumerate(rows):
-        if row.kind == "column":
-            _column_row(motion, row.name, found[:, place])
+        if row.kind == "actuator":
+            _actuator_row(motion, row.name, found[:, place])
         else:
             _bearing_row(motion, row, found[:, place])
     return found
 
 
-def _column_row(motion: SpatialMotion, name: str, row: Series) -> None:
-    column = motion.linkage.columns[name]
-    foot = motion.point(column.foot, column.foot_point)
-    head = motion.point(column.head, column.head_point)
+def _actuator_row(motion: SpatialMotion, name: str, row: Series) -> None:
+    actuator = motion.linkage.actuators[name]
+    foot = motion.point(actuator.foot, actuator.foot_point)
+    head = motion.point(actuator.head, actuator.head_point)
     along = head.position - foot.position
     along /= np.linalg.norm(along, axis=1)[:, None]
-    _add_point(motion, column.head, head.arm, along, row)
-    _add_point(motion, column.foot, foot.arm, -along, row)
+    _add_point(motion, actuator.head, head.arm, along, row)
+    _add_point(motion, actuator.foot, foot.arm, -along, row)
 
 
 def _bearing_row(motion: SpatialMotion, row: Constraint, found: Series) -> None:

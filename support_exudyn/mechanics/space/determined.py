@@ -26,11 +26,11 @@ class Loads:
 
     Arguments:
         linkage: what is held.
-        with_clearance: planar pins with clearance. oil: planar columns on oil.
+        with_clearance: planar pins with clearance. oil: planar actuators on oil.
     """
 
     def __init__(self, linkage: SpatialLinkage, with_clearance: Collection[str], oil: Collection[str]) -> None:
-        rigid = [name for name, column in linkage.columns.items() if column.column not in oil]
+        rigid = [name for name, actuator in linkage.actuators.items() if actuator.actuator not in oil]
         self.linkage = linkage
         self.rows: Sequence[Constraint] = all_rows(linkage, list(with_clearance), rigid)
 
@@ -48,9 +48,9 @@ class Loads:
         left, sizes, _ = np.linalg.svd(matrix(self.start, self.rows)[0])
         return np.asarray(left[:, int((sizes > SAME * sizes[0]).sum()) :])
 
-    def columns(self, names: Sequence[str]) -> bool:
-        """Whether the force of rigid columns together is determined."""
-        return self._fixed([1.0 if row.kind == "column" and row.name in names else 0.0 for row in self.rows])
+    def actuators(self, names: Sequence[str]) -> bool:
+        """Whether the force of rigid actuators together is determined."""
+        return self._fixed([1.0 if row.kind == "actuator" and row.name in names else 0.0 for row in self.rows])
 
     def forces(self, bearings: Sequence[str]) -> bool:
         """Whether the force of bearings together is determined, as a vector."""
@@ -63,7 +63,7 @@ class Loads:
     def _map(self, bearings: Sequence[str], tilt: bool) -> Series:
         found = np.zeros((3, len(self.rows)))
         for n, row in enumerate(self.rows):
-            if row.kind != "column" and row.name in bearings and row.kind.startswith("tilt") == tilt:
+            if row.kind != "actuator" and row.name in bearings and row.kind.startswith("tilt") == tilt:
                 found[:, n] = direction_of(self.start, self.linkage.bearings[row.name], row.kind)[0]
         return found
 

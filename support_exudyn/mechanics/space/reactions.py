@@ -1,4 +1,4 @@
-"""Forces in ideal bearings and rigid columns at all records, from the motion.
+"""Forces in ideal bearings and rigid actuators at all records, from the motion.
 
 Newton's and Euler's equations say what the constraints together do to every body:
 
@@ -34,7 +34,7 @@ def inertia_forces(motion: SpatialMotion, acceleration: Series) -> Series:
 
 
 def reactions(motion: SpatialMotion, rows: Sequence[Constraint], left: Series) -> Series:
-    """Forces of the rows on the second body (or pushing a column's ends apart), (n, rows).
+    """Forces of the rows on the second body (or pushing an actuator's ends apart), (n, rows).
 
     Arguments:
         motion: of all bodies.

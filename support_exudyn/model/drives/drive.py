@@ -1,4 +1,4 @@
-"""How the driven parts of a machine move over time: columns extend, cranks turn."""
+"""How the driven parts of a machine move over time: actuators extend, cranks turn."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from user_forces.values.value import NonNegative, Positive, Real, Value, value
 
 
 class Drive(Value, ABC):
-    """Extension of a column from its start length [m], or of a crank from its start angle [rad], over time.
+    """Extension of an actuator from its start length [m], or of a crank from its start angle [rad], over time.
 
     The contract: `extension` is continuous; `speed` is its derivative; between two neighbouring `breaks`
     both are smooth; at a break the speed may jump by `speed_jump`. The solver lands on every break. An
@@ -51,7 +51,7 @@ class Drive(Value, ABC):
 
 @value
 class Held(Drive):
-    """Columns of constant length."""
+    """Actuators of constant length."""
 
     def extension(self, t: float) -> float:
         """The extension is 0 m at any time."""
@@ -134,7 +134,7 @@ class CubicStep(Stroke):
 class UniformSpeed(Stroke):
     """Direct inlet (drive mode 1 of the paper): constant speed from rest, without transition.
 
-    The speed jumps at both ends. With rigid columns that is an impulse, and the bodies' velocities jump with
+    The speed jumps at both ends. With rigid actuators that is an impulse, and the bodies' velocities jump with
     it; the impulse is reported in N s (`Result.impulses`). A force and an acceleration at that instant do not
     exist; just before and just after they do.
 
@@ -160,7 +160,7 @@ class Steady(Drive):
     """Constant speed from the start on, for a crank that has been turning for long.
 
     Arguments:
-        rate: speed [rad/s] of cranks, [m/s] of columns.
+        rate: speed [rad/s] of cranks, [m/s] of actuators.
     """
 
     rate: RadiansPerSecond[Real]

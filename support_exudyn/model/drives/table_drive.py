@@ -1,4 +1,4 @@
-"""A drive through given points: measured or planned displacement of a column over time."""
+"""A drive through given points: measured or planned displacement of an actuator over time."""
 
 from __future__ import annotations
 

@@ -64,12 +64,12 @@ def _(report: ShieldReport) -> Figure:
     _pivots(drawing.add_subplot(upper[1]), machine, fine)
     _tip_path(drawing.add_subplot(grid[1, 0]), fine)
     _angles(drawing.add_subplot(grid[1, 1]), fine, report.limits)
-    stroke, pins, columns = [1e3 * one.stroke for one in fine], fine[0].forces.pins, fine[0].forces.columns
+    stroke, pins, columns = [1e3 * one.stroke for one in fine], fine[0].forces.pins, fine[0].forces.actuators
     for place, title, forces in (
         (grid[2, 0], "static force in pins [kN]",
          {name: [1e-3 * float(np.hypot(*one.forces.pins[name])) for one in fine] for name in pins}),
         (grid[2, 1], "push of columns, under weight [kN]",
-         {name: [1e-3 * one.forces.columns[name] for one in fine] for name in columns}),
+         {name: [1e-3 * one.forces.actuators[name] for one in fine] for name in columns}),
     ):  # fmt: skip
         axes = drawing.add_subplot(place)
         axes.axhline(0.0, color=GREY, lw=0.6)

@@ -8,12 +8,12 @@ import numpy as np
 from shapely.geometry import Polygon, box
 from shapely.ops import unary_union
 
-from support_exudyn.model.linkage import GROUND, Column, Linkage, Slide
+from support_exudyn.model.linkage import GROUND, LinearActuator, Linkage, Slide
 from support_exudyn.model.loads.falling_block import FallingBlock
 from support_exudyn.model.to_space import at, copies
 from support_exudyn.postprocessing.look.poses import planar_pins
 from support_exudyn.postprocessing.look.shapes import bar, bored, hull, plate, together, tube
-from support_exudyn.postprocessing.look.solid import DrawnColumn, Look, Role, Solid
+from support_exudyn.postprocessing.look.solid import DrawnActuator, Look, Role, Solid
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.values.value import Vector2
 
@@ -22,7 +22,7 @@ THICKNESS = 0.05  # of plates, of the machine's extent
 WALL = 1.3  # radius of an eye, of its bore's
 RAIL = 0.45  # half the length of a guide's rail, of the machine's extent
 BORE = 0.35  # radius of bores where nobody says it, of the margin
-CYLINDER = 0.6  # length of a cylinder, of the column at the start
+CYLINDER = 0.6  # length of a cylinder, of the actuator at the start
 
 
 def look(scenario: Scenario) -> Look:
@@ -52,8 +52,8 @@ def look(scenario: Scenario) -> Look:
             solids.append(Solid(body, body, Role.BODY, mesh))
     solids += _pins(scenario, layers, thickness, margin)
     lowest = min(y for around in points.values() for _, y in around)
-    columns = [strut for name in linkage.columns for strut in _struts(scenario, name, 0.5 * margin)]
-    return Look(tuple(solids), tuple(columns), lowest - margin)
+    actuators = [strut for name in linkage.actuators for strut in _struts(scenario, name, 0.5 * margin)]
+    return Look(tuple(solids), tuple(actuators), lowest - margin)
 
 
 def _layers(scenario: Scenario, apart: float) -> dict[str, float]:
@@ -113,7 +113,7 @@ def joined_points(linkage: Linkage) -> dict[str, list[Vector2]]:
     known = [
         *((name, body.centre) for name, body in linkage.bodies.items()),
         *(end for p in linkage.pins.values() for end in ((p.first, p.first_point), (p.second, p.second_point))),
-        *(end for c in linkage.columns.values() for end in ((c.foot, c.foot_point), (c.head, c.head_point))),
+        *(end for c in linkage.actuators.values() for end in ((c.foot, c.foot_point), (c.head, c.head_point))),
         *((point.body, point.point) for point in linkage.points.values()),
         *((slide.against, slide.point) for slide in linkage.slides.values()),
     ]
@@ -150,33 +150,36 @@ def body_copies(scenario: Scenario, name: str) -> list[tuple[str, list[float]]]:
 
 
 def _pairs(scenario: Scenario) -> Mapping[str, float]:
-    """Half the distance of bodies that there are two of [m], those of columns in two bodies among them."""
+    """Half the distance of bodies that there are two of [m], those of actuators in two bodies among them."""
     width = scenario.machine.widths()
     if width is None:
         return {}
-    of_columns = {
-        body: width.columns[name]
+    of_actuators = {
+        body: width.actuators[name]
         for slide in scenario.linkage.slides.values()
-        for name, column in scenario.linkage.columns.items()
-        if name in width.columns and {column.foot, column.head} == {slide.against, slide.body}
+        for name, actuator in scenario.linkage.actuators.items()
+        if name in width.actuators and {actuator.foot, actuator.head} == {slide.against, slide.body}
         for body in (slide.against, slide.body)
     }
-    return {**width.pairs, **of_columns}
+    return {**width.pairs, **of_actuators}
 
 
-def _struts(scenario: Scenario, name: str, radius: float) -> Iterator[DrawnColumn]:
-    """A column as cylinder and rod; radius: of the cylinder [m]."""
-    column: Column = scenario.linkage.columns[name]
+def _struts(scenario: Scenario, name: str, radius: float) -> Iterator[DrawnActuator]:
+    """An actuator as cylinder and rod; radius: of the cylinder [m]."""
+    actuator: LinearActuator = scenario.linkage.actuators[name]
     width = scenario.machine.widths()
     pairs = _pairs(scenario)
-    reach = math.dist(column.foot_point, column.head_point)
+    reach = math.dist(actuator.foot_point, actuator.head_point)
     cylinder = tube((0.0, 0.0, 0.0), (CYLINDER * reach, 0.0, 0.0), radius)
     rod = tube((-0.9 * reach, 0.0, 0.0), (0.0, 0.0, 0.0), 0.65 * radius)
-    for side, z, _ in copies(width.columns.get(name) if width else None):
+    for side, z, _ in copies(width.actuators.get(name) if width else None):
         part = side if scenario.dimensions == 3 else ""
-        foot, head = column.foot + part * (column.foot in pairs), column.head + part * (column.head in pairs)
-        ends = at(column.foot_point, z), at(column.head_point, z)
-        yield DrawnColumn(name + side, foot, head, *ends, cylinder, rod)
+        foot, head = (
+            actuator.foot + part * (actuator.foot in pairs),
+            actuator.head + part * (actuator.head in pairs),
+        )
+        ends = at(actuator.foot_point, z), at(actuator.head_point, z)
+        yield DrawnActuator(name + side, foot, head, *ends, cylinder, rod)
 
 
 def blocks(scenario: Scenario) -> list[Solid]:

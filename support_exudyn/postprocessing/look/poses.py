@@ -11,7 +11,7 @@ from support_exudyn.model.linkage import GROUND, Body
 from support_exudyn.model.pins import ClearancePin
 from support_exudyn.model.spatial_linkage import SpatialBody
 from support_exudyn.model.to_space import at
-from support_exudyn.postprocessing.look.solid import DrawnColumn
+from support_exudyn.postprocessing.look.solid import DrawnActuator
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import Vector3
@@ -172,15 +172,15 @@ class StrutPose:
     turning: Series
 
     def cylinder(self, points: Series) -> tuple[Series, Series]:
-        """Positions [m] and velocities [m/s] of points (m, 3) of `DrawnColumn.cylinder`."""
+        """Positions [m] and velocities [m/s] of points (m, 3) of `DrawnActuator.cylinder`."""
         return self.foot + points @ self.axes.T, self.foot_velocity + points @ self.turning.T
 
     def rod(self, points: Series) -> tuple[Series, Series]:
-        """Positions [m] and velocities [m/s] of points (m, 3) of `DrawnColumn.rod`."""
+        """Positions [m] and velocities [m/s] of points (m, 3) of `DrawnActuator.rod`."""
         return self.head + points @ self.axes.T, self.head_velocity + points @ self.turning.T
 
 
-def strut_pose(strut: DrawnColumn, poses: Poses, record: int) -> StrutPose:
+def strut_pose(strut: DrawnActuator, poses: Poses, record: int) -> StrutPose:
     """A strut of a run at a record."""
     foot, foot_velocity = _end(poses, strut.foot, np.array([strut.foot_point]), record)
     head, head_velocity = _end(poses, strut.head, np.array([strut.head_point]), record)

@@ -71,11 +71,11 @@ ARC = 7  # points of the outline of a ball
 
 
 def lengths(shortest: float, longest: float) -> tuple[float, float]:
-    """Lengths of cylinder and rod [m] of a column whose ends are so far apart at least and at most [m].
+    """Lengths of cylinder and rod [m] of an actuator whose ends are so far apart at least and at most [m].
 
-    The rod is in the cylinder by a share of the shortest length when the column is longest, and does not come
-    out at the other end when it is shortest. A column of one stage cannot do both if it becomes more than 1.74
-    times as long; then the rod is longer than that.
+    The rod is in the cylinder by a share of the shortest length when the actuator is longest, and does not come
+    out at the other end when it is shortest. An actuator of one stage cannot do both if it becomes more than
+    1.74 times as long; then the rod is longer than that.
     """
     inside = INSIDE * shortest
     rod = shortest - inside

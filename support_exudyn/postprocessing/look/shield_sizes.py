@@ -62,7 +62,7 @@ def sizes(scenario: Scenario) -> Sizes:
     """The sizes of a scenario's machine: its own widths, where it knows them; the rest by its pivots."""
     linkage = scenario.linkage
     length = extent(linkage)
-    columns = {name: linkage.columns[name] for name in standing(scenario)}
+    columns = {name: linkage.actuators[name] for name in standing(scenario)}
     shortest = min(column.start_length for column in columns.values())
     feet = [column.foot_point for column in columns.values()]
     width = scenario.machine.widths()
@@ -72,7 +72,7 @@ def sizes(scenario: Scenario) -> Sizes:
         """The width of a body over whose width the mass is spread evenly."""
         return known[body] * math.sqrt(12.0) if known.get(body) else share * length
 
-    apart = (width.columns.get(next(iter(columns))) if width else None) or 0.077 * length
+    apart = (width.actuators.get(next(iter(columns))) if width else None) or 0.077 * length
     # so thick that two pairs one behind the other have room
     beside = max(0.3 * math.dist(*feet), 0.03 * shortest) if len(feet) == 2 else math.inf
     eye = min(0.027 * length, 0.45 * _distance_of_eyes(scenario))

@@ -11,15 +11,15 @@ from trimesh import Trimesh
 
 from support_exudyn.machines.four_bar_shield import FourBarShield
 from support_exudyn.machines.shield_layout import TAIL
-from support_exudyn.model.columns import CylinderAndRod
-from support_exudyn.model.linkage import GROUND, Column, lumped
+from support_exudyn.model.actuators import CylinderAndRod
+from support_exudyn.model.linkage import GROUND, LinearActuator, lumped
 from support_exudyn.model.plane_geometry import minus, moved, parts_of
 from support_exudyn.model.to_space import LEFT, RIGHT, SIDES, at
 from support_exudyn.postprocessing.look.plain import blocks
 from support_exudyn.postprocessing.look.poses import planar_pins
 from support_exudyn.postprocessing.look.shapes import ROUND, bar, cylinder_and_rod, plate, together, tube
 from support_exudyn.postprocessing.look.shield_sizes import Sizes, sizes, standing
-from support_exudyn.postprocessing.look.solid import DrawnColumn, Look, Role, Solid
+from support_exudyn.postprocessing.look.solid import DrawnActuator, Look, Role, Solid
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.values.value import Vector2
 
@@ -46,8 +46,8 @@ class _Support:
         linkage = scenario.linkage
         self.on_first: dict[str, Vector2] = {name: pin.first_point for name, pin in linkage.pins.items()}
         self.on_second: dict[str, Vector2] = {name: pin.second_point for name, pin in linkage.pins.items()}
-        self.columns = {name: column for name, column in linkage.columns.items() if column.driven}
-        self.jacks = {name: column for name, column in linkage.columns.items() if not column.driven}
+        self.columns = {name: column for name, column in linkage.actuators.items() if column.driven}
+        self.jacks = {name: column for name, column in linkage.actuators.items() if not column.driven}
         self.standing = standing(scenario)  # on the base
         feet = [self.columns[name].foot_point for name in self.standing]
         lowest = min(y for _, y in (*feet, self.on_first["rear_base"], self.on_first["front_base"]))
@@ -56,7 +56,7 @@ class _Support:
     def _beside(self, name: str) -> float:
         """Half the distance of both columns of a pair [m]."""
         width = self.scenario.machine.widths()
-        return (width.columns.get(name) if width else None) or self.sizes.columns
+        return (width.actuators.get(name) if width else None) or self.sizes.columns
 
     def look(self) -> Look:
         """All of it."""
@@ -70,9 +70,9 @@ class _Support:
             *self._pins(),
             *blocks(self.scenario),
         ]
-        struts: list[DrawnColumn] = []
+        struts: list[DrawnActuator] = []
         for name, column in {**self.columns, **self.jacks}.items():
-            if isinstance(self.scenario.columns.get(name), CylinderAndRod):
+            if isinstance(self.scenario.actuators.get(name), CylinderAndRod):
                 solids.extend(self._column_bodies(name, column))
             else:
                 struts.extend(self._struts(name, column))
@@ -241,18 +241,18 @@ class _Support:
 
     # --- columns ---
 
-    def _stroke(self, name: str, column: Column) -> tuple[float, float]:
+    def _stroke(self, name: str, column: LinearActuator) -> tuple[float, float]:
         """The shortest and the longest that it becomes [m], as its drive says."""
         space = self.scenario.dimensions == 3
         drives = [
             self.scenario.drive_of(one)
-            for one in (self.scenario.space.parts_of_column(name) if space else (name,))
+            for one in (self.scenario.space.parts_of_actuator(name) if space else (name,))
         ]
         spans = [drive.span(self.scenario.duration) for drive in drives]
         start = column.start_length
         return start + min(low for low, _ in spans), start + max(high for _, high in spans)
 
-    def _meshes(self, name: str, column: Column) -> tuple[Trimesh, Trimesh]:
+    def _meshes(self, name: str, column: LinearActuator) -> tuple[Trimesh, Trimesh]:
         shortest, longest = self._stroke(name, column)
         radius = self._radius(name) if column.driven else min(0.4 * self.sizes.column, 0.1 * shortest)
         return cylinder_and_rod(shortest, longest, radius)
@@ -261,7 +261,7 @@ class _Support:
         """The radius of a cylinder [m]; a ram's is smaller than that of a column on the base."""
         return self.sizes.column if name in self.standing else RAM * self.sizes.column
 
-    def _struts(self, name: str, column: Column) -> Iterator[DrawnColumn]:
+    def _struts(self, name: str, column: LinearActuator) -> Iterator[DrawnActuator]:
         """Both columns of a pair, or the jack in the middle."""
         cylinder, rod = self._meshes(name, column)
         sides = SIDES.items() if column.driven else (("", 0.0),)
@@ -269,9 +269,9 @@ class _Support:
             z = sign * self._beside(name)
             foot, head = at(column.foot_point, z), at(column.head_point, z)
             label = f"{name}_{side}" if side else name
-            yield DrawnColumn(label, column.foot, column.head, foot, head, cylinder, rod)
+            yield DrawnActuator(label, column.foot, column.head, foot, head, cylinder, rod)
 
-    def _column_bodies(self, name: str, column: Column) -> Iterator[Solid]:
+    def _column_bodies(self, name: str, column: LinearActuator) -> Iterator[Solid]:
         """The shapes of a column without mass, on the bodies that this one is made of."""
         cylinder, rod = self._meshes(name, column)
         for body, role, mesh, end in (
@@ -297,12 +297,12 @@ class _Support:
 def canopy_top(scenario: Scenario) -> float:
     """Height of the canopy's upper face in the start posture, where it is level [m]."""
     linkage, s = scenario.linkage, sizes(scenario)
-    heads = [column.head_point for column in linkage.columns.values() if column.driven]
+    heads = [column.head_point for column in linkage.actuators.values() if column.driven]
     highest = max(linkage.pins["shield_canopy"].second_point[1], *(y for _, y in heads))
     return max(linkage.points["tip"].point[1], highest + 1.5 * s.eye)
 
 
-def _placed(mesh: Trimesh, column: Column, end: Vector2, z: float) -> Trimesh:
+def _placed(mesh: Trimesh, column: LinearActuator, end: Vector2, z: float) -> Trimesh:
     """A surface along a column from one of its ends, where it stands beside the plane."""
     (x, y), (u, v) = column.foot_point, column.head_point
     length = math.hypot(u - x, v - y)

@@ -42,11 +42,11 @@ class Solid:
 
 
 @dataclass(frozen=True)
-class DrawnColumn:
-    """A column without a mass of its own: a rod that slides in a cylinder, between points of two bodies.
+class DrawnActuator:
+    """An actuator without a mass of its own: a rod that slides in a cylinder, between points of two bodies.
 
     Arguments:
-        name: of the column.
+        name: of the actuator.
         foot, head: names of the bodies, one of them may be "ground".
         foot_point, head_point: its ends, start posture [m].
         cylinder: surface [m] in axes whose x runs from foot to head, from the foot.
@@ -68,12 +68,12 @@ class Look:
 
     Arguments:
         solids: that move with bodies or stand on the ground.
-        struts: columns between them.
+        struts: actuators between them.
         floor: height of the ground [m].
     """
 
     solids: tuple[Solid, ...]
-    struts: tuple[DrawnColumn, ...]
+    struts: tuple[DrawnActuator, ...]
     floor: float
 
 

@@ -180,7 +180,7 @@ class Window:
         _show(self.model, self.solution, row)
         renderer = self.model.scene.container.renderer
         renderer.SendRedrawSignal()
-        renderer.DoIdleTasks(0)  # what moves by itself, columns, is drawn by Python
+        renderer.DoIdleTasks(0)  # what moves by itself, actuators, is drawn by Python
 
     @property
     def time(self) -> float:

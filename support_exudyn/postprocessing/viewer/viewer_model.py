@@ -20,7 +20,15 @@ from support_exudyn.model.linkage import GROUND
 from support_exudyn.postprocessing.look import looks
 from support_exudyn.postprocessing.look.poses import PlacedPin, placed_pins, strut_axes
 from support_exudyn.postprocessing.look.shapes import tube
-from support_exudyn.postprocessing.look.solid import COLOURS, Colour, DrawnColumn, Look, Role, Solid, solids_of
+from support_exudyn.postprocessing.look.solid import (
+    COLOURS,
+    Colour,
+    DrawnActuator,
+    Look,
+    Role,
+    Solid,
+    solids_of,
+)
 from support_exudyn.postprocessing.viewer.engine_graphics import EngineSurface, engine_surface
 from support_exudyn.scenario.scenario import Scenario
 from user_forces import JournalBearing
@@ -123,11 +131,11 @@ def _of_rim(points: Series, axes: Axes = STILL) -> dict[str, Any]:
     return {"type": "Line", "color": [*BORE, 1.0], "data": axes.local(points).ravel()}
 
 
-# --- columns ---
+# --- actuators ---
 
 
-def _parts(shown: ViewerModel, strut: DrawnColumn) -> Iterator[Callable[[], dict[str, Any]]]:
-    """Cylinder and rod of a column; called, they are where the state that is shown has them."""
+def _parts(shown: ViewerModel, strut: DrawnActuator) -> Iterator[Callable[[], dict[str, Any]]]:
+    """Cylinder and rod of an actuator; called, they are where the state that is shown has them."""
     cylinder = engine_surface(strut.cylinder, COLOURS[Role.CYLINDER])
     rod = engine_surface(strut.rod, COLOURS[Role.ROD])
 

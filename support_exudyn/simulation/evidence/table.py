@@ -18,7 +18,7 @@ from user_forces.values.value import InputError, Value, short
 
 LARGEST_FILE = 100_000_000  # bytes
 FORMAT = "support_exudyn scene detail 2"
-FIELDS = ("pins", "columns", "parts", "start", "dimensions")  # of a scenario: what an element of the model is
+FIELDS = ("pins", "actuators", "parts", "start", "dimensions")  # of a scenario: what an element of the model is
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,7 @@ class Tried:
 
     @property
     def elements(self) -> int:
-        """How many pins, columns and parts are other than plain, and whether start and dimensions are."""
+        """How many pins, actuators and parts are other than plain, and whether start and dimensions are."""
         entries = sum(len(entry) for entry in self.fields.values() if isinstance(entry, Mapping))
         settled = self.fields.get("start", "concentric") != "concentric"
         return entries + int(settled) + int(self.fields.get("dimensions", 2) != 2)

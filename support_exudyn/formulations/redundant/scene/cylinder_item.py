@@ -42,7 +42,7 @@ class CylinderItem:
     def __init__(
         self, mbs: Any, preloaded: PreloadedCylinder, markers: list[Any], is_in_equilibrium: bool
     ) -> None:
-        model, column = preloaded.model, preloaded.column
+        model, actuator = preloaded.model, preloaded.actuator
         self.preloaded = preloaded
         self.opening = 0.0
         self._mbs, self._data, self._markers = mbs, mbs.systemData, markers
@@ -57,7 +57,7 @@ class CylinderItem:
             ObjectConnectorHydraulicActuatorSimple(
                 markerNumbers=markers,
                 nodeNumbers=[self.node],
-                offsetLength=column.start_length - model.oil_length,
+                offsetLength=actuator.start_length - model.oil_length,
                 strokeLength=model.oil_length + model.rod_side_length,
                 chamberCrossSection0=model.bore_area * UNIT,
                 chamberCrossSection1=model.rod_side_area * UNIT,
@@ -133,7 +133,7 @@ class CylinderItem:
 
     @contextmanager
     def settling(self) -> Iterator[None]:
-        """Let closed oil hold the column inside, and give it at the end the pressures that it then has."""
+        """Let closed oil hold the actuator inside, and give it at the end the pressures that it then has."""
         put = self._mbs.SetObjectParameter
         put(self.object, "activeConnector", False)
         put(self._spring, "activeConnector", True)
@@ -152,7 +152,7 @@ class CylinderItem:
     def follow(self) -> None:
         """Give the spring the stiffness and the force of the closed oil at the initial length."""
         model, length = self.preloaded.model, self.motion(INITIAL)[0]
-        stiffness = model.stiffness(length - self.preloaded.column.start_length)
+        stiffness = model.stiffness(length - self.preloaded.actuator.start_length)
         force = model.force(*self.preloaded.closed_pressures(length), 0.0)
         self._mbs.SetObjectParameter(self._spring, "stiffness", stiffness)
         self._mbs.SetObjectParameter(self._spring, "referenceLength", length + force / stiffness)

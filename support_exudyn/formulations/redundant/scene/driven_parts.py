@@ -1,12 +1,12 @@
-"""Columns and cranks in the engine that follow the same drive."""
+"""Actuators and cranks in the engine that follow the same drive."""
 
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, TypeVar
 
-from support_exudyn.mechanics.body_coordinates import ColumnItem, CrankItem
-from support_exudyn.mechanics.oil_column import PreloadedColumn
+from support_exudyn.mechanics.body_coordinates import ActuatorItem, CrankItem
+from support_exudyn.mechanics.oil_column import PreloadedActuator
 from support_exudyn.model.drives.drive import Drive
 from user_forces.lawful import LawError
 
@@ -17,7 +17,7 @@ Item = TypeVar("Item")
 class OilColumnItem:
     """A column of oil in the engine."""
 
-    preloaded: PreloadedColumn
+    preloaded: PreloadedActuator
     object: Any
 
 
@@ -31,7 +31,7 @@ class DrivenParts:
 
     mbs: Any
     drive: Drive
-    rigid: tuple[ColumnItem, ...]
+    rigid: tuple[ActuatorItem, ...]
     oil: tuple[OilColumnItem, ...]
     cranks: tuple[CrankItem, ...]
     velocity_level: bool = False
@@ -39,7 +39,7 @@ class DrivenParts:
 
     @property
     def multipliers(self) -> tuple[int, ...]:
-        """The multipliers of rigid columns and cranks."""
+        """The multipliers of rigid actuators and cranks."""
         return (*(item.multiplier for item in self.rigid), *(item.multiplier for item in self.cranks))
 
     def moves(self, duration: float) -> bool:
@@ -77,7 +77,7 @@ class DrivenParts:
     def _set(self, extension: float, speed: float) -> None:
         put = self.mbs.SetObjectParameter
         for rigid in self.rigid:
-            put(rigid.object, "distance", rigid.column.start_length + extension)
+            put(rigid.object, "distance", rigid.actuator.start_length + extension)
         for oil in self.oil:
             stiffness = oil.preloaded.model.stiffness(extension)
             put(oil.object, "referenceLength", oil.preloaded.natural_length(extension))
@@ -91,7 +91,7 @@ class DrivenParts:
 def by_drive(
     mbs: Any,
     drive_of: Callable[[str], Drive],
-    rigid: Mapping[str, ColumnItem],
+    rigid: Mapping[str, ActuatorItem],
     oil: Mapping[str, OilColumnItem],
     cranks: Mapping[str, CrankItem],
 ) -> tuple[DrivenParts, ...]:

@@ -57,20 +57,23 @@ class EngineBuilder(ABC):
         weight = [body.mass * gx, body.mass * gy, 0.0]
         return self.mbs.AddLoad(LoadForceVector(markerNumber=self.marker(name, body.centre), loadVector=weight))
 
-    def add_rigid_column(self, column: Any) -> Any:
-        """Hold the ends of a column apart."""
-        ends = self.ends(column)
-        return self.mbs.AddObject(ObjectConnectorDistance(markerNumbers=ends, distance=column.start_length))
+    def add_rigid_actuator(self, actuator: Any) -> Any:
+        """Hold the ends of an actuator apart."""
+        ends = self.ends(actuator)
+        return self.mbs.AddObject(ObjectConnectorDistance(markerNumbers=ends, distance=actuator.start_length))
 
-    def add_oil_column(self, column: Any) -> Any:
-        """Put a spring in place of a column; what it carries and how stiff it is follows when all is whole."""
-        ends = self.ends(column)
-        spring = ObjectConnectorSpringDamper(markerNumbers=ends, referenceLength=column.start_length)
+    def add_oil_column(self, actuator: Any) -> Any:
+        """Put a spring in place of an actuator; its load and its stiffness follow when all is whole."""
+        ends = self.ends(actuator)
+        spring = ObjectConnectorSpringDamper(markerNumbers=ends, referenceLength=actuator.start_length)
         return self.mbs.AddObject(spring)
 
-    def ends(self, column: Any) -> list[Any]:
+    def ends(self, actuator: Any) -> list[Any]:
         """The markers of foot and head."""
-        return [self.marker(column.foot, column.foot_point), self.marker(column.head, column.head_point)]
+        return [
+            self.marker(actuator.foot, actuator.foot_point),
+            self.marker(actuator.head, actuator.head_point),
+        ]
 
     def multiplier(self, item: Any) -> int:
         """The first multiplier of a constraint, once all is assembled."""

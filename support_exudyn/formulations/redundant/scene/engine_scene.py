@@ -50,8 +50,8 @@ class EngineScene(ABC):
     scenario: what is modelled. container: owns the system, and must live as long as it. mbs: the system.
     bodies: all that move, each an item with its data as `body`. clearance_pins: everything that may make
     contact and part. compliant_pins: pins whose force follows from their deflection. frictions: of ideal pins.
-    loads: what presses on the machine. weights: loads of the engine, by body. driven: all columns and cranks,
-    by the drive that they follow. cylinders: the columns that follow none.
+    loads: what presses on the machine. weights: loads of the engine, by body. driven: all actuators and cranks,
+    by the drive that they follow. cylinders: the actuators that follow none.
     """
 
     scenario: Scenario
@@ -75,7 +75,7 @@ class EngineScene(ABC):
         self.container.Reset()
 
     def drive_to(self, t: float) -> None:
-        """Set every column, crank and valve to where it is at time t [s]."""
+        """Set every actuator, crank and valve to where it is at time t [s]."""
         for parts in self.driven:
             parts.move_to(t)
         for cylinder in self.cylinders.values():
@@ -85,7 +85,7 @@ class EngineScene(ABC):
     def jump(self, time: float) -> Impulse | None:
         """Give the bodies the velocities that belong to drives whose speed has jumped at a break [s].
 
-        With rigid columns the bodies' velocities jump too, see `kinetics`. Clearance pins and oil columns
+        With rigid actuators the bodies' velocities jump too, see `kinetics`. Clearance pins and oil columns
         transmit no impulse: their force is finite. None if all that jumps is compliant.
         """
 

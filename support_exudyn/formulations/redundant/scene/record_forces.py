@@ -29,23 +29,23 @@ def with_causes(needed: DataNeeds) -> DataNeeds:
 class Applied:
     """Forces that follow from the motion by themselves, by the names of what gives them.
 
-    contacts: of clearance pins. pins: of compliant ones. columns: that push their ends apart (n,) [N]. loads:
+    contacts: of clearance pins. pins: of compliant ones. actuators: that push their ends apart (n,) [N]. loads:
     on their points.
     """
 
     contacts: Mapping[str, ContactSeries]
     pins: Mapping[str, CompliantSeries]
-    columns: Mapping[str, Series]
+    actuators: Mapping[str, Series]
     loads: Mapping[str, LoadSeries]
 
 
 @dataclass(frozen=True)
 class Following:
-    """Accelerations (n, 3 b), forces of joints, of rigid columns (n,) and moments of friction (n,)."""
+    """Accelerations (n, 3 b), forces of joints, of rigid actuators (n,) and moments of friction (n,)."""
 
     acceleration: Series
     joints: JointForces
-    columns: Mapping[str, Series]
+    actuators: Mapping[str, Series]
     friction_moments: Mapping[str, Series]
 
 
@@ -54,11 +54,11 @@ def following(scene: Scene, motion: BodyMotion, time: Series, applied: Applied) 
     scenario, linkage = scene.scenario, scene.linkage
     held = HeldJoints(
         [linkage.pins[name] for name in scene.ideal_pins],
-        [linkage.columns[name] for name in scene.rigid_columns],
+        [linkage.actuators[name] for name in scene.rigid_actuators],
         [linkage.cranks[name] for name in scene.cranks],
         [linkage.slides[name] for name in scene.slides],
     )
-    drives = [scenario.drive_of(name) for name in (*scene.rigid_columns, *scene.cranks)]
+    drives = [scenario.drive_of(name) for name in (*scene.rigid_actuators, *scene.cranks)]
     driven = [accelerations(drive, time, scenario.duration) for drive in drives]
     all_bodies = equations(motion, held, np.array(driven).reshape(-1, len(time)).T)
     forces = _applied_forces(scene, motion, applied)
@@ -80,7 +80,7 @@ def following(scene: Scene, motion: BodyMotion, time: Series, applied: Applied) 
             name: np.abs(reactions[:, held.guided][:, 2 * n : 2 * n + 2]) for n, name in enumerate(scene.slides)
         },
     )
-    pushed = dict(zip((*scene.rigid_columns, *scene.cranks), -reactions[:, held.driven].T, strict=True))
+    pushed = dict(zip((*scene.rigid_actuators, *scene.cranks), -reactions[:, held.driven].T, strict=True))
     joints.cranks |= {name: pushed.pop(name) for name in scene.cranks}
     return Following(acceleration, joints, pushed, moments)
 
@@ -102,11 +102,11 @@ def _applied_forces(scene: Scene, motion: BodyMotion, applied: Applied) -> Serie
         ):
             push(forces, motion, body, sign * pin.force, motion.place(body, point))
             twist(forces, motion, body, sign * pin.moment)
-    for name, force in applied.columns.items():
-        column = linkage.columns[name]
-        apart = force[:, None] * direction(motion, column)
-        push(forces, motion, column.head, apart, motion.place(column.head, column.head_point))
-        push(forces, motion, column.foot, -apart, motion.place(column.foot, column.foot_point))
+    for name, force in applied.actuators.items():
+        actuator = linkage.actuators[name]
+        apart = force[:, None] * direction(motion, actuator)
+        push(forces, motion, actuator.head, apart, motion.place(actuator.head, actuator.head_point))
+        push(forces, motion, actuator.foot, -apart, motion.place(actuator.foot, actuator.foot_point))
     for name, loaded in applied.loads.items():
         load = scenario.loads[name]
         for body, force in ((load.body, loaded.force), (load.against(name), -loaded.force)):

@@ -21,7 +21,7 @@ from support_exudyn.formulations.redundant.scene.engine_scene import (
 )
 from support_exudyn.formulations.redundant.scene.load_item import LoadItem
 from support_exudyn.formulations.redundant.scene.pin_friction import PinFriction
-from support_exudyn.mechanics.body_coordinates import BodyItem, ColumnItem, CrankItem, IdealItem, SlideItem
+from support_exudyn.mechanics.body_coordinates import ActuatorItem, BodyItem, CrankItem, IdealItem, SlideItem
 from support_exudyn.mechanics.kinetics import Kinetics, Matrix
 from support_exudyn.mechanics.pressed_pins import EffectiveMasses, inverse_masses, normal
 from support_exudyn.mechanics.trajectory import Impulse
@@ -45,24 +45,24 @@ class Scene(EngineScene):
     frictions: dict[str, PinFriction]  # of ideal pins
     clearance_joints: dict[str, ClearanceJoint]
     compliant_pins: dict[str, CompliantItem]
-    rigid_columns: dict[str, ColumnItem]
+    rigid_actuators: dict[str, ActuatorItem]
     oil_columns: dict[str, OilColumnItem]
     cylinders: dict[str, CylinderItem]
     cranks: dict[str, CrankItem]
     slides: dict[str, SlideItem]
     loads: dict[str, LoadItem]
     weights: dict[str, Any]  # loads of the engine, by body; none without gravity
-    driven: tuple[DrivenParts, ...]  # all columns and cranks, by the drive that they follow
+    driven: tuple[DrivenParts, ...]  # all actuators and cranks, by the drive that they follow
 
     @cached_property
     def kinetics(self) -> Kinetics:
         """Masses and constraints as matrices; clearance pins and oil columns are free."""
-        return Kinetics(self.linkage, self.bodies, tuple(self.ideal_pins), tuple(self.rigid_columns))
+        return Kinetics(self.linkage, self.bodies, tuple(self.ideal_pins), tuple(self.rigid_actuators))
 
     @cached_property
     def closed_kinetics(self) -> Kinetics:
-        """Masses and constraints as matrices with all pins ideal and all columns rigid."""
-        return Kinetics(self.linkage, self.bodies, tuple(self.linkage.pins), tuple(self.linkage.columns))
+        """Masses and constraints as matrices with all pins ideal and all actuators rigid."""
+        return Kinetics(self.linkage, self.bodies, tuple(self.linkage.pins), tuple(self.linkage.actuators))
 
     def inverse_masses(self, name: str, state: Any = CURRENT) -> EffectiveMasses:
         """How a clearance pin's journal answers impulses, by itself and with the other pins as pressed."""
@@ -125,9 +125,9 @@ class Scene(EngineScene):
         driven = (-impulses[kinetics.driven()]).tolist()
         return Impulse(
             time,
-            dict(zip(self.rigid_columns, driven, strict=False)),
+            dict(zip(self.rigid_actuators, driven, strict=False)),
             float(0.5 * (mass * after) @ after - 0.5 * (mass * before) @ before),
-            dict(zip(self.cranks, driven[len(self.rigid_columns) :], strict=True)),
+            dict(zip(self.cranks, driven[len(self.rigid_actuators) :], strict=True)),
         )
 
     def align(self, time: float) -> float:

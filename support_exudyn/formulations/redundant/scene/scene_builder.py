@@ -1,4 +1,4 @@
-"""From a scenario to a model in the engine: bodies, pins, columns; nothing that was not asked for."""
+"""From a scenario to a model in the engine: bodies, pins, actuators; nothing that was not asked for."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ from support_exudyn.formulations.redundant.scene.engine_scene import CompliantIt
 from support_exudyn.formulations.redundant.scene.load_item import add_load
 from support_exudyn.formulations.redundant.scene.pin_friction import PinFriction, rotations
 from support_exudyn.formulations.redundant.scene.scene import Scene
-from support_exudyn.mechanics.body_coordinates import BodyItem, ColumnItem, CrankItem, IdealItem, SlideItem
+from support_exudyn.mechanics.body_coordinates import ActuatorItem, BodyItem, CrankItem, IdealItem, SlideItem
 from support_exudyn.mechanics.cylinder_chambers import fill_cylinders
 from support_exudyn.mechanics.oil_column import fill
 from support_exudyn.model.bushing_pin import BushingPin
@@ -156,11 +156,11 @@ class _PlaneBuilder(EngineBuilder):
         for name in (*(name for name, pin in given if not pin.holds), *scenario.held_pins):
             self.add_pin(scenario.pin(name), name)
         frictions = {name: self.add_friction(pin, name) for name, pin in scenario.friction_pins.items()}
-        oil = {name: self.add_oil_column(linkage.columns[name]) for name in scenario.oil_columns}
+        oil = {name: self.add_oil_column(linkage.actuators[name]) for name in scenario.oil_columns}
         rigid = {
-            name: self.add_rigid_column(column)
-            for name, column in linkage.columns.items()
-            if name not in scenario.compliant_columns
+            name: self.add_rigid_actuator(actuator)
+            for name, actuator in linkage.actuators.items()
+            if name not in scenario.compliant_actuators
         }
         cranks = {name: self.add_crank(crank) for name, crank in linkage.cranks.items()}
         slides = {name: self.add_slide(slide) for name, slide in linkage.slides.items()}
@@ -172,7 +172,7 @@ class _PlaneBuilder(EngineBuilder):
         }
         is_in_equilibrium = scenario.start == "settled"
         cylinders = {
-            name: CylinderItem(mbs, preloaded, self.ends(linkage.columns[name]), is_in_equilibrium)
+            name: CylinderItem(mbs, preloaded, self.ends(linkage.actuators[name]), is_in_equilibrium)
             for name, preloaded in fill_cylinders(linkage, scenario.cylinders, scenario.gravity).items()
         }
         heavy = linkage.bodies if any(scenario.gravity) else {}
@@ -184,7 +184,7 @@ class _PlaneBuilder(EngineBuilder):
             for name, item in self.bodies.items()
         }
         preloaded = fill(linkage, scenario.oil_columns, scenario.gravity)
-        rigid_columns = {n: ColumnItem(linkage.columns[n], o, multiplier(o)) for n, o in rigid.items()}
+        rigid_actuators = {n: ActuatorItem(linkage.actuators[n], o, multiplier(o)) for n, o in rigid.items()}
         oil_columns = {name: OilColumnItem(preloaded[name], o) for name, o in oil.items()}
         crank_items = {n: CrankItem(linkage.cranks[n], o, multiplier(o)) for n, o in cranks.items()}
         scene = Scene(
@@ -197,14 +197,14 @@ class _PlaneBuilder(EngineBuilder):
             frictions=frictions,
             clearance_joints={},
             compliant_pins=self.compliant,
-            rigid_columns=rigid_columns,
+            rigid_actuators=rigid_actuators,
             oil_columns=oil_columns,
             cylinders=cylinders,
             cranks=crank_items,
             slides={name: SlideItem(o, multiplier(o)) for name, o in slides.items()},
             loads=loads,
             weights=weights,
-            driven=by_drive(mbs, scenario.drive_of, rigid_columns, oil_columns, crank_items),
+            driven=by_drive(mbs, scenario.drive_of, rigid_actuators, oil_columns, crank_items),
         )
         for name, friction in frictions.items():
             place = self.linkage.pins[name]

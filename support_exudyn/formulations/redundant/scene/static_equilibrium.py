@@ -88,7 +88,7 @@ def _solve(scene: EngineScene) -> None:
         raise SimulationError(
             Failure(
                 "no static equilibrium was found",
-                "Is every body held by pins and columns, and does gravity press the clearance pins? "
+                "Is every body held by pins and actuators, and does gravity press the clearance pins? "
                 "Otherwise start concentric.",
                 0.0,
             )

@@ -47,7 +47,7 @@ class Recorder:
 
     def __init__(self, scene: EngineScene, needs: DataNeeds = EVERYTHING) -> None:
         duration = scene.scenario.duration
-        # rigid columns that are held and ideal pins neither work nor lose anything
+        # rigid actuators that are held and ideal pins neither work nor lose anything
         works = any(parts.oil or (parts.multipliers and parts.moves(duration)) for parts in scene.driven)
         self.integrates = DataNeeds.INTEGRALS in needs and bool(
             works
@@ -87,7 +87,7 @@ class Recorder:
             self.energies.restart()
 
     def jump(self, t: float, energy: float) -> None:
-        """The columns' speed has jumped at t [s], which gave the bodies this energy [J]."""
+        """The actuators' speed has jumped at t [s], which gave the bodies this energy [J]."""
         self.energies.totals[0] += energy
         self.energies.jump(t)
 
@@ -171,26 +171,26 @@ class Recorder:
 
     def _powers(self, t: float) -> tuple[float, float, float]:
         """Power [W] of the drive, of damping and of friction at the end of a step."""
-        columns = damping = friction = 0.0
+        actuators = damping = friction = 0.0
         for drive, struts, oil in self._driven:
             speed = drive.speed(t)
             if speed != 0.0 and struts:
                 multipliers = self._data.GetAECoordinates()
                 # the multiplier of a distance is the tension, that of a crank's angle the moment against it
-                columns -= speed * sum(float(multipliers[n]) for n in struts)
+                actuators -= speed * sum(float(multipliers[n]) for n in struts)
             for item in oil:
                 work, loss = item.preloaded.powers(*self._length(item), drive.extension(t), speed)
-                columns += work
+                actuators += work
                 damping += loss
         for name, load in self._loads:
             work, loss = load.powers(t)
             if self._looks and not loss >= 0.0:
                 load.look(t, name)
-            columns += work
+            actuators += work
             damping += loss
         for cylinder in self._cylinders:
             work, loss = cylinder.powers()
-            columns += work
+            actuators += work
             damping += loss
         damping += sum(pin.loss() for pin in self._compliant)
         for name, rubbing in self._frictions:
@@ -208,7 +208,7 @@ class Recorder:
                     pin.look(elastic, name)
                 damping += lost
                 friction -= rubbed
-        return columns, damping, friction
+        return actuators, damping, friction
 
 
 def _memories(pins: Series | Sequence[PinMemory]) -> Series:

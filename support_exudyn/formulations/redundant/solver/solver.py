@@ -37,12 +37,12 @@ from user_forces.lawful import UNLAWFUL, LawError
 
 REPEAT_ERROR = 1e6  # above any tolerance of the engine's discontinuous iteration: the step is repeated
 SMALLEST_IMPACT_STEP = 1e-11  # [s], well above the rounding of times
-# The joint forces overshoot in the first steps after a jump of the columns' acceleration, by a factor that
+# The joint forces overshoot in the first steps after a jump of the actuators' acceleration, by a factor that
 # falls with the spectral radius from step to step. The grid step that follows is divided so often, so that
 # nothing of it is left at the next record.
 BREAK_REFINEMENT = 32
 # The engine computes a new Jacobian at the start of every stretch of steps. Where Python is called in each of
-# them for columns and energies, stretches are worth that if they are longer than so many.
+# them for actuators and energies, stretches are worth that if they are longer than so many.
 FEW_STEPS = 5
 # Before steps that are so many times shorter than the last, velocities are aligned, see `Scene.align`.
 MUCH_SHORTER = 8.0
@@ -100,9 +100,9 @@ class SolverRun:
         self.needs_step_callbacks = (
             bool(self.pins or self.frictions or self.impacting_loads) or self.smooth is not None
         )
-        columns = any(parts.rigid or parts.oil for parts in scene.driven if parts.moves(scenario.duration))
+        actuators = any(parts.rigid or parts.oil for parts in scene.driven if parts.moves(scenario.duration))
         if (
-            (columns or self.valves)
+            (actuators or self.valves)
             and recorder.integrates
             and scenario.step * FEW_STEPS > scenario.record_period
         ):

@@ -1,7 +1,7 @@
 """Cranks that follow their drive by an expression of the engine, so that Python is not asked at every step.
 
-The engine takes an expression for the angle of a crank. For the length of a rigid column it takes none: that is
-a parameter, which Python sets before every step.
+The engine takes an expression for the angle of a crank. For the length of a rigid actuator it takes none: that
+is a parameter, which Python sets before every step.
 """
 
 from collections.abc import Callable
@@ -19,8 +19,8 @@ NAME = "offsetUserFunction"  # the engine's, of its connector of two coordinates
 def turns_by_itself(scene: EngineScene) -> bool:
     """Give the cranks their drives as expressions; whether nothing is left that has to be set at every step.
 
-    Nothing is done where something would be left: columns that move, constraints of velocities, or a drive that
-    branches on time.
+    Nothing is done where something would be left: actuators that move, constraints of velocities, or a drive
+    that branches on time.
     """
     if scene.scenario.solver.constraint_index == 2:
         return False

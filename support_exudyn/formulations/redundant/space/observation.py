@@ -118,9 +118,9 @@ class SpatialObservation:
             preloaded.force(*moving), preloaded.energy(length, extension), *preloaded.powers(*moving)
         )
 
-    def span(self, column: str) -> tuple[Series, Series]:
-        """The vector from foot to head of a column, and its rate, (n, 3) each."""
-        strut = self.scene.linkage.columns[column]
+    def span(self, actuator: str) -> tuple[Series, Series]:
+        """The vector from foot to head of an actuator, and its rate, (n, 3) each."""
+        strut = self.scene.linkage.actuators[actuator]
         foot = self.motion.point(strut.foot, strut.foot_point)
         head = self.motion.point(strut.head, strut.head_point)
         return head.position - foot.position, head.velocity - foot.velocity
@@ -131,7 +131,7 @@ class SpatialObservation:
         scenario = self.scene.scenario
         driven = np.zeros((self.motion.count, len(self.scene.rows)))
         for place, row in enumerate(self.scene.rows):
-            if row.kind == "column":
+            if row.kind == "actuator":
                 drive = scenario.drive_of(row.name)
                 driven[:, place] = drive_accelerations(drive, self.time, scenario.duration)
         turning = inertia_forces(self.motion, np.zeros_like(self._applied))
@@ -150,11 +150,15 @@ class SpatialObservation:
         weights = weight(self.scene.linkage, self.scene.gravity).reshape(1, -1, 6)
         forces = np.tile(weights, (self.motion.count, 1, 1))
         for name, oil in self.oil.items():
-            column = self.scene.linkage.columns[name]
+            actuator = self.scene.linkage.actuators[name]
             along, _ = self.span(name)
             push = oil.force[:, None] * along / np.linalg.norm(along, axis=1)[:, None]
-            self._push(forces, column.head, push, self.motion.point(column.head, column.head_point).position)
-            self._push(forces, column.foot, -push, self.motion.point(column.foot, column.foot_point).position)
+            self._push(
+                forces, actuator.head, push, self.motion.point(actuator.head, actuator.head_point).position
+            )
+            self._push(
+                forces, actuator.foot, -push, self.motion.point(actuator.foot, actuator.foot_point).position
+            )
         for name, group in self.sections.items():
             bore, journal = self.scene.ends_of(name)
             for section in group:
@@ -171,9 +175,9 @@ class SpatialObservation:
         forces[:, n, :3] += force
         forces[:, n, 3:] += cross(point - centre, force)
 
-    def column_force(self, name: str) -> Series:
-        """Force that pushes a column's ends apart (n,) [N]."""
-        return self.oil[name].force if name in self.oil else self.held[Constraint(name, "column")]
+    def actuator_force(self, name: str) -> Series:
+        """Force that pushes an actuator's ends apart (n,) [N]."""
+        return self.oil[name].force if name in self.oil else self.held[Constraint(name, "actuator")]
 
     def bearing_load(self, name: str) -> tuple[Series, Series]:
         """Force of the first body on the second [N], moment about the bearing's middle [N m], (n, 3) each."""

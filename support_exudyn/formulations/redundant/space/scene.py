@@ -20,7 +20,7 @@ from support_exudyn.formulations.redundant.scene.load_item import LoadItem
 from support_exudyn.formulations.redundant.scene.pin_friction import PinFriction
 from support_exudyn.formulations.redundant.space.section_pin import SectionPin
 from support_exudyn.formulations.redundant.space.sections import ends
-from support_exudyn.mechanics.body_coordinates import ColumnItem
+from support_exudyn.mechanics.body_coordinates import ActuatorItem
 from support_exudyn.mechanics.contact_state import InverseMass
 from support_exudyn.mechanics.pressed_pins import EffectiveMasses, held, normal
 from support_exudyn.mechanics.space.constraints import BearingEnd, Constraint, all_rows, independent, matrix
@@ -60,9 +60,9 @@ class SpatialScene(EngineScene):
     all_rows: Sequence[Constraint]
     clearance_joints: dict[str, SectionPin]
     sections: dict[str, list[SectionPin]]  # of every clearance bearing
-    rigid_columns: dict[str, ColumnItem]
+    rigid_actuators: dict[str, ActuatorItem]
     oil_columns: dict[str, OilColumnItem]
-    driven: tuple[DrivenParts, ...]  # all columns, by the drive that they follow
+    driven: tuple[DrivenParts, ...]  # all actuators, by the drive that they follow
     compliant_pins: dict[str, CompliantItem] = field(default_factory=dict)  # not covered
     frictions: dict[str, PinFriction] = field(default_factory=dict)  # of ideal pins: nor these
     loads: dict[str, LoadItem] = field(default_factory=dict)  # nor are they
@@ -155,11 +155,11 @@ class SpatialScene(EngineScene):
 
     def start_moving(self) -> None:
         """Give the bodies the velocities that the drives have at the start, with ideal pins."""
-        speeds = {name: self.scenario.drive_of(name).initial_speed for name in self.linkage.columns}
+        speeds = {name: self.scenario.drive_of(name).initial_speed for name in self.linkage.actuators}
         if not any(speeds.values()):
             return
         motion = self.motion(INITIAL)
-        held = all_rows(self.linkage, (), list(self.linkage.columns))
+        held = all_rows(self.linkage, (), list(self.linkage.actuators))
         closed = SpatialKinetics(motion, independent(held, matrix(motion, held)[0]))
         before = velocities(motion)
         wanted = rates(closed.rows, speeds) - matrix(motion, closed.rows)[0] @ before
@@ -169,7 +169,7 @@ class SpatialScene(EngineScene):
         """See `EngineScene`."""
         kinetics = self.kinetics()
         before = velocities(kinetics.motion)
-        speeds = {name: self.scenario.drive_of(name).speed(time) for name in self.rigid_columns}
+        speeds = {name: self.scenario.drive_of(name).speed(time) for name in self.rigid_actuators}
         wanted = rates(kinetics.rows, speeds)
         missing = wanted - matrix(kinetics.motion, kinetics.rows)[0] @ before
         change, impulses = kinetics.respond(np.zeros_like(before), missing)
@@ -179,7 +179,7 @@ class SpatialScene(EngineScene):
     def jump(self, time: float) -> Impulse | None:
         """See `EngineScene`."""
         kinetics = self.kinetics()
-        speeds = {name: self.scenario.drive_of(name).speed_jump(time) for name in self.rigid_columns}
+        speeds = {name: self.scenario.drive_of(name).speed_jump(time) for name in self.rigid_actuators}
         if not any(speeds.values()):
             return None
         before = velocities(kinetics.motion)
@@ -189,7 +189,11 @@ class SpatialScene(EngineScene):
         struck = reactions(kinetics.motion, self.all_rows, (mass @ change).reshape(1, -1, 6))[0]
         return Impulse(
             time,
-            {row.name: float(i) for row, i in zip(self.all_rows, struck, strict=True) if row.kind == "column"},
+            {
+                row.name: float(i)
+                for row, i in zip(self.all_rows, struck, strict=True)
+                if row.kind == "actuator"
+            },
             float(0.5 * after @ mass @ after - 0.5 * before @ mass @ before),
             {},
         )
@@ -216,8 +220,8 @@ class SpatialScene(EngineScene):
 
 
 def rates(rows: Sequence[Constraint], speeds: Mapping[str, float]) -> Series:
-    """Rates of all rows: of columns as told [m/s], else 0."""
-    return np.array([speeds[row.name] if row.kind == "column" else 0.0 for row in rows])
+    """Rates of all rows: of actuators as told [m/s], else 0."""
+    return np.array([speeds[row.name] if row.kind == "actuator" else 0.0 for row in rows])
 
 
 def velocities(motion: SpatialMotion) -> Series:

@@ -1,4 +1,4 @@
-"""From a scenario to a model in space: bodies with Euler parameters, bearings, columns with spherical ends."""
+"""From a scenario to a spatial model: bodies with Euler parameters, bearings, actuators on spherical ends."""
 
 from collections.abc import Collection
 from dataclasses import replace
@@ -30,11 +30,11 @@ from support_exudyn.formulations.redundant.space.section_pin import (
     part_of,
 )
 from support_exudyn.formulations.redundant.space.sections import ends, sections
-from support_exudyn.mechanics.body_coordinates import ColumnItem
-from support_exudyn.mechanics.oil_column import PreloadedColumn, fill
+from support_exudyn.mechanics.body_coordinates import ActuatorItem
+from support_exudyn.mechanics.oil_column import PreloadedActuator, fill
 from support_exudyn.mechanics.space.constraints import BearingEnd, Kind, all_rows, frame_of, independent, matrix
 from support_exudyn.mechanics.space.motion import COORDINATES, motion_of, parameter_rates
-from support_exudyn.model.columns import OilColumn
+from support_exudyn.model.actuators import OilColumn
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.model.spatial_linkage import Bearing, SpatialBody, SpatialLinkage
 from support_exudyn.scenario.scenario import Scenario
@@ -135,9 +135,11 @@ class _SpaceBuilder(EngineBuilder):
         with_clearance = [
             name for name, bearing in linkage.bearings.items() if bearing.pin in scenario.clearance_pins
         ]
-        on_oil = [name for name, column in linkage.columns.items() if column.column in scenario.oil_columns]
+        on_oil = [
+            name for name, actuator in linkage.actuators.items() if actuator.actuator in scenario.oil_columns
+        ]
         candidates = all_rows(
-            linkage, list(scenario.clearance_pins), [name for name in linkage.columns if name not in on_oil]
+            linkage, list(scenario.clearance_pins), [name for name in linkage.actuators if name not in on_oil]
         )
         still = np.zeros(COORDINATES * len(linkage.bodies))
         start = motion_of(linkage, still, still)
@@ -147,9 +149,11 @@ class _SpaceBuilder(EngineBuilder):
             if held:
                 self.add_joint(bearing, held)
         rigid = {
-            row.name: self.add_rigid_column(linkage.columns[row.name]) for row in rows if row.kind == "column"
+            row.name: self.add_rigid_actuator(linkage.actuators[row.name])
+            for row in rows
+            if row.kind == "actuator"
         }
-        oil = {name: self.add_oil_column(linkage.columns[name]) for name in on_oil}
+        oil = {name: self.add_oil_column(linkage.actuators[name]) for name in on_oil}
         connectors = {name: self.add_connectors(linkage.bearings[name]) for name in with_clearance}
         if any(scenario.gravity):
             for name, body in linkage.bodies.items():
@@ -160,8 +164,9 @@ class _SpaceBuilder(EngineBuilder):
             name: replace(item, first=int(data.GetNodeLTGODE2(item.node)[0]))
             for name, item in self.bodies.items()
         }
-        rigid_items: dict[str, ColumnItem] = {
-            name: ColumnItem(linkage.columns[name], item, self.multiplier(item)) for name, item in rigid.items()
+        rigid_items: dict[str, ActuatorItem] = {
+            name: ActuatorItem(linkage.actuators[name], item, self.multiplier(item))
+            for name, item in rigid.items()
         }
         oil_items = {
             name: OilColumnItem(preloaded, oil[name]) for name, preloaded in self.preloaded(oil).items()
@@ -176,7 +181,7 @@ class _SpaceBuilder(EngineBuilder):
             all_rows=candidates,
             clearance_joints={},
             sections={},
-            rigid_columns=rigid_items,
+            rigid_actuators=rigid_items,
             oil_columns=oil_items,
             driven=by_drive(self.mbs, scenario.drive_of, rigid_items, oil_items, {}),
         )
@@ -188,14 +193,14 @@ class _SpaceBuilder(EngineBuilder):
         scene.reset_memory()
         return scene
 
-    def preloaded(self, oil: dict[str, Any]) -> dict[str, PreloadedColumn]:
+    def preloaded(self, oil: dict[str, Any]) -> dict[str, PreloadedActuator]:
         """Oil columns that hold the machine: those of the plane, each side with its share of the area."""
         plane = fill(self.scenario.linkage, self.scenario.oil_columns, self.scenario.gravity)
         found = {}
         for name in oil:
-            column = self.linkage.columns[name]
-            whole = plane[column.column]
-            model: OilColumn = replace(whole.model, bore_area=column.share * whole.model.bore_area)
+            actuator = self.linkage.actuators[name]
+            whole = plane[actuator.actuator]
+            model: OilColumn = replace(whole.model, bore_area=actuator.share * whole.model.bore_area)
             found[name] = replace(whole, model=model)
         return found
 

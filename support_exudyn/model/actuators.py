@@ -1,4 +1,4 @@
-"""What a column, and a part that a jack holds, can be modelled as; fields of the scenario choose it."""
+"""What a linear actuator, and a part that a jack holds, can be modelled as; the scenario chooses it."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import TypeVar
 import numpy as np
 import numpy.typing as npt
 
-from support_exudyn.model.linkage import GROUND, Body, Column, Linkage, Slide, pinned
+from support_exudyn.model.linkage import GROUND, Body, LinearActuator, Linkage, Slide, pinned
 from support_exudyn.model.plane_geometry import direction
 from user_forces.values.units import Kilograms, KilogramSquareMetres, Metres, Pascals, Seconds, SquareMetres
 from user_forces.values.value import InputError, NonNegative, Positive, Value, Vector2, value
@@ -18,11 +18,11 @@ from user_forces.values.value import InputError, NonNegative, Positive, Value, V
 Quantity = TypeVar("Quantity", float, npt.NDArray[np.float64])  # one, or one for every instant
 
 
-class ColumnModel(Value, ABC):
-    """How a driven column holds its length."""
+class ActuatorModel(Value, ABC):
+    """How a driven actuator holds its length."""
 
     def check_extension(self, lowest: float, name: str) -> None:
-        """Raise InputError if the column cannot be drawn in so far [m]; by default any can."""
+        """Raise InputError if the actuator cannot be drawn in so far [m]; by default any can."""
         del lowest, name
 
     @property
@@ -32,13 +32,13 @@ class ColumnModel(Value, ABC):
 
 
 @value
-class RigidColumn(ColumnModel):
+class RigidActuator(ActuatorModel):
     """A massless drive: the length is what the drive says, a constraint whose multiplier is the force."""
 
 
 @value
-class OilColumn(ColumnModel):
-    """A massless column on a cushion of oil, into which the drive lets oil.
+class OilColumn(ActuatorModel):
+    """A massless linear actuator whose column of oil is compressible; the drive lets oil into it.
 
         F = k u + d du/dt,   k = B A / (h + extension),   d = k T
 
@@ -48,10 +48,10 @@ class OilColumn(ColumnModel):
     as well as it pushes: that a real one boils when it is pulled is not modelled.
 
     Arguments:
-        bore_area: A, area of the piston, all columns of a pair together [m^2], > 0.
+        bore_area: A, area of the piston, all actuators of a pair together [m^2], > 0.
         oil_length: h, length of the oil under the piston at the start [m], > 0.
         bulk_modulus: B of the oil or emulsion [Pa], > 0.
-        damping_time: T [s], >= 0; a mass on the column that vibrates at w rad/s is damped by T w / 2 of the
+        damping_time: T [s], >= 0; a mass on the actuator that vibrates at w rad/s is damped by T w / 2 of the
             critical damping.
     """
 
@@ -70,21 +70,21 @@ class OilColumn(ColumnModel):
 
     @property
     def oil(self) -> OilColumn:
-        """The column is oil itself."""
+        """The actuator is oil itself."""
         return self
 
     def check_extension(self, lowest: float, name: str) -> None:
         """Raise InputError if no oil would be left under the piston."""
         if self.oil_length + lowest <= 0.0:
             raise InputError(
-                f"columns.{name}.oil_length = {self.oil_length} m: the drive draws the column in by "
+                f"actuators.{name}.oil_length = {self.oil_length} m: the drive draws the actuator in by "
                 f"{-lowest:.4g} m and no oil is left; allowed: more than that"
             )
 
 
 @value
-class CylinderAndRod(ColumnModel):
-    """A column with mass: a cylinder on the foot's pin and a rod on the head's, which slides in the cylinder.
+class CylinderAndRod(ActuatorModel):
+    """An actuator with mass: a cylinder on the foot's pin, and in it a sliding rod on the head's.
 
     The drive acts between both, so that the forces in the pins of foot and head differ from it by weight and
     inertia. Centres of mass are on the line from foot to head. `with_cylinder_and_rod` names bodies and pins.
@@ -105,11 +105,11 @@ class CylinderAndRod(ColumnModel):
     rod_mass: Kilograms[Positive]
     rod_centre: Metres[NonNegative]
     rod_inertia: KilogramSquareMetres[Positive]
-    drive: RigidColumn | OilColumn = field(default_factory=RigidColumn)
+    drive: RigidActuator | OilColumn = field(default_factory=RigidActuator)
 
     @property
     def oil(self) -> OilColumn | None:
-        """The oil of the column's drive; None if that is rigid."""
+        """The oil of the actuator's drive; None if that is rigid."""
         return self.drive.oil
 
     def check_extension(self, lowest: float, name: str) -> None:
@@ -135,7 +135,7 @@ class OwnBody(PartModel):
             posture, so that a machine at rest stays there.
     """
 
-    jack: RigidColumn | OilColumn = field(default_factory=RigidColumn)
+    jack: RigidActuator | OilColumn = field(default_factory=RigidActuator)
 
 
 def bore_area(diameter: float, number: int = 1) -> float:
@@ -146,35 +146,37 @@ def bore_area(diameter: float, number: int = 1) -> float:
 
 
 def with_cylinder_and_rod(linkage: Linkage, name: str, model: CylinderAndRod) -> Linkage:
-    """The linkage with a column NAME in two bodies.
+    """The linkage with an actuator NAME in two bodies.
 
     It gains the bodies NAME_cylinder and NAME_rod, their pins NAME_foot (foot body - cylinder) and NAME_head
-    (rod - head body), and the guide NAME_guide of the rod in the cylinder, through the head. The column itself
-    then pushes cylinder and rod apart. Both bodies move as the column's ends do.
+    (rod - head body), and the guide NAME_guide of the rod in the cylinder, through the head. The actuator
+    itself then pushes cylinder and rod apart. Both bodies move as the actuator's ends do.
 
     Raises InputError if one of these names is taken.
     """
-    column = linkage.columns[name]
+    actuator = linkage.actuators[name]
     cylinder, rod, guide = f"{name}_cylinder", f"{name}_rod", f"{name}_guide"
     pins = {
-        f"{name}_foot": pinned(column.foot, cylinder, column.foot_point),
-        f"{name}_head": pinned(rod, column.head, column.head_point),
+        f"{name}_foot": pinned(actuator.foot, cylinder, actuator.foot_point),
+        f"{name}_head": pinned(rod, actuator.head, actuator.head_point),
     }
     for new, taken in (({cylinder, rod}, linkage.bodies), (pins, linkage.pins), ({guide}, linkage.slides)):
         for item in new:
             if item in taken:
-                raise InputError(f"columns.{name}: {item} is a name of the machine; allowed: one that is free")
-    angle = direction(column.foot_point, column.head_point)
+                raise InputError(
+                    f"actuators.{name}: {item} is a name of the machine; allowed: one that is free"
+                )
+    angle = direction(actuator.foot_point, actuator.head_point)
     foot_speed, head_speed = (
         _velocity(linkage, body, point)
-        for body, point in ((column.foot, column.foot_point), (column.head, column.head_point))
+        for body, point in ((actuator.foot, actuator.foot_point), (actuator.head, actuator.head_point))
     )
     c, s = math.cos(angle), math.sin(angle)
     across = (head_speed[1] - foot_speed[1]) * c - (head_speed[0] - foot_speed[0]) * s
-    spin = across / column.start_length
+    spin = across / actuator.start_length
 
     def body(mass: float, inertia: float, end: Vector2, end_speed: Vector2, away: float) -> Body:
-        """A body whose centre of mass is so far [m] along the column from an end."""
+        """A body whose centre of mass is so far [m] along the actuator from an end."""
         return Body(
             mass=mass,
             inertia=inertia,
@@ -186,17 +188,19 @@ def with_cylinder_and_rod(linkage: Linkage, name: str, model: CylinderAndRod) ->
 
     bodies = {
         cylinder: body(
-            model.cylinder_mass, model.cylinder_inertia, column.foot_point, foot_speed, model.cylinder_centre
+            model.cylinder_mass, model.cylinder_inertia, actuator.foot_point, foot_speed, model.cylinder_centre
         ),
-        rod: body(model.rod_mass, model.rod_inertia, column.head_point, head_speed, -model.rod_centre),
+        rod: body(model.rod_mass, model.rod_inertia, actuator.head_point, head_speed, -model.rod_centre),
     }
-    between = Column(foot=cylinder, head=rod, foot_point=column.foot_point, head_point=column.head_point)
-    slide = Slide(body=rod, point=column.head_point, direction=angle, against=cylinder)
+    between = LinearActuator(
+        foot=cylinder, head=rod, foot_point=actuator.foot_point, head_point=actuator.head_point
+    )
+    slide = Slide(body=rod, point=actuator.head_point, direction=angle, against=cylinder)
     return replace(
         linkage,
         bodies={**linkage.bodies, **bodies},
         pins={**linkage.pins, **pins},
-        columns={**linkage.columns, name: between},
+        actuators={**linkage.actuators, name: between},
         slides={**linkage.slides, guide: slide},
     )
 

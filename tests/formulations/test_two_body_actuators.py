@@ -1,4 +1,4 @@
-"""Columns as cylinder and rod against massless ones, a static balance, rigid limits, and the energy balance."""
+"""Actuators as cylinder and rod against massless ones, a static balance, rigid limits, the energy balance."""
 
 from __future__ import annotations
 
@@ -50,12 +50,12 @@ def nameless() -> HydraulicSupport:
     return replace(machine, parts=parts)
 
 
-# --- columns of next to no mass ---
+# --- actuators of next to no mass ---
 
 
 def both(scenario: Scenario) -> tuple[Result, Result]:
-    """With massless columns and with two bodies of a milligram."""
-    return simulate(scenario), simulate(replace(scenario, columns=dict.fromkeys(NAMES, LIGHT)))
+    """With massless actuators and with two bodies of a milligram."""
+    return simulate(scenario), simulate(replace(scenario, actuators=dict.fromkeys(NAMES, LIGHT)))
 
 
 def test_bodies_of_no_mass_change_nothing() -> None:
@@ -70,7 +70,7 @@ def test_bodies_of_no_mass_change_nothing() -> None:
         assert np.median(off) < 1e-7 * largest
         assert off.max() < 5e-5 * largest
     for name in NAMES:
-        # what has no mass passes on the column's force, along its line; weights of 1e-5 N
+        # what has no mass passes on the actuator's force, along its line; weights of 1e-5 N
         for end in ("foot", "head"):
             force = light[f"pin.{name}_{end}.force"]
             np.testing.assert_allclose(force, np.abs(light[f"{name}.force"]), atol=1e-3)
@@ -93,10 +93,10 @@ def test_the_engine_holds_nothing_that_was_not_asked_for() -> None:
         scene = build(support(**changes))  # owns the system
         return int(scene.mbs.systemData.NumberOfObjects())
 
-    # ground, 4 bodies, 5 pins, 2 columns
+    # ground, 4 bodies, 5 pins, 2 actuators
     assert objects() == 12
-    # a pair of columns more: 2 bodies, 2 pins and a guide each
-    assert objects(columns=cylinders_and_rods()) == 12 + 2 * 5
+    # a pair of actuators more: 2 bodies, 2 pins and a guide each
+    assert objects(actuators=cylinders_and_rods()) == 12 + 2 * 5
     assert objects(parts={"tail_beam": OwnBody()}) == 12 + 3  # body, pin, jack
 
 
@@ -105,7 +105,7 @@ def test_the_engine_holds_nothing_that_was_not_asked_for() -> None:
 
 @pytest.fixture(scope="module")
 def held() -> Result:
-    return simulate(support(columns=cylinders_and_rods(), drive=Held(), duration=0.01))
+    return simulate(support(actuators=cylinders_and_rods(), drive=Held(), duration=0.01))
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -121,7 +121,7 @@ def test_pins_and_guide_carry_what_a_static_balance_says(held: Result, name: str
     n = np.array([-u[1], u[0]])
     cylinder, rod = model.cylinder_mass * G, model.rod_mass * G
     push = held[f"{name}.force"][-1]
-    # along the column: the rod hangs on the drive's force, the cylinder's weight goes down to the foot
+    # along the actuator: the rod hangs on the drive's force, the cylinder's weight goes down to the foot
     along_head, along_foot = push - rod * u[1], push + cylinder * u[1]
     # across it: both together are a beam on two supports
     on_head = n[1] * (cylinder * model.cylinder_centre + rod * (length - model.rod_centre)) / length
@@ -152,7 +152,7 @@ def test_the_canopy_is_held_by_the_heads_and_its_hinge(held: Result) -> None:
 
 @pytest.mark.parametrize("drive", [None, OIL], ids=["rigid", "oil"])
 def test_a_machine_at_rest_stays_there(drive: OilColumn | None) -> None:
-    still = simulate(support(columns=cylinders_and_rods(drive), drive=Held(), duration=0.2))
+    still = simulate(support(actuators=cylinders_and_rods(drive), drive=Held(), duration=0.2))
     np.testing.assert_allclose(still["tip.y"], still["tip.y"][0], atol=1e-12)  # rounding
     np.testing.assert_allclose(still["front_column.force"], still["front_column.force"][0], rtol=1e-6)
     assert still.energy_error < 1e-6
@@ -161,7 +161,7 @@ def test_a_machine_at_rest_stays_there(drive: OilColumn | None) -> None:
 # --- motion ---
 
 
-def test_a_machine_that_moves_at_the_start_has_columns_that_move_along() -> None:
+def test_a_machine_that_moves_at_the_start_has_actuators_that_move_along() -> None:
     machine = nameless()
     linkage = machine.linkage()
     closed = kinetics_of(linkage)
@@ -172,25 +172,25 @@ def test_a_machine_that_moves_at_the_start_has_columns_that_move_along() -> None
     }
 
     class Moving(HydraulicSupport):
-        def detailed(self, columns: object, parts: object) -> object:
+        def detailed(self, actuators: object, parts: object) -> object:
             return replace(linkage, bodies=bodies)
 
     moving = Moving(**{name: getattr(machine, name) for name in machine.to_data() if name != "type"})
-    detailed = support(machine=moving, columns=cylinders_and_rods(), drive=RISE).linkage
+    detailed = support(machine=moving, actuators=cylinders_and_rods(), drive=RISE).linkage
     system = kinetics_of(detailed)
     velocity = np.concatenate([[*body.velocity, body.spin] for body in detailed.bodies.values()])
     rates = system.rows(np.zeros(velocity.size)) @ velocity
-    # no pin opens, no rod leaves its cylinder, and both columns grow as they did; rounding
+    # no pin opens, no rod leaves its cylinder, and both actuators grow as they did; rounding
     np.testing.assert_allclose(rates, system.rates(lambda name: 0.1), atol=1e-13)
 
 
 def test_oil_columns_of_two_bodies_tend_to_rigid_ones_with_order_one() -> None:
-    rigid = simulate(support(columns=cylinders_and_rods(), drive=RISE, duration=0.35))
+    rigid = simulate(support(actuators=cylinders_and_rods(), drive=RISE, duration=0.35))
 
     def off(stiffer: float) -> float:
         oil = replace(OIL, bulk_modulus=stiffer * OIL.bulk_modulus)
-        columns = cylinders_and_rods(oil)
-        soft = simulate(support(columns=columns, drive=RISE, duration=0.35, step=2.5e-4))
+        actuators = cylinders_and_rods(oil)
+        soft = simulate(support(actuators=actuators, drive=RISE, duration=0.35, step=2.5e-4))
         late = rigid.time > 0.25  # the vibration of the start has died out
         return float(np.abs(soft["tip.y"] - rigid["tip.y"])[late].max())
 
@@ -205,10 +205,10 @@ def test_oil_columns_of_two_bodies_tend_to_rigid_ones_with_order_one() -> None:
 @pytest.mark.parametrize("oil", [None, OIL], ids=["rigid", "oil"])
 def test_energy_adds_up_with_second_order(oil: OilColumn | None, drive: Drive) -> None:
     coarse, fine = (
-        simulate(support(columns=cylinders_and_rods(oil), drive=drive, duration=0.5, step=step))
+        simulate(support(actuators=cylinders_and_rods(oil), drive=drive, duration=0.5, step=step))
         for step in (1e-3, 5e-4)
     )
-    # measured 2e-7 of a work of 5 kJ with rigid columns, 1.3e-6 with oil
+    # measured 2e-7 of a work of 5 kJ with rigid actuators, 1.3e-6 with oil
     assert fine.energy_error < 3e-6 * np.abs(fine["energy.work"]).max()
     assert fine.energy_error < 0.35 * coarse.energy_error
 
@@ -216,16 +216,16 @@ def test_energy_adds_up_with_second_order(oil: OilColumn | None, drive: Drive) -
 def test_the_impulse_of_a_sudden_start_passes_through_rod_and_cylinder() -> None:
     speed = 0.25
     drive = UniformSpeed(stroke=0.1, start=0.05, end=0.45)
-    result = simulate(support(columns=cylinders_and_rods(), drive=drive, duration=0.5))
+    result = simulate(support(actuators=cylinders_and_rods(), drive=drive, duration=0.5))
     first, last = result.impulses
     for impulse in (first, last):
-        assert sorted(impulse.columns) == sorted(NAMES)
-    # from rest: an impulse through columns that move at v does work of impulse times v/2; rounding
-    assert first.energy == pytest.approx(0.5 * speed * sum(first.columns.values()), rel=1e-9)
+        assert sorted(impulse.actuators) == sorted(NAMES)
+    # from rest: an impulse through actuators that move at v does work of impulse times v/2; rounding
+    assert first.energy == pytest.approx(0.5 * speed * sum(first.actuators.values()), rel=1e-9)
     # the step after a jump is known by its end only: 1e-4 J of 5 kJ have been seen, of first order in the step
     assert result.energy_error < 1e-6 * result["energy.work"].max()
-    # with two bodies more is to be set in motion than with massless columns and rods on the canopy
-    plain = simulate(replace(result.scenario, columns={}))
+    # with two bodies more is to be set in motion than with massless actuators and rods on the canopy
+    plain = simulate(replace(result.scenario, actuators={}))
     assert plain.impulses[0].energy != pytest.approx(first.energy, rel=1e-4)
 
 
@@ -238,22 +238,22 @@ def test_the_impulse_of_a_sudden_start_passes_through_rod_and_cylinder() -> None
     ],
     ids=lambda names: "+".join(names),
 )
-def test_energy_adds_up_with_loose_pins_of_links_and_columns(pins: tuple[str, ...]) -> None:
+def test_energy_adds_up_with_loose_pins_of_links_and_actuators(pins: tuple[str, ...]) -> None:
     with_clearance = dict.fromkeys(pins, ClearancePin(contact=paper_contact(1.0, 0.25)))
-    # held: with rigid columns that move, rounding of their forces in the short steps of impacts shows in the
-    # work (0.3 J here, 0.6 J on massless columns)
-    result = simulate(support(pins=with_clearance, columns=cylinders_and_rods(), drive=Held(), duration=0.2))
+    # held: with rigid actuators that move, rounding of their forces in the short steps of impacts shows in the
+    # work (0.3 J here, 0.6 J on massless actuators)
+    result = simulate(support(pins=with_clearance, actuators=cylinders_and_rods(), drive=Held(), duration=0.2))
     for name in pins:
         assert len(result.onsets[name]) > 1
-    # as on massless columns (`test_oil_columns`, which says 3e-4); measured 1e-4 and less
+    # as on massless actuators (`test_oil_columns`, which says 3e-4); measured 1e-4 and less
     assert result.energy_error < 5e-4 * result.dissipated
 
 
-def test_columns_of_different_kinds_may_be_mixed() -> None:
-    columns = {
+def test_actuators_of_different_kinds_may_be_mixed() -> None:
+    actuators = {
         "front_column": cylinders_and_rods(OIL)["front_column"],
         "rear_column": OIL,
     }
-    result = simulate(support(columns=columns, drive=RISE, duration=0.3))
+    result = simulate(support(actuators=actuators, drive=RISE, duration=0.3))
     assert "rear_column_rod" not in result.scenario.linkage.bodies
     assert result.energy_error < 1e-5 * result["energy.work"].max()  # second order, see above
