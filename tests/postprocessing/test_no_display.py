@@ -68,6 +68,12 @@ def test_windows_that_are_not_to_open_do_not(run: Path, tmp_path: Path) -> None:
     assert "EXUDYN_SUPPRESS_UI_WINDOW_OPEN" in refused(run, env, tmp_path)
 
 
+def test_an_exception_is_told_by_its_last_line(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("support_exudyn.postprocessing.viewer.view.TRY", "raise RuntimeError('no context')")
+    with pytest.raises(NoDisplayError, match=r"here: RuntimeError: no context\. Allowed"):
+        check_display()
+
+
 def test_a_display_that_never_answers_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("support_exudyn.postprocessing.viewer.view.TRY", "import time; time.sleep(600)")
     monkeypatch.setattr("support_exudyn.postprocessing.viewer.view.LONGEST", 0.2)

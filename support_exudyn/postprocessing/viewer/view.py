@@ -51,6 +51,7 @@ container.renderer.Stop()
 if not active:
     raise SystemExit("the engine's window did not open")
 """
+UNTOLD = ("terminate called", "Setup OpenGL", "Traceback", "  ")  # beginnings of lines that tell no reason
 INSTEAD = (
     "without a display, `python -m support_exudyn render RUN` writes pictures, and "
     "`xvfb-run -a python -m support_exudyn view RUN` opens the window on a display in memory"
@@ -93,9 +94,9 @@ def _reason() -> str | None:
             return f"trying it took more than {LONGEST:g} s"
     if tried.returncode == 0:
         return None
-    said = [line.strip() for line in (tried.stderr + "\n" + tried.stdout).splitlines()]
-    telling = [line for line in said if line and not line.startswith(("terminate called", "Setup OpenGL"))]
-    return telling[0] if telling else f"the engine's window ended with code {tried.returncode}"
+    said = [line.rstrip() for line in (tried.stderr + "\n" + tried.stdout).splitlines()]
+    telling = [line for line in said if line and not line.startswith(UNTOLD)]
+    return "; ".join(telling[:3]) or f"the engine's window ended with code {tried.returncode}"
 
 
 # --- the viewer ---
