@@ -10,7 +10,6 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from scipy.stats import qmc
 
 from studies.common import paper_machine
 from studies.common.data import rows
@@ -108,14 +107,13 @@ def samples(number: int, seed: int) -> list[dict[str, Choice]]:
     """So many samples of a Latin hypercube over all factors; the same for the same number and seed."""
     if number < 1:
         raise InputError(f"machines = {number}: allowed: at least 1")
-    generator: dict[str, Any] = {_generator_name(): np.random.default_rng(seed)}
+    from scipy.stats import qmc  # takes a second to import
+
+    # what this version of scipy calls the argument
+    name = "rng" if "rng" in inspect.signature(qmc.LatinHypercube).parameters else "seed"
+    generator: dict[str, Any] = {name: np.random.default_rng(seed)}
     cube = qmc.LatinHypercube(len(FACTORS), **generator).random(number)
     return [{f.name: f.at(float(share)) for f, share in zip(FACTORS, row, strict=True)} for row in cube]
-
-
-def _generator_name() -> str:
-    """What this version of scipy calls the argument."""
-    return "rng" if "rng" in inspect.signature(qmc.LatinHypercube).parameters else "seed"
 
 
 def machine(sample: Sample) -> HydraulicSupport:

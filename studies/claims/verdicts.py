@@ -3,8 +3,6 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from scipy.stats import binomtest
-
 from studies.claims.claim_list import Claim
 from studies.claims.conditions import best_condition
 from studies.claims.evidence import Evidence, NotedEvidence, Verdict
@@ -47,6 +45,8 @@ class Ruling:
         decided = self.holds + self.fails
         if not decided:
             return None
+        from scipy.stats import binomtest  # takes a second to import
+
         found = binomtest(self.holds, decided).proportion_ci(0.95, "wilson")
         return float(found.low), float(found.high)
 

@@ -10,7 +10,6 @@ from typing import Literal, Protocol
 
 import numpy as np
 import numpy.typing as npt
-from scipy.ndimage import uniform_filter1d
 
 from studies.common import paper_machine
 from support_exudyn import Result
@@ -96,6 +95,8 @@ def in_rise(run: MeasuredRun) -> Mask:
 def trend(run: MeasuredRun, values: Series) -> Series:
     """Moving mean over TREND_WINDOW, centred, shape (n,)."""
     period = float(run.time[1] - run.time[0])
+    from scipy.ndimage import uniform_filter1d  # takes a while to import
+
     return uniform_filter1d(values, 2 * round(0.5 * TREND_WINDOW / period) + 1, mode="nearest")
 
 

@@ -16,17 +16,17 @@ from support_exudyn.postprocessing.comparison import compared, same_to_the_bit
 from tests.cases.run_cases import loose_slider_crank, loose_support, support
 from user_forces import InputError
 
-STROKE = CubicStep(stroke=0.05, start=0.0, end=0.4)
+STROKE = CubicStep(stroke=0.025, start=0.0, end=0.2)
 
 
 @pytest.fixture(scope="module")
 def runs(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("runs")
-    ideal = support(drive=STROKE, duration=0.4, start="settled")
-    with_clearance = replace(loose_support(1.0, 0.25, duration=0.4), drive=STROKE, start="settled")
+    ideal = support(drive=STROKE, duration=0.2, start="settled")
+    with_clearance = replace(loose_support(1.0, 0.25, duration=0.2), drive=STROKE, start="settled")
     simulate(ideal, accuracy="draft").save(folder / "ideal.h5")
     simulate(with_clearance, accuracy="draft").save(folder / "with_clearance.h5")
-    simulate(with_clearance, accuracy="reference").save(folder / "fine.h5")
+    simulate(with_clearance, accuracy="standard").save(folder / "fine.h5")
     simulate(ideal).save(folder / "plain.h5")
     simulate(replace(ideal, record_period=4e-3)).save(folder / "rare.h5")
     simulate(replace(ideal, record_period=3e-3)).save(folder / "other.h5")
@@ -40,8 +40,8 @@ def of(runs: Path, *names: str) -> list[Result]:
 
 def test_differences_are_those_of_the_records(runs: Path) -> None:
     ideal, with_clearance = of(runs, "ideal", "with_clearance")
-    found = compared(ideal, with_clearance, ["tip.x"], 0.1, 0.3)["tip.x"]
-    inside = (ideal.time > 0.0995) & (ideal.time < 0.3005)
+    found = compared(ideal, with_clearance, ["tip.x"], 0.05, 0.15)["tip.x"]
+    inside = (ideal.time > 0.0495) & (ideal.time < 0.1505)
     apart = (with_clearance["tip.x"] - ideal["tip.x"])[inside]
     assert found.mean.value == apart.mean()
     assert found.largest.value == apart[np.abs(apart).argmax()]
@@ -98,7 +98,7 @@ def test_common_records_of_different_periods_are_compared(runs: Path) -> None:
 def test_the_table_is_in_engineers_units(runs: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["compare", str(runs / "ideal.h5"), str(runs / "with_clearance.h5"), "--from", "0.1"]) == 0
     told = capsys.readouterr().out
-    assert "with_clearance.h5 less ideal.h5, 0.1 to 0.4 s (± numerical errors of both runs)" in told
+    assert "with_clearance.h5 less ideal.h5, 0.1 to 0.2 s (± numerical errors of both runs)" in told
     row = next(line.split() for line in told.splitlines() if line.strip().startswith("tip.x"))
     ideal, with_clearance = of(runs, "ideal", "with_clearance")
     assert row[1] == "mm"
@@ -125,7 +125,7 @@ def test_scripts_get_si_units_and_null_for_errors_that_are_not_known(
         (["ideal.h5", "crank.h5"], "no channel in common"),
         (["ideal.h5", "crank.h5", "tip.x"], "tip.x: the second run has no such channel"),
         (["ideal.h5", "with_clearance.h5", "tap.x"], "'tap.x': no such channel"),
-        (["ideal.h5", "with_clearance.h5", "--from", "7"], "from 7 to 0.4 s: 0 records lie between"),
+        (["ideal.h5", "with_clearance.h5", "--from", "7"], "from 7 to 0.2 s: 0 records lie between"),
         (["ideal.h5", "no.h5"], "no.h5: no such file"),
     ],
 )

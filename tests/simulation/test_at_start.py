@@ -107,7 +107,11 @@ def test_what_was_asked_of_a_console_is_kept(monkeypatch: pytest.MonkeyPatch) ->
     assert console.errors == "ignore"
 
 
-@pytest.mark.parametrize("encoding", ["ascii", "gbk", "cp932"])
+# letters of each encoding are tried above, without a process
+OTHERS = [pytest.param(name, marks=pytest.mark.slow) for name in ("gbk", "cp932")]
+
+
+@pytest.mark.parametrize("encoding", ["ascii", *OTHERS])
 @pytest.mark.parametrize("words", [*STARTS[:2], STARTS[6]], ids=lambda words: words[1])
 def test_commands_speak_on_every_console(tmp_path: Path, words: list[str], encoding: str) -> None:
     done = started(words, tmp_path, {"PYTHONIOENCODING": encoding})

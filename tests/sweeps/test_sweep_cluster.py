@@ -29,7 +29,7 @@ SOON_GIVEN_UP = """
 import sys
 from support_exudyn.__main__ import main
 from support_exudyn.sweeps import cluster
-cluster.REACHED = 0.5
+cluster.REACHED = {seconds}
 sys.exit(main())
 """
 Started = Callable[..., subprocess.Popen[bytes]]
@@ -100,12 +100,17 @@ def test_with_a_worker_killed_midway_it_gives_the_same_table_as_here(
         assert Store(store).has_run(Store(store).row(one))  # type: ignore[arg-type]
 
 
+def command(seconds: float) -> list[str]:
+    """The program, which waits so long for a scheduler."""
+    return [sys.executable, "-c", SOON_GIVEN_UP.format(seconds=seconds)]
+
+
 @needs_dask
 def test_a_scheduler_that_is_not_there_is_told(tmp_path: Path) -> None:
     # in a process of its own: what Dask leaves behind in this one would be warned of
     path = write_sweep(tmp_path, speeds(2))
     done = subprocess.run(
-        [sys.executable, "-c", SOON_GIVEN_UP, "sweep", str(path), "--scheduler", "tcp://127.0.0.1:1"],
+        [*command(0.5), "sweep", str(path), "--scheduler", "tcp://127.0.0.1:1"],
         cwd=ROOT,
         env=environment(),
         capture_output=True,
@@ -125,7 +130,14 @@ def test_a_scheduler_that_is_lost_midway_is_told_in_a_line(tmp_path: Path, start
     assert wait_until(file.exists, SOON)
     started("worker", "--scheduler-file", str(file), "--nthreads", "1", "--no-nanny")
     address = json.loads(file.read_text(encoding="utf-8"))["address"]
-    process = start(path, "--scheduler", address, "--out", str(store))
+    # what the client asks in the moment of the loss may wait that long
+    process = subprocess.Popen(
+        [*command(3.0), "sweep", str(path), "--scheduler", address, "--out", str(store)],
+        cwd=ROOT,
+        env=environment(),
+        stderr=subprocess.PIPE,
+        text=True,
+    )
     try:
         assert wait_until(lambda: len(rows(store)) >= 2, SOON)
         scheduler.kill()
