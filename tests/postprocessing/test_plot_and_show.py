@@ -234,15 +234,15 @@ def test_show_says_nothing_where_there_is_no_output(runs: Path, monkeypatch: pyt
 
 
 def test_all_figures_are_drawn_though_nobody_reads_their_names(runs: Path, tmp_path: Path) -> None:
-    command = [sys.executable, "-m", "support_exudyn", "plot", str(runs / "crank.h5"), "--out", str(tmp_path)]
+    arguments = ["plot", str(runs / "crank.h5"), "slider.x", "--orbit", "--out", str(tmp_path)]
+    command = [sys.executable, "-m", "support_exudyn", *arguments]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
         assert process.stdout is not None
         process.stdout.close()
         assert process.stderr is not None
         assert process.stderr.read() == b""
         assert process.wait() == 0
-    pin = "slider_pin"
-    assert names(tmp_path) == both("overview", f"orbit_{pin}", f"poincare_{pin}", f"spectrum_{pin}")
+    assert names(tmp_path) == both("channels", "orbit_slider_pin")
 
 
 def test_an_interruption_while_libraries_load_is_said_in_a_line(

@@ -167,12 +167,12 @@ def test_rods_stay_in_their_cylinders_over_the_rise(rise: float) -> None:
     scenario = (
         replace(PLAIN, drive=CubicStep(stroke=rise)) if rise else replace(PLAIN, drive=CubicStep(stroke=1e-6))
     )
-    machine = reference_support()
+    machine, struts = reference_support(), look(scenario).struts
     for share in np.linspace(0.0, 1.0, 11):
         posture = machine.extended(share * rise)
         assert posture is not None
         reached = dict(zip(("front_column", "rear_column"), machine.column_lengths(posture), strict=True))
-        for strut in look(scenario).struts:
+        for strut in struts:
             length = reached[strut.name.removesuffix("_left").removesuffix("_right")]
             check_rod(strut.cylinder, strut.rod, length)
 

@@ -6,9 +6,8 @@ import dataclasses
 import errno
 import gc
 import re
-import subprocess
-import sys
 import weakref
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -37,7 +36,7 @@ from support_exudyn.postprocessing.viewer import viewer_model
 from support_exudyn.postprocessing.viewer.view import open_viewer
 from support_exudyn.postprocessing.viewer.viewer_model import POSITION, SHOWN, model_for_viewer
 from tests.cases.run_cases import PIN, loose_slider_crank, loose_support, support
-from tests.processes import environment
+from tests.hostile import little_room, posix_only
 from user_forces import InputError
 
 STROKE, TIME = 0.02, 0.05  # [m], [s]
@@ -130,9 +129,14 @@ RISES = {
 }
 
 
+@cache
+def risen(name: str) -> Result:
+    return simulate(RISES[name])
+
+
 @pytest.mark.parametrize("name", RISES)
 def test_the_engines_model_is_where_the_run_was(name: str, tmp_path: Path) -> None:
-    result = simulate(RISES[name])
+    result = risen(name)
     save_solution(result, tmp_path / "run.txt")
     solution = load(tmp_path / "run.txt")
     assert np.array_equal(solution["data"][:, 0], result.time)
@@ -236,33 +240,20 @@ def test_a_run_that_fails_leaves_an_older_file(tmp_path: Path, capsys: pytest.Ca
     assert sorted(one.name for one in tmp_path.iterdir()) == ["a.toml", "run.txt"]
 
 
-FULL = """
-import resource, signal, sys
-from support_exudyn import Result, save_solution
-result = Result.load(sys.argv[1])
-signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
-try:
-    save_solution(result, sys.argv[2])
-except OSError as error:
-    raise SystemExit("refused: " + str(error))
-"""
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="has no limit of files' sizes")
+@posix_only
 @pytest.mark.parametrize("ending", ["txt", "sol"])
 def test_a_full_disk_leaves_an_older_file(run: Result, ending: str, tmp_path: Path) -> None:
     path = tmp_path / f"solution.{ending}"
     path.write_text("older")
-    run.save(tmp_path / "run.h5")
-    script = [sys.executable, "-c", FULL, str(tmp_path / "run.h5"), str(path)]
-    done = subprocess.run(script, env=environment(), capture_output=True, text=True, timeout=300)
-    assert done.returncode == 1
-    assert "the engine could not write all of it" in done.stderr
-    assert f"refused: [Errno {errno.EIO}]" in done.stderr
-    assert f"{str(path)!r}" in done.stderr
+    with (
+        little_room(tmp_path, 4096, "limit of size"),
+        pytest.raises(OSError, match="could not write") as caught,
+    ):
+        save_solution(run, path)
+    assert "the engine could not write all of it" in str(caught.value)
+    assert (caught.value.errno, caught.value.filename) == (errno.EIO, str(path))
     assert path.read_text() == "older"
-    assert sorted(entry.name for entry in tmp_path.iterdir()) == ["run.h5", path.name]
+    assert [entry.name for entry in tmp_path.iterdir()] == [path.name]
 
 
 # --- reading ---
@@ -283,7 +274,7 @@ def test_what_is_not_a_solution_file_is_refused(
 
 
 def test_a_solution_file_of_another_model_is_not_shown(run: Result, tmp_path: Path) -> None:
-    save_solution(simulate(RISES["crank"]), tmp_path / "crank.txt")
+    save_solution(risen("crank"), tmp_path / "crank.txt")
     with pytest.raises(InputError, match=r"crank\.txt.* 9 coordinates; allowed: of the run's, with 12"):
         open_viewer(run, solution=tmp_path / "crank.txt")
 
@@ -362,7 +353,7 @@ def test_it_can_be_exported(run: Result, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("name", ["redundant", "space", "crank"])
 def test_surfaces_and_columns_are_where_the_run_was(name: str) -> None:
-    result = simulate(RISES[name])
+    result = risen(name)
     shown, poses = model_for_viewer(result.scenario), Poses(result)
     record = result.time.size - 1
     try:

@@ -55,7 +55,8 @@ def viewing(run: Path, display: str, home: Path, *options: str) -> Iterator[subp
         program.communicate()
 
 
-@pytest.mark.parametrize("shown", ["records", "solution file"])
+# records are shown below, too
+@pytest.mark.parametrize("shown", [pytest.param("records", marks=pytest.mark.slow), "solution file"])
 def test_it_starts_steps_through_frames_and_closes(run: Path, shown: str, display: str, tmp_path: Path) -> None:
     options = []
     if shown == "solution file":
