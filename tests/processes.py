@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import multiprocessing
 import os
 import sys
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
+
+from support_exudyn.sweeps import workers
 
 ROOT = Path(__file__).parents[1]
 linux_only = pytest.mark.skipif(sys.platform != "linux", reason="asks /proc who is alive")
@@ -38,6 +42,19 @@ def _state_and_session(pid: int) -> tuple[str, int] | None:
         return None
     fields = text.rpartition(")")[2].split()  # the name before it may hold anything
     return fields[0], int(fields[3])
+
+
+@contextmanager
+def soon_started(module: str) -> Iterator[None]:
+    """Workers come from a process that has imported everything and this module, where there can be one."""
+    if os.name == "nt":
+        yield
+        return
+    context = multiprocessing.get_context("forkserver")
+    context.set_forkserver_preload(["support_exudyn.formulations.redundant.run", module])
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(workers, "CONTEXT", context)
+        yield
 
 
 def wait_until(happened: Callable[[], bool], seconds: float) -> bool:

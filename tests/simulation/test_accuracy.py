@@ -39,6 +39,7 @@ from tests.cases.run_cases import (
     slider_crank_contact,
     support,
 )
+from tests.processes import soon_started
 from user_forces import (
     Ambrosio,
     FrictionLaw,
@@ -229,7 +230,7 @@ def test_sections_become_more_only_as_long_as_they_tell_anything(
     made = runs_of(monkeypatch)
     monkeypatch.setattr(Result, "worst_error", property(lambda run: 0.5 ** len(made)))
     # beyond the first impact
-    result = simulate(replace(DROP, duration=0.03, record_period=3e-3, dimensions=3), accuracy=0.02)
+    result = simulate(replace(DROP, duration=0.02, record_period=2e-3, dimensions=3), accuracy=0.02)
     assert f"pin.{PIN}.left.onset_1.speed" in result.numbers()
     # a section's share of the force depends on how many there are
     assert f"pin.{PIN}.left.largest_force" not in result.numbers()
@@ -265,6 +266,7 @@ def test_a_run_that_fails_is_had_as_a_value_or_raised() -> None:
     assert caught.value.failure == failure
 
 
+@soon_started(__name__)
 def test_sweeps_take_scenarios_with_an_accuracy(drop: Result) -> None:
     scenarios = {
         "good": replace(DROP, accuracy="standard"),

@@ -31,6 +31,7 @@ from support_exudyn.formulations.tree.engine import Engine
 from support_exudyn.sweeps.parallel_runs import run_all
 from tests.cases.run_cases import FORCE, PIN, loose_slider_crank, loose_support, paper_contact
 from tests.hostile import Interruption, posix_only
+from tests.processes import soon_started
 from user_forces import Impact, LankaraniNikravesh, value
 
 PROMPT = 1.0  # [s] within which an interruption is asked to come out
@@ -211,6 +212,7 @@ class Killing(LankaraniNikravesh):
 
 
 @posix_only
+@soon_started(__name__)
 def test_a_run_whose_process_is_killed_is_a_row_and_the_sweep_goes_on() -> None:
     good = paper_contact(1.5, 0.0)
     law = Killing(stiffness=good.normal.stiffness, restitution=0.9)

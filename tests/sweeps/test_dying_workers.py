@@ -17,6 +17,7 @@ import pytest
 
 from support_exudyn.sweeps import workers
 from support_exudyn.sweeps.workers import ProcessEndedError, Workers, worker_pool
+from tests import processes
 from tests.hostile import posix_only
 from tests.processes import ROOT, environment, linux_only, session_of, wait_until
 
@@ -63,13 +64,7 @@ def times_begun(folder: Path) -> dict[int, int]:
 @pytest.fixture(scope="module", autouse=True)
 def soon_started() -> Iterator[None]:
     """Processes come from one that has imported everything; spawned ones are in test_workers.py and below."""
-    if os.name == "nt":
-        yield
-        return
-    context = multiprocessing.get_context("forkserver")
-    context.set_forkserver_preload([__name__])
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(workers, "CONTEXT", context)
+    with processes.soon_started(__name__):
         yield
 
 

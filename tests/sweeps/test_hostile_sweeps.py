@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -13,9 +14,10 @@ import pytest
 from support_exudyn import ClearancePin, Held, Scenario, SimulationError, simulate
 from support_exudyn.__main__ import main
 from support_exudyn.simulation import memory
-from support_exudyn.sweeps import Plan, Record, read_table, sweep
+from support_exudyn.sweeps import Plan, Record, read_table, sweep, work
 from tests.cases.run_cases import loose_support, paper_contact
 from tests.cases.sweep_cases import write_sweep
+from tests.processes import soon_started
 from user_forces import FrictionLaw, InputError, value
 
 
@@ -72,6 +74,12 @@ def made(inputs: Any) -> Scenario:
     return scene(kind)
 
 
+@pytest.fixture(autouse=True)
+def _soon_started() -> Iterator[None]:
+    with soon_started(__name__):
+        yield
+
+
 REASONS = {
     "good": "",
     "zero": "division by zero",
@@ -112,8 +120,13 @@ def test_whatever_happens_at_a_point_is_a_row_with_its_reason(tmp_path: Path) ->
     ],
 )
 def test_whole_numbers_of_any_size_stand_in_the_table(
-    tmp_path: Path, values: list[Any], told: list[Any]
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, values: list[Any], told: list[Any]
 ) -> None:
+    monkeypatch.setattr(
+        "support_exudyn.sweeps.run.in_processes",
+        lambda tasks, store, *_: (work.run_into(store, task) for task in tasks),  # here
+    )
+
     def scenario(inputs: Any) -> Scenario:
         if inputs["many"] != values[0]:
             raise InputError(f"many = {inputs['many']}: allowed: up to 1")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -13,7 +14,7 @@ from support_exudyn.sweeps.store import Store, StoredRun
 from support_exudyn.sweeps.work import Task
 from support_exudyn.sweeps.workers import ProcessEndedError
 from tests.cases.sweep_cases import columns, rows, speeds, start, write_sweep
-from tests.processes import linux_only, session_of, wait_until
+from tests.processes import linux_only, session_of, soon_started, wait_until
 
 pytestmark = linux_only
 RUNS = 18
@@ -25,6 +26,12 @@ def killed_at(place: int, store: Store, task: Task) -> StoredRun:
     if task.scenario.machine.speed == 0.2:  # type: ignore[attr-defined]
         os.kill(os.getpid(), signal.SIGKILL)
     return work.run_into(store, task)
+
+
+@pytest.fixture(autouse=True)
+def _soon_started() -> Iterator[None]:
+    with soon_started(__name__):
+        yield
 
 
 def test_a_run_whose_process_is_killed_is_a_row_and_is_tried_again(
@@ -47,7 +54,7 @@ def test_interrupted_killed_and_hurt_it_ends_as_if_left_alone(
 ) -> None:
     path = write_sweep(tmp_path, speeds(RUNS), duration=0.02)
     store, processes = tmp_path / "store", []
-    options = "--workers", "2", "--out", str(store)
+    single, options = (("--workers", number, "--out", str(store)) for number in "12")
     try:
         # Ctrl-C in a terminal, which all processes get
         processes.append(start(path, *options))
@@ -61,7 +68,7 @@ def test_interrupted_killed_and_hurt_it_ends_as_if_left_alone(
         assert not [one for one in store.rglob(".*") if one.is_file()]  # nothing half-written
 
         # the whole of it killed
-        processes.append(start(path, *options))
+        processes.append(start(path, *single))
         assert wait_until(lambda: len(rows(store)) >= len(first) + 3, SOON)
         processes[-1].kill()
         assert wait_until(lambda: not session_of(processes[-1].pid), SOON)
@@ -69,7 +76,7 @@ def test_interrupted_killed_and_hurt_it_ends_as_if_left_alone(
         assert first.items() <= second.items()
 
         # one of its workers killed
-        processes.append(start(path, *options))
+        processes.append(start(path, *single))
         assert wait_until(lambda: len(rows(store)) >= len(second) + 3, SOON)
         for worker in sorted(session_of(processes[-1].pid))[-1:]:
             os.kill(worker, signal.SIGKILL)
