@@ -46,13 +46,13 @@ BRISTLES = JournalContact(
     normal=LankaraniNikravesh(stiffness=1e9, restitution=0.5),
     friction=LuGre(static_coefficient=0.3, sliding_coefficient=0.2),
 )
-GENTLE = CubicStep(stroke=0.002, start=0.01, end=0.04)
-SHORT: dict[str, Any] = {"duration": 0.05, "drive": GENTLE, "record_period": 5e-3}
+GENTLE = CubicStep(stroke=0.0005, start=0.005, end=0.02)
+SHORT: dict[str, Any] = {"duration": 0.025, "drive": GENTLE, "record_period": 2.5e-3}
 SCENES = {
     "ideal, held": support(**SHORT | {"drive": Held()}),
     "ideal, driven": support(**SHORT),
-    "ideal, struck": support(**SHORT | {"drive": UniformSpeed(stroke=0.002, start=0.011, end=0.04)}),
-    "ideal, struck at once": support(**SHORT | {"drive": UniformSpeed(stroke=0.002, start=0.0, end=0.04)}),
+    "ideal, struck": support(**SHORT | {"drive": UniformSpeed(stroke=0.001, start=0.006, end=0.02)}),
+    "ideal, struck at once": support(**SHORT | {"drive": UniformSpeed(stroke=0.001, start=0.0, end=0.02)}),
     "ideal, growing steps": support(**SHORT, solver=SolverSettings(growth=8)),
     "oil": support(**SHORT, actuators=OILS),
     "one column of oil": support(**SHORT, actuators={"rear_column": OIL}),
