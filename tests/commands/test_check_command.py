@@ -13,8 +13,13 @@ from support_exudyn.__main__ import main
 from support_exudyn.files.machines import SHIPPED
 from tests.machine_files import written
 
+# of the kind of the reference support, too
+ALIKE = ("zf18000",)
 
-@pytest.mark.parametrize("name", SHIPPED)
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=[pytest.mark.slow] * (name in ALIKE)) for name in SHIPPED]
+)
 def test_shipped_machines_are_drawn(name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["check", name, "--out", str(tmp_path)]) == 0
     said = capsys.readouterr()

@@ -32,15 +32,15 @@ from support_exudyn.files import read_scenario
 from user_forces import CubicCoulomb
 
 EXAMPLES = Path(__file__).parents[2] / "support_exudyn" / "files" / "examples"
-STROKE = CubicStep(stroke=0.02, start=0.02, end=0.08)
+STROKE = CubicStep(stroke=0.005, start=0.01, end=0.04)
 BASE = Scenario(
-    machine=reference_support(), drive=STROKE, duration=0.1, pins={"rear_base": clearance_joint(1.5, 0.25)}
+    machine=reference_support(), drive=STROKE, duration=0.05, pins={"rear_base": clearance_joint(1.5, 0.25)}
 )
-POINTS = TableDrive(times=(0.0, 0.03, 0.07), extensions=(0.0, 0.01, 0.002))
+POINTS = TableDrive(times=(0.0, 0.015, 0.035), extensions=(0.0, 0.005, 0.001))
 ROOF = Roof(
     body="canopy",
     point=reference_support().linkage().bodies["canopy"].centre,
-    descent=CubicStep(stroke=0.003, start=0.0, end=0.1),
+    descent=CubicStep(stroke=0.003, start=0.0, end=0.05),
     stiffness=1e7,
 )
 RUBBING = IdealPin(friction=CubicCoulomb(sliding_coefficient=0.1), radius=0.06)
@@ -48,7 +48,7 @@ SCENARIOS = {
     "redundant": BASE,
     "tree": replace(BASE, machine=reference_support(), formulation="tree", actuators=oil_columns()),
     "reduced": replace(BASE, formulation="reduced", solver=replace(BASE.solver, tolerance=1e-6)),
-    "space": replace(BASE, dimensions=3, duration=0.03, record_period=0.005),
+    "space": replace(BASE, dimensions=3, duration=0.02, record_period=0.005),
     "accuracy": replace(BASE, accuracy="draft", channels=("tip.*",)),
     "oil": replace(BASE, actuators=oil_columns(), start="settled"),
     "two bodies": replace(BASE, actuators=cylinders_and_rods(), pins={"front_base": RUBBING}),
@@ -194,14 +194,15 @@ def program(*arguments: str, folder: Path) -> subprocess.CompletedProcess[str]:
     return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
 
 
-def test_laws_of_ones_own(tmp_path: Path) -> None:
+def test_laws_of_ones_own(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
     (tmp_path / "my_laws.py").write_text(OWN)
     (tmp_path / "a.toml").write_text(FALL)
-    unknown = program("run", "a.toml", folder=tmp_path)
-    assert (unknown.returncode, unknown.stdout) == (1, "")
-    assert "pins.pin.law = 'Twice': allowed: " in unknown.stderr
+    assert "pins.pin.law = 'Twice': allowed: " in refused(["run", "a.toml"], capsys)
     assert program("--import", "my_laws", "run", "a.toml", folder=tmp_path).returncode == 0
-    assert program("show", "a.h5", folder=tmp_path).returncode == 1
+    assert "Twice" in refused(["show", "a.h5"], capsys)
     shown = program("--import", "my_laws", "show", "a.h5", folder=tmp_path)
     assert (shown.returncode, shown.stderr) == (0, "")
     assert "Twice" in shown.stdout
@@ -215,9 +216,14 @@ def test_laws_of_ones_own(tmp_path: Path) -> None:
         ("1 / 0", "--import mine: ZeroDivisionError"),
     ],
 )
-def test_modules_that_cannot_be_imported(tmp_path: Path, text: str | None, said: str) -> None:
+def test_modules_that_cannot_be_imported(
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    text: str | None,
+    said: str,
+) -> None:
+    monkeypatch.syspath_prepend(tmp_path)
     if text is not None:
         (tmp_path / "mine.py").write_text(text)
-    found = program("--import", "mine", "run", "a.toml", folder=tmp_path)
-    assert found.returncode == 1
-    assert said in found.stderr
+    assert said in refused(["--import", "mine", "run", "a.toml"], capsys)
