@@ -60,7 +60,11 @@ class Exported:
         return self.xdmf[:2] if form == "xdmf" else self.vtu[:2]
 
 
-@pytest.fixture(scope="module", params=KINDS)
+# in space, but for tilting, which the next one does
+SHOWN = [pytest.param(kind, marks=[pytest.mark.slow] * (kind == "space")) for kind in KINDS]
+
+
+@pytest.fixture(scope="module", params=SHOWN)
 def exported(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Exported:
     return Exported(request.param, tmp_path_factory.mktemp(request.param))
 

@@ -155,7 +155,15 @@ def test_runs_without_a_touch_say_so(away: float, words: str) -> None:
     assert ("contact" in names, "free flight" in names) == (away > CLEARANCE, away < CLEARANCE)
 
 
-@pytest.mark.parametrize("window", [{}, {"start": 10e-3}, {"until": 12e-3}, {"start": 16e-3, "until": 24e-3}])
+@pytest.mark.parametrize(
+    "window",
+    [
+        {},
+        pytest.param({"start": 10e-3}, marks=pytest.mark.slow),
+        pytest.param({"until": 12e-3}, marks=pytest.mark.slow),
+        {"start": 16e-3, "until": 24e-3},
+    ],
+)
 def test_nothing_is_cut_off_or_overlaps(window: dict[str, float]) -> None:
     with style.look():
         figure_checks.check(orbit(bouncing(), **window))

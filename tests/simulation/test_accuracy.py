@@ -197,7 +197,7 @@ def test_a_scene_that_forgets_its_start_is_given_up(monkeypatch: pytest.MonkeyPa
 
 def test_a_goal_beyond_the_finest_steps_gives_what_can_be_had(monkeypatch: pytest.MonkeyPatch) -> None:
     made = runs_of(monkeypatch)
-    result = simulate(replace(DROP, duration=0.02, formulation="redundant", record_period=1e-4), accuracy=1e-7)
+    result = simulate(replace(DROP, duration=0.018, formulation="redundant", record_period=1e-4), accuracy=1e-7)
     assert len(made) == FEWEST_RUNS  # 2500, 5000, 10000 steps an impact; there are no finer ones
     assert made[-1].solver.impact_steps == 10000
     assert result.goal == 1e-7
