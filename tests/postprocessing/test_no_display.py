@@ -59,9 +59,12 @@ def refused(run: Path, env: dict[str, str], folder: Path) -> str:
     return done.stderr
 
 
-def test_without_a_display_it_says_what_to_do(run: Path, tmp_path: Path) -> None:
-    env = {name: value for name, value in environment().items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
-    said = refused(run, env, tmp_path)
+def test_without_a_display_it_says_what_to_do(
+    run: Path, here: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for name in ("DISPLAY", "WAYLAND_DISPLAY"):
+        here.delenv(name, raising=False)
+    said = refused_here(run, capsys)
     assert "no display" in said
     assert "render RUN" in said
     assert "xvfb-run" in said
