@@ -6,9 +6,15 @@ from dataclasses import replace
 
 import numpy as np
 
-from studies.common.paper_machine import clearance_joint
-from support_exudyn import TableDrive, UniformSpeed, simulate
-from tests.commands.test_scenario_commands import BASE, POINTS, SCENARIOS, STROKE, same
+from studies.common.paper_machine import clearance_joint, oil_columns
+from support_exudyn import CubicStep, SolverSettings, TableDrive, UniformSpeed, simulate
+from tests.commands import test_scenario_commands
+from tests.commands.test_scenario_commands import same
+
+STROKE = CubicStep(stroke=0.02, start=0.02, end=0.08)
+BASE = replace(test_scenario_commands.BASE, drive=STROKE, duration=0.1)
+POINTS = TableDrive(times=(0.0, 0.03, 0.07), extensions=(0.0, 0.01, 0.002))
+REDUCED = replace(BASE, formulation="reduced", solver=SolverSettings(tolerance=1e-6))
 
 
 def test_a_fine_table_of_a_cubic_step_drives_as_it_does() -> None:
@@ -46,9 +52,9 @@ def test_a_line_from_the_start_on_begins_with_an_impulse() -> None:
 
 
 def test_the_tree_follows_a_table() -> None:
-    scenario = replace(
-        SCENARIOS["tree"], drive=POINTS, duration=0.06, pins={"rear_base": clearance_joint(1.5, 0.0)}
-    )
+    pins = {"rear_base": clearance_joint(1.5, 0.0)}
+    oil = oil_columns()
+    scenario = replace(BASE, formulation="tree", actuators=oil, drive=POINTS, duration=0.06, pins=pins)
     one = simulate(scenario)
     other = simulate(replace(scenario, formulation="redundant", step=1e-4))
     # until the journal makes contact both integrate the same smooth motion: errors of second order at 0.1 ms
@@ -58,15 +64,13 @@ def test_the_tree_follows_a_table() -> None:
 
 def test_two_points_drive_the_reduced_support_as_a_cubic_step_to_the_bit() -> None:
     points = TableDrive(times=(0.02, 0.08), extensions=(0.0, 0.02))
-    reduced = SCENARIOS["reduced"]
-    same(simulate(replace(reduced, drive=points)), simulate(reduced))
+    same(simulate(replace(REDUCED, drive=points)), simulate(REDUCED))
 
 
 def test_two_points_on_a_line_drive_the_reduced_support_as_uniform_speed_to_the_bit() -> None:
     points = TableDrive(times=(0.02, 0.08), extensions=(0.0, 0.02), between="linear")
-    reduced = SCENARIOS["reduced"]
-    one = simulate(replace(reduced, drive=points))
-    other = simulate(replace(reduced, drive=UniformSpeed(stroke=0.02, start=0.02, end=0.08)))
+    one = simulate(replace(REDUCED, drive=points))
+    other = simulate(replace(REDUCED, drive=UniformSpeed(stroke=0.02, start=0.02, end=0.08)))
     assert len(one.impulses) == 2
     same(one, other)
 

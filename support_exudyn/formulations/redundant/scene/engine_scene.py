@@ -106,11 +106,20 @@ class EngineScene(ABC):
     def contact(self, name: str, state: Any) -> ContactForce:
         """What the laws say of one of `clearance_pins` in a state of the engine, its surfaces being apart."""
 
-    def refresh_memory(self) -> None:
-        """Tell every clearance pin that velocities have jumped; contacts that go on go on."""
+    def refresh_memory(self, rest: float = 0.0) -> None:
+        """Tell every clearance pin that velocities have jumped; contacts that go on go on.
+
+        rest: by which positions have moved on with the rates before [s].
+        """
         for name, pin in self.clearance_joints.items():
             state = self.contact(name, CURRENT)
-            pin.jumped(pin.kept._replace(depth=state.depth, rate=state.rate, slip=state.slip))
+            depth = self.depth_after(pin, state, rest)
+            pin.jumped(pin.kept._replace(depth=depth, rate=state.rate, slip=state.slip))
+
+    def depth_after(self, pin: ClearanceJoint, state: ContactForce, rest: float) -> float:
+        """Depth of a pin [m] that the engine would find in a state, a rest of a step [s] after the last."""
+        del pin, rest
+        return state.depth
 
     @abstractmethod
     def spins(self) -> dict[str, float]:
@@ -140,4 +149,4 @@ def slide(scene: EngineScene, rest: float) -> None:
     data.SetODE2Coordinates_t(velocity + rest * acceleration)
     if scene.cylinders:
         data.SetODE1Coordinates(data.GetODE1Coordinates() + rest * data.GetODE1Coordinates_t())
-    scene.refresh_memory()
+    scene.refresh_memory(rest)

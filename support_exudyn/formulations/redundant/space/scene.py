@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from support_exudyn.formulations.redundant.clearance.clearance_pin import ClearanceJoint
 from support_exudyn.formulations.redundant.scene.cylinder_item import CylinderItem
 from support_exudyn.formulations.redundant.scene.driven_parts import DrivenParts, OilColumnItem
 from support_exudyn.formulations.redundant.scene.engine_scene import (
@@ -175,6 +176,15 @@ class SpatialScene(EngineScene):
         change, impulses = kinetics.respond(np.zeros_like(before), missing)
         self.set_velocities(before + change)
         return -float(impulses @ wanted)
+
+    def depth_after(self, pin: ClearanceJoint, state: ContactForce, rest: float) -> float:
+        """See `EngineScene`.
+
+        To the engine a section that is tilted is less deep than it is, by tilt^2/24 of its way. With the true
+        depth a journal that has just landed would be a little before its impact again, and stay there.
+        """
+        del state
+        return pin.kept.depth + rest * pin.kept.rate
 
     def jump(self, time: float) -> Impulse | None:
         """See `EngineScene`."""
