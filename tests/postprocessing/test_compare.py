@@ -26,7 +26,6 @@ def runs(tmp_path_factory: pytest.TempPathFactory) -> Path:
     with_clearance = replace(loose_support(1.0, 0.25, duration=0.2), drive=STROKE, start="settled")
     simulate(ideal, accuracy="draft").save(folder / "ideal.h5")
     simulate(with_clearance, accuracy="draft").save(folder / "with_clearance.h5")
-    simulate(with_clearance, accuracy="standard").save(folder / "fine.h5")
     simulate(ideal).save(folder / "plain.h5")
     simulate(replace(ideal, record_period=4e-3)).save(folder / "rare.h5")
     simulate(replace(ideal, record_period=3e-3)).save(folder / "other.h5")
@@ -51,8 +50,10 @@ def test_differences_are_those_of_the_records(runs: Path) -> None:
     assert -2.6e-3 < found.mean.value < -1.9e-3
 
 
-def test_errors_cover_what_a_finer_run_finds(runs: Path) -> None:
-    ideal, with_clearance, fine = of(runs, "ideal", "with_clearance", "fine")
+@pytest.mark.parametrize("accuracy", ["standard", pytest.param("reference", marks=pytest.mark.slow)])
+def test_errors_cover_what_a_finer_run_finds(runs: Path, accuracy: str) -> None:
+    ideal, with_clearance = of(runs, "ideal", "with_clearance")
+    fine = simulate(with_clearance.scenario, accuracy=accuracy)
     names = ["tip.x", "tip.y", "pin.rear_base.force", "front_column.force"]
     rough, right = compared(ideal, with_clearance, names), compared(ideal, fine, names)
     for name in names:
