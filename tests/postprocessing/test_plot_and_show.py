@@ -233,6 +233,7 @@ def test_show_says_nothing_where_there_is_no_output(runs: Path, monkeypatch: pyt
     assert main(["show", str(runs / "with_clearance.h5")]) == 0
 
 
+@pytest.mark.slow
 def test_all_figures_are_drawn_though_nobody_reads_their_names(runs: Path, tmp_path: Path) -> None:
     arguments = ["plot", str(runs / "crank.h5"), "slider.x", "--orbit", "--out", str(tmp_path)]
     command = [sys.executable, "-m", "support_exudyn", *arguments]

@@ -107,6 +107,7 @@ np.savez(sys.argv[2], **found)
 """
 
 
+@pytest.mark.slow
 def test_a_script_steps_through_frames_without_the_dialog(run: Path, display: str, tmp_path: Path) -> None:
     script = [sys.executable, "-c", STEP, str(run), str(tmp_path / "context.npz")]
     env = screen.environment_on(display, tmp_path)

@@ -2,7 +2,8 @@
 
 The rough form does all that the quick one does, but runs each case once where that has it at half and at a
 quarter of its steps, too: the three are then the same run. Findings are there; of the errors one sees only that
-there are some. Tests of a study are made on the rough form by default, on both with the marker `slow`.
+there are some. Tests of a study of the paper are made on the rough form by default, on both with the marker
+`slow`; those of the other studies only with it.
 """
 
 from __future__ import annotations
@@ -28,6 +29,7 @@ from tests.at_once import at_once
 
 ROUGH, QUICK = "rough", "quick"
 FORMS = [ROUGH, pytest.param(QUICK, marks=pytest.mark.slow)]
+ONLY_SLOW = [pytest.param(form, marks=pytest.mark.slow) for form in (ROUGH, QUICK)]
 on_the_quick_form = pytest.mark.parametrize("out", FORMS[1:], indirect=True)  # where errors are looked at
 COARSER = {"which_pin": 3.0, "drive_mode": 4.0, "contact_laws": 2.0}  # times as long rough steps and records
 

@@ -17,13 +17,13 @@ from studies.contact_laws import catalogue
 from studies.contact_laws import run as study
 from studies.contact_laws.free_impact import delivered_restitution, free_impact
 from support_exudyn import Result, simulate
-from tests.studies.forms import FORMS, on_the_quick_form, written
+from tests.studies.forms import ONLY_SLOW, on_the_quick_form, written
 from user_forces import FrictionLaw, Frictionless, ImpactVelocity, NormalLaw
 
 RISES = ("exact", "lankarani_nikravesh")
 
 
-@pytest.fixture(scope="module", params=FORMS)
+@pytest.fixture(scope="module", params=ONLY_SLOW)
 def out(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The quick form with four rises."""
     with pytest.MonkeyPatch.context() as patch:

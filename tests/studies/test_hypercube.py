@@ -113,10 +113,7 @@ class Story:
     finished: list[Marks]  # what was there after each kill
 
 
-MANY = pytest.param(Often(12, 10, 4, "spawn"), marks=pytest.mark.slow)
-
-
-@pytest.fixture(scope="module", params=[Often(3, 2, 0, "fork"), MANY])
+@pytest.fixture(scope="module", params=[Often(3, 2, 0, "fork"), Often(12, 10, 4, "spawn")])
 def story(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Story:
     often: Often = request.param
     whole, killed = tmp_path_factory.mktemp("whole"), tmp_path_factory.mktemp("killed")
@@ -156,6 +153,7 @@ def story(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFacto
 
 
 @linux_only
+@pytest.mark.slow
 class TestKilled:
     """Several times, at moments that are drawn."""
 

@@ -29,6 +29,7 @@ def test_pictures_can_be_opened(name: str) -> None:
         assert getattr(picture, "n_frames", 1) == (26 if name.endswith(".gif") else 1)
 
 
+@pytest.mark.slow
 def test_pictures_are_made(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     from dataclasses import replace
 

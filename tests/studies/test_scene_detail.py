@@ -26,12 +26,12 @@ from studies.scene_detail.scenes import (
 from support_exudyn import Estimate, recommend
 from support_exudyn.simulation.evidence.table import EvidenceTable, check_replaceable, committed, fields_of
 from support_exudyn.simulation.recommend import QUESTIONS, comparisons
-from tests.studies.forms import FORMS, on_the_quick_form, written
+from tests.studies.forms import ONLY_SLOW, on_the_quick_form, written
 
 Numbers = dict[tuple[str, str], dict[str, Any]]
 
 
-@pytest.fixture(scope="module", params=FORMS)
+@pytest.fixture(scope="module", params=ONLY_SLOW)
 def out(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return written("scene_detail", request.param, tmp_path_factory.mktemp("results"))
 

@@ -187,6 +187,7 @@ def fails() -> Done:
     raise SimulationError(Failure("it was asked to", "do not ask", 0.5))
 
 
+@pytest.mark.slow
 def test_everything_is_written(written: Path) -> None:
     chapter = Chapter.load(written)
     for picture in chapter.pictures:
@@ -196,6 +197,7 @@ def test_everything_is_written(written: Path) -> None:
     assert (written / "work_drop.txt").stat().st_size > 0
 
 
+@pytest.mark.slow
 def test_a_failure_is_a_row_with_its_reason(written: Path) -> None:
     sheets = {sheet.title: sheet for sheet in Chapter.load(written).sheets}
     rows = sheets[f"Cost and errors, {SCENES['drop'].label}"].rows
@@ -203,6 +205,7 @@ def test_a_failure_is_a_row_with_its_reason(written: Path) -> None:
     assert "it was asked to" in next(row[3] for row in rows if row[0] == "x")
 
 
+@pytest.mark.slow
 def test_front_and_stock_are_marked(written: Path) -> None:
     sheets = {sheet.title: sheet for sheet in Chapter.load(written).sheets}
     marks = {row[0]: row[2] for row in sheets[f"Cost and errors, {SCENES['drop'].label}"].rows}
@@ -210,6 +213,7 @@ def test_front_and_stock_are_marked(written: Path) -> None:
     assert any("front" in mark for mark in marks.values())
 
 
+@pytest.mark.slow
 def test_the_summary_says_how_good_estimates_are(written: Path) -> None:
     numbers = json.loads((written / "summary.json").read_text(encoding="utf-8"))["numbers"]
     said = {number["name"]: number["value"] for number in numbers}
@@ -217,6 +221,7 @@ def test_the_summary_says_how_good_estimates_are(written: Path) -> None:
     assert 1.0 < said["estimate_overstatement_median"] <= 10.0  # asked for
 
 
+@pytest.mark.slow
 def test_every_number_has_an_error(written: Path) -> None:
     # but for a share of all, which has none
     numbers = json.loads((written / "summary.json").read_text(encoding="utf-8"))["numbers"]

@@ -18,7 +18,7 @@ from studies.which_pin.posture import loads, mean_shift
 from studies.which_pin.tables import in_order
 from support_exudyn import ClearancePin, CubicStep, Result, SolverSettings, reference_support, simulate
 from support_exudyn.mechanics.initial_eccentricity import eccentric
-from tests.studies.forms import FORMS, on_the_quick_form, written
+from tests.studies.forms import ONLY_SLOW, on_the_quick_form, written
 from user_forces import Ambrosio, Exact, Hertz, JournalBearing, JournalContact, KelvinVoigt, Threlfall
 
 PINS = tuple(reference_support().linkage().pins)
@@ -28,7 +28,7 @@ SUPPORT = reference_support()
 Numbers = dict[tuple[str, str], dict[str, Any]]
 
 
-@pytest.fixture(scope="module", params=FORMS)
+@pytest.fixture(scope="module", params=ONLY_SLOW)
 def out(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return written("which_pin", request.param, tmp_path_factory.mktemp("results"))
 

@@ -123,6 +123,7 @@ def test_a_scheduler_that_is_not_there_is_told(tmp_path: Path) -> None:
 
 @needs_dask
 @linux_only
+@pytest.mark.slow
 def test_a_scheduler_that_is_lost_midway_is_told_in_a_line(tmp_path: Path, started: Started) -> None:
     path = write_sweep(tmp_path, speeds(500), duration=0.04)
     file, store = tmp_path / "scheduler.json", tmp_path / "store"
