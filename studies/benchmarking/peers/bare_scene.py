@@ -35,8 +35,7 @@ class BareScene:
 
     container: owns the system, and must live as long as it. actuators: the engine's objects and their lengths
     at the start [m]. contact: of the clearance pin, if there is one; bore, journal: markers of both its
-    centres;
-    link: the body, not the ground or the slider, that it ends.
+    centres; link: the body, not the ground or the slider, that it ends.
     """
 
     scenario: Scenario

@@ -59,7 +59,7 @@ INSTEAD = (
 
 
 class NoDisplayError(OSError):
-    """No window can be opened here."""
+    """The error of a window that cannot be opened here; its text says why and what to do."""
 
 
 def check_display() -> None:

@@ -171,26 +171,26 @@ class Recorder:
 
     def _powers(self, t: float) -> tuple[float, float, float]:
         """Power [W] of the drive, of damping and of friction at the end of a step."""
-        actuators = damping = friction = 0.0
+        driving = damping = friction = 0.0
         for drive, struts, oil in self._driven:
             speed = drive.speed(t)
             if speed != 0.0 and struts:
                 multipliers = self._data.GetAECoordinates()
                 # the multiplier of a distance is the tension, that of a crank's angle the moment against it
-                actuators -= speed * sum(float(multipliers[n]) for n in struts)
+                driving -= speed * sum(float(multipliers[n]) for n in struts)
             for item in oil:
                 work, loss = item.preloaded.powers(*self._length(item), drive.extension(t), speed)
-                actuators += work
+                driving += work
                 damping += loss
         for name, load in self._loads:
             work, loss = load.powers(t)
             if self._looks and not loss >= 0.0:
                 load.look(t, name)
-            actuators += work
+            driving += work
             damping += loss
         for cylinder in self._cylinders:
             work, loss = cylinder.powers()
-            actuators += work
+            driving += work
             damping += loss
         damping += sum(pin.loss() for pin in self._compliant)
         for name, rubbing in self._frictions:
@@ -208,7 +208,7 @@ class Recorder:
                     pin.look(elastic, name)
                 damping += lost
                 friction -= rubbed
-        return actuators, damping, friction
+        return driving, damping, friction
 
 
 def _memories(pins: Series | Sequence[PinMemory]) -> Series:

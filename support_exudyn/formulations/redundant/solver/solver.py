@@ -100,9 +100,9 @@ class SolverRun:
         self.needs_step_callbacks = (
             bool(self.pins or self.frictions or self.impacting_loads) or self.smooth is not None
         )
-        actuators = any(parts.rigid or parts.oil for parts in scene.driven if parts.moves(scenario.duration))
+        moves = any(parts.rigid or parts.oil for parts in scene.driven if parts.moves(scenario.duration))
         if (
-            (actuators or self.valves)
+            (moves or self.valves)
             and recorder.integrates
             and scenario.step * FEW_STEPS > scenario.record_period
         ):
