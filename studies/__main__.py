@@ -1,45 +1,106 @@
-"""`python -m studies`: all studies, each into a folder of its own, and the report on them."""
+"""`python -m studies`: the paper's answer in a minute; other studies by name; and the report on them."""
 
 import argparse
 import sys
+import time
+import traceback
 from collections.abc import Sequence
 from pathlib import Path
 
-from studies.catalogue import STUDIES
-from studies.common.study import Options, add_options, output_folder, run_main
+from studies.catalogue import DEFAULT, STUDIES
+from studies.common.options import Options, add_options, read_options
+from studies.common.study import Study, output_folder, say_short
 from studies.report import rebuild
-from support_exudyn.commands.command_line import Parser, answered
-from support_exudyn.sweeps.workers import worker_pool
+from support_exudyn.commands.command_line import Parser, answered, say, warn
+from support_exudyn.simulation.at_start import EXIT_CODE
+from support_exudyn.sweeps.workers import Workers, worker_pool
+from user_forces.values.value import InputError, short
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run every study and write the report; the exit code is the first that is not zero."""
-    parser = Parser(prog="python -m studies", description="Run all studies and write the report.")
+    """Run studies and write the report after each.
+
+    Returns the exit code: 0, or 1 if any study failed or the report could not be written.
+    """
+    parser = Parser(prog="python -m studies", description="Run studies and write the report on them.")
     add_options(parser, Path("results"))
+    parser.add_argument("names", nargs="*", metavar="NAME", help="studies to run (the paper's answer)")
+    parser.add_argument("--all", action="store_true", help="run all studies")
+    parser.add_argument("--list", action="store_true", help="tell all studies, their questions and times")
     given = parser.parse_args(argv)
+    if given.list:
+        return answered(_list)
     codes: list[int] = []
 
     def work() -> None:
-        with output_folder(given.out):
-            codes.append(_studies(given))
-            if not codes[0]:
-                codes[0] = rebuild(given.out, list(STUDIES), given.quick)
+        names = _chosen(given)
+        options = read_options(given)
+        with output_folder(given.out), worker_pool(options.workers) as pool:
+            codes.append(_run(names, options, pool))
 
     return answered(work) or codes[0]
 
 
-def _studies(given: argparse.Namespace) -> int:
-    """Run them one after the other; the first exit code that is not zero."""
+def _list() -> None:
+    """Every study with its question; those of the paper's answer first."""
+    for name, study in STUDIES.items():
+        paper = "the paper's answer" if name in DEFAULT else ""
+        machine = "takes --machine" if study.own_machine else ""
+        about = ", ".join(filter(None, (paper, machine)))
+        say(f"{name:20} {_seconds(study.seconds):>8}  {study.question}" + (f" ({about})" if about else ""))
+
+
+def _chosen(given: argparse.Namespace) -> list[str]:
+    unknown = [name for name in given.names if name not in STUDIES]
+    if unknown:
+        raise InputError(f"{short(unknown[0])}: no such study; allowed: {', '.join(STUDIES)}")
+    if given.names and given.all:
+        raise InputError("--all: allowed: without names of studies")
+    if given.all:
+        return list(STUDIES)
+    if given.machine and not given.names:
+        return [name for name in DEFAULT if STUDIES[name].own_machine]
+    return given.names or list(DEFAULT)
+
+
+def _run(names: Sequence[str], options: Options, pool: Workers) -> int:
+    """Run studies one after the other; one that fails does not keep the others from the report."""
+    began = time.perf_counter()
+    failed = []
+    for n, name in enumerate(names):
+        spent = time.perf_counter() - began
+        left = sum(STUDIES[one].seconds for one in names[n:])
+        warn(f"study {n + 1} of {len(names)}: {name}; {_seconds(spent)} so far, about {_seconds(left)} to go")
+        if _one(STUDIES[name], options.of_study(name, pool)):
+            failed.append(name)
+        elif rebuild(options.out, list(STUDIES)):
+            failed.append("report")
+    if failed:
+        warn(f"error: failed: {', '.join(failed)}; the report has all the others")
+    say(f"\n{_seconds(time.perf_counter() - began)} in all; the report: {options.out / 'report.html'}")
+    return 1 if failed else 0
+
+
+def _one(study: Study, options: Options) -> int:
+    """Run a study; what goes wrong is said in a sentence. Returns the exit code; an interruption ends all."""
+
+    def work() -> None:
+        with output_folder(options.out):
+            say_short(study(options), options.out)
+
     try:
-        with worker_pool(given.workers) as pool:
-            for name, study in STUDIES.items():
-                print(f"study {name}", file=sys.stderr)
-                code = run_main(study, Options(given.out / name, given.quick, pool, given.machines))
-                if code:
-                    sys.exit(code)  # an exception, so that no process works on
-    except SystemExit as stop:
-        return int(str(stop.code))
-    return 0
+        code = answered(work)
+    except Exception:  # a bug in one study; the others are still worth having
+        traceback.print_exc()
+        return 1
+    if code == EXIT_CODE:
+        sys.exit(code)  # an exception, so that no process works on
+    return code
+
+
+def _seconds(duration: float) -> str:
+    """A duration in seconds or minutes."""
+    return f"{duration:.0f} s" if duration < 100.0 else f"{duration / 60.0:.0f} min"
 
 
 if __name__ == "__main__":

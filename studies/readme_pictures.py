@@ -4,10 +4,11 @@
 """
 
 import argparse
+import os
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -16,13 +17,14 @@ from PIL import Image
 
 from studies.clearance_influence import run as clearance_influence
 from studies.common import paper_machine
+from studies.common.options import MOST_WORKERS, Options
 from studies.common.runs import run_cases
-from studies.common.study import add_options, output_folder
+from studies.common.study import output_folder
 from studies.extremes import figures as extremes_figures
 from studies.extremes.cases import STEP_STIFFNESS, cases
 from studies.extremes.runs import run_cases as judged
 from support_exudyn import Result
-from support_exudyn.commands.command_line import Parser, answered
+from support_exudyn.commands.command_line import Parser, answered, count, folder
 from support_exudyn.files.whole_file import whole_file
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.figures.orbit import orbit
@@ -49,7 +51,7 @@ class Runs:
     @cached_property
     def paper(self) -> Mapping[str, Result]:
         """The cases of `clearance_influence` at its steps."""
-        return run_cases(clearance_influence.scenarios(quick=False), self.workers)
+        return run_cases(clearance_influence.scenarios(quick=False), Options(Path(), self.workers))
 
     @property
     def with_clearance(self) -> Result:
@@ -128,7 +130,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     description = (__doc__ or "").splitlines()[0]
     parser = Parser(prog="python -m studies.readme_pictures", description=description)
     parser.add_argument("names", nargs="*", metavar="NAME", help=f"which (all): {', '.join(PICTURES)}")
-    add_options(parser, FOLDER, ("workers",))
+    parser.add_argument("--out", type=folder, default=FOLDER, metavar="DIR", help=f"folder ({FOLDER})")
+    workers = partial(count, most=MOST_WORKERS)
+    parser.add_argument("--workers", type=workers, default=os.cpu_count() or 1, metavar="N", help="processes")
     given = parser.parse_args(argv)
     for name in given.names:
         if name not in PICTURES:

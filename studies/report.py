@@ -16,17 +16,16 @@ from support_exudyn.files.whole_file import whole_file
 from user_forces.values.value import InputError
 
 
-def write_report(out: Path, chapters: Sequence[ReportSection], quick: bool) -> Path:
+def write_report(out: Path, chapters: Sequence[ReportSection]) -> Path:
     """Write report.html and report.md into `out`, each whole or not at all; returns the page's path.
 
     Arguments:
         out: folder; the pictures of the text version are linked relative to it.
         chapters: in the order in which they are to be read.
-        quick: how those studies were run whose chapter does not say it.
 
     Raises InputError or OSError; both files are then as they were before.
     """
-    report = content(chapters, quick)
+    report = content(chapters)
     files = {out / "report.html": page(report), out / "report.md": text(report, out)}
     for path, written in files.items():
         with whole_file(path) as temporary:
@@ -46,10 +45,10 @@ def sections(out: Path, order: Sequence[str]) -> list[ReportSection]:
     return [ReportSection.load(out / name) for name in names]
 
 
-def rebuild(out: Path, order: Sequence[str], quick: bool = False) -> int:
+def rebuild(out: Path, order: Sequence[str]) -> int:
     """Write the report from the folders below `out` and print its path. Returns the exit code."""
     try:
-        path = write_report(out, sections(out, order), quick)
+        path = write_report(out, sections(out, order))
     except (InputError, OSError) as error:
         warn(f"error: {error}")
         return 1

@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 from itertools import chain
+from pathlib import Path
 
 import numpy as np
 
@@ -25,7 +26,7 @@ from studies.benchmarking.scenes import SCENES
 from studies.benchmarking.variants import Way, peer, redundant, with_tolerance
 from studies.common import paper_machine
 from studies.common.chapter import Sheet
-from studies.common.study import Options, options, run_main, show_table
+from studies.common.study import folder_of, show_table, work_in_folder
 from studies.slider_crank import run as slider_crank
 from support_exudyn import Scenario, SimulationError, SolverSettings, simulate
 from support_exudyn.files.whole_file import whole_file
@@ -288,25 +289,24 @@ def sheet(lines: Sequence[BenchmarkLine]) -> Sheet:
     )
 
 
-def study(chosen: Options) -> None:
+def study(out: Path) -> None:
     """Measure, print and write the table."""
     lines = []
     for line in chain.from_iterable(map(whole, PARTS)):
         print(f"{line.what} ({line.how}): {line.ratio} of {line.against}", file=sys.stderr)
         lines.append(line)
     table = sheet(lines)
-    show_table(chosen.out / "benchmark.txt", table, width=170)
+    show_table(out / "benchmark", table, width=170)
     words = "\n\n".join(
         ["# Benchmark", process.machine(), table.markdown(), process.memory(), process.importing()]
     )
-    with whole_file(chosen.out / "benchmark.md") as temporary:
+    with whole_file(out / "benchmark.md") as temporary:
         temporary.write_text(words + "\n", encoding="utf-8")
 
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Entry of `python -m studies.benchmarking.benchmark`."""
-    description = (__doc__ or "").splitlines()[0]
-    return run_main(study, options(f"benchmarking.{STUDY}", argv, description, taken=()))
+    return work_in_folder(study, folder_of(f"benchmarking.{STUDY}", __doc__, argv))
 
 
 if __name__ == "__main__":

@@ -26,8 +26,9 @@ from studies.benchmarking.covered import CoveredRun, Judged
 from studies.benchmarking.fresh_scenes import KINDS, fresh
 from studies.common.chapter import Sheet
 from studies.common.numbers import Number, write_summary
+from studies.common.options import MOST_WORKERS
 from studies.common.runs import bar
-from studies.common.study import MOST_WORKERS, output_folder, show_table
+from studies.common.study import output_folder, show_table
 from support_exudyn.commands.command_line import Parser, answered, count, folder
 from support_exudyn.files.whole_file import whole_file
 from support_exudyn.sweeps.key import key
@@ -228,7 +229,7 @@ def study(chosen: Chosen) -> None:
     if any(row.refused for row in rows):
         tables["refused"] = refusal_sheet
     for name, sheet in tables.items():
-        show_table(chosen.out / f"table_{name}.txt", sheet(rows), width=200)
+        show_table(chosen.out / f"table_{name}", sheet(rows), width=200)
     save_rows(chosen.out / "numbers.csv", rows)
     counted = {"seed": chosen.seed, "scenes": len(wanted)}
     write_summary(chosen.out, STUDY, numbers(rows), time.perf_counter() - started, counted)

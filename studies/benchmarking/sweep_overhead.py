@@ -21,7 +21,7 @@ import numpy as np
 from studies.benchmarking import process
 from studies.common import paper_machine
 from studies.common.chapter import Sheet
-from studies.common.study import Options, options, run_main, show_table
+from studies.common.study import folder_of, show_table, work_in_folder
 from support_exudyn import Scenario, simulate
 from support_exudyn.files.whole_file import whole_file
 from support_exudyn.sweeps import Plan, grid, read_table, sweep
@@ -143,7 +143,7 @@ def steps() -> list[tuple[str, str]]:
     ]
 
 
-def study(chosen: Options) -> None:
+def study(out: Path) -> None:
     """Measure, print and write the tables."""
     apart = Sheet(
         title="Sweeps: processor time of a short run, by steps",
@@ -152,7 +152,7 @@ def study(chosen: Options) -> None:
         caption=f"The mean of {STEPS_OF} runs in one process. Sending a run and noting its row come "
         "on top, with less than a millisecond.",
     )
-    show_table(chosen.out / "sweep_steps.txt", apart, width=150)
+    show_table(out / "sweep_steps", apart, width=150)
     table = Sheet(
         title="Sweeps: what they cost beside their runs (short ones: the faster of two turns)",
         header=(
@@ -167,16 +167,15 @@ def study(chosen: Options) -> None:
             "the table. Start: importing the package in the processes, and loading what is compiled."
         ),
     )  # fmt: skip
-    show_table(chosen.out / "sweep_overhead.txt", table, width=150)
-    with whole_file(chosen.out / "SWEEPS.md") as temporary:
+    show_table(out / "sweep_overhead", table, width=150)
+    with whole_file(out / "SWEEPS.md") as temporary:
         words = "\n\n".join(["# Sweeps", process.machine(), table.markdown(), apart.markdown()])
         temporary.write_text(words + "\n", encoding="utf-8")
 
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Entry of `python -m studies.benchmarking.sweep_overhead`."""
-    description = (__doc__ or "").splitlines()[0]
-    return run_main(study, options(f"benchmarking.{STUDY}", argv, description, taken=()))
+    return work_in_folder(study, folder_of(f"benchmarking.{STUDY}", __doc__, argv))
 
 
 if __name__ == "__main__":

@@ -20,8 +20,9 @@ from studies.claims.plausible import FACTORS, REFERENCE, Sample, samples
 from studies.claims.plausible_runs import CASES, LARGEST_FORCE, TOLERANCE, evidence, measures, oil_scenarios
 from studies.claims.verdicts import Ruling, percent, rule
 from studies.common.numbers import Number, measured
+from studies.common.options import Options
 from studies.common.runs import run_with_errors
-from studies.common.study import Options, Study, StudyOutcome
+from studies.common.study import Study, StudyOutcome
 from studies.common.words import TextTable
 from support_exudyn.files.whole_file import whole_file
 
@@ -181,7 +182,7 @@ def words(rulings: Sequence[Ruling], rows: Sequence[hypercube.MachineRow]) -> di
 
 def reference_evidence(chosen: Options) -> Evidence:
     """The reference support's measures, with those of the runs on columns of oil."""
-    results = run_with_errors(oil_scenarios(chosen.quick), chosen.workers)
+    results = run_with_errors(oil_scenarios(chosen.quick), chosen)
     known = {
         case: {"largest_force": Measured(n.value, n.numerical_error)}
         for case, result in results.items()

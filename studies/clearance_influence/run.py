@@ -13,9 +13,10 @@ from matplotlib.figure import Figure
 
 from studies.common import paper_machine, rise
 from studies.common.numbers import Number, by_case, compared, counted, measured, printed, rounded
+from studies.common.options import Options
 from studies.common.panels import WINDOWS, fit_height, legend
 from studies.common.runs import impacts, run_cases
-from studies.common.study import Options, Study, StudyOutcome
+from studies.common.study import Study, StudyOutcome
 from studies.common.words import TextTable
 from support_exudyn import Result, Scenario
 from support_exudyn.postprocessing.figures import style
@@ -246,7 +247,7 @@ def _row(name: str, row: Mapping[str, Number]) -> tuple[str, ...]:
 def work(chosen: Options) -> StudyOutcome:
     """The three rises, their numbers, figures and table."""
     cases = scenarios(chosen.quick)
-    results = run_cases(cases, chosen.workers)
+    results = run_cases(cases, chosen)
     numbers = measure(results)
     words = {
         "found": by_case(numbers), "goal": cases[DRY].goal, "run": sys.modules[__name__],

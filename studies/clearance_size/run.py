@@ -12,9 +12,10 @@ import numpy as np
 from studies.clearance_size.figures import figures
 from studies.common import paper_machine, rise
 from studies.common.numbers import Found, Number, by_case, cell, compared, measured, printed
+from studies.common.options import Options
 from studies.common.paper_machine import SIZES_MM, case_name
 from studies.common.runs import run_cases, run_with_errors
-from studies.common.study import Options, Study, StudyOutcome
+from studies.common.study import Study, StudyOutcome
 from studies.common.words import TextTable
 from support_exudyn import Result, Scenario, SolverSettings
 
@@ -183,8 +184,8 @@ def formulation_table(results: Mapping[str, Result], engines: Mapping[str, Resul
 def work(chosen: Options) -> StudyOutcome:
     """All rises, their numbers, figures and tables, and some of them by the engine."""
     cases = scenarios(chosen.quick)
-    results = run_cases(cases, chosen.workers)
-    engines = run_with_errors(by_the_engine(chosen.quick), chosen.workers)
+    results = run_cases(cases, chosen)
+    engines = run_with_errors(by_the_engine(chosen.quick), chosen)
     numbers = measure(results)
     found = by_case(numbers)
     measures = {f"table_mu{friction:g}".replace(".", "p"): friction for friction in FRICTIONS}

@@ -1,8 +1,12 @@
-"""What a study says: a chapter of the report, with its pictures and tables of text, kept as chapter.json."""
+"""What a study says: a chapter of the report, with its pictures and tables of text, kept as chapter.json.
+
+Sentences refer to pictures and tables as `[@stem]`, `[@name]`, or `[@study/stem]` of another study.
+"""
 
 from __future__ import annotations
 
 import json
+import re
 from dataclasses import asdict, dataclass
 from functools import cache
 from pathlib import Path
@@ -16,6 +20,7 @@ from support_exudyn.files.whole_file import contents, whole_file
 from user_forces.values.value import InputError
 
 FILE = "chapter.json"
+REFERENCE = re.compile(r"\[@([\w.-]+(?:/[\w.-]+)?)\]")
 LARGEST_FILE = 200_000_000  # bytes, of what is read for a report
 
 
@@ -24,7 +29,7 @@ class Sheet:
     """A table of text cells.
 
     left: so many columns from the left are left-aligned, the others right-aligned.
-    wide: long text cells that wrap; all columns are left-aligned.
+    wide: long text cells that wrap; all columns are left-aligned. name: of its files, without ending.
     """
 
     __pydantic_config__ = ConfigDict(extra="forbid", strict=True)  # for reading
@@ -35,6 +40,7 @@ class Sheet:
     caption: str = ""
     left: int = 1
     wide: bool = False
+    name: str = ""
 
     def __post_init__(self) -> None:
         if not self.header:
@@ -72,7 +78,10 @@ class Sheet:
 
 @dataclass(frozen=True)
 class Picture:
-    """A figure: stem.png and stem.pdf in the study's folder, and what it shows."""
+    """A figure: stem.png, stem.pdf and stem.csv in the study's folder, and what it shows.
+
+    A time series has stem.live.json too, from which the report makes a figure to look into.
+    """
 
     __pydantic_config__ = ConfigDict(extra="forbid", strict=True)
 
@@ -85,11 +94,44 @@ class Picture:
 
 
 @dataclass(frozen=True)
+class Tile:
+    """A number on the first screen: what it is, with the ideal pin, with clearance, and the change."""
+
+    __pydantic_config__ = ConfigDict(extra="forbid", strict=True)
+
+    name: str
+    ideal: str
+    with_clearance: str
+    change: str
+
+
+@dataclass(frozen=True)
+class JudgedClaim:
+    """A statement of the paper and the verdict on it.
+
+    number: such as "12". where: section or figure of the paper. verdict: begins with "holds", "holds only",
+    "not supported" or "cannot be judged". why: in a sentence, with numbers. figure, table: what shows it, as
+    "study/stem" and "study/name"; empty if nothing does.
+    """
+
+    __pydantic_config__ = ConfigDict(extra="forbid", strict=True)
+
+    number: str
+    where: str
+    text: str
+    verdict: str
+    why: str
+    figure: str = ""
+    table: str = ""
+
+
+@dataclass(frozen=True)
 class Chapter:
     """A study in words, pictures and tables; all texts are plain sentences.
 
-    method: paragraphs. findings: bullet points, with the numbers of this very run.
-    quick: whether it was run with coarse steps; None if the study does not say.
+    answer: one to three sentences. numbers: the three that matter, each "what: value". method: paragraphs.
+    findings: bullet points, with the numbers of this very run. pictures, sheets: the key one first. tiles: for
+    the first screen of the report. claims: of the study that judges them.
     """
 
     __pydantic_config__ = ConfigDict(extra="forbid", strict=True)
@@ -101,7 +143,10 @@ class Chapter:
     findings: tuple[str, ...]
     pictures: tuple[Picture, ...]
     sheets: tuple[Sheet, ...]
-    quick: bool | None = None
+    answer: str = ""
+    numbers: tuple[str, ...] = ()
+    tiles: tuple[Tile, ...] = ()
+    claims: tuple[JudgedClaim, ...] = ()
 
     def save(self, out: Path) -> Path:
         """Write DIR/chapter.json, whole or not at all."""
@@ -132,3 +177,8 @@ def _complaints(error: ValidationError) -> str:
     """All that is wrong, with places such as sheets.0.title."""
     found = [(".".join(str(part) for part in item["loc"]), item["msg"]) for item in error.errors()]
     return "; ".join(f"{place}: {message}" if place else message for place, message in found)
+
+
+def without_references(text: str) -> str:
+    """A sentence for a terminal: what it refers to stands there by the name of its file."""
+    return REFERENCE.sub(r"\1", text)

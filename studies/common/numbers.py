@@ -5,6 +5,10 @@ import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
+from typing import cast
+
+import numpy as np
+import numpy.typing as npt
 
 from studies.common.rise import Peak
 from studies.common.runs import halvings
@@ -13,6 +17,7 @@ from support_exudyn.files.whole_file import whole_file
 from support_exudyn.simulation.provenance import versions
 
 DIGITS = 5  # of a number in a sentence
+MOST_DIGITS = 6  # of a number in a table: where its error is smaller, all that are shown are right
 Found = Mapping[tuple[str, str], "Number"]  # numbers by name and case
 
 
@@ -38,10 +43,40 @@ Measure = Callable[[Result], float]
 def measured(
     name: str, case: str, unit: str, result: Result, measure: Measure, paper: float | None = None
 ) -> Number:
-    """A number of a run with errors, see `run_with_errors`."""
+    """A number of a run with errors: that of its steps, and that of its records."""
     found = result.estimate(measure, unit)
-    between_records = measure.missed(result) if isinstance(measure, Peak) else 0.0
-    return Number(name, case, found.value, unit, found.error + between_records, paper)
+    if isinstance(measure, Peak):
+        of_records = measure.missed(result)
+    else:
+        of_records = _of_records(lambda every: measure(cast(Result, _Thinned(result, every))))
+    return Number(name, case, found.value, unit, found.error + of_records, paper)
+
+
+@dataclass(frozen=True)
+class _Thinned:
+    """A run as if only every so many of its records had been taken."""
+
+    run: Result
+    every: int
+
+    @property
+    def time(self) -> npt.NDArray[np.float64]:
+        return self.run.time[:: self.every]
+
+    def __getitem__(self, name: str) -> npt.NDArray[np.float64]:
+        return self.run[name][:: self.every]
+
+    def __getattr__(self, name: str) -> object:
+        return getattr(self.run, name)
+
+
+def _of_records(thinned: Callable[[int], float]) -> float:
+    """How far a number may be from that of records without gaps.
+
+    thinned: the number of every so many records. Half as many, and a quarter, tell how fast it settles.
+    """
+    found = thinned(1)
+    return max(abs(thinned(2) - found), 0.5 * abs(thinned(4) - found))
 
 
 def measured_all(results: Mapping[str, Result], measures: Mapping[str, tuple[str, Measure]]) -> list[Number]:
@@ -68,10 +103,11 @@ def compared(
     measure: Callable[[Result, Result], float],
     paper: float | None = None,
 ) -> Number:
-    """A number of a run beside another one; the errors of both add up."""
+    """A number of a run beside another one, with the same records; the errors of both add up."""
     here = run.estimate(lambda finer: measure(finer, other), unit)
     there = other.estimate(lambda finer: measure(run, finer), unit)
     error = here.error if run is other else here.error + there.error
+    error += _of_records(lambda n: measure(cast(Result, _Thinned(run, n)), cast(Result, _Thinned(other, n))))
     return Number(name, case, here.value, unit, error, paper)
 
 
@@ -96,31 +132,33 @@ def write_summary(
 
 
 def rounded(value: float, error: float) -> str:
-    """A number with its error, both to the digits that the error leaves; alone if it has none."""
+    """A number with its error, both to two digits of the error; whole numbers as such.
+
+    Where the error is below the sixth digit, that is where the number ends, without an error: all its digits
+    are right.
+    """
     if error == 0.0 or not math.isfinite(error):
         return f"{value:.9g}"
-    digits = max(0, 1 - math.floor(math.log10(error)))
+    if value.is_integer() and error.is_integer() and abs(value) + error < 1e6:
+        return f"{value:.0f} ± {error:.0f}"
+    digits = 1 - math.floor(math.log10(error))
+    shown = max(abs(value), error)
+    most = MOST_DIGITS - 1 - math.floor(math.log10(shown))
+    if digits > most:
+        return _plain(value, most)
+    return f"{_plain(value, digits)} ± {_plain(error, digits)}"
+
+
+def _plain(value: float, digits: int) -> str:
+    """A number with so many decimals; below 0 that many zeros end it. Small ones with a power."""
     if digits > 9:
-        return f"{value:.6g} ± {error:.0e}"
-    return f"{value:.{digits}f} ± {error:.{digits}f}"
-
-
-def brief(value: float, error: float) -> str:
-    """A number with its error in at most seven digits, for tables in which many stand side by side."""
-    if error == 0.0 or not math.isfinite(error):
-        return f"{value:.7g}"
-    if value == 0.0:
-        return f"0 ± {error:.0e}"
-    digits = max(0, 6 - math.floor(math.log10(abs(value))))
-    if error < 0.5 * 10.0**-digits:
-        return f"{value:.{digits}f} ± {error:.0e}"
-    left = max(0, 1 - math.floor(math.log10(error)))
-    return f"{value:.{digits}f} ± {error:.{digits}f}" if digits < left else rounded(value, error)
+        return f"{value:.{MOST_DIGITS - 1}e}" if value else "0"
+    return f"{round(value, digits):.{max(0, digits)}f}"
 
 
 def cell(number: Number | None) -> str:
-    """A number in a table with its error, see `brief`; nothing if there is none."""
-    return "" if number is None else brief(number.value, number.numerical_error)
+    """A number in a table with its error, see `rounded`; nothing if there is none."""
+    return "" if number is None else rounded(number.value, number.numerical_error)
 
 
 def printed(number: Number | None) -> str:
@@ -149,9 +187,24 @@ def said(number: Number, scale: float = 1.0, unit: str | None = None) -> str:
 
 
 def against(number: Number, other: Number) -> str:
-    """How much a number is above or below another, in per cent of the other."""
-    change = 100.0 * (number.value / other.value - 1.0)
-    return f"{change:+.0f} %" if abs(change) >= 10.0 else f"{change:+.2g} %"
+    """How much a number is above or below another, in per cent of the other, to its error.
+
+    What both errors leave open is said so: "no more than 0.6 % off".
+    """
+    ratio = number.value / other.value
+    change = 100.0 * (ratio - 1.0)
+    error = 100.0 * (number.numerical_error + abs(ratio) * other.numerical_error) / abs(other.value)
+    if error >= abs(change):
+        most = abs(change) + error
+        return f"the same within {_two_digits(most)} %" if most else "the same"
+    digits = max(
+        0, min(1 - math.floor(math.log10(abs(change))), -math.floor(math.log10(error)) if error else 9)
+    )
+    return f"{change:+.{digits}f} %"
+
+
+def _two_digits(value: float) -> str:
+    return f"{value:.{max(0, 1 - math.floor(math.log10(value)))}f}"
 
 
 def off(number: Number) -> float:
@@ -162,4 +215,4 @@ def off(number: Number) -> float:
 
 def percent(share: float) -> str:
     """A share in per cent."""
-    return f"{100.0 * share:.2g} %" if share >= 1e-5 else "less than 0.001 %"
+    return f"{_two_digits(100.0 * share)} %" if share >= 1e-5 else "less than 0.001 %"

@@ -1,13 +1,42 @@
 """What figures of several studies do with their panels."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from string import ascii_lowercase
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from studies.common import rise
 
 WINDOWS = {"early": (3.0, 3.12), "middle": (4.0, 4.12), "late": (4.6, 4.72)}  # enlarged in Fig. 3 and 6 [s]
+
+
+def letters(panels: Sequence[Axes]) -> None:
+    """Letter the panels of a figure a, b, c, ... above their upper left corners."""
+    for letter, axes in zip(ascii_lowercase, panels, strict=False):
+        axes.annotate(
+            letter, (0.0, 1.0), (-26.0, 3.0), "axes fraction", "offset points", weight="bold", fontsize=9,
+            annotation_clip=False,
+        )  # fmt: skip
+
+
+def forward_arrow(axes: Axes) -> None:
+    """Draw an arrow to the right that says which way is forward, in the lower right corner."""
+    axes.annotate(
+        "forward", (0.97, 0.05), (-42.0, 0.0), "axes fraction", "offset points", fontsize=7, va="center",
+        ha="right", arrowprops={"arrowstyle": "-|>", "color": "#555555", "lw": 0.8}, color="#555555",
+    )  # fmt: skip
+
+
+def time_ticks(axes: Axes, watched: rise.Watched) -> None:
+    """Ticks of a time axis that has the beginning and the end of the motion among them."""
+    low, high = axes.get_xlim()
+    inside = [t for t in (watched.start, watched.end) if low <= t <= high]
+    near = 0.08 * (high - low)
+    others = [t for t in MaxNLocator(6).tick_values(low, high) if low <= t <= high]
+    axes.set_xticks(sorted({*inside, *(t for t in others if all(abs(t - one) > near for one in inside))}))
+    axes.set_xlim(low, high)
 
 
 def legend(drawing: Figure, axes: Axes, columns: int) -> None:

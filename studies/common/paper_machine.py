@@ -50,6 +50,9 @@ INLETS: dict[str, Inlet] = {
     "mode 2": RampedOpening(extent=RAMPED_OPENING, ramp=RAMP),
 }
 
+ACCURACY = 1e-6  # of the runs that studies make: nothing is left open in what they print
+STEP = 1e-3  # [s] of scenarios before an accuracy chooses
+
 SIZES_MM = (0.5, 1.0, 1.5, 2.0)  # the paper's clearances
 
 # printed values
@@ -64,23 +67,29 @@ def case_name(clearance_mm: float, sliding_coefficient: float) -> str:
     return f"{clearance_mm:.1f} mm, mu_d = {sliding_coefficient:g}"
 
 
-def bearing(clearance_mm: float) -> JournalBearing:
-    """The rear-link pin with this radial clearance."""
-    return JournalBearing(bore_radius=BORE_RADIUS, clearance=clearance_mm / 1e3)
+def bearing(clearance_mm: float, bore_radius: float = BORE_RADIUS) -> JournalBearing:
+    """The rear-link pin with this radial clearance; bore_radius: [m]."""
+    return JournalBearing(bore_radius=bore_radius, clearance=clearance_mm / 1e3)
 
 
-def stiffness(clearance_mm: float) -> float:
-    """Eq. 5 for this pin [N/m^1.5]: a bore in steel, a pin of 35CrMo."""
-    return external_contact_stiffness(bearing(clearance_mm), STEEL, STEEL_35CRMO)
+def stiffness(clearance_mm: float, bore_radius: float = BORE_RADIUS) -> float:
+    """Eq. 5 for this pin [N/m^1.5]: a bore in steel, a pin of 35CrMo; bore_radius: [m]."""
+    return external_contact_stiffness(bearing(clearance_mm, bore_radius), STEEL, STEEL_35CRMO)
 
 
-def clearance_joint(clearance_mm: float, sliding_coefficient: float) -> ClearancePin:
-    """The rear-link pin as a clearance pin; the bore is in the base."""
+def clearance_joint(
+    clearance_mm: float, sliding_coefficient: float, bore_radius: float = BORE_RADIUS
+) -> ClearancePin:
+    """The rear-link pin as a clearance pin; the bore is in the base. bore_radius: [m]."""
     normal = LankaraniNikravesh(
-        stiffness=stiffness(clearance_mm), restitution=RESTITUTION, damping_speed=ImpactVelocity(floor=1e-3)
+        stiffness=stiffness(clearance_mm, bore_radius),
+        restitution=RESTITUTION,
+        damping_speed=ImpactVelocity(floor=1e-3),
     )
     friction = Ambrosio(sliding_coefficient=sliding_coefficient) if sliding_coefficient else Frictionless()
-    return ClearancePin(contact=JournalContact(bearing=bearing(clearance_mm), normal=normal, friction=friction))
+    return ClearancePin(
+        contact=JournalContact(bearing=bearing(clearance_mm, bore_radius), normal=normal, friction=friction)
+    )
 
 
 def ideal_rise(step: float) -> Scenario:

@@ -1,17 +1,17 @@
 """What is measured of a rise: posture, force and shaking, in the same words for every study.
 
-A run is anything that hands out channels by name (`support_exudyn.Result` and others). The rise lasts from 3 to
-5 s; records lie every millisecond.
+A run is anything that hands out channels by name (`support_exudyn.Result` and others). Means and spreads are
+integrals over time, by the trapezoidal rule through the records.
 """
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Literal, Protocol
 
 import numpy as np
 import numpy.typing as npt
 
-from studies.common import paper_machine
 from support_exudyn import Result
 from support_exudyn.mechanics.extremes import largest, missed
 
@@ -19,15 +19,11 @@ Series = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 
 DEGREES = 180.0 / np.pi
-FORCE = f"pin.{paper_machine.CLEARANCE_PIN}.force"
-SPEED = "rear_link.angular_velocity"
-ACCELERATION = "rear_link.angular_acceleration"
-START, END = 3.0, 5.0  # of the rise [s]
 TREND_WINDOW = (
     0.1  # [s]: what is slower is the trend, what is faster is fluctuation; the contact shakes at 20 Hz
 )
 EDGE = TREND_WINDOW  # left out at both ends of the rise, where no window fits [s]
-STAGES = {"early": (3.1, 3.6), "middle": (3.75, 4.25), "late": (4.4, 4.9)}  # thirds of the rise, less edges [s]
+THIRDS = {"early": (0.05, 0.3), "middle": (0.375, 0.625), "late": (0.7, 0.95)}  # of the rise, less edges
 
 
 class MeasuredRun(Protocol):
@@ -57,13 +53,14 @@ TAKEN: dict[str, Callable[[Series], float]] = {
 class Peak:
     """An extreme of a channel at the records between two times; what lies between these is part of its error.
 
-    extreme: "largest", of the magnitude, or "max" or "min", with its sign. scale: to the unit of the number.
+    begin, end: [s]. extreme: "largest", of the magnitude, or "max" or "min", with its sign. scale: to the unit
+    of the number.
     """
 
     channel: str
     scale: float = 1.0
-    begin: float = START
-    end: float = END
+    begin: float = 3.0
+    end: float = 5.0
     extreme: Literal["largest", "max", "min"] = "largest"
 
     def __call__(self, run: MeasuredRun) -> float:
@@ -87,9 +84,14 @@ def between(run: MeasuredRun, begin: float, end: float) -> Mask:
     return (run.time >= begin - 1e-9) & (run.time <= end + 1e-9)
 
 
-def in_rise(run: MeasuredRun) -> Mask:
-    """Mask of the records of the rise."""
-    return between(run, START, END)
+def mean(time: Series, values: Series) -> float:
+    """Mean over time: the integral from the first record to the last, divided by the time between them."""
+    return float(np.diff(time) @ (values[1:] + values[:-1]) / (2.0 * (time[-1] - time[0])))
+
+
+def spread(time: Series, values: Series) -> float:
+    """Standard deviation over time, from the mean over time."""
+    return float(np.sqrt(mean(time, (values - mean(time, values)) ** 2)))
 
 
 def trend(run: MeasuredRun, values: Series) -> Series:
@@ -98,43 +100,6 @@ def trend(run: MeasuredRun, values: Series) -> Series:
     from scipy.ndimage import uniform_filter1d  # takes a while to import
 
     return uniform_filter1d(values, 2 * round(0.5 * TREND_WINDOW / period) + 1, mode="nearest")
-
-
-def rms_fluctuation(
-    run: MeasuredRun, values: Series, begin: float = START + EDGE, end: float = END - EDGE
-) -> float:
-    """Fluctuation: root mean square of a quantity less its trend, between two times, in its unit.
-
-    Within EDGE of the ends of the rise the trend leans on what is inside it.
-    """
-    inside = between(run, begin, end)
-    fast = (values - _trend_of_rise(run, values))[inside]
-    return float(np.sqrt(np.mean(fast**2)))
-
-
-def likeness(run: MeasuredRun, other: MeasuredRun, channel: str) -> float:
-    """Correlation of the trends of two runs over the rise: 1 if they have the same course."""
-    mine = _trend_of_rise(run, run[channel])[between(run, START + EDGE, END - EDGE)]
-    its = _trend_of_rise(other, other[channel])[between(other, START + EDGE, END - EDGE)]
-    return float(np.corrcoef(mine, its)[0, 1])
-
-
-def _trend_of_rise(run: MeasuredRun, values: Series) -> Series:
-    """Trend of what happens in the rise: what was before it does not enter."""
-    rise = in_rise(run)
-    result = np.zeros_like(values)
-    result[rise] = trend(run, values[rise])
-    return result
-
-
-def stage_mean(run: MeasuredRun, channel: str, stage: str) -> float:
-    """Mean magnitude of a channel over a stage of the rise, in its unit."""
-    return float(np.abs(run[channel][between(run, *STAGES[stage])]).mean())
-
-
-def departure(run: MeasuredRun, ideal: MeasuredRun, channel: str) -> Series:
-    """A channel less that of the ideal pin, record by record over the rise."""
-    return run[channel][in_rise(run)] - ideal[channel][in_rise(ideal)]
 
 
 def rearward_angle(run: MeasuredRun, column: str) -> Series:
@@ -149,3 +114,96 @@ def rearward_angle(run: MeasuredRun, column: str) -> Series:
 def lean(run: MeasuredRun, column: str) -> Series:
     """How far a column is from the vertical [rad], >= 0."""
     return np.abs(run[f"{column}.angle"] - 0.5 * np.pi)
+
+
+@dataclass(frozen=True)
+class Watched:
+    """What is looked at in a machine's motion: a pin, the body that it guides, and when it moves.
+
+    start, end: of the motion [s].
+    """
+
+    pin: str
+    body: str
+    start: float
+    end: float
+
+    @property
+    def force(self) -> str:
+        """The channel of the pin's force."""
+        return f"pin.{self.pin}.force"
+
+    @property
+    def speed(self) -> str:
+        """The channel of the body's angular velocity."""
+        return f"{self.body}.angular_velocity"
+
+    @property
+    def acceleration(self) -> str:
+        """The channel of the body's angular acceleration."""
+        return f"{self.body}.angular_acceleration"
+
+    @cached_property
+    def stages(self) -> dict[str, tuple[float, float]]:
+        """Thirds of the motion, less edges [s]."""
+        length = self.end - self.start
+        return {name: (self.start + a * length, self.start + b * length) for name, (a, b) in THIRDS.items()}
+
+    def in_rise(self, run: MeasuredRun) -> Mask:
+        """Mask of the records of the motion."""
+        return between(run, self.start, self.end)
+
+    def peak(self, channel: str, scale: float = 1.0) -> Peak:
+        """The measure of the largest magnitude of a channel in the motion."""
+        return Peak(channel, scale, self.start, self.end)
+
+    def mean(self, run: MeasuredRun, values: Series) -> float:
+        """Mean over the motion's time of a quantity given at all records, in its unit."""
+        inside = self.in_rise(run)
+        return mean(run.time[inside], values[inside])
+
+    def spread(self, run: MeasuredRun, values: Series) -> float:
+        """Standard deviation over the motion's time of a quantity given at all records, in its unit."""
+        inside = self.in_rise(run)
+        return spread(run.time[inside], values[inside])
+
+    def rms_fluctuation(
+        self, run: MeasuredRun, values: Series, begin: float | None = None, end: float | None = None
+    ) -> float:
+        """Fluctuation: root mean square of a quantity less its trend, between two times, in its unit.
+
+        Within EDGE of the ends of the rise, which is left out by default, the trend leans on what is inside it.
+        """
+        begin = self.start + EDGE if begin is None else begin
+        inside = between(run, begin, self.end - EDGE if end is None else end)
+        fast = (values - self._trend(run, values))[inside]
+        return float(np.sqrt(mean(run.time[inside], fast**2)))
+
+    def likeness(self, run: MeasuredRun, other: MeasuredRun, channel: str) -> float:
+        """Correlation of the trends of two runs over the rise: 1 if they have the same course."""
+        mine = self._trend(run, run[channel])[between(run, self.start + EDGE, self.end - EDGE)]
+        its = self._trend(other, other[channel])[between(other, self.start + EDGE, self.end - EDGE)]
+        return float(np.corrcoef(mine, its)[0, 1])
+
+    def _trend(self, run: MeasuredRun, values: Series) -> Series:
+        """Trend of what happens in the rise: what was before it does not enter."""
+        rise = self.in_rise(run)
+        result = np.zeros_like(values)
+        result[rise] = trend(run, values[rise])
+        return result
+
+    def stage_mean(self, run: MeasuredRun, channel: str, stage: str) -> float:
+        """Mean magnitude of a channel over a stage of the rise, in its unit."""
+        inside = between(run, *self.stages[stage])
+        return mean(run.time[inside], np.abs(run[channel][inside]))
+
+    def departure(self, run: MeasuredRun, ideal: MeasuredRun, channel: str) -> Series:
+        """A channel less that of the ideal pin, record by record over the rise."""
+        return run[channel][self.in_rise(run)] - ideal[channel][self.in_rise(ideal)]
+
+
+PAPER = Watched("rear_base", "rear_link", 3.0, 5.0)  # the paper's pin and rise
+FORCE, SPEED, ACCELERATION = PAPER.force, PAPER.speed, PAPER.acceleration
+START, END, STAGES = PAPER.start, PAPER.end, PAPER.stages
+in_rise, rms_fluctuation, likeness = PAPER.in_rise, PAPER.rms_fluctuation, PAPER.likeness
+stage_mean, departure = PAPER.stage_mean, PAPER.departure

@@ -1,4 +1,8 @@
-"""Runs of studies: in parallel, under a progress bar, at ever shorter steps, and kept as files."""
+"""Runs of studies: in parallel, under a progress bar, at ever shorter steps, and kept as files.
+
+A run that is kept is made once: for all studies of a command, and for the next command, also after one that was
+killed. It is known by its inputs and by the program that made it, see `support_exudyn.sweeps.key`.
+"""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -8,9 +12,12 @@ from pathlib import Path
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
+from studies.common.options import Options
 from support_exudyn import Failure, Result, Scenario, SimulationError
+from support_exudyn.sweeps.key import key
 from support_exudyn.sweeps.parallel_runs import run_all
 from support_exudyn.sweeps.workers import Workers
+from user_forces.values.value import InputError
 
 MOST_BARS = 12  # more runs than that share one progress bar
 SHORT = {  # what of a case's name stands otherwise in the name of its file
@@ -19,7 +26,7 @@ SHORT = {  # what of a case's name stands otherwise in the name of its file
 }  # fmt: skip
 
 
-def run_with_errors(cases: Mapping[str, Scenario], workers: int | Workers) -> dict[str, Result]:
+def run_with_errors(cases: Mapping[str, Scenario], chosen: Options) -> dict[str, Result]:
     """Run every case at its steps, at half and at a quarter of them, in parallel, under a progress bar.
 
     Each result is that of the shortest steps, and the others are its `coarser` ones: every number of it has the
@@ -34,7 +41,7 @@ def run_with_errors(cases: Mapping[str, Scenario], workers: int | Workers) -> di
         steps[name] = [case, half, half.refined()]
     # the longest first, so that no process is left alone with a long run at the end
     runs = {_at(name, n): chosen[n] for n in (2, 1, 0) for name, chosen in steps.items()}
-    good = run_cases(runs, workers)
+    good = run_cases(runs, chosen)
     return {name: with_coarser([good[_at(name, n)] for n in range(3)]) for name in cases}
 
 
@@ -73,11 +80,28 @@ def file_name(case: str) -> str:
     return case
 
 
-def run_cases(runs: Mapping[str, Scenario], workers: int | Workers) -> dict[str, Result]:
-    """Run scenarios in parallel, in the order given, under a progress bar.
+def run_cases(runs: Mapping[str, Scenario], chosen: Options) -> dict[str, Result]:
+    """Run scenarios in parallel, in the order given, under a progress bar; those that are kept are read.
 
     Raises SimulationError if a run fails.
     """
+    files = {name: chosen.kept / f"{key(case)}.h5" for name, case in runs.items()} if chosen.kept else {}
+    good = {name: run for name, path in files.items() if (run := _read(path))}
+    missing = {name: case for name, case in runs.items() if name not in good}
+    if missing:
+        good |= _made(missing, chosen.workers, files)
+    return {name: good[name] for name in runs}
+
+
+def _read(path: Path) -> Result | None:
+    """A run that is kept; None if it is not there, or not whole."""
+    try:
+        return Result.load(path)
+    except (OSError, InputError):
+        return None
+
+
+def _made(runs: Mapping[str, Scenario], workers: int | Workers, files: Mapping[str, Path]) -> dict[str, Result]:
     together = len(runs) > MOST_BARS
     with _bars() as bars:
         total = [bars.add_task(f"{len(runs)} runs", total=float(len(runs)))] if together else []
@@ -89,7 +113,7 @@ def run_cases(runs: Mapping[str, Scenario], workers: int | Workers) -> dict[str,
             for name, task in tasks.items():
                 bars.update(task, completed=shares[name])
 
-        results = run_all(runs, workers=workers, progress=show)
+        results = run_all(runs, workers=workers, progress=show, files=files)
     good: dict[str, Result] = {}
     for name, result in results.items():
         if isinstance(result, Failure):

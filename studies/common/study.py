@@ -1,9 +1,9 @@
 """What a study is and how it is run: its options, its folder, and everything that it leaves there."""
 
-import argparse
-import os
+import csv
 import sys
 import tempfile
+import textwrap
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
@@ -14,34 +14,18 @@ from pathlib import Path
 from matplotlib.figure import Figure
 from rich.console import Console
 
-from studies.common.chapter import Sheet
+from studies.common.chapter import Chapter, JudgedClaim, Sheet, Tile, without_references
 from studies.common.numbers import Number, write_summary
+from studies.common.options import Options, add_options, read_options
 from studies.common.runs import file_name, save_run
 from studies.common.words import TextTable, Words
 from support_exudyn import Result
-from support_exudyn.commands.command_line import Parser, answered, count, folder
+from support_exudyn.commands.command_line import Parser, answered, folder, say
 from support_exudyn.files.temporary import remove_leftovers
 from support_exudyn.files.whole_file import whole_file, writing_alone
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.sweeps.workers import Workers
-
-ALL_OPTIONS = ("quick", "workers", "machines")
-MOST_WORKERS, MOST_MACHINES = 1024, 100_000
-
-
-@dataclass(frozen=True)
-class Options:
-    """How a study is to be run.
-
-    out: folder for its output. quick: coarse steps for a quick look. workers: number of processes, or the pool
-    that all studies share. machines: number of plausible machines of the study that draws them, None for its
-    own choice.
-    """
-
-    out: Path
-    quick: bool
-    workers: int | Workers
-    machines: int | None = None
+from user_forces.values.value import InputError
 
 
 @dataclass(frozen=True)
@@ -49,7 +33,9 @@ class StudyOutcome:
     """What a study found.
 
     numbers: of summary.json. words: what the sentences of words.md.j2 are filled with, by name. figures,
-    tables: by the name of their files. runs: by that of their case. counts: of its own, for the summary.
+    tables: by the name of their files. runs: by that of their case. counts: of its own, for the summary. live:
+    which panels of a figure are time series that the report lets readers look into, by the figure's name.
+    tiles, claims: see `studies.common.chapter`.
     """
 
     numbers: Sequence[Number]
@@ -58,84 +44,92 @@ class StudyOutcome:
     tables: Mapping[str, TextTable]
     runs: Mapping[str, Result] = field(default_factory=dict)
     counts: Mapping[str, int] = field(default_factory=dict)
+    live: Mapping[str, Sequence[int]] = field(default_factory=dict)
+    tiles: Sequence[Tile] = ()
+    claims: Sequence[JudgedClaim] = ()
 
 
 @dataclass(frozen=True)
 class Study:
     """A study: a question, and the work that answers it.
 
-    name: of its folder. asks: the docstring of its module, whose first line is its help. work: computes all
-    that it leaves. taken: the options that it takes, besides the folder.
+    name: of its folder. asks: the docstring of its module, whose first line is its question. work: computes all
+    that it leaves. seconds: that it takes on two cores, once all is compiled. own_machine: whether it can be
+    about the user's machine.
     """
 
     name: str
     asks: str | None
     work: Callable[[Options], StudyOutcome]
-    taken: Sequence[str] = ALL_OPTIONS
+    seconds: float = 60.0
+    own_machine: bool = False
 
     @property
-    def description(self) -> str:
+    def question(self) -> str:
         """The question, in a line."""
         return (self.asks or "").splitlines()[0]
 
-    def __call__(self, chosen: Options) -> None:
-        """Compute, draw and write everything into the output folder."""
+    def __call__(self, chosen: Options) -> Chapter:
+        """Compute, draw and write everything into the output folder. Returns what it says."""
+        if not (self.own_machine or chosen.subject.is_paper):
+            raise InputError(f"--machine: {self.name} is about the paper's machine alone; allowed: without it")
         started = time.perf_counter()
         with style.look():
             found = self.work(chosen)
         for case, run in found.runs.items():
             save_run(run, chosen.out, file_name(case))
         save_figures(chosen, found.figures)
-        chapter, sheets = Words(self.name).chapter(found.words, found.tables, chosen.quick)
+        words = {"subject": chosen.subject, "quick": chosen.quick, **found.words}
+        chapter, sheets = Words(self.name).chapter(words, found.tables, found.tiles, found.claims)
         for name, table in found.tables.items():
             if table.in_file:
-                show_table(chosen.out / f"{name}.txt", sheets[name], table.width)
+                save_table(chosen.out / name, sheets[name], table.width)
         chapter.save(chosen.out)
         write_summary(chosen.out, self.name, found.numbers, time.perf_counter() - started, found.counts)
+        return chapter
 
     def main(self, argv: Sequence[str] | None = None) -> int:
         """Entry of `python -m studies.NAME`; returns the exit code."""
-        return run_main(self, options(self.name, argv, self.description, self.taken))
+        parser = Parser(prog=f"python -m studies.{self.name}", description=self.question)
+        add_options(parser, Path("results") / self.name)
+        given = parser.parse_args(argv)
+
+        return work_in_folder(lambda out: say_short(self(read_options(given)), out), given.out)
 
 
-def options(
-    study: str, argv: Sequence[str] | None, description: str, taken: Sequence[str] = ALL_OPTIONS
-) -> Options:
-    """Options of a study from the command line; taken: which it has a use for, besides the folder."""
-    parser = Parser(prog=f"python -m studies.{study}", description=description)
-    add_options(parser, Path("results") / study.rpartition(".")[2], taken)
-    given = parser.parse_args(argv)
-    return Options(given.out, given.quick, given.workers, given.machines)
+def work_in_folder(work: Callable[[Path], None], out: Path) -> int:
+    """Do what fills an output folder; what the user can mend is said in a sentence. Returns the exit code."""
+
+    def done() -> None:
+        with output_folder(out):
+            work(out)
+
+    return answered(done)
 
 
-def add_options(parser: argparse.ArgumentParser, out: Path, taken: Sequence[str] = ALL_OPTIONS) -> None:
-    """Options of a study; those that it has no use for keep their defaults."""
-    parser.set_defaults(quick=False, workers=1, machines=None)
+def folder_of(name: str, description: str | None, argv: Sequence[str] | None) -> Path:
+    """The folder for output from the command line of `python -m studies.NAME`, which has no other option."""
+    parser = Parser(prog=f"python -m studies.{name}", description=(description or "").splitlines()[0])
+    out = Path("results") / name.rpartition(".")[2]
     parser.add_argument("--out", type=folder, default=out, metavar="DIR", help=f"folder for output ({out})")
-    if "quick" in taken:
-        parser.add_argument(
-            "--quick", action="store_true", help="coarser steps: a look in seconds, larger errors"
-        )
-    if "workers" in taken:
-        parser.add_argument(
-            "--workers",
-            type=partial(count, most=MOST_WORKERS),
-            default=os.cpu_count() or 1,
-            metavar="N",
-            help="processes (all cores)",
-        )
-    if "machines" in taken:
-        parser.add_argument(
-            "--machines",
-            type=partial(count, most=MOST_MACHINES),
-            metavar="N",
-            help="plausible machines to judge claims by (256; 8 if quick)",
-        )
+    found: Path = parser.parse_args(argv).out
+    return found
+
+
+def say_short(chapter: Chapter, out: Path) -> None:
+    """Print a study in ten lines: question, answer, three numbers, where to look."""
+    wrapped = partial(textwrap.fill, width=100, subsequent_indent=10 * " ")
+    say(f"\n{chapter.study}")
+    say(wrapped(f"question  {chapter.question}"))
+    say(wrapped(f"answer    {without_references(chapter.answer)}"))
+    for number in chapter.numbers:
+        say(wrapped(f"          {without_references(number)}"))
+    say(f"look at   {out}")
 
 
 def save_figures(chosen: Options, drawings: Mapping[str, Figure]) -> None:
-    """Write a study's figures into its folder, as PDF too in the full form; side by side if there is a pool."""
-    jobs = [(drawing, chosen.out, name, not chosen.quick) for name, drawing in drawings.items()]
+    """Write a study's figures into its folder, as PNG and PDF; side by side if there is a pool."""
+    jobs = [(drawing, chosen.out, name) for name, drawing in drawings.items()]
     if isinstance(chosen.workers, Workers):
         chosen.workers.run(jobs, _save_figure, lambda shares: None)
     else:  # starting a pool takes longer
@@ -143,18 +137,29 @@ def save_figures(chosen: Options, drawings: Mapping[str, Figure]) -> None:
             _save_figure(place, *job)
 
 
-def _save_figure(place: int, drawing: Figure, out: Path, name: str, pdf: bool) -> None:
+def _save_figure(place: int, drawing: Figure, out: Path, name: str) -> None:
     del place
     with style.look():
-        style.save(drawing, out, name, pdf=pdf)
+        style.save(drawing, out, name)
 
 
-def show_table(path: Path, table: Sheet, width: int = 150) -> None:
-    """Print a table and write it as text, so many characters wide where there is no terminal."""
-    shown = table.rich()
-    Console(width=None if sys.stdout.isatty() else width).print(shown)
-    with whole_file(path) as temporary, temporary.open("w", encoding="utf-8") as file:
-        Console(file=file, width=width).print(shown)
+def show_table(stem: Path, table: Sheet, width: int = 150) -> None:
+    """Print a table, and write it as text and as CSV."""
+    Console(width=None if sys.stdout.isatty() else width).print(table.rich())
+    save_table(stem, table, width)
+
+
+def save_table(stem: Path, table: Sheet, width: int) -> None:
+    """Write a table as text, so many characters wide, and as CSV."""
+    with whole_file(stem.with_suffix(".txt")) as temporary, temporary.open("w", encoding="utf-8") as file:
+        Console(file=file, width=width).print(table.rich())
+    with (
+        whole_file(stem.with_suffix(".csv")) as temporary,
+        temporary.open("w", encoding="utf-8", newline="") as file,
+    ):
+        writer = csv.writer(file)
+        writer.writerow(table.header)
+        writer.writerows(table.rows)
 
 
 @contextmanager
@@ -182,15 +187,3 @@ def output_folder(out: Path) -> Iterator[None]:
             yield
         finally:
             remove_leftovers(out, below=True)  # of its own processes, which ended in mid-work
-
-
-def run_main(main: Callable[[Options], None], chosen: Options) -> int:
-    """Run a study; what the user can mend is said in a sentence. Returns the exit code."""
-
-    def work() -> None:
-        started = time.perf_counter()
-        with output_folder(chosen.out):
-            main(chosen)
-        print(f"{chosen.out}: done in {time.perf_counter() - started:.1f} s", file=sys.stderr)
-
-    return answered(work)

@@ -1,18 +1,23 @@
 """Sentences of a study: the template `words.md.j2` in its folder, filled with the numbers of a run.
 
-The filled template is a page of Markdown: the title; the question; "## Method" with paragraphs; "## Findings"
-with a list; "## Figures" with a list of "stem: caption"; and "## Tables", where each table has a heading
-"### name", its title and, if there is one, its caption. The rows of the tables come from the study.
+The filled template is a page of Markdown: the title; the question; "## Answer", one to three sentences that
+someone who has never heard of the paper understands; "## Numbers", a list of the three that matter, each
+"what: value"; "## Method" with paragraphs; "## Findings" with a list; "## Figures" with a list of
+"stem: caption", the most telling first; and "## Tables", where each table has a heading "### name", its title
+and, if there is one, its caption, the key table first. The rows of the tables come from the study.
+
+A sentence refers to a figure or a table by `[@stem]` or `[@name]`, to that of another study by
+`[@study/stem]`; the report makes a link of it, see `studies.common.chapter`.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 from jinja2 import ChoiceLoader, Environment, PackageLoader, StrictUndefined
 
 from studies.common import numbers
-from studies.common.chapter import Chapter, Picture, Sheet
+from studies.common.chapter import Chapter, JudgedClaim, Picture, Sheet, Tile
 
 TEMPLATE = "words.md.j2"
 
@@ -32,9 +37,9 @@ class TextTable:
     in_file: bool = True
     in_chapter: bool = True
 
-    def sheet(self, title: str, caption: str = "") -> Sheet:
-        """The table with its words."""
-        return Sheet(title, self.header, self.rows, caption, left=self.left, wide=self.wide)
+    def sheet(self, name: str, title: str, caption: str = "") -> Sheet:
+        """The table with its name and its words."""
+        return Sheet(title, self.header, self.rows, caption, left=self.left, wide=self.wide, name=name)
 
 
 @dataclass(frozen=True)
@@ -60,7 +65,6 @@ class Words:
             numbers.against,
             numbers.percent,
             numbers.rounded,
-            numbers.brief,
             numbers.off,
         ):
             surroundings.globals[tool.__name__] = surroundings.filters[tool.__name__] = tool
@@ -83,24 +87,35 @@ class Words:
         return found
 
     def chapter(
-        self, told: Mapping[str, object], tables: Mapping[str, TextTable], quick: bool
+        self,
+        told: Mapping[str, object],
+        tables: Mapping[str, TextTable],
+        tiles: Sequence[Tile] = (),
+        claims: Sequence[JudgedClaim] = (),
     ) -> tuple[Chapter, dict[str, Sheet]]:
         """The study as a chapter of the report, and all tables by name, those that are not in it among them.
 
         Raises KeyError if the template has no title for a table.
         """
-        blocks = self.blocks({**told, "quick": quick})
+        blocks = self.blocks(told)
         title = next(iter(blocks))
-        sheets = {name: table.sheet(*blocks[name]) for name, table in tables.items()}
-        pictures = (block.removeprefix("- ").partition(": ") for block in blocks["Figures"])
+        sheets = {name: table.sheet(name, *blocks[name]) for name, table in tables.items()}
+        pictures = (_item(block).partition(": ") for block in blocks["Figures"])
         chapter = Chapter(
             study=self.study,
             title=title,
             question=" ".join(blocks[title]),
+            answer=" ".join(blocks.get("Answer", ())),
+            numbers=tuple(_item(block) for block in blocks.get("Numbers", ())),
             method=tuple(blocks["Method"]),
-            findings=tuple(block.removeprefix("- ") for block in blocks["Findings"]),
+            findings=tuple(_item(block) for block in blocks["Findings"]),
             pictures=tuple(Picture(stem, caption) for stem, _, caption in pictures),
             sheets=tuple(sheets[name] for name, table in tables.items() if table.in_chapter),
-            quick=quick,
+            tiles=tuple(tiles),
+            claims=tuple(claims),
         )
         return chapter, sheets
+
+
+def _item(block: str) -> str:
+    return block.removeprefix("- ")

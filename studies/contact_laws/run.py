@@ -9,8 +9,9 @@ from collections.abc import Callable, Mapping, Sequence
 
 from studies.common import paper_machine, rise
 from studies.common.numbers import Found, Number, by_case, counted, measured, measured_all, rounded
+from studies.common.options import Options
 from studies.common.runs import run_cases, run_with_errors
-from studies.common.study import Options, Study, StudyOutcome
+from studies.common.study import Study, StudyOutcome
 from studies.common.words import TextTable
 from studies.contact_laws import cases, catalogue, free_impact
 from studies.contact_laws.cases import FEW, IMPACT_STEPS, SPEED, WITH_CLEARANCE
@@ -23,7 +24,6 @@ from studies.contact_laws.figures import (
     row_title,
 )
 from support_exudyn import Result
-from support_exudyn.sweeps.workers import worker_pool
 
 DELIVERED = "delivered_restitution"
 
@@ -115,9 +115,8 @@ def work(chosen: Options) -> StudyOutcome:
         name: free_impact.free_impact(law, SPEED, 128, records=800) for name, law in cases.loop_laws().items()
     }
     lifted = cases.rises(chosen.quick)
-    with worker_pool(chosen.workers) as pool:
-        done = run_with_errors(lifted | impacts, pool)
-        looped = run_cases(loops, pool)
+    done = run_with_errors(lifted | impacts, chosen)
+    looped = run_cases(loops, chosen)
     restitutions = restitution_numbers(done, {case: expected for case, (_, expected) in laws.items()})
     risen = {name: done[name] for name in lifted}
     numbers = rise_numbers(risen)

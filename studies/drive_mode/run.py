@@ -8,8 +8,9 @@ limit, and on hydraulic cylinders, which no displacement drives but the oil that
 from collections.abc import Mapping
 
 from studies.common.numbers import Found, by_case
+from studies.common.options import Options
 from studies.common.runs import halvings, run_with_errors
-from studies.common.study import Options, Study, StudyOutcome
+from studies.common.study import Study, StudyOutcome
 from studies.common.words import TextTable
 from studies.drive_mode import cases, tables
 from studies.drive_mode.cases import COLUMNS, MODES, PINS, case_name, naive_peaks, scenarios
@@ -20,7 +21,7 @@ from support_exudyn import Result
 
 def work(chosen: Options) -> StudyOutcome:
     """Both modes on all kinds of columns, and the peaks of the recipe that has no limit."""
-    results = run_with_errors(scenarios(chosen.quick), chosen.workers)
+    results = run_with_errors(scenarios(chosen.quick), chosen)
     numbers = measure(results)
     found = by_case(numbers)
     naive = tables.naive_said(naive_peaks())

@@ -15,7 +15,8 @@ from types import SimpleNamespace
 import numpy as np
 
 from studies.common.numbers import Number
-from studies.common.study import Options, Study, StudyOutcome
+from studies.common.options import Options
+from studies.common.study import Study, StudyOutcome
 from studies.common.words import TextTable
 from studies.extremes import long_runs
 from studies.extremes.cases import MAPS, RANDOM, cases
@@ -200,5 +201,5 @@ def _known(verdict: Judgement) -> dict[str, object]:
     return {name: value for name, value in said if not isinstance(value, float) or math.isfinite(value)}
 
 
-study = Study("extremes", __doc__, work, taken=("quick", "workers"))
+study = Study("extremes", __doc__, work)
 main = study.main

@@ -74,16 +74,14 @@ class Report:
     versions: Sheet
 
 
-def content(sections: Sequence[ReportSection], quick: bool) -> Report:
-    """The report on these chapters; quick: how those were run that do not say it."""
+def content(sections: Sequence[ReportSection]) -> Report:
+    """The report on these chapters."""
     figures, tables = _Numbers("Figure"), _Numbers("Table")
     numbered = tuple(_numbered(section, figures, tables) for section in sections)
-    quicks = [quick if s.chapter.quick is None else s.chapter.quick for s in sections]
     support = reference_support()
     data = assumptions.tables(support)
     claims, counts = _verdict_counts(sections)
     words = Words("reporting").blocks({
-        "quick": any(quicks),
         "claims": claims,
         "counts": counts,
         "start_height": assumptions.millimetres(support.start_hinge_height),
@@ -93,7 +91,7 @@ def content(sections: Sequence[ReportSection], quick: bool) -> Report:
     title = next(iter(words))
 
     def sheet(name: str, table: TextTable) -> Sheet:
-        return tables.sheet(table.sheet(*words[name]))
+        return tables.sheet(table.sheet(name, *words[name]))
 
     return Report(
         title=title,
@@ -102,8 +100,8 @@ def content(sections: Sequence[ReportSection], quick: bool) -> Report:
         sections=numbered,
         notes=tuple(words["Notes"]),
         assumptions=tuple(sheet(name, table) for name, table in data.items()),
-        commands=_commands(any(quicks)),
-        times=sheet("times", _times(sections, quicks)),
+        commands=COMMANDS,
+        times=sheet("times", _times(sections)),
         versions=sheet("versions", _versions(sections)),
     )
 
@@ -159,23 +157,19 @@ def _verdict_counts(sections: Iterable[ReportSection]) -> tuple[int, list[str]]:
 # --- how to repeat ---
 
 
-def _commands(quick: bool) -> tuple[tuple[str, str], ...]:
-    option = " --quick" if quick else ""
-    return (
-        ("python -m pip install -e .", "install, from the project's folder"),
-        (f"python -m studies{option}", "run all studies and write this report"),
-        (f"python -m studies.NAME{option}", "run one study, by its name in the table below"),
-        ("python -m studies.report", "write this report again from the results that are there"),
-    )
+COMMANDS = (
+    ("python -m pip install -e .", "install, from the project's folder"),
+    ("python -m studies", "run the studies of the paper's answer and write this report"),
+    ("python -m studies NAME", "run one study, by its name in the table below"),
+    ("python -m studies --all", "run all studies"),
+    ("python -m studies.report", "write this report again from the results that are there"),
+)
 
 
-def _times(sections: Sequence[ReportSection], quicks: Sequence[bool]) -> TextTable:
-    rows = [
-        (s.chapter.study, "quick" if quick else "full", f"{s.wall_s:.1f}")
-        for s, quick in zip(sections, quicks, strict=True)
-    ]
+def _times(sections: Sequence[ReportSection]) -> TextTable:
+    rows = [(s.chapter.study, f"{s.wall_s:.1f}") for s in sections]
     total = sum(section.wall_s for section in sections)
-    return TextTable(("study", "form", "wall time [s]"), (*rows, ("together", "", f"{total:.1f}")), left=2)
+    return TextTable(("study", "wall time [s]"), (*rows, ("together", f"{total:.1f}")))
 
 
 def _versions(sections: Sequence[ReportSection]) -> TextTable:

@@ -8,7 +8,8 @@ follows which scene a question needs.
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from studies.common.study import Options, Study, StudyOutcome, add_options, run_main
+from studies.common.options import Options, add_options, read_options
+from studies.common.study import Study, StudyOutcome, say_short, work_in_folder
 from studies.scene_detail import measures, scenes, tables
 from studies.scene_detail.figures import figures
 from studies.scene_detail.measures import MeasuredScene
@@ -67,28 +68,26 @@ def work(chosen: Options) -> StudyOutcome:
     return StudyOutcome(measures.listed(measured), words, figures(measured), sheets)
 
 
-study = Study("scene_detail", __doc__, work, taken=("quick", "workers"))
+study = Study("scene_detail", __doc__, work)
 
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Entry of `python -m studies.scene_detail`."""
-    parser = Parser(prog=f"python -m studies.{study.name}", description=study.description)
-    add_options(parser, Path("results") / study.name, study.taken)
+    parser = Parser(prog=f"python -m studies.{study.name}", description=study.question)
+    add_options(parser, Path("results") / study.name)
     parser.add_argument(
         "--commit-evidence",
         type=folder,
         metavar="PATH",
-        help="write the table that support_exudyn.simulation.recommend reads there, too; not if quick",
+        help="write the table that support_exudyn.simulation.recommend reads there, too",
     )
     given = parser.parse_args(argv)
-    if given.commit_evidence is not None and given.quick:
-        parser.error("--commit-evidence: advice is taken from the full form; allowed: without --quick")
     try:
         if given.commit_evidence is not None:
             check_replaceable(given.commit_evidence)  # now, and not when all is computed
     except InputError as error:
         parser.error(f"--commit-evidence {error}")
-    code = run_main(study, Options(given.out, given.quick, given.workers))
+    code = work_in_folder(lambda out: say_short(study(read_options(given)), out), given.out)
     if code == 0 and given.commit_evidence is not None:
         try:
             EvidenceTable.load(given.out / TABLE).save(given.commit_evidence)

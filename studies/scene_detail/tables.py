@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping
 
-from studies.common.numbers import brief
+from studies.common.numbers import rounded
 from studies.common.words import TextTable
 from studies.scene_detail.measures import (
     FROM_REFERENCE,
@@ -68,7 +68,7 @@ def shown(found: Change) -> str:
 def _short(found: Change) -> str:
     if found.error < 1e-3 * abs(found.value):
         return f"{found.value:.4g}"
-    return brief(found.value, found.error)
+    return rounded(found.value, found.error)
 
 
 def ratio(times: float) -> str:
@@ -119,14 +119,14 @@ def _cell(number: Estimate | None, scale: float) -> str:
         return ""
     if abs(number.value) <= SMALLEST[number.unit]:
         return "0"  # but for rounding
-    return brief(scale * number.value, scale * number.error)
+    return rounded(scale * number.value, scale * number.error)
 
 
 def cost_table(measured: Mapping[str, MeasuredScene]) -> TextTable:
     """What all scenes cost."""
     plain = measured[PLAINEST]
     columns: dict[str, Callable[[Cost], str]] = {
-        "time [s]": lambda c: brief(c.seconds, c.scatter) if c.scatter < c.seconds else f"{c.seconds:.2g}",
+        "time [s]": lambda c: rounded(c.seconds, c.scatter) if c.scatter < c.seconds else f"{c.seconds:.2g}",
         f"of {PLAINEST}": lambda c: f"{c.seconds / plain.cost.seconds:.3g}",
         "steps": lambda c: str(c.steps),
         "a step [us]": lambda c: f"{c.per_step:.0f}",
@@ -159,7 +159,7 @@ def advice_table(tried: Tried) -> TextTable:
         advice = recommend(question, tried)
         first = (question, advice.scene, f"{advice.seconds:.2g}", f"{advice.fullest_seconds:.2g}")
         for n, item in enumerate(advice.evidence):
-            both = (f"{brief(one.value, one.error)} {one.unit}" for one in (item.here, item.fullest))
+            both = (f"{rounded(one.value, one.error)} {one.unit}" for one in (item.here, item.fullest))
             answer = item.number.replace("_", " ")
             compared = (answer, *both, f"{item.allowed:.3g}", f"{item.difference:.3g}")
             rows.append((*(first if n == 0 else ("", "", "", "")), *compared))

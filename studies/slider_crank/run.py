@@ -15,9 +15,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from studies.common.numbers import Number, by_case, measured, off, printed, rounded
+from studies.common.options import Options
 from studies.common.rise import Peak, onset
 from studies.common.runs import impacts, run_with_errors
-from studies.common.study import Options, Study, StudyOutcome
+from studies.common.study import Study, StudyOutcome
 from studies.common.words import TextTable
 from support_exudyn import ClearancePin, Result, Scenario, SolverSettings, Steady, ravn_slider_crank
 from support_exudyn.postprocessing.figures import style
@@ -157,7 +158,7 @@ def table(numbers: Sequence[Number]) -> TextTable:
 def work(chosen: Options) -> StudyOutcome:
     """A revolution of each machine, its impacts beside the independent solution."""
     cases = scenarios(chosen.quick)
-    results = run_with_errors(cases, chosen.workers)
+    results = run_with_errors(cases, chosen)
     numbers = measure(results)
     found = by_case(numbers)
     known = [n for n in range(1, len(REFERENCE) + 1) if (f"onset_{n}_time", SMOOTH) in found]

@@ -17,8 +17,9 @@ from studies.benchmarking.references import GOALS, Sample, errors, own_errors, r
 from studies.benchmarking.scenes import SCENES
 from studies.benchmarking.variants import STOCK, Way, WayRun, cheapest, front, ways
 from studies.common.numbers import Number
+from studies.common.options import Options
 from studies.common.runs import bar
-from studies.common.study import Options, Study, StudyOutcome
+from studies.common.study import Study, StudyOutcome
 from studies.common.words import TextTable
 from studies.speed_accuracy import figures as speed_accuracy_figures
 from support_exudyn import SimulationError
@@ -197,5 +198,5 @@ def _reached(found: Sequence[WayRun]) -> Iterator[dict[str, object]]:
             }
 
 
-study = Study("speed_accuracy", __doc__, work, taken=("quick",))
+study = Study("speed_accuracy", __doc__, work)
 main = study.main

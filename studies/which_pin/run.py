@@ -5,8 +5,9 @@ the tip's position, to the forces and to the shaking in the rise.
 """
 
 from studies.common.numbers import by_case
+from studies.common.options import Options
 from studies.common.runs import run_with_errors
-from studies.common.study import Options, Study, StudyOutcome
+from studies.common.study import Study, StudyOutcome
 from studies.which_pin import cases, tables
 from studies.which_pin.cases import FRICTIONS, clearance_pin, scenarios
 from studies.which_pin.figures import figures
@@ -17,7 +18,7 @@ from support_exudyn.machines.four_bar_shield import PINS
 
 def work(chosen: Options) -> StudyOutcome:
     """The rise with clearance pins, and the closed form of where they let the support go."""
-    results = run_with_errors(scenarios(chosen.quick), chosen.workers)
+    results = run_with_errors(scenarios(chosen.quick), chosen)
     under_loads = loads(clearance_pin(0.0))
     numbers = measure(results)
     found = by_case(numbers)

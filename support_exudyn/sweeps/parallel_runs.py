@@ -1,6 +1,7 @@
 """Several runs side by side, in processes of their own."""
 
 from collections.abc import Callable, Mapping
+from pathlib import Path
 
 from support_exudyn.formulations.contract import Failure
 from support_exudyn.scenario.scenario import Scenario
@@ -16,8 +17,11 @@ ADVICE = (
 )
 
 
-def _run(place: int, scenario: Scenario) -> Result | Failure:
-    return simulate(scenario, progress=report, throw=False)
+def _run(place: int, scenario: Scenario, file: Path | None) -> Result | Failure:
+    result = simulate(scenario, progress=report, throw=False)
+    if file is not None and isinstance(result, Result):
+        result.save(file)
+    return result
 
 
 def _ignore(shares: Mapping[str, float]) -> None:
@@ -25,7 +29,11 @@ def _ignore(shares: Mapping[str, float]) -> None:
 
 
 def run_all(
-    scenarios: Mapping[str, Scenario], *, workers: int | Workers = 2, progress: Shares = _ignore
+    scenarios: Mapping[str, Scenario],
+    *,
+    workers: int | Workers = 2,
+    progress: Shares = _ignore,
+    files: Mapping[str, Path] | None = None,
 ) -> dict[str, Result | Failure]:
     """Run scenarios in parallel processes; the order given is the order in which they are started.
 
@@ -33,12 +41,14 @@ def run_all(
         scenarios: what to run, by name.
         workers: number of processes, >= 1, or the pool to use.
         progress: called about ten times a second.
+        files: where a run is written as soon as it has ended, by its name; none by default.
 
     Returns:
         For each name its Result, or the Failure that says why there is none: also of a run whose process was
         killed or crashed. Any other exception in a run (a bug, an interruption) ends all of them.
     """
     chosen = list(scenarios.values())
+    jobs = [(scenario, (files or {}).get(name)) for name, scenario in scenarios.items()]
 
     def told(shares: list[float]) -> None:
         progress(dict(zip(scenarios, shares, strict=True)))
@@ -48,5 +58,5 @@ def run_all(
 
     number = workers if isinstance(workers, Workers) else min(workers, len(scenarios))
     with worker_pool(number) as pool:
-        results = pool.run([(scenario,) for scenario in chosen], _run, told, ended)
+        results = pool.run(jobs, _run, told, ended)
     return dict(zip(scenarios, results, strict=True))

@@ -18,8 +18,8 @@ import pytest
 
 from studies.catalogue import STUDIES
 from studies.common import runs
+from studies.common.options import Options
 from studies.common.runs import with_coarser
-from studies.common.study import Options, run_main
 from studies.scene_detail import run as scene_detail
 from studies.scene_detail.runs import Timed
 from support_exudyn import Result, Scenario, simulate
@@ -36,12 +36,12 @@ COARSER = {"which_pin": 3.0, "drive_mode": 4.0, "contact_laws": 2.0}  # times as
 _run_cases = runs.run_cases
 
 
-def _once(cases: Mapping[str, Scenario], workers: int | Workers, coarser: float) -> dict[str, Result]:
+def _once(cases: Mapping[str, Scenario], chosen: Options, coarser: float) -> dict[str, Result]:
     first = {name.partition(", steps / ")[0]: case for name, case in cases.items()}  # the coarsest come last
     for name, case in first.items():
         if coarser != 1.0 and case.duration > 0.1:  # no single impact
             first[name] = replace(case, step=coarser * case.step, record_period=coarser * case.record_period)
-    found = _run_cases(first, workers)
+    found = _run_cases(first, chosen)
     return {name: found[name.partition(", steps / ")[0]] for name in cases}
 
 
@@ -62,5 +62,5 @@ def written(study: str, form: str, folder: Path, machines: int | None = None) ->
             patch.setattr(runs, "run_cases", partial(_once, coarser=COARSER.get(study, 1.0)))
             patch.setitem(style.STYLE, "savefig.dpi", 60)
             patch.setattr(scene_detail, "run_timed", _once_timed)
-        assert run_main(STUDIES[study], Options(folder, quick=True, workers=at_once(), machines=machines)) == 0
+        STUDIES[study](Options(folder, at_once(), machines=machines, quick=True))
     return folder

@@ -41,7 +41,9 @@ def response(frequency: float, period: float) -> float:
 
 
 def rms(values: Series) -> float:
-    return float(np.sqrt(np.mean(values**2)))
+    """Root mean square over time, by the trapezoidal rule."""
+    squares = values**2
+    return float(np.sqrt((squares.sum() - 0.5 * (squares[0] + squares[-1])) / (values.size - 1)))
 
 
 # --- masks ---

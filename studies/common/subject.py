@@ -1,0 +1,114 @@
+"""The machine and the pin that a study is about: the paper's, or the user's own."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+
+from studies.common import paper_machine
+from studies.common.rise import PAPER, Watched
+from support_exudyn import ClearancePin, CubicStep, Scenario, SolverSettings
+from support_exudyn.files import load_toml, read_scenario
+from support_exudyn.files.machines.read import load_machine
+from support_exudyn.model.linkage import GROUND
+from user_forces import Ambrosio, Frictionless
+from user_forces.values.value import InputError, short
+
+
+@dataclass(frozen=True)
+class Subject:
+    """What a study is about.
+
+    motion: the run with an ideal pin. pin: the pin that gets clearance. given: its pin in the user's scenario,
+    of which all but the clearance and the friction is kept; None: contact as in the paper's pin, in a bore of
+    bore_radius [m]. name: how sentences call the machine; empty for the paper's.
+    """
+
+    motion: Scenario
+    pin: str
+    given: ClearancePin | None = None
+    bore_radius: float = paper_machine.BORE_RADIUS
+    name: str = ""
+
+    @property
+    def is_paper(self) -> bool:
+        """Whether this is the paper's machine and pin, of which the paper prints numbers."""
+        return not self.name
+
+    @cached_property
+    def watched(self) -> Watched:
+        """Which channels and times are looked at: the pin, the body that it guides, and the motion."""
+        if self.is_paper:
+            return PAPER
+        place, duration = self.motion.unloaded.pins[self.pin], self.motion.duration
+        breaks = [t for drive in self.motion.drives_in_use for t in drive.breaks if t <= duration]
+        start, end = (min(breaks), max(breaks)) if len(set(breaks)) > 1 else (0.0, duration)
+        return Watched(self.pin, place.first if place.second == GROUND else place.second, start, end)
+
+    @property
+    def friction(self) -> float:
+        """The sliding coefficient of cases with friction."""
+        law = self.given.contact.friction if self.given else None
+        return law.sliding_coefficient if isinstance(law, Ambrosio) else paper_machine.SLIDING_COEFFICIENT
+
+    def with_clearance(self, clearance_mm: float, sliding_coefficient: float) -> Scenario:
+        """The run with this radial clearance in the pin, to the accuracy of studies."""
+        if self.given is None:
+            pin = paper_machine.clearance_joint(clearance_mm, sliding_coefficient, self.bore_radius)
+        else:
+            contact = self.given.contact
+            friction = Ambrosio(sliding_coefficient=self.friction)
+            if isinstance(contact.friction, Ambrosio):
+                friction = replace(contact.friction, sliding_coefficient=sliding_coefficient or self.friction)
+            bearing = replace(contact.bearing, clearance=clearance_mm / 1e3)
+            contact = replace(
+                contact, bearing=bearing, friction=friction if sliding_coefficient else Frictionless()
+            )
+            pin = replace(self.given, contact=contact)
+        return to_accuracy(replace(self.motion, pins={**self.motion.pins, self.pin: pin}))
+
+    @property
+    def ideal(self) -> Scenario:
+        """The run with the pin ideal, to the accuracy of studies."""
+        return to_accuracy(self.motion)
+
+
+def to_accuracy(scenario: Scenario) -> Scenario:
+    """The scenario by whatever formulation is cheapest, to an accuracy that leaves nothing open in print."""
+    return replace(scenario, formulation="auto", solver=SolverSettings(), accuracy=paper_machine.ACCURACY)
+
+
+def paper_subject() -> Subject:
+    """The reference support and its rear-link pin, as in the paper."""
+    return Subject(paper_machine.ideal_rise(paper_machine.STEP), paper_machine.CLEARANCE_PIN)
+
+
+def own_subject(path: Path, pin: str | None = None) -> Subject:
+    """The machine of a TOML file: of a machine, which then does the paper's rise, or of a scenario.
+
+    Arguments:
+        path: the file.
+        pin: which pin gets clearance; None: the only one that is not ideal in the scenario, else the paper's.
+
+    Raises InputError that names the file and what is allowed; OSError if it cannot be read.
+    """
+    bores: Mapping[str, float] = {}
+    if "machine" in load_toml(path):
+        scenario = read_scenario(path)
+    else:
+        data = load_machine(path)
+        bores = data.bore_radii
+        drive = CubicStep() if data.stroke is None else CubicStep(stroke=data.stroke)
+        scenario = Scenario(machine=data.machine, drive=drive, duration=5.0)
+    pins = tuple(scenario.unloaded.pins)
+    loose = [name for name, one in scenario.pins.items() if isinstance(one, ClearancePin)]
+    chosen = pin or (loose[0] if len(loose) == 1 else paper_machine.CLEARANCE_PIN)
+    if chosen not in pins:
+        raise InputError(f"{path}: --pin {short(chosen)}: no such pin; allowed: {', '.join(pins)}")
+    given = scenario.pins.get(chosen)
+    others = {name: one for name, one in scenario.pins.items() if name != chosen}
+    clearance = given if isinstance(given, ClearancePin) else None
+    bore = bores.get(chosen, paper_machine.BORE_RADIUS)
+    return Subject(replace(scenario, pins=others), chosen, clearance, bore, path.stem.replace("_", " "))
