@@ -48,12 +48,12 @@ def measured(
     if isinstance(measure, Peak):
         of_records = measure.missed(result)
     else:
-        of_records = _of_records(lambda every: measure(cast(Result, _Thinned(result, every))))
+        of_records = error_of_records(lambda every: measure(cast(Result, Thinned(result, every))))
     return Number(name, case, found.value, unit, found.error + of_records, paper)
 
 
 @dataclass(frozen=True)
-class _Thinned:
+class Thinned:
     """A run as if only every so many of its records had been taken."""
 
     run: Result
@@ -61,6 +61,7 @@ class _Thinned:
 
     @property
     def time(self) -> npt.NDArray[np.float64]:
+        """Times of the records that are left [s]."""
         return self.run.time[:: self.every]
 
     def __getitem__(self, name: str) -> npt.NDArray[np.float64]:
@@ -70,13 +71,17 @@ class _Thinned:
         return getattr(self.run, name)
 
 
-def _of_records(thinned: Callable[[int], float]) -> float:
-    """How far a number may be from that of records without gaps.
+def error_of_records(thinned: Callable[[int], float]) -> float:
+    """How far a number may be from that of records without gaps, by those of fewer records.
 
-    thinned: the number of every so many records. Half as many, and a quarter, tell how fast it settles.
+    Of half as many the whole distance counts, and half that of a quarter and of a fifth: shaking in step with
+    the records is seen by one of them. Of 460 means and spreads of forces with corners, from 3 to 120 times a
+    second, 98 % are covered; a test draws others.
+
+    thinned: the number of every so many records.
     """
     found = thinned(1)
-    return max(abs(thinned(2) - found), 0.5 * abs(thinned(4) - found))
+    return max(weight * abs(thinned(every) - found) for every, weight in ((2, 1.0), (4, 0.5), (5, 0.5)))
 
 
 def measured_all(results: Mapping[str, Result], measures: Mapping[str, tuple[str, Measure]]) -> list[Number]:
@@ -107,7 +112,7 @@ def compared(
     here = run.estimate(lambda finer: measure(finer, other), unit)
     there = other.estimate(lambda finer: measure(run, finer), unit)
     error = here.error if run is other else here.error + there.error
-    error += _of_records(lambda n: measure(cast(Result, _Thinned(run, n)), cast(Result, _Thinned(other, n))))
+    error += error_of_records(lambda n: measure(cast(Result, Thinned(run, n)), cast(Result, Thinned(other, n))))
     return Number(name, case, here.value, unit, error, paper)
 
 
@@ -132,27 +137,25 @@ def write_summary(
 
 
 def rounded(value: float, error: float) -> str:
-    """A number with its error, both to two digits of the error; whole numbers as such.
+    """A number with its error, both to two digits of the error, at most six of the number; counts as such.
 
-    Where the error is below the sixth digit, that is where the number ends, without an error: all its digits
-    are right.
+    Where the error is below the sixth digit it is not said: all digits are right.
     """
     if error == 0.0 or not math.isfinite(error):
         return f"{value:.9g}"
     if value.is_integer() and error.is_integer() and abs(value) + error < 1e6:
         return f"{value:.0f} ± {error:.0f}"
-    digits = 1 - math.floor(math.log10(error))
-    shown = max(abs(value), error)
-    most = MOST_DIGITS - 1 - math.floor(math.log10(shown))
-    if digits > most:
+    most = MOST_DIGITS - 1 - math.floor(math.log10(max(abs(value), error)))
+    if error < 0.5 * 10.0**-most:
         return _plain(value, most)
+    digits = min(most, 1 - math.floor(math.log10(error)))
     return f"{_plain(value, digits)} ± {_plain(error, digits)}"
 
 
 def _plain(value: float, digits: int) -> str:
-    """A number with so many decimals; below 0 that many zeros end it. Small ones with a power."""
+    """A number with so many decimals; below 0 that many zeros end it. Small ones with a power of ten."""
     if digits > 9:
-        return f"{value:.{MOST_DIGITS - 1}e}" if value else "0"
+        return f"{value:.{max(0, digits + math.floor(math.log10(abs(value))))}e}" if value else "0"
     return f"{round(value, digits):.{max(0, digits)}f}"
 
 

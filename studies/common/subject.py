@@ -14,6 +14,7 @@ from support_exudyn.files import load_toml, read_scenario
 from support_exudyn.files.machines.read import load_machine
 from support_exudyn.model.linkage import GROUND
 from user_forces import Ambrosio, Frictionless
+from user_forces.friction.law import FrictionLaw
 from user_forces.values.value import InputError, short
 
 
@@ -59,15 +60,18 @@ class Subject:
             pin = paper_machine.clearance_joint(clearance_mm, sliding_coefficient, self.bore_radius)
         else:
             contact = self.given.contact
-            friction = Ambrosio(sliding_coefficient=self.friction)
-            if isinstance(contact.friction, Ambrosio):
-                friction = replace(contact.friction, sliding_coefficient=sliding_coefficient or self.friction)
             bearing = replace(contact.bearing, clearance=clearance_mm / 1e3)
-            contact = replace(
-                contact, bearing=bearing, friction=friction if sliding_coefficient else Frictionless()
-            )
+            contact = replace(contact, bearing=bearing, friction=self._law(sliding_coefficient))
             pin = replace(self.given, contact=contact)
         return to_accuracy(replace(self.motion, pins={**self.motion.pins, self.pin: pin}))
+
+    def _law(self, sliding_coefficient: float) -> FrictionLaw:
+        """The scenario's friction, or Ambrosio's if it has another kind, with this coefficient."""
+        if sliding_coefficient == 0.0:
+            return Frictionless()
+        law = self.given.contact.friction if self.given else None
+        own = law if isinstance(law, Ambrosio) else Ambrosio(sliding_coefficient=sliding_coefficient)
+        return replace(own, sliding_coefficient=sliding_coefficient)
 
     @property
     def ideal(self) -> Scenario:

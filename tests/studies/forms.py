@@ -31,6 +31,7 @@ ROUGH, QUICK = "rough", "quick"
 FORMS = [ROUGH, pytest.param(QUICK, marks=pytest.mark.slow)]
 ONLY_SLOW = [pytest.param(form, marks=pytest.mark.slow) for form in (ROUGH, QUICK)]
 on_the_quick_form = pytest.mark.parametrize("out", FORMS[1:], indirect=True)  # where errors are looked at
+ROUGH_ACCURACY = "standard"  # of runs to an accuracy
 COARSER = {"which_pin": 3.0, "drive_mode": 4.0, "contact_laws": 2.0}  # times as long rough steps and records
 
 _run_cases = runs.run_cases
@@ -39,7 +40,9 @@ _run_cases = runs.run_cases
 def _once(cases: Mapping[str, Scenario], chosen: Options, coarser: float) -> dict[str, Result]:
     first = {name.partition(", steps / ")[0]: case for name, case in cases.items()}  # the coarsest come last
     for name, case in first.items():
-        if coarser != 1.0 and case.duration > 0.1:  # no single impact
+        if case.accuracy is not None:
+            first[name] = replace(case, accuracy=ROUGH_ACCURACY)
+        elif coarser != 1.0 and case.duration > 0.1:  # no single impact
             first[name] = replace(case, step=coarser * case.step, record_period=coarser * case.record_period)
     found = _run_cases(first, chosen)
     return {name: found[name.partition(", steps / ")[0]] for name in cases}

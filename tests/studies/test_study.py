@@ -4,7 +4,11 @@ from __future__ import annotations
 
 import argparse
 import math
+import shutil
+from collections.abc import Callable
 from dataclasses import replace
+from importlib import resources
+from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -12,23 +16,33 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from studies.common.numbers import Number, brief, compared, counted, measured, rounded
-from studies.common.runs import halvings, run_with_errors, save_run
-from studies.common.study import options, output_folder
-from support_exudyn import Result, Scenario, Steady, ravn_slider_crank
-from support_exudyn.commands.command_line import count
+from studies.common import rise
+from studies.common import runs as runs_module
+from studies.common.numbers import (
+    Number,
+    against,
+    compared,
+    counted,
+    error_of_records,
+    measured,
+    rounded,
+)
+from studies.common.options import Options, add_options, read_options
+from studies.common.rise import Series
+from studies.common.runs import halvings, run_cases, run_with_errors, save_run
+from studies.common.study import output_folder
+from support_exudyn import CubicStep, Result, Scenario, Steady, ravn_slider_crank
+from support_exudyn.commands.command_line import Parser, count
+from support_exudyn.files import save_scenario
 from support_exudyn.files.temporary import PREFIX
+from tests.cases.run_cases import loose_support
 from tests.hostile import left_behind, posix_only, with_own_files
+from user_forces.values.value import InputError
 
+MACHINES = Path(str(resources.files("support_exudyn.files.machines")))
 sizes = st.floats(1e-9, 1e9)
 values = sizes | sizes.map(lambda x: -x)
 shares = st.floats(-12.0, 1.0).map(lambda x: 10.0**x)  # an error, of the number
-
-
-def parts(text: str) -> tuple[float, float, str, str]:
-    """Number and error, as numbers and as they are said."""
-    value, error = text.split(" ± ")
-    return float(value), float(error), value, error
 
 
 # --- numbers with errors ---
@@ -37,14 +51,20 @@ def parts(text: str) -> tuple[float, float, str, str]:
 @pytest.mark.parametrize(
     ("value", "error", "text"),
     [
-        (51503.8323, 0.0088, "51503.8323 ± 0.0088"),
-        (51503.8323, 255.0, "51504 ± 255"),
+        (51503.8323, 0.0088, "51503.8"),
+        (51503.8323, 0.88, "51503.8 ± 0.9"),
+        (7.0, 8.0, "7 ± 8"),
+        (0.006566085, 2.5e-11, "0.00656609"),
+        (0.0, 2.5e-11, "0 ± 2.5e-11"),
+        (3.21e-9, 2.5e-11, "3.210e-09 ± 2.5e-11"),
+        (1.8e7, 3.2e5, "18000000 ± 320000"),
+        (51503.8323, 255.0, "51500 ± 260"),
         (0.015271, 0.000097, "0.015271 ± 0.000097"),
         (-3.690176, 0.0123, "-3.690 ± 0.012"),
         (857942.947, 0.0, "857942.947"),
         (1.0, math.inf, "1"),
         (1.0, math.nan, "1"),
-        (12.0, 1.0, "12.0 ± 1.0"),
+        (12.0, 1.0, "12 ± 1"),
     ],
 )
 def test_a_number_is_rounded_to_the_digits_that_its_error_leaves(value: float, error: float, text: str) -> None:
@@ -52,47 +72,50 @@ def test_a_number_is_rounded_to_the_digits_that_its_error_leaves(value: float, e
 
 
 @given(value=values, share=shares)
-def test_a_rounded_number_is_off_by_less_than_its_error(value: float, share: float) -> None:
-    error = share * abs(value)
-    said, its_error, number, of_it = parts(rounded(value, error))
-    # two digits of the error are left: half of the second is at most a twentieth of it; rounding aside. Where
-    # more than nine decimals would be needed, six digits of the number are said
-    assert abs(said - value) <= max(
-        0.0501 * error, 0.501e-5 * abs(value) if "e" in of_it else 0.0, 1e-15 * abs(value)
-    )
-    assert its_error == pytest.approx(error, rel=0.5 if "e" in of_it else 0.051)
-    assert len(number.partition(".")[2]) <= 10
-
-
-@pytest.mark.parametrize(
-    ("value", "error", "text"),
-    [
-        (51503.8323, 0.0088, "51503.83 ± 0.01"),
-        (51503.83, 0.0000123, "51503.83 ± 1e-05"),
-        (51503.8323, 255.0, "51504 ± 255"),
-        (-3.690176, 1e-9, "-3.690176 ± 1e-09"),
-        (0.0, 0.0, "0"),
-        (0.1234567891, 0.0, "0.1234568"),
-    ],
-)
-def test_a_brief_number_is_short(value: float, error: float, text: str) -> None:
-    assert brief(value, error) == text
-
-
-@given(value=values, share=shares)
 @example(value=99999.99999, share=1e-9)
 @example(value=51503.8323, share=1.7e-7)
-def test_a_brief_number_is_right_to_seven_digits_or_to_its_error(value: float, share: float) -> None:
+def test_all_digits_of_a_rounded_number_are_right(value: float, share: float) -> None:
     error = share * abs(value)
-    said, its_error, number, _ = parts(brief(value, error))
-    unit = 10.0 ** (math.floor(math.log10(abs(value))) - 6)  # of the seventh digit
-    # half of it, or what the error leaves; where more than nine decimals would be needed six digits are said
-    scientific = 5.01 * unit if "e" in number else 0.0
-    assert abs(said - value) <= max(0.501 * unit, 0.0501 * error, scientific)
-    assert abs(its_error - error) <= max(0.501 * error, 0.501 * unit)  # one digit of the error, or the seventh
-    digits = number.partition("e")[0].lstrip("-0.").replace(".", "")
-    integers = math.floor(math.log10(abs(value))) + 1
-    assert len(digits) <= max(7, integers) + 1  # one more where rounding carries
+    number, _, its_error = rounded(value, error).partition(" ± ")
+    if its_error:
+        assert float(its_error) == pytest.approx(error, rel=0.51)
+        assert abs(float(number) - value) <= max(0.051 * error, 0.501e-5 * abs(value))
+    else:  # the error is below the sixth digit
+        assert abs(float(number) - value) <= 0.501e-5 * abs(value)
+        assert error <= 0.501e-5 * abs(value)
+
+
+@given(share=st.floats(1e-8, 3.0), change=st.floats(-0.9, 5.0))
+def test_a_change_in_per_cent_is_told_to_its_error(share: float, change: float) -> None:
+    base = Number("n", "a", 100.0, "N", 0.5 * share)
+    text = against(Number("n", "b", 100.0 * (1.0 + change), "N", 0.5 * share), base)
+    error = 0.5 * share * (2.0 + change)  # [%]
+    assert "e" not in text.replace("the same", "").replace("within", "")
+    if text.startswith("the same"):
+        assert abs(100.0 * change) <= error * (1.0 + 1e-9)
+    else:
+        number = text.removesuffix(" %")
+        assert number.startswith(("+", "-"))
+        digits = len(number.partition(".")[2])
+        assert abs(float(number) - 100.0 * change) <= 0.501 * 10.0**-digits
+        assert digits == 0 or 10.0**-digits >= 0.99 * min(error, 0.1 * abs(100.0 * change))
+
+
+def test_the_error_of_records_covers_what_lies_between_them() -> None:
+    # impacts: a force with corners, at least eight records each
+    end, shares = 2.0, []
+    fine = np.linspace(0.0, end, 200_001)
+    for rate, phase in np.random.default_rng(7).uniform((3.0, 0.0), (60.0, 6.0), (40, 2)):
+
+        def force(time: Series, rate: float = rate, phase: float = phase) -> Series:
+            return np.maximum(0.0, np.sin(2.0 * np.pi * rate * time + phase))
+
+        for statistic, period in product((rise.mean, rise.spread), (1e-3, 2e-3)):
+            time = np.arange(0.0, end + 0.5 * period, period)
+            found = [statistic(time[::n], force(time[::n])) for n in range(1, 6)]
+            off = abs(found[0] - statistic(fine, force(fine)))
+            shares.append(off / error_of_records(lambda every, found=found: found[every - 1]))  # type: ignore[misc]
+    assert np.mean(np.array(shares) <= 1.0) >= 0.95
 
 
 # --- options ---
@@ -109,21 +132,89 @@ def test_what_is_no_count_is_refused_with_what_is_allowed(text: str) -> None:
         count(text)
 
 
+def read(*words: str) -> Options:
+    parser = Parser()
+    add_options(parser, Path("results"))
+    return read_options(parser.parse_args(words))
+
+
 def test_options_have_defaults() -> None:
-    plain = options("claims", [], "Text.")
-    assert plain.out.parts == ("results", "claims")
-    assert not plain.quick
-    assert plain.machines is None
+    plain = read()
+    assert plain.out.parts == ("results",)
+    assert plain.kept == plain.out / "kept"
+    assert (plain.machines, plain.runs) == (None, None)
+    assert plain.subject.is_paper
     assert isinstance(plain.workers, int)
     assert plain.workers >= 1
-    given = options("claims", ["--quick", "--workers", "3", "--machines", "9", "--out", "x"], "Text.")
-    assert (given.quick, given.workers, given.machines, given.out.parts) == (True, 3, 9, ("x",))
+    given = read("--workers", "3", "--machines", "9", "--runs", "5", "--out", "x")
+    assert (given.workers, given.machines, given.runs, given.out.parts) == (3, 9, 5, ("x",))
+
+
+def test_there_is_no_quick_form_any_more_which_is_said(capsys: pytest.CaptureFixture[str]) -> None:
+    assert read("--quick") == read()
+    assert capsys.readouterr().err.startswith("--quick has no effect")
 
 
 def test_no_machines_are_refused_with_the_reason(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit):
-        options("claims", ["--machines", "0"], "Text.")
+        read("--machines", "0")
     assert "--machines: 0: allowed: from 1 on" in capsys.readouterr().err
+
+
+# --- one's own machine ---
+
+
+def test_a_scenario_of_ones_own_keeps_all_but_the_clearance_and_the_friction(tmp_path: Path) -> None:
+    mine = loose_support(duration=2.0, drive=CubicStep(start=0.5, end=1.5, stroke=0.2))
+    path = save_scenario(mine, tmp_path / "my_support.toml")
+    subject = read("--machine", str(path)).subject
+    (pin,) = mine.pins
+    assert (subject.pin, subject.name, subject.is_paper) == (pin, "my support", False)
+    assert (subject.watched.start, subject.watched.end) == (0.5, 1.5)
+    assert subject.watched.force == f"pin.{pin}.force"
+    assert not subject.ideal.pins
+    loose = subject.with_clearance(0.7, 0.1)
+    contact = loose.pins[pin].contact  # type: ignore[attr-defined]
+    given = mine.pins[pin].contact  # type: ignore[attr-defined]
+    assert contact.bearing == replace(given.bearing, clearance=0.7e-3)
+    assert contact.normal == given.normal
+    assert contact.friction.sliding_coefficient == 0.1
+    assert (loose.drive, loose.duration) == (mine.drive, mine.duration)
+
+
+def test_a_machine_of_ones_own_does_the_papers_rise(tmp_path: Path) -> None:
+    shutil.copy(MACHINES / "zf18000.toml", tmp_path / "mine.toml")
+    subject = read("--machine", str(tmp_path / "mine.toml"), "--pin", "rear_shield").subject
+    assert (subject.pin, subject.name) == ("rear_shield", "mine")
+    assert subject.motion.duration == 5.0
+    assert subject.with_clearance(1.0, 0.0).pins.keys() == {"rear_shield"}
+
+
+def test_a_pin_that_the_machine_does_not_have_is_refused(tmp_path: Path) -> None:
+    shutil.copy(MACHINES / "zf18000.toml", tmp_path / "mine.toml")
+    with pytest.raises(InputError, match=r"mine\.toml: --pin 'middle': no such pin; allowed: .*rear_base"):
+        read("--machine", str(tmp_path / "mine.toml"), "--pin", "middle")
+    with pytest.raises(InputError, match="--pin rear_base: allowed: together with --machine FILE"):
+        read("--pin", "rear_base")
+
+
+# --- kept runs ---
+
+
+def test_a_run_that_is_kept_is_not_made_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    case = Scenario(machine=ravn_slider_crank(), drive=Steady(rate=100.0), duration=0.002, step=1e-3)
+    chosen = Options(tmp_path, kept=tmp_path / "kept")
+    (first,) = run_cases({"a": case}, chosen).values()
+    (file,) = (tmp_path / "kept").iterdir()
+    monkeypatch.setattr(runs_module, "run_all", lambda *_, **__: pytest.fail("made again"))
+    (again,) = run_cases({"under another name": case}, chosen).values()
+    assert again.channels.keys() == first.channels.keys()
+    assert all(np.array_equal(again[name], first[name]) for name in first.channels)
+    monkeypatch.undo()
+    file.write_bytes(file.read_bytes()[:1000])  # damaged
+    (new,) = run_cases({"a": case}, chosen).values()
+    assert np.array_equal(new.time, first.time)
+    assert Result.load(file).time.size == first.time.size
 
 
 # --- runs with errors ---
@@ -133,11 +224,19 @@ def test_no_machines_are_refused_with_the_reason(capsys: pytest.CaptureFixture[s
 def runs() -> dict[str, Result]:
     stand = Scenario(machine=ravn_slider_crank(), drive=Steady(rate=100.0), duration=0.01, step=1e-3)
     cases = {"slow": stand, "fast": replace(stand, drive=Steady(rate=300.0))}
-    return run_with_errors({name: replace(case, record_period=1e-3) for name, case in cases.items()}, 1)
+    return run_with_errors(
+        {name: replace(case, record_period=1e-3) for name, case in cases.items()}, Options(Path())
+    )
 
 
 def moment(run: Result) -> float:
     return float(np.abs(run["crank.moment"]).max())
+
+
+def thinned(measure: Callable[[Result], float], every: int, run: Result) -> float:
+    """The measure of every so many records."""
+    channels = {name: replace(one, values=one.values[::every]) for name, one in run.channels.items()}
+    return measure(replace(run, channels=channels, coarser=None))
 
 
 def test_every_case_is_run_at_its_steps_at_half_and_at_a_quarter_of_them(runs: dict[str, Result]) -> None:
@@ -148,7 +247,10 @@ def test_every_case_is_run_at_its_steps_at_half_and_at_a_quarter_of_them(runs: d
 def test_a_number_has_the_error_that_accuracies_estimate(runs: dict[str, Result]) -> None:
     run = runs["fast"]
     found, told = measured("moment", "fast", "N m", run, moment, 2.0), run.estimate(moment)
-    assert found == Number("moment", "fast", told.value, "N m", told.error, 2.0)
+    assert (found.value, found.paper) == (told.value, 2.0)
+    assert found.numerical_error == told.error + error_of_records(lambda n: thinned(moment, n, run))
+    last_one = measured("end", "fast", "N m", run, lambda run: float(run["crank.moment"][0]))
+    assert last_one.numerical_error == run.estimate(lambda run: float(run["crank.moment"][0])).error
     *_, before, last = map(moment, halvings(run))
     assert found.numerical_error > abs(last - before) / 3.0  # which is the error of second order itself
     assert found.value == last
@@ -170,6 +272,7 @@ def test_errors_of_both_runs_add_up_in_a_comparison(runs: dict[str, Result]) -> 
     found = compared("more", "fast", "N m", fast, slow, lambda run, other: moment(run) - moment(other))
     assert found.value == moment(fast) - moment(slow)
     apart = fast.estimate(moment).error + slow.estimate(moment).error
+    apart += error_of_records(lambda n: thinned(moment, n, fast) - thinned(moment, n, slow))
     assert found.numerical_error == pytest.approx(apart, rel=1e-2)  # but for shares of rounding
     own = compared("more", "fast", "N m", fast, fast, lambda run, other: moment(run) - moment(other))
     assert own.value == 0.0
