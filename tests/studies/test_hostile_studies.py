@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -19,16 +20,21 @@ import pytest
 
 from studies import __main__ as all_studies
 from studies import report
+from studies.catalogue import DEFAULT, STUDIES
 from studies.claims import hypercube
 from studies.claims.plausible import REFERENCE
+from studies.common.chapter import Chapter
 from studies.common.numbers import Number, write_summary
-from studies.common.study import Options, run_main, save_figures
+from studies.common.options import Options
+from studies.common.study import Study, save_figures, say_short, work_in_folder
+from studies.common.subject import paper_subject
 from support_exudyn.files.whole_file import writing_alone
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.sweeps.workers import ProcessEndedError, Workers
 from tests.hostile import DISKS, left_behind, little_room, posix_only
 from tests.processes import ROOT, environment, linux_only, session_of, wait_until
 from tests.studies import hostile_main
+from user_forces.values.value import InputError
 
 # --- interrupted, and started twice ---
 
@@ -98,7 +104,7 @@ class TestInterrupted:
 # --- folders ---
 
 
-def nothing(chosen: Options) -> None:
+def nothing(chosen: object) -> None:
     pytest.fail("the work is begun")
 
 
@@ -132,8 +138,8 @@ def test_a_folder_that_cannot_be_made_is_said_before_the_work(
     tmp_path: Path, place: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     out = PLACES[place](tmp_path)
-    assert run_main(nothing, Options(out, True, 1)) == 1
-    assert all_studies.main(["--quick", "--out", str(out)]) == 1
+    assert work_in_folder(nothing, out) == 1
+    assert all_studies.main(["--out", str(out)]) == 1
     lines = capsys.readouterr().err.splitlines()
     assert len(lines) == 2
     assert all(line.startswith("error: --out ") and "allowed: a folder" in line for line in lines)
@@ -145,22 +151,42 @@ def test_a_folder_whose_name_no_folder_can_have_is_said_before_the_work(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     out = tmp_path / "a\0b"
-    assert run_main(nothing, Options(out, True, 1)) == 1
+    assert work_in_folder(nothing, out) == 1
     assert "allowed: a folder" in capsys.readouterr().err
     with pytest.raises(SystemExit):
-        all_studies.main(["--quick", "--out", str(out)])
+        all_studies.main(["--out", str(out)])
     assert "allowed: a name that a folder can have" in capsys.readouterr().err
 
 
 @posix_only
 def test_all_studies_wait_for_one_that_writes_all(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     with writing_alone(tmp_path):
-        assert all_studies.main(["--quick", "--out", str(tmp_path)]) == 1
+        assert all_studies.main(["--out", str(tmp_path)]) == 1
     assert f"another process ({os.getpid()}) is writing there" in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == []
 
 
-def test_all_studies_stop_at_the_first_that_fails(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def put_studies(monkeypatch: pytest.MonkeyPatch, work: Mapping[str, Callable[[Options], None]]) -> None:
+    """Studies of the main command that only do this."""
+
+    @dataclass(frozen=True)
+    class OnlyWork:
+        name: str
+        work: Callable[[Options], None]
+        seconds: float = 1.0
+        own_machine: bool = False
+        question: str = "Why?"
+
+        def __call__(self, chosen: Options) -> Chapter:
+            self.work(chosen)
+            return Chapter(self.name, "Title", "Why?", (), (), (), (), answer="So.")
+
+    monkeypatch.setattr(all_studies, "STUDIES", {name: OnlyWork(name, one) for name, one in work.items()})
+    monkeypatch.setattr(all_studies, "DEFAULT", tuple(work))
+    monkeypatch.setattr(all_studies, "rebuild", lambda out, order: 0)
+
+
+def test_an_interruption_ends_all_studies(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     ran: list[str] = []
 
     def interrupted(chosen: Options) -> None:
@@ -168,14 +194,87 @@ def test_all_studies_stop_at_the_first_that_fails(tmp_path: Path, monkeypatch: p
         left_behind(chosen.out)
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(
-        all_studies,
-        "STUDIES",
-        {"one": lambda chosen: ran.append(chosen.out.name), "two": interrupted, "three": nothing},
-    )
-    assert all_studies.main(["--workers", "1", "--out", str(tmp_path)]) == 130
+    put_studies(monkeypatch, {"one": lambda o: ran.append(o.out.name), "two": interrupted, "three": nothing})
+    with pytest.raises(SystemExit, match="130"):
+        all_studies.main(["--workers", "1", "--out", str(tmp_path)])
     assert ran == ["one", "two"]
     assert sorted(path.name for path in tmp_path.rglob("*")) == ["one", "two"]
+
+
+@pytest.mark.parametrize("error", [InputError("wrong: allowed: right"), RuntimeError("a bug")])
+def test_a_study_that_fails_does_not_keep_the_others_from_the_report(
+    tmp_path: Path, error: Exception, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    ran: list[str] = []
+
+    def failing(chosen: Options) -> None:
+        raise error
+
+    put_studies(monkeypatch, {"one": failing, "two": lambda chosen: ran.append(chosen.out.name)})
+    monkeypatch.setattr(all_studies, "rebuild", lambda out, order: ran.append("report") or 0)
+    assert all_studies.main(["--workers", "1", "--out", str(tmp_path)]) == 1
+    assert ran == ["two", "report"]
+    said = capsys.readouterr()
+    assert str(error) in said.err
+    assert said.err.splitlines()[-1] == "error: failed: one; the report has all the others"
+    assert "study 2 of 2: two" in said.err
+
+
+def test_studies_are_run_by_name_and_unknown_ones_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    ran: list[str] = []
+    put_studies(
+        monkeypatch, {name: lambda chosen: ran.append(chosen.out.name) for name in ("one", "two", "three")}
+    )
+    monkeypatch.setattr(all_studies, "DEFAULT", ("one",))
+    place = ["--workers", "1", "--out", str(tmp_path)]
+    for words, expected in (
+        ([], ["one"]),
+        (["three", "two"], ["three", "two"]),
+        (["--all"], ["one", "two", "three"]),
+    ):
+        ran.clear()
+        assert all_studies.main([*words, *place]) == 0
+        assert ran == expected
+    said = capsys.readouterr()
+    assert "study 2 of 3: two" in said.err
+    assert "answer    So." in said.out
+    assert all_studies.main(["four", *place]) == 1
+    assert "'four': no such study; allowed: one, two, three" in capsys.readouterr().err
+    assert all_studies.main(["one", "--all", *place]) == 1
+
+
+def test_all_studies_are_told_with_question_and_time(capsys: pytest.CaptureFixture[str]) -> None:
+    assert all_studies.main(["--list"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert [line.split()[0] for line in lines] == list(STUDIES)
+    for line, study in zip(lines, STUDIES.values(), strict=True):
+        assert study.question in line
+        assert re.search(r"\d+ (s|min)\b", line)
+        assert ("takes --machine" in line) == study.own_machine
+    assert [line.split()[0] for line in lines if "the paper's answer" in line] == list(DEFAULT)
+
+
+def test_what_a_study_says_in_the_terminal_has_ten_lines(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    chapter = Chapter(
+        "name", "Title", "What does it do? " * 8, (), (), (), (), answer="It does this, see [@fig]. " * 8,
+        numbers=("force: 1 N", "path: 2 mm", "angle: 3 deg"),
+    )  # fmt: skip
+    say_short(chapter, tmp_path)
+    said = capsys.readouterr().out
+    assert len(said.strip().splitlines()) <= 10
+    assert "[@" not in said
+    assert str(tmp_path) in said
+
+
+def test_a_study_of_the_papers_machine_alone_refuses_another(tmp_path: Path) -> None:
+    about = Study("only", "Why?", lambda chosen: pytest.fail("it is begun"))
+    mine = replace(paper_subject(), name="mine")
+    with pytest.raises(InputError, match="--machine: only is about the paper's machine alone"):
+        about(Options(tmp_path, subject=mine))
 
 
 # --- disks ---
@@ -188,7 +287,7 @@ def test_a_study_on_a_full_disk_says_which_file_and_leaves_the_old_ones(
     drawing, axes = plt.subplots()
     axes.plot([0.0, 1.0], [0.0, 1.0])
     with little_room(tmp_path, 65536, kind) as folder:
-        chosen = Options(folder / "out", False, 1)
+        chosen = Options(folder / "out")
 
         def numbers(count: int) -> Callable[[Options], None]:
             many = [Number("n", str(n), 1.0, "1", 0.0) for n in range(count)]
@@ -200,16 +299,16 @@ def test_a_study_on_a_full_disk_says_which_file_and_leaves_the_old_ones(
                 (chosen.out / "filler").write_bytes(bytes(50000))
                 save_figures(chosen, {"figure": drawing})
 
-        assert run_main(numbers(1), chosen) == 0
+        assert work_in_folder(lambda out: numbers(1)(chosen), chosen.out) == 0
         old = (chosen.out / "summary.json").read_bytes()
         capsys.readouterr()
-        assert run_main(numbers(2000), chosen) == 1
+        assert work_in_folder(lambda out: numbers(2000)(chosen), chosen.out) == 1
         (line,) = capsys.readouterr().err.splitlines()
         assert line.startswith(f"error: {chosen.out / 'summary.json'}: ")
         assert line.endswith("it cannot be written")
         assert (chosen.out / "summary.json").read_bytes() == old
         if kind == "full disk":  # the figure alone is smaller than the limit
-            assert run_main(figure, chosen) == 1
+            assert work_in_folder(lambda out: figure(chosen), chosen.out) == 1
             (line,) = capsys.readouterr().err.splitlines()
             assert line.startswith(f"error: {chosen.out / 'figure.png'}: ")
             assert line.endswith("it cannot be written")
