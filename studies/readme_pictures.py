@@ -15,6 +15,7 @@ from tempfile import TemporaryDirectory
 from matplotlib.figure import Figure
 from PIL import Image
 
+from studies.clearance_influence import figures as influence_figures
 from studies.clearance_influence import run as clearance_influence
 from studies.common import paper_machine
 from studies.common.options import MOST_WORKERS, Options
@@ -51,12 +52,12 @@ class Runs:
     @cached_property
     def paper(self) -> Mapping[str, Result]:
         """The cases of `clearance_influence` at its steps."""
-        return run_cases(clearance_influence.scenarios(quick=False), Options(Path(), self.workers))
+        return run_cases(clearance_influence.scenarios(), Options(Path(), self.workers))
 
     @property
     def with_clearance(self) -> Result:
         """The rise with 1.5 mm in the rear pin, with friction."""
-        return self.paper[clearance_influence.DRY]
+        return self.paper[influence_figures.DRY]
 
 
 def machine(runs: Runs, path: Path) -> None:
@@ -81,7 +82,7 @@ def rise(runs: Runs, path: Path) -> None:
 
 def pin_force(runs: Runs, path: Path) -> None:
     """The force in the pin, ideal and with clearance."""
-    _save(clearance_influence.figures(runs.paper)["fig5_pin_force"], path)
+    _save(influence_figures.figures(runs.paper)["fig5_pin_force"], path)
 
 
 def journal_orbit(runs: Runs, path: Path) -> None:

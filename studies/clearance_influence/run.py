@@ -4,66 +4,67 @@ The support stands still for 3 s, while the journal falls from the middle of its
 and rises by 500 mm in the next 2 s. Ideal pin against 1.5 mm, with friction and without.
 """
 
+import math
 import sys
 from collections.abc import Callable, Mapping, Sequence
 
-import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-
+from studies.clearance_influence.figures import CASES, CLEARANCE_MM, DRY, IDEAL, LIVE, SMOOTH, figures
 from studies.common import paper_machine, rise
-from studies.common.numbers import Number, by_case, compared, counted, measured, printed, rounded
+from studies.common.chapter import Tile
+from studies.common.numbers import (
+    Found,
+    Number,
+    against,
+    by_case,
+    cell,
+    compared,
+    counted,
+    measured,
+    printed,
+    rounded,
+    short,
+)
 from studies.common.options import Options
-from studies.common.panels import WINDOWS, fit_height, legend
 from studies.common.runs import impacts, run_cases
 from studies.common.study import Study, StudyOutcome
+from studies.common.subject import paper_subject
 from studies.common.words import TextTable
 from support_exudyn import Result, Scenario
-from support_exudyn.postprocessing.figures import style
-
-CLEARANCE_MM = 1.5
-IDEAL = "ideal"
-DRY = f"{CLEARANCE_MM} mm, mu_d = {paper_machine.SLIDING_COEFFICIENT}"
-SMOOTH = f"{CLEARANCE_MM} mm, mu_d = 0"
-CASES = (IDEAL, SMOOTH, DRY)
-STEP = 1e-3  # [s], which the accuracy does not use
 
 
-def scenarios(quick: bool) -> dict[str, Scenario]:
+def scenarios() -> dict[str, Scenario]:
     """The three cases."""
-    rises = {
-        SMOOTH: paper_machine.clearance_rise(CLEARANCE_MM, 0.0, STEP),
-        DRY: paper_machine.clearance_rise(CLEARANCE_MM, paper_machine.SLIDING_COEFFICIENT, STEP),
-        IDEAL: paper_machine.ideal_rise(STEP),
+    paper = paper_subject()
+    return {
+        SMOOTH: paper.with_clearance(CLEARANCE_MM, 0.0),
+        DRY: paper.with_clearance(CLEARANCE_MM, paper.friction),
+        IDEAL: paper.ideal,
     }
-    return {case: paper_machine.to_accuracy(rise, quick) for case, rise in rises.items()}
 
 
 # --- measures ---
 
 
-def velocity_deg(result: Result) -> rise.Series:
-    """Angular velocity of the rear link [deg/s]."""
-    return rise.DEGREES * result[rise.SPEED]
+def _mean(channel: str, scale: float = 1.0) -> Callable[[Result], float]:
+    return lambda run: scale * rise.PAPER.mean(run, run[channel])
 
 
-def acceleration_deg(result: Result) -> rise.Series:
-    """Angular acceleration of the rear link [deg/s^2]."""
-    return rise.DEGREES * result[rise.ACCELERATION]
+def _spread(channel: str, scale: float = 1.0) -> Callable[[Result], float]:
+    return lambda run: scale * rise.PAPER.spread(run, run[channel])
 
 
 # unit, measure, and what the paper prints of it, by clearance
 OF_RISE: dict[str, tuple[str, Callable[[Result], float], Mapping[float, float] | None]] = {
-    "mean_pin_force": ("N", lambda r: float(r[rise.FORCE][rise.in_rise(r)].mean()), paper_machine.MEAN_FORCE),
-    "std_pin_force": ("N", lambda r: float(r[rise.FORCE][rise.in_rise(r)].std()), paper_machine.FORCE_SPREAD),
+    "mean_pin_force": ("N", _mean(rise.FORCE), paper_machine.MEAN_FORCE),
+    "std_pin_force": ("N", _spread(rise.FORCE), paper_machine.FORCE_SPREAD),
+    "rms_pin_force": ("N", lambda run: rise.PAPER.rms_fluctuation(run, run[rise.FORCE]), None),
     "largest_pin_force": ("N", rise.Peak(rise.FORCE, begin=0.0), None),
     "largest_pin_force_in_rise": ("N", rise.Peak(rise.FORCE), None),
     "largest_angular_speed_in_rise": ("deg/s", rise.Peak(rise.SPEED, rise.DEGREES), None),
     "mean_angular_acceleration": (
-        "deg/s^2", lambda r: float(acceleration_deg(r)[rise.in_rise(r)].mean()),
-        paper_machine.MEAN_ACCELERATION,
+        "deg/s^2", _mean(rise.ACCELERATION, rise.DEGREES), paper_machine.MEAN_ACCELERATION
     ),
-    "std_angular_acceleration": ("deg/s^2", lambda r: float(acceleration_deg(r)[rise.in_rise(r)].std()), None),
+    "std_angular_acceleration": ("deg/s^2", _spread(rise.ACCELERATION, rise.DEGREES), None),
 }  # fmt: skip
 
 
@@ -89,7 +90,7 @@ def measure(results: Mapping[str, Result]) -> list[Number]:
 
 
 def _rise_numbers(case: str, result: Result) -> list[Number]:
-    """Statistics over the records from 3 to 5 s, every 1 ms; the largest from 0 to 5 s."""
+    """Statistics of the rise, from 3 to 5 s; the largest from 0 to 5 s."""
     # the paper has friction, though with data it does not give
     return [
         measured(name, case, unit, result, get, table[CLEARANCE_MM] if table and case == DRY else None)
@@ -106,10 +107,14 @@ def _comparison_numbers(case: str, result: Result, ideal: Result) -> list[Number
     force = departure(rise.FORCE, 1.0)
     speed = departure(rise.SPEED, rise.DEGREES)
     tip = departure("tip.x", 1e3)
+
+    def over(run: Result, values: rise.Series) -> tuple[rise.Series, rise.Series]:
+        return run.time[rise.in_rise(run)], values
+
     table: list[tuple[str, str, Callable[[Result, Result], float]]] = [
-        ("rms_pin_force_departure", "N", lambda run, other: _rms(force(run, other))),
-        ("rms_angular_velocity_departure", "deg/s", lambda run, other: _rms(speed(run, other))),
-        ("mean_tip_shift", "mm", lambda run, other: float(tip(run, other).mean())),
+        ("rms_pin_force_departure", "N", lambda run, other: _rms(*over(run, force(run, other)))),
+        ("rms_angular_velocity_departure", "deg/s", lambda run, other: _rms(*over(run, speed(run, other)))),
+        ("mean_tip_shift", "mm", lambda run, other: rise.mean(*over(run, tip(run, other)))),
     ]
     return [compared(name, case, unit, result, ideal, get) for name, unit, get in table]
 
@@ -137,93 +142,36 @@ def _energy_numbers(case: str, result: Result) -> list[Number]:
     return numbers
 
 
-def _rms(values: rise.Series) -> float:
-    return float(np.sqrt(np.mean(values**2)))
+def _rms(time: rise.Series, values: rise.Series) -> float:
+    return math.sqrt(rise.mean(time, values**2))
 
 
-# --- figures ---
+# --- tables and tiles ---
+
+KEY = {  # of the key table: what, and its scale to the unit in brackets
+    "mean_pin_force": ("mean force in the pin, 3 to 5 s [kN]", 1e-3),
+    "std_pin_force": ("its standard deviation [kN]", 1e-3),
+    "rms_pin_force": ("its fluctuation (RMS) [kN]", 1e-3),
+    "largest_pin_force_in_rise": ("largest force in the rise [kN]", 1e-3),
+    "largest_pin_force_any_step": ("largest force, fall into the bore [kN]", 1e-3),
+    "std_angular_acceleration": ("angular acceleration, std. deviation [deg/s²]", 1.0),
+    "mean_tip_shift": ("mean shift of the canopy's tip [mm]", 1.0),
+    "energy_dissipated": ("energy lost in the pin [J]", 1.0),
+}
 
 
-def figures(results: Mapping[str, Result]) -> dict[str, Figure]:
-    """Counterparts of Fig. 3, 4 and 5, by file name."""
-    return {
-        "fig3_angular_velocity": _velocity_figure(results),
-        "fig4_angular_acceleration": _line_figure(
-            results,
-            acceleration_deg,
-            1.0,
-            "angular acceleration\n[deg/s²]",
-            "Angular acceleration of the rear link (paper: Fig. 4)",
-        ),
-        "fig5_pin_force": _line_figure(
-            results,
-            lambda r: r[rise.FORCE],
-            1e-3,
-            "pin force [kN]",
-            "Force in the rear-link pin (paper: Fig. 5)",
-        ),
-    }
+def key_table(found: Found) -> TextTable:
+    """What an engineer asks for first, a column a case."""
+    rows = []
+    for name, (what, scale) in KEY.items():
+        numbers = [found.get((name, case)) for case in CASES]
+        of_paper = next((n.paper for n in numbers if n is not None and n.paper is not None), None)
+        cells = ["" if n is None else rounded(scale * n.value, scale * n.numerical_error) for n in numbers]
+        rows.append((what, *cells, "" if of_paper is None else f"{scale * of_paper:.3f}"))
+    return TextTable(("quantity", "ideal pin", *CASES[1:], "paper, 1.5 mm"), tuple(rows))
 
 
-def _draw(
-    axes: Axes, results: Mapping[str, Result], get: Callable[[Result], rise.Series], scale: float
-) -> None:
-    """The three cases, the most restless one undermost."""
-    curves = [
-        (
-            DRY,
-            style.WITH_CLEARANCE,
-            0.9,
-            "-",
-            f"{CLEARANCE_MM} mm, friction {paper_machine.SLIDING_COEFFICIENT}",
-        ),
-        (SMOOTH, style.SMOOTH, 1.2, "-", f"{CLEARANCE_MM} mm, no friction"),
-        (IDEAL, style.IDEAL, 1.0, (0, (4, 2)), "ideal pin"),
-    ]
-    for case, colour, width, dashes, label in curves:
-        result = results[case]
-        axes.plot(result.time, scale * get(result), color=colour, lw=width, ls=dashes, label=label)
-
-
-def _velocity_figure(results: Mapping[str, Result]) -> Figure:
-    drawing = Figure(figsize=style.size(170, 125))
-    panels = drawing.subplots(2, 2)
-    titles = ["a) 0 to 5 s"] + [f"{letter}) {name}" for letter, name in zip("bcd", WINDOWS, strict=True)]
-    for axes, title in zip(panels.flat, titles, strict=True):
-        _draw(axes, results, velocity_deg, 1.0)
-        axes.set(title=title, xlabel="time [s]", ylabel="angular velocity [deg/s]")
-    panels[0, 0].set_xlim(0.0, 5.0)
-    for axes, window in zip(list(panels.flat)[1:], WINDOWS.values(), strict=True):
-        axes.set_xlim(*window)
-        fit_height(axes, (velocity_deg(r)[rise.between(r, *window)] for r in results.values()))
-        panels[0, 0].axvspan(*window, color="#eeeeee", zorder=0)
-    legend(drawing, panels[0, 0], 3)
-    drawing.suptitle("Angular velocity of the rear link (paper: Fig. 3). Grey in a): enlarged in b) to d)")
-    return drawing
-
-
-def _line_figure(
-    results: Mapping[str, Result], get: Callable[[Result], rise.Series], scale: float, label: str, title: str
-) -> Figure:
-    """The whole run above, the rise alone below on its own scale: the first impacts dwarf the rest."""
-    drawing = Figure(figsize=style.size(170, 125))
-    whole, part = drawing.subplots(2, 1)
-    for axes in (whole, part):
-        _draw(axes, results, get, scale)
-        axes.set(xlabel="time [s]", ylabel=label)
-    whole.set(xlim=(0.0, 5.0), title="a) 0 to 5 s, start with the journal in the middle of its bore")
-    part.set(xlim=(rise.START, rise.END), title="b) the rise, 3 to 5 s")
-    inside = rise.START + 1e-3, rise.END - 1e-3
-    fit_height(part, (scale * get(r)[rise.between(r, *inside)] for r in results.values()))
-    legend(drawing, whole, 3)
-    drawing.suptitle(title)
-    return drawing
-
-
-# --- table ---
-
-
-def table(numbers: Sequence[Number]) -> TextTable:
+def full_table(numbers: Sequence[Number]) -> TextTable:
     """All numbers, a row a name, a column a case."""
     by_name: dict[str, dict[str, Number]] = {}
     for number in numbers:
@@ -234,27 +182,47 @@ def table(numbers: Sequence[Number]) -> TextTable:
 
 def _row(name: str, row: Mapping[str, Number]) -> tuple[str, ...]:
     any_case = f"{CLEARANCE_MM} mm"
-    cells = [rounded(row[c].value, row[c].numerical_error) if c in row else "" for c in CASES]
+    cells = [cell(row.get(case)) for case in CASES]
     if any_case in row:
-        cells[1] = cells[2] = rounded(row[any_case].value, row[any_case].numerical_error)
+        cells[1] = cells[2] = cell(row[any_case])
     of_paper = next((n for n in row.values() if n.paper is not None), None)
     return name.replace("_", " "), next(iter(row.values())).unit, *cells, printed(of_paper)
+
+
+def tiles(found: Found) -> tuple[Tile, ...]:
+    """The first screen of the report: the ideal pin against 1.5 mm with friction."""
+    peak, in_rise = found["largest_pin_force_any_step", DRY], found["largest_pin_force_in_rise", DRY]
+    ideal_peak, shift = found["largest_pin_force", IDEAL], found["mean_tip_shift", DRY]
+    mean, ideal_mean = found["mean_pin_force", DRY], found["mean_pin_force", IDEAL]
+    shaking, ideal_shaking = found["rms_pin_force", DRY], found["rms_pin_force", IDEAL]
+    times = f"{peak.value / ideal_peak.value:.1f} times"
+    alone = f"{in_rise.value / 1e3:.1f} kN ({against(in_rise, ideal_peak)})"
+    way = "to the rear" if shift.value < 0.0 else "forward"
+    return (
+        Tile("mean force in the pin", short(ideal_mean, 1e-3, "kN"), short(mean, 1e-3, "kN"),
+             against(mean, ideal_mean)),
+        Tile("peak force", short(ideal_peak, 1e-3, "kN"), short(peak, 1e-3, "kN"),
+             f"{times}, in the fall into the bore; in the rise alone {alone}"),
+        Tile("canopy tip, mean place", "0", short(shift, 1.0, "mm"), f"{way}, against the ideal pin"),
+        Tile("fluctuation of the force", short(ideal_shaking, 1e-3, "kN"), short(shaking, 1e-3, "kN"),
+             "root mean square of what is faster than 0.1 s"),
+    )  # fmt: skip
 
 
 # --- the study ---
 
 
 def work(chosen: Options) -> StudyOutcome:
-    """The three rises, their numbers, figures and table."""
-    cases = scenarios(chosen.quick)
+    """The three rises, their numbers, figures and tables."""
+    cases = scenarios()
     results = run_cases(cases, chosen)
     numbers = measure(results)
-    words = {
-        "found": by_case(numbers), "goal": cases[DRY].goal, "run": sys.modules[__name__],
-        "paper": paper_machine,
-    }  # fmt: skip
-    return StudyOutcome(numbers, words, figures(results), {"table": table(numbers)}, results)
+    found = by_case(numbers)
+    words = {"found": found, "goal": cases[DRY].goal, "run": sys.modules[__name__], "paper": paper_machine}
+    tables = {"key_numbers": key_table(found), "table": full_table(numbers)}
+    drawings = figures(results)
+    return StudyOutcome(numbers, words, drawings, tables, results, live=LIVE, tiles=tiles(found))
 
 
-study = Study("clearance_influence", __doc__, work)
+study = Study("clearance_influence", __doc__, work, seconds=6.0)
 main = study.main

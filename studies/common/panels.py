@@ -16,7 +16,7 @@ def letters(panels: Sequence[Axes]) -> None:
     """Letter the panels of a figure a, b, c, ... above their upper left corners."""
     for letter, axes in zip(ascii_lowercase, panels, strict=False):
         axes.annotate(
-            letter, (0.0, 1.0), (-26.0, 3.0), "axes fraction", "offset points", weight="bold", fontsize=9,
+            letter, (0.0, 1.0), (-26.0, 7.0), "axes fraction", "offset points", weight="bold", fontsize=9,
             annotation_clip=False,
         )  # fmt: skip
 

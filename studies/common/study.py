@@ -80,7 +80,9 @@ class Study:
             save_run(run, chosen.out, file_name(case))
         save_figures(chosen, found.figures)
         words = {"subject": chosen.subject, "quick": chosen.quick, **found.words}
-        chapter, sheets = Words(self.name).chapter(words, found.tables, found.tiles, found.claims)
+        chapter, sheets = Words(self.name).chapter(
+            words, found.tables, found.figures, found.tiles, found.claims
+        )
         for name, table in found.tables.items():
             if table.in_file:
                 save_table(chosen.out / name, sheets[name], table.width)

@@ -10,7 +10,7 @@ A sentence refers to a figure or a table by `[@stem]` or `[@name]`, to that of a
 `[@study/stem]`; the report makes a link of it, see `studies.common.chapter`.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -90,10 +90,13 @@ class Words:
         self,
         told: Mapping[str, object],
         tables: Mapping[str, TextTable],
+        figures: Collection[str],
         tiles: Sequence[Tile] = (),
         claims: Sequence[JudgedClaim] = (),
     ) -> tuple[Chapter, dict[str, Sheet]]:
         """The study as a chapter of the report, and all tables by name, those that are not in it among them.
+
+        figures: names of those that were drawn: the template may have captions of others.
 
         Raises KeyError if the template has no title for a table.
         """
@@ -109,7 +112,7 @@ class Words:
             numbers=tuple(_item(block) for block in blocks.get("Numbers", ())),
             method=tuple(blocks["Method"]),
             findings=tuple(_item(block) for block in blocks["Findings"]),
-            pictures=tuple(Picture(stem, caption) for stem, _, caption in pictures),
+            pictures=tuple(Picture(stem, caption) for stem, _, caption in pictures if stem in figures),
             sheets=tuple(sheets[name] for name, table in tables.items() if table.in_chapter),
             tiles=tuple(tiles),
             claims=tuple(claims),

@@ -1,0 +1,91 @@
+"""Counterparts of Fig. 3, 4 and 5 of the paper."""
+
+from collections.abc import Mapping
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from studies.common import paper_machine, rise
+from studies.common.panels import WINDOWS, fit_height, legend, letters, time_ticks
+from support_exudyn import Result
+from support_exudyn.postprocessing.figures import style
+
+CLEARANCE_MM = 1.5
+IDEAL = "ideal"
+DRY = f"{CLEARANCE_MM} mm, mu_d = {paper_machine.SLIDING_COEFFICIENT}"
+SMOOTH = f"{CLEARANCE_MM} mm, mu_d = 0"
+CASES = (IDEAL, SMOOTH, DRY)
+CURVES = {  # colour, width, dashes and label, the most restless one undermost
+    DRY: (style.WITH_CLEARANCE, 0.9, "-", f"{CLEARANCE_MM} mm, friction {paper_machine.SLIDING_COEFFICIENT}"),
+    SMOOTH: (style.SMOOTH, 1.2, "-", f"{CLEARANCE_MM} mm, no friction"),
+    IDEAL: (style.IDEAL, 1.0, (0, (4, 2)), "ideal pin"),
+}
+LIVE = {"fig5_pin_force": (2,), "fig3_angular_velocity": (0,), "fig4_angular_acceleration": (2,)}
+
+
+def figures(results: Mapping[str, Result]) -> dict[str, Figure]:
+    """All figures, by file name."""
+    return {
+        "fig5_pin_force": _split_figure(results, rise.FORCE, 1e-3, "pin force [kN]"),
+        "fig3_angular_velocity": _velocity_figure(results),
+        "fig4_angular_acceleration": _split_figure(
+            results, rise.ACCELERATION, rise.DEGREES, "angular acceleration\n[deg/s²]"
+        ),
+    }
+
+
+def _draw(axes: Axes, results: Mapping[str, Result], channel: str, scale: float, *cases: str) -> None:
+    for case in cases or CURVES:
+        colour, width, dashes, label = CURVES[case]
+        run = results[case]
+        axes.plot(run.time, scale * run[channel], color=colour, lw=width, ls=dashes, label=label)
+
+
+def _velocity_figure(results: Mapping[str, Result]) -> Figure:
+    """The whole run, and three windows of the rise."""
+    drawing = Figure(figsize=style.size(170, 115))
+    panels = list(drawing.subplots(2, 2).flat)
+    for axes, window in zip(panels, ((0.0, 5.0), *WINDOWS.values()), strict=True):
+        _draw(axes, results, rise.SPEED, rise.DEGREES)
+        axes.set(xlabel="time [s]", ylabel="angular velocity\n[deg/s]", xlim=window)
+        fit_height(axes, (rise.DEGREES * r[rise.SPEED][rise.between(r, *window)] for r in results.values()))
+        time_ticks(axes, rise.PAPER)
+    for letter, window in zip("bcd", WINDOWS.values(), strict=True):
+        panels[0].axvspan(*window, color="#dddddd", zorder=0)
+        panels[0].text(sum(window) / 2.0, 0.0, letter, ha="center", va="bottom", fontsize=7)
+    legend(drawing, panels[0], 3)
+    letters(panels)
+    return drawing
+
+
+def _split_figure(results: Mapping[str, Result], channel: str, scale: float, label: str) -> Figure:
+    """The whole run with and without friction apart, so that no peak hides another, and the rise below."""
+    drawing = Figure(figsize=style.size(170, 115))
+    panels = drawing.subplot_mosaic([["dry", "smooth"], ["rise", "rise"]])
+    for axes, case in ((panels["dry"], DRY), (panels["smooth"], SMOOTH)):
+        _draw(axes, results, channel, scale, case, IDEAL)
+        axes.set(xlabel="time [s]", ylabel=label, xlim=(0.0, 5.0))
+        _mark_peak(axes, results[case], channel, scale, label)
+    low, high = panels["dry"].get_ylim()
+    panels["dry"].set_ylim(low, high + 0.08 * (high - low))
+    panels["smooth"].sharey(panels["dry"])
+    _draw(panels["rise"], results, channel, scale)
+    panels["rise"].set(xlabel="time [s]", ylabel=label, xlim=(rise.START, rise.END))
+    inside = rise.START + 1e-3, rise.END - 1e-3
+    fit_height(panels["rise"], (scale * r[channel][rise.between(r, *inside)] for r in results.values()))
+    for axes in panels.values():
+        time_ticks(axes, rise.PAPER)
+    legend(drawing, panels["rise"], 3)
+    letters(list(panels.values()))
+    return drawing
+
+
+def _mark_peak(axes: Axes, run: Result, channel: str, scale: float, label: str) -> None:
+    """The largest value with its number."""
+    values = scale * run[channel]
+    n = int(abs(values).argmax())
+    unit = label[label.index("[") + 1 : label.index("]")]
+    axes.annotate(
+        f"{values[n]:.0f} {unit}", (run.time[n], values[n]), (8.0, 0.0), textcoords="offset points", fontsize=8,
+        va="center", arrowprops={"arrowstyle": "-", "lw": 0.5},
+    )  # fmt: skip
