@@ -5,192 +5,238 @@ from collections.abc import Mapping, Sequence
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from studies.common import paper_machine, rise
-from studies.common.numbers import Number, by_case
-from studies.common.panels import WINDOWS, fit_height, legend
+from studies.clearance_size.measures import COLUMNS, IDEAL
+from studies.common import rise
+from studies.common.numbers import Found
+from studies.common.panels import WINDOWS, fit_height, forward_arrow, legend, letters, time_ticks
 from studies.common.paper_machine import SIZES_MM, case_name
+from studies.common.subject import Subject
 from support_exudyn import Result
 from support_exudyn.postprocessing.figures import style
 
 COLOURS = {0.5: "#009E73", 1.0: "#E69F00", 1.5: "#0072B2", 2.0: "#CC79A7"}  # Okabe and Ito
 DASHES = {0.5: "-", 1.0: (0, (5, 1)), 1.5: (0, (3, 1, 1, 1)), 2.0: (0, (1, 1))}  # for grey prints
-MU = paper_machine.SLIDING_COEFFICIENT
+NO_FRICTION = "#777777"
+LIVE: dict[str, Sequence[int]] = {
+    "fig6_angular_velocity": (0,), "fig7_angular_acceleration": (0, 1, 2, 3), "fig8_pin_force": (0, 1, 2, 3),
+    "fig10_tip_shift": (0, 1), "fig11_column_angles": (0, 1, 2, 3),
+}  # fmt: skip
+Results = Mapping[str, Result]
 
 
-def figures(results: Mapping[str, Result], numbers: Sequence[Number]) -> dict[str, Figure]:
-    """All figures, by file name."""
-    return {
-        "fig6_angular_velocity": velocity_figure(results),
+def figures(subject: Subject, results: Results, found: Found) -> dict[str, Figure]:
+    """All figures that this machine has something for, by file name; the names are those of the paper's."""
+    watched = subject.watched
+    drawings = {
+        "trends_with_clearance": trend_figure(subject, found),
+        "fig6_angular_velocity": velocity_figure(subject, results),
         "fig7_angular_acceleration": panel_figure(
-            results, rise.ACCELERATION, rise.DEGREES, "angular acceleration [deg/s²]",
-            "Angular acceleration of the rear link (paper: Fig. 7)",
+            subject, results, watched.acceleration, rise.DEGREES, "angular acceleration [deg/s²]"
         ),
-        "fig8_pin_force": panel_figure(
-            results, rise.FORCE, 1e-3, "pin force [kN]", "Force in the rear-link pin (paper: Fig. 8)"
-        ),
-        "fig9_tip_path": tip_path_figure(results),
-        "fig10_tip_shift": tip_shift_figure(results),
-        "fig11_column_angles": angle_figure(results),
-        "trends_with_clearance": trend_figure(numbers),
-    }  # fmt: skip
+        "fig8_pin_force": panel_figure(subject, results, watched.force, 1e-3, "pin force [kN]"),
+    }
+    if "tip.x" in results[IDEAL].channels:
+        drawings["fig9_tip_path"] = tip_path_figure(subject, results)
+        drawings["fig10_tip_shift"] = tip_shift_figure(subject, results)
+    if all(f"{column}.angle" in results[IDEAL].channels for column in COLUMNS):
+        drawings["fig11_column_angles"] = angle_figure(subject, results)
+    return drawings
 
 
-def velocity_figure(results: Mapping[str, Result]) -> Figure:
-    """The rise and three windows."""
-    drawing = Figure(figsize=style.size(170, 130))
-    panels = drawing.subplots(2, 2)
-    spans = {"the rise": (rise.START, rise.END)} | WINDOWS
-    for axes, letter, (name, span) in zip(panels.flat, "abcd", spans.items(), strict=True):
-        _curves(axes, results, rise.SPEED, rise.DEGREES, span)
-        axes.set(title=f"{letter}) {name}", xlabel="time [s]", ylabel="angular velocity [deg/s]")
-    for span in WINDOWS.values():
-        panels[0, 0].axvspan(*span, color="#eeeeee", zorder=0)
-    legend(drawing, panels[0, 0], 5)
-    drawing.suptitle(f"Angular velocity of the rear link, friction {MU} (paper: Fig. 6)")
+def live(drawings: Mapping[str, Figure]) -> dict[str, Sequence[int]]:
+    """Which panels of those figures are time series to look into."""
+    return {name: panels for name, panels in LIVE.items() if name in drawings}
+
+
+def windows(watched: rise.Watched) -> list[tuple[float, float]]:
+    """Three short pieces of the motion: those of the paper's rise, or at the same shares of another one."""
+    scale = (watched.end - watched.start) / (rise.END - rise.START)
+    return [
+        (watched.start + scale * (a - rise.START), watched.start + scale * (b - rise.START))
+        for a, b in WINDOWS.values()
+    ]
+
+
+def velocity_figure(subject: Subject, results: Results) -> Figure:
+    """The motion and three windows of it; in the first panel the curves lie upon each other."""
+    drawing = Figure(figsize=style.size(170, 115))
+    panels = list(drawing.subplots(2, 2).flat)
+    watched = subject.watched
+    spans = [(watched.start, watched.end), *windows(watched)]
+    for axes, span in zip(panels, spans, strict=True):
+        _curves(axes, subject, results, watched.speed, rise.DEGREES, span)
+        axes.set(xlabel="time [s]", ylabel="angular velocity\n[deg/s]")
+        time_ticks(axes, watched)
+    top = panels[0].get_ylim()[1]
+    for letter, span in zip("bcd", spans[1:], strict=True):
+        panels[0].axvspan(*span, color="#dddddd", zorder=0)
+        panels[0].text(sum(span) / 2.0, top, letter, ha="center", va="top", fontsize=7)
+    legend(drawing, panels[0], 5)
+    letters(panels)
     return drawing
 
 
-def panel_figure(results: Mapping[str, Result], channel: str, scale: float, label: str, title: str) -> Figure:
+def panel_figure(subject: Subject, results: Results, channel: str, scale: float, label: str) -> Figure:
     """A panel for each clearance, the largest first as in the paper, on one scale."""
-    drawing = Figure(figsize=style.size(170, 135))
-    panels = drawing.subplots(2, 2, sharex=True, sharey=True)
-    span = rise.START + 2e-3, rise.END - 2e-3
-    for axes, letter, size in zip(panels.flat, "abcd", reversed(SIZES_MM), strict=True):
-        for case, colour, width, name in (
-            (case_name(size, MU), COLOURS[size], 0.8, f"friction {MU}"),
-            (case_name(size, 0.0), "#777777", 0.8, "no friction"),
-            ("ideal", style.IDEAL, 0.8, "ideal pin"),
+    drawing = Figure(figsize=style.size(170, 120))
+    panels = list(drawing.subplots(2, 2, sharex=True, sharey=True).flat)
+    watched = subject.watched
+    edge = 1e-3 * (watched.end - watched.start)  # the jumps at both ends would set the scale
+    span = watched.start + edge, watched.end - edge
+    for axes, size in zip(panels, reversed(SIZES_MM), strict=True):
+        for case, colour, dashes, name in (
+            (case_name(size, subject.friction), style.WITH_CLEARANCE, "-", f"friction {subject.friction:g}"),
+            (case_name(size, 0.0), style.SMOOTH, "-", "no friction"),
+            (IDEAL, style.IDEAL, (0, (4, 2)), "ideal pin"),
         ):
-            if case not in results:
-                continue
-            inside = rise.between(results[case], *span)
+            run = results[case]
+            inside = rise.between(run, *span)
             axes.plot(
-                results[case].time[inside], scale * results[case][channel][inside],
-                color=colour, lw=width, ls=(0, (4, 2)) if case == "ideal" else "-", label=name,
-            )  # fmt: skip
-        axes.set(title=f"{letter}) {size:.1f} mm", xlim=span)
-        axes.legend(fontsize=7, loc="best")
-    drawing.supxlabel("time [s]", fontsize=9)
-    drawing.supylabel(label, fontsize=9)
-    drawing.suptitle(title)
+                run.time[inside], scale * run[channel][inside], color=colour, lw=0.8, ls=dashes, label=name
+            )
+        axes.set(xlim=(watched.start, watched.end), ylabel=label)
+        axes.annotate(
+            f"{size:.1f} mm", (0.5, 1.0), (0.0, 3.0), "axes fraction", "offset points", ha="center", fontsize=8
+        )
+        time_ticks(axes, watched)
+        axes.label_outer()
+    for axes in panels[2:]:
+        axes.set_xlabel("time [s]")
+    legend(drawing, panels[0], 3)
+    letters(panels)
     return drawing
 
 
-def tip_path_figure(results: Mapping[str, Result]) -> Figure:
+def tip_path_figure(subject: Subject, results: Results) -> Figure:
     """Height over horizontal position."""
-    drawing = Figure(figsize=style.size(170, 95))
+    drawing = Figure(figsize=style.size(170, 85))
     whole, near = drawing.subplots(1, 2)
+    watched = subject.watched
     for axes in (whole, near):
-        for case, colour, dashes, label in _cases():
+        for case, colour, dashes, label in _cases(subject):
             run = results[case]
-            inside = rise.in_rise(run)
+            inside = watched.in_rise(run)
             axes.plot(
                 1e3 * run["tip.x"][inside], 1e3 * run["tip.y"][inside], color=colour, ls=dashes, label=label
             )
-        axes.set(xlabel="horizontal, towards the coal face [mm]", ylabel="height [mm]")
-    ideal = results["ideal"]
-    middle = rise.between(ideal, 3.9, 4.1)
-    x, y = 1e3 * ideal["tip.x"][middle], 1e3 * ideal["tip.y"][middle]
-    near.set(xlim=(x.min() - 7.0, x.max() + 1.0), ylim=(y.min(), y.max()))
-    whole.set_title("a) the rise")
-    near.set_title("b) 3.9 to 4.1 s")
+        axes.set(xlabel="tip, horizontal [mm]", ylabel="tip, height [mm]")
+    forward_arrow(whole)
+    middle, half = 0.5 * (watched.start + watched.end), 0.05 * (watched.end - watched.start)
+    near_ones = [run for case, *_ in _cases(subject) for run in (results[case],)]
+    cuts = [(run, rise.between(run, middle - half, middle + half)) for run in near_ones]
+    x = [1e3 * run["tip.x"][inside] for run, inside in cuts]
+    y = [1e3 * run["tip.y"][inside] for run, inside in cuts]
+    near.set(xlim=(min(map(min, x)) - 1.0, max(map(max, x)) + 1.0), ylim=(min(map(min, y)), max(map(max, y))))
     legend(drawing, whole, 5)
-    drawing.suptitle(f"Path of the canopy's tip, friction {MU} (paper: Fig. 9)")
+    letters([whole, near])
     return drawing
 
 
-def tip_shift_figure(results: Mapping[str, Result]) -> Figure:
+def tip_shift_figure(subject: Subject, results: Results) -> Figure:
     """Horizontal position over time, and its distance from that with the ideal pin."""
-    drawing = Figure(figsize=style.size(170, 125))
-    place, shift = drawing.subplots(2, 1)
-    _curves(place, results, "tip.x", 1e3, (rise.START, rise.END))
-    for case, colour, dashes, label in _cases():
-        if case != "ideal":
+    drawing = Figure(figsize=style.size(170, 115))
+    panels = list(drawing.subplots(2, 1, sharex=True))
+    place, shift = panels
+    watched = subject.watched
+    _curves(place, subject, results, "tip.x", 1e3, (watched.start, watched.end))
+    for case, colour, dashes, label in _cases(subject):
+        if case != IDEAL:
             run = results[case]
-            moved = 1e3 * rise.departure(run, results["ideal"], "tip.x")
-            shift.plot(run.time[rise.in_rise(run)], moved, color=colour, ls=dashes, label=label)
-    place.set(title="a) position", ylabel="tip, horizontal [mm]", xlabel="time [s]")
-    shift.set(
-        title="b) against the ideal pin (minus: towards the rear link)", ylabel="shift [mm]", xlabel="time [s]"
-    )
-    shift.set(xlim=(rise.START, rise.END), ylim=(None, 0.0))
+            moved = 1e3 * watched.departure(run, results[IDEAL], "tip.x")
+            shift.plot(run.time[watched.in_rise(run)], moved, color=colour, ls=dashes, label=label)
+    place.set(ylabel="tip, horizontal [mm]")
+    shift.axhline(0.0, color=style.IDEAL, lw=0.8, ls=(0, (4, 2)))
+    shift.set(ylabel="shift of the tip [mm]", xlabel="time [s]", xlim=(watched.start, watched.end))
+    for axes in panels:
+        time_ticks(axes, watched)
+        axes.label_outer()
     legend(drawing, place, 5)
-    drawing.suptitle(f"Horizontal position of the canopy's tip, friction {MU} (paper: Fig. 10)")
+    letters(panels)
     return drawing
 
 
-def angle_figure(results: Mapping[str, Result]) -> Figure:
+def angle_figure(subject: Subject, results: Results) -> Figure:
     """Angles of both columns, and their change."""
-    drawing = Figure(figsize=style.size(170, 130))
+    drawing = Figure(figsize=style.size(170, 120))
     panels = drawing.subplots(2, 2, sharex=True)
-    for n, column in enumerate(("front_column", "rear_column")):
+    watched = subject.watched
+    for n, column in enumerate(COLUMNS):
         whole, change = panels[:, n]
-        ideal = rise.rearward_angle(results["ideal"], column)
-        for case, colour, dashes, label in _cases():
+        ideal = rise.rearward_angle(results[IDEAL], column)
+        for case, colour, dashes, label in _cases(subject):
             run = results[case]
-            inside = rise.in_rise(run)
+            inside = watched.in_rise(run)
             angle = rise.rearward_angle(run, column)
             whole.plot(run.time[inside], rise.DEGREES * angle[inside], color=colour, ls=dashes, label=label)
-            if case != "ideal":
-                change.plot(run.time[inside], rise.DEGREES * (angle - ideal)[inside], color=colour, ls=dashes)
+            change.plot(
+                run.time[inside], rise.DEGREES * (angle - ideal)[inside], color=colour, ls=dashes, label=label
+            )
         name = column.replace("_", " ")
-        whole.set(title=f"{'ab'[n]}) {name}", ylabel="angle [deg]")
-        change.set(title=f"{'cd'[n]}) {name}, against the ideal pin", ylabel="change of angle [deg]")
-        change.set(xlabel="time [s]", ylim=(None, 0.0), xlim=(rise.START, rise.END))
+        whole.set(ylabel=f"{name} [deg]")
+        change.set(ylabel=f"{name}, change [deg]", xlabel="time [s]", xlim=(watched.start, watched.end))
+    for axes in panels.flat:
+        time_ticks(axes, watched)
     legend(drawing, panels[0, 0], 5)
-    drawing.suptitle(f"Columns' angles from the rearward horizontal, friction {MU} (paper: Fig. 11, 12)")
+    letters(list(panels.flat))
     return drawing
 
 
-def trend_figure(numbers: Sequence[Number]) -> Figure:
+TRENDS = (
+    ("mean_pin_force", 1e-3, "mean force [kN]"),
+    ("std_pin_force", 1e-3, "std. deviation\nof force [kN]"),
+    ("rms_pin_force", 1e-3, "fluctuation\nof force [kN]"),
+    ("rms_angular_velocity", 1.0, "fluctuation of ang.\nvelocity [deg/s]"),
+    ("rms_angular_acceleration", 1.0, "fluctuation of ang.\nacceleration [deg/s²]"),
+    ("mean_tip_shift", 1.0, "tip shift [mm]"),
+)
+FROM_ZERO = "rms_"  # such names begin their axis at 0
+
+
+def trend_figure(subject: Subject, found: Found) -> Figure:
     """Statistics over the clearance, with and without friction."""
-    drawing = Figure(figsize=style.size(170, 115))
-    panels = drawing.subplots(2, 3)
-    found = by_case(numbers)
-    shown = [
-        ("mean_pin_force", 1e-3, "mean pin force [kN]"),
-        ("std_pin_force", 1e-3, "its standard deviation [kN]"),
-        ("rms_pin_force", 1e-3, "its RMS fluctuation [kN]"),
-        ("rms_angular_velocity", 1.0, "RMS fluctuation of angular velocity [deg/s]"),
-        ("rms_angular_acceleration", 1.0, "RMS fluctuation of ang. acceleration [deg/s²]"),
-        ("mean_tip_shift", 1.0, "tip shift [mm]"),
-    ]
-    for axes, letter, (name, scale, label) in zip(panels.flat, "abcdef", shown, strict=True):
-        for friction, colour, mark in ((MU, style.WITH_CLEARANCE, "o"), (0.0, "#777777", "s")):
-            sizes = [size for size in SIZES_MM if (name, case_name(size, friction)) in found]
-            row = [found[name, case_name(size, friction)] for size in sizes]
-            label_here = f"friction {friction:g}" if friction else "no friction"
+    shown = [trend for trend in TRENDS if (trend[0], IDEAL) in found]
+    drawing = Figure(figsize=style.size(170, 100))
+    panels = list(drawing.subplots(2, 3).flat)
+    for axes in panels[len(shown) :]:
+        axes.remove()
+    for axes, (name, scale, label) in zip(panels, shown, strict=False):
+        for friction, colour, mark in ((subject.friction, style.WITH_CLEARANCE, "o"), (0.0, NO_FRICTION, "s")):
+            row = [found[name, case_name(size, friction)] for size in SIZES_MM]
             axes.errorbar(
-                sizes, [scale * n.value for n in row], yerr=[scale * n.numerical_error for n in row],
-                color=colour, marker=mark, ms=3.5, capsize=2, lw=0.9, label=label_here,
+                SIZES_MM, [scale * n.value for n in row], yerr=[scale * n.numerical_error for n in row],
+                color=colour, marker=mark, ms=3.5, capsize=2, lw=0.9,
+                label=f"friction {friction:g}" if friction else "no friction",
             )  # fmt: skip
-            printed = [n.paper for n in row]
-            if all(value is not None for value in printed):
-                values = [scale * value for value in printed if value is not None]
-                axes.plot(SIZES_MM, values, "x", color=style.PAPER, ms=5, label="paper")
-        axes.set_title(f"{letter}) {label}", fontsize=8)
-        axes.set_xticks(SIZES_MM)
-        axes.margins(y=0.15)
-    legend(drawing, panels[0, 0], 3)
-    for axes in panels[1]:
-        axes.set_xlabel("clearance [mm]")
-    drawing.suptitle("The rise over the clearance (paper: Table 3)")
+            printed = [scale * n.paper for n in row if n.paper is not None]
+            if len(printed) == len(SIZES_MM):
+                axes.plot(SIZES_MM, printed, "x", color=style.PAPER, ms=5, label="paper")
+        ideal = found[name, IDEAL]
+        axes.axhline(scale * ideal.value, color=style.IDEAL, lw=0.8, ls=(0, (4, 2)), label="ideal pin")
+        axes.set(xticks=SIZES_MM, ylabel=label, xlabel="clearance [mm]")
+        axes.margins(y=0.12)
+        if name.startswith(FROM_ZERO):
+            axes.set_ylim(0.0, None)
+    legend(drawing, panels[0], 4)
+    letters(panels[: len(shown)])
     return drawing
 
 
-def _cases() -> list[tuple[str, str, object, str]]:
+def _cases(subject: Subject) -> list[tuple[str, str, object, str]]:
     """Case, colour, dashes and label of the curves, the largest clearance undermost."""
     with_clearance = [
-        (case_name(size, MU), COLOURS[size], DASHES[size], f"{size:.1f} mm") for size in reversed(SIZES_MM)
+        (case_name(size, subject.friction), COLOURS[size], DASHES[size], f"{size:.1f} mm")
+        for size in reversed(SIZES_MM)
     ]
-    return [*with_clearance, ("ideal", style.IDEAL, (0, (4, 2)), "ideal pin")]
+    return [*with_clearance, (IDEAL, style.IDEAL, (0, (4, 2)), "ideal pin")]
 
 
 def _curves(
-    axes: Axes, results: Mapping[str, Result], channel: str, scale: float, span: tuple[float, float]
+    axes: Axes, subject: Subject, results: Results, channel: str, scale: float, span: tuple[float, float]
 ) -> None:
-    for case, colour, dashes, label in _cases():
+    for case, colour, dashes, label in _cases(subject):
         run = results[case]
         axes.plot(run.time, scale * run[channel], color=colour, ls=dashes, lw=0.9, label=label)
     axes.set(xlim=span)
-    fit_height(axes, (scale * results[c][channel][rise.between(results[c], *span)] for c, *_ in _cases()))
+    fit_height(
+        axes, (scale * results[c][channel][rise.between(results[c], *span)] for c, *_ in _cases(subject))
+    )

@@ -35,7 +35,7 @@ def settings_for(scenario: Scenario, goal: float) -> Scenario:
     if name == "auto":
         # a Python function of the contact is what the redundant formulation may call; it decides of no other
         free = replace(plain, solver=replace(plain.solver, backend="auto"))
-        name = _cheapest(free if plain.solver.backend == "python" else plain)
+        name = cheapest(free if plain.solver.backend == "python" else plain)
         plain = free if name in ERROR_CONTROLLED else plain
     formulation(name).check(plain)
     finer = math.sqrt(GOAL_OF_SHARES / goal)
@@ -53,7 +53,7 @@ def settings_for(scenario: Scenario, goal: float) -> Scenario:
     return replace(plain, formulation=name, step=step, solver=solver)
 
 
-def _cheapest(scenario: Scenario) -> FormulationName:
+def cheapest(scenario: Scenario) -> FormulationName:
     """The first formulation that covers a scenario; redundant covers every one whose settings fit it.
 
     Explicit methods have to follow friction's ramp, however steep it is: not where that takes too many steps.

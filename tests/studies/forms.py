@@ -20,6 +20,7 @@ from studies.catalogue import STUDIES
 from studies.common import runs
 from studies.common.options import Options
 from studies.common.runs import with_coarser
+from studies.common.subject import Subject
 from studies.scene_detail import run as scene_detail
 from studies.scene_detail.runs import Timed
 from support_exudyn import Result, Scenario, simulate
@@ -58,12 +59,15 @@ def _once_timed(cases: Mapping[str, Scenario], workers: int | Workers) -> dict[s
     return found
 
 
-def written(study: str, form: str, folder: Path, machines: int | None = None) -> Path:
+def written(
+    study: str, form: str, folder: Path, machines: int | None = None, subject: Subject | None = None
+) -> Path:
     """The folder into which a study has written its results, in one of the forms."""
     with pytest.MonkeyPatch.context() as patch:
         if form == ROUGH:
             patch.setattr(runs, "run_cases", partial(_once, coarser=COARSER.get(study, 1.0)))
             patch.setitem(style.STYLE, "savefig.dpi", 60)
             patch.setattr(scene_detail, "run_timed", _once_timed)
-        STUDIES[study](Options(folder, at_once(), machines=machines, quick=True))
+        chosen = Options(folder, at_once(), machines=machines, quick=True)
+        STUDIES[study](replace(chosen, subject=subject) if subject else chosen)
     return folder

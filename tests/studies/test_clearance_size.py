@@ -1,9 +1,11 @@
-"""The findings on the clearance's size, on the quick form of the study."""
+"""The findings on the clearance's size, rough and as the study is."""
 
 from __future__ import annotations
 
 import json
 import math
+import shutil
+from importlib import resources
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -11,15 +13,19 @@ from typing import Any
 import pytest
 
 from studies.clearance_size import run as study
+from studies.clearance_size.measures import measure
 from studies.common import rise
 from studies.common.chapter import Chapter
+from studies.common.paper_machine import SLIDING_COEFFICIENT
+from studies.common.subject import own_subject, paper_subject
 from support_exudyn import Result
 from tests.studies.another_way import by_a_tight_run, off
-from tests.studies.forms import FORMS, written
+from tests.studies.forms import FORMS, ROUGH, written
 
-DRY = [study.case_name(size, study.FRICTIONS[0]) for size in study.SIZES_MM]
-SMOOTH = [study.case_name(size, 0.0) for size in study.QUICK_SMOOTH_MM]
+DRY = [study.case_name(size, SLIDING_COEFFICIENT) for size in study.SIZES_MM]
+SMOOTH = [study.case_name(size, 0.0) for size in study.SIZES_MM]
 
+MACHINES = Path(str(resources.files("support_exudyn.files.machines")))
 Numbers = dict[tuple[str, str], dict[str, Any]]
 
 
@@ -52,7 +58,7 @@ def test_printed_errors_cover_the_distance_from_a_tight_run(out: Path, numbers: 
     runs = {
         case: by_a_tight_run(Result.load(out / "runs" / f"{stem}.h5").scenario) for case, stem in stems.items()
     }
-    shares = off(numbers, study.measure(runs))
+    shares = off(numbers, measure(paper_subject(), runs))
     assert max(shares.values()) < 5.0, max(shares, key=lambda name: shares[name])
     assert sum(share > 1.0 for share in shares.values()) <= math.ceil(0.02 * len(shares))  # two of a hundred
     for name, case in ((name, case) for name in ("mean_pin_force", "std_pin_force") for case in runs):
@@ -74,7 +80,7 @@ def test_the_mean_force_grows_by_the_same_little_amount_each_time(numbers: Numbe
     steps = [after - before for before, after in pairwise(forces)]
     # quasi-static: 64 N per 0.5 mm; friction takes a tenth of it off
     assert all(50.0 < step < 70.0 for step in steps)
-    small, large = row(numbers, "mean_pin_force", SMOOTH)
+    small, *_, large = row(numbers, "mean_pin_force", SMOOTH)
     assert (large - small) / 3 == pytest.approx(64.0, abs=1.5)  # printed as a whole number
     # as little as the paper says: its own growth is 0.8 %
     assert forces[-1] < 1.01 * forces[0]
@@ -113,7 +119,7 @@ def test_both_columns_tilt_to_the_rear(numbers: Numbers) -> None:
 def test_the_pin_shakes_with_friction_only(numbers: Numbers) -> None:
     for quantity in ("pin_force", "angular_velocity", "angular_acceleration"):
         name = f"rms_{quantity}"
-        for size in study.QUICK_SMOOTH_MM:
+        for size in (0.5, 1.5, 2.0):
             shaken = numbers[name, study.case_name(size, 0.25)]["value"]
             # 8 to 100 times as much
             assert shaken > 5.0 * numbers[name, study.case_name(size, 0.0)]["value"]
@@ -150,3 +156,19 @@ def test_every_file_is_there_and_the_chapter_can_be_read(out: Path) -> None:
     for table in ("table_2", "table_3", "table_mu0p25", "table_mu0"):
         assert "mm" in (out / f"{table}.txt").read_text(encoding="utf-8")
     assert "52" in next(text for text in chapter.findings if "mean force" in text)
+
+
+def test_it_is_about_the_users_machine_and_leaves_the_paper_out(tmp_path: Path) -> None:
+    shutil.copy(MACHINES / "zf18000.toml", tmp_path / "mine.toml")
+    own = own_subject(tmp_path / "mine.toml", "rear_base")
+    out = written("clearance_size", ROUGH, tmp_path / "out", subject=own)
+    chapter = Chapter.load(out)
+    said = " ".join([chapter.title, chapter.question, chapter.answer, *chapter.method, *chapter.findings])
+    said += " ".join(picture.caption for picture in chapter.pictures)
+    said += " ".join(f"{sheet.title} {sheet.caption}" for sheet in chapter.sheets)
+    assert "mine" in chapter.question
+    assert "rear_base" in chapter.question
+    assert "paper" not in said.lower()
+    assert "table_2" not in [sheet.name for sheet in chapter.sheets]
+    run = Result.load(out / "runs" / "1p0mm_mu0p25.h5")
+    assert run.scenario.pins.keys() == {"rear_base"}
