@@ -397,8 +397,10 @@ def test_a_turn_is_sought_between_the_nearest_looks_on_either_side(
 
     contact, report = [0.0] * layout.CONTACT, [0.0] * integrate.REPORT
     contact[layout.RATE] = rate(1.0)
-    land = plain(integrate.land_on_turn, advance=advance)
-    length = land([], [], [], 0.0, h, rate(0.0), guess, [], [], [], contact, [], report)
+    start = [0.0] * layout.CONTACT
+    start[layout.RATE] = rate(0.0)
+    land = plain(integrate.land, advance=advance)
+    length = land([], [], [], 0.0, h, events.RETURN, 0.0, guess, start, [], [], [], contact, [], report)
     assert length / h == looked[-1]  # where it ends is what was made last
     assert looked[0] == pytest.approx(guess)
     for n, x in enumerate(looked[1:], 1):

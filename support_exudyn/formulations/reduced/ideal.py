@@ -9,6 +9,7 @@ from support_exudyn.formulations.reduced.integrate import (
     EVALUATIONS,
     FINISHED,
     JUMPS,
+    RECORDS,
     STEPS,
     STOPPED_AT,
     STUCK,
@@ -107,12 +108,13 @@ def run_ideal(
     # a drive that moves from the start on without a jump has been moving for long
     if segments[0, JUMP] == 0.0 and not follow(p, driven(segments[0], 0.0), 0.0, y, report):
         return STUCK
-    record(segments[0], memory, 0.0, y, rows, 0)
-    recorded, extension = 1, 0.0
+    recorded, extension = int(report[RECORDS]), 0.0
+    record(segments[0], memory, 0.0, y, rows, recorded)
+    recorded += 1
     for n in range(segments.shape[0]):
         segment = segments[n]
         if segment[JUMP] != 0.0:
-            jump(p, segment, y, True, jumps, int(report[JUMPS]))
+            jump(p, segment, y, jumps, int(report[JUMPS]))
             report[JUMPS] += 1
         t, stop = segment[BEGIN], segment[END]
         drive = driven(segment, t)

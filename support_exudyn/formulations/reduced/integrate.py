@@ -52,9 +52,9 @@ FINISHED, STUCK, TOO_MANY_STEPS, TOO_MANY_IMPACTS, DEAD_CENTRE, PAUSED = range(6
 # what is reported of a run
 STEPS, EVALUATIONS, LARGEST, STOPPED_AT, IMPACTS, JUMPS, LAST_STEP, NOT_A_NUMBER, RECORDS = range(9)
 ACCEPTED, CUTS, CLAMPED, REPORT = range(9, 13)  # steps: accepted, cut to end at an event, that end in tension
-# With what a run goes on after a pause: the number of its segment, whether it is in the midst of it, time [s],
-# next step [s], last error, and of the last step's end the rate of the state and the contact
-SEGMENT_NUMBER, MIDST, AT, NEXT_STEP, LAST_ERROR, RATES = range(6)
+# With what a run goes on after a pause: whether it is in the midst of a segment, time [s], next step [s], last
+# error, and of the last step's end the rate of the state and the contact
+MIDST, AT, NEXT_STEP, LAST_ERROR, RATES = range(5)
 CONTEXT = RATES + STATES
 GOING = CONTEXT + CONTACT
 
@@ -81,6 +81,12 @@ def factor(error: float, before: float) -> float:
 
 
 @compiled
+def crossing(low: float, high: float, at_low: float, at_high: float) -> float:
+    """Where a line through two points passes zero."""
+    return (low * at_high - high * at_low) / (at_high - at_low)
+
+
+@compiled
 def land(
     p: Vector,
     segment: Vector,
@@ -90,6 +96,7 @@ def land(
     what: int,
     low: float,
     high: float,
+    start: Vector,
     y: Vector,
     k: Matrix,
     end: Vector,
@@ -100,101 +107,54 @@ def land(
     """Make a step of h [s] again so that it ends where something happens, see `event`; its length [s].
 
     An impact or separation is met by Newton's method on the depth at the end of the step, kept by bisection
-    where it was seen.
+    where it was seen. A cut of tension is met by false position (Illinois) on PUSH: while tension is cut there
+    is no force, steps grow, and one would miss where the force sets in again. Where a contact is pressed on
+    again, false position on the rate begins at the guess `high`. One loop for all, so that a step is compiled
+    into it once.
+
+    Arguments:
+        start: the contact at the start of the step; `contact` is that at its end.
     """
-    before, after = low * h, high * h
-    length = 0.5 * (before + after)
-    for n in range(1, LANDINGS + 1):
+    quantity, met, looks = DEPTH, LANDED, LANDINGS
+    if what == CUT:
+        quantity, met = PUSH, CUT_MET
+    elif what == RETURN:
+        quantity, met, looks = RATE, 0.0, TURNS
+    before, after, at_before, at_after = 0.0, h, start[quantity], contact[quantity]
+    if what == CUT:
+        length = crossing(before, after, at_before, at_after)
+    elif what == RETURN:
+        length = high * h
+    else:
+        before, after = low * h, high * h
+        length = 0.5 * (before + after)
+    for n in range(1, looks + 1):
         advance(p, segment, memory, t, length, y, k, end, contact, weights)
         report[EVALUATIONS] += STAGES - 1
-        depth = contact[DEPTH]
-        if abs(depth) <= LANDED or n == LANDINGS:
+        value = contact[quantity]
+        if abs(value) <= met or n == looks:
             break
-        if (depth > 0.0) == (what == IMPACT):
+        if what in (CUT, RETURN):
+            keep = 0.5 if what == CUT else 1.0
+            if (value < 0.0) == (at_before < 0.0):
+                before, at_before = length, value
+                at_after *= keep
+            else:
+                after, at_after = length, value
+                at_before *= keep
+            length = crossing(before, after, at_before, at_after)
+            continue
+        if (value > 0.0) == (what == IMPACT):
             after = max(length, before)
         else:
             before = min(length, after)
-        following = length - depth / contact[RATE]
+        following = length - value / contact[RATE]
         # the step made again may differ from what was seen by its error, so a little more is allowed
         if not before - 0.1 * h < following < after + 0.1 * h or following <= 0.0:
             following = 0.5 * (before + after)
         if following == length:
             break
         length = following
-    return length
-
-
-@compiled
-def land_on_cut(
-    p: Vector,
-    segment: Vector,
-    memory: Vector,
-    t: float,
-    h: float,
-    before: float,
-    y: Vector,
-    k: Matrix,
-    end: Vector,
-    contact: Vector,
-    weights: Vector,
-    report: Vector,
-) -> float:
-    """Make a step of h [s] again so that it ends where PUSH, `before` at its start, changes sign; its length.
-
-    While tension is cut there is no force, steps grow, and one would miss where the force sets in again. By
-    false position (Illinois).
-    """
-    low, high, at_low, at_high = 0.0, h, before, contact[PUSH]
-    length = h
-    for _ in range(LANDINGS):
-        length = (low * at_high - high * at_low) / (at_high - at_low)
-        advance(p, segment, memory, t, length, y, k, end, contact, weights)
-        report[EVALUATIONS] += STAGES - 1
-        value = contact[PUSH]
-        if abs(value) <= CUT_MET:
-            break
-        if (value < 0.0) == (at_low < 0.0):
-            low, at_low = length, value
-            at_high *= 0.5
-        else:
-            high, at_high = length, value
-            at_low *= 0.5
-    return length
-
-
-@compiled
-def land_on_turn(
-    p: Vector,
-    segment: Vector,
-    memory: Vector,
-    t: float,
-    h: float,
-    before: float,
-    guess: float,
-    y: Vector,
-    k: Matrix,
-    end: Vector,
-    contact: Vector,
-    weights: Vector,
-    report: Vector,
-) -> float:
-    """Make a step of h [s] again so that it ends where the rate, `before` at its start, passes zero.
-
-    The first look is at a guessed fraction; then by false position. Gives the step's length [s].
-    """
-    low, high, at_low, at_high = 0.0, h, before, contact[RATE]
-    length = guess * h
-    for n in range(TURNS):
-        advance(p, segment, memory, t, length, y, k, end, contact, weights)
-        report[EVALUATIONS] += STAGES - 1
-        value = contact[RATE]
-        if value == 0.0 or n + 1 == TURNS:
-            break
-        if value < 0.0:
-            low, at_low = length, value
-        else:
-            high, at_high = length, value
-        length = (low * at_high - high * at_low) / (at_high - at_low)
     return length
 
 
@@ -238,42 +198,63 @@ def write_records(
     report[RECORDS] = n
 
 
-@compiled
-def run_segment(
+@entry
+def integrate(
     p: Vector,
     segment: Vector,
-    going: Vector,
     times: Vector,
     weights: Vector,
+    going: Vector,
     most_steps: int,
     pause: int,
     y: Vector,
     memory: Vector,
     rows: Matrix,
     onsets: Matrix,
+    jumps: Matrix,
     report: Vector,
 ) -> int:
     """Run to the end of a segment of the drive, from its start or from a pause; FINISHED, or why not.
 
-    The arguments are those of `integrate`.
+    Arguments:
+        p: parameters. segment: of the drive. See `layout` for both.
+        times: of the records [s], from 0.
+        weights: one over the largest error of a step, for each component.
+        going: zeros with the first step in NEXT_STEP; after a segment or a pause as it was left.
+        most_steps: before giving up. pause: after so many steps it returns PAUSED, to be called again.
+        y, memory: state and memory at the start; at the end when it returns.
+        rows, onsets, jumps, report: are filled.
     """
-    k = np.empty((STAGES, STATES))
-    end, probe, path = np.empty(STATES), np.empty(STATES), np.empty((5, STATES))
-    now, then, there = np.zeros(CONTACT), np.zeros(CONTACT), np.zeros(CONTACT)
-    near = np.zeros(NEARNESS)
+    k, path = np.empty((STAGES, STATES)), np.empty((5, STATES))
+    end, probe, near = np.empty(STATES), np.empty(STATES), np.empty(NEARNESS)
+    now, then, there = np.empty(CONTACT), np.empty(CONTACT), np.empty(CONTACT)
     h, error_before = going[NEXT_STEP], 1e-4
     t, stop = segment[BEGIN], segment[END]
     if going[MIDST] != 0.0:
         t, error_before = going[AT], going[LAST_ERROR]
-        k[0, :] = going[RATES:CONTEXT]
-        now[:] = going[CONTEXT:GOING]
+        for i in range(STATES):
+            k[0, i] = going[RATES + i]
+        for i in range(CONTACT):
+            now[i] = going[CONTEXT + i]
     else:
+        if report[RECORDS] == 0.0:
+            # a drive that moves from the start on without a jump has been moving for long
+            if segment[JUMP] == 0.0:
+                move_with_the_drive(p, segment, 0.0, y)
+            freeze_inverse_mass(p, segment, memory, 0.0, y)
+            record(segment, memory, 0.0, y, rows, int(report[RECORDS]))
+            report[RECORDS] = 1.0
+        if segment[JUMP] != 0.0:
+            jump(p, segment, y, jumps, int(report[JUMPS]))
+            report[JUMPS] += 1
         evaluate(p, segment, memory, t, y, k[0], now)
     while t < stop:
         if report[STEPS] >= pause:
             going[MIDST], going[AT], going[NEXT_STEP], going[LAST_ERROR] = 1.0, t, h, error_before
-            going[RATES:CONTEXT] = k[0]
-            going[CONTEXT:GOING] = now
+            for i in range(STATES):
+                going[RATES + i] = k[0, i]
+            for i in range(CONTACT):
+                going[CONTEXT + i] = now[i]
             return PAUSED
         report[STEPS] += 1
         report[STOPPED_AT], report[LAST_STEP] = t, h
@@ -302,16 +283,8 @@ def run_segment(
         follow = wanted if last else h * factor(error, error_before)
         error_before = max(error, 1e-4)
         was_cut = now[PUSH] < 0.0
-        if what == CUT:
-            h = land_on_cut(p, segment, memory, t, h, now[PUSH], y, k, end, then, weights, report)
-            fit(h, y, end, k, path)
-            last = h >= stop - t
-        elif what == RETURN:
-            h = land_on_turn(p, segment, memory, t, h, now[RATE], high, y, k, end, then, weights, report)
-            fit(h, y, end, k, path)
-            last = h >= stop - t
-        elif what != NOTHING and low < 1.0:
-            h = land(p, segment, memory, t, h, what, low, high, y, k, end, then, weights, report)
+        if what != NOTHING and low < 1.0:
+            h = land(p, segment, memory, t, h, what, low, high, now, y, k, end, then, weights, report)
             fit(h, y, end, k, path)
             last = h >= stop - t
         if memory[CLOSED] != 0.0:
@@ -324,10 +297,13 @@ def run_segment(
         until = stop + CLOSE if last else t + h
         write_records(segment, memory, t, h, until, path, times, rows, probe, report)
         t = stop if last else t + h
-        y[:] = end
+        for i in range(STATES):
+            y[i] = end[i]
         if what == NOTHING:
-            k[0, :] = k[STAGES - 1]
-            now[:] = then
+            for i in range(STATES):
+                k[0, i] = k[STAGES - 1, i]
+            for i in range(CONTACT):
+                now[i] = then[i]
         else:
             if not happen(p, what, t, then[RATE], memory, onsets, report):
                 return TOO_MANY_IMPACTS
@@ -341,52 +317,4 @@ def run_segment(
                 now[PUSH] = 1e-30 if was_cut else -1e-30
         h = follow
     going[MIDST], going[NEXT_STEP] = 0.0, h
-    return FINISHED
-
-
-@entry
-def integrate(
-    p: Vector,
-    segments: Matrix,
-    times: Vector,
-    weights: Vector,
-    going: Vector,
-    most_steps: int,
-    pause: int,
-    y: Vector,
-    memory: Vector,
-    rows: Matrix,
-    onsets: Matrix,
-    jumps: Matrix,
-    report: Vector,
-) -> int:
-    """Run from 0 to the end of the last segment; FINISHED, or why not.
-
-    Arguments:
-        p: parameters. segments: of the drive, one a row. See `layout` for both.
-        times: of the records [s], from 0.
-        weights: one over the largest error of a step, for each component.
-        going: zeros with the first step in NEXT_STEP; after a pause as it was left.
-        most_steps: before giving up. pause: after so many steps it returns PAUSED, to be called again.
-        y, memory: state and memory at the start; at the end when it returns.
-        rows, onsets, jumps, report: are filled.
-    """
-    if report[RECORDS] == 0.0:
-        # a drive that moves from the start on without a jump has been moving for long
-        if segments[0, JUMP] == 0.0:
-            move_with_the_drive(p, segments[0], 0.0, y)
-        freeze_inverse_mass(p, segments[0], memory, 0.0, y)
-        record(segments[0], memory, 0.0, y, rows, 0)
-        report[RECORDS] = 1
-    for n in range(int(going[SEGMENT_NUMBER]), segments.shape[0]):
-        segment = segments[n]
-        going[SEGMENT_NUMBER] = n
-        if segment[JUMP] != 0.0 and going[MIDST] == 0.0:
-            jump(p, segment, y, False, jumps, int(report[JUMPS]))
-            report[JUMPS] += 1
-        code = run_segment(
-            p, segment, going, times, weights, most_steps, pause, y, memory, rows, onsets, report
-        )
-        if code != FINISHED:
-            return code
     return FINISHED

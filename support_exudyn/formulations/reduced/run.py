@@ -1,7 +1,5 @@
 """The run of the reduced formulation: scenario in, outcome out."""
 
-from itertools import count
-
 import numpy as np
 
 from support_exudyn.formulations.compiled import on_arrays
@@ -164,25 +162,32 @@ def run(scenario: Scenario, progress: Progress) -> Outcome:
 def _integrated(made: RunArrays, most_steps: int, progress: Progress) -> int:
     going = np.zeros(GOING)
     going[NEXT_STEP] = FIRST_STEP
-    for pause in count(AT_ONCE, AT_ONCE):
-        code = integrate(
-            made.p,
-            made.segments,
-            made.times,
-            made.weights,
-            going,
-            most_steps,
-            pause,
-            made.y,
-            made.memory,
-            made.rows,
-            made.onsets,
-            made.jumps,
-            made.report,
-        )
-        if code != PAUSED:
+    pause, code = AT_ONCE, FINISHED
+    for segment in made.segments:
+        while (code := _go_on(made, segment, going, most_steps, pause)) == PAUSED:
+            pause += AT_ONCE
+            progress(float(going[AT] / made.times[-1]))
+        if code != FINISHED:
             break
-        progress(float(going[AT] / made.times[-1]))
+    return code
+
+
+def _go_on(made: RunArrays, segment: Vector, going: Vector, most_steps: int, pause: int) -> int:
+    code: int = integrate(
+        made.p,
+        segment,
+        made.times,
+        made.weights,
+        going,
+        most_steps,
+        pause,
+        made.y,
+        made.memory,
+        made.rows,
+        made.onsets,
+        made.jumps,
+        made.report,
+    )
     return code
 
 

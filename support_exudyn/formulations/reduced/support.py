@@ -17,6 +17,7 @@ from support_exudyn.formulations.reduced.layout import (
     CANOPY_MASS,
     CANOPY_X,
     CANOPY_Y,
+    CLEARANCE,
     FIRST,
     FIRST_RATE,
     FORCE_X,
@@ -335,7 +336,7 @@ def closed(pin: PinState, at: SupportMotion, free: Motion, link_rate: float) -> 
 
 
 @compiled
-def jump(p: Vector, segment: Vector, y: Vector, ideal: bool, jumps: Matrix, n: int) -> None:
+def jump(p: Vector, segment: Vector, y: Vector, jumps: Matrix, n: int) -> None:
     """Give the state y the rates that belong to the drive's jump of speed at the start of a segment.
 
     The equations of motion without velocities, weight and contact force, impulses in place of forces: a loose
@@ -350,7 +351,7 @@ def jump(p: Vector, segment: Vector, y: Vector, ideal: bool, jumps: Matrix, n: i
     push = DriveValues(after.extension, 0.0, segment[JUMP])
     law = balance(p, at, still, 0.0, 0.0, push, 0.0)
     px = py = 0.0
-    if ideal:
+    if p[CLEARANCE] == 0.0:  # the pin is ideal
         pin = rear_pin(p, at, still, 0.0)
         canopy, link = closed(pin, at, unforced(p, at, still, 0.0, push), 0.0)
         px, py = closing_force(pin, law, canopy, link)
