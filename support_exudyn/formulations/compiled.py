@@ -1,7 +1,10 @@
 """How functions of numbers are compiled by numba: the same numbers in every process, kept on disk."""
 
 import hashlib
+import os
+import sys
 from collections.abc import Callable
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
 from types import FunctionType
@@ -16,6 +19,13 @@ from support_exudyn.formulations import contact_events
 from user_forces import contact
 from user_forces.compilation.flat import NAMES
 
+try:
+    import fcntl as _fcntl
+except ImportError:  # Windows
+    _fcntl = None  # type: ignore[assignment]
+
+fcntl: Any = _fcntl
+SECONDS = {"reduced": 10, "tree": 5}  # that compiling a formulation takes on a quiet machine of 2020
 CONSTANTS_OF = (contact_events, contact)  # modules of which compiled functions use constants
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -26,8 +36,7 @@ def compiled(function: Function) -> Function:
     Divisions by zero give inf or nan, which the integrator looks for. No fast-math: results are the same
     bit for bit from run to run.
     """
-    # without the wrappers for calls from Python and C, which take a third of the time of compiling
-    return _kept(function, no_cpython_wrapper=True, no_cfunc_wrapper=True)
+    return _inner(function)
 
 
 def inlined(function: Function) -> Function:
@@ -35,7 +44,7 @@ def inlined(function: Function) -> Function:
 
     That makes the right-hand side twice as fast. Of larger functions it would only make compiling slower.
     """
-    return _kept(function, no_cpython_wrapper=True, no_cfunc_wrapper=True, forceinline=True)
+    return _inner(function, forceinline=True)
 
 
 def entry(function: Function) -> Function:
@@ -74,14 +83,23 @@ def on_arrays(function: Callable[..., Any]) -> Callable[..., Any]:
     return plain(function, math=np)
 
 
-def _kept(function: Function, **options: bool) -> Function:
+def _inner(function: Function, **options: bool) -> Function:
+    """Not kept on disk, where those that Python calls hold its code; that would take a tenth of the time.
+
+    Without the wrappers for calls from Python and C, which take a third of it.
+    """
+    options |= {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+    return numba.njit(error_model="numpy", **options)(function)  # type: ignore[no-any-return]
+
+
+def _kept(function: Function) -> Function:
     try:
-        dispatcher: Any = numba.njit(cache=True, error_model="numpy", **options)(function)
+        dispatcher: Any = numba.njit(cache=True, error_model="numpy")(function)
         kept = _is_kept_only_while_unchanged(dispatcher)
     except RuntimeError:  # neither beside the program nor in a home may files be written: compiled each time
         kept = False
     if not kept:
-        dispatcher = numba.njit(error_model="numpy", **options)(function)
+        dispatcher = numba.njit(error_model="numpy")(function)
     return dispatcher  # type: ignore[no-any-return]
 
 
@@ -110,7 +128,63 @@ def _is_kept_only_while_unchanged(dispatcher: Any) -> bool:
         return False
     kept._source_stamp = STAMP
     kept._version = f"{kept._version}, {STAMP[0]}"
+    _let_one_process_compile(dispatcher)
     return True
+
+
+def _let_one_process_compile(dispatcher: Any) -> None:
+    """Let processes that need a function at the same time wait for the first, and load what it has compiled."""
+    kept: Any = dispatcher._cache
+    load, save = kept.load_overload, kept.save_overload
+    locks: list[int] = []
+
+    def release() -> None:
+        while locks:
+            os.close(locks.pop())
+
+    def load_or_wait(signature: Any, target: Any) -> Any:
+        found = load(signature, target)
+        if found is None:
+            locks.extend(_lock(Path(kept.cache_path), dispatcher.__name__))
+            found = load(signature, target)
+            if found is None:
+                _tell(dispatcher.py_func.__module__)
+            else:
+                release()
+        return found
+
+    def save_and_release(signature: Any, made: Any) -> None:
+        try:
+            save(signature, made)
+        finally:
+            release()
+
+    kept.load_overload, kept.save_overload = load_or_wait, save_and_release
+
+
+def _lock(folder: Path, name: str) -> list[int]:
+    """A lock on a function that one process has until it closes it; empty where there are no locks."""
+    if fcntl is None:
+        return []
+    with suppress(OSError):
+        folder.mkdir(parents=True, exist_ok=True)
+        handle = os.open(folder / f"{name}.lock", os.O_RDWR | os.O_CREAT, 0o666)
+        try:
+            fcntl.flock(handle, fcntl.LOCK_EX)
+        except OSError:  # a disk without locks
+            os.close(handle)
+            raise
+        return [handle]
+    return []
+
+
+@cache
+def _tell(module: str) -> None:
+    """Tell who sits before a terminal why nothing moves."""
+    for formulation in SECONDS.keys() & module.split("."):
+        if sys.stderr.isatty():
+            text = f"compiling the {formulation} formulation, once on this machine"
+            print(f"{text}: about {SECONDS[formulation]} s", file=sys.stderr)
 
 
 NUMBER = numba.types.float64

@@ -1,8 +1,11 @@
-"""Compiled code where no file may be written to keep it."""
+"""Compiled code: where it may not be kept, when it is kept, and who compiles it."""
 
 from __future__ import annotations
 
+import os
 import pickle
+import sys
+from concurrent.futures import ThreadPoolExecutor, wait
 from pathlib import Path
 from typing import Any
 
@@ -57,3 +60,31 @@ def test_what_an_older_program_has_kept_is_not_read(tmp_path: Path, monkeypatch:
     index.write_bytes(pickle.dumps(numba.__version__) + b"\x80\x04cno.module\nNoClass\n.")
     assert dispatcher(21.0) == 42.0
     assert compiled.STAMP[0].encode() in index.read_bytes()
+
+
+def test_a_function_that_another_process_compiles_is_waited_for(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("fcntl")
+    monkeypatch.setattr(numba.config, "CACHE_DIR", str(tmp_path))
+    dispatcher, other = compiled._kept(twice), compiled._kept(twice)
+    (lock,) = compiled._lock(Path(dispatcher._cache.cache_path), "twice")  # the other process begins
+    with ThreadPoolExecutor(1) as pool:
+        found = pool.submit(dispatcher, 21.0)
+        assert wait([found], timeout=0.3).not_done
+        os.close(lock)
+        assert found.result() == 42.0
+    assert other(21.0) == 42.0
+    assert (dispatcher.stats.cache_hits, other.stats.cache_hits) == ({}, {(numba.types.float64,): 1})
+
+
+@pytest.mark.parametrize("at_terminal", [True, False])
+def test_who_sits_before_a_terminal_is_told_of_the_compiling(
+    at_terminal: bool, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: at_terminal)
+    compiled._tell.__wrapped__("support_exudyn.formulations.reduced.integrate")
+    told = "compiling the reduced formulation, once on this machine: about 10 s\n"
+    assert capsys.readouterr().err == at_terminal * told
+    compiled._tell.__wrapped__("__main__")
+    assert capsys.readouterr().err == ""
