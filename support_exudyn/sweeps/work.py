@@ -80,16 +80,9 @@ def in_processes(tasks: Iterable[Task], store: Store, workers: int) -> Generator
     workers: number of processes, >= 1.
     """
     keys: dict[int, str] = {}  # of those under way
-    compiled = False
 
     def jobs() -> Iterator[tuple[Store, Task]]:
-        nonlocal compiled
         for number, task in enumerate(tasks):
-            if not (compiled or task.again) and _is_compiled(task.scenario):
-                from support_exudyn.sweeps.precompile import precompile  # and numba
-
-                precompile()  # once, for all processes
-                compiled = True
             keys[number] = task.key
             yield store, task
 
@@ -97,11 +90,6 @@ def in_processes(tasks: Iterable[Task], store: Store, workers: int) -> Generator
         for number, found in pool.stream(jobs(), _do):
             key = keys.pop(number)
             yield StoredRun(key, "killed", found.reason) if isinstance(found, ProcessEndedError) else found
-
-
-def _is_compiled(scenario: Scenario) -> bool:
-    """Whether its formulation is, or may be, one that is compiled."""
-    return scenario.chooses_steps or (scenario.formulation == "auto" and scenario.goal is not None)
 
 
 def _do(place: int, store: Store, task: Task) -> StoredRun:
