@@ -1,0 +1,138 @@
+"""The drawing of a machine from its side."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+from matplotlib.colors import to_hex
+from matplotlib.figure import Figure
+from matplotlib.patches import Circle
+
+from support_exudyn import ClearancePin, CubicStep, CylinderAndRod, OwnBody, Scenario
+from support_exudyn.files.machines.read import shipped
+from support_exudyn.machines.free_impact import ImpactStand
+from support_exudyn.postprocessing.figures import style
+from support_exudyn.postprocessing.figures.machine import MARK, machine_drawing
+from support_exudyn.postprocessing.figures.outlines import LAYERS, shapes
+from support_exudyn.postprocessing.look.looks import look
+from support_exudyn.postprocessing.look.solid import Role
+from tests import figure_checks
+from tests.cases.run_cases import PIN, loose_slider_crank, loose_support, paper_contact, slider_crank, support
+from user_forces import InputError
+
+COLUMN = CylinderAndRod(
+    cylinder_mass=300.0, cylinder_centre=0.45, cylinder_inertia=20.0,
+    rod_mass=200.0, rod_centre=0.45, rod_inertia=14.0,
+)  # fmt: skip
+LOOSE = ClearancePin(contact=paper_contact(1.5, 0.25))
+
+
+def of_file(name: str, *pins: str) -> Scenario:
+    machine = shipped(name).machine
+    return Scenario(machine=machine, drive=CubicStep(stroke=0.1), pins=dict.fromkeys(pins, LOOSE), duration=5.0)
+
+
+SCENES = {
+    "support": loose_support(),
+    "support, ideal": support(),
+    "zf18000": of_file("zf18000", "shield_canopy"),
+    "two legs": of_file("two_leg_shield", "rear_shield", "shield_canopy"),
+    "columns in two bodies": loose_support(actuators={"front_column": COLUMN, "rear_column": COLUMN}),
+    "tail beam, in space": loose_support(parts={"tail_beam": OwnBody()}, dimensions=3),
+    "slider-crank": loose_slider_crank(0.1),
+    "slider-crank, ideal": slider_crank(0.1),
+    "stand": Scenario(
+        machine=ImpactStand(bore_mass=3.0, journal_mass=2.0, speed=0.1), pins={"pin": LOOSE}, duration=0.1
+    ),
+}
+
+
+def rings(drawing: Figure) -> list[Circle]:
+    """The rings of marked pins, in the order of the pins."""
+    return [
+        patch
+        for patch in drawing.axes[0].patches
+        if isinstance(patch, Circle)
+        and to_hex(patch.get_edgecolor()) == MARK.lower()
+        and patch.get_linewidth() == 2.0
+    ]
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_a_machine_is_drawn_whole_and_fits_a_page(name: str) -> None:
+    scenario = SCENES[name]
+    drawing = machine_drawing(scenario)
+    assert 25.4 * drawing.get_figwidth() <= 180.0
+    assert 25.4 * drawing.get_figheight() <= 220.0
+    with style.look():
+        assert not figure_checks.cut_off(drawing)
+        words = [text for text, _ in figure_checks.texts(drawing)]
+    assert "forward" in words
+    assert len(rings(drawing)) == len(scenario.clearance_pins)
+    axes = drawing.axes[0]
+    (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
+    wide, tall = drawing.get_size_inches()
+    assert (right - left) / wide == pytest.approx((high - low) / tall)  # as long as it is high
+    for shape in shapes(look(scenario)) if "crank" not in name else ():
+        a, b, c, d = shape.outline.bounds
+        assert left < a < c < right
+        assert low < b < d < high
+
+
+@pytest.mark.parametrize("name", ["support", "zf18000", "tail beam, in space", "slider-crank, ideal"])
+def test_words_do_not_lie_upon_another(name: str) -> None:
+    with style.look():
+        assert not figure_checks.overlapping(machine_drawing(SCENES[name]))
+
+
+def test_the_ring_is_at_the_pin_and_the_detail_says_its_data() -> None:
+    drawing = machine_drawing(SCENES["support"])
+    assert rings(drawing)[0].get_center() == SCENES["support"].linkage.pins[PIN].second_point
+    with style.look():
+        words = [text for text, _ in figure_checks.texts(drawing)]
+    for said in ("rear base pin", "radial clearance c = 1.5 mm", "bore diameter 131 mm", "1 m", "tip"):
+        assert said in words
+    assert "(clearance drawn 10 times larger)" in words
+
+
+def test_bodies_are_named_where_there_is_room() -> None:
+    with style.look():
+        words = [text for text, _ in figure_checks.texts(machine_drawing(SCENES["zf18000"]))]
+    assert {"rear link", "front link", "shield", "canopy", "base", "front column", "rear column"} <= set(words)
+
+
+def test_ideal_pins_are_marked_by_name_alone() -> None:
+    drawing = machine_drawing(SCENES["support, ideal"], ["rear_shield", "front_base"])
+    assert len(rings(drawing)) == 2
+    with style.look():
+        words = [text for text, _ in figure_checks.texts(drawing)]
+    assert "rear shield pin" in words
+    assert not [text for text in words if "clearance" in text]
+
+
+def test_a_pin_that_there_is_not_is_refused_with_those_that_there_are() -> None:
+    with pytest.raises(InputError, match=r"marked = 'middle': no such pin; allowed: rear_base, front_base"):
+        machine_drawing(SCENES["support"], ["middle"])
+
+
+def test_a_crank_in_line_with_its_rod_is_turned_and_the_drawing_says_so() -> None:
+    scenario = SCENES["slider-crank"]
+    turned = replace(scenario, machine=replace(scenario.machine, start_angle=2.0))
+    with style.look():
+        in_line = [text for text, _ in figure_checks.texts(machine_drawing(scenario))]
+        otherwise = [text for text, _ in figure_checks.texts(machine_drawing(turned))]
+    assert "crank drawn at 50°" in in_line
+    assert not [text for text in otherwise if "drawn at" in text]
+
+
+def test_outlines_are_those_of_the_solids_and_one_of_a_pair() -> None:
+    drawn = look(SCENES["support"])
+    found = {(shape.name, shape.role): shape.outline for shape in shapes(drawn)}
+    canopy = next(solid for solid in drawn.solids if solid.role is Role.CANOPY)
+    (left, low, _), (right, high, _) = canopy.mesh.bounds
+    assert found["canopy", Role.CANOPY].bounds == pytest.approx((left, low, right, high), abs=1e-3)
+    assert found["canopy", Role.CANOPY].area < (right - left) * (high - low)
+    assert [role for name, role in found if name == "rear_column"] == [Role.ROD, Role.CYLINDER]
+    order = list(LAYERS)
+    assert [order.index(role) for _, role in found] == sorted(order.index(role) for _, role in found)
