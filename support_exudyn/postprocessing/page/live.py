@@ -1,0 +1,222 @@
+"""Figures of time series to look into in a browser: values under the pointer, zoom, curves off and on.
+
+A figure is kept as JSON beside its picture. A page holds bokeh's script once and all its figures as data, so
+that it loads nothing.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from functools import cache
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+import numpy.typing as npt
+from matplotlib.axes import Axes
+from matplotlib.colors import to_hex
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from pydantic import ConfigDict, TypeAdapter, ValidationError
+
+from support_exudyn.files.whole_file import contents, whole_file
+from support_exudyn.mechanics.trajectory import Series
+from user_forces.values.value import InputError
+
+LARGEST_FILE = 50_000_000  # bytes
+MOST_POINTS = 2000  # of a curve; a few more of several rough ones with the same x
+DIGITS = 7
+Dash = Literal["solid", "dashed", "dotted", "dotdash", "points"]
+DASHES: dict[str, Dash] = {"-": "solid", "--": "dashed", ":": "dotted", "-.": "dotdash"}
+
+
+@dataclass(frozen=True)
+class LiveCurve:
+    """A curve: its name, its points, None in y where it is broken; colour as "#rrggbb", dash, width [points].
+
+    Of dash "points" each point is a mark, and none is joined with the next.
+    """
+
+    __pydantic_config__ = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
+
+    label: str
+    x: tuple[float, ...]
+    y: tuple[float | None, ...]
+    colour: str
+    dash: Dash = "solid"
+    width: float = 1.0
+
+    def __post_init__(self) -> None:
+        if len(self.x) != len(self.y) or not self.x:
+            raise ValueError(f"{len(self.x)} x and {len(self.y)} y; allowed: as many of both, at least one")
+
+
+@dataclass(frozen=True)
+class LivePanel:
+    """A panel: label of its y axis with the unit in brackets, and its curves, the undermost first."""
+
+    __pydantic_config__ = ConfigDict(extra="forbid", strict=True)
+
+    label: str
+    curves: tuple[LiveCurve, ...]
+
+
+@dataclass(frozen=True)
+class LiveFigure:
+    """Panels one below the other over the same x axis; x_label: its label with the unit in brackets."""
+
+    __pydantic_config__ = ConfigDict(extra="forbid", strict=True)
+
+    x_label: str
+    panels: tuple[LivePanel, ...]
+
+    def __post_init__(self) -> None:
+        if not self.panels or not all(panel.curves for panel in self.panels):
+            raise ValueError(
+                "nothing is drawn in it; allowed: at least one panel, each with at least one curve"
+            )
+
+    def save(self, path: Path) -> None:
+        """Write it as JSON, whole or not at all."""
+        with whole_file(path) as temporary:
+            text = json.dumps(asdict(self), ensure_ascii=False, allow_nan=False, separators=(",", ":"))
+            temporary.write_text(text + "\n", encoding="utf-8")
+
+    @staticmethod
+    def load(path: Path) -> LiveFigure:
+        """Read it back. Raises InputError that names the file and its fault; OSError if it cannot."""
+        try:
+            return _reader().validate_json(contents(path, LARGEST_FILE))
+        except ValidationError as error:
+            found = [(".".join(map(str, item["loc"])), item["msg"]) for item in error.errors()[:4]]
+            said = "; ".join(f"{place}: {message}" if place else message for place, message in found)
+            raise InputError(f"{path}: {said}") from None
+
+
+@cache
+def _reader() -> TypeAdapter[LiveFigure]:
+    return TypeAdapter(LiveFigure)
+
+
+# --- from data, and from a drawing ---
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """A curve in full: its name, x and y (n,), broken by NaN; colour, dash and width as in `LiveCurve`."""
+
+    label: str
+    x: Series
+    y: Series
+    colour: str
+    dash: Dash = "solid"
+    width: float = 1.0
+
+
+def live_panel(label: str, curves: Sequence[Drawn]) -> LivePanel:
+    """A panel of curves, thinned so that no peak is lost, in 7 digits.
+
+    Those with the same x stay so: all their values at a place can be read together.
+    """
+    groups: list[list[int]] = []
+    for number, one in enumerate(curves):
+        of_same = (group for group in groups if np.array_equal(curves[group[0]].x, one.x, equal_nan=True))
+        group = next(of_same, [])
+        if not group:
+            groups.append(group)
+        group.append(number)
+    found: dict[int, LiveCurve] = {}
+    for group in groups:
+        x = curves[group[0]].x
+        placed = np.flatnonzero(np.isfinite(x))
+        kept = placed[thinned(np.array([curves[number].y[placed] for number in group]), MOST_POINTS)]
+        places = tuple(_rounded(value) for value in x[kept].tolist())
+        for number in group:
+            one = curves[number]
+            values = tuple(_rounded(v) if math.isfinite(v) else None for v in one.y[kept].tolist())
+            found[number] = LiveCurve(in_line(one.label), places, values, one.colour, one.dash, one.width)
+    return LivePanel(in_line(label), tuple(found[number] for number in range(len(curves))))
+
+
+def of_drawing(drawing: Figure, panels: Sequence[int]) -> LiveFigure:
+    """The curves of some panels of a matplotlib figure, thinned so that no peak is lost.
+
+    Curves are the lines of a panel that have a label. Those without one, and those across the whole panel, are
+    aids to the eye and left out.
+
+    Arguments:
+        drawing: whose panels are drawn over the same quantity.
+        panels: which of `drawing.axes`.
+
+    Raises InputError for a panel that is not there, or that has no such curve.
+    """
+    found = []
+    for number in panels:
+        if not 0 <= number < len(drawing.axes):
+            raise InputError(f"panel {number}: there is none; allowed: 0 to {len(drawing.axes) - 1}")
+        axes = drawing.axes[number]
+        lines = [line for line in axes.get_lines() if _is_curve(axes, line)]
+        if not lines:
+            raise InputError(f"panel {number} ({axes.get_ylabel()}): has no line with a label; allowed: some")
+        curves = [_drawn(line) for line in sorted(lines, key=lambda line: float(line.get_zorder()))]
+        found.append(live_panel(axes.get_ylabel(), curves))
+    of_panels = [drawing.axes[number].get_xlabel() for number in panels]
+    labels = of_panels + [axes.get_xlabel() for axes in drawing.axes]
+    return LiveFigure(in_line(next((label for label in labels if label), "")), tuple(found))
+
+
+def _is_curve(axes: Axes, line: Line2D) -> bool:
+    """Whether it has a label, is drawn in the data's coordinates, and has points."""
+    label = str(line.get_label())
+    in_data = line.get_transform() == axes.transData
+    return in_data and bool(label) and not label.startswith("_") and bool(np.size(line.get_xdata()))
+
+
+def _drawn(line: Line2D) -> Drawn:
+    x: Series
+    y: Series
+    x, y = (np.ma.filled(np.ma.asarray(data, dtype=float), np.nan) for data in line.get_data(orig=False))
+    style = str(line.get_linestyle())
+    dash: Dash = "points" if style in ("None", "", " ") else DASHES.get(style, "solid")
+    width = round(float(line.get_linewidth()), 2)
+    return Drawn(str(line.get_label()), x, y, to_hex(line.get_color()), dash, width)
+
+
+def thinned(curves: Series, most: int) -> npt.NDArray[np.intp]:
+    """The indexes of points of curves (k, n) that are kept, so that about `most` are left.
+
+    Of every bin of equally many points the first and the last one stay, and the lowest and the highest of every
+    curve; of points that are not finite, at which a curve is broken, the first one.
+    """
+    number = curves.shape[1]
+    if number <= most:
+        return np.arange(number, dtype=np.intp)
+    edges = np.linspace(0, number, max(1, most // (2 + len(curves))) + 1).astype(np.intp)
+    kept = [edges[:-1], edges[1:] - 1]
+    for y in curves:
+        finite = np.isfinite(y)
+        for filling, pick in ((np.inf, np.minimum), (-np.inf, np.maximum)):
+            filled = np.where(finite, y, filling)
+            extreme = np.repeat(pick.reduceat(filled, edges[:-1]), np.diff(edges))
+            kept.append(_first(finite & (filled == extreme), edges))
+        kept.append(_first(~finite, edges))
+    return np.unique(np.concatenate(kept))
+
+
+def _first(chosen: npt.NDArray[np.bool_], edges: npt.NDArray[np.intp]) -> npt.NDArray[np.intp]:
+    """The first chosen index of every bin that has one."""
+    where = np.flatnonzero(chosen)
+    bins = np.searchsorted(edges, where, side="right")
+    return where[np.unique(bins, return_index=True)[1]].astype(np.intp)
+
+
+def _rounded(value: float) -> float:
+    return float(f"{value:.{DIGITS}g}")
+
+
+def in_line(label: str) -> str:
+    """A label in one line."""
+    return " ".join(label.split())

@@ -1,0 +1,167 @@
+"""Figures to look into: what is kept of their curves, their files, and what a page is given."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as arrays
+from matplotlib.figure import Figure
+
+import support_exudyn
+from support_exudyn.mechanics.trajectory import Series
+from support_exudyn.postprocessing.page.live import (
+    MOST_POINTS,
+    Drawn,
+    LiveFigure,
+    live_panel,
+    of_drawing,
+    thinned,
+)
+from support_exudyn.postprocessing.page.live_html import html
+from user_forces import InputError
+
+MOST = 60
+VALUES = st.floats(-1e6, 1e6) | st.just(float("nan"))
+
+
+def drawing() -> Figure:
+    figure = Figure()
+    upper, lower = figure.subplots(2, 1)
+    time = np.linspace(0.0, 5.0, 20_001)
+    for axes, size in ((upper, 1.0), (lower, 30.0)):
+        axes.plot(time, size * np.sin(time), label="under", color="#0072B2", lw=0.9, zorder=1)
+        axes.plot(time, size * np.cos(time), label="over", color="#000000", ls=(0, (4, 2)), zorder=3)
+        axes.plot([1.0, 2.0], [0.0, size], "x", label="paper", color="#882255", zorder=4)
+        axes.plot(time, 0.0 * time, color="#777777")
+        axes.axvline(3.0, label="start")
+        axes.set_ylabel("pin force\n[kN]")
+    lower.set_xlabel("time [s]")
+    return figure
+
+
+@given(arrays.arrays(float, st.tuples(st.integers(1, 3), st.integers(1, 800)), elements=VALUES))
+@settings(max_examples=60, deadline=None)
+def test_every_bin_keeps_its_extremes_and_its_ends(curves: Series) -> None:
+    kept = thinned(curves, MOST)
+    number = curves.shape[1]
+    assert np.array_equal(kept, np.unique(kept))
+    if number <= MOST:
+        assert kept.size == number
+        return
+    edges = np.linspace(0, number, MOST // (2 + len(curves)) + 1).astype(int)
+    for y in curves:
+        for start, end in zip(edges[:-1], edges[1:], strict=True):
+            inside = y[kept[(kept >= start) & (kept < end)]]
+            whole = y[start:end]
+            assert {int(start), int(end) - 1} <= set(kept.tolist())
+            if np.isfinite(whole).any():
+                assert np.nanmin(inside) == np.nanmin(whole)
+                assert np.nanmax(inside) == np.nanmax(whole)
+            assert np.isnan(whole).any() == np.isnan(inside).any()  # a gap is still one
+
+
+def test_a_peak_of_one_record_is_not_lost_and_a_curve_has_few_points() -> None:
+    time = np.linspace(0.0, 5.0, 500_001)
+    force = np.sin(40.0 * time)
+    force[123_457], force[400_001] = 443.2101234567, -7.0
+    (one,) = live_panel("force [kN]", [Drawn("rough", time, force, "#000000")]).curves
+    assert len(one.x) <= MOST_POINTS + 2
+    assert max(v for v in one.y if v is not None) == 443.2101
+    assert min(v for v in one.y if v is not None) == -7.0
+    assert one.x[one.y.index(443.2101)] == pytest.approx(time[123_457], rel=1e-7)
+
+
+def test_curves_over_the_same_times_stay_so_and_others_do_not_mind() -> None:
+    time = np.linspace(0.0, 5.0, 30_001)
+    rng = np.random.default_rng(3)
+    rough = rng.normal(size=(2, time.size))
+    found = live_panel(
+        "y [m]",
+        [
+            Drawn("a", time, rough[0], "#000000"),
+            Drawn("other", time[:70], rough[0, :70], "#000000"),
+            Drawn("b", time, rough[1], "#000000"),
+        ],
+    ).curves
+    assert [one.label for one in found] == ["a", "other", "b"]
+    assert found[0].x == found[2].x
+    assert len(found[1].x) == 70
+    assert len(found[0].x) < 1.6 * MOST_POINTS
+
+
+def test_curves_of_a_drawing_are_its_labelled_lines_from_the_undermost() -> None:
+    found = of_drawing(drawing(), [1, 0])
+    assert found.x_label == "time [s]"
+    assert [panel.label for panel in found.panels] == ["pin force [kN]"] * 2
+    under, over, paper = found.panels[0].curves
+    assert (under.label, under.colour, under.dash, under.width) == ("under", "#0072b2", "solid", 0.9)
+    assert (over.label, over.dash) == ("over", "dashed")
+    assert (paper.dash, paper.x, paper.y) == ("points", (1.0, 2.0), (0.0, 30.0))
+    assert max(v for v in under.y if v is not None) == 30.0
+
+
+def test_a_panel_without_curves_is_refused() -> None:
+    figure = Figure()
+    figure.subplots().plot([0.0, 1.0], [0.0, 1.0])
+    with pytest.raises(InputError, match="panel 0 .*no line with a label"):
+        of_drawing(figure, [0])
+    with pytest.raises(InputError, match="panel 1: there is none; allowed: 0 to 0"):
+        of_drawing(figure, [1])
+
+
+def test_a_figure_is_read_back_as_it_was_written(tmp_path: Path) -> None:
+    time = np.array([0.0, 1.0, 2.0])
+    broken = live_panel("y [m]", [Drawn("a", time, np.array([1.0, np.nan, 3.0]), "#000000")])
+    for number, figure in enumerate((of_drawing(drawing(), [0, 1]), LiveFigure("time [s]", (broken,)))):
+        path = tmp_path / f"{number}.live.json"
+        figure.save(path)
+        assert LiveFigure.load(path) == figure
+
+
+@pytest.mark.parametrize(
+    ("text", "fault"),
+    [
+        ("{", "Invalid JSON"),
+        ('{"x_label": "t", "panels": []}', "at least one panel"),
+        ('{"x_label": "t"}', "panels: Field required"),
+        (
+            '{"x_label": "t", "panels": [{"label": "y", "curves": [{"label": "a", "x": [1.0], "y": [1.0, 2.0],'
+            ' "colour": "#000000"}]}]}',
+            r"panels\.0\.curves\.0: .*1 x and 2 y",
+        ),
+    ],
+)
+def test_a_broken_file_is_told_by_name_and_fault(tmp_path: Path, text: str, fault: str) -> None:
+    path = tmp_path / "fig.live.json"
+    path.write_text(text)
+    with pytest.raises(InputError, match=fault) as told:
+        LiveFigure.load(path)
+    assert str(path) in str(told.value)
+
+
+def test_a_page_holds_the_library_once_and_loads_nothing() -> None:
+    figure = of_drawing(drawing(), [0, 1])
+    found = html({"one": figure, "other": figure})
+    assert set(found.places) == {"one", "other"}
+    assert len(set(found.places.values())) == 2
+    assert not re.search(r"<(script|link|img|iframe)[^>]*\b(src|href)=", found.scripts)
+    assert 1e6 < len(found.scripts) < 1.6e6
+    assert html({}).scripts == ""
+
+
+def test_names_cannot_leave_the_script() -> None:
+    time = np.array([0.0, 1.0])
+    bad = "</script><script>alert(1)</script>"
+    figure = LiveFigure("time [s]", (live_panel(bad, [Drawn(bad, time, time, "#000000")]),))
+    assert "alert(1)</script>" not in html({"a": figure}).scripts
+
+
+def test_bokeh_is_imported_where_a_page_is_made_alone() -> None:
+    package = Path(support_exudyn.__file__).parent
+    early = re.compile(r"^(import|from) bokeh", re.MULTILINE)
+    assert not [path for path in package.rglob("*.py") if early.search(path.read_text(encoding="utf-8"))]
