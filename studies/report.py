@@ -1,4 +1,4 @@
-"""The report on all studies: one page, report.html, and report.md for a terminal.
+"""The report on all studies: one page, report.html.
 
 `python -m studies.report` writes both again from the results that are there.
 """
@@ -10,24 +10,23 @@ from pathlib import Path
 from studies.catalogue import STUDIES
 from studies.common.chapter import FILE
 from studies.reporting.content import ReportSection, content
-from studies.reporting.pages import page, text
+from studies.reporting.pages import page
 from support_exudyn.commands.command_line import Parser, folder, warn
 from support_exudyn.files.whole_file import whole_file
 from user_forces.values.value import InputError
 
 
 def write_report(out: Path, chapters: Sequence[ReportSection]) -> Path:
-    """Write report.html and report.md into `out`, each whole or not at all; returns the page's path.
+    """Write report.html into `out`, whole or not at all; returns its path.
 
     Arguments:
-        out: folder; the pictures of the text version are linked relative to it.
+        out: folder.
         chapters: in the order in which they are to be read.
 
-    Raises InputError or OSError; both files are then as they were before.
+    Raises InputError or OSError; it is then as it was before.
     """
     report = content(chapters)
-    files = {out / "report.html": page(report), out / "report.md": text(report, out)}
-    for path, written in files.items():
+    for path, written in {out / "report.html": page(report)}.items():
         with whole_file(path) as temporary:
             temporary.write_text(written, encoding="utf-8")
     return out / "report.html"

@@ -25,11 +25,11 @@ from studies.benchmarking.references import errors, references, thinned, times_t
 from studies.benchmarking.scenes import SCENES
 from studies.benchmarking.variants import Way, peer, redundant, with_tolerance
 from studies.common import paper_machine
-from studies.common.chapter import Sheet
 from studies.common.study import folder_of, show_table, work_in_folder
 from studies.slider_crank import run as slider_crank
 from support_exudyn import Scenario, SimulationError, SolverSettings, simulate
 from support_exudyn.files.whole_file import whole_file
+from support_exudyn.postprocessing.page.pieces import Sheet
 from user_forces import Hertz
 from user_forces.normal.power_law import PowerLaw
 
@@ -298,7 +298,7 @@ def study(out: Path) -> None:
     table = sheet(lines)
     show_table(out / "benchmark", table, width=170)
     words = "\n\n".join(
-        ["# Benchmark", process.machine(), table.markdown(), process.memory(), process.importing()]
+        ["# Benchmark", process.machine(), process.markdown(table), process.memory(), process.importing()]
     )
     with whole_file(out / "benchmark.md") as temporary:
         temporary.write_text(words + "\n", encoding="utf-8")

@@ -24,13 +24,13 @@ import numpy as np
 from studies.benchmarking import covered
 from studies.benchmarking.covered import CoveredRun, Judged
 from studies.benchmarking.fresh_scenes import KINDS, fresh
-from studies.common.chapter import Sheet
 from studies.common.numbers import Number, write_summary
 from studies.common.options import MOST_WORKERS
 from studies.common.runs import bar
 from studies.common.study import output_folder, show_table
 from support_exudyn.commands.command_line import Parser, answered, count, folder
 from support_exudyn.files.whole_file import whole_file
+from support_exudyn.postprocessing.page.pieces import Sheet
 from support_exudyn.sweeps.key import key
 from support_exudyn.sweeps.workers import ProcessEndedError, Workers, report, worker_pool
 

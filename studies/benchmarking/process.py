@@ -8,6 +8,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
+from support_exudyn.postprocessing.page.pieces import Sheet
 from support_exudyn.simulation.provenance import versions
 
 IMPORT = "import time, exudyn; t = time.perf_counter(); import support_exudyn; print(time.perf_counter() - t)"
@@ -48,6 +49,13 @@ def machine() -> str:
         name = models[0] if models else name
     packages = ", ".join(f"{package} {version}" for package, version in versions().items())
     return f"{name}, {os.cpu_count()} cores. {packages}."
+
+
+def markdown(sheet: Sheet) -> str:
+    """A table with pipes between its cells."""
+    rows = [sheet.header, ["---"] * len(sheet.header), *sheet.rows]
+    lines = [f"| {' | '.join(cell.replace('|', '/') for cell in row)} |" for row in rows]
+    return "\n".join([f"**{sheet.title}**", "", *lines, "", sheet.caption]).rstrip()
 
 
 def memory() -> str:

@@ -20,10 +20,10 @@ import numpy as np
 
 from studies.benchmarking import process
 from studies.common import paper_machine
-from studies.common.chapter import Sheet
 from studies.common.study import folder_of, show_table, work_in_folder
 from support_exudyn import Scenario, simulate
 from support_exudyn.files.whole_file import whole_file
+from support_exudyn.postprocessing.page.pieces import Sheet
 from support_exudyn.sweeps import Plan, grid, read_table, sweep
 from support_exudyn.sweeps.key import key
 from support_exudyn.sweeps.plan import Inputs
@@ -169,7 +169,7 @@ def study(out: Path) -> None:
     )  # fmt: skip
     show_table(out / "sweep_overhead", table, width=150)
     with whole_file(out / "SWEEPS.md") as temporary:
-        words = "\n\n".join(["# Sweeps", process.machine(), table.markdown(), apart.markdown()])
+        words = "\n\n".join(["# Sweeps", process.machine(), process.markdown(table), process.markdown(apart)])
         temporary.write_text(words + "\n", encoding="utf-8")
 
 

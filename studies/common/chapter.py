@@ -12,68 +12,14 @@ from functools import cache
 from pathlib import Path
 
 from pydantic import ConfigDict, TypeAdapter, ValidationError
-from rich.table import Table
-from rich.text import Text
 
-from studies.common.markdown import WIDEST, escaped, paragraph, pipe_table, record_list
 from support_exudyn.files.whole_file import contents, whole_file
+from support_exudyn.postprocessing.page.pieces import Sheet
 from user_forces.values.value import InputError
 
 FILE = "chapter.json"
 REFERENCE = re.compile(r"\[@([\w.-]+(?:/[\w.-]+)?)\]")
 LARGEST_FILE = 200_000_000  # bytes, of what is read for a report
-
-
-@dataclass(frozen=True)
-class Sheet:
-    """A table of text cells.
-
-    left: so many columns from the left are left-aligned, the others right-aligned.
-    wide: long text cells that wrap; all columns are left-aligned. name: of its files, without ending.
-    """
-
-    __pydantic_config__ = ConfigDict(extra="forbid", strict=True)  # for reading
-
-    title: str
-    header: tuple[str, ...]
-    rows: tuple[tuple[str, ...], ...]
-    caption: str = ""
-    left: int = 1
-    wide: bool = False
-    name: str = ""
-
-    def __post_init__(self) -> None:
-        if not self.header:
-            raise ValueError("header = (): allowed: at least one heading")
-        for n, row in enumerate(self.rows):
-            if len(row) != len(self.header):
-                raise ValueError(f"row {n} has {len(row)} cells; allowed: {len(self.header)}, as the header")
-
-    @property
-    def left_columns(self) -> int:
-        """How many columns are left-aligned."""
-        return len(self.header) if self.wide else self.left
-
-    def rich(self) -> Table:
-        """For a terminal; nothing in the cells is taken for markup."""
-        shown = Table(
-            title=Text(self.title, style="table.title"),
-            caption=Text(self.caption, style="table.caption") if self.caption else None,
-            caption_justify="left",
-        )
-        for n, heading in enumerate(self.header):
-            shown.add_column(Text(heading), justify="left" if n < self.left_columns else "right")
-        for row in self.rows:
-            shown.add_row(*(Text(cell) for cell in row))
-        return shown
-
-    def markdown(self) -> str:
-        """The table with pipes, or as a list if it is wide and its rows would be very long."""
-        table = pipe_table(self.header, self.rows, self.left_columns)
-        if self.wide and len(table.partition("\n")[0]) > WIDEST:
-            table = record_list(self.header, self.rows)
-        parts = [f"**{escaped(self.title)}**", table, paragraph(self.caption)]
-        return "\n\n".join(part for part in parts if part) + "\n"
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from pathlib import Path
 from matplotlib.figure import Figure
 from rich.console import Console
 
-from studies.common.chapter import Chapter, JudgedClaim, Sheet, Tile, without_references
+from studies.common.chapter import Chapter, JudgedClaim, Tile, without_references
 from studies.common.numbers import Number, write_summary
 from studies.common.options import Options, add_options, read_options
 from studies.common.runs import file_name, save_run
@@ -24,6 +24,7 @@ from support_exudyn.commands.command_line import Parser, answered, folder, say
 from support_exudyn.files.temporary import remove_leftovers
 from support_exudyn.files.whole_file import whole_file, writing_alone
 from support_exudyn.postprocessing.figures import style
+from support_exudyn.postprocessing.page.pieces import Sheet
 from support_exudyn.sweeps.workers import Workers
 from user_forces.values.value import InputError
 

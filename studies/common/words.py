@@ -17,7 +17,8 @@ from functools import cached_property
 from jinja2 import ChoiceLoader, Environment, PackageLoader, StrictUndefined
 
 from studies.common import numbers
-from studies.common.chapter import Chapter, JudgedClaim, Picture, Sheet, Tile
+from studies.common.chapter import Chapter, JudgedClaim, Picture, Tile
+from support_exudyn.postprocessing.page.pieces import Sheet
 
 TEMPLATE = "words.md.j2"
 

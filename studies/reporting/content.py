@@ -9,11 +9,12 @@ from pathlib import Path
 
 from pydantic import BaseModel, ValidationError
 
-from studies.common.chapter import LARGEST_FILE, Chapter, Picture, Sheet
+from studies.common.chapter import LARGEST_FILE, Chapter, Picture
 from studies.common.words import TextTable, Words
 from studies.reporting import assumptions
 from support_exudyn import reference_support
 from support_exudyn.files.whole_file import contents
+from support_exudyn.postprocessing.page.pieces import Sheet
 from support_exudyn.simulation.provenance import provenance
 from user_forces.values.value import InputError
 

@@ -1,54 +1,30 @@
-"""The report as one HTML page that needs nothing from elsewhere, and as Markdown for a terminal."""
+"""The report as one HTML page that needs nothing from elsewhere."""
 
 import base64
-import os
-import re
-from dataclasses import dataclass
 from pathlib import Path
-from urllib.parse import quote
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
-from studies.common.chapter import LARGEST_FILE, Sheet
-from studies.common.markdown import bullets, escaped, paragraph, unbroken
+from studies.common.chapter import LARGEST_FILE
 from studies.reporting.content import Report, ReportSection, verdict_class, verdict_column
 from support_exudyn.files.whole_file import contents
-
-SHORT = 28  # characters of a cell that is kept in one line, unless the table is wide
-
-
-@dataclass(frozen=True)
-class Cell:
-    """A cell of a table and how it is shown."""
-
-    text: str
-    css: str
+from support_exudyn.postprocessing.page.pieces import SHORT, Cell, Sheet, unbroken
 
 
 def page(report: Report) -> str:
     """The whole report with its style and its pictures in it."""
-    return _templates(autoescape=True).get_template("report.html.j2").render(report=report)
+    return _templates().get_template("report.html.j2").render(report=report)
 
 
-def text(report: Report, out: Path) -> str:
-    """The whole report as Markdown; pictures are links relative to the folder `out`."""
-
-    def link(section: ReportSection, stem: str) -> str:
-        return quote((Path(os.path.relpath(section.folder, out)) / f"{stem}.png").as_posix())
-
-    written = _templates(autoescape=False).get_template("report.md.j2").render(report=report, link=link)
-    return re.sub(r"\n{3,}", "\n\n", written).strip("\n") + "\n"
-
-
-def _templates(autoescape: bool) -> Environment:
+def _templates() -> Environment:
     surroundings = Environment(
         loader=PackageLoader("studies.reporting"),
-        autoescape=autoescape,
+        autoescape=True,
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    surroundings.filters.update(unbroken=unbroken, escaped=escaped, paragraph=paragraph, bullets=bullets)
+    surroundings.filters["unbroken"] = unbroken
     surroundings.globals.update(heading=heading, cells=cells, picture_data=picture_data)
     return surroundings
 

@@ -27,7 +27,7 @@ from support_exudyn.simulation.result_checks import energy_open
 def test_a_ratio_says_who_is_faster(ours: float, other: float, ratio: str) -> None:
     line = BenchmarkLine("what", "how", ours, "against", other, "1/8")
     assert line.ratio == ratio
-    assert ratio in sheet([line]).markdown()
+    assert ratio in str(sheet([line]).rows)
     assert line.is_missed is (ours > other / 8.0)
     assert not BenchmarkLine("what", "how", ours, "against", other, "").is_missed
 
@@ -78,7 +78,7 @@ def test_a_run_that_is_refused_is_a_row_and_not_the_end(monkeypatch: pytest.Monk
     assert lines[0].ratio == "refused"
     assert not lines[0].is_missed
     assert not lines[1].refused
-    assert "refused: energy does not add up" in sheet(lines).markdown()
+    assert "refused: energy does not add up" in str(sheet(lines).rows)
 
 
 def test_what_ends_a_part_of_the_table_is_its_last_row() -> None:

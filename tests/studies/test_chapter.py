@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 from rich.console import Console
 
-from studies.common.chapter import Chapter, Picture, Sheet
-from studies.common.markdown import bullets, escaped, paragraph
+from studies.common.chapter import Chapter, JudgedClaim, Picture, Tile, without_references
+from support_exudyn.postprocessing.page.pieces import Sheet
 from user_forces.values.value import InputError
 
 HOSTILE = "<script>alert('x')</script> | [red]no[/red] *a* `b`\n_c_ [d](http://e) &lt; back\\slash"
@@ -29,24 +29,20 @@ CHAPTER = Chapter(
     findings=("Three.",),
     pictures=(Picture("force", "Force over time."),),
     sheets=(SHEET, replace(SHEET, left=2), replace(SHEET, wide=True)),
-    quick=True,
+    answer="Three.",
+    numbers=("three: 3 ± 1 N",),
+    tiles=(Tile("force", "1 N", "2 N", "+100 %"),),
+    claims=(JudgedClaim("1", "section 3", "It grows.", "holds", "By 100 %.", figure="forces/force"),),
 )
-
-
-def cells(line: str) -> list[str]:
-    """Cells of a line of a pipe table; an escaped pipe does not end a cell."""
-    assert line.startswith("| ")
-    assert line.endswith(" |")
-    return re.split(r"(?<!\\)\|", line)[1:-1]
 
 
 def test_a_chapter_is_read_back_as_it_was(tmp_path: Path) -> None:
     assert CHAPTER.save(tmp_path) == tmp_path / "chapter.json"
     assert Chapter.load(tmp_path) == CHAPTER
     older = json.loads((tmp_path / "chapter.json").read_text(encoding="utf-8"))
-    del older["quick"], older["sheets"][0]["wide"]
+    del older["claims"], older["sheets"][0]["wide"]
     (tmp_path / "chapter.json").write_text(json.dumps(older), encoding="utf-8")
-    assert Chapter.load(tmp_path) == replace(CHAPTER, quick=None)
+    assert Chapter.load(tmp_path) == replace(CHAPTER, claims=())
 
 
 def test_a_chapter_is_written_whole_or_not_at_all(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -111,64 +107,8 @@ def test_the_terminal_shows_cells_as_they_are() -> None:
     assert "[n]" in shown.get()  # not taken for a style
 
 
-def test_a_pipe_table_is_well_formed() -> None:
-    title, table, caption = SHEET.markdown().rstrip("\n").split("\n\n")
-    assert title == "**Forces**"
-    assert caption == SHEET.caption
-    head, rule, *rows = (cells(line) for line in table.split("\n"))
-    assert [cell.strip() for cell in head] == ["case", "force [N]", "[n]"]
-    assert [bool(re.fullmatch(r" -+ ", cell)) for cell in rule] == [True, False, False]
-    assert all(re.fullmatch(r" -+: ", cell) for cell in rule[1:])
-    assert [len(row) for row in rows] == [3, 3]
-    assert len({len(line) for line in table.split("\n")}) == 1  # columns stand under each other
-    assert "\\<script>" in rows[1][0]
-
-
-def test_a_wide_sheet_is_a_list_if_its_rows_are_long() -> None:
-    wide = Sheet(
-        "Claims", ("claim", "verdict", "why"), (("A " * 60, "holds", "b " * 60), ("C", "", "d")), wide=True
+def test_a_terminal_is_told_names_of_files_in_place_of_links() -> None:
+    assert (
+        without_references("It grows [@force], see [@other/table.1] [@].")
+        == "It grows force, see other/table.1 [@]."
     )
-    lines = wide.markdown().split("\n")
-    assert not any(line.startswith("|") for line in lines)
-    assert "  - verdict: holds" in lines
-    assert max(map(len, lines[1:])) <= 160
-    assert "- **C**" in lines
-    narrow = replace(wide, rows=(("A", "holds", "b"),))
-    assert "| A     | holds   | b   |" in narrow.markdown()
-
-
-@pytest.mark.parametrize(
-    ("text", "shown"),
-    [
-        ("a | b", "a \\| b"),
-        ("a\nb", "a b"),
-        ("<b>", "\\<b>"),
-        ("mu_d and _this_", "mu_d and \\_this\\_"),
-        ("[a](b)", "[a]\\(b)"),
-        ("&lt; & you", "\\&lt; & you"),
-        ("pin force [N] -0.5", "pin force [N] -0.5"),
-    ],
-)
-def test_markdown_shows_text_as_it_is(text: str, shown: str) -> None:
-    assert escaped(text) == shown
-
-
-@pytest.mark.parametrize(
-    ("text", "shown"),
-    [
-        ("1. one", "1\\. one"),
-        ("# one", "\\# one"),
-        ("- one", "\\- one"),
-        ("-0.5 N", "-0.5 N"),
-        ("> one", "\\> one"),
-    ],
-)
-def test_a_paragraph_begins_nothing_else(text: str, shown: str) -> None:
-    assert paragraph(text) == shown
-
-
-def test_running_text_is_wrapped_but_a_number_keeps_its_error() -> None:
-    for length in range(80, 110):
-        text = bullets([f"{'x' * length} 1.5 ± 0.1 mm"])
-        assert "1.5 ± 0.1" in text
-        assert all(line.startswith("  ") for line in text.split("\n")[1:])

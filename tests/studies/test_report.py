@@ -4,20 +4,15 @@ from __future__ import annotations
 
 import base64
 import json
-import re
-import shutil
-from collections.abc import Sequence
-from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
 
 import pytest
 
-from studies import __main__ as all_studies
 from studies import report
-from studies.common.chapter import Chapter, Picture, Sheet
-from studies.common.study import Options
+from studies.common.chapter import Chapter, Picture
 from studies.reporting.content import verdict_class
+from support_exudyn.postprocessing.page.pieces import Sheet
 from support_exudyn.simulation.provenance import versions
 from user_forces.values.value import InputError
 
@@ -48,7 +43,6 @@ def chapter(name: str, text: str = "A sentence.") -> Chapter:
             Sheet(f"Sheet of {name} {text}", ("quantity", text), (("a", "1.0"), (text, "-2.0")), text),
             Sheet(f"Claims of {name}", ("claim", "here", "verdict"), claims, wide=True),
         ),
-        quick=False,
     )
 
 
@@ -107,11 +101,6 @@ def out(tmp_path: Path) -> Path:
 @pytest.fixture
 def page(out: Path) -> Page:
     return Page((out / "report.html").read_text(encoding="utf-8"))
-
-
-@pytest.fixture
-def markdown(out: Path) -> str:
-    return (out / "report.md").read_text(encoding="utf-8")
 
 
 def test_the_page_holds_everything(page: Page) -> None:
@@ -205,41 +194,6 @@ def test_verdicts_have_a_class_and_are_counted(page: Page) -> None:
     assert verdict_class("it holds") == ""
 
 
-def test_markdown_is_complete_and_its_pictures_are_there(markdown: str, out: Path) -> None:
-    assert markdown.startswith(f"# {TITLE}\n")
-    assert "\n## Assumptions\n" in markdown
-    assert "\n## Versions and how to repeat\n" in markdown
-    links = re.findall(r"^!\[Figure \d\]\((.*)\)$", markdown, re.MULTILINE)
-    assert links == [f"{name}/figure%20one.png" for name in _order(markdown)]
-    assert all((out / link.replace("%20", " ")).is_file() for link in links)
-
-
-def _order(markdown: str) -> list[str]:
-    return re.findall(r"^## Title of (\w+)", markdown, re.MULTILINE)
-
-
-def test_markdown_tables_are_well_formed(markdown: str) -> None:
-    blocks = [block.split("\n") for block in markdown.split("\n\n") if block.startswith("| ")]
-    assert len(blocks) >= 8
-    for lines in blocks:
-        columns = {len(re.findall(r"(?<!\\)\|", line)) for line in lines}
-        assert len(columns) == 1
-        assert re.fullmatch(r"(\| -+:? )+\|", lines[1])
-    assert not re.search(r"(?<!\\)<script", markdown)
-    assert not re.search(r"^- new line", markdown, re.MULTILINE)
-
-
-def test_quick_or_full_is_said(tmp_path: Path) -> None:
-    for name, quick in (("one", True), ("two", False), ("three", None)):
-        put(tmp_path, replace(chapter(name), quick=quick))
-    sections = report.sections(tmp_path, ["three", "one", "two"])
-    for form, given in (("quick", True), ("full", False)):
-        report.write_report(tmp_path, sections, quick=given)
-        cells = Page((tmp_path / "report.html").read_text(encoding="utf-8")).text("td")
-        assert [cell for cell in cells if cell in ("quick", "full")] == [form, "quick", "full"]
-    assert "This is a quick report" in (tmp_path / "report.md").read_text(encoding="utf-8")
-
-
 def test_studies_come_in_order_and_others_after_them(tmp_path: Path) -> None:
     for name in ("a", "b", "z"):
         put(tmp_path, chapter(name))
@@ -253,7 +207,7 @@ def test_nothing_is_written_if_a_picture_vanishes(out: Path) -> None:
     found = report.sections(out, [])
     (out / "claims" / "figure one.png").unlink()
     with pytest.raises(OSError, match="figure one"):
-        report.write_report(out, found, quick=False)
+        report.write_report(out, found)
     assert {path: path.read_bytes() for path in out.glob("*report*")} == before
     with pytest.raises(InputError, match=r"figure one\.png: no such file"):
         report.sections(out, [])
@@ -286,32 +240,3 @@ def test_a_missing_summary_and_an_empty_folder_are_sentences(
     empty = tmp_path / "empty"
     assert report.main(["--out", str(empty)]) == 1
     assert "run python -m studies first" in capsys.readouterr().err
-
-
-def test_all_studies_end_with_the_report(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def study(chosen: Options) -> None:
-        shutil.rmtree(chosen.out)  # made by run_main
-        put(chosen.out.parent, replace(chapter(chosen.out.name), quick=None))
-
-    def silent(chosen: Options) -> None:
-        """A study without a chapter."""
-
-    studies = {"second": study, "first": study, "silent": silent}
-    monkeypatch.setattr(all_studies, "STUDIES", studies)
-    assert all_studies.main(["--quick", "--out", str(tmp_path)]) == 0
-    assert capsys.readouterr().out == f"{tmp_path / 'report.html'}\n"
-    text = (tmp_path / "report.md").read_text(encoding="utf-8")
-    assert _order(text) == ["second", "first"]
-    assert "This is a quick report" in text
-
-
-def test_page_and_text_say_the_same(out: Path, page: Page, markdown: str) -> None:
-    def words(texts: Sequence[str]) -> str:
-        return re.sub(r"\s+", " ", " ".join(texts))
-
-    plain = words([re.sub(r"\\(.)", r"\1", markdown)])
-    for tag in ("h3", "li", "figcaption"):
-        for text in page.text(tag):
-            assert words([text]).strip() in plain
