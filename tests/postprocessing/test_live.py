@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 from pathlib import Path
 
@@ -55,7 +56,7 @@ def test_every_bin_keeps_its_extremes_and_its_ends(curves: Series) -> None:
         return
     edges = np.linspace(0, number, MOST // (2 + len(curves)) + 1).astype(int)
     for y in curves:
-        for start, end in zip(edges[:-1], edges[1:], strict=True):
+        for start, end in itertools.pairwise(edges):
             inside = y[kept[(kept >= start) & (kept < end)]]
             whole = y[start:end]
             assert {int(start), int(end) - 1} <= set(kept.tolist())
@@ -108,7 +109,7 @@ def test_curves_of_a_drawing_are_its_labelled_lines_from_the_undermost() -> None
 def test_a_panel_without_curves_is_refused() -> None:
     figure = Figure()
     figure.subplots().plot([0.0, 1.0], [0.0, 1.0])
-    with pytest.raises(InputError, match="panel 0 .*no line with a label"):
+    with pytest.raises(InputError, match=r"panel 0 .*no line with a label"):
         of_drawing(figure, [0])
     with pytest.raises(InputError, match="panel 1: there is none; allowed: 0 to 0"):
         of_drawing(figure, [1])
