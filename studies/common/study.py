@@ -24,6 +24,8 @@ from support_exudyn.commands.command_line import Parser, answered, folder, say
 from support_exudyn.files.temporary import remove_leftovers
 from support_exudyn.files.whole_file import whole_file, writing_alone
 from support_exudyn.postprocessing.figures import style
+from support_exudyn.postprocessing.figures.drawing_data import save_drawing_data
+from support_exudyn.postprocessing.page.live import of_drawing
 from support_exudyn.postprocessing.page.pieces import Sheet
 from support_exudyn.sweeps.workers import Workers
 from user_forces.values.value import InputError
@@ -79,7 +81,7 @@ class Study:
             found = self.work(chosen)
         for case, run in found.runs.items():
             save_run(run, chosen.out, file_name(case))
-        save_figures(chosen, found.figures)
+        save_figures(chosen, found.figures, found.live)
         words = {"subject": chosen.subject, "quick": chosen.quick, **found.words}
         chapter, sheets = Words(self.name).chapter(
             words, found.tables, found.figures, found.tiles, found.claims
@@ -130,9 +132,15 @@ def say_short(chapter: Chapter, out: Path) -> None:
     say(f"look at   {out}")
 
 
-def save_figures(chosen: Options, drawings: Mapping[str, Figure]) -> None:
-    """Write a study's figures into its folder, as PNG and PDF; side by side if there is a pool."""
-    jobs = [(drawing, chosen.out, name) for name, drawing in drawings.items()]
+def save_figures(
+    chosen: Options, drawings: Mapping[str, Figure], live: Mapping[str, Sequence[int]] | None = None
+) -> None:
+    """Write a study's figures into its folder, as PNG, PDF and CSV; side by side if there is a pool.
+
+    live: which panels of a figure are written as a live figure, too.
+    """
+    panels = live or {}
+    jobs = [(drawing, chosen.out, name, panels.get(name, ())) for name, drawing in drawings.items()]
     if isinstance(chosen.workers, Workers):
         chosen.workers.run(jobs, _save_figure, lambda shares: None)
     else:  # starting a pool takes longer
@@ -140,10 +148,13 @@ def save_figures(chosen: Options, drawings: Mapping[str, Figure]) -> None:
             _save_figure(place, *job)
 
 
-def _save_figure(place: int, drawing: Figure, out: Path, name: str) -> None:
+def _save_figure(place: int, drawing: Figure, out: Path, name: str, live: Sequence[int]) -> None:
     del place
     with style.look():
         style.save(drawing, out, name)
+    save_drawing_data(drawing, out / f"{name}.csv")
+    if live:
+        of_drawing(drawing, live).save(out / f"{name}.live.json")
 
 
 def show_table(stem: Path, table: Sheet, width: int = 150) -> None:

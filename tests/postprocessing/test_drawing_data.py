@@ -1,0 +1,93 @@
+"""The data of a drawing as a table."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+from studies.common.panels import letters
+from support_exudyn.postprocessing.figures.drawing_data import save_drawing_data
+from support_exudyn.postprocessing.figures.machine import machine_drawing
+from tests.cases.run_cases import support
+
+
+def saved(drawing: Figure, folder: Path) -> tuple[list[str], list[dict[str, str]]]:
+    """The lines on the axes' labels, and the rows."""
+    path = folder / "figure.csv"
+    assert save_drawing_data(drawing, path)
+    lines = path.read_text(encoding="utf-8").splitlines()
+    notes = [line for line in lines if line.startswith("#")]
+    return notes, list(csv.DictReader(lines[len(notes) :]))
+
+
+def test_lines_are_written_as_far_as_their_panel_shows_them(tmp_path: Path) -> None:
+    figure = Figure()
+    whole, part = figure.subplots(2, 1)
+    time = np.linspace(0.0, 5.0, 501)
+    for axes in (whole, part):
+        axes.plot(time, np.sin(time) / 3.0, label="1.5 mm, no friction")
+        axes.plot(time, 0.0 * time)
+        axes.axvline(3.0, label="start")
+        axes.set(xlabel="time [s]", ylabel="pin force\n[kN]")
+    part.set_xlim(3.0, 5.0)
+    letters([whole, part])
+    notes, rows = saved(figure, tmp_path)
+    assert notes == [f"# panel {one}: x = time [s]; y = pin force [kN]" for one in "ab"]
+    names = {(row["panel"], row["curve"]) for row in rows}
+    assert names == {(panel, curve) for panel in "ab" for curve in ("1.5 mm, no friction", "line 2")}
+    first = [row for row in rows if row["panel"] == "a" and row["curve"] != "line 2"]
+    assert [float(row["x"]) for row in first] == pytest.approx(time.tolist())
+    assert [float(row["y"]) for row in first] == pytest.approx((np.sin(time) / 3.0).tolist(), rel=1e-6)
+    second = [float(row["x"]) for row in rows if row["panel"] == "b"]
+    assert (min(second), max(second)) == (3.0, 5.0)
+
+
+def test_bars_and_points_have_the_ends_of_their_error_bars(tmp_path: Path) -> None:
+    figure = Figure()
+    upright, level, points, bare = figure.subplots(4, 1)
+    upright.bar([0, 1], [3.0, 4.0], yerr=[0.1, 0.2], label="mean")
+    upright.set_xticks([0, 1], ["rear base", "shield canopy"])
+    level.barh([0, 1], [5.0, 6.0])
+    points.errorbar([1.0, 2.0], [10.0, 20.0], xerr=0.5, yerr=[[1.0, 2.0], [3.0, 4.0]], fmt="o", label="found")
+    bare.errorbar([1.0], [10.0], yerr=2.0, fmt="none")
+    _, rows = saved(figure, tmp_path)
+    a, b, c, d = ([row for row in rows if row["panel"] == letter] for letter in "abcd")
+    assert [(r["curve"], r["x_name"], r["y"], r["y_low"], r["y_high"]) for r in a] == [
+        ("mean", "rear base", "3", "2.9", "3.1"),
+        ("mean", "shield canopy", "4", "3.8", "4.2"),
+    ]
+    assert [(r["curve"], r["x"], r["y"], r["y_low"]) for r in b] == [
+        ("bars", "5", "0", ""),
+        ("bars", "6", "1", ""),
+    ]
+    assert [(r["x"], r["y"], r["x_low"], r["x_high"], r["y_low"], r["y_high"]) for r in c] == [
+        ("1", "10", "0.5", "1.5", "9", "13"),
+        ("2", "20", "1.5", "2.5", "18", "24"),
+    ]
+    assert [(r["x"], r["y"], r["y_low"], r["y_high"]) for r in d] == [("1", "10", "8", "12")]
+
+
+def test_maps_marks_and_bands(tmp_path: Path) -> None:
+    figure = Figure()
+    picture, mesh, other = figure.subplots(3, 1)
+    picture.imshow([[1.0, 2.0, 3.0], [4.0, np.nan, 6.0]])
+    figure.colorbar(mesh.pcolormesh([0.0, 1.0, 3.0], [0.0, 2.0], [[7.0, 8.0]]), ax=mesh)
+    other.scatter([1.0, 2.0], [3.0, 4.0], label="runs")
+    other.fill_between([0.0, 1.0], [1.0, 1.0], [2.0, 3.0], label="error")
+    _, rows = saved(figure, tmp_path)
+    a, b, c = ([row for row in rows if row["panel"] == letter] for letter in "abc")
+    assert [(r["x"], r["y"], r["value"]) for r in a] == [
+        ("0", "0", "1"), ("1", "0", "2"), ("2", "0", "3"), ("0", "1", "4"), ("1", "1", ""), ("2", "1", "6"),
+    ]  # fmt: skip
+    assert [(r["x"], r["y"], r["value"]) for r in b] == [("0.5", "1", "7"), ("2", "1", "8")]
+    assert [(r["x"], r["y"]) for r in c if r["curve"] == "runs"] == [("1", "3"), ("2", "4")]
+    assert {r["y"] for r in c if r["curve"] == "error"} == {"1", "2", "3"}
+
+
+def test_a_drawing_of_a_machine_has_no_data(tmp_path: Path) -> None:
+    assert not save_drawing_data(machine_drawing(support()), tmp_path / "machine.csv")
+    assert not list(tmp_path.iterdir())
