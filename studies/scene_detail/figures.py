@@ -1,48 +1,48 @@
-"""Change against cost, columns driven apart, and the plane beside space."""
+"""What elements change and cost, columns driven apart, and the plane beside space."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.ticker import LogLocator
 
 from studies.common import rise
-from studies.common.panels import legend
-from studies.scene_detail.measures import Change, MeasuredScene, times_as_long
+from studies.common.panels import legend, letters
+from studies.scene_detail.measures import MM, Change, MeasuredScene, times_as_long
 from studies.scene_detail.scenes import (
     CLEARANCE_IN_SPACE,
     CLEARANCE_MM,
     EQUAL,
+    FULLEST,
     PAPERS,
     PAPERS_IN_SPACE,
+    PLAINEST,
     REAR,
     UNEQUAL_FULLEST,
     UNEQUAL_IDEAL,
     WITH_CLEARANCE,
+    DetailScene,
 )
 from studies.scene_detail.tables import FARTHEST, RELATIVE, changes
 from support_exudyn import Result
 from support_exudyn.postprocessing.figures import style
 
+# columns of the figure of changes: of `tables.changes`, with the smallest that is told apart from none
 PANELS = {
-    RELATIVE["mean_pin_force"]: "mean force [%]",
-    RELATIVE["std_pin_force"]: "spread of the force [%]",
-    RELATIVE["largest_pin_force"]: "largest force [%]",
-    FARTHEST: "tip, farthest [mm]",
+    RELATIVE["mean_pin_force"]: ("mean force [%]", 1e-2),
+    RELATIVE["std_pin_force"]: ("its spread [%]", 1e-1),
+    RELATIVE["largest_pin_force"]: ("largest force [%]", 1e-2),
+    FARTHEST: ("tip, farthest [mm]", 1e-3),
 }
-PURPLE, OLIVE = "#CC79A7", "#999933"
-# what an element is of by its words, the first that fits; colour
-KINDS = {
-    "friction": style.SMOOTH,
-    "clearance": style.WITH_CLEARANCE,
-    "columns": style.THIRD,
-    "tail": PURPLE,
-    "start": style.IDEAL,
-    "space": OLIVE,
-}
-MARKERS = "osD^vP"
-SMALLEST = 1e-6  # changes below are not told apart from none [%, mm]
+COST = "times the cost"
+MORE, LESS, OPEN = style.CONTACT, style.WITH_CLEARANCE, "#777777"
+PURPLE = "#CC79A7"
+DASHES = (0, (4, 2))
+WIDTHS = {"left": 1.8, "right": 0.8}  # the thinner curve is drawn on top
+LEAST_APART = 1e-9  # [N]
+ROW_MM = 4.3  # height of an element's row
 
 
 def figures(measured: Mapping[str, MeasuredScene]) -> dict[str, Figure]:
@@ -59,69 +59,58 @@ def figures(measured: Mapping[str, MeasuredScene]) -> dict[str, Figure]:
 
 
 def change_figure(measured: Mapping[str, MeasuredScene]) -> Figure:
-    """A dot for each element."""
-    drawing = Figure(figsize=style.size(190, 175))
-    rows = {
-        "added": "Added to the plainest scene: size of the change against its cost",
-        "taken": "Taken from the fullest scene: size of the change against the cost of what is left",
-    }
-    places = np.ravel(np.asarray(drawing.subfigures(2, 1)))
-    for part, (group, title) in zip(places, rows.items(), strict=True):
-        panels = part.subplots(1, len(PANELS))
-        names = [name for name, one in measured.items() if one.scene.group == group and one.scene.reference]
-        looks = _looks(names)
-        for axes, (heading, label) in zip(panels, PANELS.items(), strict=True):
-            for name in names:
+    """A row for each element, named beside it; a panel for each number that it changes, and for its cost."""
+    groups = {group: _elements(measured, group) for group in ("added", "taken")}
+    heights = [len(names) for names in groups.values()]
+    drawing = Figure(figsize=style.size(180, 30 + ROW_MM * sum(heights)))
+    panels = drawing.subplots(2, len(PANELS) + 1, sharey="row", sharex="col", height_ratios=heights)
+    for line, names in zip(panels, groups.values(), strict=True):
+        for axes, (heading, (_, smallest)) in zip(line, PANELS.items(), strict=False):
+            for place, name in enumerate(names):
                 one = measured[name]
-                reference = measured[one.scene.reference]
-                times = times_as_long(one, reference)
-                _dot(axes, times, changes(one, reference)[heading], *looks[name])
-            axes.set(xscale="log", yscale="log", title=label, xlabel="times the cost")
-            axes.margins(0.12)
-            axes.minorticks_off()  # the grid tells enough, and it is drawn in half the time
-        part.suptitle(title, x=0.01, ha="left")
-        handles = [
-            Line2D([], [], color=colour, marker=marker, ls="", ms=5, label=measured[name].scene.element)
-            for name, (colour, marker) in looks.items()
-        ]
-        hollow = Line2D([], [], color="#777777", mfc="white", marker="o", ls="", ms=5, label="below the error")
-        handles.append(hollow)
-        part.legend(handles=handles, loc="outside lower center", ncols=3, fontsize=8)
+                _dot(axes, place, changes(one, measured[one.scene.reference])[heading], smallest)
+            axes.set_xscale("log")
+        times = [times_as_long(measured[name], measured[measured[name].scene.reference]) for name in names]
+        line[-1].plot(times, range(len(names)), "s", color=style.IDEAL, ms=3.5)
+        line[-1].axvline(1.0, color=style.IDEAL, lw=0.6)
+        line[-1].set_xscale("log")
+        line[0].set_yticks(range(len(names)), [_named(measured[name].scene) for name in names])
+        line[0].set_ylim(len(names) - 0.4, -0.6)
+    for axes, label in zip(panels[-1], (*(label for label, _ in PANELS.values()), COST), strict=True):
+        axes.set_xlabel(label, fontsize=8)
+    for axes in panels.flat:
+        axes.tick_params(labelsize=7)
+        axes.xaxis.set_major_locator(LogLocator(numticks=3))
+        axes.minorticks_off()
+    letters(list(panels.flat))
+    drawing.legend(handles=_signs(), loc="outside lower center", ncols=3, fontsize=8)
     return drawing
 
 
-def _looks(names: Sequence[str]) -> dict[str, tuple[str, str]]:
-    """Colour and marker of each element: what it is of, and which of those."""
-    used: dict[str, int] = {}
-    found = {}
-    for name in names:
-        kind = next(kind for kind in KINDS if kind in name.replace(WITH_CLEARANCE, "", name != WITH_CLEARANCE))
-        found[name] = (KINDS[kind], MARKERS[used.get(kind, 0)])
-        used[kind] = used.get(kind, 0) + 1
-    return found
+def _elements(measured: Mapping[str, MeasuredScene], group: str) -> list[str]:
+    return [name for name, one in measured.items() if one.scene.group == group and one.scene.reference]
 
 
-def _dot(axes: Axes, times: float, change: Change, colour: str, marker: str) -> None:
-    place = MARKERS.index(marker)
-    width, above = 7.0 - 1.2 * place, 3.0 + 0.1 * place  # so that those behind can be seen
-    size = max(abs(change.value), SMALLEST)
-    if change.below_error:
-        height = max(change.error, SMALLEST)
-        axes.plot(times, height, marker, mfc="white", mec=colour, ms=width, zorder=above)
+def _named(scene: DetailScene) -> str:
+    """An element with its sign; what has another reference than the others of its group says which."""
+    of_another = scene.reference not in (PLAINEST, FULLEST)
+    return f"{scene.element} *" if of_another else scene.element
+
+
+def _dot(axes: Axes, place: int, change: Change, smallest: float) -> None:
+    size = abs(change.value)
+    if change.below_error or size < smallest:
+        axes.plot(max(change.error, smallest), place, "<", mfc="white", mec=OPEN, ms=4)
         return
     below = min(change.error, 0.9 * size)
-    axes.errorbar(
-        times,
-        size,
-        yerr=[[below], [change.error]],
-        fmt=marker,
-        color=colour,
-        ms=width,
-        mec="white",  # apart from others of the same colour
-        mew=0.6,
-        lw=0.8,
-        zorder=above,
-    )
+    colour, marker = (MORE, "^") if change.value > 0.0 else (LESS, "v")
+    axes.errorbar(size, place, xerr=[[below], [change.error]], fmt=marker, color=colour, ms=4, lw=0.8)
+
+
+def _signs() -> list[Line2D]:
+    kinds = ((MORE, MORE, "^", "more"), (LESS, LESS, "v", "less"), (OPEN, "white", "<", "no more than this"))
+    return [Line2D([], [], color=edge, mfc=face, marker=mark, ls="", ms=4.5, label=said)
+            for edge, face, mark, said in kinds]  # fmt: skip
 
 
 # --- columns driven apart ---
@@ -129,67 +118,74 @@ def _dot(axes: Axes, times: float, change: Change, colour: str, marker: str) -> 
 
 def unequal_figure(runs: Mapping[str, Result]) -> Figure:
     """Six panels."""
-    drawing = Figure(figsize=style.size(190, 125))
+    drawing = Figure(figsize=style.size(180, 125))
     panels = list(drawing.subplots(2, 3).flat)
     with_clearance, ideal, equal = (runs[name] for name in (UNEQUAL_FULLEST, UNEQUAL_IDEAL, EQUAL))
     sides = {"left": style.WITH_CLEARANCE, "right": style.SMOOTH}
-    dashes = (0, (4, 2))
-    _title(panels[0], "a) canopy", "turn [deg]")
-    _lines(panels[0], with_clearance, ideal, {"canopy.roll": style.THIRD, "canopy.yaw": PURPLE}, rise.DEGREES)
-    for name, colour, above in (("roll", style.THIRD, 6), ("yaw", PURPLE, -10)):  # beside their ends
-        last = rise.DEGREES * with_clearance[f"canopy.{name}"][-1]
-        panels[0].annotate(
-            name,
-            (with_clearance.time[-1], last),
-            (-14, above),
-            textcoords="offset points",
-            color=colour,
-            ha="center",
-        )
-    _title(panels[1], "b) edges of the rear pin", "depth [mm]")
+    turns = {"canopy.roll": style.THIRD, "canopy.yaw": PURPLE}
+    _lines(panels[0], with_clearance, ideal, turns, rise.DEGREES)
+    _at_end(panels[0], with_clearance, turns, rise.DEGREES)
     for side, colour in sides.items():
-        panels[1].plot(with_clearance.time, 1e3 * with_clearance[f"pin.{REAR}.{side}_depth"], color=colour)
-    _title(panels[2], "c) front columns", "force [kN]")
-    _lines(
-        panels[2], with_clearance, ideal, {f"front_column_{side}.force": c for side, c in sides.items()}, 1e-3
-    )
-    _title(panels[3], "d) moment on the rear pin", "moment [kN m]")
+        depth = MM * with_clearance[f"pin.{REAR}.{side}_depth"]
+        panels[1].plot(with_clearance.time, depth, color=colour, lw=WIDTHS[side], label=f"{side} edge")
+    columns = {f"front_column_{side}.force": colour for side, colour in sides.items()}
+    _lines(panels[2], with_clearance, ideal, columns, 1e-3)
+    _at_end(panels[2], with_clearance, columns, 1e-3)
     # with ideal pins rigid bodies do not determine it
     moment = np.hypot(with_clearance[f"pin.{REAR}.moment_x"], with_clearance[f"pin.{REAR}.moment_y"])
-    panels[3].plot(with_clearance.time, 1e-3 * moment, color=style.IDEAL)
-    for axes in panels[:4]:
-        axes.set_xlabel("time [s]")
-    _orbits(panels[4], with_clearance, sides, "e) ends in the bore, apart")
-    _orbits(panels[5], equal, sides, "f) the same, driven alike")
-    handles = [
-        _key("left", style.WITH_CLEARANCE),
-        _key("right", style.SMOOTH),
-        _key(f"{CLEARANCE_MM:g} mm and friction", style.IDEAL),
-        Line2D([], [], color=style.IDEAL, ls=dashes, label="ideal pins (a, c)"),
-    ]
+    panels[3].plot(with_clearance.time, 1e-3 * moment, color=style.IDEAL, label="moment across the pin")
+    labels = (
+        "turn of the canopy [deg]",
+        "indentation [mm]",
+        "column force [kN]",
+        "moment on the rear pin [kN m]",
+    )
+    drive = with_clearance.scenario.drive
+    for axes, label in zip(panels, labels, strict=False):
+        axes.set(xlabel="time [s]", ylabel=label)
+        axes.set_xlim(0.0, with_clearance.scenario.duration)
+        axes.set_xticks([drive.breaks[0], *drive.breaks[-1:]])
+        axes.margins(y=0.12)
+    for axes, run in zip(panels[4:], (with_clearance, equal), strict=True):
+        _orbits(axes, run, sides)
+    letters(panels)
+    handles = [_key("left", sides["left"]), _key("right", sides["right"])]
+    handles += [_key(f"clearance {CLEARANCE_MM:g} mm, friction", style.IDEAL)]
+    handles += [Line2D([], [], color=style.IDEAL, ls=DASHES, label="ideal pins (a, c)")]
     drawing.legend(handles=handles, loc="outside lower center", ncols=4)
     return drawing
 
 
+def _at_end(axes: Axes, run: Result, colours: Mapping[str, str], scale: float) -> None:
+    """What a curve is, beside its end, above the higher and below the lower one."""
+    ends = {channel: scale * run[channel][-1] for channel in colours}
+    for channel, colour in colours.items():
+        above = ends[channel] == max(ends.values())
+        said = channel.split(".")[0].split("_")[-1] if channel.endswith(".force") else channel.split(".")[1]
+        axes.annotate(
+            said, (run.time[-1], ends[channel]), (-4, 5 if above else -5), textcoords="offset points",
+            color=colour, ha="right", va="bottom" if above else "top", fontsize=8,
+        )  # fmt: skip
+
+
 def _lines(axes: Axes, with_clearance: Result, ideal: Result, colours: Mapping[str, str], scale: float) -> None:
     for channel, colour in colours.items():
-        axes.plot(ideal.time, scale * ideal[channel], color=colour, ls=(0, (4, 2)))
-        axes.plot(with_clearance.time, scale * with_clearance[channel], color=colour)
+        name = channel.replace("_", " ").replace(".", ", ")
+        axes.plot(ideal.time, scale * ideal[channel], color=colour, ls=DASHES, label=f"{name}, ideal pins")
+        axes.plot(
+            with_clearance.time, scale * with_clearance[channel], color=colour, label=f"{name}, clearance"
+        )
 
 
-def _orbits(axes: Axes, run: Result, sides: Mapping[str, str], title: str) -> None:
+def _orbits(axes: Axes, run: Result, sides: Mapping[str, str]) -> None:
     """Paths of the journal's ends; grey: where it makes contact."""
     turn = np.linspace(0.0, 2.0 * np.pi, 200)
     axes.plot(CLEARANCE_MM * np.cos(turn), CLEARANCE_MM * np.sin(turn), color="#999999", lw=0.8)
     for side, colour in sides.items():
-        x, y = (1e3 * run[f"pin.{REAR}.{side}_eccentricity_{axis}"] for axis in "xy")
-        axes.plot(x, y, color=colour, lw=1.4 if side == "left" else 0.8)
-        axes.plot(x[-1], y[-1], "o", color=colour, ms=4)
-    axes.set(aspect="equal", xlabel="forward [mm]", ylabel="up [mm]", title=title)
-
-
-def _title(axes: Axes, title: str, label: str) -> None:
-    axes.set(title=title, ylabel=label)
+        x, y = (MM * run[f"pin.{REAR}.{side}_eccentricity_{axis}"] for axis in "xy")
+        axes.plot(x, y, color=colour, lw=WIDTHS[side])
+        axes.plot(x[-1], y[-1], "o", color=colour, ms=5 if side == "left" else 3)
+    axes.set(aspect="equal", xlabel="forward [mm]", ylabel="up [mm]")
 
 
 def _key(label: str, colour: str) -> Line2D:
@@ -201,20 +197,24 @@ def _key(label: str, colour: str) -> Line2D:
 
 def space_figure(runs: Mapping[str, Result]) -> Figure:
     """Forces above, their distance below."""
-    drawing = Figure(figsize=style.size(190, 105))
+    drawing = Figure(figsize=style.size(180, 105))
     panels = drawing.subplots(2, 2, sharex=True, sharey="row", height_ratios=(2, 1))
     pairs = {"no friction": (WITH_CLEARANCE, CLEARANCE_IN_SPACE), "friction 0.25": (PAPERS, PAPERS_IN_SPACE)}
     force = f"pin.{REAR}.force"
-    for column, (title, (plane, space)) in enumerate(pairs.items()):
+    for column, (said, (plane, space)) in enumerate(pairs.items()):
         above, below = panels[:, column]
         one, other = runs[plane], runs[space]
         above.plot(one.time, 1e-3 * one[force], color=style.SMOOTH, lw=2.2, label="in the plane")
         above.plot(other.time, 1e-3 * other[force], color=style.IDEAL, lw=0.7, label="in space")
-        above.set_title(title)
-        apart = np.abs(other[force] - one[force])
-        below.semilogy(other.time, np.maximum(apart, 1e-9), color=style.WITH_CLEARANCE, lw=0.7)
+        above.annotate(said, (0.98, 0.95), xycoords="axes fraction", ha="right", va="top")
+        apart = np.maximum(np.abs(other[force] - one[force]), LEAST_APART)
+        below.semilogy(other.time, apart, color=style.WITH_CLEARANCE, lw=0.7, label="difference")
+        below.set_xlim(0.0, one.scenario.duration)
+        below.set_xticks([0.0, *one.scenario.drive.breaks])
         below.set_xlabel("time [s]")
     panels[0, 0].set_ylabel("rear pin force [kN]")
-    panels[1, 0].set_ylabel("apart [N]")
+    panels[1, 0].set_ylabel("difference [N]")
+    letters(list(panels.flat))
+    drawing.align_ylabels()
     legend(drawing, panels[0, 0], 2)
     return drawing

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from studies.common import rise
-from studies.common.numbers import Number
+from studies.common.numbers import Number, measured
 from studies.common.runs import halvings, impacts
 from studies.scene_detail.runs import Timed, timed
 from studies.scene_detail.scenes import FULLEST, REAR, DetailScene
@@ -22,6 +22,7 @@ ROUNDING = 1e-7  # share of a number that no error is below
 # what Newton's tolerance and rounding leave open, below which no error of such a number is put, by its unit
 SMALLEST = {"N": 1e-3, "N m": 1e-3, "m": 1e-9, "m/s": 1e-9, "deg": 1e-8, "deg/s^2": 1e-2}
 IMPACTS = 3
+SHORT_RUN = 0.1  # shorter runs are timed again, alone [s]
 MM, DEGREES = 1e3, rise.DEGREES
 Series = npt.NDArray[np.float64]
 Get = Callable[[Result], float]
@@ -89,17 +90,14 @@ class MeasuredScene:
 
 
 def estimate(run: Result, unit: str, get: Get) -> Estimate:
-    """A number of a run with its error, which is no less than rounding."""
-    found = run.estimate(get, unit)
-    between_records = get.missed(run) if isinstance(get, rise.Peak) else 0.0
+    """A number of a run with its error, that of steps and of records, which is no less than rounding."""
+    found = measured("", "", unit, run, get)
     rounding = SMALLEST[unit] if unit == "m" else max(SMALLEST[unit], ROUNDING * abs(found.value))
-    return found._replace(error=max(found.error + between_records, rounding))
+    return Estimate(found.value, max(found.numerical_error, rounding), unit)
 
 
-def measure(
-    scenes: Mapping[str, DetailScene], runs: Mapping[str, Timed], short: float
-) -> dict[str, MeasuredScene]:
-    """All numbers of all scenes; short: runs that are shorter are timed again, alone [s]."""
+def measure(scenes: Mapping[str, DetailScene], runs: Mapping[str, Timed]) -> dict[str, MeasuredScene]:
+    """All numbers of all scenes."""
     finest = {name: timed.run for name, timed in runs.items()}
     found = {}
     for name, scene in scenes.items():
@@ -110,29 +108,36 @@ def measure(
             numbers[FROM_REFERENCE] = tip_distance(scene, finest[name], finest[scene.reference])
         if scene.family == STROKE:
             numbers[FROM_FULLEST] = tip_distance(scene, finest[name], finest[FULLEST])
-        found[name] = MeasuredScene(scene, numbers, _cost(runs[name], short), finest[name])
+        found[name] = MeasuredScene(scene, numbers, _cost(runs[name]), finest[name])
     return found
 
 
 def _of_stroke(scene: DetailScene, result: Result) -> Numbers:
     force = f"pin.{REAR}.force"
 
-    def during(run: Result, channel: str) -> Series:
-        return np.asarray(run[channel][rise.between(run, scene.begin, scene.end)])
+    def over_time(measure: Callable[[Series, Series], float], channel: str, scale: float = 1.0) -> Get:
+        def get(run: Result) -> float:
+            inside = rise.between(run, scene.begin, scene.end)
+            return scale * measure(run.time[inside], run[channel][inside])
+
+        return get
 
     def largest(channel: str, scale: float) -> Get:
         return rise.Peak(channel, scale, scene.begin, scene.end)
 
+    at_all: Get = rise.Peak(force, 1.0, 0.0, scene.scenario.duration)
+    if REAR in result.largest_force:  # at the ends of all steps
+        at_all = lambda run: float(run.largest_force[REAR])  # noqa: E731
     measures: dict[str, tuple[str, Get]] = {
-        "mean_pin_force": ("N", lambda run: float(during(run, force).mean())),
-        "std_pin_force": ("N", lambda run: float(during(run, force).std())),
+        "mean_pin_force": ("N", over_time(rise.mean, force)),
+        "std_pin_force": ("N", over_time(rise.spread, force)),
         "largest_pin_force_in_stroke": ("N", largest(force, 1.0)),
-        "largest_pin_force": ("N", lambda run: max(float(run[force].max()), run.largest_force.get(REAR, 0.0))),
-        "mean_tip_x": ("m", lambda run: float(during(run, "tip.x").mean())),
-        "mean_tip_y": ("m", lambda run: float(during(run, "tip.y").mean())),
+        "largest_pin_force": ("N", at_all),
+        "mean_tip_x": ("m", over_time(rise.mean, "tip.x")),
+        "mean_tip_y": ("m", over_time(rise.mean, "tip.y")),
         "std_angular_acceleration": (
             "deg/s^2",
-            lambda run: DEGREES * float(during(run, "rear_link.angular_acceleration").std()),
+            over_time(rise.spread, "rear_link.angular_acceleration", DEGREES),
         ),
         "largest_canopy_acceleration": ("deg/s^2", largest("canopy.angular_acceleration", DEGREES)),
     }
@@ -184,25 +189,27 @@ def tip_distance(scene: DetailScene, run: Result, other: Result) -> Estimate:
     def wandering(one: Result) -> float:
         return one.estimate(lambda coarser: _apart(scene, one, coarser)).error
 
-    error = wandering(run) + wandering(other)
-    return Estimate(_apart(scene, run, other), max(error, SMALLEST["m"]), "m")
+    far = _apart(scene, run, other)
+    of_records = far - _apart(scene, run, other, every=2)
+    error = wandering(run) + wandering(other) + of_records
+    return Estimate(far, max(error, SMALLEST["m"]), "m")
 
 
-def _apart(scene: DetailScene, one: Result, other: Result) -> float:
+def _apart(scene: DetailScene, one: Result, other: Result, every: int = 1) -> float:
     inside = rise.between(one, scene.begin, scene.end)
-    away = [(one[f"tip.{axis}"] - other[f"tip.{axis}"])[inside] for axis in ("x", "y")]
+    away = [(one[f"tip.{axis}"] - other[f"tip.{axis}"])[inside][::every] for axis in ("x", "y")]
     return float(np.hypot(*away).max())
 
 
 # --- cost ---
 
 
-def _cost(run: Timed, short: float) -> Cost:
+def _cost(run: Timed) -> Cost:
     coarse, half, _ = halvings(run.run)
     seconds = run.seconds
     # a step of the next finer run costs as much
     scatter = abs(seconds - run.half_seconds * coarse.counts.steps / half.counts.steps)
-    if seconds < short:
+    if seconds < SHORT_RUN:
         times = [timed(coarse.scenario) for _ in range(4)]
         seconds, scatter = min(times), sorted(times)[2] - min(times)
     counts = coarse.counts

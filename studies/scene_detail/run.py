@@ -22,18 +22,17 @@ from support_exudyn.simulation.recommend import QUESTIONS, STROKE, UNEQUAL
 from support_exudyn.sweeps.workers import Workers
 from user_forces.values.value import InputError
 
-SHORT_RUN, SHORT_RUN_IF_QUICK = 0.3, 0.01  # shorter runs are timed alone [s]
 TABLE = "scene_table.json"
 ORDER = ("unequal", "taken", "combined", "space", "added")  # the longest runs first
 GROUPS = ("added", "taken", "combined", "space")
 
 
-def run(quick: bool, workers: int | Workers) -> dict[str, MeasuredScene]:
+def run(workers: int | Workers) -> dict[str, MeasuredScene]:
     """All scenes, each at its steps, at half and at a quarter of them, measured."""
-    chosen = scenes.scenes(quick)
+    chosen = scenes.scenes()
     longest_first = sorted(chosen.values(), key=lambda scene: ORDER.index(scene.group))
     runs = run_timed({scene.name: scene.scenario for scene in longest_first}, workers)
-    return measures.measure(chosen, runs, SHORT_RUN_IF_QUICK if quick else SHORT_RUN)
+    return measures.measure(chosen, runs)
 
 
 def said(chosen: Mapping[str, DetailScene]) -> dict[str, str]:
@@ -47,28 +46,33 @@ def said(chosen: Mapping[str, DetailScene]) -> dict[str, str]:
 
 def work(chosen: Options) -> StudyOutcome:
     """All scenes, what they change and cost, and the advice that follows; its evidence is kept as a file."""
-    measured = run(chosen.quick, chosen.workers)
+    measured = run(chosen.workers)
     tried = measures.table(measured, said({one.scene.name: one.scene for one in measured.values()}))
     tried.save(chosen.out / TABLE)
     sheets = {
-        **{f"table_{group}": tables.change_table(measured, group) for group in GROUPS},
-        "table_unequal": tables.unequal_table(measured),
         "table_advice": tables.advice_table(tried),
+        "table_unequal": tables.unequal_table(measured),
+        **{f"table_{group}": tables.change_table(measured, group) for group in GROUPS},
+        "table_evidence": tables.evidence_table(tried),
         "table_cost": tables.cost_table(measured),
         "table_values": tables.value_table(measured),
     }
+    pairs = ((one, measured[one.scene.reference]) for one in measured.values() if one.scene.group == "space")
+    of_space = [tables.changes(*pair)[tables.RELATIVE["mean_pin_force"]] for pair in pairs]
     words = {
         "measured": measured,
         "measures": measures,
         "scenes": scenes,
         "tables": tables,
         "questions": QUESTIONS,
+        "plane_is_enough": all(abs(found.value) + found.error < 1.0 for found in of_space),
         "advised": {name: recommend(name, tried) for name in QUESTIONS},
     }
-    return StudyOutcome(measures.listed(measured), words, figures(measured), sheets)
+    live = {"unequal_columns": (0, 1, 2, 3), "plane_and_space": (0, 1, 2, 3)}
+    return StudyOutcome(measures.listed(measured), words, figures(measured), sheets, live=live)
 
 
-study = Study("scene_detail", __doc__, work)
+study = Study("scene_detail", __doc__, work, seconds=60.0)
 
 
 def main(argv: Sequence[str] | None = None) -> int:

@@ -24,7 +24,15 @@ FRICTION = paper_machine.SLIDING_COEFFICIENT
 REAR = paper_machine.CLEARANCE_PIN
 TWO = (REAR, "front_base")
 APART = 0.01  # of the stroke: so much less on the left, so much more on the right
-SECTIONS = 9
+# of all columns alike, and of the front ones that are driven apart
+IN_STEP, DURATION = CubicStep(stroke=0.05, start=0.5, end=1.13), 1.2
+BESIDE = CubicStep(stroke=0.5, start=0.2, end=2.2)
+# The longest of three runs' steps, and their records [s]. A fourth of them, and of the impacts' steps, moves
+# the numbers of the stroke by no more than their errors. A stroke begins and ends at whole multiples of four
+# records, so that every fourth of them can be looked at, too.
+STEP, STEP_BESIDE = 1.25e-3, 5e-3
+IMPACT_STEPS = 20
+SECTIONS, SECTIONS_OF_STRAIGHT = 4, 2  # of the longest; a pin that is not tilted is right with any number
 # The tolerance is a share of the forces at hand: under columns that push and pull each other with 370 kN
 # the default of 1e-8 hides 200 N of the pin's force; this takes a quarter to two fifths more iterations.
 NEWTON_TOLERANCE = 1e-10
@@ -76,18 +84,15 @@ class DetailScene:
         return f"{1e3 * stroke:g} mm from {self.begin:g} to {self.end:g} s, run of {self.scenario.duration:g} s"
 
 
-def stroke(quick: bool) -> Scenario:
-    """The plainest scene: a dwell, then a stroke as steep as the paper's; quick: shorter and coarser."""
-    drive, duration, step, steps = CubicStep(stroke=0.05, start=0.5, end=1.13), 1.2, 1e-3, 64
-    if quick:
-        drive, duration, step, steps = CubicStep(stroke=0.0003, start=0.01, end=0.058), 0.06, 2e-3, 16
+def stroke() -> Scenario:
+    """The plainest scene: a dwell, then a stroke as steep as the paper's."""
     return Scenario(
         machine=reference_support(),
-        drive=drive,
-        duration=duration,
-        step=step,
-        record_period=step,
-        solver=SolverSettings(impact_steps=steps),
+        drive=IN_STEP,
+        duration=DURATION,
+        step=STEP,
+        record_period=STEP,
+        solver=SolverSettings(impact_steps=IMPACT_STEPS, sections=SECTIONS_OF_STRAIGHT),
         channels=CHANNELS,
     )
 
@@ -109,9 +114,9 @@ def friction_pin() -> IdealPin:
     )
 
 
-def in_plane(quick: bool) -> list[DetailScene]:
+def in_plane() -> list[DetailScene]:
     """What is added to the plainest and taken from the fullest scene, and cheap combinations."""
-    plain = stroke(quick)
+    plain = stroke()
     full = fullest(plain)
     return [*_added(plain), *_taken(full), *_combined(plain)]
 
@@ -187,9 +192,9 @@ def _combined(plain: Scenario) -> Iterable[DetailScene]:
     yield DetailScene(f"{PLAINEST} + {both}, rear pin, settled", "combined", FULLEST, STROKE, rear)
 
 
-def in_space(quick: bool) -> list[DetailScene]:
+def in_space() -> list[DetailScene]:
     """The paper's pin in space, driven as in the plane."""
-    plain = replace(stroke(quick), dimensions=3)
+    plain = replace(stroke(), dimensions=3)
     pins = {CLEARANCE_IN_SPACE: (WITH_CLEARANCE, 0.0), PAPERS_IN_SPACE: (PAPERS, FRICTION)}
     return [
         DetailScene(name, "space", planar, STROKE, replace(plain, pins={REAR: clearance_joint(friction)}))
@@ -197,24 +202,23 @@ def in_space(quick: bool) -> list[DetailScene]:
     ]
 
 
-def unequal(quick: bool) -> list[DetailScene]:
+def unequal() -> list[DetailScene]:
     """The front columns driven apart, on oil, from a settled start; one of equal columns beside them."""
-    begin, end, size, step, steps = (0.01, 0.16, 0.0028, 1e-2, 16) if quick else (0.2, 2.2, 0.5, 1e-3, 64)
 
     def drive(share: float) -> CubicStep:
-        return CubicStep(stroke=share * size, start=begin, end=end)
+        return replace(BESIDE, stroke=share * BESIDE.stroke)
 
     base = Scenario(
         machine=reference_support(),
         drive=drive(1.0),
         drives={"front_column_left": drive(1.0 - APART), "front_column_right": drive(1.0 + APART)},
-        duration=end,
+        duration=BESIDE.end,
         dimensions=3,
         actuators=paper_machine.oil_columns(),
         start="settled",
-        step=step,
-        record_period=step,
-        solver=SolverSettings(impact_steps=steps, sections=SECTIONS, newton_tolerance=NEWTON_TOLERANCE),
+        step=STEP_BESIDE,
+        record_period=STEP_BESIDE,
+        solver=SolverSettings(impact_steps=IMPACT_STEPS, sections=SECTIONS, newton_tolerance=NEWTON_TOLERANCE),
         channels=CHANNELS_UNEQUAL,
     )
     rubbing = replace(base, pins={REAR: clearance_joint(FRICTION)})
@@ -232,6 +236,6 @@ def unequal(quick: bool) -> list[DetailScene]:
     ]
 
 
-def scenes(quick: bool) -> dict[str, DetailScene]:
+def scenes() -> dict[str, DetailScene]:
     """All, by name."""
-    return {scene.name: scene for scene in (*in_plane(quick), *in_space(quick), *unequal(quick))}
+    return {scene.name: scene for scene in (*in_plane(), *in_space(), *unequal())}

@@ -1,5 +1,6 @@
 """Tables of the study."""
 
+import math
 from collections.abc import Callable, Mapping
 
 from studies.common.numbers import rounded
@@ -14,7 +15,7 @@ from studies.scene_detail.measures import (
     change,
     times_as_long,
 )
-from studies.scene_detail.scenes import PLAINEST
+from studies.scene_detail.scenes import FULLEST, PLAINEST
 from support_exudyn import Estimate, recommend
 from support_exudyn.simulation.evidence.table import EvidenceTable as Tried
 from support_exudyn.simulation.recommend import QUESTIONS
@@ -67,7 +68,8 @@ def shown(found: Change) -> str:
 
 def _short(found: Change) -> str:
     if found.error < 1e-3 * abs(found.value):
-        return f"{found.value:.4g}"
+        digits = max(0, 3 - math.floor(math.log10(abs(found.value))))
+        return f"{found.value:.{digits}f}"
     return rounded(found.value, found.error)
 
 
@@ -157,12 +159,48 @@ def advice_table(tried: Tried) -> TextTable:
     rows = []
     for question in QUESTIONS:
         advice = recommend(question, tried)
-        first = (question, advice.scene, f"{advice.seconds:.2g}", f"{advice.fullest_seconds:.2g}")
-        for n, item in enumerate(advice.evidence):
+        used = max((item.difference + item.error) / item.allowed for item in advice.evidence)
+        fullest = tried.fullest_of(QUESTIONS[question].family).name
+        share = "0 %" if advice.scene == fullest else f"{100.0 * used:.2g} %"
+        rows.append((question, advice.scene, f"{advice.seconds:.2g}", f"{advice.fullest_seconds:.2g}", share))
+    header = ("question", "cheapest scene", "time [s]", "fullest [s]", "off, of what is allowed")
+    return TextTable(header, tuple(rows), left=2, width=130)
+
+
+def evidence_table(tried: Tried) -> TextTable:
+    """The answers of the advised scenes beside those of the fullest."""
+    rows = []
+    for question in QUESTIONS:
+        for n, item in enumerate(recommend(question, tried).evidence):
             both = (f"{rounded(one.value, one.error)} {one.unit}" for one in (item.here, item.fullest))
-            answer = item.number.replace("_", " ")
-            compared = (answer, *both, f"{item.allowed:.3g}", f"{item.difference:.3g}")
-            rows.append((*(first if n == 0 else ("", "", "", "")), *compared))
-    asked = ("question", "scene", "time [s]", "fullest [s]")
-    header = (*asked, "answer", "here", "fullest", "allowed", "difference")
-    return TextTable(header, tuple(rows), left=2, width=220)
+            compared = (item.number.replace("_", " "), *both, f"{item.difference:.3g}", f"{item.allowed:.3g}")
+            rows.append(("" if n else question, *compared))
+    header = ("question", "answer", "here", "fullest", "difference", "allowed")
+    return TextTable(header, tuple(rows), left=2, width=160)
+
+
+# --- for sentences ---
+
+
+def strongest(measured: Mapping[str, MeasuredScene], group: str, heading: str, most: int = 3) -> list[str]:
+    """The elements of a group that surely change a number most, each with its change, the strongest first."""
+    found = []
+    for one in measured.values():
+        if one.scene.group == group and one.scene.reference in (PLAINEST, FULLEST):
+            changed = changes(one, measured[one.scene.reference])[heading]
+            if not changed.below_error:
+                found.append((abs(changed.value) - changed.error, one.scene.element[2:], changed))
+    found.sort(key=lambda item: item[0], reverse=True)
+    return [f"{element} ({shown(changed)})" for _, element, changed in found[:most]]
+
+
+def without_effect(measured: Mapping[str, MeasuredScene], group: str, heading: str, least: float) -> list[str]:
+    """The elements of a group that surely change a number by less than this."""
+    return [
+        one.scene.element[2:]
+        for one in measured.values()
+        if one.scene.group == group
+        and one.scene.reference in (PLAINEST, FULLEST)
+        and (changed := changes(one, measured[one.scene.reference])[heading])
+        and abs(changed.value) + changed.error < least
+    ]

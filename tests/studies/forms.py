@@ -22,8 +22,9 @@ from studies.common.options import Options
 from studies.common.runs import with_coarser
 from studies.common.subject import Subject
 from studies.scene_detail import run as scene_detail
+from studies.scene_detail import scenes
 from studies.scene_detail.runs import Timed
-from support_exudyn import Result, Scenario, simulate
+from support_exudyn import CubicStep, Result, Scenario, simulate
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.sweeps.workers import Workers
 from tests.at_once import at_once
@@ -34,6 +35,10 @@ ONLY_SLOW = [pytest.param(form, marks=pytest.mark.slow) for form in (ROUGH, QUIC
 on_the_quick_form = pytest.mark.parametrize("out", FORMS[1:], indirect=True)  # where errors are looked at
 ROUGH_ACCURACY = "standard"  # of runs to an accuracy
 COARSER = {"which_pin": 3.0, "drive_mode": 4.0, "contact_laws": 2.0}  # times as long rough steps and records
+SHORT = {  # strokes of scene_detail, in which pins still bounce
+    "IN_STEP": CubicStep(stroke=0.0003, start=0.01, end=0.058), "DURATION": 0.06, "STEP": 2e-3,
+    "BESIDE": CubicStep(stroke=0.0028, start=0.01, end=0.16), "STEP_BESIDE": 1e-2,
+}  # fmt: skip
 
 _run_cases = runs.run_cases
 
@@ -64,6 +69,8 @@ def written(
 ) -> Path:
     """The folder into which a study has written its results, in one of the forms."""
     with pytest.MonkeyPatch.context() as patch:
+        for name, value in SHORT.items():
+            patch.setattr(scenes, name, value)
         if form == ROUGH:
             patch.setattr(runs, "run_cases", partial(_once, coarser=COARSER.get(study, 1.0)))
             patch.setitem(style.STYLE, "savefig.dpi", 60)

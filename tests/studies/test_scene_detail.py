@@ -1,4 +1,4 @@
-"""What each element of the model changes and costs, on the quick form of the study."""
+"""What each element of the model changes and costs."""
 
 from __future__ import annotations
 
@@ -54,14 +54,14 @@ def test_every_number_is_finite_and_has_an_error(numbers: Numbers) -> None:
 
 
 def test_every_scene_has_all_numbers(numbers: Numbers) -> None:
-    for name in scenes(quick=True):
+    for name in scenes():
         for what in ("mean_pin_force", "std_pin_force", "largest_pin_force", "mean_tip_x", "processor_time",
                      "coordinates", "constraints", "markers", "connectors", "callbacks_a_step"):  # fmt: skip
             assert (what, name) in numbers
 
 
 def test_every_element_is_added_and_taken() -> None:
-    chosen = scenes(quick=False)
+    chosen = scenes()
     names = {group: [s.name for s in chosen.values() if s.group == group] for group in study.ORDER}
     words = {"friction", "clearance", "mass of columns", "oil in columns", "tail beam", "start"}
     for group in ("added", "taken"):
@@ -72,7 +72,7 @@ def test_every_element_is_added_and_taken() -> None:
 
 
 def test_added_and_taken_scenes_differ_by_one_element() -> None:
-    chosen = scenes(quick=False)
+    chosen = scenes()
 
     def differing(scene: DetailScene) -> list[str]:
         mine, its = (fields_of(one.scenario) for one in (scene, chosen[scene.reference]))
@@ -81,13 +81,6 @@ def test_added_and_taken_scenes_differ_by_one_element() -> None:
     for scene in chosen.values():
         if scene.group in ("added", "taken", "space") and scene.reference:
             assert len(differing(scene)) == 1, scene.name
-
-
-def test_both_forms_have_the_same_scenes() -> None:
-    quick, full = scenes(quick=True), scenes(quick=False)
-    assert list(quick) == list(full)
-    for name in full:
-        assert fields_of(quick[name].scenario) == fields_of(full[name].scenario)
 
 
 @on_the_quick_form
@@ -119,6 +112,7 @@ def test_changes_and_errors_add_up() -> None:
     [
         (Change(0.1, 0.2), "below the error, 0.2"),
         (Change(-1.23456, 1e-6), "-1.235"),
+        (Change(11832.4, 1.0), "+11832"),  # no power of ten
         (Change(12.0, 0.5), "+12.00 ± 0.50"),
     ],
 )
@@ -126,20 +120,20 @@ def test_a_change_is_written_to_the_digits_of_its_error(found: Change, said: str
     assert tables.shown(found) == said
 
 
-def test_the_quick_table_agrees_with_the_advice(out: Path) -> None:
-    quick = EvidenceTable.load(out / study.TABLE)
-    assert {scene.name for scene in quick.scenes} == {scene.name for scene in committed().scenes}
+def test_the_table_agrees_with_the_advice(out: Path) -> None:
+    found = EvidenceTable.load(out / study.TABLE)
+    assert {scene.name for scene in found.scenes} == {scene.name for scene in committed().scenes}
     for question in QUESTIONS:
-        advice = recommend(question, quick)
-        fullest = quick.fullest_of(QUESTIONS[question].family)
+        advice = recommend(question, found)
+        fullest = found.fullest_of(QUESTIONS[question].family)
         assert advice.scene == fullest.name or all(item.passes for item in advice.evidence)
         assert advice.seconds <= 1.1 * advice.fullest_seconds
     # its stroke ends while the pins still bounce and its steps are coarse: of forces and vibration what is
     # advised is not surely worse there
     for question in ("peak force", "vibration"):
         asked, advised = QUESTIONS[question], recommend(question).scene
-        scene = next(scene for scene in quick.scenes if scene.name == advised)
-        for item in comparisons(asked, scene, quick.fullest_of(asked.family)):
+        scene = next(scene for scene in found.scenes if scene.name == advised)
+        for item in comparisons(asked, scene, found.fullest_of(asked.family)):
             assert item.difference - item.error <= item.allowed, item
 
 
@@ -156,19 +150,12 @@ def test_columns_driven_apart_turn_the_canopy_by_the_clearance_only(numbers: Num
 
 def test_the_committed_table_is_of_these_scenes() -> None:
     known = {scene.name: scene for scene in committed().scenes}
-    chosen = scenes(quick=False)
+    chosen = scenes()
     assert list(known) == list(chosen)
     for name, scene in chosen.items():
         assert dict(known[name].fields) == fields_of(scene.scenario)
         assert known[name].family == scene.family
     assert dict(committed().said) == study.said(chosen)
-
-
-def test_evidence_is_not_taken_from_the_quick_form(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    with pytest.raises(SystemExit):
-        study.main(["--quick", "--out", str(tmp_path), "--commit-evidence", str(tmp_path / "table.json")])
-    assert "allowed: without --quick" in capsys.readouterr().err
-    assert not (tmp_path / "table.json").exists()
 
 
 def test_the_chapter_and_its_pictures_are_there(out: Path) -> None:
