@@ -22,8 +22,8 @@ from studies.common.options import MOST_WORKERS, Options
 from studies.common.runs import run_cases
 from studies.common.study import output_folder
 from studies.extremes import figures as extremes_figures
-from studies.extremes.cases import STEP_STIFFNESS, cases
-from studies.extremes.runs import run_cases as judged
+from studies.extremes.cases import STEP_STIFFNESS, mapped
+from studies.extremes.runs import run_all
 from support_exudyn import Result
 from support_exudyn.commands.command_line import Parser, answered, count, folder
 from support_exudyn.files.whole_file import whole_file
@@ -97,9 +97,9 @@ def spectrum(runs: Runs, path: Path) -> None:
 
 def map_step_stiffness(runs: Runs, path: Path) -> None:
     """The map of `extremes` by step and stiffness: 169 of its scenes."""
-    found = {n: case for n, case in enumerate(cases(quick=False)) if case.group == STEP_STIFFNESS}
-    verdicts = judged(list(found.values()), False, runs.workers, list(found))
-    drawn = extremes_figures.figures(list(zip(found.values(), verdicts, strict=True)))
+    found = [case for case in mapped() if case.group == STEP_STIFFNESS]
+    verdicts, _ = run_all(found, {}, runs.workers)
+    drawn = extremes_figures.figures(list(zip(found, verdicts, strict=True)))
     _save(drawn["map_step_stiffness"], path)
 
 

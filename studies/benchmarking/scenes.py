@@ -43,7 +43,7 @@ def _support(label: str, scenario: Scenario, after: float) -> BenchmarkScene:
 def _scenes() -> dict[str, BenchmarkScene]:
     smooth = replace(paper_machine.clearance_rise(CLEARANCE_MM, 0.0, 5e-4), solver=SolverSettings())
     dry = replace(smooth, pins=paper_machine.clearance_rise(CLEARANCE_MM, FRICTION, 5e-4).pins)
-    crank = slider_crank.scenarios(quick=False)[slider_crank.SMOOTH]
+    crank = slider_crank.scenarios()[slider_crank.SMOOTH]
     half = replace(
         crank,
         duration=0.5 * slider_crank.REVOLUTION,

@@ -21,62 +21,67 @@ STEP_STIFFNESS, CLEARANCE_SPEED, FRICTION_STEP = (
 )
 MAPS = (STEP_STIFFNESS, CLEARANCE_SPEED, FRICTION_STEP)
 BOX = "box"
-LONG_OF, SHORT_OF = 500, 50  # records of a stroke, full and quick
-PACE = (0.5, 0.1)  # full and quick
+RECORDS = 500  # of a stroke
+PACE = 0.5
 STROKE = 0.05  # [m]
 STARTS = ("concentric", "closed", "overlapping", "settled")
 BODIES = ("rear_link", "front_link", "shield", "canopy")
-# how many of each kind, full and quick; grids: lines and columns
-GRIDS = {STEP_STIFFNESS: (13, 4), CLEARANCE_SPEED: (12, 3), FRICTION_STEP: (13, 4)}
+GRIDS = {STEP_STIFFNESS: 13, CLEARANCE_SPEED: 12, FRICTION_STEP: 13}  # lines and columns
+# in which proportions kinds are drawn: each gets its part of whatever number
 RANDOM = {
-    "corners": (560, 14),
-    BOX: (520, 12),
-    "slider-crank": (140, 4),
-    "free impact": (80, 3),
-    "start": (60, 4),
-    "solver": (60, 4),
-    "mass ratio": (50, 3),
-    "posture": (70, 4),
-    "dead centre": (30, 2),
-    "all pins": (30, 1),
-    "no gravity": (30, 2),
-    "hang-up": (30, 2),
-    "roof": (40, 3),
-    "columns": (20, 1),
-    "space": (16, 1),
+    "corners": 560,
+    BOX: 520,
+    "slider-crank": 140,
+    "free impact": 80,
+    "start": 60,
+    "solver": 60,
+    "mass ratio": 50,
+    "posture": 70,
+    "dead centre": 30,
+    "all pins": 30,
+    "no gravity": 30,
+    "hang-up": 30,
+    "roof": 40,
+    "columns": 20,
+    "space": 16,
 }
+DRAWN = 347  # by default, a fifth of these
 
 
-def cases(quick: bool) -> list[Case]:
-    """All of them, in the same order always."""
+def cases(number: int = DRAWN) -> list[Case]:
+    """All of them: those of the maps, and about so many drawn ones, at least one of every kind.
+
+    A larger number draws those of a smaller one and others: each scene has random numbers of its own.
+    """
+    share = number / sum(RANDOM.values())
     drawn_ones = (
-        _random(group, i, np.random.default_rng([SEED, n, i]), PACE[quick])
-        for n, (group, numbers) in enumerate(RANDOM.items())
-        for i in range(numbers[quick])
+        _random(group, i, np.random.default_rng([SEED, n, i]))
+        for n, (group, part) in enumerate(RANDOM.items())
+        for i in range(max(1, round(share * part)))
     )
-    return [*_maps(quick), *drawn_ones]
+    return [*mapped(), *drawn_ones]
 
 
-def _maps(quick: bool) -> Iterator[Case]:
-    pace = PACE[quick]
-    size = GRIDS[STEP_STIFFNESS][quick]
-    for step in _steps(size):
+def mapped() -> Iterator[Case]:
+    """The scenes of the maps."""
+    size = GRIDS[STEP_STIFFNESS]
+    for step in _axis("step_s", size):
         for stiffness in _axis("stiffness", size):
-            point = Point(step_s=step, stiffness=stiffness, pace=pace)
+            point = Point(step_s=step, stiffness=stiffness, pace=PACE)
             values = {"step_s": step, "stiffness": stiffness}
             yield _case(STEP_STIFFNESS, values, partial(scenes.fallen, point), False)
-    size = GRIDS[CLEARANCE_SPEED][quick]
+    size = GRIDS[CLEARANCE_SPEED]
     for clearance in _axis("clearance_m", size):
         for time in np.geomspace(0.05, 100.0, size).tolist():
             point = Point(clearance_m=clearance)
             values = {"clearance_m": clearance, "speed_m_s": STROKE / time}
-            make = partial(scenes.stroke_of, point, time, STROKE, "standard", SHORT_OF if quick else LONG_OF)
+            make = partial(scenes.stroke_of, point, time, STROKE, "standard", RECORDS)
             yield _case(CLEARANCE_SPEED, values, make, False)
-    size = GRIDS[FRICTION_STEP][quick]
+    size = GRIDS[FRICTION_STEP]
     for static in np.geomspace(1e-7, 5e-2, size).tolist():
-        for step in _steps(size):
+        for step in _axis("step_s", size):
             rubbing = {"static_speed_m_s": static, "dynamic_speed_m_s": 2.0 * static}
-            point = Point(step_s=step, mu=0.25, pace=pace, **rubbing)
+            point = Point(step_s=step, mu=0.25, pace=PACE, **rubbing)
             values = {"static_speed_m_s": static, "step_s": step}
             yield _case(FRICTION_STEP, values, partial(scenes.fallen, point), False)
 
@@ -87,10 +92,6 @@ def _axis(name: str, size: int) -> list[float]:
     return values
 
 
-def _steps(size: int) -> list[float]:
-    return _axis("step_s", size)
-
-
 def _case(group: str, values: Mapping[str, float | str], make: Callable[[], Scenario], box: bool) -> Case:
     said = ", ".join(
         f"{name} {value:.3g}" if isinstance(value, float) else str(value) for name, value in values.items()
@@ -98,10 +99,10 @@ def _case(group: str, values: Mapping[str, float | str], make: Callable[[], Scen
     return Case(f"{group}: {said}", group, box, make, values)
 
 
-def _random(group: str, i: int, random: np.random.Generator, pace: float) -> Case:
+def _random(group: str, i: int, random: np.random.Generator) -> Case:
     """A random case of a group."""
     box = group == BOX
-    point = replace(drawn(random, box), pace=pace)
+    point = replace(drawn(random, box), pace=PACE)
     if group != "corners":  # tiny steps are tried there and in the maps; they take long
         point = replace(point, step_s=max(point.step_s, 5e-5))
     values: dict[str, float | str] = {"number": float(i)}

@@ -3,15 +3,14 @@
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 
 from studies.extremes.cases import CLEARANCE_SPEED, FRICTION_STEP, STEP_STIFFNESS
-from studies.extremes.judge import GOOD, SILENT, Case, Judgement
+from studies.extremes.judge import GOOD, REFUSED, SILENT, Case, Judgement
 from studies.extremes.ranges import Point
 from studies.extremes.scenes import IMPACT_STEPS, fallen
 from support_exudyn.postprocessing.figures import style
@@ -19,6 +18,12 @@ from support_exudyn.scenario.timescales import timescales
 from user_forces import Impact
 
 SMALLEST, LARGEST = 1e-6, 1.0  # of the colours
+SQUARE = 85.0  # area of the mark of a run [points^2]
+ROOM = 0.04  # beside the outermost, as a share of an axis
+MARKS: Mapping[str, Mapping[str, Any]] = {
+    REFUSED: {"marker": "x", "color": "black", "markersize": 6},
+    SILENT: {"marker": "D", "color": style.CONTACT, "markersize": 7},
+}
 PULL = 9.81  # [m/s^2]
 MASS = 3000.0  # [kg] that moves with the journal of the rear pin, see `effective_mass`
 Judged = Sequence[tuple[Case, Judgement]]
@@ -61,63 +66,41 @@ def figures(judged: Judged) -> dict[str, Figure]:
 
 
 def _figure(one: Map, judged: Judged) -> Figure:
-    drawing = Figure(figsize=style.size(150, 105))
+    drawing = Figure(figsize=style.size(150, 110))
     axes = drawing.subplots()
     found = [(case, verdict) for case, verdict in judged if case.group == one.group]
-    _cells(drawing, axes, one, found)
-    xs = np.geomspace(*_span([float(case.values[one.x]) for case, _ in found]), 200)
-    handles: list[Line2D] = []
-    limits = axes.get_ylim()
+    xs, ys = ([float(case.values[name]) for case, _ in found] for name in (one.x, one.y))
+    axes.set(
+        xscale="log", yscale="log", xlabel=one.x_label, ylabel=one.y_label, xlim=_around(xs), ylim=_around(ys)
+    )
+    axes.grid(visible=False)
+    errors = [
+        min(max(verdict.error, SMALLEST), LARGEST) if verdict.outcome == GOOD else np.nan
+        for _, verdict in found
+    ]
+    shown = axes.scatter(
+        xs, ys, c=errors, norm=LogNorm(SMALLEST, LARGEST), cmap="viridis_r", marker="s", s=SQUARE, zorder=2
+    )
+    drawing.colorbar(shown, ax=axes, label="reported error of the worst number [-]")
+    for outcome, mark in MARKS.items():
+        here = [n for n, (_, verdict) in enumerate(found) if verdict.outcome == outcome]
+        if here:
+            axes.plot([xs[n] for n in here], [ys[n] for n in here], linestyle="none", label=outcome, **mark)
+    along = np.geomspace(min(xs), max(xs), 200)
     for n, (name, curve) in enumerate(LIMITS[one.group]()):
-        line = axes.plot(
-            xs, [curve(float(x)) for x in xs], color="black", linestyle=("-", "--", ":")[n], label=name
-        )
-        handles += line
-    axes.set_ylim(limits)
-    handles += axes.plot(*one.default, "*", color="white", markeredgecolor="black", markersize=13,
-                         linestyle="none", label=one.default_name)  # fmt: skip
-    handles.append(Line2D([], [], color="black", marker="x", linestyle="none", label="refused"))
-    if any(verdict.outcome == SILENT for _, verdict in found):
-        handles.append(Line2D([], [], color=style.SMOOTH, marker="s", linestyle="none", label="silent failure"))
-    drawing.legend(handles=handles, loc="outside lower center", ncols=2)
+        values = [curve(float(x)) for x in along]
+        axes.plot(along, values, color="black", linestyle=("-", "--")[n], label=name, zorder=3)
+    axes.plot(*one.default, "*", color="white", markeredgecolor="black", markersize=11,
+              linestyle="none", label=one.default_name, zorder=4)  # fmt: skip
+    drawing.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=2)
     return drawing
 
 
-def _cells(drawing: Figure, axes: Axes, one: Map, found: Judged) -> None:
-    """Each case a cell: its error, or a cross."""
-    xs = sorted({float(case.values[one.x]) for case, _ in found})
-    ys = sorted({float(case.values[one.y]) for case, _ in found})
-    errors = np.full((len(ys), len(xs)), np.nan)
-    for case, verdict in found:
-        x, y = float(case.values[one.x]), float(case.values[one.y])
-        if verdict.outcome == GOOD:
-            errors[ys.index(y), xs.index(x)] = min(max(verdict.error, SMALLEST), LARGEST)
-        else:
-            mark = (
-                {"marker": "s", "color": style.SMOOTH}
-                if verdict.outcome == SILENT
-                else {"marker": "x", "color": "black"}
-            )
-            axes.plot(x, y, markersize=5, **mark)  # type: ignore[arg-type]
-    shown = axes.pcolormesh(
-        _edges(xs), _edges(ys), errors, norm=LogNorm(SMALLEST, LARGEST), cmap="viridis_r", shading="flat"
-    )
-    axes.set(xscale="log", yscale="log", xlabel=one.x_label, ylabel=one.y_label)
-    axes.set_facecolor("#eeeeee")
-    axes.grid(visible=False)
-    drawing.colorbar(shown, ax=axes, label="reported error of the worst number [-]")
-
-
-def _span(values: Sequence[float]) -> tuple[float, float]:
-    return min(values), max(values)
-
-
-def _edges(values: Sequence[float]) -> np.ndarray:
-    """Edges of cells around values that are even in their logarithm."""
-    logs = np.log(values)
-    half = 0.5 * (logs[1] - logs[0]) if len(logs) > 1 else 0.5
-    edges: np.ndarray = np.exp(np.append(logs - half, logs[-1] + half))
-    return edges
+def _around(values: Sequence[float]) -> tuple[float, float]:
+    """Limits of a logarithmic axis that has room for the squares of these values."""
+    low, high = min(values), max(values)
+    room = (high / low) ** ROOM if high > low else 10.0
+    return low / room, high * room
 
 
 # --- limits ---
@@ -135,7 +118,10 @@ def _of_contact() -> list[Curve]:
 
     return [
         ("duration of the first contact", duration),
-        (f"step in it (1/{IMPACT_STEPS})", lambda stiffness: duration(stiffness) / IMPACT_STEPS),
+        (
+            f"step that is taken in it: 1/{IMPACT_STEPS} of it",
+            lambda stiffness: duration(stiffness) / IMPACT_STEPS,
+        ),
     ]
 
 
@@ -151,7 +137,10 @@ def _of_friction() -> list[Curve]:
         point = Point(mu=0.25, static_speed_m_s=static, dynamic_speed_m_s=2.0 * static)
         return timescales(fallen(point)).rubbing
 
-    return [("time constant of friction", rubbing), ("10 000 of it", lambda static: 1e4 * rubbing(static))]
+    return [
+        ("time constant of friction", rubbing),
+        ("10 000 times as long", lambda static: 1e4 * rubbing(static)),
+    ]
 
 
 LIMITS: Mapping[str, Callable[[], list[Curve]]] = {

@@ -30,6 +30,7 @@ from user_forces import Frictionless, InputError
 from user_forces.normal.hysteresis import Hysteresis
 
 GOOD, REFUSED, SILENT = "good", "refused", "silent"
+BEFORE = "before the run: "
 # An impact is free if gravity changes the speed by less than this share of it while it lasts, and nothing rubs.
 # Where there is no gravity and nothing is driven, every one is.
 # Its restitution then is that of the law within some thousandths (1.3e-3 at most in 500 random scenes).
@@ -37,11 +38,12 @@ FREE, MORE = 0.02, 0.005
 PULL = 9.81  # [m/s^2]
 ALONE = 1e-9  # [s] by which contacts of two pins are apart at least
 TOLERANCE = 1e-8  # of an independent formulation
-MOST_STEPS = 300_000  # of runs that only check
+# steps of a run that only checks: one of the redundant formulation takes some 0.1 ms, of others a tenth of that
+MOST_STEPS, MOST_OTHERS = 15_000, 100_000
 TELLING = 0.05  # a run that is less certain does not check anything
 CHECKING = 3.0  # times the estimated error of a run that only checks: an estimate covers 97 % of errors
 # of a check by the redundant formulation: steps of an impact, fewest and most steps of the grid
-IMPACT_STEPS, FEWEST, LONGEST = 64, 200, 20_000
+IMPACT_STEPS, FEWEST, LONGEST = 64, 200, 2_500
 FOLLOWED = 2.0  # times of a vibration of a loaded contact (one over its angular frequency) that a step may be
 # spectral radii of a check: the larger, the less its steps damp, and the more rounding stays. The first that
 # keeps what rings with no more steps than that
@@ -117,7 +119,7 @@ def _judged(make: Callable[[], Scenario], run: Run) -> Judgement:
         scenario = make()
         result = run(scenario)
     except InputError as error:
-        return Judgement(REFUSED, f"before the run: {error}"[:400])
+        return Judgement(REFUSED, f"{BEFORE}{error}"[:400])
     except SimulationError as error:
         return _refused(error)
     found = Judgement(
@@ -227,9 +229,11 @@ def _pull(scenario: Scenario) -> float:
 def _halved(result: Result) -> tuple[Result, Result] | None:
     """A run with its error, and that of half its steps; None if there are no finer settings.
 
-    A run that was asked for at chosen steps has been halved already.
+    A run that was asked for at chosen steps has been halved already. So has one to an accuracy: of one that is
+    too long to be halved once more the coarser one is looked at.
     """
-    if result.goal is None and result.coarser is not None:
+    too_long = 2 * result.counts.steps > _most(result.scenario)
+    if result.coarser is not None and (result.goal is None or too_long):
         return result.coarser, result
     try:
         finer = result.scenario.refined()
@@ -251,7 +255,7 @@ def independent(scenario: Scenario) -> Result | None:
     if scenario.chooses_steps:
         others = _by_steps(patient)
     else:
-        solver = SolverSettings(tolerance=TOLERANCE, most_steps=MOST_STEPS)
+        solver = SolverSettings(tolerance=TOLERANCE, most_steps=MOST_OTHERS)
         others = [replace(patient, formulation=name, solver=solver) for name in ("reduced", "tree")]
     for other in others:
         if formulation(other.formulation).covers(other):
@@ -281,5 +285,10 @@ def _by_steps(scenario: Scenario) -> list[Scenario]:
 
 
 def _patient(scenario: Scenario) -> Scenario:
-    """Return the same scene that may take more steps."""
-    return replace(scenario, solver=replace(scenario.solver, most_steps=MOST_STEPS))
+    """The same scene with as many steps as a check may take."""
+    return replace(scenario, solver=replace(scenario.solver, most_steps=_most(scenario)))
+
+
+def _most(scenario: Scenario) -> int:
+    """How many steps a run that only checks may take."""
+    return MOST_OTHERS if scenario.chooses_steps else MOST_STEPS

@@ -1,14 +1,16 @@
-"""Where does the model break? Thousands of runs at the extremes, each good, or refused with a reason.
+"""Where does the model break, and does it say so?
 
 Clearance, stiffness, restitution, friction, steps, spectral radius, masses, postures, starts, loads and speeds
-far beyond what is sensible, in grids and random corners; and runs of a thousand seconds. Every run is judged:
-see `studies.extremes.judge`.
+far beyond what is sensible, in grids and random corners; and runs of up to a thousand seconds. How a run is
+judged is told in `studies.extremes.judge`.
 """
 
 import json
 import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -19,41 +21,115 @@ from studies.common.options import Options
 from studies.common.study import Study, StudyOutcome
 from studies.common.words import TextTable
 from studies.extremes import long_runs
-from studies.extremes.cases import MAPS, RANDOM, cases
+from studies.extremes.cases import BOX, DRAWN, MAPS, RANDOM, cases
 from studies.extremes.figures import figures
-from studies.extremes.judge import FREE, GOOD, MORE, REFUSED, SILENT, Case, Judgement
+from studies.extremes.judge import BEFORE, FREE, GOOD, MORE, REFUSED, SILENT, Case, Judgement
 from studies.extremes.long_runs import LongRun
 from studies.extremes.ranges import SPANS
-from studies.extremes.runs import PATIENCE, run_cases, run_long
+from studies.extremes.runs import PATIENCE, run_all
 from support_exudyn.files.whole_file import whole_file
 from support_exudyn.formulations.limits import DEEPEST
 from support_exudyn.simulation.result_checks import OPEN
 
 LARGEST_GAP = 1e-8  # [m] in a long run
+OUTCOMES = (GOOD, REFUSED, SILENT)
+SURE = 0.95  # of intervals of what is drawn
 Judged = Sequence[tuple[Case, Judgement]]
 Long = Mapping[str, LongRun | str]
+# the rows of the key table
+KINDS = {
+    "physically sensible": (BOX,),
+    "pin, steps and start beyond": ("corners", "solver", "start"),
+    "slider-crank": ("slider-crank", "hang-up", "dead centre"),
+    "other machines and loads": (
+        "mass ratio", "posture", "all pins", "no gravity", "roof", "columns", "free impact", "space",
+    ),
+    "grids of the maps": MAPS,
+}  # fmt: skip
 
 
 # --- what came out ---
 
 
+@dataclass(frozen=True)
+class Share:
+    """Of how many drawn scenes something holds, and between what shares all that could be drawn lie.
+
+    held, number: of so many so many. The interval is that of Clopper and Pearson, with a confidence of SURE.
+    """
+
+    held: int
+    number: int
+
+    @property
+    def value(self) -> float:
+        """The share of those that were drawn."""
+        return self.held / self.number
+
+    @cached_property
+    def interval(self) -> tuple[float, float]:
+        """The least and the largest share of all that could be drawn."""
+        from scipy.stats import binomtest  # takes a second to import
+
+        found = binomtest(self.held, self.number).proportion_ci(SURE, "exact")
+        return float(found.low), float(found.high)
+
+    @property
+    def error(self) -> float:
+        """How far the share of all may be from that of those that were drawn."""
+        low, high = self.interval
+        return max(self.value - low, high - self.value)
+
+    @property
+    def said(self) -> str:
+        """In per cent, with the interval."""
+        low, high = (f"{100.0 * one:.3g}" for one in self.interval)
+        return f"{100.0 * self.value:.3g} % ({low} to {high} %)"
+
+
+def of(held: Sequence[bool]) -> Share:
+    """The share of those of which it holds."""
+    return Share(sum(held), len(held))
+
+
+def middle(values: Sequence[float]) -> tuple[float, float]:
+    """The median of what was drawn, and how far that of all that could be drawn may be from it.
+
+    By the order of the values, with a confidence of SURE; infinitely far if there are too few of them.
+    """
+    from scipy.stats import binom  # takes a second to import
+
+    ordered = sorted(values)
+    found, last = float(np.median(ordered)), len(ordered) - 1
+    below = int(binom.ppf(0.5 * (1.0 - SURE), len(ordered), 0.5)) - 1
+    if below < 0:
+        return found, math.inf
+    return found, max(found - ordered[below], ordered[last - below] - found)
+
+
 def numbers(judged: Judged, long: Long) -> list[Number]:
-    """Shares and extremes of all verdicts, and what long runs came to."""
+    """Shares with their counting errors, extremes of this very set of runs, and what long runs came to."""
     box = [verdict for case, verdict in judged if case.box]
-    good = [verdict for _, verdict in judged if verdict.outcome == GOOD]
+    random = [verdict for case, verdict in judged if case.group in RANDOM]
+    good = [verdict for verdict in random if verdict.outcome == GOOD]
+    error, of_error = middle([one.error for one in good])
     found = [
-        _counted("good_in_box", "box", sum(one.outcome == GOOD for one in box) / len(box)),
-        _counted("accuracy_met_in_box", "box", sum(one.met for one in box) / len(box)),
-        _counted("largest_energy_open", "good runs", max(one.energy for one in good)),
-        _counted("largest_depth", "good runs", max(one.depth for one in good)),
-        _counted("largest_restitution_over_law", "good runs", _largest([one.restitution for one in good])),
-        _counted("median_reported_error", "good runs", float(np.median([one.error for one in good]))),
-        _counted(
-            "largest_half_over_reported",
-            "good runs",
-            _largest([one.half / one.error for one in good if one.error]),
-        ),
+        _share("good", "physically sensible", [one.outcome == GOOD for one in box]),
+        _share("accuracy_met", "physically sensible", [one.met for one in box]),
+        _share("silent", "physically sensible", [one.outcome == SILENT for one in box]),
+        *(_share(outcome, "drawn", [one.outcome == outcome for one in random]) for outcome in OUTCOMES),
     ]
+    if math.isfinite(of_error):
+        found.append(Number("median_reported_error", "drawn, good", error, "1", of_error))
+    every = [verdict for _, verdict in judged if verdict.outcome == GOOD]
+    of_these = f"the {len(every)} good of {len(judged)} runs"  # others have other extremes
+    extremes = {
+        "largest_energy_open": [one.energy for one in every],
+        "largest_depth": [one.depth for one in every],
+        "largest_restitution_over_law": [one.restitution for one in every],
+        "largest_half_over_reported": [one.half / one.error for one in every if one.error],
+    }
+    found += [Number(name, of_these, _largest(values), "1", 0.0) for name, values in extremes.items()]
     for name, run in long.items():
         if isinstance(run, LongRun):
             case = f"{name}, {run.simulated:g} s"
@@ -67,8 +143,9 @@ def numbers(judged: Judged, long: Long) -> list[Number]:
     return found
 
 
-def _counted(name: str, case: str, value: float) -> Number:
-    return Number(name, case, value, "1", 0.0)
+def _share(name: str, case: str, held: Sequence[bool]) -> Number:
+    found = of(held)
+    return Number(name, case, found.value, "1", found.error)
 
 
 def _largest(values: Sequence[float]) -> float:
@@ -79,10 +156,22 @@ def _largest(values: Sequence[float]) -> float:
 def counts(judged: Judged) -> dict[str, int]:
     """How many runs ended how."""
     counted = Counter(verdict.outcome for _, verdict in judged)
-    return {f"runs_{outcome}": counted[outcome] for outcome in (GOOD, REFUSED, SILENT)}
+    return {f"runs_{outcome}": counted[outcome] for outcome in OUTCOMES}
 
 
 # --- tables ---
+
+
+def kind_table(judged: Judged) -> TextTable:
+    """How the runs ended, by what they are; the key table."""
+    rows = []
+    for kind, groups in {**KINDS, "all": (*MAPS, *RANDOM)}.items():
+        here = [verdict for case, verdict in judged if case.group in groups]
+        counted = Counter(verdict.outcome for verdict in here)
+        checked = sum(math.isfinite(verdict.other) for verdict in here)
+        rows.append((kind, str(len(here)), *(str(counted[one]) for one in OUTCOMES), str(checked)))
+    header = ("scenes", "runs", "good", "refused", "silently wrong", "checked by another formulation")
+    return TextTable(header, tuple(rows))
 
 
 def group_table(judged: Judged) -> TextTable:
@@ -91,18 +180,13 @@ def group_table(judged: Judged) -> TextTable:
     for group in (*MAPS, *RANDOM):
         here = [verdict for case, verdict in judged if case.group == group]
         counted = Counter(verdict.outcome for verdict in here)
-        checked = sum(math.isfinite(verdict.other) for verdict in here)
         good = [verdict for verdict in here if verdict.outcome == GOOD]
         rows.append((
-            group, str(len(here)), *(str(counted[outcome]) for outcome in (GOOD, REFUSED, SILENT)),
-            str(checked),
+            group, str(len(here)), *(str(counted[outcome]) for outcome in OUTCOMES),
             f"{np.median([one.error for one in good]):.1g}" if good else "",
             f"{max(one.energy for one in good):.1g}" if good else "",
         ))  # fmt: skip
-    header = (
-        "group", "runs", "good", "refused", "silent", "compared with another formulation",
-        "median error", "energy open, largest",
-    )  # fmt: skip
+    header = ("group", "runs", "good", "refused", "silent", "median error", "energy open, largest")
     return TextTable(header, tuple(rows), width=200)
 
 
@@ -151,11 +235,12 @@ def long_table(long: Long) -> TextTable:
 
 def work(chosen: Options) -> StudyOutcome:
     """All scenes and long runs, judged; every verdict is kept as a line of runs.jsonl."""
-    found = cases(chosen.quick)
-    judged = list(zip(found, run_cases(found, chosen.quick, chosen.workers), strict=True))
-    long = run_long(long_runs.QUICK if chosen.quick else long_runs.FULL, chosen.workers)
+    found = cases(chosen.runs or DRAWN)
+    verdicts, long = run_all(found, long_runs.DURATIONS, chosen.workers, chosen.kept)
+    judged = list(zip(found, verdicts, strict=True))
     save_rows(chosen.out / "runs.jsonl", judged)
     tables = {
+        "table_kinds": kind_table(judged),
         "table_groups": group_table(judged),
         "table_reasons": reason_table(judged),
         "table_silent": silent_table(judged),
@@ -169,22 +254,38 @@ def work(chosen: Options) -> StudyOutcome:
 def words(judged: Judged, long: Long) -> dict[str, object]:
     """What the sentences are filled with."""
     box = [verdict for case, verdict in judged if case.box]
+    random = [verdict for case, verdict in judged if case.group in RANDOM]
+    refused = [verdict for _, verdict in judged if verdict.outcome == REFUSED]
     lasting = [run for run in long.values() if isinstance(run, LongRun)]
     return {
         "runs": len(judged),
+        "kinds": len(RANDOM),
         "spans": SPANS,
         "limits": SimpleNamespace(OPEN=OPEN, DEEPEST=DEEPEST, FREE=FREE, MORE=MORE),
         "patience": PATIENCE,
+        "sure": SURE,
         "counts": counts(judged),
-        "box": {
-            "all": len(box),
-            "good": sum(verdict.outcome == GOOD for verdict in box),
-            "met": sum(verdict.met for verdict in box),
-        },
+        "silent": of([verdict.outcome == SILENT for verdict in random]),
+        "good_in_box": of([verdict.outcome == GOOD for verdict in box]),
+        "met_in_box": of([verdict.met for verdict in box]),
+        "no_scene": sum(verdict.reason.startswith(BEFORE) for verdict in refused),
+        "checked": sum(math.isfinite(verdict.other) for _, verdict in judged),
+        "maps": {group: _of_map(group, judged) for group in MAPS},
         "energy_open": _largest([one.energy for _, one in judged if one.outcome == GOOD]),
+        "lasting": lasting,
+        "lost": {name: why for name, why in long.items() if isinstance(why, str)},
         "gap": _largest([run.gap_last for run in lasting]),
         "long_energy": _largest([run.energy_share for run in lasting]),
     }
+
+
+def _of_map(group: str, judged: Judged) -> dict[str, float]:
+    """How the runs of a map ended, and the errors of its good ones."""
+    here = [verdict for case, verdict in judged if case.group == group]
+    counted = Counter(verdict.outcome for verdict in here)
+    errors = [verdict.error for verdict in here if verdict.outcome == GOOD]
+    found = {outcome: counted[outcome] for outcome in OUTCOMES}
+    return {**found, "runs": len(here), "median": float(np.median(errors)), "worst": _largest(errors)}
 
 
 def save_rows(path: Path, judged: Judged) -> None:
@@ -201,5 +302,5 @@ def _known(verdict: Judgement) -> dict[str, object]:
     return {name: value for name, value in said if not isinstance(value, float) or math.isfinite(value)}
 
 
-study = Study("extremes", __doc__, work)
+study = Study("extremes", __doc__, work, seconds=300.0)
 main = study.main

@@ -1,20 +1,29 @@
 """All cases and long runs in parallel processes, each watched: hangs and crashes are silent failures, too."""
 
 import signal
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from functools import cache
+from dataclasses import asdict
+from pathlib import Path
 from typing import Any
 
 from studies.common.runs import bar
-from studies.extremes import long_runs
-from studies.extremes.cases import cases
-from studies.extremes.judge import SILENT, Case, Judgement, judge
+from studies.extremes import judge, long_runs
+from studies.extremes.cases import BOX, CLEARANCE_SPEED
+from studies.extremes.judge import SILENT, Case, Judgement
+from studies.extremes.kept import read_row, row_file, write_row
 from studies.extremes.long_runs import LongRun
-from support_exudyn import SimulationError
+from support_exudyn import Scenario, SimulationError
 from support_exudyn.sweeps.workers import ProcessEndedError, Workers, report, worker_pool
 
 PATIENCE = 300.0  # [s]; a run that takes longer hangs
+# what a scene takes on average [s], of those that do not take a second: the longest are begun first
+SECONDS = {
+    "dead centre": 12.0, "slider-crank": 8.0, "space": 4.0, "hang-up": 3.0, BOX: 2.0, CLEARANCE_SPEED: 1.5,
+}  # fmt: skip
+OTHERS = 0.8  # [s]
+OF_LONG = 15.0  # [s], of a long run
+Job = tuple[Any, ...]
 
 
 class HangError(BaseException):
@@ -41,52 +50,86 @@ def patience(seconds: float) -> Iterator[None]:
         signal.signal(signal.SIGALRM, before)
 
 
-@cache
-def _cases(quick: bool) -> list[Case]:
-    return cases(quick)
-
-
-def judged(place: int, quick: bool, number: int) -> Judgement:
-    """Judge a case, in a worker."""
+def judged(case: Case, kept: Path | None) -> Judgement:
+    """Judge a case, in a worker; silent failures are not kept."""
     report(0.0)
     try:
         with patience(PATIENCE):
-            return judge(_cases(quick)[number].scenario)
+            file = _file(case, kept)
+            if file and (row := read_row(file)):
+                return Judgement(**row)  # type: ignore[arg-type]
+            verdict = judge.judge(case.scenario)
     except HangError as error:
         return Judgement(SILENT, f"hang: {error}")
+    if file and verdict.outcome != SILENT:
+        write_row(file, verdict.row())
+    return verdict
 
 
-def lasted(place: int, name: str, duration: float) -> LongRun | str:
-    """Make a long run, in a worker; return why there is none if it fails."""
+def _file(case: Case, kept: Path | None) -> Path | None:
+    """Where the verdict on a case is kept; None if it is not, or if there is no scene."""
+    if kept is None:
+        return None
     try:
-        return long_runs.run(long_runs.scene(name, duration), name, report)
+        return row_file(kept, case.scenario(), judge)
+    except Exception:  # whatever it is: the judge will find it, too
+        return None
+
+
+def lasted(name: str, duration: float, kept: Path | None) -> LongRun | str:
+    """Make a long run, in a worker; return why there is none if it fails."""
+    scene: Scenario = long_runs.scene(name, duration)
+    file = row_file(kept, scene, long_runs) if kept else None
+    if file and (row := read_row(file)):
+        return LongRun(**row)  # type: ignore[arg-type]
+    try:
+        found = long_runs.run(scene, name, report)
     except SimulationError as error:
         return str(error)
+    if file:
+        write_row(file, asdict(found))
+    return found
 
 
-def run_cases(
-    found: Sequence[Case], quick: bool, workers: int | Workers, places: Sequence[int] | None = None
-) -> list[Judgement]:
-    """Verdicts on cases, in their order, under a progress bar.
+def run_all(
+    cases: Sequence[Case], durations: dict[str, float], workers: int | Workers, kept: Path | None = None
+) -> tuple[list[Judgement], dict[str, LongRun | str]]:
+    """Verdicts on cases, in their order, and long runs by name, under a progress bar.
 
     Arguments:
-        found: the cases.
-        quick: whether they are those of the quick form.
+        cases: the cases.
+        durations: of long runs, by their names [s].
         workers: number of processes, or a pool.
-        places: where each stands among all cases of that form; None: they are all of them.
+        kept: folder of what is found out once and kept; None: nothing is.
+
+    A long run that failed says why.
     """
+    jobs: list[tuple[float, Job]] = [
+        (OF_LONG, (lasted, name, duration, kept)) for name, duration in durations.items()
+    ]
+    jobs += [(SECONDS.get(case.group, OTHERS), (judged, case, kept)) for case in cases]
+    order = sorted(range(len(jobs)), key=lambda n: -jobs[n][0])
+    seconds = [jobs[n][0] for n in order]
+    mean = sum(seconds) / max(1, len(seconds))
 
-    def crashed(error: ProcessEndedError) -> Judgement:
-        return Judgement(SILENT, f"crash: {error.reason}")
+    def crashed(error: ProcessEndedError) -> Judgement | str:
+        said = f"crash: {error.reason}"
+        return said if order[error.place] < len(durations) else Judgement(SILENT, said)
 
-    jobs = [(quick, number) for number in (range(len(found)) if places is None else places)]
-    with worker_pool(workers) as pool, bar(f"{len(found)} scenes") as told:
-        return pool.run(jobs, judged, told, crashed)
+    title = f"{len(cases)} scenes" + (f", {len(durations)} long runs" if durations else "")
+    with worker_pool(workers) as pool, bar(title) as told:
+
+        def tell(shares: Sequence[float]) -> None:
+            told([share * one / mean for share, one in zip(shares, seconds, strict=True)])
+
+        found = pool.run([jobs[n][1] for n in order], _do, tell, crashed)
+    results = [one for _, one in sorted(zip(order, found, strict=True), key=lambda pair: pair[0])]
+    verdicts = [one for one in results if isinstance(one, Judgement)]
+    return verdicts, {
+        name: one for name, one in zip(durations, results, strict=False) if not isinstance(one, Judgement)
+    }
 
 
-def run_long(duration: float, workers: int | Workers) -> dict[str, LongRun | str]:
-    """Long runs by name; those that failed say why."""
-    jobs = [(name, duration) for name in long_runs.SCENES]
-    with worker_pool(workers) as pool, bar(f"{len(jobs)} long runs") as told:
-        found = pool.run(jobs, lasted, told, lambda error: f"crash: {error.reason}")
-    return dict(zip(long_runs.SCENES, found, strict=True))
+def _do(place: int, work: Callable[..., Judgement | LongRun | str], *given: Any) -> Judgement | LongRun | str:
+    del place
+    return work(*given)

@@ -14,8 +14,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from studies.common.numbers import Number, by_case, measured, off, printed, rounded
+from studies.common.numbers import Found, Number, by_case, cell, measured, off, printed
 from studies.common.options import Options
+from studies.common.panels import letters
 from studies.common.rise import Peak, onset
 from studies.common.runs import impacts, run_with_errors
 from studies.common.study import Study, StudyOutcome
@@ -60,16 +61,16 @@ IDEAL_REFERENCE = {  # channel, unit and largest value
 }
 
 
-def scenarios(quick: bool) -> dict[str, Scenario]:
+def scenarios() -> dict[str, Scenario]:
     """One revolution of the ideal machine and of both those with clearance, at the longest of their steps."""
     base = Scenario(
         machine=ravn_slider_crank(),
         drive=Steady(rate=SPEED),
         duration=REVOLUTION,
-        step=8e-6 if quick else 2e-6,
-        record_period=REVOLUTION / (1500 if quick else 3600),
+        step=2e-6,
+        record_period=REVOLUTION / 3600,
         gravity=(0.0, 0.0),
-        solver=SolverSettings(impact_steps=32 if quick else 128, backend="symbolic"),
+        solver=SolverSettings(impact_steps=128, backend="symbolic"),
     )
     stiffness = internal_contact_stiffness(BEARING, STEEL, STEEL)
     normal = LankaraniNikravesh(stiffness=stiffness, restitution=0.9, damping_speed=ImpactVelocity(floor=1e-3))
@@ -111,23 +112,29 @@ def measure(results: Mapping[str, Result]) -> list[Number]:
 
 
 def figure(results: Mapping[str, Result]) -> Figure:
-    """Pin force and guide force over the crank angle, and the journal's path in its bore."""
-    drawing = Figure(figsize=style.size(170, 130))
-    grid = drawing.add_gridspec(2, 2, height_ratios=(1.0, 1.15))
-    paths: list[Axes] = []
-    force = drawing.add_subplot(grid[0, :])
-    for case, colour in ((SMOOTH, style.SMOOTH), (DRY, style.WITH_CLEARANCE)):
-        _over_angle(force, results[case], colour, case)
-    _over_angle(force, results[IDEAL], style.IDEAL, "ideal pin")
-    force.set(xlim=(0, 360), ylim=(0, None), xlabel="crank angle [deg]", ylabel="pin force [kN]")
-    force.set_xticks(range(0, 361, 60))
-    force.set_title("a) force in the slider pin")
-    force.legend(loc="upper right", ncols=3)
-    for column, case in enumerate((SMOOTH, DRY)):
-        paths.append(drawing.add_subplot(grid[1, column]))
-        _path(paths[-1], results[case], f"{'bc'[column]}) journal's path, {case}")
+    """Pin force over the crank angle without friction and with, and the journal's paths in its bore."""
+    drawing = Figure(figsize=style.size(170, 165))
+    grid = drawing.add_gridspec(3, 2, height_ratios=(0.75, 0.75, 1.35))
+    cases = {SMOOTH: style.SMOOTH, DRY: style.WITH_CLEARANCE}
+    forces: list[Axes] = []
+    for row, (case, colour) in enumerate(cases.items()):
+        forces.append(drawing.add_subplot(grid[row, :], sharex=forces[0] if forces else None))
+        _over_angle(forces[-1], results[case], colour, f"0.5 mm clearance, {case}")
+        _over_angle(forces[-1], results[IDEAL], style.IDEAL, "ideal pin")
+        forces[-1].set(xlim=(0, 360), ylim=(0, None), ylabel="pin force [kN]")
+        forces[-1].set_xticks(range(0, 361, 60))
+        forces[-1].legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, borderaxespad=0.0)
+    top = max(axes.get_ylim()[1] for axes in forces)
+    for axes in forces:
+        axes.set_ylim(0, top)
+    forces[0].tick_params(labelbottom=False)
+    forces[-1].set_xlabel("crank angle [deg]")
+    paths = [drawing.add_subplot(grid[2, column]) for column in range(len(cases))]
+    for axes, case in zip(paths, cases, strict=True):
+        draw_path(axes, journal(results[case], PIN), MILLIMETRES)
+        axes.set(xlim=(-0.65, 0.65), ylim=(-0.65, 0.65))
+    letters([*forces, *paths])
     drawing.legend(*paths[0].get_legend_handles_labels(), loc="outside lower center", ncols=6, fontsize=7)
-    drawing.suptitle("Slider-crank at 5000 rpm, 0.5 mm clearance in the slider pin")
     return drawing
 
 
@@ -136,17 +143,25 @@ def _over_angle(axes: Axes, result: Result, colour: str, label: str) -> None:
     axes.plot(angle, 1e-3 * result[f"pin.{PIN}.force"], color=colour, lw=0.9, label=label)
 
 
-def _path(axes: Axes, result: Result, title: str) -> None:
-    draw_path(axes, journal(result, PIN), MILLIMETRES)
-    axes.set(xlim=(-0.65, 0.65), ylim=(-0.65, 0.65), title=title)
+def agreement_table(found: Found, known: Sequence[int]) -> TextTable:
+    """The first impacts without friction beside the independent solution."""
+    rows = []
+    for n in known:
+        time, speed = (found[f"onset_{n}_{what}", SMOOTH] for what in ("time", "speed"))
+        rows.append((str(n), cell(time), printed(time), cell(speed), printed(speed)))
+    header = (
+        "impact",
+        "time [µs]",
+        "independent solution",
+        "initial impact velocity [m/s]",
+        "independent solution",
+    )
+    return TextTable(header, tuple(rows))
 
 
 def table(numbers: Sequence[Number]) -> TextTable:
     """All numbers, a row each, beside the reference."""
-    rows = (
-        (n.case, n.name.replace("_", " "), n.unit, rounded(n.value, n.numerical_error), printed(n))
-        for n in numbers
-    )
+    rows = ((n.case, n.name.replace("_", " "), n.unit, cell(n), printed(n)) for n in numbers)
     return TextTable(
         ("case", "quantity", "unit", "here", "independent solution"), tuple(rows), left=3, width=120
     )
@@ -157,7 +172,7 @@ def table(numbers: Sequence[Number]) -> TextTable:
 
 def work(chosen: Options) -> StudyOutcome:
     """A revolution of each machine, its impacts beside the independent solution."""
-    cases = scenarios(chosen.quick)
+    cases = scenarios()
     results = run_with_errors(cases, chosen)
     numbers = measure(results)
     found = by_case(numbers)
@@ -169,11 +184,14 @@ def work(chosen: Options) -> StudyOutcome:
         "ideal": [found[name, IDEAL] for name in IDEAL_REFERENCE],
         "times": [off(found[f"onset_{n}_time", SMOOTH]) for n in known],
         "speeds": [off(found[f"onset_{n}_speed", SMOOTH]) for n in known],
-        "first": found.get(("onset_1_time", DRY)),
-        "last": found.get((f"onset_{ONSETS}_time", DRY)),
+        "onsets": [
+            found[f"onset_{n}_time", DRY] for n in range(1, ONSETS + 1) if (f"onset_{n}_time", DRY) in found
+        ],
     }
-    return StudyOutcome(numbers, words, {"slider_crank": figure(results)}, {"table": table(numbers)}, results)
+    tables = {"table_agreement": agreement_table(found, known), "table": table(numbers)}
+    drawings, live = {"slider_crank": figure(results)}, {"slider_crank": (0, 1)}
+    return StudyOutcome(numbers, words, drawings, tables, results, live=live)
 
 
-study = Study("slider_crank", __doc__, work)
+study = Study("slider_crank", __doc__, work, seconds=15.0)
 main = study.main

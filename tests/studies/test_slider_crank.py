@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from studies.common.chapter import Chapter
-from studies.common.study import Options, run_main
+from studies.common.options import Options
 from studies.slider_crank import run as study
 from support_exudyn import Result
 from support_exudyn.postprocessing.figures import style
@@ -22,10 +22,10 @@ from tests.at_once import at_once
 def numbers(tmp_path_factory: pytest.TempPathFactory) -> dict[tuple[str, str], dict[str, Any]]:
     out = tmp_path_factory.mktemp("results")
     with pytest.MonkeyPatch.context() as patch:
-        whole = study.scenarios(quick=False)
+        whole = study.scenarios()
         part = {name: replace(case, duration=case.duration / 9.0) for name, case in whole.items()}  # 1.33 ms
-        patch.setattr(study, "scenarios", lambda quick: part)
-        assert run_main(study.study, Options(out, quick=False, workers=at_once())) == 0
+        patch.setattr(study, "scenarios", lambda: part)
+        study.study(Options(out, at_once()))
     assert (out / "slider_crank.png").read_bytes().startswith(b"\x89PNG")
     assert "onset 5 speed" in Path(out / "table.txt").read_text(encoding="utf-8")
     with style.look():
@@ -36,6 +36,10 @@ def numbers(tmp_path_factory: pytest.TempPathFactory) -> dict[tuple[str, str], d
         )
     chapter = Chapter.load(out)
     assert chapter.findings[0].startswith("Without friction the first 5 impacts are within ")
+    assert chapter.answer.startswith("Yes: the first 5 impacts of the frictionless machine are within ")
+    assert len(chapter.numbers) == 3
+    key = chapter.sheets[0]
+    assert (key.name, [row[0] for row in key.rows]) == ("table_agreement", ["1", "2", "3", "4", "5"])
     assert [picture.stem for picture in chapter.pictures] == ["slider_crank"]
     summary = json.loads((out / "summary.json").read_text(encoding="utf-8"))
     assert summary["study"] == "slider_crank"
