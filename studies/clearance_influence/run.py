@@ -30,6 +30,7 @@ from studies.common.study import Study, StudyOutcome
 from studies.common.subject import paper_subject
 from studies.common.words import TextTable
 from support_exudyn import Result, Scenario
+from support_exudyn.postprocessing.figures.machine import machine_drawing
 
 
 def scenarios() -> dict[str, Scenario]:
@@ -221,6 +222,7 @@ def work(chosen: Options) -> StudyOutcome:
     words = {"found": found, "goal": cases[DRY].goal, "run": sys.modules[__name__], "paper": paper_machine}
     tables = {"key_numbers": key_table(found), "table": full_table(numbers)}
     drawings = figures(results)
+    drawings["machine"] = machine_drawing(cases[DRY], marked=(paper_machine.CLEARANCE_PIN,))
     return StudyOutcome(numbers, words, drawings, tables, results, live=LIVE, tiles=tiles(found))
 
 
