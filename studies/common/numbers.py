@@ -189,12 +189,13 @@ def said(number: Number, scale: float = 1.0, unit: str | None = None) -> str:
     return text if shown == "1" else f"{text} {shown.replace('^2', '²')}"
 
 
-def short(number: Number, scale: float, unit: str) -> str:
+def short(number: Number, scale: float = 1.0, unit: str | None = None) -> str:
     """A number in three digits, with its error as a share of it where that is not below 0.001 %."""
     value = scale * number.value
     share = number.numerical_error / abs(number.value) if number.value else 0.0
     digits = max(0, 2 - math.floor(math.log10(abs(value)))) if value else 0
-    text = f"{value:.{digits}f} {unit}"
+    shown = number.unit if unit is None else unit
+    text = f"{value:.{digits}f} {shown.replace('^2', '²')}"
     return f"{text} ± {percent(share)}" if share >= 1e-5 else text
 
 

@@ -8,7 +8,6 @@ import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field
-from functools import partial
 from pathlib import Path
 
 from matplotlib.figure import Figure
@@ -26,7 +25,7 @@ from support_exudyn.files.whole_file import whole_file, writing_alone
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.figures.drawing_data import save_drawing_data
 from support_exudyn.postprocessing.page.live import of_drawing
-from support_exudyn.postprocessing.page.pieces import Sheet
+from support_exudyn.postprocessing.page.pieces import HARD_SPACE, Sheet, unbroken
 from support_exudyn.sweeps.workers import Workers
 from user_forces.values.value import InputError
 
@@ -123,12 +122,13 @@ def folder_of(name: str, description: str | None, argv: Sequence[str] | None) ->
 
 def say_short(chapter: Chapter, out: Path) -> None:
     """Print a study in ten lines: question, answer, three numbers, where to look."""
-    wrapped = partial(textwrap.fill, width=100, subsequent_indent=10 * " ")
+    lines = [f"question  {chapter.question}", f"answer    {chapter.answer}"]
+    lines += [f"        - {number}" for number in chapter.numbers]
     say(f"\n{chapter.study}")
-    say(wrapped(f"question  {chapter.question}"))
-    say(wrapped(f"answer    {without_references(chapter.answer)}"))
-    for number in chapter.numbers:
-        say(wrapped(f"          {without_references(number)}"))
+    for line in lines:
+        whole = unbroken(without_references(line))
+        wrapped = textwrap.fill(whole, 100, subsequent_indent=10 * " ")
+        say(wrapped.replace(HARD_SPACE, " "))
     say(f"look at   {out}")
 
 

@@ -66,6 +66,7 @@ class Words:
             numbers.against,
             numbers.percent,
             numbers.rounded,
+            numbers.short,
             numbers.off,
         ):
             surroundings.globals[tool.__name__] = surroundings.filters[tool.__name__] = tool
