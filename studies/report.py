@@ -1,35 +1,49 @@
-"""The report on all studies: one page, report.html.
+"""The report on all studies: report.html, the answer in a minute, and appendix.html, all that is behind it.
 
 `python -m studies.report` writes both again from the results that are there.
 """
 
 import sys
 from collections.abc import Sequence
+from contextlib import ExitStack
 from pathlib import Path
 
-from studies.catalogue import STUDIES
+from studies.catalogue import DEFAULT, STUDIES
 from studies.common.chapter import FILE
-from studies.reporting.content import ReportSection, content
-from studies.reporting.pages import page
+from studies.reporting.content import ReportSection
+from studies.reporting.pages import pages
+from studies.reporting.places import PAGE
 from support_exudyn.commands.command_line import Parser, folder, warn
 from support_exudyn.files.whole_file import whole_file
 from user_forces.values.value import InputError
 
 
-def write_report(out: Path, chapters: Sequence[ReportSection]) -> Path:
-    """Write report.html into `out`, whole or not at all; returns its path.
+def write_report(out: Path, sections: Sequence[ReportSection]) -> Path:
+    """Write report.html and appendix.html into `out`, both whole or none; returns the path of the first.
+
+    Studies that are not of the catalogue, such as the benchmark, stand in the appendix alone.
 
     Arguments:
-        out: folder.
-        chapters: in the order in which they are to be read.
+        out: folder; links to files of the studies are relative to it.
+        sections: in the order in which they are to be read.
 
-    Raises InputError or OSError; it is then as it was before.
+    Raises InputError or OSError; the files are then as they were before.
     """
-    report = content(chapters)
-    for path, written in {out / "report.html": page(report)}.items():
-        with whole_file(path) as temporary:
+    there = [section.chapter.study for section in sections]
+    own = any(section.chapter.machine for section in sections)
+    missing = [name for name in STUDIES if name not in there and (STUDIES[name].own_machine or not own)]
+    made = pages(
+        out,
+        sections,
+        waited=[name for name in missing if name in DEFAULT],
+        others={name: STUDIES[name].question for name in missing if name not in DEFAULT},
+        beside=[name for name in there if name not in STUDIES],
+    )
+    with ExitStack() as files:
+        for name, written in made.items():
+            temporary = files.enter_context(whole_file(out / name))
             temporary.write_text(written, encoding="utf-8")
-    return out / "report.html"
+    return out / PAGE
 
 
 def sections(out: Path, order: Sequence[str]) -> list[ReportSection]:

@@ -18,6 +18,7 @@ from jinja2 import ChoiceLoader, Environment, PackageLoader, StrictUndefined
 
 from studies.common import numbers
 from studies.common.chapter import Chapter, JudgedClaim, Picture, Tile
+from studies.common.subject import Subject
 from support_exudyn.postprocessing.page.pieces import Sheet
 
 TEMPLATE = "words.md.j2"
@@ -106,8 +107,10 @@ class Words:
         title = next(iter(blocks))
         sheets = {name: table.sheet(name, *blocks[name]) for name, table in tables.items()}
         pictures = (_item(block).partition(": ") for block in blocks["Figures"])
+        subject = told.get("subject")
         chapter = Chapter(
             study=self.study,
+            machine=subject.name if isinstance(subject, Subject) else "",
             title=title,
             question=" ".join(blocks[title]),
             answer=" ".join(blocks.get("Answer", ())),

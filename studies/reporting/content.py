@@ -1,30 +1,23 @@
-"""What the report holds, before it is set as a page or as text."""
+"""What the report holds: what studies left in their folders, and what is said around it."""
 
 from __future__ import annotations
 
 import platform
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 from pydantic import BaseModel, ValidationError
 
-from studies.common.chapter import LARGEST_FILE, Chapter, Picture
+from studies.common.chapter import LARGEST_FILE, Chapter
 from studies.common.words import TextTable, Words
 from studies.reporting import assumptions
 from support_exudyn import reference_support
 from support_exudyn.files.whole_file import contents
+from support_exudyn.postprocessing.page.live import LiveFigure
 from support_exudyn.postprocessing.page.pieces import Sheet
 from support_exudyn.simulation.provenance import provenance
 from user_forces.values.value import InputError
-
-VERDICT = "verdict"  # the heading of the column that is coloured
-VERDICTS = {  # class of a verdict by its beginning
-    "holds": "holds",
-    "holds only": "partly",
-    "not supported": "unsupported",
-    "cannot be judged": "open",
-}
 
 
 class Summary(BaseModel, strict=True):
@@ -36,16 +29,17 @@ class Summary(BaseModel, strict=True):
 
 @dataclass(frozen=True)
 class ReportSection:
-    """A chapter, the folder where its pictures are, and with what it was made in which time."""
+    """A chapter, the folder where its files are, its live figures, and with what it was made in which time."""
 
     folder: Path
     chapter: Chapter
     wall_s: float
     versions: dict[str, str]
+    live: Mapping[str, LiveFigure]
 
     @staticmethod
     def load(folder: Path) -> ReportSection:
-        """Read chapter.json and summary.json. Raises InputError that says what is wrong in which file."""
+        """Read what a study left. Raises InputError that says what is wrong in which file."""
         chapter = Chapter.load(folder)
         path = folder / "summary.json"
         try:
@@ -54,37 +48,40 @@ class ReportSection:
             raise InputError(f"{path}: no such file; the study that writes it has not ended here") from None
         except ValidationError as error:
             raise InputError(f"{path}: {error.errors()[0]['loc']}: {error.errors()[0]['msg']}") from None
+        live = {}
         for picture in chapter.pictures:
             if not (folder / f"{picture.stem}.png").is_file():
                 raise InputError(f"{folder / picture.stem}.png: no such file; the chapter beside it shows it")
-        return ReportSection(folder, chapter, summary.wall_s, summary.versions)
+            if (data := folder / f"{picture.stem}.live.json").is_file():
+                live[picture.stem] = LiveFigure.load(data)
+        return ReportSection(folder, chapter, summary.wall_s, summary.versions, live)
 
 
 @dataclass(frozen=True)
-class Report:
-    """All that is said, with figures and tables numbered throughout."""
+class Surroundings:
+    """What the report says around its chapters.
+
+    title, asked: of the whole. made_at: date and time. notes, data: on the assumptions. commands: what each does.
+    """
 
     title: str
+    asked: str
     made_at: str
-    summary: tuple[str, ...]
-    sections: tuple[ReportSection, ...]
-    notes: tuple[str, ...]  # on the assumptions
-    assumptions: tuple[Sheet, ...]
-    commands: tuple[tuple[str, str], ...]  # what each does
+    notes: tuple[str, ...]
+    data: tuple[Sheet, ...]
+    commands: tuple[tuple[str, str], ...]
     times: Sheet
     versions: Sheet
 
 
-def content(sections: Sequence[ReportSection]) -> Report:
-    """The report on these chapters."""
-    figures, tables = _Numbers("Figure"), _Numbers("Table")
-    numbered = tuple(_numbered(section, figures, tables) for section in sections)
+def surroundings(sections: Sequence[ReportSection]) -> Surroundings:
+    """What is said around these chapters; the paper's machine is left out if none is about it."""
     support = reference_support()
-    data = assumptions.tables(support)
-    claims, counts = _verdict_counts(sections)
+    machines = tuple(dict.fromkeys(one.chapter.machine for one in sections if one.chapter.machine))
+    of_paper = any(not one.chapter.machine for one in sections)
     words = Words("reporting").blocks({
-        "claims": claims,
-        "counts": counts,
+        "machines": machines,
+        "of_paper": of_paper,
         "start_height": assumptions.millimetres(support.start_hinge_height),
         "total_mass": sum(part.mass for parts in support.parts.values() for part in parts),
         "platform": platform.platform(),
@@ -92,70 +89,19 @@ def content(sections: Sequence[ReportSection]) -> Report:
     title = next(iter(words))
 
     def sheet(name: str, table: TextTable) -> Sheet:
-        return tables.sheet(table.sheet(name, *words[name]))
+        return table.sheet(name, *words[name])
 
-    return Report(
+    data = assumptions.tables(support) if of_paper else {}
+    return Surroundings(
         title=title,
+        asked=" ".join(words[title]),
         made_at=provenance()["made_at"].replace("T", " ").removesuffix("+00:00") + " UTC",
-        summary=tuple(words[title]),
-        sections=numbered,
         notes=tuple(words["Notes"]),
-        assumptions=tuple(sheet(name, table) for name, table in data.items()),
+        data=tuple(sheet(name, table) for name, table in data.items()),
         commands=COMMANDS,
         times=sheet("times", _times(sections)),
         versions=sheet("versions", _versions(sections)),
     )
-
-
-class _Numbers:
-    """Counts figures or tables."""
-
-    def __init__(self, kind: str) -> None:
-        self.kind = kind
-        self.last = 0
-
-    def __call__(self, text: str) -> str:
-        self.last += 1
-        return f"{self.kind} {self.last}. {text}"
-
-    def sheet(self, sheet: Sheet) -> Sheet:
-        return replace(sheet, title=self(sheet.title))
-
-    def picture(self, picture: Picture) -> Picture:
-        return replace(picture, caption=self(picture.caption))
-
-
-def _numbered(section: ReportSection, figures: _Numbers, tables: _Numbers) -> ReportSection:
-    chapter = section.chapter
-    pictures = tuple(figures.picture(picture) for picture in chapter.pictures)
-    sheets = tuple(tables.sheet(sheet) for sheet in chapter.sheets)
-    return replace(section, chapter=replace(chapter, pictures=pictures, sheets=sheets))
-
-
-# --- verdicts ---
-
-
-def verdict_class(text: str) -> str:
-    """Class of a verdict by its beginning; empty if it is none of them."""
-    beginnings = [start for start in VERDICTS if text.lower().startswith(start)]
-    return VERDICTS[max(beginnings, key=len)] if beginnings else ""
-
-
-def verdict_column(sheet: Sheet) -> int | None:
-    """Which column holds verdicts."""
-    return next((n for n, heading in enumerate(sheet.header) if heading.lower() == VERDICT), None)
-
-
-def _verdict_counts(sections: Iterable[ReportSection]) -> tuple[int, list[str]]:
-    """Of how many claims there are verdicts, and how many of each kind, if the study of the claims is there."""
-    claims = [s for section in sections if section.chapter.study == "claims" for s in section.chapter.sheets]
-    cells = [row[column] for s in claims if (column := verdict_column(s)) is not None for row in s.rows]
-    kinds = [verdict_class(cell) for cell in cells]
-    words = {name: f'"{start}"' for start, name in VERDICTS.items()} | {"": "another"}
-    return len(cells), [f"{kinds.count(name)} {word}" for name, word in words.items() if name in kinds]
-
-
-# --- how to repeat ---
 
 
 COMMANDS = (

@@ -1,56 +1,49 @@
-"""The report as one HTML page that needs nothing from elsewhere."""
+"""The report as a page that answers in a minute, and an appendix with all that is behind it."""
 
-import base64
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from jinja2 import Environment, PackageLoader, StrictUndefined
+from jinja2 import PackageLoader
+from markupsafe import Markup
 
-from studies.common.chapter import LARGEST_FILE
-from studies.reporting.content import Report, ReportSection, verdict_class, verdict_column
-from support_exudyn.files.whole_file import contents
-from support_exudyn.postprocessing.page.pieces import SHORT, Cell, Sheet, unbroken
-
-
-def page(report: Report) -> str:
-    """The whole report with its style and its pictures in it."""
-    return _templates().get_template("report.html.j2").render(report=report)
+from studies.reporting.arranged import Arrangement
+from studies.reporting.content import ReportSection, surroundings
+from studies.reporting.places import APPENDIX, PAGE
+from support_exudyn.postprocessing.page.pieces import ShownTable, templates
 
 
-def _templates() -> Environment:
-    surroundings = Environment(
-        loader=PackageLoader("studies.reporting"),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    surroundings.filters["unbroken"] = unbroken
-    surroundings.globals.update(heading=heading, cells=cells, picture_data=picture_data)
-    return surroundings
+def pages(
+    out: Path,
+    sections: Sequence[ReportSection],
+    waited: Sequence[str] = (),
+    others: Mapping[str, str] | None = None,
+    beside: Sequence[str] = (),
+) -> dict[str, str]:
+    """Both pages, by the name of their file.
 
+    Arguments:
+        out: the folder of both; links to other files are relative to it.
+        sections: in the order in which they are to be read.
+        waited: studies of the paper's answer that are not there yet.
+        others: questions of further studies that are not there, by their names.
+        beside: of the sections those that stand in the appendix alone.
 
-def heading(sheet: Sheet) -> list[Cell]:
-    """The head of a table."""
-    return [Cell(text, _alignment(sheet, n)) for n, text in enumerate(sheet.header)]
-
-
-def cells(sheet: Sheet) -> list[list[Cell]]:
-    """The rows of a table; verdicts have a class of their own."""
-    verdicts = verdict_column(sheet)
-
-    def css(column: int, text: str) -> str:
-        verdict = verdict_class(text) if column == verdicts else ""
-        length = "short" if len(text) <= SHORT else "long"
-        return " ".join(filter(None, (_alignment(sheet, column), length, verdict and f"verdict {verdict}")))
-
-    return [[Cell(text, css(column, text)) for column, text in enumerate(row)] for row in sheet.rows]
-
-
-def _alignment(sheet: Sheet, column: int) -> str:
-    return "text" if column < sheet.left_columns else "number"
-
-
-def picture_data(section: ReportSection, stem: str) -> str:
-    """A picture as a data URI, byte for byte."""
-    path: Path = section.folder / f"{stem}.png"
-    return "data:image/png;base64," + base64.b64encode(contents(path, LARGEST_FILE)).decode("ascii")
+    Raises OSError if a picture cannot be read.
+    """
+    arranged = Arrangement(out, sections, beside)
+    around = surroundings(sections)
+    made = templates(PackageLoader("studies.reporting"))
+    told = {
+        "around": around,
+        "arranged": arranged,
+        "waited": waited,
+        "others": others or {},
+        "table_of": ShownTable,
+    }
+    return {
+        file: made.get_template(f"{file}.j2").render(
+            **told,
+            scripts=Markup(arranged.live[file].scripts),
+        )
+        for file in (PAGE, APPENDIX)
+    }
