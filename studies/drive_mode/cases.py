@@ -1,21 +1,30 @@
-"""Runs of the drive modes: both modes, both pins, all kinds of columns; and the recipe that has no limit."""
+"""Runs of the drive modes: both modes, both pins, all kinds of actuators; and the recipe that has no limit."""
 
-from dataclasses import replace
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 from studies.benchmarking.peers.stock import peak_acceleration
 from studies.common import paper_machine, rise
-from support_exudyn import CubicStep, Drive, Scenario, UniformSpeed
+from studies.common.subject import Subject
+from support_exudyn import CubicStep, Scenario, SolverSettings, UniformSpeed
+from support_exudyn.formulations.registry import FormulationName, formulation
+from support_exudyn.mechanics.channels import ALL_CHANNELS
+from support_exudyn.model.drives.drive import Stroke
+from user_forces.values.value import InputError
 
 CLEARANCE_MM = 1.5
-MODES: dict[str, Drive] = {"mode 1": UniformSpeed(), "mode 2": CubicStep()}
-PINS = ("ideal pin", f"{CLEARANCE_MM} mm")
+MODES: dict[str, type[Stroke]] = {"mode 1": UniformSpeed, "mode 2": CubicStep}
+PINS = ("ideal pin", f"{CLEARANCE_MM} mm")  # of the paper's machine
 COLUMNS = ("rigid", "oil", "cylinder")
-FRICTION = paper_machine.SLIDING_COEFFICIENT
-DURATION = 5.1  # the sudden stop at 5 s is part of it [s]
+AFTER = 0.05  # of the motion's time that is looked at after it: a sudden stop is part of it
 END = 5.4  # on cylinders, so that what rings after the valve has closed is seen [s]
-OIL_PERIOD = 1e-3  # oil swings at 40 Hz: records twice as far apart may miss 2 % of a peak [s]
+PERIOD = 1e-3  # between records: oil swings at 40 Hz, and records twice as far apart miss 2 % of a peak [s]
 NAIVE = "mode 1, stock recipe"  # velocities not made consistent
 NAIVE_STEPS = (1e-3, 5e-4, 2.5e-4)  # [s]
+# of the first of three runs, each with half the steps of the one before
+STEP, COARSE = 1e-3, SolverSettings(impact_steps=16, backend="symbolic")  # [s]
+ON_OIL = SolverSettings(tolerance=1e-5)  # of the tree formulation
 
 
 def case_name(mode: str, pin: str, columns: str) -> str:
@@ -23,28 +32,93 @@ def case_name(mode: str, pin: str, columns: str) -> str:
     return f"{mode}, {pin}, {columns} columns"
 
 
-def scenarios(quick: bool) -> dict[str, Scenario]:
-    """Both modes, both pins, all kinds of columns."""
-    step, steps = (2e-3, 16) if quick else (1e-3, 64)
-    bases = {
-        PINS[0]: paper_machine.ideal_rise(step),
-        PINS[1]: paper_machine.clearance_rise(CLEARANCE_MM, FRICTION, step, steps, symbolic=True),
-    }
+@dataclass(frozen=True)
+class Plan:
+    """The cases of a machine: its motion in both modes, with the stroke and the times of its own drive."""
 
-    def run(mode: str, pin: str, columns: str) -> Scenario:
-        base = replace(bases[pin], duration=DURATION, record_period=step, drive=MODES[mode])
+    subject: Subject
+
+    @cached_property
+    def clearance_mm(self) -> float:
+        """Of the pin that gets clearance."""
+        given = self.subject.given
+        return CLEARANCE_MM if given is None else round(1e3 * given.contact.bearing.clearance, 9)
+
+    @property
+    def pins(self) -> tuple[str, str]:
+        """What the pin is called, ideal and with clearance."""
+        return PINS[0], f"{self.clearance_mm:g} mm"
+
+    @cached_property
+    def actuators(self) -> tuple[str, ...]:
+        """The actuators that the drive moves.
+
+        Raises InputError if there are none, or if one of them moves without a stroke.
+        """
+        motion = self.subject.motion
+        found = tuple(name for name in motion.driven if name in motion.unloaded.actuators)
+        if not found:
+            raise InputError("machine: no drive moves a linear actuator of it; drive_mode needs one that does")
+        for name in found:
+            if not isinstance(motion.drive_of(name), Stroke):
+                kind = type(motion.drive_of(name)).__name__
+                allowed = "a drive with a stroke: UniformSpeed, CubicStep"
+                raise InputError(f"drive of {name} = {kind}: drive_mode allows: {allowed}")
+        return found
+
+    @cached_property
+    def columns(self) -> tuple[str, ...]:
+        """How actuators are modelled: on oil if the scenario says so; on cylinders only the paper's."""
+        if self.subject.is_paper:
+            return COLUMNS
+        return COLUMNS[:2] if set(self.actuators) & set(self.subject.motion.oil_columns) else COLUMNS[:1]
+
+    def drive(self, mode: str, actuator: str) -> Stroke:
+        """The drive of an actuator in a mode."""
+        own = self.subject.motion.drive_of(actuator)
+        assert isinstance(own, Stroke)
+        return MODES[mode](stroke=own.stroke, start=own.start, end=own.end)
+
+    @cached_property
+    def scenarios(self) -> Mapping[str, Scenario]:
+        """Both modes, both pins, all kinds of actuators; the longest first."""
+        return {
+            case_name(mode, pin, columns): self._run(mode, pin, columns)
+            for columns in reversed(self.columns)
+            for pin in reversed(self.pins)
+            for mode in MODES
+        }
+
+    def _run(self, mode: str, pin: str, columns: str) -> Scenario:
+        subject, watched = self.subject, self.subject.watched
+        ideal = pin == self.pins[0]
+        base = subject.ideal if ideal else subject.with_clearance(self.clearance_mm, subject.friction)
+        duration = round(watched.end + AFTER * (watched.end - watched.start), 9)
+        first, *others = drives = [self.drive(mode, name) for name in self.actuators]
+        period = min(base.record_period, PERIOD)
+        base = replace(base, duration=duration, record_period=period, channels=ALL_CHANNELS)
+        if all(one == first for one in others):  # which the reduced formulation asks for
+            base = replace(base, drive=first, drives={})
+        else:
+            base = replace(base, drives=dict(zip(self.actuators, drives, strict=True)))
         if columns == "cylinder":
-            return replace(paper_machine.on_cylinders(base, paper_machine.INLETS[mode]), duration=END)
+            base = paper_machine.on_cylinders(replace(base, duration=END), paper_machine.INLETS[mode])
+            return _with_steps(base, "redundant")
         if columns == "oil":
-            return replace(base, actuators=paper_machine.oil_columns(), record_period=min(step, OIL_PERIOD))
-        return replace(base, actuators={})
+            if subject.is_paper:
+                base = replace(base, actuators=paper_machine.oil_columns())
+            return _with_steps(base, "redundant" if ideal else "tree")
+        rigid = {name: one for name, one in base.actuators.items() if name not in self.actuators}
+        base = replace(base, actuators=rigid)
+        return base if formulation("reduced").covers(base) else _with_steps(base, "redundant")
 
-    return {
-        case_name(mode, pin, columns): run(mode, pin, columns)
-        for columns in reversed(COLUMNS)  # the longest first
-        for pin in reversed(PINS)
-        for mode in MODES
-    }
+
+def _with_steps(case: Scenario, name: FormulationName) -> Scenario:
+    """A case at the steps, or the tolerance, of the first of its three runs."""
+    case = replace(case, accuracy=None, step=STEP)
+    if name == "tree" and formulation("tree").covers(replace(case, solver=ON_OIL)):
+        return replace(case, formulation="tree", solver=ON_OIL)
+    return replace(case, formulation="redundant", solver=COARSE if case.clearance_pins else SolverSettings())
 
 
 def naive_peaks() -> dict[float, float]:

@@ -1,53 +1,57 @@
 """What is measured of the drive modes; on hydraulic cylinders also motion, pressures, flow and losses."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Literal
 
 import numpy as np
 
 from studies.common import rise
 from studies.common.numbers import Number, measured_all
+from studies.drive_mode.cases import Plan
 from support_exudyn import Result
 
 Get = Callable[[Result], float]
 EXTREMES: tuple[Literal["largest", "max", "min"], ...] = ("largest", "max", "min")
 
 
-def _rms_fluctuation(channel: str, scale: float = 1.0) -> Get:
-    # from the very start on, which is where mode 1 strikes
-    return lambda r: scale * rise.rms_fluctuation(r, r[channel], rise.START)
+def _of_motion(watched: rise.Watched) -> dict[str, tuple[str, Get]]:
+    def mean(channel: str) -> Get:
+        return lambda r: watched.mean(r, r[channel])
+
+    def spread(channel: str, scale: float = 1.0) -> Get:
+        return lambda r: scale * watched.spread(r, r[channel])
+
+    def fluctuation(channel: str, scale: float = 1.0) -> Get:
+        # from the very start on, which is where mode 1 strikes
+        return lambda r: scale * watched.rms_fluctuation(r, r[channel], watched.start)
+
+    return {
+        "mean_pin_force": ("N", mean(watched.force)),
+        "std_pin_force": ("N", spread(watched.force)),
+        "rms_pin_force": ("N", fluctuation(watched.force)),
+        "largest_pin_force_in_rise": ("N", watched.peak(watched.force)),
+        "largest_angular_acceleration": ("deg/s^2", watched.peak(watched.acceleration, rise.DEGREES)),
+        "std_angular_acceleration": ("deg/s^2", spread(watched.acceleration, rise.DEGREES)),
+        "rms_angular_velocity": ("deg/s", fluctuation(watched.speed, rise.DEGREES)),
+    }
 
 
-MEASURES: dict[str, tuple[str, Get]] = {
-    "mean_pin_force": ("N", lambda r: float(r[rise.FORCE][rise.in_rise(r)].mean())),
-    "std_pin_force": ("N", lambda r: float(r[rise.FORCE][rise.in_rise(r)].std())),
-    "rms_pin_force": ("N", _rms_fluctuation(rise.FORCE)),
-    "largest_pin_force_in_rise": ("N", rise.Peak(rise.FORCE)),
-    # the largest is of the magnitude; a push is positive, a pull negative
-    **{
-        f"{extreme}_{column}_force": ("N", rise.Peak(f"{column}.force", extreme=extreme))
-        for column in ("front_column", "rear_column")
+def _of_forces(watched: rise.Watched, actuators: Sequence[str]) -> dict[str, tuple[str, Get]]:
+    """Extremes of what actuators carry: largest is of the magnitude; a push is positive, a pull negative."""
+    return {
+        f"{extreme}_{name}_force": ("N", rise.Peak(f"{name}.force", 1.0, watched.start, watched.end, extreme))
+        for name in actuators
         for extreme in EXTREMES
-    },
-    "largest_angular_acceleration": ("deg/s^2", rise.Peak(rise.ACCELERATION, rise.DEGREES)),
-    "std_angular_acceleration": (
-        "deg/s^2",
-        lambda r: rise.DEGREES * float(r[rise.ACCELERATION][rise.in_rise(r)].std()),
-    ),
-    "rms_angular_velocity": ("deg/s", _rms_fluctuation(rise.SPEED, rise.DEGREES)),
-}
+    }
 
 
-def _impulse(column: str, place: int) -> Get:
-    return lambda r: r.impulses[place].actuators[column]
+def _of_jumps(actuators: Sequence[str]) -> dict[str, tuple[str, Get]]:
+    def impulse(name: str, place: int) -> Get:
+        return lambda r: r.impulses[place].actuators[name]
 
-
-IMPULSES: dict[str, Get] = {
-    f"impulse_{column}_{end}": _impulse(column, place)
-    for place, end in enumerate(("start", "end"))
-    for column in ("front_column", "rear_column")
-}
+    ends = enumerate(("start", "end"))
+    return {f"impulse_{name}_{end}": ("N s", impulse(name, place)) for place, end in ends for name in actuators}
 
 
 # --- on hydraulic cylinders ---
@@ -62,8 +66,9 @@ def extension(result: Result, column: str) -> np.ndarray:
     return np.asarray(length - length[0])
 
 
-def _after(result: Result, time: float = rise.START) -> np.ndarray:
-    return np.asarray(result.time >= time - 1e-9)
+def _mean_after(result: Result, values: np.ndarray) -> float:
+    after = result.time >= LATE - 1e-9
+    return rise.mean(result.time[after], values[after])
 
 
 def _of_column(column: str) -> dict[str, tuple[str, Get]]:
@@ -75,7 +80,7 @@ def _of_column(column: str) -> dict[str, tuple[str, Get]]:
         return float(1e3 * (moved[end] - moved[begin]) / (r.time[end] - r.time[begin]))
 
     def settled(r: Result) -> float:
-        return float(1e3 * extension(r, column)[_after(r, LATE)].mean())
+        return 1e3 * _mean_after(r, extension(r, column))
 
     return {
         f"speed_in_mid_rise_{short}": ("mm/s", speed),
@@ -89,7 +94,7 @@ def _of_column(column: str) -> dict[str, tuple[str, Get]]:
         f"least_pressure_{short}": ("MPa", rise.Peak(pressure, 1e-6, end=math.inf, extreme="min")),
         f"pressure_after_{short}": (
             "MPa",
-            lambda r: float(1e-6 * r[f"{column}.pressure"][_after(r, LATE)].mean()),
+            lambda r: 1e-6 * _mean_after(r, r[f"{column}.pressure"]),
         ),
         f"largest_flow_{short}": ("l/min", rise.Peak(f"{column}.flow", 6e4, begin=0.0, end=math.inf)),
     }
@@ -107,12 +112,24 @@ ON_CYLINDERS: dict[str, tuple[str, Get]] = {
 # --- all ---
 
 
-def measure(results: Mapping[str, Result]) -> list[Number]:
+def measure(plan: Plan, results: Mapping[str, Result]) -> list[Number]:
     """All numbers of the study, but for those that are none."""
-    return [n for case, result in results.items() for n in measured_all({case: result}, measures_of(result))]
+    return [
+        number
+        for case, result in results.items()
+        for number in measured_all({case: result}, measures_of(plan, result))
+    ]
 
 
-def measures_of(result: Result) -> dict[str, tuple[str, Get]]:
+def measures_of(plan: Plan, result: Result) -> dict[str, tuple[str, Get]]:
     """Unit and measure of every number of a case, by name."""
-    impulses = {name: ("N s", get) for name, get in IMPULSES.items()} if result.impulses else {}
-    return MEASURES | impulses | (ON_CYLINDERS if result.scenario.cylinders else {})
+    found = all_measures(plan)
+    if len(result.impulses) < 2:  # one at the start, one at the end
+        found = {name: what for name, what in found.items() if not name.startswith("impulse")}
+    return found | (ON_CYLINDERS if result.scenario.cylinders else {})
+
+
+def all_measures(plan: Plan) -> dict[str, tuple[str, Get]]:
+    """Unit and measure of every number but those of cylinders, by name."""
+    watched = plan.subject.watched
+    return _of_motion(watched) | _of_forces(watched, plan.actuators) | _of_jumps(plan.actuators)

@@ -7,38 +7,57 @@ limit, and on hydraulic cylinders, which no displacement drives but the oil that
 
 from collections.abc import Mapping
 
+from studies.common import runs
 from studies.common.numbers import Found, by_case
 from studies.common.options import Options
-from studies.common.runs import halvings, run_with_errors
 from studies.common.study import Study, StudyOutcome
 from studies.common.words import TextTable
 from studies.drive_mode import cases, tables
-from studies.drive_mode.cases import COLUMNS, MODES, PINS, case_name, naive_peaks, scenarios
-from studies.drive_mode.figures import figures
+from studies.drive_mode.cases import MODES, Plan, case_name, naive_peaks
+from studies.drive_mode.figures import LIVE, figures
 from studies.drive_mode.measures import measure
 from support_exudyn import Result
 
 
 def work(chosen: Options) -> StudyOutcome:
     """Both modes on all kinds of columns, and the peaks of the recipe that has no limit."""
-    results = run_with_errors(scenarios(chosen.quick), chosen)
-    numbers = measure(results)
+    plan = Plan(chosen.subject)
+    results = _results(plan, chosen)
+    numbers = measure(plan, results)
     found = by_case(numbers)
-    naive = tables.naive_said(naive_peaks())
+    naive = tables.naive_said(naive_peaks()) if plan.subject.is_paper else None
+    cylinders = {"table_valves": tables.valve_table(found, plan)} if "cylinder" in plan.columns else {}
     sheets = {
-        **{f"table_{columns}": tables.mode_table(found, columns) for columns in COLUMNS},
-        "table_saving": tables.saving_table(found),
-        "table_valves": tables.valve_table(found),
-        "step_halving": tables.halving_table(results, naive),
-        "table_convergence": tables.convergence_table(results),
+        "drive_modes": tables.key_table(found, plan),
+        "table_saving": tables.saving_table(found, plan),
+        **{f"table_{columns}": tables.mode_table(found, plan, columns) for columns in plan.columns},
+        **cylinders,
+        "step_halving": tables.halving_table(plan, results, naive),
+        "table_convergence": tables.convergence_table(plan, results),
     }
-    return StudyOutcome(numbers, _words(found, results, naive, sheets), figures(results), sheets, results)
+    drawings = figures(plan, results)
+    live = {name: LIVE[name] for name in drawings}
+    return StudyOutcome(
+        numbers, _words(plan, found, results, naive, sheets), drawings, sheets, results, live=live
+    )
+
+
+def _results(plan: Plan, chosen: Options) -> dict[str, Result]:
+    """All cases: those to an accuracy have errors of their own, those at steps are run three times."""
+    steps = {name: case for name, case in plan.scenarios.items() if case.accuracy is None}
+    others = {name: case for name, case in plan.scenarios.items() if case.accuracy is not None}
+    found = runs.run_with_errors(steps, chosen) | runs.run_cases(others, chosen)
+    return {name: found[name] for name in plan.scenarios}
 
 
 def _words(
-    found: Found, results: Mapping[str, Result], naive: str, sheets: Mapping[str, TextTable]
+    plan: Plan,
+    found: Found,
+    results: Mapping[str, Result],
+    naive: str | None,
+    sheets: Mapping[str, TextTable],
 ) -> dict[str, object]:
-    ideal, with_clearance = PINS
+    ideal, with_clearance = plan.pins
 
     def value(name: str, mode: str, pin: str, columns: str) -> float:
         return found[name, case_name(mode, pin, columns)].value
@@ -50,16 +69,27 @@ def _words(
     rows = sheets["table_convergence"].rows
     return {
         "cases": cases,
+        "plan": plan,
+        "found": found,
+        "case_name": case_name,
         "ideal": ideal,
         "with_clearance": with_clearance,
+        "softest": "oil" if "oil" in plan.columns else "rigid",
+        "drive": plan.drive("mode 1", plan.actuators[0]),
+        "impulses": [name for name, case in found if name.startswith("impulse") and case == _struck(plan)],
         "value": value,
-        "step": halvings(next(iter(results.values())))[0].scenario.step,
-        "heat": {mode: heat(mode) for mode in MODES},
+        "heat": {mode: heat(mode) for mode in MODES} if "cylinder" in plan.columns else {},
+        "formulations": {run.scenario.formulation for run in results.values()},
         "naive": naive,
         "limits": tables.limits(rows),
         "velocity_converges": tables.velocity_converges(rows),
     }
 
 
-study = Study("drive_mode", __doc__, work)
+def _struck(plan: Plan) -> str:
+    """The case of the sudden start that says with how much it strikes."""
+    return case_name("mode 1", plan.pins[1], "rigid")
+
+
+study = Study("drive_mode", __doc__, work, seconds=20.0, own_machine=True)
 main = study.main

@@ -1,88 +1,106 @@
 """Tables of the drive modes, and what converges under step halving."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from itertools import pairwise
 
-from studies.common.numbers import Found, cell
+from studies.common.numbers import Found, Number, against, cell
 from studies.common.runs import halvings
 from studies.common.words import TextTable
-from studies.drive_mode.cases import COLUMNS, MODES, NAIVE, PINS, case_name
-from studies.drive_mode.measures import IMPULSES, MEASURES, ON_CYLINDERS, measures_of
+from studies.drive_mode.cases import MODES, NAIVE, PINS, Plan, case_name
+from studies.drive_mode.measures import ON_CYLINDERS, all_measures, measures_of
 from support_exudyn import Result
 
-SAVED = (
-    "largest_pin_force_in_rise",
-    "std_pin_force",
-    "rms_pin_force",
-    "largest_front_column_force",
-    "largest_rear_column_force",
-    "largest_angular_acceleration",
-    "std_angular_acceleration",
-)
+SAVED = ("largest_pin_force_in_rise", "std_pin_force", "rms_pin_force", "largest_angular_acceleration")
 CONVERGES = "converges"
 DIVERGES = "does not converge"
 VELOCITY = "RMS fluctuation angular velocity"  # as the table of step halving has it
 Rows = Sequence[Sequence[str]]  # of that table
 
 
-def mode_table(found: Found, columns: str) -> TextTable:
+PEAK = "largest_pin_force_in_rise"
+
+
+def key_table(found: Found, plan: Plan) -> TextTable:
+    """The largest pin force in both modes, by actuators and pin."""
+    rows = []
+    for columns in plan.columns:
+        for pin in plan.pins:
+            sudden, gentle = (in_kilonewtons(found[PEAK, case_name(mode, pin, columns)]) for mode in MODES)
+            if struck(plan, pin, columns):
+                cells = ("an impulse", cell(gentle), "")
+            else:
+                cells = (cell(sudden), cell(gentle), against(gentle, sudden))
+            rows.append((columns, pin, *cells))
+    header = ("actuators", "pin", *(f"{mode} [kN]" for mode in MODES), "mode 2 against mode 1")
+    return TextTable(header, tuple(rows), left=2)
+
+
+def struck(plan: Plan, pin: str, columns: str) -> bool:
+    """Whether nothing gives in a case: all of a sudden start is in an impulse, and no peak tells of it."""
+    return (pin, columns) == (plan.pins[0], "rigid")
+
+
+def in_kilonewtons(number: Number) -> Number:
+    """A force in kN."""
+    return replace(number, value=1e-3 * number.value, numerical_error=1e-3 * number.numerical_error, unit="kN")
+
+
+def mode_table(found: Found, plan: Plan, columns: str) -> TextTable:
     """Both modes side by side."""
-    units = {name: unit for name, (unit, _) in MEASURES.items()} | dict.fromkeys(IMPULSES, "N s")
-    return _side_by_side(found, units, columns)
+    return _side_by_side(found, plan, {name: unit for name, (unit, _) in all_measures(plan).items()}, columns)
 
 
-def valve_table(found: Found) -> TextTable:
+def valve_table(found: Found, plan: Plan) -> TextTable:
     """What there is on cylinders only."""
-    return _side_by_side(found, {name: unit for name, (unit, _) in ON_CYLINDERS.items()}, "cylinder")
+    return _side_by_side(found, plan, {name: unit for name, (unit, _) in ON_CYLINDERS.items()}, "cylinder")
 
 
-def _side_by_side(found: Found, units: Mapping[str, str], columns: str) -> TextTable:
+def _side_by_side(found: Found, plan: Plan, units: Mapping[str, str], columns: str) -> TextTable:
     """A row a quantity that is known of any case."""
-    cases = [case_name(mode, pin, columns) for pin in PINS for mode in MODES]
+    cases = [case_name(mode, pin, columns) for pin in plan.pins for mode in MODES]
     rows = []
     for name, unit in units.items():
         cells = [cell(found.get((name, case))) for case in cases]
         if any(cells):
-            rows.append((name.replace("_", " "), unit, *cells))
-    return TextTable(
-        ("quantity", "unit", *(f"{mode}, {pin}" for pin in PINS for mode in MODES)), tuple(rows), left=2
-    )
+            rows.append((f"{name.replace('_', ' ')} [{unit}]", *cells))
+    return TextTable(("quantity", *(f"{mode}, {pin}" for pin in plan.pins for mode in MODES)), tuple(rows))
 
 
-def saving_table(found: Found) -> TextTable:
+def saving_table(found: Found, plan: Plan) -> TextTable:
     """What the gentle drive saves."""
-    headings = [(pin, columns) for columns in COLUMNS for pin in PINS]
+    headings = [(pin, columns) for columns in plan.columns for pin in plan.pins]
     rows = []
-    for name in SAVED:
+    for name in (*SAVED, *(f"largest_{actuator}_force" for actuator in plan.actuators)):
         cells = []
         for pin, columns in headings:
-            sudden, gentle = (found[name, case_name(mode, pin, columns)].value for mode in MODES)
-            struck = (pin, columns) == (PINS[0], "rigid")  # nothing gives: all of it is in the impulse
-            cells.append("impulse" if struck else f"{100.0 * (gentle / sudden - 1.0):+.0f} %")
+            sudden, gentle = (found[name, case_name(mode, pin, columns)] for mode in MODES)
+            cells.append("impulse" if struck(plan, pin, columns) else against(gentle, sudden))
         rows.append((name.replace("_", " "), *cells))
-    return TextTable(("quantity", *(f"{pin}, {columns}" for pin, columns in headings)), tuple(rows))
+    return TextTable(("quantity", *(f"{columns}, {pin}" for pin, columns in headings)), tuple(rows))
 
 
-def convergence_table(results: Mapping[str, Result]) -> TextTable:
-    """Every number at every step."""
+def convergence_table(plan: Plan, results: Mapping[str, Result]) -> TextTable:
+    """Every number of every run."""
     rows = []
     for case, result in results.items():
-        for name, (unit, get) in measures_of(result).items():
+        for name, (unit, get) in measures_of(plan, result).items():
             values = [get(run) for run in halvings(result)]
             rows.append((case, name.replace("_", " "), unit, *(f"{v:.7g}" for v in values), verdict(values)))
-    header = ("case", "quantity", "unit", "step h", "step h/2", "step h/4", "verdict")
+    header = ("case", "quantity", "unit", "run 1", "run 2", "run 3", "verdict")
     return TextTable(header, tuple(rows), left=3, width=170, in_chapter=False)
 
 
-def halving_table(results: Mapping[str, Result], naive: str) -> TextTable:
+def halving_table(plan: Plan, results: Mapping[str, Result], naive: str | None) -> TextTable:
     """How far the numbers of each case still move; and the peaks that are no numbers."""
     rows = []
     for case, result in results.items():
-        columns = [[get(run) for run in halvings(result)] for _, get in measures_of(result).values()]
-        last = max(abs(values[-1] - values[-2]) / abs(values[-1]) for values in columns)
+        columns = [[get(run) for run in halvings(result)] for _, get in measures_of(plan, result).values()]
+        last = max(abs(values[-1] - values[-2]) / abs(values[-1]) for values in columns if values[-1] != 0.0)
         good = sum(verdict(values) == CONVERGES for values in columns)
         rows.append((case, f"{100.0 * last:.1g} %", f"{good} of {len(columns)}", ""))
-    rows.append((NAIVE, "", "0 of 1", f"peak angular acceleration {naive}"))
+    if naive:
+        rows.append((NAIVE, "", "0 of 1", f"peak angular acceleration {naive}"))
     return TextTable(
         ("case", "largest last change", "converge", "remark"), tuple(rows), wide=True, in_file=False
     )

@@ -1,4 +1,4 @@
-"""The findings on the drive modes, on the quick form of the study."""
+"""The findings on the drive modes, and the study on machines of one's own."""
 
 from __future__ import annotations
 
@@ -10,9 +10,11 @@ from typing import Any
 import pytest
 
 from studies.common.chapter import Chapter
-from studies.drive_mode.cases import COLUMNS, MODES, PINS, case_name, naive_peaks
+from studies.common.subject import own_subject
+from studies.drive_mode.cases import COLUMNS, MODES, PINS, Plan, case_name, naive_peaks
 from studies.drive_mode.tables import CONVERGES, verdict
 from tests.studies.forms import FORMS, on_the_quick_form, written
+from user_forces.values.value import InputError
 
 IDEAL, WITH_CLEARANCE = PINS
 
@@ -119,3 +121,64 @@ def test_the_chapter_says_what_cannot_converge(out: Path) -> None:
     assert len(list((out / "runs").iterdir())) == 12
     assert any("cavitate" in text for text in chapter.findings)
     assert "l/min" in (out / "table_valves.txt").read_text(encoding="utf-8")
+
+
+# --- machines of one's own ---
+
+OWN = """
+machine = "zf18000"
+duration_s = 1.0
+[drive]
+mode = 2
+stroke_mm = 100
+start_s = 0.2
+end_s = 0.8
+[pins.front_base]
+clearance_mm = 1
+bore_radius_mm = 65.5
+restitution = 0.9
+friction = 0.1
+"""
+OIL = """
+[actuators.front_column]
+type = "OilColumn"
+bore_area_mm2 = 98174.77
+oil_length_mm = 500
+bulk_modulus_MPa = 1500
+"""
+
+
+def own(folder: Path, text: str) -> Path:
+    path = folder / "my_support.toml"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_modes_of_ones_own_machine_have_its_stroke_and_pin(tmp_path: Path) -> None:
+    plan = Plan(own_subject(own(tmp_path, OWN)))
+    assert plan.pins == ("ideal pin", "1 mm")
+    assert len(plan.scenarios) == 4  # rigid only: no oil is given
+    for name, case in plan.scenarios.items():
+        assert case.drive.span(case.duration) == (0.0, 0.1)
+        assert case.drive.breaks == (0.2, 0.8)
+        assert set(case.pins) == ({"front_base"} if "1 mm" in name else set())
+    plan = Plan(own_subject(own(tmp_path, OWN + OIL)))
+    assert plan.columns == ("rigid", "oil")
+    assert set(plan.scenarios["mode 1, 1 mm, oil columns"].oil_columns) == {"front_column"}
+    assert not plan.scenarios["mode 1, 1 mm, rigid columns"].oil_columns
+
+
+def test_the_study_of_ones_own_machine_leaves_the_paper_out(tmp_path: Path) -> None:
+    folder = tmp_path / "out"
+    folder.mkdir()
+    chapter = Chapter.load(written("drive_mode", "rough", folder, subject=own_subject(own(tmp_path, OWN))))
+    assert "my support" in chapter.title
+    assert "paper" not in " ".join((*chapter.method, *chapter.findings, chapter.answer)).lower()
+    assert [picture.stem for picture in chapter.pictures] == ["fig13_rigid_columns"]
+
+
+def test_a_machine_without_a_stroke_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="no drive moves a linear actuator"):
+        _ = Plan(own_subject(own(tmp_path, 'machine = "slider_crank"\nduration_s = 1'), "slider_pin")).actuators
+    with pytest.raises(InputError, match="drive of front_column = Held"):
+        _ = Plan(own_subject(own(tmp_path, 'machine = "zf18000"\nduration_s = 1'))).actuators

@@ -104,11 +104,12 @@ def test_what_does_not_converge_is_named() -> None:
 
     rows = [row(CONVERGES), row(DIVERGES), row(CONVERGES)]
     assert said("converging", *limits(rows), study="drive_mode") == (
-        "2 of 3 numbers converge under step halving. Not so: std pin force in mode 1, ideal pin, rigid columns."
+        "2 of 3 numbers converge when steps become shorter. "
+        "Not so: std pin force in mode 1, ideal pin, rigid columns."
     )
     assert (
         said("converging", *limits([row(CONVERGES)]), study="drive_mode")
-        == "1 of 1 numbers converge under step halving."
+        == "1 of 1 numbers converge when steps become shorter."
     )
     good, bad = row(CONVERGES, VELOCITY), row(DIVERGES, VELOCITY, CASES[1])
     assert velocity_converges([good, row(DIVERGES)])
