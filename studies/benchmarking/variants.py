@@ -4,22 +4,22 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
-from typing import Literal
 
+from studies.benchmarking.peers.bare_scene import bare_scene
 from studies.benchmarking.peers.built_in import run_built_in
-from studies.benchmarking.peers.peer_run import PeerRun
+from studies.benchmarking.peers.peer_run import PeerRun, contact_numbers
 from studies.benchmarking.peers.stock import run_stock
 from studies.benchmarking.references import ONSETS, Sample, of_result, sample, times_the_goal
 from studies.benchmarking.scenes import BenchmarkScene
-from support_exudyn import Scenario, SolverSettings, simulate
-from user_forces import Frictionless
+from support_exudyn import Held, Scenario, SolverSettings, simulate
+from support_exudyn.formulations.registry import CHEAPEST_FIRST, FormulationName
+from support_exudyn.scenario.solver_settings import ERROR_CONTROLLED
+from user_forces import Ambrosio, Frictionless, InputError
 
-LADDER = (4.0, 2.0, 1.0, 0.5, 0.25)  # times the scene's default step
-SHORT_LADDER = (2.0, 1.0, 0.5)
+LADDER, SHORT_LADDER = (2.0, 0.5), (1.0, 0.25)  # times the scene's default step, in long and in short scenes
 TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
 IMPACT_STEPS = 512  # at the default step
 FIXED_STEPS = (2.0, 0.4, 0.1)  # times the default, of runs in which nothing is located
-FINEST_FIXED_STEP = 0.04  # tried besides where time allows
 RESULT_CHECKS = False  # how wrong a way can be is what is looked at
 KNOBS: tuple[tuple[str, str, Mapping[str, object]], ...] = (  # turned at the default step
     *(("spectral radius", f"spectral radius {x:g}", {"spectral_radius": x}) for x in (0.0, 0.3, 0.7, 0.9)),
@@ -52,37 +52,41 @@ class Way:
     bare: Callable[[], object]
 
 
-def ways(scene: BenchmarkScene, quick: bool) -> list[Way]:
-    """All ways to compute a scene; what costs much is done on short scenes only, and not if quick."""
-    short = scene.is_short
-    if quick:
-        found = [*_error_controlled(scene, TOLERANCES[::2])]
-        if short:
-            found += _peers(scene, FIXED_STEPS[:2])
-            found += _steps(scene, "redundant, symbolic", "step", SHORT_LADDER[:1], backend="symbolic")
-        return found
-    found = [*_error_controlled(scene, TOLERANCES)]
-    many, few = (LADDER, SHORT_LADDER) if short else (SHORT_LADDER, SHORT_LADDER[1:2])
-    found += _steps(scene, "redundant, symbolic", "step", many, backend="symbolic")
-    found += _steps(scene, "redundant, python", "step", few, backend="python")
-    growing = SHORT_LADDER[:2]
-    found += _steps(
-        scene, "redundant, growing steps", "growth 8, step", growing, growth=8.0, backend="symbolic"
-    )
-    if not scene.scenario.oil_columns:
-        found += _peers(scene, (*FIXED_STEPS, FINEST_FIXED_STEP) if short else FIXED_STEPS)
-    if short:
+def ways(scene: BenchmarkScene) -> list[Way]:
+    """All ways to compute a scene; every knob is turned on a drop only, which takes least."""
+    found = [*_error_controlled(scene)]
+    steps = SHORT_LADDER if scene.is_short else LADDER
+    growing = {"growth": 8.0, "backend": "symbolic"}
+    found += _steps(scene, "redundant, symbolic", "step", steps, backend="symbolic")
+    found += _steps(scene, "redundant, python", "step", steps[:1], backend="python")
+    found += _steps(scene, "redundant, growing steps", "growth 8, step", steps[:1], **growing)
+    if _peers_cover(scene):
+        found += _peers(scene, FIXED_STEPS)
+    if scene.scenario.drive == Held():
         found += [redundant(scene, family, label, 1.0, **settings) for family, label, settings in KNOBS]
         found += _steps(scene, "nothing located", "fixed step", FIXED_STEPS, locate=False)
         index_2 = {"constraint_index": 2, "integrator": "trapezoidal"}
-        found += _steps(scene, "trapezoidal, index 2", "trapezoidal, step", SHORT_LADDER, **index_2)
+        found += _steps(scene, "trapezoidal, index 2", "trapezoidal, step", steps, **index_2)
     return found
 
 
-def _error_controlled(scene: BenchmarkScene, tolerances: Sequence[float]) -> Iterator[Way]:
-    """The formulation that chooses its steps by a tolerance."""
-    formulation: Literal["tree", "reduced"] = "tree" if scene.scenario.oil_columns else "reduced"
-    yield from (with_tolerance(scene, formulation, tolerance) for tolerance in tolerances)
+def _peers_cover(scene: BenchmarkScene) -> bool:
+    """Whether what others write can compute a scene."""
+    try:
+        pin = scene.scenario.clearance_pins[scene.pin].contact
+        contact_numbers(pin)
+        link = bare_scene(scene.scenario).link
+    except InputError:
+        return False
+    known = isinstance(pin.friction, (Ambrosio, Frictionless))
+    return known and link == scene.body and scene.scenario.dimensions == 2
+
+
+def _error_controlled(scene: BenchmarkScene) -> Iterator[Way]:
+    """The cheapest formulation that chooses its steps by a tolerance, if one covers the scene."""
+    names = [one.name for one in CHEAPEST_FIRST if one.name in ERROR_CONTROLLED and one.covers(scene.scenario)]
+    for name in names[:1]:
+        yield from (with_tolerance(scene, name, tolerance) for tolerance in TOLERANCES)
 
 
 def _steps(
@@ -103,7 +107,7 @@ def redundant(scene: BenchmarkScene, family: str, label: str, share: float, **se
     return _way(family, label, scene, scenario)
 
 
-def with_tolerance(scene: BenchmarkScene, formulation: Literal["tree", "reduced"], tolerance: float) -> Way:
+def with_tolerance(scene: BenchmarkScene, formulation: FormulationName, tolerance: float) -> Way:
     """A formulation with error control."""
     solver = SolverSettings(tolerance=tolerance, result_checks=RESULT_CHECKS)
     scenario = replace(scene.scenario, formulation=formulation, solver=solver)
@@ -155,7 +159,7 @@ class WayRun:
 
     scene, family, label: what was run and how. seconds: wall time, the least if it was timed more than once.
     steps: accepted. calls: of contact forces in Python. errors: by the names of `references.GOALS`; none if it
-    failed, and failure says why. scatter: by how much its wall times differ [s]; nan if it was timed once.
+    failed, and failure says why. scatter: by how much its times differ [s]; nan if it was timed once.
     """
 
     scene: str

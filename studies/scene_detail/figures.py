@@ -36,7 +36,7 @@ PANELS = {
     RELATIVE["largest_pin_force"]: ("largest force [%]", 1e-2),
     FARTHEST: ("tip, farthest [mm]", 1e-3),
 }
-COST = "times the cost"
+COST = "cost ratio"
 MORE, LESS, OPEN = style.CONTACT, style.WITH_CLEARANCE, "#777777"
 PURPLE = "#CC79A7"
 DASHES = (0, (4, 2))

@@ -1,6 +1,7 @@
 """Work-precision diagrams."""
 
 import math
+import re
 from collections.abc import Callable, Sequence
 
 from matplotlib.axes import Axes
@@ -8,19 +9,16 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, NullLocator, StrMethodFormatter
 
 from studies.benchmarking.variants import BUILT_IN, STOCK, WayRun, front
+from studies.common.panels import letters
 from support_exudyn.postprocessing.figures import style
 
 PANELS: dict[str, Callable[[WayRun], float]] = {
-    "mean force": lambda row: row.errors["mean"],
-    "spread": lambda row: row.errors["spread"],
-    "peak force": lambda row: row.errors["peak"],
-    "impact velocities": lambda row: max(row.errors[f"onset {n}"] for n in (1, 2, 3)),
-    "path [m]": lambda row: row.errors["path"],
-    "acceleration": lambda row: row.errors["acceleration"],
-}
-COSTS: dict[str, Callable[[WayRun], float]] = {
-    "wall time [s]": lambda row: row.seconds,
-    "calls of the contact in Python": lambda row: float(row.calls),
+    "relative error of the mean force": lambda row: _error(row, "mean"),
+    "of its spread": lambda row: _error(row, "spread"),
+    "of its peak": lambda row: _error(row, "peak"),
+    "of impact velocities": lambda row: _error(row, "onset 1", "onset 2", "onset 3"),
+    "error of the path [m]": lambda row: _error(row, "path"),
+    "relative error of the acceleration": lambda row: _error(row, "acceleration"),
 }
 HARDLY = 0.7  # decades
 SMALLEST = 1e-11  # errors below are those of the reference
@@ -40,64 +38,55 @@ LOOKS = {
 }
 
 
+def _error(row: WayRun, *names: str) -> float:
+    """The largest of a row's errors; not a number where there is none."""
+    return max((row.errors[name] for name in names if name in row.errors), default=math.nan)
+
+
 def stem(scene: str) -> str:
     """File name of a scene's figure."""
-    return f"work_{scene.replace(', ', '_').replace('-', '_').replace(' ', '_')}"
+    return f"work_{re.sub('[^a-z0-9]+', '_', scene)}"
 
 
-def figure(title: str, rows: Sequence[WayRun]) -> Figure:
-    """Errors of all ways of a scene over their costs; a cost that none has is left out."""
+def figure(rows: Sequence[WayRun]) -> Figure:
+    """Errors of all ways of a scene over their processor time; a number that the scene lacks is left out."""
     good = [row for row in rows if not row.failure]
-    asked = {cost: spent for cost, spent in COSTS.items() if any(spent(row) > 0.0 for row in good)}
-    costs = asked or dict(list(COSTS.items())[:1])  # empty panels where every run has failed
-    drawing = Figure(figsize=style.size(260, 20 + 53 * len(costs)))
-    axes = drawing.subplots(len(costs), len(PANELS), sharex="row", sharey="col", squeeze=False)
-    for line, (cost, spent) in zip(axes, costs.items(), strict=True):
-        for n, (ax, (name, error)) in enumerate(zip(line, PANELS.items(), strict=True)):
-            _panel(ax, good, spent, error)
-            if cost == next(iter(costs)):
-                ax.set_title(f"{'abcdef'[n]}) {name}")
-        line[len(PANELS) // 2].set_xlabel(cost, x=0.0)  # in the middle of the row
-        line[0].set_ylabel("relative error, path: in m", fontsize=8)
-    handles, labels = axes[0][0].get_legend_handles_labels()
-    drawing.suptitle(title)
-    drawing.legend(handles, labels, loc="outside lower center", ncols=7, fontsize=8)
+    drawing = Figure(figsize=style.size(180, 130))
+    axes = drawing.subplots(2, 3, sharex=True)
+    for ax, (name, error) in zip(axes.flat, PANELS.items(), strict=True):
+        _panel(ax, good, error)
+        ax.set_ylabel(name, fontsize=8)
+        ax.tick_params(labelsize=7.5)
+    for ax in axes[-1]:
+        ax.set_xlabel("processor time [s]", fontsize=8)
+    letters(list(axes.flat))
+    drawing.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=4, fontsize=8)
     return drawing
 
 
-def _panel(
-    ax: Axes, rows: Sequence[WayRun], spent: Callable[[WayRun], float], error: Callable[[WayRun], float]
-) -> None:
-    best = front(rows)
+def _panel(ax: Axes, rows: Sequence[WayRun], error: Callable[[WayRun], float]) -> None:
     for family, (colour, marker) in LOOKS.items():
         points = sorted(
-            (spent(row), max(SMALLEST, error(row)))
+            (row.seconds, max(SMALLEST, error(row)))
             for row in rows
-            if row.family == family and error(row) < float("inf") and spent(row) > 0.0
+            if row.family == family and math.isfinite(error(row))
         )
         if not points:
             continue
-        size = 8.0 if family == STOCK else 4.0
         x, y = zip(*points, strict=True)
-        ax.plot(x, y, color=colour, marker=marker, markersize=size, linewidth=0.6, label=family)
-    ringed = [(spent(row), max(SMALLEST, error(row))) for row in best if spent(row) > 0.0]
+        ax.plot(x, y, color=colour, marker=marker, ms=7.0 if family == STOCK else 4.5, lw=0.8, label=family)
+    ringed = [(row.seconds, max(SMALLEST, error(row))) for row in front(rows) if math.isfinite(error(row))]
     if ringed:
         ax.plot(
-            *zip(*ringed, strict=True),
-            "o",
-            markersize=9,
-            markerfacecolor="none",
-            color="#AA0000",
-            markeredgewidth=0.7,
-            clip_on=False,
+            *zip(*ringed, strict=True), "o", ms=9, mfc="none", color="#AA0000", mew=0.8, clip_on=False,
             label="the front",
-        )
+        )  # fmt: skip
     ax.set_xscale("log")
     ax.set_yscale("log")
     ax.margins(x=0.1)
     ax.yaxis.set_major_locator(LogLocator(numticks=6))
     ax.yaxis.set_minor_locator(NullLocator())
-    _label_costs(ax, [spent(row) for row in rows if spent(row) > 0.0])
+    _label_costs(ax, [row.seconds for row in rows])
 
 
 def _label_costs(ax: Axes, costs: Sequence[float]) -> None:
@@ -113,4 +102,3 @@ def _label_costs(ax: Axes, costs: Sequence[float]) -> None:
         ax.xaxis.set_major_locator(LogLocator(numticks=4))
     ax.xaxis.set_minor_locator(NullLocator())
     ax.xaxis.set_minor_formatter(NullFormatter())
-    ax.tick_params(axis="x", labelsize=7.5)

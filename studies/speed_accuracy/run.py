@@ -1,102 +1,134 @@
 """What does a number cost: speed against accuracy, for every way to compute it.
 
-Five scenes with 1.5 mm of clearance in the rear-link pin, or 0.5 mm in a slider-crank's, each computed in many
-ways, one after the other on one core, and compared with a stored tight reference. Then runs that are asked for
-an accuracy instead of settings: are the errors that they estimate those that they have?
+Five scenes with 1.5 mm of clearance in the rear-link pin, or 0.5 mm in a slider-crank's, or the user's
+machine, each computed in many ways, and compared with a tight reference. Then runs that are asked for an
+accuracy instead of settings: are the errors that they estimate those that they have?
 """
 
 import math
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from studies.benchmarking import estimates
 from studies.benchmarking.estimates import Check
-from studies.benchmarking.process import timed
-from studies.benchmarking.references import GOALS, Sample, errors, own_errors, references
-from studies.benchmarking.scenes import SCENES
-from studies.benchmarking.variants import STOCK, Way, WayRun, cheapest, front, ways
-from studies.common.numbers import Number
+from studies.benchmarking.references import GOALS, errors
+from studies.benchmarking.scenes import BenchmarkScene
+from studies.benchmarking.variants import BUILT_IN, STOCK, Way, WayRun, cheapest, front, ways
+from studies.common.numbers import Number, rounded
 from studies.common.options import Options
 from studies.common.runs import bar
 from studies.common.study import Study, StudyOutcome
 from studies.common.words import TextTable
 from studies.speed_accuracy import figures as speed_accuracy_figures
-from support_exudyn import SimulationError
+from studies.speed_accuracy import formulations
+from studies.speed_accuracy.scenes import Known, known, scenes
+from support_exudyn import Scenario, SimulationError
 from support_exudyn.sweeps.precompile import precompile
+from support_exudyn.sweeps.workers import Workers, worker_pool
 from user_forces import InputError
 
-# Shorter runs are timed three more times, and the fastest counts [s].
-SHORT_RUN, SHORT_RUN_IF_QUICK = 0.3, 0.03
+SHORT_RUN = 0.1  # shorter runs are timed three more times, and the fastest counts [s]
+KEY = "rise"  # the scene that the answer is of, if there is one of this name
+Scenes = Mapping[str, BenchmarkScene]
 
 
-# --- runs ---
+# --- runs: nothing of them is kept, for they are timed ---
 
 
-def rows(quick: bool) -> list[WayRun]:
-    """Cost and errors of all ways, one after the other, under a progress bar."""
+def rows(chosen: Scenes, against: Mapping[str, Known], pool: Workers) -> list[WayRun]:
+    """Cost and errors of all ways, side by side, under a progress bar; times are those of the processor."""
+    jobs = [(name, scene, n, against[name]) for name, scene in chosen.items() for n in range(len(ways(scene)))]
+    with bar(f"{len(jobs)} ways") as told:
+        found = pool.run(jobs, _row, told)
+    once = [n for n, row in enumerate(found) if math.isnan(row.scatter) and _is_reported(row, found)]
+    with bar(f"{len(once)} times again") as told:
+        times = pool.run([jobs[n][1:3] for n in once], _timed, told)
+    for n, seconds in zip(once, times, strict=True):
+        found[n] = _with_times(found[n], [found[n].seconds, seconds])
+    return found
+
+
+def _row(place: int, name: str, scene: BenchmarkScene, n: int, against: Known) -> WayRun:
+    del place
     precompile()  # compiling is not what is timed
-    todo = [(name, way) for name, scene in SCENES.items() for way in ways(scene, quick)]
-    known = references()
-    found: list[WayRun] = []
-    with bar(f"{len(todo)} runs, one at a time") as told:
-        for name, way in todo:
-            found.append(_row(name, way, known[name], SHORT_RUN_IF_QUICK if quick else SHORT_RUN))
-            told([1.0] * len(found) + [0.0] * (len(todo) - len(found)))
-        return _times_of_the_cheapest(found, [way for _, way in todo])
-
-
-def _row(name: str, way: Way, known: Sample, short: float) -> WayRun:
+    way = ways(scene)[n]
+    began = time.process_time()
     try:
-        began = time.perf_counter()
         done = way.run()
-        times = [time.perf_counter() - began]
-        if times[0] < short:
-            times += [timed(way.bare) for _ in range(3)]
+        times = [time.process_time() - began]
+        if times[0] < SHORT_RUN:
+            times += [_processor_time(way) for _ in range(3)]
     except (SimulationError, InputError, RuntimeError) as error:
         reason = str(error).splitlines()[0]
         return WayRun(name, way.family, way.label, float("nan"), 0, 0, failure=reason)
-    off = errors(done.sample, known)
+    off = errors(done.sample, against.sample)
     row = WayRun(name, way.family, way.label, times[0], done.steps, done.calls, off)
     return _with_times(row, times) if len(times) > 1 else row
+
+
+def _timed(place: int, scene: BenchmarkScene, n: int) -> float:
+    del place
+    precompile()
+    return _processor_time(ways(scene)[n])
+
+
+def _processor_time(way: Way) -> float:
+    began = time.process_time()
+    way.bare()
+    return time.process_time() - began
 
 
 def _with_times(row: WayRun, times: Sequence[float]) -> WayRun:
     return replace(row, seconds=min(times), scatter=max(times) - min(times))
 
 
-def _times_of_the_cheapest(found: Sequence[WayRun], todo: Sequence[Way]) -> list[WayRun]:
-    """The rows; those that are reported as the cheapest of their family are timed at least twice."""
-    again = []
-    for row, way in zip(found, todo, strict=True):
-        alike = [other for other in found if (other.scene, other.family) == (row.scene, row.family)]
-        once = math.isnan(row.scatter) and row is cheapest(alike)
-        again.append(_with_times(row, [row.seconds, timed(way.bare)]) if once else row)
-    return again
+def _is_reported(row: WayRun, found: Sequence[WayRun]) -> bool:
+    """Whether a row is the cheapest of its family, which is timed at least twice."""
+    return row is cheapest([other for other in found if (other.scene, other.family) == (row.scene, row.family)])
 
 
-def checks(quick: bool) -> Iterator[Check]:
+def _known(place: int, name: str, scene: BenchmarkScene) -> Known:
+    del place
+    return known(name, scene)
+
+
+def checks(chosen: Scenes, against: Mapping[str, Known], pool: Workers) -> list[Check]:
     """Runs to an accuracy, each compared with the tight run of its scene."""
-    tight = {}
-    for name, scenario in estimates.asked_for(quick):
-        if name not in tight:
-            tight[name] = estimates.tight(SCENES[name])
-        yield estimates.check(name, scenario, tight[name])
+    jobs = [
+        (name, scene, scenario, against[name].numbers)
+        for name, scene in chosen.items()
+        for scenario in estimates.asked_for(scene)
+    ]
+    with bar(f"{len(jobs)} runs to an accuracy") as told:
+        return [found for found in pool.run(jobs, _check, told) if found is not None]
+
+
+def _check(
+    place: int, name: str, scene: BenchmarkScene, scenario: Scenario, numbers: Mapping[str, float]
+) -> Check | None:
+    """None if the accuracy is out of reach, as the program then says."""
+    del place
+    precompile()
+    try:
+        return estimates.check(name, scene, scenario, numbers)
+    except (SimulationError, InputError):
+        return None
 
 
 # --- numbers ---
 
 
-def numbers(found: Sequence[WayRun], checked: Sequence[Check]) -> list[Number]:
+def numbers(found: Sequence[WayRun], checked: Sequence[Check], against: Mapping[str, Known]) -> list[Number]:
     """What the summary says: cheapest ways to the goal, and how good the estimates are."""
     said = []
-    for name in SCENES:
+    for name in against:
         of_scene = [row for row in found if row.scene == name]
         for family in dict.fromkeys(row.family for row in of_scene):
             best = cheapest([row for row in of_scene if row.family == family])
             if best is not None:
                 said.append(Number(f"time to the goal, {family}", name, best.seconds, "s", best.scatter))
-        for goal, error in own_errors()[name].items():
+        for goal, error in against[name].own_errors.items():
             unit = "m" if goal == "path" else "1"
             # of an error no more than the size is known
             said.append(Number(f"reference's own error, {goal}", name, error, unit, error))
@@ -107,6 +139,23 @@ def numbers(found: Sequence[WayRun], checked: Sequence[Check]) -> list[Number]:
 
 
 # --- tables ---
+
+
+def fastest_table(looked_at: Scenes, found: Sequence[WayRun]) -> TextTable:
+    """Of each scene the time of the fastest setting that meets the goal, by the way."""
+    tried_at_all = {row.family for row in found}
+    shown = [way for way in ("reduced", "tree", "redundant, symbolic", STOCK, BUILT_IN) if way in tried_at_all]
+    rows = []
+    for name in looked_at:
+        best = _best(name, found)
+        tried = {row.family for row in found if row.scene == name}
+        cells = ("" if way not in tried else _time(best.get(way)) for way in shown)
+        rows.append((name, *cells))
+    return TextTable(("scene", *shown), tuple(rows), width=130)
+
+
+def _time(row: WayRun | None) -> str:
+    return "not met" if row is None else f"{rounded(row.seconds, row.scatter)} s"
 
 
 def table(name: str, found: Sequence[WayRun]) -> TextTable:
@@ -163,40 +212,60 @@ def accuracy_table(checked: Sequence[Check]) -> TextTable:
 
 def work(chosen: Options) -> StudyOutcome:
     """Cost and errors of all ways, and of runs that are asked for an accuracy."""
-    found = rows(chosen.quick)
-    checked = list(checks(chosen.quick))
-    stems = {speed_accuracy_figures.stem(name): name for name in SCENES}
+    subject = chosen.subject
+    looked_at = scenes(subject)
+    with worker_pool(chosen.workers) as pool:
+        with bar("references") as told:
+            found_known = pool.run(list(looked_at.items()), _known, told)
+        against = dict(zip(looked_at, found_known, strict=True))
+        found = rows(looked_at, against, pool)
+        checked = checks(looked_at, against, pool)
+    same = formulations.compared(chosen) if subject.is_paper else []
+    stems = {speed_accuracy_figures.stem(name): name for name in looked_at}
     drawings = {
-        stem: speed_accuracy_figures.figure(SCENES[name].label, [row for row in found if row.scene == name])
+        stem: speed_accuracy_figures.figure([row for row in found if row.scene == name])
         for stem, name in stems.items()
     }
-    tables = {"accuracies": accuracy_table(checked)} | {
+    tables = {"fastest": fastest_table(looked_at, found)}
+    if same:
+        tables["formulations"] = formulations.table(same)
+    tables |= {"accuracies": accuracy_table(checked)} | {
         stem: table(name, found) for stem, name in stems.items()
     }
+    reached = list(_reached(looked_at, found))
     words = {
-        "scenes": {stem: SCENES[name] for stem, name in stems.items()},
-        "reached": list(_reached(found)),
+        "scenes": {stem: looked_at[name] for stem, name in stems.items()},
+        "reached": reached,
+        "key": next((one for one in reached if one["name"] == KEY), reached[0] if reached else None),
         "covered": estimates.coverage(checked),
         "stated": estimates.overstatement(checked),
         "judged": sum(c.true.size for c in checked),
+        "same": same,
+        "agree": formulations.agree(same),
     }
-    return StudyOutcome(numbers(found, checked), words, drawings, tables)
+    return StudyOutcome(numbers(found, checked, against) + formulations.numbers(same), words, drawings, tables)
 
 
-def _reached(found: Sequence[WayRun]) -> Iterator[dict[str, object]]:
+def _reached(looked_at: Scenes, found: Sequence[WayRun]) -> Iterator[dict[str, object]]:
     """Of each scene whose goal is met: the fastest ways to it, and the stock recipe among them."""
-    for name, scene in SCENES.items():
-        of_scene = [row for row in found if row.scene == name]
-        families = dict.fromkeys(row.family for row in of_scene)
-        best = {f: row for f in families if (row := cheapest([row for row in of_scene if row.family == f]))}
+    for name, scene in looked_at.items():
+        best = _best(name, found)
         if best:
             yield {
+                "name": name,
                 "label": scene.label,
-                "fastest": sorted(best.values(), key=lambda row: row.seconds)[:5],
+                "fastest": sorted(best.values(), key=lambda row: row.seconds)[:3],
                 "stock": best.get(STOCK),
-                "stock_tried": STOCK in families,
+                "stock_tried": any(row.scene == name and row.family == STOCK for row in found),
             }
 
 
-study = Study("speed_accuracy", __doc__, work)
+def _best(name: str, found: Sequence[WayRun]) -> dict[str, WayRun]:
+    """The fastest row that meets the goal, of each family of ways to compute a scene that has one."""
+    of_scene = [row for row in found if row.scene == name]
+    families = dict.fromkeys(row.family for row in of_scene)
+    return {f: row for f in families if (row := cheapest([row for row in of_scene if row.family == f]))}
+
+
+study = Study("speed_accuracy", __doc__, work, seconds=75.0, own_machine=True)
 main = study.main

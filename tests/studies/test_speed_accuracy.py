@@ -22,7 +22,7 @@ from studies.benchmarking.references import (
     tight_runs,
     times_the_goal,
 )
-from studies.benchmarking.scenes import SCENES
+from studies.benchmarking.scenes import SCENES, BenchmarkScene
 from studies.benchmarking.variants import STOCK, Done, Way, WayRun, cheapest, front, ways
 from studies.common.chapter import Chapter
 from studies.common.study import Options
@@ -30,6 +30,7 @@ from studies.speed_accuracy import figures as speed_accuracy_figures
 from studies.speed_accuracy import run as speed_accuracy
 from support_exudyn import SimulationError, SolverSettings, simulate
 from support_exudyn.formulations.contract import Failure
+from tests.at_once import at_once
 
 EXACT = Sample({name: 2.0 for name in GOALS if name != "path"}, np.zeros((2, 5)))
 
@@ -131,7 +132,7 @@ def test_references_can_be_made_again(name: str) -> None:
 
 @pytest.mark.parametrize("name", SCENES)
 def test_every_scene_has_its_formulations(name: str) -> None:
-    families = {way.family for way in ways(SCENES[name], quick=False)}
+    families = {way.family for way in ways(SCENES[name])}
     if SCENES[name].scenario.oil_columns:
         assert "tree" in families
     else:
@@ -141,13 +142,13 @@ def test_every_scene_has_its_formulations(name: str) -> None:
 
 def test_a_scene_of_which_every_run_failed_is_drawn_too() -> None:
     failed = WayRun("drop", "a", "b", math.nan, 0, 0, failure="gave up")
-    drawing = speed_accuracy_figures.figure("nothing", [failed])
+    drawing = speed_accuracy_figures.figure([failed])
     assert len(drawing.axes) == len(speed_accuracy_figures.PANELS)
     drawing.canvas.draw()
 
 
 def test_short_scenes_turn_every_knob() -> None:
-    families = {way.family for way in ways(SCENES["drop"], quick=False)}
+    families = {way.family for way in ways(SCENES["drop"])}
     knobs = {
         "spectral radius",
         "Newton's method",
@@ -174,13 +175,19 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> Path:
     out = tmp_path_factory.mktemp("speed_accuracy")
     with pytest.MonkeyPatch.context() as patch:
         short = {name: SCENES[name] for name in ("drop", "slider-crank")}
-        patch.setattr(speed_accuracy, "SCENES", short)
-        patch.setattr(estimates, "SCENES", short)
-        patch.setattr(
-            speed_accuracy, "ways", lambda scene, quick: [*ways(scene, True)[-4:], Way("x", "y", fails, fails)]
-        )
-        speed_accuracy.study(Options(out, True, 1))
+        patch.setattr(speed_accuracy, "scenes", lambda subject: short)
+        patch.setattr(estimates, "PRESETS", ("draft", "standard"))
+        patch.setattr(estimates, "NUMBERS", ())
+        patch.setattr(speed_accuracy.formulations, "compared", lambda options: [])
+        patch.setattr(speed_accuracy, "ways", some_ways)
+        speed_accuracy.study(Options(out, at_once()))
     return out
+
+
+def some_ways(scene: BenchmarkScene) -> list[Way]:
+    """Those that take least, and one that fails."""
+    cheap = [way for way in ways(scene) if way.family in ("reduced", STOCK, variants.BUILT_IN)]
+    return [*cheap[::2], Way("x", "y", fails, fails)]
 
 
 def fails() -> Done:
@@ -235,7 +242,7 @@ def test_an_estimate_that_is_too_small_is_seen() -> None:
     scene = SCENES["slider-crank"]
     tight = estimates.tight(scene)
     scenario = replace(scene.scenario, accuracy="draft")
-    honest = estimates.check("slider-crank", scenario, tight)
+    honest = estimates.check("slider-crank", scene, scenario, estimates.tight_numbers(scene.after, tight))
     planted = replace(honest, estimated=1e-3 * honest.estimated)
     assert honest.covered >= 0.95
     assert planted.covered < 0.5

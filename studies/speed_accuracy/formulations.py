@@ -1,0 +1,99 @@
+"""The same numbers by two formulations that share nothing but the machine's data and the laws' constants."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+from studies.common.numbers import Number, cell, measured
+from studies.common.options import Options
+from studies.common.runs import run_cases, run_with_errors
+from studies.common.words import TextTable
+from support_exudyn import Result, SolverSettings
+
+SIZE_MM = 0.5
+STEP, IMPACT_STEPS = 1e-3, 128  # of the longest of the redundant formulation's runs [s]
+
+
+@dataclass(frozen=True)
+class Compared:
+    """A number of a case by the cheapest formulation and by the redundant one."""
+
+    chosen: Number
+    redundant: Number
+
+    @property
+    def off(self) -> float:
+        """How far apart both are, in the number's unit."""
+        return self.redundant.value - self.chosen.value
+
+    @property
+    def error(self) -> float:
+        """Both errors together, in the number's unit."""
+        return self.redundant.numerical_error + self.chosen.numerical_error
+
+
+def compared(options: Options) -> list[Compared]:
+    """Statistics of the pin's force over the rise, ideal and with a small clearance and friction."""
+    subject = options.subject
+    cases = {
+        "ideal": subject.ideal,
+        f"{SIZE_MM:g} mm, friction": subject.with_clearance(SIZE_MM, subject.friction),
+    }
+    solver = SolverSettings(impact_steps=IMPACT_STEPS)
+    engine = {
+        name: replace(case, accuracy=None, formulation="redundant", step=STEP, solver=solver)
+        for name, case in cases.items()
+    }
+    chosen, redundant = run_cases(cases, options), run_with_errors(engine, options)
+    watched = subject.watched
+
+    def of(function: Callable[..., float]) -> Callable[[Result], float]:
+        return lambda run: function(run, run[watched.force])
+
+    measures = {
+        "mean force": watched.mean,
+        "spread": watched.spread,
+        "RMS fluctuation": watched.rms_fluctuation,
+    }
+    return [
+        Compared(*(measured(what, name, "N", runs[name], of(function)) for runs in (chosen, redundant)))
+        for name in cases
+        for what, function in measures.items()
+    ]
+
+
+def agree(found: Sequence[Compared]) -> bool:
+    """Whether all numbers are the same within their errors."""
+    return all(abs(one.off) <= one.error for one in found)
+
+
+def numbers(found: Sequence[Compared]) -> list[Number]:
+    """What the summary says of them."""
+    return [
+        replace(one, name=f"{one.name}, {formulation}")
+        for both in found
+        for formulation, one in (("cheapest formulation", both.chosen), ("redundant", both.redundant))
+    ]
+
+
+def table(found: Sequence[Compared]) -> TextTable:
+    """All of them side by side."""
+    header = (
+        "case",
+        "pin force [N]",
+        "two free coordinates",
+        "rigid bodies, constraints",
+        "difference",
+        "errors",
+    )
+    rows = tuple(
+        (
+            one.chosen.case,
+            one.chosen.name,
+            cell(one.chosen),
+            cell(one.redundant),
+            f"{one.off:.2g}",
+            f"{one.error:.2g}",
+        )
+        for one in found
+    )
+    return TextTable(header, rows, left=2, width=130)
