@@ -34,7 +34,7 @@ def time_ticks(axes: Axes, watched: rise.Watched) -> None:
     low, high = axes.get_xlim()
     inside = [t for t in (watched.start, watched.end) if low <= t <= high]
     near = 0.12 * (high - low)
-    others = [t for t in MaxNLocator(6).tick_values(low, high) if low <= t <= high]
+    others = [t for t in MaxNLocator(6, steps=[1, 2.5, 5, 10]).tick_values(low, high) if low <= t <= high]
     axes.set_xticks(sorted({*inside, *(t for t in others if all(abs(t - one) > near for one in inside))}))
     axes.set_xlim(low, high)
 
