@@ -58,10 +58,10 @@ class ReportSection:
 
 
 @dataclass(frozen=True)
-class Surroundings:
+class AroundChapters:
     """What the report says around its chapters.
 
-    title, asked: of the whole. made_at: date and time. notes, data: on the assumptions. commands: what each does.
+    title, asked: of all. made_at: date and time. notes, data: on the assumptions. commands: what each does.
     """
 
     title: str
@@ -74,7 +74,7 @@ class Surroundings:
     versions: Sheet
 
 
-def surroundings(sections: Sequence[ReportSection]) -> Surroundings:
+def around_chapters(sections: Sequence[ReportSection]) -> AroundChapters:
     """What is said around these chapters; the paper's machine is left out if none is about it."""
     support = reference_support()
     machines = tuple(dict.fromkeys(one.chapter.machine for one in sections if one.chapter.machine))
@@ -92,7 +92,7 @@ def surroundings(sections: Sequence[ReportSection]) -> Surroundings:
         return table.sheet(name, *words[name])
 
     data = assumptions.tables(support) if of_paper else {}
-    return Surroundings(
+    return AroundChapters(
         title=title,
         asked=" ".join(words[title]),
         made_at=provenance()["made_at"].replace("T", " ").removesuffix("+00:00") + " UTC",

@@ -7,7 +7,7 @@ from jinja2 import PackageLoader
 from markupsafe import Markup
 
 from studies.reporting.arranged import Arrangement
-from studies.reporting.content import ReportSection, surroundings
+from studies.reporting.content import ReportSection, around_chapters
 from studies.reporting.places import APPENDIX, PAGE
 from support_exudyn.postprocessing.page.pieces import ShownTable, templates
 
@@ -31,7 +31,7 @@ def pages(
     Raises OSError if a picture cannot be read.
     """
     arranged = Arrangement(out, sections, beside)
-    around = surroundings(sections)
+    around = around_chapters(sections)
     made = templates(PackageLoader("studies.reporting"))
     told = {
         "around": around,

@@ -55,7 +55,7 @@ def test_text_stays_text_and_anchors_are_there() -> None:
     assert "&lt;script&gt;alert(1)" in shown
     assert 'id="f"' in shown
     assert 'id="t"' in shown
-    assert "2.0\u00a0±\u00a00.1 kN" in shown
+    assert "<b>2.0</b> ± 0.1 kN" in shown
 
 
 def test_the_policy_allows_the_scripts_of_the_page_and_no_other() -> None:

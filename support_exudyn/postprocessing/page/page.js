@@ -47,6 +47,7 @@ document.addEventListener("DOMContentLoaded", () => {
   for (const button of document.querySelectorAll("[data-filter] button")) {
     button.addEventListener("click", () => filterBy(button));
   }
+  for (const picture of document.querySelectorAll(".printed")) picture.open = false;  // the live figure shows it
   const hint = new ResizeObserver((entries) => {
     for (const { target } of entries) target.classList.toggle("more", target.scrollWidth > target.clientWidth + 1);
   });

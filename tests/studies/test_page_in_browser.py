@@ -1,0 +1,258 @@
+"""The report in a real browser: what fits a screen, what answers to the pointer, and that nothing is loaded.
+
+Without Chromium and its driver the tests are skipped; with SUPPORT_EXUDYN_BROWSER set they fail.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import time
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image
+from selenium import webdriver
+from selenium.webdriver.chrome.options import Options
+from selenium.webdriver.chrome.service import Service
+from selenium.webdriver.common.by import By
+
+from studies import report
+from studies.catalogue import STUDIES
+from studies.common.chapter import Tile
+from support_exudyn.postprocessing.page.live import LiveCurve, LiveFigure, LivePanel
+from support_exudyn.postprocessing.page.pieces import Sheet
+from tests.studies.test_report import chapter, put
+
+CHROMIUM, DRIVER = shutil.which("chromium"), shutil.which("chromedriver")
+FLAGS = (
+    "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--hide-scrollbars",
+    "--disable-background-networking", "--disable-component-update", "--disable-sync",
+)  # fmt: skip
+WIDTHS = (400, 1000, 1400)
+PATIENCE = 30.0  # seconds
+TIMES = tuple(0.5 * n for n in range(11))
+FORCES = tuple(51.25 + n for n in range(11))
+WIDE = Sheet(
+    "Wide table",
+    ("case", *(f"a long heading {n}" for n in range(14))),
+    (("a", *("12.345 ± 0.001",) * 14),),
+    name="all",
+)
+SORTED = Sheet(
+    "Key table", ("case", "force [N]"), (("b", "9.5 ± 0.1"), ("a", "-11"), ("c", "1e2"), ("d", ""), ("e", "none")),
+    name="key",
+)  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A report on all studies: four tiles, live figures, tables of all kinds."""
+    out = tmp_path_factory.mktemp("results")
+    text = "The mean force changes by 2.7 %, and the largest force is 8 times as large as with the ideal pin."
+    for name in STUDIES:
+        leads = name == "clearance_influence"
+        tiles = (
+            Tile("mean force", "51.3 kN ± 0.002 %", "52.7 kN ± 0.003 %", "+2.7 %"),
+            Tile("largest force", "60.7 kN ± 0.003 %", "443 kN ± 0.1 %", "8 times, in the fall into the bore"),
+            Tile("tip of the canopy", "0", "-3.62 mm ± 0.01 %", "to the rear"),
+            Tile(
+                "fluctuation of the force", "0.006 kN ± 4 %", "1.02 kN ± 0.2 %", "of what is faster than 0.1 s"
+            ),
+        )
+        of = replace(
+            chapter(name),
+            sheets=(SORTED, WIDE) if leads else (WIDE, SORTED),
+            answer=" ".join((text,) * 3) if leads else text,
+            tiles=tiles if leads else (),
+        )
+        folder = put(out, of)
+        for picture in of.pictures:
+            size = (500, 700, 3) if picture.stem == "machine" else (900, 1200, 3)
+            Image.fromarray(np.full(size, 255, np.uint8)).save(folder / f"{picture.stem}.png")
+    curve = LiveCurve("ideal", TIMES, FORCES, "#d55e00")
+    LiveFigure("time [s]", (LivePanel("force [kN]", (curve,)),)).save(
+        out / "clearance_influence" / "force one.live.json"
+    )
+    assert report.main(["--out", str(out)]) == 0
+    return out
+
+
+@pytest.fixture(scope="module")
+def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[webdriver.Chrome]:
+    if CHROMIUM is None or DRIVER is None:
+        missing = "no chromium and chromium-driver; apt-get install -y chromium chromium-driver"
+        (pytest.fail if os.environ.get("SUPPORT_EXUDYN_BROWSER") else pytest.skip)(missing)
+    options = Options()
+    options.binary_location = CHROMIUM
+    for flag in (*FLAGS, f"--user-data-dir={tmp_path_factory.mktemp('profile')}"):
+        options.add_argument(flag)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+    driver = webdriver.Chrome(options=options, service=Service(DRIVER))
+    try:
+        yield driver
+    finally:
+        driver.quit()
+
+
+Opened = Callable[..., webdriver.Chrome]
+
+
+@pytest.fixture
+def opened(browser: webdriver.Chrome, made: Path) -> Opened:
+    def opened(name: str = "report.html", width: int = 1000, height: int = 800) -> webdriver.Chrome:
+        size = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False}
+        browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+        for kind in ("browser", "performance"):
+            browser.get_log(kind)
+        browser.get((made / name).as_uri())
+        until(lambda: browser.execute_script("return !window.Bokeh || Bokeh.documents.every(d => d.is_idle)"))
+        return browser
+
+    return opened
+
+
+def until(true: Callable[[], Any]) -> Any:
+    """What is at last true."""
+    end = time.monotonic() + PATIENCE
+    while not (found := true()):
+        assert time.monotonic() < end
+        time.sleep(0.05)
+    return found
+
+
+@pytest.mark.parametrize("name", ["report.html", "appendix.html"])
+def test_no_complaint_and_nothing_is_loaded(opened: Opened, made: Path, name: str) -> None:
+    browser = opened(name)
+    complaints = [entry for entry in browser.get_log("browser") if entry["level"] != "INFO"]
+    assert complaints == []
+    events = [json.loads(entry["message"])["message"] for entry in browser.get_log("performance")]
+    asked = {e["params"]["request"]["url"] for e in events if e["method"] == "Network.requestWillBeSent"}
+    assert (made / name).as_uri() in asked
+    assert [url for url in asked if not url.startswith(("data:", "blob:", (made / name).as_uri()))] == []
+
+
+@pytest.mark.parametrize(("width", "height"), [(1000, 800), (1400, 900), (1400, 800)])
+def test_the_first_screen_holds_the_answer(opened: Opened, width: int, height: int) -> None:
+    browser = opened(width=width, height=height)
+    header = browser.find_element(By.ID, "answer")
+    tiles = header.find_elements(By.CSS_SELECTOR, ".tiles > div")
+    assert len(tiles) == 4
+    for shown in (*tiles, header.find_element(By.CSS_SELECTOR, ".live"), header):
+        assert shown.size["height"] > 0
+        assert shown.rect["y"] + shown.rect["height"] <= height
+    assert "8 times" in header.text
+
+
+def test_the_page_has_at_most_fourteen_screens(opened: Opened) -> None:
+    browser = opened()
+    assert browser.execute_script("return document.documentElement.scrollHeight") <= 14 * 800
+
+
+@pytest.mark.parametrize("name", ["report.html", "appendix.html"])
+@pytest.mark.parametrize("width", WIDTHS)
+def test_nothing_overflows(opened: Opened, name: str, width: int) -> None:
+    browser = opened(name, width)
+    assert browser.execute_script("return document.documentElement.scrollWidth") <= width
+    unseen = """
+      const out = [];
+      for (const box of document.querySelectorAll(".scroll")) {
+        const wide = box.scrollWidth > box.clientWidth + 1;
+        if (wide !== box.classList.contains("more")) out.push(box.ariaLabel);
+      }
+      for (const cell of document.querySelectorAll("th, td, .tiles dd, .tiles span, figcaption, p")) {
+        const style = getComputedStyle(cell);
+        if (cell.scrollWidth > cell.clientWidth + 1 && cell.clientWidth && style.display !== "inline")
+          out.push(cell.outerHTML.slice(0, 80));
+      }
+      return out;"""
+    until(lambda: browser.execute_script(unseen) == [])
+
+
+def test_the_pointer_tells_the_value_that_the_file_holds(opened: Opened) -> None:
+    browser = opened()
+    place = browser.execute_script("""
+      const view = Object.values(Bokeh.index)[0], all = [];
+      const walk = (v) => { all.push(v); for (const c of v.child_views || []) walk(c); };
+      walk(view.roots ? view.roots[0] : view);
+      const plot = all.find((v) => v.frame), frame = plot.frame;
+      const box = plot.el.getBoundingClientRect(), inner = frame.bbox;
+      return [box.left + inner.left + frame.x_scale.compute(2.0) - frame.x_scale.compute(0.0),
+              box.top + inner.top + inner.height / 2];""")
+    for shift in (-2, 0):
+        event = {"type": "mouseMoved", "x": place[0] + shift, "y": place[1]}
+        browser.execute_cdp_cmd("Input.dispatchMouseEvent", event)
+    text = until(lambda: browser.execute_script("""
+      const texts = [], walk = (node) => {
+        if (node.classList && node.classList.contains("bk-Tooltip")) texts.push((node.shadowRoot || node).textContent);
+        for (const child of [...(node.children || []), ...(node.shadowRoot ? node.shadowRoot.children : [])]) walk(child);
+      };
+      walk(document.body);
+      return texts.join(" ");"""))  # fmt: skip
+    assert str(FORCES[TIMES.index(2.0)]) in text
+
+
+def test_claims_can_be_filtered_and_unfolded(opened: Opened) -> None:
+    browser = opened()
+
+    def shown() -> list[str]:
+        rows = browser.find_elements(By.CSS_SELECTOR, "#claims-list tbody tr")
+        return [str(row.get_attribute("data-kind")) for row in rows if row.is_displayed()]
+
+    assert len(shown()) == 5
+    press(browser, '[data-show="holds"]')
+    assert shown() == ["holds", "holds"]
+    press(browser, '[data-show="open"]')
+    assert shown() == ["open"]
+    assert "Because of" not in browser.find_element(By.ID, "claims-list").text
+    press(browser, "#claims-list tr:not([hidden]) summary")
+    assert "Because of" in browser.find_element(By.ID, "claims-list").text
+    press(browser, '[data-show=""]')
+    assert len(shown()) == 5
+
+
+def test_tables_sort_by_value(opened: Opened) -> None:
+    browser = opened()
+    heading = "#clearance_influence-key th:nth-child(2) button"
+
+    def order() -> Sequence[str]:
+        return [one.text for one in browser.find_elements(By.CSS_SELECTOR, "#clearance_influence-key tbody th")]
+
+    assert order() == ["b", "a", "c", "d", "e"]
+    press(browser, heading)
+    assert order() == ["a", "b", "c", "e", "d"]
+    press(browser, heading)
+    assert order() == ["c", "b", "a", "e", "d"]
+
+
+def press(browser: webdriver.Chrome, selector: str) -> None:
+    browser.execute_script("arguments[0].click()", browser.find_element(By.CSS_SELECTOR, selector))
+
+
+def test_contents_stay_in_sight(opened: Opened) -> None:
+    for width, bar in ((1000, "nav.bar"), (1400, "nav.side")):
+        browser = opened(width=width)
+        browser.execute_script("window.scrollTo(0, 3000)")
+        rect = browser.execute_script(
+            "const r = document.querySelector(arguments[0]).getBoundingClientRect(); return [r.top, r.height]",
+            bar,
+        )
+        assert rect[0] == 0.0
+        assert rect[1] > 20.0
+
+
+def test_without_scripts_all_is_there(opened: Opened, browser: webdriver.Chrome) -> None:
+    browser.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": True})
+    try:
+        opened()
+        assert browser.find_element(By.CSS_SELECTOR, "#answer .printed img").is_displayed()
+        assert not browser.find_element(By.CSS_SELECTOR, "#answer .live").is_displayed()
+        rows = browser.find_elements(By.CSS_SELECTOR, "#claims-list tbody tr")
+        assert [row.is_displayed() for row in rows] == [True] * 5
+    finally:
+        browser.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": False})
