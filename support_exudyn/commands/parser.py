@@ -27,6 +27,7 @@ NAMES: tuple[str, ...] = (
     "show",
     "compare",
     "plot",
+    "report",
     "render",
     "view",
     "export",

@@ -1,0 +1,304 @@
+"""A page on runs: what was run, the machine, numbers with errors, channels over time, a picture."""
+
+from __future__ import annotations
+
+import math
+import tempfile
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from markupsafe import Markup
+from matplotlib.figure import Figure
+from PIL import Image
+
+from support_exudyn.mechanics.trajectory import Series
+from support_exudyn.model.linkage import GROUND
+from support_exudyn.postprocessing import summary as summary
+from support_exudyn.postprocessing.figures import style
+from support_exudyn.postprocessing.figures.machine import machine_drawing
+from support_exudyn.postprocessing.figures.selection import matching
+from support_exudyn.postprocessing.figures.units import readable
+from support_exudyn.postprocessing.page.live import Dash, Drawn, LiveFigure, LivePanel, live_panel
+from support_exudyn.postprocessing.page.live_html import html
+from support_exudyn.postprocessing.page.pieces import (
+    KeyNumber,
+    Sheet,
+    ShownFigure,
+    ShownTable,
+    image,
+    templates,
+)
+from support_exudyn.simulation.estimate import Estimate
+from support_exudyn.simulation.result import Result
+from user_forces.values.value import InputError
+
+TEMPLATE = "run_report.html.j2"
+MOST_CHANNELS = 24  # panels
+WHOLE = (0.0, math.inf)
+DIGITS = 6  # of numbers whose error is smaller, or not known
+PANEL_MM = 42.0
+STILL = (1280, 720)
+TILE_DIGITS = 4  # of those in large type
+
+
+@dataclass(frozen=True)
+class RunReport:
+    """What the page says.
+
+    runs: their names. numbers: the first ones are those of the clearance pins. still: a picture, or None and
+    `no_still`, why not.
+    """
+
+    runs: tuple[str, ...]
+    tiles: tuple[KeyNumber, ...]
+    machines: tuple[ShownFigure, ...]
+    over_time: ShownFigure
+    key: ShownTable
+    numbers: ShownTable
+    impacts: ShownTable
+    what: ShownTable
+    still: ShownFigure | None
+    no_still: str
+
+    @property
+    def title(self) -> str:
+        """The title of the page."""
+        return f"Run {self.runs[0]}" if len(self.runs) == 1 else f"Runs {', '.join(self.runs)}"
+
+
+def run_report(runs: Mapping[str, Result], channels: Sequence[str] = ()) -> str:
+    """The page of some runs as HTML that needs nothing from elsewhere.
+
+    Arguments:
+        runs: by the names that the page calls them; at least one.
+        channels: names, or patterns of them as in a shell, that are drawn over time. Without: forces of the
+            clearance pins (of all pins if there is none), spin of the bodies at them, and traced points.
+
+    Raises InputError if a pattern matches no channel, or there is nothing to draw.
+    """
+    names = _asked(runs, channels) if channels else _default(runs)
+    if not names or len(names) > MOST_CHANNELS:
+        raise InputError(f"{len(names)} channels to draw over time; allowed: 1 to {MOST_CHANNELS}")
+    live = _over_time(runs, names)
+    pages = html({"channels": live})
+    caption = (
+        "Channels over time. Thinned to the least and the greatest record of short pieces: no peak is lost."
+    )
+    over_time = ShownFigure(_picture(_printed(live)), caption, Markup(pages.places["channels"]), "channels")
+    estimates = {name: summary.numbers(result, *WHOLE) for name, result in runs.items()}
+    key = _key_names(runs, estimates)
+    every = list(dict.fromkeys(number for found in estimates.values() for number in found))
+    still, no_still = _still(runs)
+    report = RunReport(
+        tuple(runs),
+        _tiles(estimates, key),
+        _machines(runs),
+        over_time,
+        ShownTable(_numbers("Numbers of the clearance pins and traced points", estimates, key), "key"),
+        ShownTable(_numbers("All numbers", estimates, every), "numbers"),
+        ShownTable(_impacts(runs), "impacts"),
+        ShownTable(_what(runs), "what"),
+        still,
+        no_still,
+    )
+    return templates().get_template(TEMPLATE).render(report=report, scripts=Markup(pages.scripts))
+
+
+# --- channels ---
+
+
+def _asked(runs: Mapping[str, Result], patterns: Sequence[str]) -> list[str]:
+    """The channels of any run that match, in the order of the patterns."""
+    return matching(list(dict.fromkeys(name for result in runs.values() for name in result.channels)), patterns)
+
+
+def _watched_pins(result: Result) -> list[str]:
+    """The clearance pins of a run, or all pins."""
+    return list(result.scenario.clearance_pins) or list(result.scenario.linkage.pins)
+
+
+def _default(runs: Mapping[str, Result]) -> list[str]:
+    """Forces of pins, spin of the bodies at them, and traced points, as far as they were recorded."""
+    loose = list(dict.fromkeys(pin for result in runs.values() for pin in result.scenario.clearance_pins))
+    found: dict[str, None] = {}
+    for result in runs.values():
+        linkage = result.scenario.linkage
+        pins = [pin for pin in loose or linkage.pins if pin in linkage.pins]
+        bodies = [
+            place.first if place.second == GROUND else place.second
+            for place in map(linkage.pins.get, pins)
+            if place
+        ]
+        wanted = [(f"pin.{pin}", ".force") for pin in pins]
+        wanted += [(body, ".angular_velocity") for body in bodies if loose]
+        wanted += [(f"{point}.", axis) for point in linkage.points for axis in "xy"]
+        for start, end in wanted:  # in space there are several of a name, left and right
+            found |= dict.fromkeys(n for n in result.channels if n.startswith(start) and n.endswith(end))
+    return list(found)
+
+
+def _over_time(runs: Mapping[str, Result], names: Sequence[str]) -> LiveFigure:
+    """A panel a channel, a curve a run."""
+    return LiveFigure("time [s]", tuple(_panel(runs, name) for name in names))
+
+
+def _panel(runs: Mapping[str, Result], name: str) -> LivePanel:
+    with_it = {run: result for run, result in runs.items() if name in result.channels}
+    si = {result.unit(name) for result in with_it.values()}
+    if len(si) > 1:
+        raise InputError(f"{name}: is in {' and in '.join(sorted(si))}; allowed: runs that have it in one unit")
+    unit = readable(si.pop(), max(float(np.abs(result[name]).max()) for result in with_it.values()))
+    place = {run: number for number, run in enumerate(runs)}
+    curves = []
+    for run, result in with_it.items():
+        values: Series = unit.scale * result[name]
+        again, number = divmod(place[run], len(style.CURVES))
+        dash: Dash = "dashed" if again else "solid"
+        curves.append(Drawn(run, result.time, values, style.CURVES[number][0], dash, 1.1))
+    return live_panel(f"{name} [{unit.name}]", curves)
+
+
+def _printed(live: LiveFigure) -> Figure:
+    """The same for paper."""
+    with style.look():
+        drawing = Figure(figsize=style.size(170.0, PANEL_MM * len(live.panels) + 8.0))
+        panels = np.atleast_1d(drawing.subplots(len(live.panels), 1, sharex=True))
+        for axes, panel in zip(panels, live.panels, strict=True):
+            for one in panel.curves:
+                y = [math.nan if value is None else value for value in one.y]
+                axes.plot(one.x, y, color=one.colour, lw=one.width, ls=one.dash, label=one.label)
+            axes.set_ylabel(panel.label.replace(" [", "\n["), fontsize=7.5)
+        panels[-1].set_xlabel(live.x_label)
+        handles = {t: h for a in panels for h, t in zip(*a.get_legend_handles_labels(), strict=True)}
+        drawing.legend(handles.values(), handles, loc="outside upper left", ncols=3)
+    return drawing
+
+
+def _picture(drawing: Figure) -> str:
+    """A drawing as a data URI."""
+    with tempfile.TemporaryDirectory() as folder, style.look():
+        path = Path(folder) / "drawing.png"
+        drawing.savefig(path)
+        return image(path)
+
+
+# --- machine and still ---
+
+
+def _machines(runs: Mapping[str, Result]) -> tuple[ShownFigure, ...]:
+    """A drawing for each machine, with the clearance pins of the first of its runs that has some."""
+    groups: list[list[str]] = []
+    for name, result in runs.items():
+        same = (group for group in groups if runs[group[0]].scenario.machine == result.scenario.machine)
+        group = next(same, [])
+        if not group:
+            groups.append(group)
+        group.append(name)
+    found = []
+    for number, group in enumerate(groups, 1):
+        shown = next((name for name in group if runs[name].scenario.clearance_pins), group[0])
+        scenario = runs[shown].scenario
+        pins = (
+            f"clearance in {', '.join(scenario.clearance_pins)}"
+            if scenario.clearance_pins
+            else "all pins ideal"
+        )
+        caption = f"{type(scenario.machine).__name__} in the start posture of {shown}: {pins}."
+        found.append(ShownFigure(_picture(machine_drawing(scenario)), caption, anchor=f"machine{number}"))
+    return tuple(found)
+
+
+def _still(runs: Mapping[str, Result]) -> tuple[ShownFigure | None, str]:
+    """The first run with clearance, or the first, when the force in its pin is largest; or why it is not."""
+    from support_exudyn.postprocessing.render import still  # it brings the engine
+
+    name = next((name for name, one in runs.items() if one.scenario.clearance_pins), next(iter(runs)))
+    result = runs[name]
+    pins = [n for pin in _watched_pins(result) for n in result.channels if n == f"pin.{pin}.force"]
+    time = float(result.time[int(np.argmax(result[pins[0]]))]) if pins else float(result.time[-1])
+    try:
+        picture = still(result, time, size=STILL)
+    except (InputError, RuntimeError) as error:
+        return None, f"There is no rendered picture: {error}"
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "still.png"
+        Image.fromarray(picture).save(path)
+        when = f"when {pins[0]} is largest, at {time:.6g} s" if pins else f"at its end, {time:.6g} s"
+        return ShownFigure(image(path), f"Run {name} {when}.", anchor="still"), ""
+
+
+# --- tables ---
+
+
+def _key_names(runs: Mapping[str, Result], estimates: Mapping[str, Mapping[str, Estimate]]) -> list[str]:
+    """The numbers that are looked at first: forces of clearance pins (or of all), and traced points."""
+    pins = list(dict.fromkeys(pin for result in runs.values() for pin in result.scenario.clearance_pins))
+    pins = pins or list(dict.fromkeys(pin for result in runs.values() for pin in result.scenario.linkage.pins))
+    points = [point for result in runs.values() for point in result.scenario.linkage.points]
+    starts = tuple([f"pin.{pin}" for pin in pins] + [f"{point}." for point in points])
+    every = list(dict.fromkeys(name for found in estimates.values() for name in found))
+    return [name for name in every if name.startswith(starts) and ".onset_" not in name]
+
+
+def _numbers(title: str, estimates: Mapping[str, Mapping[str, Estimate]], names: Iterable[str]) -> Sheet:
+    """Numbers side by side, a column a run."""
+    rows = []
+    for name in names:
+        found = [estimates[run].get(name) for run in estimates]
+        rows.append((name, *_side_by_side(found)))
+    known = any(math.isfinite(one.error) for found in estimates.values() for one in found.values())
+    note = (
+        "± estimated numerical error; where none is told, it is below the last digit."
+        if known
+        else "Numerical errors are not known: no accuracy was asked."
+    )
+    return Sheet(title, ("number", "unit", *estimates), tuple(rows), note, left=2, name="numbers")
+
+
+def _side_by_side(found: Sequence[Estimate | None], most: int = DIGITS) -> tuple[str, ...]:
+    """Unit, and numbers in it, of at most so many digits."""
+    there = [one for one in found if one is not None]
+    unit = readable(there[0].unit, max(abs(one.value) for one in there))
+    return unit.name, *("" if one is None else _to_error(one, unit.scale, most) for one in found)
+
+
+def _to_error(number: Estimate, scale: float, most: int = DIGITS) -> str:
+    """A number to the first digit of its error, and the error, unless that is below the shown digits."""
+    value, error = scale * number.value, scale * number.error
+    size = math.floor(math.log10(abs(value))) if value else 0
+    decimals = max(-math.floor(math.log10(error)), 0) if math.isfinite(error) and error > 0.0 else math.inf
+    if decimals > most - 1 - size:
+        return f"{value:.{most}g}"
+    return f"{value:.{decimals}f} ± {error:.{decimals}f}"
+
+
+def _tiles(estimates: Mapping[str, Mapping[str, Estimate]], key: Sequence[str]) -> tuple[KeyNumber, ...]:
+    """Up to four key numbers of one run, or of two: before and after."""
+    if len(estimates) > 2:
+        return ()
+    told = [name for name in key if name.rpartition(".")[2] in ("mean", "largest", "spread")]
+    found = []
+    for name in told[:4]:
+        unit, *cells = _side_by_side([estimates[run].get(name) for run in estimates], TILE_DIGITS)
+        if all(cells):
+            found.append(KeyNumber(name, f"{cells[-1]} {unit}", cells[0] if len(cells) > 1 else ""))
+    return tuple(found)
+
+
+def _impacts(runs: Mapping[str, Result]) -> Sheet:
+    rows = [(run, *row) for run, result in runs.items() for row in summary.impacts(result)]
+    header = ("run", "pin", "impact", "time", "lasts", "approach", "separation")
+    return Sheet("First impacts, and speeds of approach and separation", header, tuple(rows), left=3)
+
+
+def _what(runs: Mapping[str, Result]) -> Sheet:
+    """What was run and how, side by side."""
+    told = {
+        run: {row[0]: row[1] for row in (*summary.what_was_run(result), *summary.how(result))}
+        for run, result in runs.items()
+    }
+    names = dict.fromkeys(name for rows in told.values() for name in rows)
+    rows = tuple((name, *(rows.get(name, "") for rows in told.values())) for name in names)
+    return Sheet("What was run, and how", ("", *runs), rows, wide=True)

@@ -1,0 +1,184 @@
+"""The page on runs: what stands on it, what is refused, and how it behaves in a browser."""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from support_exudyn import Result, simulate
+from support_exudyn.__main__ import main
+from support_exudyn.postprocessing.run_report import _to_error
+from support_exudyn.simulation.estimate import Estimate
+from tests.cases.run_cases import loose_slider_crank, loose_support, support
+
+# all text of tooltips that are shown, in whatever shadow they are
+TOOLTIPS = """const found = [];
+const walk = (node) => { for (const one of node.querySelectorAll('*')) {
+  if (one.classList.contains('bk-tooltip-content')) found.push(one.innerText);
+  if (one.shadowRoot) walk(one.shadowRoot); } };
+walk(document); return found.join('|');"""
+
+
+@pytest.fixture(scope="module")
+def runs(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder of three short runs: a clearance pin with an accuracy, ideal pins, a slider-crank."""
+    folder = tmp_path_factory.mktemp("runs")
+    simulate(loose_support(1.5, 0.25, duration=0.05), accuracy="draft").save(folder / "loose.h5")
+    simulate(support(duration=0.05)).save(folder / "ideal.h5")
+    crank = loose_slider_crank(0.005, formulation="reduced", record_period=5e-5)
+    simulate(crank).save(folder / "crank.h5")
+    return folder
+
+
+@pytest.fixture(scope="module")
+def page(runs: Path) -> Path:
+    """The page of two of them."""
+    out = runs / "both.html"
+    assert main(["report", str(runs / "ideal.h5"), str(runs / "loose.h5"), "--out", str(out)]) == 0
+    return out
+
+
+def test_the_page_has_all_its_parts_and_loads_nothing(page: Path) -> None:
+    text = page.read_text(encoding="utf-8")
+    assert len(text) < 5_000_000
+    assert "<title>Runs ideal, loose</title>" in text
+    for said in (
+        "clearance in rear_base", "pin.rear_base.force.mean", "CubicStep (stroke 0.5", "formulation",
+        "wall time", "exudyn 1.", "Run loose when pin.rear_base.force is largest", "estimated numerical error",
+    ):  # fmt: skip
+        assert said in text, said
+    elements = re.sub(r"(?s)<script.*?</script>", "", text)
+    for outside in re.findall(r'(?:src|href)="([^"]*)"', elements):
+        assert outside.startswith(("data:", "#")), outside
+    assert "rear_link.angular_velocity" in text
+    assert "tip.x [m]" in text
+    assert elements.count("data:image/png") == 3  # machine, print of the channels, still
+
+
+def test_one_run_of_another_machine_beside_its_file(runs: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["report", str(runs / "crank.h5"), "--channels", "pin.slider_pin.*", "slider.x"]) == 0
+    path = Path(capsys.readouterr().out.strip())
+    assert path == runs / "crank_report.html"
+    text = path.read_text(encoding="utf-8")
+    assert "slider.x [" in text
+    assert "rod.angular_velocity [" not in text
+
+
+def test_a_folder_takes_report_html_and_scripts_are_told_where(
+    runs: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def none(*_: object, **__: object) -> None:
+        raise RuntimeError("no renderer on this machine")
+
+    monkeypatch.setattr("support_exudyn.postprocessing.render.still", none)
+    assert main(["report", str(runs / "ideal.h5"), "--out", str(tmp_path / "new"), "--json"]) == 0
+    path = tmp_path / "new" / "report.html"
+    assert json.loads(capsys.readouterr().out) == {"report": str(path)}
+    text = path.read_text(encoding="utf-8")
+    assert "There is no rendered picture: no renderer on this machine" in text
+    assert "Numerical errors are not known" in text
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["ideal.h5", "ideal.h5"], "is given twice"),
+        (["ideal.h5", "--channels", "pin.middle.force"], "no such channel"),
+        (["ideal.h5", "--channels", "*"], r"channels to draw over time; allowed: 1 to 24"),
+        (["none.h5"], "none.h5"),
+    ],
+)
+def test_what_cannot_be_is_said_in_a_line(
+    runs: Path, words: list[str], told: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    given = [str(runs / word) if word.endswith(".h5") else word for word in words]
+    assert main(["report", *given]) == 1
+    error = capsys.readouterr().err
+    assert re.search(told, error)
+    assert len(error.splitlines()) == 1
+
+
+@pytest.mark.parametrize(
+    ("value", "error", "text"),
+    [
+        (443.28, 1.8, "443 ± 2"),
+        (60.7471, 0.0021, "60.747 ± 0.002"),
+        (56.42103762, 2.4e-7, "56.421"),
+        (0.0, float("nan"), "0"),
+    ],
+)
+def test_numbers_are_printed_to_their_error(value: float, error: float, text: str) -> None:
+    assert _to_error(Estimate(value, error, "N"), 1.0) == text
+
+
+# --- in a browser ---
+
+
+@pytest.fixture(scope="module")
+def chromium(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Any]:
+    """A browser without a window."""
+    binary, driver = shutil.which("chromium"), shutil.which("chromedriver")
+    if not (binary and driver):
+        pytest.skip("chromium and chromedriver are not installed")
+    from selenium import webdriver
+
+    options = webdriver.ChromeOptions()
+    options.binary_location = binary
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+    profile = tmp_path_factory.mktemp("profile")
+    words = "headless no-sandbox disable-gpu disable-quic no-first-run disable-background-networking"
+    for word in (*words.split(), "disable-component-update", "disable-sync", f"user-data-dir={profile}"):
+        options.add_argument(f"--{word}")
+    browser = webdriver.Chrome(options=options, service=webdriver.ChromeService(driver))
+    yield browser
+    browser.quit()
+
+
+def opened(browser: Any, page: Path, width: int) -> None:
+    size = {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False}
+    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+    browser.get(page.as_uri())
+    until = time.monotonic() + 20.0
+    script = "return Boolean(window.Bokeh) && Bokeh.index.roots.length > 0"
+    while not browser.execute_script(script):
+        assert time.monotonic() < until, "the live figures do not appear"
+        time.sleep(0.05)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("width", [400, 1000, 1400])
+def test_nothing_overflows_and_nothing_complains(chromium: Any, page: Path, width: int) -> None:
+    opened(chromium, page, width)
+    wide, inner = chromium.execute_script("return [document.documentElement.scrollWidth, innerWidth]")
+    assert wide <= inner
+    assert [entry for entry in chromium.get_log("browser") if entry["level"] in ("SEVERE", "WARNING")] == []
+
+
+@pytest.mark.slow
+def test_the_value_under_the_pointer_is_that_of_the_file(chromium: Any, page: Path, runs: Path) -> None:
+    from selenium.webdriver.common.action_chains import ActionChains
+    from selenium.webdriver.common.by import By
+
+    opened(chromium, page, 1000)
+    place = chromium.find_element(By.CSS_SELECTOR, "#channels .live")
+    chromium.execute_script("arguments[0].scrollIntoView({block: 'start'})", place)
+    ActionChains(chromium).move_to_element_with_offset(place, 60, 150 - place.size["height"] // 2).perform()
+    told = ""
+    until = time.monotonic() + 10.0
+    while not told and time.monotonic() < until:
+        told = chromium.execute_script(TOOLTIPS)
+    values = dict(re.findall(r"(\S+):\s+(\S+) \S+", told))
+    result = Result.load(runs / "loose.h5")
+    record = int(np.argmin(np.abs(result.time - float(values["time"]))))
+    assert float(values["time"]) == pytest.approx(result.time[record], rel=1e-6)
+    assert 1e3 * float(values["loose"]) == pytest.approx(
+        result["pin.rear_base.force"][record], rel=1e-6, abs=1e-3
+    )
