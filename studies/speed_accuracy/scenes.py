@@ -1,5 +1,6 @@
 """The scenes of the study: those of the benchmark, or the user's machine with clearance in a pin."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
@@ -36,7 +37,9 @@ def scenes(subject: Subject) -> Mapping[str, BenchmarkScene]:
 def _own(label: str, subject: Subject, scenario: Scenario) -> BenchmarkScene:
     watched, plain = subject.watched, replace(scenario, accuracy=None)
     points = scenario.unloaded.points
-    step = min(settings_for(replace(plain, formulation="redundant"), GOAL).step, 0.5 * plain.record_period)
+    longest = settings_for(replace(plain, formulation="redundant"), GOAL).step
+    # an even number in a record, so that records are at the ends of twice and of two fifths of it, too
+    step = 0.5 * plain.record_period / math.ceil(0.5 * plain.record_period / longest)
     point = next(iter(points), watched.body)
     return BenchmarkScene(label, plain, watched.pin, watched.body, point, watched.start, step)
 

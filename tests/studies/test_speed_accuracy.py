@@ -26,8 +26,10 @@ from studies.benchmarking.scenes import SCENES, BenchmarkScene
 from studies.benchmarking.variants import STOCK, Done, Way, WayRun, cheapest, front, ways
 from studies.common.chapter import Chapter
 from studies.common.study import Options
+from studies.common.subject import Subject, own_subject
 from studies.speed_accuracy import figures as speed_accuracy_figures
 from studies.speed_accuracy import run as speed_accuracy
+from studies.speed_accuracy.scenes import scenes
 from support_exudyn import SimulationError, SolverSettings, simulate
 from support_exudyn.formulations.contract import Failure
 from tests.at_once import at_once
@@ -233,6 +235,51 @@ def test_every_number_has_an_error(written: Path) -> None:
     # but for a share of all, which has none
     numbers = json.loads((written / "summary.json").read_text(encoding="utf-8"))["numbers"]
     assert all(number["numerical_error"] > 0.0 for number in numbers if number["value"] < 1.0)
+
+
+# --- the user's machine ---
+
+OWN = """
+machine = "zf18000"
+duration_s = 0.04
+
+[drive]
+type = "Held"
+"""
+
+
+@pytest.fixture
+def own(tmp_path: Path) -> Subject:
+    path = tmp_path / "my_support.toml"
+    path.write_text(OWN, encoding="utf-8")
+    return own_subject(path)
+
+
+def test_scenes_are_of_the_users_machine(own: Subject) -> None:
+    found = scenes(own)
+    assert list(found) == ["no friction", "friction 0.25"]
+    for scene in found.values():
+        assert scene.label.startswith("my support: 1.5 mm")
+        assert scene.pin == "rear_base"
+        # records are at the ends of the steps of others, twice and two fifths of ours
+        for share in variants.FIXED_STEPS:
+            each = scene.scenario.record_period / (share * scene.step)
+            assert each == pytest.approx(round(each))
+        assert {"reduced", STOCK} <= {way.family for way in ways(scene)}
+
+
+@pytest.mark.slow
+def test_the_study_is_about_the_users_machine(
+    own: Subject, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(speed_accuracy, "ways", some_ways)
+    monkeypatch.setattr(estimates, "PRESETS", ("draft",))
+    monkeypatch.setattr(estimates, "NUMBERS", ())
+    chapter = speed_accuracy.study(Options(tmp_path / "out", at_once(), subject=own))
+    said = " ".join((chapter.answer, *chapter.method, *chapter.findings))
+    assert "my support" in said
+    assert "slider-crank" not in said
+    assert [sheet.name for sheet in chapter.sheets][:2] == ["fastest", "accuracies"]
 
 
 # --- the check of estimates ---
