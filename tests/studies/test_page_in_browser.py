@@ -45,8 +45,8 @@ WIDE = Sheet(
     name="all",
 )
 SORTED = Sheet(
-    "Key table", ("case", "force [N]"), (("b", "9.5 ± 0.1"), ("a", "-11"), ("c", "1e2"), ("d", ""), ("e", "none")),
-    name="key",
+    "Key table", ("case", "force [N]"),
+    (("b", "9.5 ± 0.1"), ("a", "-11"), ("c", "1e2"), ("d", ""), ("e", "none")), name="key",
 )  # fmt: skip
 
 
@@ -189,8 +189,9 @@ def test_the_pointer_tells_the_value_that_the_file_holds(opened: Opened) -> None
         browser.execute_cdp_cmd("Input.dispatchMouseEvent", event)
     text = until(lambda: browser.execute_script("""
       const texts = [], walk = (node) => {
-        if (node.classList && node.classList.contains("bk-Tooltip")) texts.push((node.shadowRoot || node).textContent);
-        for (const child of [...(node.children || []), ...(node.shadowRoot ? node.shadowRoot.children : [])]) walk(child);
+        const inside = node.shadowRoot || node;
+        if (node.classList && node.classList.contains("bk-Tooltip")) texts.push(inside.textContent);
+        for (const child of [...(node.children || []), ...(inside === node ? [] : inside.children)]) walk(child);
       };
       walk(document.body);
       return texts.join(" ");"""))  # fmt: skip
