@@ -33,7 +33,7 @@ def case_name(mode: str, pin: str, columns: str) -> str:
 
 
 @dataclass(frozen=True)
-class Plan:
+class ModePlan:
     """The cases of a machine: its motion in both modes, with the stroke and the times of its own drive."""
 
     subject: Subject

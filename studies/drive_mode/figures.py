@@ -9,7 +9,7 @@ from matplotlib.ticker import MultipleLocator
 
 from studies.common import rise
 from studies.common.panels import legend, letters, time_ticks
-from studies.drive_mode.cases import END, MODES, Plan, case_name
+from studies.drive_mode.cases import END, MODES, ModePlan, case_name
 from studies.drive_mode.measures import extension
 from support_exudyn import Result, SuddenOpening
 from support_exudyn.postprocessing.figures import style
@@ -24,7 +24,7 @@ LIVE = {
 Curve = Callable[[Result], rise.Series]  # what is drawn of a run at its records
 
 
-def figures(plan: Plan, results: Mapping[str, Result]) -> dict[str, Figure]:
+def figures(plan: ModePlan, results: Mapping[str, Result]) -> dict[str, Figure]:
     """All figures, by file name."""
     found = {
         f"fig13_{columns}_columns": by_mode(plan, results, columns, _of_motion(plan))
@@ -40,7 +40,7 @@ def figures(plan: Plan, results: Mapping[str, Result]) -> dict[str, Figure]:
     return found
 
 
-def _of_motion(plan: Plan) -> dict[str, Curve]:
+def _of_motion(plan: ModePlan) -> dict[str, Curve]:
     watched, first = plan.subject.watched, plan.actuators[0]
 
     def of(channel: str, scale: float) -> Curve:
@@ -70,7 +70,7 @@ ON_CYLINDERS: dict[str, Curve] = {
 }
 
 
-def by_mode(plan: Plan, results: Mapping[str, Result], columns: str, curves: Mapping[str, Curve]) -> Figure:
+def by_mode(plan: ModePlan, results: Mapping[str, Result], columns: str, curves: Mapping[str, Curve]) -> Figure:
     """A column of panels for each mode, a row for each quantity, with the same scale in both."""
     drawing = Figure(figsize=style.size(170, 165))
     panels = drawing.subplots(len(curves), 2, sharey="row", sharex=True)
@@ -99,7 +99,7 @@ def by_mode(plan: Plan, results: Mapping[str, Result], columns: str, curves: Map
     return drawing
 
 
-def start_figure(plan: Plan, results: Mapping[str, Result]) -> Figure:
+def start_figure(plan: ModePlan, results: Mapping[str, Result]) -> Figure:
     """What the sudden start does, enlarged."""
     drawing = Figure(figsize=style.size(170, 65))
     panels = drawing.subplots(1, 3, sharex=True)
@@ -117,7 +117,7 @@ def start_figure(plan: Plan, results: Mapping[str, Result]) -> Figure:
     return drawing
 
 
-def valve_figure(plan: Plan, results: Mapping[str, Result]) -> Figure:
+def valve_figure(plan: ModePlan, results: Mapping[str, Result]) -> Figure:
     """Opening and closing at once, enlarged."""
     drawing = Figure(figsize=style.size(170, 110))
     panels = drawing.subplots(2, 2, sharey="row")

@@ -8,7 +8,7 @@ import numpy as np
 
 from studies.common import rise
 from studies.common.numbers import Number, measured_all
-from studies.drive_mode.cases import Plan
+from studies.drive_mode.cases import ModePlan
 from support_exudyn import Result
 
 Get = Callable[[Result], float]
@@ -112,7 +112,7 @@ ON_CYLINDERS: dict[str, tuple[str, Get]] = {
 # --- all ---
 
 
-def measure(plan: Plan, results: Mapping[str, Result]) -> list[Number]:
+def measure(plan: ModePlan, results: Mapping[str, Result]) -> list[Number]:
     """All numbers of the study, but for those that are none."""
     return [
         number
@@ -121,7 +121,7 @@ def measure(plan: Plan, results: Mapping[str, Result]) -> list[Number]:
     ]
 
 
-def measures_of(plan: Plan, result: Result) -> dict[str, tuple[str, Get]]:
+def measures_of(plan: ModePlan, result: Result) -> dict[str, tuple[str, Get]]:
     """Unit and measure of every number of a case, by name."""
     found = all_measures(plan)
     if len(result.impulses) < 2:  # one at the start, one at the end
@@ -129,7 +129,7 @@ def measures_of(plan: Plan, result: Result) -> dict[str, tuple[str, Get]]:
     return found | (ON_CYLINDERS if result.scenario.cylinders else {})
 
 
-def all_measures(plan: Plan) -> dict[str, tuple[str, Get]]:
+def all_measures(plan: ModePlan) -> dict[str, tuple[str, Get]]:
     """Unit and measure of every number but those of cylinders, by name."""
     watched = plan.subject.watched
     return _of_motion(watched) | _of_forces(watched, plan.actuators) | _of_jumps(plan.actuators)

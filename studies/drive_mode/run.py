@@ -13,7 +13,7 @@ from studies.common.options import Options
 from studies.common.study import Study, StudyOutcome
 from studies.common.words import TextTable
 from studies.drive_mode import cases, tables
-from studies.drive_mode.cases import MODES, Plan, case_name, naive_peaks
+from studies.drive_mode.cases import MODES, ModePlan, case_name, naive_peaks
 from studies.drive_mode.figures import LIVE, figures
 from studies.drive_mode.measures import measure
 from support_exudyn import Result
@@ -21,7 +21,7 @@ from support_exudyn import Result
 
 def work(chosen: Options) -> StudyOutcome:
     """Both modes on all kinds of columns, and the peaks of the recipe that has no limit."""
-    plan = Plan(chosen.subject)
+    plan = ModePlan(chosen.subject)
     results = _results(plan, chosen)
     numbers = measure(plan, results)
     found = by_case(numbers)
@@ -42,7 +42,7 @@ def work(chosen: Options) -> StudyOutcome:
     )
 
 
-def _results(plan: Plan, chosen: Options) -> dict[str, Result]:
+def _results(plan: ModePlan, chosen: Options) -> dict[str, Result]:
     """All cases: those to an accuracy have errors of their own, those at steps are run three times."""
     steps = {name: case for name, case in plan.scenarios.items() if case.accuracy is None}
     others = {name: case for name, case in plan.scenarios.items() if case.accuracy is not None}
@@ -51,7 +51,7 @@ def _results(plan: Plan, chosen: Options) -> dict[str, Result]:
 
 
 def _words(
-    plan: Plan,
+    plan: ModePlan,
     found: Found,
     results: Mapping[str, Result],
     naive: str | None,
@@ -86,7 +86,7 @@ def _words(
     }
 
 
-def _struck(plan: Plan) -> str:
+def _struck(plan: ModePlan) -> str:
     """The case of the sudden start that says with how much it strikes."""
     return case_name("mode 1", plan.pins[1], "rigid")
 

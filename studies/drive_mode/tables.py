@@ -7,7 +7,7 @@ from itertools import pairwise
 from studies.common.numbers import Found, Number, against, cell
 from studies.common.runs import halvings
 from studies.common.words import TextTable
-from studies.drive_mode.cases import MODES, NAIVE, PINS, Plan, case_name
+from studies.drive_mode.cases import MODES, NAIVE, PINS, ModePlan, case_name
 from studies.drive_mode.measures import ON_CYLINDERS, all_measures, measures_of
 from support_exudyn import Result
 
@@ -21,7 +21,7 @@ Rows = Sequence[Sequence[str]]  # of that table
 PEAK = "largest_pin_force_in_rise"
 
 
-def key_table(found: Found, plan: Plan) -> TextTable:
+def key_table(found: Found, plan: ModePlan) -> TextTable:
     """The largest pin force in both modes, by actuators and pin."""
     rows = []
     for columns in plan.columns:
@@ -36,7 +36,7 @@ def key_table(found: Found, plan: Plan) -> TextTable:
     return TextTable(header, tuple(rows), left=2)
 
 
-def struck(plan: Plan, pin: str, columns: str) -> bool:
+def struck(plan: ModePlan, pin: str, columns: str) -> bool:
     """Whether nothing gives in a case: all of a sudden start is in an impulse, and no peak tells of it."""
     return (pin, columns) == (plan.pins[0], "rigid")
 
@@ -46,17 +46,17 @@ def in_kilonewtons(number: Number) -> Number:
     return replace(number, value=1e-3 * number.value, numerical_error=1e-3 * number.numerical_error, unit="kN")
 
 
-def mode_table(found: Found, plan: Plan, columns: str) -> TextTable:
+def mode_table(found: Found, plan: ModePlan, columns: str) -> TextTable:
     """Both modes side by side."""
     return _side_by_side(found, plan, {name: unit for name, (unit, _) in all_measures(plan).items()}, columns)
 
 
-def valve_table(found: Found, plan: Plan) -> TextTable:
+def valve_table(found: Found, plan: ModePlan) -> TextTable:
     """What there is on cylinders only."""
     return _side_by_side(found, plan, {name: unit for name, (unit, _) in ON_CYLINDERS.items()}, "cylinder")
 
 
-def _side_by_side(found: Found, plan: Plan, units: Mapping[str, str], columns: str) -> TextTable:
+def _side_by_side(found: Found, plan: ModePlan, units: Mapping[str, str], columns: str) -> TextTable:
     """A row a quantity that is known of any case."""
     cases = [case_name(mode, pin, columns) for pin in plan.pins for mode in MODES]
     rows = []
@@ -67,7 +67,7 @@ def _side_by_side(found: Found, plan: Plan, units: Mapping[str, str], columns: s
     return TextTable(("quantity", *(f"{mode}, {pin}" for pin in plan.pins for mode in MODES)), tuple(rows))
 
 
-def saving_table(found: Found, plan: Plan) -> TextTable:
+def saving_table(found: Found, plan: ModePlan) -> TextTable:
     """What the gentle drive saves."""
     headings = [(pin, columns) for columns in plan.columns for pin in plan.pins]
     rows = []
@@ -80,7 +80,7 @@ def saving_table(found: Found, plan: Plan) -> TextTable:
     return TextTable(("quantity", *(f"{columns}, {pin}" for pin, columns in headings)), tuple(rows))
 
 
-def convergence_table(plan: Plan, results: Mapping[str, Result]) -> TextTable:
+def convergence_table(plan: ModePlan, results: Mapping[str, Result]) -> TextTable:
     """Every number of every run."""
     rows = []
     for case, result in results.items():
@@ -91,7 +91,7 @@ def convergence_table(plan: Plan, results: Mapping[str, Result]) -> TextTable:
     return TextTable(header, tuple(rows), left=3, width=170, in_chapter=False)
 
 
-def halving_table(plan: Plan, results: Mapping[str, Result], naive: str | None) -> TextTable:
+def halving_table(plan: ModePlan, results: Mapping[str, Result], naive: str | None) -> TextTable:
     """How far the numbers of each case still move; and the peaks that are no numbers."""
     rows = []
     for case, result in results.items():

@@ -52,7 +52,7 @@ KINDS = {
 
 
 @dataclass(frozen=True)
-class Share:
+class CountedShare:
     """Of how many drawn scenes something holds, and between what shares all that could be drawn lie.
 
     held, number: of so many so many. The interval is that of Clopper and Pearson, with a confidence of SURE.
@@ -87,9 +87,9 @@ class Share:
         return f"{100.0 * self.value:.3g} % ({low} to {high} %)"
 
 
-def of(held: Sequence[bool]) -> Share:
+def of(held: Sequence[bool]) -> CountedShare:
     """The share of those of which it holds."""
-    return Share(sum(held), len(held))
+    return CountedShare(sum(held), len(held))
 
 
 def middle(values: Sequence[float]) -> tuple[float, float]:

@@ -191,7 +191,8 @@ def test_the_pointer_tells_the_value_that_the_file_holds(opened: Opened) -> None
       const texts = [], walk = (node) => {
         const inside = node.shadowRoot || node;
         if (node.classList && node.classList.contains("bk-Tooltip")) texts.push(inside.textContent);
-        for (const child of [...(node.children || []), ...(inside === node ? [] : inside.children)]) walk(child);
+        const below = [...(node.children || []), ...(inside === node ? [] : inside.children)];
+        for (const child of below) walk(child);
       };
       walk(document.body);
       return texts.join(" ");"""))  # fmt: skip
