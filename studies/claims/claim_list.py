@@ -34,7 +34,8 @@ class Claim:
     where: abstract, section or conclusion. text: what is claimed. reading: what is measured, or why nothing can
     be. paper: what it prints, if anything. judge: whether it holds on one machine, None if it cannot be
     judged. tell: our numbers on one machine. alone: why it is judged on the reference support alone, empty if
-    on all plausible machines.
+    on all plausible machines. name: in a few words. figure, table: what shows it, as study/stem and
+    study/name; figure is empty if a table alone does.
     """
 
     where: str
@@ -44,6 +45,14 @@ class Claim:
     tell: Tell = _nothing
     paper: str = ""
     alone: str = ""
+    name: str = ""
+    figure: str = ""
+    table: str = ""
+
+    @property
+    def is_message(self) -> bool:
+        """Whether the abstract says it, and it can be judged: a main message of the paper."""
+        return self.judge is not None and self.where.startswith("abstract")
 
 
 def _range(e: Evidence, quantity: str) -> Measured:
@@ -273,10 +282,10 @@ JUDGES: dict[str, tuple[Judge, Tell]] = {
 }  # fmt: skip
 
 
-def _claim(where: str, text: str, reading: str, judge: str = "", paper: str = "", alone: str = "") -> Claim:
-    """A claim of claims.toml; what the paper prints and why it is judged alone are empty for most."""
+def _claim(judge: str = "", **row: str) -> Claim:
+    """A claim of claims.toml; its judge's name says it in a few words."""
     decides, tells = JUDGES[judge] if judge else (None, _nothing)
-    return Claim(where, text, reading, decides, tells, paper, alone)
+    return Claim(judge=decides, tell=tells, name=judge, **row)
 
 
 CLAIMS = tuple(_claim(**row) for row in rows("studies.claims", "claim"))

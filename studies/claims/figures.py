@@ -5,20 +5,26 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
 from studies.claims.evidence import Evidence
 from studies.claims.plausible import REFERENCE, Sample
 from studies.claims.plausible_runs import CLEARANCES
-from studies.claims.verdicts import NEARLY_ALL, Ruling
+from studies.claims.verdicts import KINDS, NEARLY_ALL, Ruling
 from studies.common import paper_machine
-from studies.common.panels import legend
+from studies.common.panels import legend, letters
 from studies.common.paper_machine import SIZES_MM
 from support_exudyn.postprocessing.figures import style
 
-COLOURS = {"holds only": style.SMOOTH, "holds": style.THIRD, "not supported": style.PAPER, "cannot": "#999999"}
-
-OTHER_WINDOW = "#CC79A7"
+COLOURS = dict(zip(KINDS, (style.THIRD, style.SMOOTH, style.PAPER, "#999999"), strict=True))
+LEGEND = {
+    "holds": "holds", "holds only": "holds only for a part", "not supported": "not supported",
+    "cannot be judged": "cannot be judged: too few machines",
+}  # fmt: skip
+SHARE = "share of plausible machines for which it holds [%]"
+WINDOWS = {"rise": "#999999", "rise and dwell": "#CC79A7"}  # over which forces are averaged
 
 Machines = Sequence[tuple[Sample, Evidence]]
 
@@ -33,69 +39,85 @@ def figures(rulings: Sequence[Ruling], reference: Evidence, machines: Machines) 
 
 
 def share_figure(rulings: Sequence[Ruling]) -> Figure:
-    """A bar a claim."""
-    drawing = Figure(figsize=style.size(170, 20 + 4.6 * len(rulings)))
+    """A bar a claim that has a measure."""
+    shown = [(n, ruling) for n, ruling in enumerate(rulings, 1) if ruling.claim.judge is not None]
+    drawing = Figure(figsize=style.size(170, 24 + 4.3 * len(shown)))
     axes = drawing.subplots()
-    for n, ruling in enumerate(rulings, 1):
-        colour = next(value for kind, value in COLOURS.items() if ruling.verdict.startswith(kind))
+    for y, (_, ruling) in enumerate(shown):
         if ruling.share is not None and ruling.interval is not None:
             low, high = ruling.interval
-            axes.barh(n, 100 * ruling.share, color=colour, height=0.62)
-            axes.plot([100 * low, 100 * high], [n, n], color="black", lw=0.8)
-        if ruling.reference is not None:
-            axes.plot(
-                103, n, "s", ms=4, color="black", mfc="black" if ruling.reference else "none", clip_on=False
+            axes.barh(y, 100 * ruling.share, color=COLOURS[ruling.kind], height=0.68)
+            axes.plot([100 * low, 100 * high], [y, y], color="black", lw=0.9)
+        else:
+            axes.text(
+                1.0, y, f"{ruling.claim.alone or 'left open on every machine'}: {ruling.kind}", va="center"
             )
-    labels = [f"{_short(ruling.claim.text)}  {n}" for n, ruling in enumerate(rulings, 1)]
-    axes.set_yticks(range(1, len(rulings) + 1), labels, fontsize=6.5)
-    axes.set(
-        xlim=(0, 106),
-        xticks=range(0, 101, 20),
-        ylim=(len(rulings) + 0.6, 0.4),
-        xlabel="share of plausible machines [%]",
-    )
+        full = "black" if ruling.reference else "none"
+        axes.plot(104, y, "s", ms=4, color="black", mfc=full, clip_on=False)
+    labels = [f"{ruling.claim.name}  {n}" for n, ruling in shown]
+    axes.set_yticks(range(len(shown)), labels)
+    axes.set(xlim=(0, 107), xticks=(5, 20, 40, 60, 80, 95), ylim=(len(shown) - 0.4, -0.6), xlabel=SHARE)
     for bound in (NEARLY_ALL, 1.0 - NEARLY_ALL):
         axes.axvline(100 * bound, color="#777777", lw=0.7, ls=(0, (4, 2)))
     axes.grid(visible=False, axis="y")
-    drawing.suptitle("For how many plausible machines each claim holds")
+    axes.set_axisbelow(True)
+    found = {ruling.kind for _, ruling in shown}
+    bars = [Patch(color=colour, label=LEGEND[kind]) for kind, colour in COLOURS.items() if kind in found]
+    drawing.legend(handles=[*bars, *_squares()], loc="outside lower center", ncols=2)
     return drawing
 
 
-def _short(text: str) -> str:
-    return text if len(text) <= 78 else text[:75].rsplit(" ", 1)[0] + " ..."
+def _squares() -> list[Line2D]:
+    looks = {"holds on the reference support": "black", "does not": "none"}
+    return [
+        Line2D([], [], color="black", marker="s", ls="", ms=4, mfc=full, label=label)
+        for label, full in looks.items()
+    ]
 
 
 def force_figure(reference: Evidence, machines: Machines) -> Figure:
-    """Table 3 over all machines, against 0.5 mm."""
-    drawing = Figure(figsize=style.size(170, 85))
-    panels = drawing.subplots(1, 2)
-    printed = {"mean_force": paper_machine.MEAN_FORCE, "std_force": paper_machine.FORCE_SPREAD}
-    for axes, letter, (name, paper) in zip(panels, "ab", printed.items(), strict=True):
-        rises = []
-        for sample, evidence in machines:
-            line = _against_first([m.value for m in evidence.row(name, CLEARANCES)])
-            in_rise = sample["window"] == "rise"
-            axes.plot(SIZES_MM, line, color="#999999" if in_rise else OTHER_WINDOW, lw=0.5, alpha=0.5)
-            rises += list(line) if in_rise else []
-        axes.plot(
-            SIZES_MM,
-            _against_first([m.value for m in reference.row(name, CLEARANCES)]),
-            color="black",
-            lw=1.4,
-        )
-        axes.plot(SIZES_MM, _against_first(list(paper.values())), "x", color=style.PAPER, ms=6, mew=1.5)
-        # a few that shake would dwarf the rest
-        low, high = np.quantile(rises or [0.0, 1.0], (0.1, 0.9))
-        low, high = (
-            min(low, *_against_first(list(paper.values()))),
-            max(high, *_against_first(list(paper.values()))),
-        )
-        axes.set_ylim(low - 0.3 * (high - low), high + 0.3 * (high - low))
-        what = "mean" if name == "mean_force" else "standard deviation"
-        axes.set(title=f"{letter}) {what}", xlabel="clearance [mm]", ylabel="change against 0.5 mm [%]")
-        axes.set_xticks(SIZES_MM)
-    drawing.suptitle("Pin force over the clearance (paper: Table 3)")
+    """Table 3 over all machines, against 0.5 mm: a row a window, a column a measure."""
+    drawing = Figure(figsize=style.size(170, 130))
+    panels = drawing.subplots(2, 2, sharex=True)
+    measures = {"mean_force": ("mean", paper_machine.MEAN_FORCE)}
+    measures["std_force"] = ("std. deviation", paper_machine.FORCE_SPREAD)
+    for row, (window, colour) in zip(panels, WINDOWS.items(), strict=True):
+        chosen = [evidence for sample, evidence in machines if sample["window"] == window]
+        for axes, (name, (what, paper)) in zip(row, measures.items(), strict=True):
+            lines = [_against_first([m.value for m in e.row(name, CLEARANCES)]) for e in chosen]
+            ours = _against_first([m.value for m in reference.row(name, CLEARANCES)])
+            printed = _against_first(list(paper.values()))
+            for n, line in enumerate(lines):
+                label = f"plausible machine, {window}" if n == 0 and name == "mean_force" else None
+                axes.plot(SIZES_MM, line, color=colour, lw=0.5, alpha=0.6, label=label)
+            if window == REFERENCE["window"]:
+                axes.plot(SIZES_MM, ours, color="black", lw=1.6, label="reference support")
+            axes.plot(SIZES_MM, printed, "x", color=style.PAPER, ms=6, mew=1.5, label="paper")
+            _fit(axes, lines, printed)
+            axes.set(ylabel=f"{what}, change [%]", xticks=SIZES_MM)
+    for axes in panels[1]:
+        axes.set_xlabel("clearance [mm]")
+    letters(list(panels.flat))
+    handles = {
+        text: line for row in panels for line, text in zip(*row[0].get_legend_handles_labels(), strict=True)
+    }
+    drawing.legend(list(handles.values()), list(handles), loc="outside lower center", ncols=2)
     return drawing
+
+
+def _fit(axes: Axes, lines: Sequence[np.ndarray], printed: np.ndarray) -> None:
+    """A height for nine tenths of the lines and the paper's points; how many leave it is said."""
+    if not lines:
+        return
+    lowest, highest = [float(line.min()) for line in lines], [float(line.max()) for line in lines]
+    low = min(float(np.quantile(lowest, 0.05)), printed.min())
+    high = max(float(np.quantile(highest, 0.95)), printed.max())
+    edge = 0.08 * (high - low)
+    axes.set_ylim(low - edge, high + edge)
+    out = sum(a < low - edge or b > high + edge for a, b in zip(lowest, highest, strict=True))
+    if out:
+        said = f"{out} of {len(lines)} lines leave the panel"
+        axes.text(0.02, 0.98, said, transform=axes.transAxes, va="top", fontsize=7)
 
 
 def _against_first(values: Sequence[float]) -> np.ndarray:
@@ -112,15 +134,13 @@ def rms_figure(reference: Evidence, machines: Machines) -> Figure:
         shown = reference[CLEARANCES[2], "rms_force"].over(reference[CLEARANCES[2], "mean_force"]).value
         axes.plot(float(REFERENCE[factor]), 100.0 * shown, "s", color="black", ms=5, label="reference support")
         axes.set_yscale("log")
-    left.set(
-        title="a)", xlabel="friction coefficient [-]", ylabel="RMS fluctuation of the pin force [% of its mean]"
-    )
-    right.set(title="b)", xlabel="v_d [m/s]", xscale="log")
+    left.set(xlabel="friction coefficient [1]", ylabel="RMS fluctuation [% of mean force]")
+    right.set(xlabel="v_d, where friction is fully developed [m/s]", xscale="log")
     right.xaxis.set_major_locator(LogLocator(subs=(1.0, 3.0)))
     right.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
     right.xaxis.set_minor_formatter(NullFormatter())
+    letters([left, right])
     legend(drawing, left, 3)
-    drawing.suptitle("What shakes the pin during the rise, 1.5 mm")
     return drawing
 
 

@@ -18,7 +18,8 @@ from studies.claims.evidence import Evidence, Measured
 from studies.claims.figures import figures
 from studies.claims.plausible import FACTORS, REFERENCE, Sample, samples
 from studies.claims.plausible_runs import CASES, LARGEST_FORCE, TOLERANCE, evidence, measures, oil_scenarios
-from studies.claims.verdicts import Ruling, percent, rule
+from studies.claims.verdicts import KINDS, Ruling, percent, rule
+from studies.common.chapter import JudgedClaim
 from studies.common.numbers import Number, measured
 from studies.common.options import Options
 from studies.common.runs import run_with_errors
@@ -26,14 +27,24 @@ from studies.common.study import Study, StudyOutcome
 from studies.common.words import TextTable
 from support_exudyn.files.whole_file import whole_file
 
-MACHINES, QUICK_MACHINES = 256, 8
+MACHINES = 256
 SEED = 1
-KINDS = ("holds", "holds only", "not supported", "cannot be judged")
 
 Machines = list[tuple[Sample, Evidence]]
 
 
 # --- tables ---
+
+
+def message_table(rulings: Sequence[Ruling]) -> TextTable:
+    """What the abstract says and can be judged, a row a claim."""
+    rows = [
+        (str(n), ruling.claim.text, ruling.verdict, _share(ruling), ruling.ours)
+        for n, ruling in enumerate(rulings, 1)
+        if ruling.claim.is_message
+    ]
+    header = ("no.", "message of the abstract", "verdict", "machines", "reference support")
+    return TextTable(header, tuple(rows), wide=True, width=160)
 
 
 def claim_table(rulings: Sequence[Ruling]) -> TextTable:
@@ -112,11 +123,13 @@ def measure(rulings: Sequence[Ruling], reference: Evidence, machines: int, faile
         Number("plausible_machines", "failed", float(failed), "1", 0.0),
         Number("claims", "all", float(len(rulings)), "1", 0.0),
     ]
-    numbers += [Number("claims", kind, float(_kinds(rulings)[kind]), "1", 0.0) for kind in KINDS]
+    left = float(sum(ruling.too_few for ruling in rulings))  # which more machines may put elsewhere
+    numbers += [Number("claims", kind, float(_kinds(rulings)[kind]), "1", left) for kind in KINDS]
     for n, ruling in enumerate(rulings, 1):
         if ruling.share is not None and ruling.interval is not None:
             low, high = ruling.interval
-            numbers.append(Number("share_of_machines", f"claim {n}", ruling.share, "1", 0.5 * (high - low)))
+            error = max(high - ruling.share, ruling.share - low)
+            numbers.append(Number("share_of_machines", f"claim {n}", ruling.share, "1", error))
     for case, row in reference.measures.items():
         numbers += [Number(name, case, m.value, _unit(name), m.error) for name, m in row.items()]
     return numbers
@@ -132,12 +145,33 @@ def _unit(name: str) -> str:
 
 
 def _kinds(rulings: Sequence[Ruling]) -> Counter[str]:
-    return Counter(_kind(ruling) for ruling in rulings)
+    return Counter(ruling.kind for ruling in rulings)
 
 
-def _kind(ruling: Ruling) -> str:
-    """Which of KINDS a verdict is; the longest that it begins with."""
-    return max((kind for kind in KINDS if ruling.verdict.startswith(kind)), key=len)
+# --- the list of claims ---
+
+
+def judged_claims(rulings: Sequence[Ruling]) -> tuple[JudgedClaim, ...]:
+    """All claims with verdict, reason, and what shows it."""
+    return tuple(
+        JudgedClaim(str(n), r.claim.where, r.claim.text, r.verdict, _why(r), r.claim.figure, r.claim.table)
+        for n, r in enumerate(rulings, 1)
+    )
+
+
+def _why(ruling: Ruling) -> str:
+    """The reason for a verdict, in one or two sentences with numbers."""
+    claim = ruling.claim
+    if claim.judge is None:
+        reason = claim.reading.removeprefix("cannot be judged: ")
+        return f"{reason[0].upper()}{reason[1:]}."
+    ours = f"Reference support: {ruling.ours}" + (f" (paper: {claim.paper})." if claim.paper else ".")
+    if ruling.share is None or ruling.interval is None:
+        return ours
+    low, high = (percent(bound) for bound in ruling.interval)
+    decided = ruling.holds + ruling.fails
+    counted = f"It holds for {percent(ruling.share)} % of {decided} plausible machines"
+    return f"{counted} (with 95 % confidence for {low} to {high} % of all). {ours}"
 
 
 # --- the study ---
@@ -145,44 +179,46 @@ def _kind(ruling: Ruling) -> str:
 
 def work(chosen: Options) -> StudyOutcome:
     """The plausible machines and the reference support, and the verdicts on all claims."""
-    number = chosen.machines or (QUICK_MACHINES if chosen.quick else MACHINES)
-    rows = _run(samples(number, SEED), chosen)
+    rows = _run(samples(chosen.machines or MACHINES, SEED), chosen)
     write_machines(chosen.out / "machines.csv", rows)
     machines: Machines = [(row.sample, evidence(row.measures)) for row in rows if row.measures is not None]
     reference = reference_evidence(chosen)
     rulings = [rule(claim, reference, machines) for claim in CLAIMS]
     numbers = measure(rulings, reference, len(machines), len(rows) - len(machines))
-    return StudyOutcome(
-        numbers, words(rulings, rows), figures(rulings, reference, machines), tables(rulings, rows)
-    )
+    drawings = figures(rulings, reference, machines)
+    claims = judged_claims(rulings)
+    return StudyOutcome(numbers, words(rulings, rows), drawings, tables(rulings, rows), claims=claims)
 
 
 def tables(rulings: Sequence[Ruling], rows: Sequence[hypercube.MachineRow]) -> dict[str, TextTable]:
     """All tables by name; that of failures only if there are some."""
     failures = failure_table(rows)
-    found = {"table": claim_table(rulings), "factors": factor_table()}
+    found = {"messages": message_table(rulings), "table": claim_table(rulings), "factors": factor_table()}
     return found | {"failures": failures} if failures.rows else found
 
 
 def words(rulings: Sequence[Ruling], rows: Sequence[hypercube.MachineRow]) -> dict[str, object]:
     """What the sentences are filled with."""
-    told = [(n, ruling, _kind(ruling)) for n, ruling in enumerate(rulings, 1)]
+    told = list(enumerate(rulings, 1))
     return {
-        "claims": len(CLAIMS),
         "machines": len(rows),
         "run": sum(row.failure is None for row in rows),
         "factors": len(FACTORS),
         "cases": len(CASES),
         "tolerance": TOLERANCE,
         "judged": len(rulings),
-        "kinds": {kind: [n for n, _, its in told if its == kind] for kind in KINDS},
-        "partly": [(n, ruling) for n, ruling, kind in told if kind == "holds only"],
+        "kinds": {kind: [n for n, ruling in told if ruling.kind == kind] for kind in KINDS},
+        "too_few": [n for n, ruling in told if ruling.too_few],
+        "messages": {
+            kind: [r.claim.name for r in rulings if r.claim.is_message and r.kind == kind] for kind in KINDS
+        },
+        "named": {r.claim.name: _share(r) for r in rulings if r.claim.name and not r.claim.alone},
     }
 
 
 def reference_evidence(chosen: Options) -> Evidence:
     """The reference support's measures, with those of the runs on columns of oil."""
-    results = run_with_errors(oil_scenarios(chosen.quick), chosen)
+    results = run_with_errors(oil_scenarios(), chosen)
     known = {
         case: {"largest_force": Measured(n.value, n.numerical_error)}
         for case, result in results.items()
@@ -202,5 +238,5 @@ def _run(chosen_samples: Sequence[Sample], chosen: Options) -> list[hypercube.Ma
         return hypercube.run(chosen_samples, chosen.out, chosen.workers, show)
 
 
-study = Study("claims", __doc__, work)
+study = Study("claims", __doc__, work, seconds=25.0)
 main = study.main

@@ -8,7 +8,10 @@ from studies.claims.conditions import best_condition
 from studies.claims.evidence import Evidence, NotedEvidence, Verdict
 from studies.claims.plausible import Sample
 
-NEARLY_ALL = 0.95  # share of machines from which a claim holds; one less this: not supported
+KINDS = ("holds", "holds only", "not supported", "cannot be judged")
+# share of all plausible machines from which a claim holds; up to one less this it is not supported. That of the
+# machines that were drawn decides it where its whole interval is on one side
+NEARLY_ALL = 0.95
 # share that a condition must get right, of machines not used to find it, to be the one that decides
 TELLING = 0.85
 GAIN = 0.05  # by how much it must beat the same answer for all to be named at all
@@ -42,13 +45,26 @@ class Ruling:
     @property
     def interval(self) -> tuple[float, float] | None:
         """Between what shares the whole population lies with 95 % confidence (Wilson)."""
-        decided = self.holds + self.fails
-        if not decided:
-            return None
-        from scipy.stats import binomtest  # takes a second to import
+        return _interval(self.holds, self.holds + self.fails)
 
-        found = binomtest(self.holds, decided).proportion_ci(0.95, "wilson")
-        return float(found.low), float(found.high)
+    @property
+    def kind(self) -> str:
+        """Which of KINDS the verdict is; the longest that it begins with."""
+        return max((kind for kind in KINDS if self.verdict.startswith(kind)), key=len)
+
+    @property
+    def too_few(self) -> bool:
+        """Whether more machines could decide it."""
+        return self.kind == "cannot be judged" and self.share is not None
+
+
+def _interval(holds: int, decided: int) -> tuple[float, float] | None:
+    if not decided:
+        return None
+    from scipy.stats import binomtest  # takes a second to import
+
+    found = binomtest(holds, decided).proportion_ci(0.95, "wilson")
+    return float(found.low), float(found.high)
 
 
 def rule(claim: Claim, reference: Evidence, machines: Sequence[tuple[Sample, Evidence]]) -> Ruling:
@@ -69,11 +85,16 @@ def _words(reference: Verdict, judged: Sequence[tuple[Sample, Verdict]]) -> str:
     if not decided:
         alone = {True: "holds", False: "not supported", None: "cannot be judged: within the numerical error"}
         return alone[reference]
-    share = sum(verdict for _, verdict in decided) / len(decided)
-    if share >= NEARLY_ALL:
+    holds = sum(verdict for _, verdict in decided)
+    share = holds / len(decided)
+    low, high = _interval(holds, len(decided)) or (0.0, 1.0)
+    if low >= NEARLY_ALL:
         return "holds"
-    if share <= 1.0 - NEARLY_ALL:
+    if high <= 1.0 - NEARLY_ALL:
         return "not supported"
+    if any(low < bound < high for bound in (NEARLY_ALL, 1.0 - NEARLY_ALL)):
+        counted = "1 machine" if len(decided) == 1 else f"{len(decided)} machines"
+        return f"cannot be judged ({counted}: holds for {percent(low)} to {percent(high)} %)"
     part = f"{percent(share)} % of the machines"
     condition = best_condition(decided) if len(decided) >= ENOUGH else None
     if condition is None or condition.unseen < max(share, 1.0 - share) + GAIN:

@@ -339,7 +339,7 @@ def test_failures_are_seen_in_sheet_table_and_chapter(tmp_path: Path, ran: list[
     assert [name for name in table[0] if name in {factor.name for factor in FACTORS}] == [
         f.name for f in FACTORS
     ]
-    said, sheets = Words("claims").chapter(claims.words([], rows), claims.tables([], rows), quick=True)
+    said, sheets = Words("claims").chapter(claims.words([], rows), claims.tables([], rows), ())
     assert any("2 of 3 plausible machines could be run; 1 could not" in text for text in said.findings)
     assert said.sheets[-1] == sheets["failures"]
     assert sheets["failures"].title.endswith("1 of 3")

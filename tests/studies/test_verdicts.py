@@ -77,14 +77,14 @@ def test_the_interval_is_wilsons(holds: int, fails: int) -> None:
 @pytest.mark.parametrize(
     ("holds", "fails", "verdict"),
     [
-        (20, 0, "holds"),
-        (19, 1, "holds"),  # 95 %
-        (18, 2, "holds only for 90 % of the machines"),
-        (1, 3, "holds only for 25 % of the machines"),
-        (2, 18, "holds only for 10 % of the machines"),
-        (1, 19, "not supported"),  # 5 %
-        (0, 20, "not supported"),
-        (1, 0, "holds"),
+        (80, 0, "holds"),
+        (72, 0, "cannot be judged (72 machines: holds for 94.9 to 100 %)"),  # Wilson: 1 / (1 + 1.96^2 / 72)
+        (1, 0, "cannot be judged (1 machine: holds for 21 to 100 %)"),
+        (16, 4, "holds only for 80 % of the machines"),
+        (1, 3, "cannot be judged (4 machines: holds for 4.6 to 70 %)"),
+        (8, 12, "holds only for 40 % of the machines"),
+        (0, 80, "not supported"),
+        (0, 8, "cannot be judged (8 machines: holds for 0 to 32 %)"),
     ],
 )
 def test_the_share_decides(holds: int, fails: int, verdict: str) -> None:
