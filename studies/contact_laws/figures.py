@@ -9,8 +9,8 @@ from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
 from studies.common import rise
 from studies.common.numbers import Number, by_case
-from studies.common.panels import fit_height, legend
-from studies.contact_laws.cases import ASKED, LOOP_RESTITUTION, SPEED, TEXTBOOK
+from studies.common.panels import fit_height, legend, letters
+from studies.contact_laws.cases import ASKED, TEXTBOOK
 from studies.contact_laws.catalogue import POWER_LAWS, title
 from studies.contact_laws.free_impact import PIN
 from support_exudyn import Result
@@ -36,10 +36,9 @@ def restitution_figure(numbers: Sequence[Number]) -> Figure:
         )
         axes.set(xlim=(0, 1), ylim=(0, 1), xticks=(0, 0.5, 1), yticks=(0, 0.5, 1))
         axes.set_title(title(name), fontsize=8)
-    drawing.supxlabel("restitution asked for [-]", fontsize=9)
-    drawing.supylabel("restitution delivered [-]", fontsize=9)
+    drawing.supxlabel("restitution asked for [1]", fontsize=9)
+    drawing.supylabel("restitution delivered [1]", fontsize=9)
     panels[0, 0].legend(loc="lower right", fontsize=7, handlelength=1.5, borderaxespad=0.2)
-    drawing.suptitle("Free impact: restitution asked for and delivered")
     return drawing
 
 
@@ -61,10 +60,6 @@ def loop_figure(results: Mapping[str, Result]) -> Figure:
         axes.locator_params(nbins=3)
     drawing.supxlabel("depth [mm]", fontsize=9)
     drawing.supylabel("normal force [kN]", fontsize=9)
-    drawing.suptitle(
-        f"Force over depth in a free impact at {SPEED} m/s, restitution {LOOP_RESTITUTION} asked for "
-        "(dashed: elastic part)"
-    )
     return drawing
 
 
@@ -78,7 +73,7 @@ def rise_figure(numbers: Sequence[Number]) -> Figure:
         ("largest_pin_force_any_step", 1e-3, "largest force,\n0 to 5 s [kN]"),
         ("energy_dissipated", 1.0, "energy lost,\n0 to 5 s [J]"),
     ]
-    drawing = Figure(figsize=style.size(190, 35 + 5 * len(cases)))
+    drawing = Figure(figsize=style.size(178, 35 + 5 * len(cases)))
     panels = drawing.subplots(1, len(shown), sharey=True)
     rows = np.arange(len(cases))
     for axes, (name, scale, label) in zip(panels, shown, strict=True):
@@ -93,7 +88,7 @@ def rise_figure(numbers: Sequence[Number]) -> Figure:
             axes.xaxis.set_minor_formatter(NullFormatter())
     panels[0].set_yticks(rows, [row_title(case) for case in cases], fontsize=7)
     panels[0].invert_yaxis()
-    drawing.suptitle("Rise of the support, 1.5 mm clearance (bars: estimated error)")
+    letters(list(panels))
     return drawing
 
 
@@ -118,10 +113,8 @@ def permanent_figure(results: Mapping[str, Result]) -> Figure:
         axes.set(xlim=(begin, end), xlabel="time [s]", ylabel="pin force [kN]")
     inside = [results[c][rise.FORCE][(results[c].time > 0.5) & (results[c].time < 1.5)] for c, *_ in curves]
     fit_height(rest, (1e-3 * force for force in inside))
-    whole.set_title("a) the fall into the bore")
-    rest.set_title("b) what is left of it")
+    letters([whole, rest])
     legend(drawing, whole, 1)
-    drawing.suptitle("Lankarani-Nikravesh in the support: a contact that does not part, three ways to damp it")
     return drawing
 
 

@@ -128,7 +128,8 @@ def work(chosen: Options) -> StudyOutcome:
     }
     tables = {"restitution_table": restitution_table(restitutions), "rise_table": rise_table(numbers)}
     words = _of_impacts(restitutions) | _of_rises(numbers)
-    return StudyOutcome([*restitutions, *numbers], words, drawings, tables, risen)
+    live = {"permanent_contact": (0, 1)}
+    return StudyOutcome([*restitutions, *numbers], words, drawings, tables, risen, live=live)
 
 
 def _of_impacts(numbers: Sequence[Number]) -> dict[str, object]:
