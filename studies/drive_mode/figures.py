@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MultipleLocator
 
 from studies.common import rise
-from studies.common.panels import legend, letters, time_ticks
+from studies.common.panels import legend, letters
 from studies.drive_mode.cases import END, MODES, ModePlan, case_name
 from studies.drive_mode.measures import extension
 from support_exudyn import Result, SuddenOpening
@@ -88,7 +88,7 @@ def by_mode(plan: ModePlan, results: Mapping[str, Result], columns: str, curves:
             if place == 0:
                 axes.set_ylabel(label)
             axes.set_xlim(watched.start - margin, end)
-            time_ticks(axes, watched)
+            axes.set_xticks(np.linspace(watched.start, watched.end, 5))
         panels[0, place].annotate(
             mode, (0.5, 1.0), (0.0, 4.0), "axes fraction", "offset points", ha="center", fontsize=9
         )

@@ -1,14 +1,20 @@
 """Which pins are clearance, with how much clearance and friction, in the cases of `which_pin`."""
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import combinations
 
 from studies.common import paper_machine
 from studies.common.numbers import Found, Number
+from studies.common.rise import EDGE, Watched
+from studies.common.subject import Subject
 from support_exudyn import ClearancePin, Scenario, SolverSettings
 from support_exudyn.machines.four_bar_shield import PINS
+from support_exudyn.mechanics.channels import ALL_CHANNELS
+from support_exudyn.simulation.automatic_settings import settings_for
 from user_forces import IndentationVelocity, LankaraniNikravesh
+from user_forces.values.value import InputError
 
 CLEARANCE_MM = 1.5
 FRICTIONS = (paper_machine.SLIDING_COEFFICIENT, 0.0)
@@ -16,59 +22,148 @@ CONDITIONS = ((0.25, 1.5), (0.1, 1.5), (0.25, 0.5), (0.0, 1.5))  # friction and 
 ADDS_UP = 2.0  # [%]: shifts whose sum is off by less are said to add up; ten times that for shaking
 ALIKE = 0.05  # pins whose effects differ by less of the larger are said to be alike
 IDEAL = "ideal"
-ALL = "all five"
-COLUMNS = ("front_column", "rear_column")
-FORCES = {**{f"pin.{name}.force": name for name in PINS}, **{f"{name}.force": name for name in COLUMNS}}
-SHAKEN = ("rear_link", "shield", "canopy")  # bodies whose angular acceleration is looked at
+ALL = "all five"  # of the paper's machine
+SHAKEN = ("rear_link", "shield", "canopy")  # its bodies whose angular acceleration is looked at
+TIP, ROOF = "tip", "canopy"  # point whose shift is looked at, and body whose tilt is
+# of the first of three runs, each with half the steps of the one before
+STEP, SETTINGS = 1e-3, SolverSettings(impact_steps=16, growth=8.0, backend="symbolic")  # [s]
+
+OWN_GOAL = 1e-2  # by which the first steps of one's own machine are chosen
 
 
-def clearance_pin(friction: float, clearance_mm: float = CLEARANCE_MM) -> ClearancePin:
-    """The paper's pin, with a damping that forgets how its contact once began.
+def clearance_pin(
+    friction: float, clearance_mm: float = CLEARANCE_MM, bore_radius: float = paper_machine.BORE_RADIUS
+) -> ClearancePin:
+    """The paper's pin, with a damping that forgets how its contact once began; bore_radius: [m].
 
     With the textbook's, which remembers it, a pin that was settled gently shakes eight times as much in the
     same rise as one that was dropped: pins could not be compared.
     """
-    pin = paper_machine.clearance_joint(clearance_mm, friction)
+    pin = paper_machine.clearance_joint(clearance_mm, friction, bore_radius)
     law = LankaraniNikravesh(
-        stiffness=paper_machine.stiffness(clearance_mm),
+        stiffness=paper_machine.stiffness(clearance_mm, bore_radius),
         restitution=paper_machine.RESTITUTION,
         damping_speed=IndentationVelocity(),
     )
     return replace(pin, contact=replace(pin.contact, normal=law))
 
 
-def case_name(pins: Sequence[str], friction: float, clearance_mm: float = CLEARANCE_MM) -> str:
+def case_name(
+    pins: Sequence[str], friction: float, clearance_mm: float = CLEARANCE_MM, usual_mm: float = CLEARANCE_MM
+) -> str:
     """What a case is called: its clearance pins, their friction, and their clearance if it is another one."""
     named = ALL if len(pins) == len(PINS) else " + ".join(pins)
-    other = "" if clearance_mm == CLEARANCE_MM else f", {clearance_mm:g} mm"
+    other = "" if clearance_mm == usual_mm else f", {clearance_mm:g} mm"
     return f"{named}, mu_d = {friction:g}{other}"
 
 
-def alone(found: Found, name: str, friction: float, clearance_mm: float = CLEARANCE_MM) -> dict[str, Number]:
-    """A number of each pin alone, by the name of the pin."""
-    return {pin: found[name, case_name((pin,), friction, clearance_mm)] for pin in PINS}
+@dataclass(frozen=True)
+class Plan:
+    """The cases of a machine: each of its pins alone, and all together."""
 
+    subject: Subject
 
-def scenarios(quick: bool) -> dict[str, Scenario]:
-    """The ideal support, each pin alone and all together with and without friction, and in the full form pairs.
+    @cached_property
+    def pins(self) -> tuple[str, ...]:
+        """All pins of the machine."""
+        return tuple(self.subject.motion.unloaded.pins)
 
-    They start settled, as a support stands that waits to be raised. The full form also has the single pins with
-    less friction and with less clearance.
-    """
-    settings = SolverSettings(
-        impact_steps=16 if quick else 128, growth=8.0 if quick else 1.0, backend="symbolic"
-    )
-    ideal = replace(paper_machine.ideal_rise(1e-3), record_period=2e-3 if quick else 1e-3)
+    @property
+    def everything(self) -> str:
+        """What all pins together are called."""
+        return ALL if self.subject.is_paper else f"all {len(self.pins)}"
 
-    def clearance(pins: Sequence[str], friction: float, clearance_mm: float = CLEARANCE_MM) -> Scenario:
-        with_clearance = {name: clearance_pin(friction, clearance_mm) for name in pins}
-        return replace(
-            ideal, pins=with_clearance, step=2e-3 if quick else 5e-4, solver=settings, start="settled"
+    @property
+    def watched(self) -> Watched:
+        """When the machine moves."""
+        return self.subject.watched
+
+    @cached_property
+    def forces(self) -> dict[str, str]:
+        """Names of what carries, pins and actuators, by the channel of its force."""
+        of_pins = {f"pin.{name}.force": name for name in self.pins}
+        return of_pins | {f"{name}.force": name for name in self.subject.motion.unloaded.actuators}
+
+    @cached_property
+    def shaken(self) -> tuple[str, ...]:
+        """Bodies whose angular acceleration is looked at."""
+        return SHAKEN if self.subject.is_paper else tuple(self.subject.motion.unloaded.bodies)
+
+    @property
+    def has_tip(self) -> bool:
+        """Whether the machine has a canopy with a tip, whose posture is looked at."""
+        machine = self.subject.motion.unloaded
+        return TIP in machine.points and ROOF in machine.bodies
+
+    @property
+    def clearance_mm(self) -> float:
+        """Of the pins."""
+        given = self.subject.given
+        return CLEARANCE_MM if given is None else round(1e3 * given.contact.bearing.clearance, 9)
+
+    @property
+    def frictions(self) -> tuple[float, float]:
+        """Coefficients in the clearance pins."""
+        return self.subject.friction, 0.0
+
+    @property
+    def conditions(self) -> tuple[tuple[float, float], ...]:
+        """Friction and clearance [mm] of the single pins."""
+        own = tuple((friction, self.clearance_mm) for friction in self.frictions)
+        return CONDITIONS if self.subject.is_paper else own
+
+    def case_name(self, pins: Sequence[str], friction: float, clearance_mm: float | None = None) -> str:
+        """What a case is called, see `case_name`."""
+        size = self.clearance_mm if clearance_mm is None else clearance_mm
+        named = [self.everything] if len(pins) == len(self.pins) else pins
+        return case_name(named, friction, size, self.clearance_mm)
+
+    def alone(
+        self, found: Found, name: str, friction: float, clearance_mm: float | None = None
+    ) -> dict[str, Number]:
+        """A number of each pin alone, by the name of the pin."""
+        return {pin: found[name, self.case_name((pin,), friction, clearance_mm)] for pin in self.pins}
+
+    def pin(self, friction: float, clearance_mm: float) -> ClearancePin:
+        """The pin that is put into every place: that of the scenario, or one like the paper's."""
+        if self.subject.given is None:
+            return clearance_pin(friction, clearance_mm, self.subject.bore_radius)
+        chosen = self.subject.with_clearance(clearance_mm, friction).pins[self.subject.pin]
+        assert isinstance(chosen, ClearancePin)
+        return chosen
+
+    @cached_property
+    def scenarios(self) -> dict[str, Scenario]:
+        """The ideal machine, each pin alone and all together, with friction and without.
+
+        Of the paper's machine also pairs, and single pins with less friction and with less clearance. Machines
+        on actuators start settled, as a support stands that waits to be raised.
+        """
+        if self.watched.end - self.watched.start <= 2.0 * EDGE + STEP:
+            times = f"{self.watched.start:g} to {self.watched.end:g} s"
+            raise InputError(f"motion from {times}: allowed: longer than {2.0 * EDGE:g} s, to tell shaking by")
+        motion = replace(self.subject.motion, pins={}, channels=ALL_CHANNELS, accuracy=None)
+        motion = replace(
+            motion, record_period=min(motion.record_period, STEP), step=STEP, formulation="redundant"
         )
+        ideal = replace(motion, solver=SolverSettings())
+        start = motion.start if motion.unloaded.cranks else "settled"
 
-    conditions = [(friction, CLEARANCE_MM) for friction in FRICTIONS] if quick else CONDITIONS
-    cases = {case_name(PINS, friction): clearance(PINS, friction) for friction in FRICTIONS} | {IDEAL: ideal}
-    cases |= {case_name((pin,), *how): clearance((pin,), *how) for how in conditions for pin in PINS}
-    if not quick:
-        cases |= {case_name(pins, 0.0): clearance(pins, 0.0) for pins in combinations(PINS, 2)}
-    return cases
+        def clearance(pins: Sequence[str], friction: float, clearance_mm: float) -> Scenario:
+            loose = dict.fromkeys(pins, self.pin(friction, clearance_mm))
+            case = replace(motion, pins=loose, solver=SETTINGS, start=start)
+            return case if self.subject.is_paper else settings_for(case, OWN_GOAL)
+
+        size = self.clearance_mm
+        cases = {self.case_name(self.pins, mu): clearance(self.pins, mu, size) for mu in self.frictions}
+        cases[IDEAL] = ideal
+        cases |= {
+            self.case_name((pin,), *how): clearance((pin,), *how)
+            for how in self.conditions
+            for pin in self.pins
+        }
+        if self.subject.is_paper:
+            cases |= {
+                self.case_name(pins, 0.0): clearance(pins, 0.0, size) for pins in combinations(self.pins, 2)
+            }
+        return cases

@@ -9,7 +9,7 @@ from studies.common.options import Options
 from studies.common.runs import run_with_errors
 from studies.common.study import Study, StudyOutcome
 from studies.which_pin import cases, tables
-from studies.which_pin.cases import FRICTIONS, clearance_pin, scenarios
+from studies.which_pin.cases import Plan, clearance_pin
 from studies.which_pin.figures import figures
 from studies.which_pin.measures import measure
 from studies.which_pin.posture import loads
@@ -17,29 +17,35 @@ from support_exudyn.machines.four_bar_shield import PINS
 
 
 def work(chosen: Options) -> StudyOutcome:
-    """The rise with clearance pins, and the closed form of where they let the support go."""
-    results = run_with_errors(scenarios(chosen.quick), chosen)
-    under_loads = loads(clearance_pin(0.0))
-    numbers = measure(results)
+    """The motion with clearance pins; of the paper's support also the closed form of where it stands."""
+    plan = Plan(chosen.subject)
+    results = run_with_errors(plan.scenarios, chosen)
+    under_loads = loads(clearance_pin(0.0)) if plan.subject.is_paper else {}
+    numbers = measure(plan, results)
     found = by_case(numbers)
     rankings = {
         f"table_{title.split()[-1]}_{_mu(friction)}": (title, friction)
-        for title in tables.RANKED
-        for friction in FRICTIONS
+        for title in tables.rankings(plan)
+        for friction in plan.frictions
     }
-    forces = {f"table_all_forces_{_mu(friction)}": friction for friction in FRICTIONS}
-    conditions = tables.condition_table(found)
-    sheets = {
-        **{name: tables.ranking_table(found, *what) for name, what in rankings.items()},
-        "table_together": tables.together_table(found),
+    forces = {f"table_all_forces_{_mu(friction)}": friction for friction in plan.frictions}
+    conditions = tables.condition_table(plan, found)
+    closed_form = {
         "table_closed_form": tables.posture_table(found),
         "table_loads": tables.load_table(under_loads),
+    }
+    sheets = {
+        "which_pin": tables.key_table(plan, found),
+        "table_together": tables.together_table(plan, found),
+        **(closed_form if plan.subject.is_paper else {}),
         "table_conditions": conditions,
-        **{name: tables.force_table(found, friction) for name, friction in forces.items()},
+        **{name: tables.ranking_table(plan, found, *what) for name, what in rankings.items()},
+        **{name: tables.force_table(plan, found, friction) for name, friction in forces.items()},
     }
     means = {name: {pin: under.mean(pin) for pin in PINS} for name, under in under_loads.items()}
     words = {
         "cases": cases,
+        "plan": plan,
         "tables": tables,
         "found": found,
         "orders": {name: tables.in_order(shifts) for name, shifts in means.items()},
@@ -48,12 +54,12 @@ def work(chosen: Options) -> StudyOutcome:
         "rankings": rankings,
         "forces": forces,
     }
-    return StudyOutcome(numbers, words, figures(found, under_loads), sheets, results)
+    return StudyOutcome(numbers, words, figures(plan, found, under_loads), sheets, results)
 
 
 def _mu(friction: float) -> str:
     return f"mu{friction:g}".replace(".", "p")
 
 
-study = Study("which_pin", __doc__, work)
+study = Study("which_pin", __doc__, work, seconds=60.0, own_machine=True)
 main = study.main

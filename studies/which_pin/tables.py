@@ -8,10 +8,11 @@ import numpy as np
 
 from studies.common.numbers import Found, Number, against, cell
 from studies.common.words import TextTable
-from studies.which_pin.cases import ALIKE, CONDITIONS, FORCES, FRICTIONS, IDEAL, SHAKEN, alone, case_name
+from studies.which_pin.cases import ALIKE, IDEAL, SHAKEN, Plan
 from studies.which_pin.posture import UnderLoad
 from support_exudyn.machines.four_bar_shield import PINS
 
+SHIFT, SHAKING = "mean_tip_shift_forward", "rms_pin_forces"
 RANKED = {  # title of a ranking: by what, and what else is shown
     "by the tip's position": (
         "mean_tip_shift_forward", "mean_tip_shift_up", "largest_tip_shift", "mean_canopy_tilt",
@@ -23,18 +24,35 @@ RANKED = {  # title of a ranking: by what, and what else is shown
 }  # fmt: skip
 
 
-def ranked(found: Found, name: str, friction: float) -> list[str]:
+def rankings(plan: Plan) -> dict[str, tuple[str, ...]]:
+    """The rankings of a machine: of what it has."""
+    if plan.subject.is_paper:
+        return RANKED
+    of_bodies = (f"rms_{body}_angular_acceleration" for body in plan.shaken)
+    own = RANKED | {"by the shaking": (SHAKING, *of_bodies, "energy_lost_in_rise")}
+    return {title: names for title, names in own.items() if plan.has_tip or "tip" not in title}
+
+
+def effects_of(plan: Plan) -> tuple[str, ...]:
+    """By what the pins of a machine are put in order: the tip's shift, if it has one, and the shaking."""
+    return (SHIFT, SHAKING) if plan.has_tip else (SHAKING,)
+
+
+def ranked(plan: Plan, found: Found, name: str, friction: float) -> list[str]:
     """The pins, that with the largest effect alone first."""
-    effects = alone(found, name, friction)
-    return sorted(PINS, key=lambda pin: -abs(effects[pin].value))
+    effects = plan.alone(found, name, friction)
+    return sorted(plan.pins, key=lambda pin: -abs(effects[pin].value))
 
 
-def ranking_table(found: Found, title: str, friction: float) -> TextTable:
+def ranking_table(plan: Plan, found: Found, title: str, friction: float) -> TextTable:
     """Pins in the order of an effect, and all together last."""
-    names = RANKED[title]
+    return _pins_in_order(plan, found, rankings(plan)[title], friction)
+
+
+def _pins_in_order(plan: Plan, found: Found, names: Sequence[str], friction: float) -> TextTable:
     rows = []
-    for pins in [*((pin,) for pin in ranked(found, names[0], friction)), PINS]:
-        case = case_name(pins, friction)
+    for pins in [*((pin,) for pin in ranked(plan, found, names[0], friction)), plan.pins]:
+        case = plan.case_name(pins, friction)
         rows.append((case.split(",")[0], *(cell(found[name, case]) for name in names)))
     rows.append((IDEAL, *(cell(found[name, IDEAL]) for name in names)))
     header = ("clearance pin", *(f"{name.replace('_', ' ')} [{found[name, IDEAL].unit}]" for name in names))
@@ -63,7 +81,7 @@ def in_order(effects: Mapping[str, float], errors: Mapping[str, float] | None = 
             least = min(abs(effects[name]) - errors[name] for name in before)
             most = max(abs(effects[name]) + errors[name] for name in after)
             text += " > " if least > most else " ? "
-        text += " = ".join(sorted(group, key=PINS.index))
+        text += " = ".join(sorted(group, key=list(effects).index))
     return text
 
 
@@ -73,31 +91,32 @@ def order_of(row: Mapping[str, Number]) -> str:
     return in_order(effects, {pin: number.numerical_error for pin, number in row.items()})
 
 
-def condition_table(found: Found) -> TextTable:
+def condition_table(plan: Plan, found: Found) -> TextTable:
     """Orders by shift and by shaking under other frictions and clearances."""
     rows = []
-    for name in ("mean_tip_shift_forward", "rms_pin_forces"):
+    for name in effects_of(plan):
         what = f"{name.replace('_', ' ')} [{found[name, IDEAL].unit}]"
-        for friction, size in CONDITIONS:
-            if (name, case_name(PINS[:1], friction, size)) in found:
-                row = alone(found, name, friction, size)
+        for friction, size in plan.conditions:
+            if (name, plan.case_name(plan.pins[:1], friction, size)) in found:
+                row = plan.alone(found, name, friction, size)
                 numbers = (f"{n.value:.4g}" for n in row.values())
                 rows.append((what, f"{friction:g}, {size:g} mm", *numbers, order_of(row)))
-    return TextTable(("effect", "friction, clearance", *PINS, "order"), tuple(rows), left=2, width=170)
+    return TextTable(("effect", "friction, clearance", *plan.pins, "order"), tuple(rows), left=2, width=170)
 
 
-def together_table(found: Found) -> TextTable:
+def together_table(plan: Plan, found: Found) -> TextTable:
     """Whether the whole is the sum of its parts."""
     rows = []
-    for friction in FRICTIONS:
-        for name in ADD:
-            for pins in _together(found, friction):
-                expected, whole = _expected(found, name, pins, friction), found[name, case_name(pins, friction)]
+    for friction in plan.frictions:
+        for name in effects_of(plan):
+            for pins in _together(plan, found, friction):
+                expected = _expected(plan, found, name, pins, friction)
+                whole = found[name, plan.case_name(pins, friction)]
                 difference = against(whole, replace(whole, value=expected))
                 quantity = name.replace("_", " ")
                 rows.append(
                     (
-                        case_name(pins, friction),
+                        plan.case_name(pins, friction),
                         quantity,
                         whole.unit,
                         f"{expected:.4g}",
@@ -109,9 +128,9 @@ def together_table(found: Found) -> TextTable:
     return TextTable(header, tuple(rows), left=3)
 
 
-def _together(found: Found, friction: float) -> list[tuple[str, ...]]:
-    sets = [PINS, *combinations(PINS, 2)]
-    return [pins for pins in sets if ("rms_pin_forces", case_name(pins, friction)) in found]
+def _together(plan: Plan, found: Found, friction: float) -> list[tuple[str, ...]]:
+    sets = [plan.pins, *combinations(plan.pins, 2)]
+    return [pins for pins in sets if ("rms_pin_forces", plan.case_name(pins, friction)) in found]
 
 
 def total(parts: Sequence[float]) -> float:
@@ -131,15 +150,16 @@ ADD: dict[str, Callable[[Sequence[float]], float]] = {
 }
 
 
-def _expected(found: Found, name: str, pins: Sequence[str], friction: float) -> float:
+def _expected(plan: Plan, found: Found, name: str, pins: Sequence[str], friction: float) -> float:
     """What the effects of pins alone make together."""
-    single = alone(found, name, friction)
+    single = plan.alone(found, name, friction)
     return ADD[name]([single[pin].value for pin in pins])
 
 
-def excess(found: Found, name: str, friction: float) -> float:
-    """By how many per cent all five pins together have more than the single ones make."""
-    return 100.0 * (found[name, case_name(PINS, friction)].value / _expected(found, name, PINS, friction) - 1.0)
+def excess(plan: Plan, found: Found, name: str, friction: float) -> float:
+    """By how many per cent all pins together have more than the single ones make."""
+    whole = found[name, plan.case_name(plan.pins, friction)].value
+    return 100.0 * (whole / _expected(plan, found, name, plan.pins, friction) - 1.0)
 
 
 def posture_table(found: Found) -> TextTable:
@@ -176,12 +196,21 @@ def load_table(under_loads: Mapping[str, UnderLoad]) -> TextTable:
     )
 
 
-def force_table(found: Found, friction: float) -> TextTable:
+def key_table(plan: Plan, found: Found) -> TextTable:
+    """What each pin does, with friction, the one that moves or shakes most first, and all together last."""
+    friction = plan.frictions[0]
+    wanted = (
+        SHIFT, "mean_canopy_tilt", "largest_change_of_a_mean_force", "largest_peak_over_ideal", SHAKING,
+    )  # fmt: skip
+    return _pins_in_order(plan, found, [name for name in wanted if (name, IDEAL) in found], friction)
+
+
+def force_table(plan: Plan, found: Found, friction: float) -> TextTable:
     """Mean forces with each clearance pin."""
-    cases = [IDEAL, *(case_name(pins, friction) for pins in [*((pin,) for pin in PINS), PINS])]
+    cases = [IDEAL, *(plan.case_name(pins, friction) for pins in [*((pin,) for pin in plan.pins), plan.pins])]
     rows = []
     for kind in ("mean_force", "rms_force", "largest_force"):
-        for name in FORCES.values():
+        for name in plan.forces.values():
             cells = (cell(found[f"{kind}_{name}", case]) for case in cases)
             rows.append((kind.replace("_", " "), name.replace("_", " "), *cells))
     return TextTable(("what", "where", *(case.split(",")[0] for case in cases)), tuple(rows), left=2, width=170)

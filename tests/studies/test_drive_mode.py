@@ -11,7 +11,7 @@ import pytest
 
 from studies.common.chapter import Chapter
 from studies.common.subject import own_subject
-from studies.drive_mode.cases import COLUMNS, MODES, PINS, Plan, case_name, naive_peaks
+from studies.drive_mode.cases import COLUMNS, MODES, PINS, ModePlan, case_name, naive_peaks
 from studies.drive_mode.tables import CONVERGES, verdict
 from tests.studies.forms import FORMS, on_the_quick_form, written
 from user_forces.values.value import InputError
@@ -155,14 +155,14 @@ def own(folder: Path, text: str) -> Path:
 
 
 def test_modes_of_ones_own_machine_have_its_stroke_and_pin(tmp_path: Path) -> None:
-    plan = Plan(own_subject(own(tmp_path, OWN)))
+    plan = ModePlan(own_subject(own(tmp_path, OWN)))
     assert plan.pins == ("ideal pin", "1 mm")
     assert len(plan.scenarios) == 4  # rigid only: no oil is given
     for name, case in plan.scenarios.items():
         assert case.drive.span(case.duration) == (0.0, 0.1)
         assert case.drive.breaks == (0.2, 0.8)
         assert set(case.pins) == ({"front_base"} if "1 mm" in name else set())
-    plan = Plan(own_subject(own(tmp_path, OWN + OIL)))
+    plan = ModePlan(own_subject(own(tmp_path, OWN + OIL)))
     assert plan.columns == ("rigid", "oil")
     assert set(plan.scenarios["mode 1, 1 mm, oil columns"].oil_columns) == {"front_column"}
     assert not plan.scenarios["mode 1, 1 mm, rigid columns"].oil_columns
@@ -179,6 +179,6 @@ def test_the_study_of_ones_own_machine_leaves_the_paper_out(tmp_path: Path) -> N
 
 def test_a_machine_without_a_stroke_is_refused(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="no drive moves a linear actuator"):
-        _ = Plan(own_subject(own(tmp_path, 'machine = "slider_crank"\nduration_s = 1'), "slider_pin")).actuators
+        _ = ModePlan(own_subject(own(tmp_path, 'machine = "slider_crank"\nduration_s = 1'), "slider_pin")).actuators
     with pytest.raises(InputError, match="drive of front_column = Held"):
-        _ = Plan(own_subject(own(tmp_path, 'machine = "zf18000"\nduration_s = 1'))).actuators
+        _ = ModePlan(own_subject(own(tmp_path, 'machine = "zf18000"\nduration_s = 1'))).actuators

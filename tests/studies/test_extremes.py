@@ -535,7 +535,7 @@ def test_the_share_done_is_that_of_the_time(monkeypatch: pytest.MonkeyPatch) -> 
 def test_the_interval_of_a_share_is_that_of_counting(held: int, number: int) -> None:
     from scipy.stats import binom
 
-    found = extremes.Share(held, number)
+    found = extremes.CountedShare(held, number)
     low, high = found.interval
     tail = 0.5 * (1.0 - extremes.SURE)
     if held:

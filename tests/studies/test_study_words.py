@@ -7,6 +7,7 @@ from dataclasses import replace
 import pytest
 
 from studies.common.numbers import Number, by_case
+from studies.common.subject import paper_subject
 from studies.common.words import Words
 from studies.drive_mode.cases import PINS as CASES
 from studies.drive_mode.cases import case_name
@@ -18,12 +19,13 @@ from studies.which_pin.tables import condition_table, together_table
 from support_exudyn.machines.four_bar_shield import PINS
 
 A, B, C, D, E = PINS
+PLAN = which_pin_cases.Plan(paper_subject())
 SHIFT, RIPPLE = "mean_tip_shift_forward", "rms_pin_forces"
 
 
 def said(macro: str, *args: object, study: str = "which_pin") -> str:
     """What a study says, in one line."""
-    told = {"cases": which_pin_cases, "tables": which_pin_tables}
+    told = {"cases": which_pin_cases, "tables": which_pin_tables, "plan": PLAN}
     sentences = Words(study).templates.get_template("sentences.md.j2").make_module(told)
     return " ".join(getattr(sentences, macro)(*args).split())
 
@@ -31,7 +33,7 @@ def said(macro: str, *args: object, study: str = "which_pin") -> str:
 def made_up(errors: float = 0.0) -> dict[tuple[str, str], Number]:
     """All numbers of the quick form: each pin has its own effect, and all five what they should together."""
     numbers = []
-    for name, (unit, _) in which_pin_measures.MEASURES.items():
+    for name, (unit, _) in which_pin_measures.measures(PLAN).items():
         for friction in which_pin_cases.FRICTIONS:
             singles = [10.0 * 2.0**n for n in range(len(PINS))]
             numbers += [
@@ -59,9 +61,9 @@ def test_rankings_know_the_errors(errors: float, sign: str) -> None:
     found = made_up(errors)
     order = sign.join(reversed(PINS))
     assert order in said("ranking", found, "by the shaking", 0.25)
-    rows = condition_table(found).rows
+    rows = condition_table(PLAN, found).rows
     assert {row[-1] for row in rows} == {order}
-    assert [row[0] for row in which_pin_tables.ranking_table(found, "by the shaking", 0.25).rows] == [
+    assert [row[0] for row in which_pin_tables.ranking_table(PLAN, found, "by the shaking", 0.25).rows] == [
         *reversed(PINS), which_pin_cases.ALL, which_pin_cases.IDEAL,
     ]  # fmt: skip
     assert "is the same with every" in said("conditions", [row for row in rows if row[0].startswith("rms")])
@@ -72,7 +74,7 @@ def test_sums_are_said_to_add_up_if_they_do() -> None:
     text = said("together", found, 0.25)
     assert "+0.0 % off the sum of the single ones: shifts add up" in text
     assert "shaking can be told" in text
-    assert {row[-1] for row in together_table(found).rows} == {"+0 %"}
+    assert {row[-1] for row in together_table(PLAN, found).rows} == {"the same"}
     whole = which_pin_cases.case_name(PINS, 0.25)
     for name in (SHIFT, RIPPLE):
         found[name, whole] = replace(found[name, whole], value=3.0 * found[name, whole].value)
@@ -80,11 +82,11 @@ def test_sums_are_said_to_add_up_if_they_do() -> None:
     assert "+200.0 % off the sum of the single ones: shifts do not add up" in text
     assert "+200 % off" in text
     assert "shaking cannot be told" in text
-    assert [row[-1] for row in together_table(found).rows] == [
+    assert [row[-1] for row in together_table(PLAN, found).rows] == [
         "+200 %",
         "+200 %",
-        "+0 %",
-        "+0 %",
+        "the same",
+        "the same",
     ]
 
 
