@@ -45,7 +45,7 @@ RANDOM = {
     "columns": 20,
     "space": 16,
 }
-DRAWN = 347  # by default, a fifth of these
+DRAWN = 247  # by default, a seventh of these
 
 
 def cases(number: int = DRAWN) -> list[Case]:

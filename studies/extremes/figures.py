@@ -53,7 +53,7 @@ MAPS = {
         (1.5e-3, 0.25), "the paper's case",
     ),
     "friction_step": Map(
-        FRICTION_STEP, "static_speed_m_s", "step_s", "$v_s$ [m/s], $v_d = 2 v_s$", "step [s]",
+        FRICTION_STEP, "static_speed_m_s", "step_s", "speed $v_s$ of the friction ramp [m/s]", "step [s]",
         (5e-3, 5e-4), "defaults",
     ),
 }  # fmt: skip

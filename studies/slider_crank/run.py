@@ -44,6 +44,7 @@ BEARING = JournalBearing(bore_radius=0.01, clearance=0.0005)
 STEEL = Material(name="steel", elastic_modulus=207e9, poisson_ratio=0.3, density=7800.0)
 IDEAL, SMOOTH, DRY = "ideal", "no friction", "friction 0.03"
 ONSETS = 12  # reported
+ALIKE = 1e-3  # relative, of impacts that are said to agree
 MILLIMETRES = DisplayUnit("mm", 1e3)
 # an independent solution with two free coordinates and located onsets: time [us], initial impact velocity [m/s]
 REFERENCE = (

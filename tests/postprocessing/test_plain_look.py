@@ -24,7 +24,7 @@ STAND = Scenario(
     pins={"pin": ClearancePin(contact=JournalContact(bearing=BEARING, normal=LAW, friction=Frictionless()))},
     duration=0.1,
 )
-SCENES = {**scenarios(True), "stand": STAND}
+SCENES = {**scenarios(), "stand": STAND}
 
 
 @pytest.mark.parametrize("name", SCENES)
