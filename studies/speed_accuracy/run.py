@@ -267,5 +267,5 @@ def _best(name: str, found: Sequence[WayRun]) -> dict[str, WayRun]:
     return {f: row for f in families if (row := cheapest([row for row in of_scene if row.family == f]))}
 
 
-study = Study("speed_accuracy", __doc__, work, seconds=75.0, own_machine=True)
+study = Study("speed_accuracy", __doc__, work, seconds=65.0, own_machine=True)
 main = study.main
