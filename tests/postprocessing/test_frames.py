@@ -196,8 +196,8 @@ def test_the_journal_is_where_it_is_with_its_clearance_enlarged(x: float, y: flo
     found, picture = drawn(view(x, y, (0.0, 0.0)))
     assert found.title == "clearance \u00d7 10"
     mark = pixels_of(picture, FLIGHT).mean(axis=0)
-    # forward is to the left, up is up; the mark's middle is rounded to pixels
-    assert mark - found.centre == pytest.approx([-x * PIXELS, -y * PIXELS], abs=0.6)
+    # forward is to the right, up is up; the mark's middle is rounded to pixels
+    assert mark - found.centre == pytest.approx([x * PIXELS, -y * PIXELS], abs=0.6)
     low, high = (f(pixels_of(picture, panels.JOURNAL), axis=0) for f in (np.min, np.max))
     wide = 2.0 * (RADIUS - PIXELS * BEARING.clearance)
     assert high - low + 1.0 == pytest.approx([wide, wide], abs=2.5)  # smooth edges have other colours
@@ -207,9 +207,9 @@ def test_the_journal_is_where_it_is_with_its_clearance_enlarged(x: float, y: flo
 @pytest.mark.parametrize(("x", "y"), [(1.0, 0.0), (0.0, -1.0), (-0.6, 0.8)])
 def test_the_arrow_goes_from_the_wall_that_is_touched_into_the_bore(x: float, y: float) -> None:
     deep = 1.01 * BEARING.clearance
-    found, picture = drawn(view(deep * x, deep * y, (-1.0, 0.0)), (60.0 * x, 60.0 * y))
+    found, picture = drawn(view(deep * x, deep * y, (-1.0, 0.0)), (-60.0 * x, 60.0 * y))
     assert not len(pixels_of(picture, FLIGHT))
-    towards = np.array([-x, -y])  # the wall, in the picture
+    towards = np.array([x, -y])  # the wall, in the picture
     ahead = (pixels_of(picture, CONTACT) - found.centre) @ towards
     # from the wall, around which is a dot of 6 pixels with a rim, 60 pixels inwards, where its tip is thin; the
     # mark of the journal's centre ends 26 pixels from the middle
@@ -230,8 +230,8 @@ def test_the_trail_has_the_colours_of_what_it_was() -> None:
     flight = pixels_of(picture, FLIGHT)
     trail = flight[np.abs(flight[:, 1] - row) < 3]
     assert len(trail)
-    assert trail[:, 0].min() > found.centre[0] - 2.0  # behind is to the right
-    assert trail[:, 0].max() == pytest.approx(found.centre[0] + 1e-3 * PIXELS, abs=2.0)
+    assert trail[:, 0].max() < found.centre[0] + 2.0  # behind is to the left
+    assert trail[:, 0].min() == pytest.approx(found.centre[0] - 1e-3 * PIXELS, abs=2.0)
 
 
 # --- force over time ---

@@ -27,7 +27,7 @@ from support_exudyn.postprocessing.render.frame import Layout
 from support_exudyn.postprocessing.render.movie import durations, moment
 from support_exudyn.postprocessing.render.panels import Inset, pin_view
 from support_exudyn.postprocessing.render.scene import RenderedScene
-from support_exudyn.postprocessing.render.sheet import Canvas
+from support_exudyn.postprocessing.render.sheet import INK, Canvas
 from support_exudyn.postprocessing.render.sheet import Image as Picture
 from support_exudyn.postprocessing.render.stage import Camera, MeshItem, Stage, direction_of_view
 from tests.hostile import DISKS, left_behind, little_room, with_own_files
@@ -101,13 +101,13 @@ def test_the_ray_tracer_turns_props_and_has_their_colours() -> None:
     assert red > 1.5 * green > 1.5 * blue
 
 
-def test_forward_is_to_the_left_and_up_is_up() -> None:
+def test_forward_is_to_the_right_and_up_is_up() -> None:
     camera = Camera(direction_of_view(), (0.0, 0.0, 0.0), 4.0, *SIZE)
     forward, up = camera.arrow(np.array([1.0, 0.0, 0.0])), camera.arrow(np.array([0.0, 1.0, 0.0]))
-    assert forward[0] < -0.9 * camera.scale
+    assert forward[0] > 0.9 * camera.scale
     assert up[1] < -0.9 * camera.scale
-    nearer = camera.rotation.apply([[0.0, 0.0, -1.0], [0.0, 0.0, 1.0]])[:, 2]
-    assert nearer[0] > nearer[1]  # the left side is seen
+    nearer = camera.rotation.apply([[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]])[:, 2]
+    assert nearer[0] > nearer[1]  # the right side is seen
 
 
 def test_the_machine_moves_and_the_camera_does_not(rising: Result) -> None:
@@ -160,7 +160,7 @@ def test_the_mark_is_on_the_pin(bouncing: Result) -> None:
     camera = scene.camera(flying.shape[1], flying.shape[0])
     pin = next(solid for solid in scene.look.solids if solid.name == f"pin_{WITH_CLEARANCE}")
     x, y = bouncing.scenario.linkage.pins[WITH_CLEARANCE].first_point
-    place = camera.pixels(np.array([[x, y, pin.mesh.bounds[0, 2]]]))[0]
+    place = camera.pixels(np.array([[x, y, pin.mesh.bounds[1, 2]]]))[0]
     assert (column, row) == pytest.approx(place, abs=1.5)  # pixels; the mark's middle is rounded
 
 
@@ -201,13 +201,14 @@ class Arrow(NamedTuple):
 def painted(
     run: Result, time: float, size: tuple[int, int], monkeypatch: pytest.MonkeyPatch
 ) -> tuple[list[Arrow], list[str]]:
-    """Arrows and words of a still: the scale's arrow, the one in the machine, the one in the bore."""
+    """Arrows and words of a still: arrows of the scale, in the machine, in the bore; not that of "forward"."""
     arrows: list[Arrow] = []
     words: list[str] = []
     drawn, written = Canvas.arrow, Canvas.write
 
     def arrow(sheet: Canvas, tail: Any, tip: Any, colour: str, thick: float, cut: bool = False) -> None:
-        arrows.append(Arrow(np.array(tail), np.array(tip), cut))
+        if colour != INK:
+            arrows.append(Arrow(np.array(tail), np.array(tip), cut))
         drawn(sheet, tail, tip, colour, thick, cut)
 
     def write(sheet: Canvas, place: Any, text: str, *rest: Any, **others: Any) -> Any:
@@ -235,7 +236,7 @@ def test_arrows_are_the_force_on_the_journal_in_the_scale_that_is_shown(
     (bar,) = (float(word.removesuffix(" kN")) for word in words if word.endswith(" kN") and "." not in word)
     pixels = scale.way[0] / (1e3 * bar)  # to a newton
     assert scale.way[1] == 0.0
-    assert bore.way == pytest.approx([-pixels * x, -pixels * y])  # forward is to the left
+    assert bore.way == pytest.approx([pixels * x, -pixels * y])  # forward is to the right
     view = direction_of_view().apply([x, y, 0.0])
     assert machine.way == pytest.approx([pixels * view[0], -pixels * view[1]])
     assert [arrow.cut for arrow in (scale, machine, bore)] == [False, False, False]
@@ -295,9 +296,9 @@ def test_no_place_on_the_wall_is_marked_where_the_middle_of_the_journal_is_away_
         sheet.hold()
         inset.draw(sheet, record, record, (0.0, 0.0), False)
         context.append(pixels_of(sheet.frame()[30:250], CONTACT))  # without the words
-    wall = inset.centre[0] - 80.0  # pixels; the journal's middle is never so far from the bore's
-    assert (context[0][:, 1] > wall).all()
-    assert (context[1][:, 1] < wall).any()
+    wall = inset.centre[0] + 80.0  # pixels; the journal's middle is never so far from the bore's
+    assert (context[0][:, 1] < wall).all()
+    assert (context[1][:, 1] > wall).any()
 
 
 def test_a_run_in_space_is_shown(spatial: Result) -> None:

@@ -60,7 +60,7 @@ def _layers(scenario: Scenario, apart: float) -> dict[str, float]:
     """How far behind the plane each body is drawn, by its name [m]."""
     names = [*scenario.linkage.bodies, GROUND]
     known = scenario.machine.widths() is not None
-    return {name: 0.0 if known else n * apart for n, name in enumerate(names)}
+    return {name: 0.0 if known else -n * apart for n, name in enumerate(names)}
 
 
 def _outline(linkage: Linkage, body: str, around: Sequence[Vector2], wide: float, size: float) -> Polygon:
@@ -100,7 +100,7 @@ def _pins(scenario: Scenario, layers: Mapping[str, float], thickness: float, mar
             else 0.97 * bore_radius(scenario, name, margin)
         )
         ends = [layers[pin.first.body], layers[pin.second.body]]
-        near, far = min(ends) - 0.6 * thickness, max(ends) + 0.5 * thickness
+        near, far = min(ends) - 0.5 * thickness, max(ends) + 0.6 * thickness
         on_ground = [(GROUND, [z for _, z, _ in copies(None)])]
         copied = on_ground if body == GROUND else body_copies(scenario, body)
         for one, heights in copied:

@@ -94,6 +94,7 @@ class Painter:
         record = int(self._moments.records[number])
         left, top, *_ = layout.picture
         sheet.paste(machine, (left, top))
+        self._forward()
         for label in self._scene.labels(record):
             x, y = self._camera.pixels(np.array([label.place]))[0]
             colour = "#ffffff" if label.light else INK
@@ -107,6 +108,13 @@ class Painter:
             self._force(self._pin, record, number)
         return sheet.frame()
 
+    def _forward(self) -> None:
+        """Say which way is forward, in the lower right corner of the machine's picture."""
+        u, (_, _, right, bottom) = self._layout.unit, self._layout.picture
+        start, y = right - 64 * u, bottom - 14 * u
+        self._sheet.arrow((start, y), (right - 10 * u, y), INK, 2.5 * u)
+        self._sheet.write((start - 8 * u, y), "forward", 13 * u, anchor="right center")
+
     def _force(self, pin: PinView, record: int, number: int) -> None:
         """Draw arrows, numbers, journal and cursor."""
         u, sheet, (left, top) = self._layout.unit, self._sheet, self._words
@@ -118,7 +126,7 @@ class Painter:
         if cut:
             sheet.write((left, top + 126 * u), "the arrow is cut short", 13 * u, FAINT, "left top")
         if self._inset is not None:
-            arrow = -self._scale * float(force[0]), -self._scale * float(force[1])
+            arrow = self._scale * float(force[0]), -self._scale * float(force[1])
             self._inset.draw(sheet, record, self._moments.back(number, TRAIL), arrow, cut)
         self._strip.cursor(sheet, float(self._time[record]), size)
 

@@ -220,9 +220,9 @@ class Inset:
         )
 
     def _places(self, records: slice) -> tuple[Series, Series]:
-        """The middle of the journal at records; forward is to the left, as in the picture of the machine."""
+        """The middle of the journal at records; forward is to the right, as in the picture of the machine."""
         x, y = self._scale * self._bore.eccentricity[records].T
-        return self.centre[0] - x, self.centre[1] - y
+        return self.centre[0] + x, self.centre[1] - y
 
     def _struck(self, at: Point) -> Point:
         """Where on the wall it makes contact; its middle, if a tilted one does so elsewhere along the pin."""

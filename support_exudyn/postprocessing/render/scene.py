@@ -118,5 +118,5 @@ class RenderedScene:
     def context(self, pin: PinView, record: int) -> Vector3:
         """The place of that end of a pin which the camera sees [m]."""
         x, y, _ = pin.path[record]
-        ends = [s.mesh.bounds[0, 2] for s in self.look.solids if s.name.startswith(f"pin_{pin.name}")]
-        return float(x), float(y), float(min(ends, default=self.points[:, 2].min()))
+        ends = [s.mesh.bounds[1, 2] for s in self.look.solids if s.name.startswith(f"pin_{pin.name}")]
+        return float(x), float(y), float(max(ends, default=self.points[:, 2].max()))

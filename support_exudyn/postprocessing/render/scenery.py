@@ -73,12 +73,12 @@ def surroundings(machine: Series, floor: float, roof_height: float, half_width: 
     back = float(rear) - GAP * length
     left, right = face + 0.085 * length, back - BEHIND * length
     thick, deep = 0.085 * length, half_width
-    ground = _slab(right, left, floor - 0.035 * length, floor, -1.25 * half_width, deep)
-    coal = _slab(face, left, floor, roof_height + thick, 0.0, deep)
+    ground = _slab(right, left, floor - 0.035 * length, floor, -deep, 1.25 * half_width)
+    coal = _slab(face, left, floor, roof_height + thick, -deep, 0.0)
     edge = back - 0.02 * length  # where the roof has broken off
     broken = [(0.05, 0.0), (0.0, 0.35), (0.03, 0.6), (-0.03, 1.0)]  # of the length, of the thickness
     crack = [(edge + x * length, y * thick) for x, y in broken]
-    roof = plate(Polygon([(face, 0.0), *crack, (face, thick)]), 0.5 * deep, deep)
+    roof = plate(Polygon([(face, 0.0), *crack, (face, thick)]), -0.5 * deep, deep)
     height = roof_height - floor
     heap = 0.82 * height
     behind = Polygon(
@@ -88,16 +88,16 @@ def surroundings(machine: Series, floor: float, roof_height: float, half_width: 
     props = [
         MeshItem(ground, FLOOR),
         MeshItem(coal, COAL),
-        MeshItem(plate(behind, 0.8 * deep, 0.4 * deep), DARK),
+        MeshItem(plate(behind, -0.8 * deep, 0.4 * deep), DARK),
         *rocks,
     ]
     labels = (
         Label("coal\nface", (0.5 * (face + left), floor + 0.5 * height, 0.0), light=True),
-        Label("floor", (face - 0.16 * length, floor - 0.0175 * length, -1.25 * half_width)),
+        Label("floor", (face - 0.16 * length, floor - 0.0175 * length, 1.25 * half_width)),
         Label("goaf", (right + 0.22 * (back - right), floor + 0.95 * height, 0.0)),
     )
     corners = [mesh_item.mesh.bounding_box.vertices for mesh_item in props]
-    above = np.array([[face, roof_height + thick, deep], [edge, roof_height + thick, deep]])
+    above = np.array([[face, roof_height + thick, -deep], [edge, roof_height + thick, -deep]])
     return Surroundings(
         tuple(props),
         MeshItem(roof, ROOF),
@@ -123,7 +123,7 @@ def _rocks(right: float, left: float, floor: float, height: float, deep: float) 
         nearest = left - size - STEEP * course / COURSES * (left - right)
         for x in np.arange(nearest, right, -1.45 * size):
             radius = size * random.uniform(0.8, 1.2)
-            place = np.array([x, floor + (course + 0.5) * step, 0.3 * deep + random.uniform(0.0, 0.3) * deep])
+            place = np.array([x, floor + (course + 0.5) * step, -0.3 * deep - random.uniform(0.0, 0.3) * deep])
             found[random.integers(len(ROCKS))].append(_rock(random, place, radius))
     for colour, rocks in zip(ROCKS, found, strict=True):
         if rocks:

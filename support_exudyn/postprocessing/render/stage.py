@@ -18,7 +18,7 @@ from support_exudyn.postprocessing.viewer.engine_graphics import engine_surface
 
 Pixels = npt.NDArray[np.float64]
 
-# from the left side of the machine, so that forward is to the left; then turned to its front and lifted [rad]
+# from the right side of the machine, so that forward is to the right; then turned to its front and lifted [rad]
 TURN, LIFT = 0.26, 0.17
 
 
@@ -61,8 +61,8 @@ class Camera:
 
 
 def direction_of_view() -> Rotation:
-    """The machine's left side, seen a little from the front and from above."""
-    return Rotation.from_euler("yx", [np.pi + TURN, LIFT])
+    """The machine's right side, seen a little from the front and from above."""
+    return Rotation.from_euler("yx", [-TURN, LIFT])
 
 
 def fitted(points: Series, width_px: int, height_px: int, margins: tuple[int, int, int, int]) -> Camera:
