@@ -27,7 +27,7 @@ from studies.common.study import Study, StudyOutcome
 from studies.common.words import TextTable
 from support_exudyn.files.whole_file import whole_file
 
-MACHINES = 256
+MACHINES = 128  # a statement that holds on all of them holds on more than 97 % of such machines
 SEED = 1
 
 Machines = list[tuple[Sample, Evidence]]
@@ -238,5 +238,5 @@ def _run(chosen_samples: Sequence[Sample], chosen: Options) -> list[hypercube.Ma
         return hypercube.run(chosen_samples, chosen.out, chosen.workers, show)
 
 
-study = Study("claims", __doc__, work, seconds=25.0)
+study = Study("claims", __doc__, work, seconds=35.0)
 main = study.main

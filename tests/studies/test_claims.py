@@ -148,7 +148,7 @@ def ruled(marks: str) -> Ruling:
 def test_of_256_machines_every_claim_that_has_a_measure_is_stored(judged: dict[str, str]) -> None:
     asked = [str(n) for n, c in enumerate(CLAIMS, 1) if c.judge is not None and not c.alone]
     assert list(judged) == asked
-    assert {len(marks) for marks in judged.values()} == {256} == {study.MACHINES}
+    assert {len(marks) for marks in judged.values()} == {256}
 
 
 @pytest.mark.parametrize("number", [2, 8, 16, 64])

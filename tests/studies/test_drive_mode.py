@@ -179,6 +179,8 @@ def test_the_study_of_ones_own_machine_leaves_the_paper_out(tmp_path: Path) -> N
 
 def test_a_machine_without_a_stroke_is_refused(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="no drive moves a linear actuator"):
-        _ = ModePlan(own_subject(own(tmp_path, 'machine = "slider_crank"\nduration_s = 1'), "slider_pin")).actuators
+        _ = ModePlan(
+            own_subject(own(tmp_path, 'machine = "slider_crank"\nduration_s = 1'), "slider_pin")
+        ).actuators
     with pytest.raises(InputError, match="drive of front_column = Held"):
         _ = ModePlan(own_subject(own(tmp_path, 'machine = "zf18000"\nduration_s = 1'))).actuators
