@@ -58,7 +58,7 @@ def case_name(
 
 
 @dataclass(frozen=True)
-class Plan:
+class PinPlan:
     """The cases of a machine: each of its pins alone, and all together."""
 
     subject: Subject

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from studies.common.numbers import Found
 from studies.common.panels import forward_arrow, legend, letters
-from studies.which_pin.cases import IDEAL, Plan
+from studies.which_pin.cases import IDEAL, PinPlan
 from studies.which_pin.posture import UnderLoad
 from studies.which_pin.tables import SHAKING, SHIFT
 from support_exudyn.machines.four_bar_shield import PINS
@@ -24,7 +24,7 @@ MARKS = dict(zip(PINS, "osD^x", strict=True))
 FAINT, STRONG = 0.1, 100.0  # [%]: changes between which the shade of a square grows
 
 
-def figures(plan: Plan, found: Found, under_loads: Mapping[str, UnderLoad]) -> dict[str, Figure]:
+def figures(plan: PinPlan, found: Found, under_loads: Mapping[str, UnderLoad]) -> dict[str, Figure]:
     """All figures, by file name."""
     return {
         **({"tip_shift": shift_figure(plan, found)} if plan.has_tip else {}),
@@ -34,12 +34,12 @@ def figures(plan: Plan, found: Found, under_loads: Mapping[str, UnderLoad]) -> d
     }
 
 
-def _cases(plan: Plan) -> tuple[tuple[str, ...], ...]:
+def _cases(plan: PinPlan) -> tuple[tuple[str, ...], ...]:
     """The clearance pins of what is drawn: each alone, and all together."""
     return *((pin,) for pin in plan.pins), plan.pins
 
 
-def _names(plan: Plan) -> list[str]:
+def _names(plan: PinPlan) -> list[str]:
     return [*plan.pins, plan.everything]
 
 
@@ -47,7 +47,7 @@ def _friction(friction: float) -> str:
     return f"friction {friction:g}" if friction else "no friction"
 
 
-def shift_figure(plan: Plan, found: Found) -> Figure:
+def shift_figure(plan: PinPlan, found: Found) -> Figure:
     """Bars of the forward shift, and single shifts end to end in the plane."""
     drawing = Figure(figsize=style.size(170, 90))
     bars, plane = drawing.subplots(1, 2, width_ratios=(1.2, 1.0))
@@ -78,7 +78,7 @@ def shift_figure(plan: Plan, found: Found) -> Figure:
     return drawing
 
 
-def _end_to_end(plan: Plan, axes: Axes, found: Found) -> None:
+def _end_to_end(plan: PinPlan, axes: Axes, found: Found) -> None:
     """Single shifts one after the other, and that of all together."""
     at, friction = np.zeros(2), plan.frictions[0]
 
@@ -104,7 +104,7 @@ def _broken(name: str) -> str:
     return name.replace("_", "\n").replace(" ", "\n")
 
 
-def force_figure(plan: Plan, found: Found) -> Figure:
+def force_figure(plan: PinPlan, found: Found) -> Figure:
     """Two tables in shades: change of means, and of peaks, against ideal pins."""
     drawing = Figure(figsize=style.size(170, 130))
     panels = list(drawing.subplots(2, 1))
@@ -142,7 +142,7 @@ def _shades(axes: Axes, values: np.ndarray) -> None:
     axes.tick_params(length=0)
 
 
-def shaking_figure(plan: Plan, found: Found) -> Figure:
+def shaking_figure(plan: PinPlan, found: Found) -> Figure:
     """RMS fluctuations with their errors, as points on logarithmic scales."""
     bodies = dict.fromkeys((plan.subject.watched.body, plan.shaken[-1]))
     shown = {SHAKING: (1e-3, "pin forces\n[kN]")} | {

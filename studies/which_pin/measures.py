@@ -7,7 +7,7 @@ import numpy as np
 
 from studies.common import rise
 from studies.common.numbers import Number, compared, measured_all
-from studies.which_pin.cases import IDEAL, ROOF, TIP, Plan
+from studies.which_pin.cases import IDEAL, ROOF, TIP, PinPlan
 from studies.which_pin.posture import posture_numbers
 from support_exudyn import Result
 
@@ -15,7 +15,7 @@ Get = Callable[[Result, Result], float]  # of a run and that of ideal pins
 OVER_IDEAL = "largest_peak_over_ideal"
 
 
-def peaks(plan: Plan) -> dict[str, rise.Peak]:
+def peaks(plan: PinPlan) -> dict[str, rise.Peak]:
     """The measures of the largest forces in the motion, by name."""
     return {f"largest_force_{name}": plan.watched.peak(channel) for channel, name in plan.forces.items()}
 
@@ -26,7 +26,7 @@ def _departure(
     return run.time[watched.in_rise(run)], watched.departure(run, ideal, channel)
 
 
-def _of_posture(plan: Plan) -> dict[str, tuple[str, Get]]:
+def _of_posture(plan: PinPlan) -> dict[str, tuple[str, Get]]:
     watched = plan.watched
 
     def mean_shift(channel: str, scale: float) -> Get:
@@ -49,7 +49,7 @@ def _rms_fluctuation(watched: rise.Watched, channel: str, scale: float = 1.0) ->
     return lambda run, ideal: scale * watched.rms_fluctuation(run, run[channel])
 
 
-def measures(plan: Plan) -> dict[str, tuple[str, Get]]:
+def measures(plan: PinPlan) -> dict[str, tuple[str, Get]]:
     """Unit and measure of every number of a run against the ideal one, by name."""
     watched = plan.watched
 
@@ -95,7 +95,7 @@ def measures(plan: Plan) -> dict[str, tuple[str, Get]]:
     }
 
 
-def _peak_between_records(plan: Plan, run: Result, ideal: Result) -> float:
+def _peak_between_records(plan: PinPlan, run: Result, ideal: Result) -> float:
     """By how much that ratio may be off because both forces are taken from records."""
     return max(
         (peak.missed(run) + peak(run) / peak(ideal) * peak.missed(ideal)) / peak(ideal)
@@ -103,7 +103,7 @@ def _peak_between_records(plan: Plan, run: Result, ideal: Result) -> float:
     )
 
 
-def measure(plan: Plan, results: Mapping[str, Result]) -> list[Number]:
+def measure(plan: PinPlan, results: Mapping[str, Result]) -> list[Number]:
     """All numbers of the runs, and those of the closed form beside them."""
     ideal = results[IDEAL]
     numbers = [

@@ -1,4 +1,4 @@
-"""Which pin's clearance matters? (The paper sets the question aside and lets one pin rattle.)
+"""Which pin's clearance matters?
 
 1.5 mm in each of the five pins of the reference support alone, in pairs, and in all together: what it does to
 the tip's position, to the forces and to the shaking in the rise.
@@ -9,7 +9,7 @@ from studies.common.options import Options
 from studies.common.runs import run_with_errors
 from studies.common.study import Study, StudyOutcome
 from studies.which_pin import cases, tables
-from studies.which_pin.cases import Plan, clearance_pin
+from studies.which_pin.cases import PinPlan, clearance_pin
 from studies.which_pin.figures import figures
 from studies.which_pin.measures import measure
 from studies.which_pin.posture import loads
@@ -18,7 +18,7 @@ from support_exudyn.machines.four_bar_shield import PINS
 
 def work(chosen: Options) -> StudyOutcome:
     """The motion with clearance pins; of the paper's support also the closed form of where it stands."""
-    plan = Plan(chosen.subject)
+    plan = PinPlan(chosen.subject)
     results = run_with_errors(plan.scenarios, chosen)
     under_loads = loads(clearance_pin(0.0)) if plan.subject.is_paper else {}
     numbers = measure(plan, results)

@@ -8,7 +8,7 @@ import numpy as np
 
 from studies.common.numbers import Found, Number, against, cell
 from studies.common.words import TextTable
-from studies.which_pin.cases import ALIKE, IDEAL, SHAKEN, Plan
+from studies.which_pin.cases import ALIKE, IDEAL, SHAKEN, PinPlan
 from studies.which_pin.posture import UnderLoad
 from support_exudyn.machines.four_bar_shield import PINS
 
@@ -24,7 +24,7 @@ RANKED = {  # title of a ranking: by what, and what else is shown
 }  # fmt: skip
 
 
-def rankings(plan: Plan) -> dict[str, tuple[str, ...]]:
+def rankings(plan: PinPlan) -> dict[str, tuple[str, ...]]:
     """The rankings of a machine: of what it has."""
     if plan.subject.is_paper:
         return RANKED
@@ -33,23 +33,23 @@ def rankings(plan: Plan) -> dict[str, tuple[str, ...]]:
     return {title: names for title, names in own.items() if plan.has_tip or "tip" not in title}
 
 
-def effects_of(plan: Plan) -> tuple[str, ...]:
+def effects_of(plan: PinPlan) -> tuple[str, ...]:
     """By what the pins of a machine are put in order: the tip's shift, if it has one, and the shaking."""
     return (SHIFT, SHAKING) if plan.has_tip else (SHAKING,)
 
 
-def ranked(plan: Plan, found: Found, name: str, friction: float) -> list[str]:
+def ranked(plan: PinPlan, found: Found, name: str, friction: float) -> list[str]:
     """The pins, that with the largest effect alone first."""
     effects = plan.alone(found, name, friction)
     return sorted(plan.pins, key=lambda pin: -abs(effects[pin].value))
 
 
-def ranking_table(plan: Plan, found: Found, title: str, friction: float) -> TextTable:
+def ranking_table(plan: PinPlan, found: Found, title: str, friction: float) -> TextTable:
     """Pins in the order of an effect, and all together last."""
     return _pins_in_order(plan, found, rankings(plan)[title], friction)
 
 
-def _pins_in_order(plan: Plan, found: Found, names: Sequence[str], friction: float) -> TextTable:
+def _pins_in_order(plan: PinPlan, found: Found, names: Sequence[str], friction: float) -> TextTable:
     rows = []
     for pins in [*((pin,) for pin in ranked(plan, found, names[0], friction)), plan.pins]:
         case = plan.case_name(pins, friction)
@@ -91,7 +91,7 @@ def order_of(row: Mapping[str, Number]) -> str:
     return in_order(effects, {pin: number.numerical_error for pin, number in row.items()})
 
 
-def condition_table(plan: Plan, found: Found) -> TextTable:
+def condition_table(plan: PinPlan, found: Found) -> TextTable:
     """Orders by shift and by shaking under other frictions and clearances."""
     rows = []
     for name in effects_of(plan):
@@ -104,7 +104,7 @@ def condition_table(plan: Plan, found: Found) -> TextTable:
     return TextTable(("effect", "friction, clearance", *plan.pins, "order"), tuple(rows), left=2, width=170)
 
 
-def together_table(plan: Plan, found: Found) -> TextTable:
+def together_table(plan: PinPlan, found: Found) -> TextTable:
     """Whether the whole is the sum of its parts."""
     rows = []
     for friction in plan.frictions:
@@ -128,7 +128,7 @@ def together_table(plan: Plan, found: Found) -> TextTable:
     return TextTable(header, tuple(rows), left=3)
 
 
-def _together(plan: Plan, found: Found, friction: float) -> list[tuple[str, ...]]:
+def _together(plan: PinPlan, found: Found, friction: float) -> list[tuple[str, ...]]:
     sets = [plan.pins, *combinations(plan.pins, 2)]
     return [pins for pins in sets if ("rms_pin_forces", plan.case_name(pins, friction)) in found]
 
@@ -150,13 +150,13 @@ ADD: dict[str, Callable[[Sequence[float]], float]] = {
 }
 
 
-def _expected(plan: Plan, found: Found, name: str, pins: Sequence[str], friction: float) -> float:
+def _expected(plan: PinPlan, found: Found, name: str, pins: Sequence[str], friction: float) -> float:
     """What the effects of pins alone make together."""
     single = plan.alone(found, name, friction)
     return ADD[name]([single[pin].value for pin in pins])
 
 
-def excess(plan: Plan, found: Found, name: str, friction: float) -> float:
+def excess(plan: PinPlan, found: Found, name: str, friction: float) -> float:
     """By how many per cent all pins together have more than the single ones make."""
     whole = found[name, plan.case_name(plan.pins, friction)].value
     return 100.0 * (whole / _expected(plan, found, name, plan.pins, friction) - 1.0)
@@ -196,7 +196,7 @@ def load_table(under_loads: Mapping[str, UnderLoad]) -> TextTable:
     )
 
 
-def key_table(plan: Plan, found: Found) -> TextTable:
+def key_table(plan: PinPlan, found: Found) -> TextTable:
     """What each pin does, with friction, the one that moves or shakes most first, and all together last."""
     friction = plan.frictions[0]
     wanted = (
@@ -205,7 +205,7 @@ def key_table(plan: Plan, found: Found) -> TextTable:
     return _pins_in_order(plan, found, [name for name in wanted if (name, IDEAL) in found], friction)
 
 
-def force_table(plan: Plan, found: Found, friction: float) -> TextTable:
+def force_table(plan: PinPlan, found: Found, friction: float) -> TextTable:
     """Mean forces with each clearance pin."""
     cases = [IDEAL, *(plan.case_name(pins, friction) for pins in [*((pin,) for pin in plan.pins), plan.pins])]
     rows = []

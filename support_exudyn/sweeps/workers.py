@@ -182,7 +182,13 @@ class Workers:
     def _submit(self, job: _Job, work: Callable[..., T]) -> Future[T]:
         self._shares[job.slot] = NOT_BEGUN
         with kept_from_children():  # they are started here
-            return self._pool.submit(_do, job.slot, work, job.number, job.given)
+            try:
+                return self._pool.submit(_do, job.slot, work, job.number, job.given)
+            except OSError as error:
+                if error.errno is not None:
+                    raise
+                # another process ended just now, and what the new one was to be given is closed already
+                raise BrokenProcessPool from error
 
     def _ended(
         self, held: Mapping[Future[T], _Job], tell: Callable[[Mapping[int, float]], None] | None, whole: bool

@@ -46,7 +46,7 @@ def test_all_commands_work_on_a_run_of_a_moment(
             Path(name).write_text(short.replace("[0.5, 1.0, 1.5, 2.0]", "[1.0, 2.0]"), encoding="utf-8")
             continue
         for line in text.splitlines():
-            command = shlex.split(line.replace("--still 1", "--still 0.05"))[1:]
+            command = shlex.split(line.replace("--still 1", "--still 0.05"), comments=True)[1:]
             assert main(command) == 0, line
             assert "error" not in capsys.readouterr().err
     assert {"shield_check.png", "pin_1mm_0.05s.png"} <= {path.name for path in Path().glob("*.png")}

@@ -19,7 +19,7 @@ from studies.which_pin.tables import condition_table, together_table
 from support_exudyn.machines.four_bar_shield import PINS
 
 A, B, C, D, E = PINS
-PLAN = which_pin_cases.Plan(paper_subject())
+PLAN = which_pin_cases.PinPlan(paper_subject())
 SHIFT, RIPPLE = "mean_tip_shift_forward", "rms_pin_forces"
 
 

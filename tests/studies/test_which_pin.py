@@ -158,7 +158,7 @@ def test_every_pin_may_have_its_own_law_and_clearance(out: Path) -> None:
         ),
         "shield_canopy": pin(1.5e-3, Hertz(stiffness=2.7e10)),
     }
-    ideal = which_pin_cases.Plan(paper_subject()).scenarios[which_pin_cases.IDEAL]
+    ideal = which_pin_cases.PinPlan(paper_subject()).scenarios[which_pin_cases.IDEAL]
     plain = Result.load(out / "runs" / "ideal.h5")
     step = plain.scenario.record_period
     scene = replace(ideal, pins=own, start="settled", step=step, solver=SolverSettings(impact_steps=16))
@@ -199,7 +199,7 @@ def test_every_file_is_there_and_the_chapter_can_be_read(out: Path) -> None:
 def test_the_peak_over_ideal_has_the_error_of_the_peaks_that_it_is_made_of(numbers: Numbers) -> None:
     for case in {case for name, case in numbers if name == "largest_peak_over_ideal"}:
         shares = []  # of each force: its peak over the ideal one, and what the errors of both make of it
-        for force in which_pin_cases.Plan(paper_subject()).forces.values():
+        for force in which_pin_cases.PinPlan(paper_subject()).forces.values():
             peak, ideal = (numbers[f"largest_force_{force}", one] for one in (case, which_pin_cases.IDEAL))
             shares.append((peak["value"] / ideal["value"], peak["numerical_error"] / ideal["value"]))
         ratio = numbers["largest_peak_over_ideal", case]
@@ -222,7 +222,7 @@ rate_rad_per_s = 20
 def test_every_pin_of_ones_own_machine_is_loose_alone_and_with_all(tmp_path: Path) -> None:
     path = tmp_path / "my_shield.toml"
     path.write_text('machine = "two_leg_shield"\nduration_s = 0.5\n', encoding="utf-8")
-    plan = which_pin_cases.Plan(own_subject(path, "front_base"))
+    plan = which_pin_cases.PinPlan(own_subject(path, "front_base"))
     assert set(plan.pins) == set(PINS)
     loose = {tuple(case.pins) for case in plan.scenarios.values()}
     assert loose == {(), plan.pins, *((pin,) for pin in plan.pins)}
@@ -234,10 +234,10 @@ def test_every_pin_of_ones_own_machine_is_loose_alone_and_with_all(tmp_path: Pat
 def test_of_a_machine_without_canopy_and_columns_only_forces_and_shaking_are_told(tmp_path: Path) -> None:
     path = tmp_path / "my_crank.toml"
     path.write_text(CRANK, encoding="utf-8")
-    plan = which_pin_cases.Plan(own_subject(path, "crank_pin"))
+    plan = which_pin_cases.PinPlan(own_subject(path, "crank_pin"))
     assert list(rankings(plan)) == ["by the forces", "by the shaking"]
     assert not any("tip" in name for name in measures(plan))
     assert list(plan.forces.values()) == list(plan.pins)
     path.write_text(CRANK.replace("0.3", "0.1"), encoding="utf-8")
     with pytest.raises(InputError, match=r"motion from 0 to 0\.1 s: allowed: longer than 0\.2 s"):
-        _ = which_pin_cases.Plan(own_subject(path, "crank_pin")).scenarios
+        _ = which_pin_cases.PinPlan(own_subject(path, "crank_pin")).scenarios
