@@ -24,7 +24,8 @@ OTHER_LAWS = {n: law for n, law in laws(NormalLaw).items() if n not in POWER_LAW
 FRICTION_LAWS = laws(FrictionLaw)
 PIN_LENGTH = 0.1  # of the rear-link pin's bearing, for laws of line contact; assumed [m]
 RESTING_FORCE = 51e3  # of the rear-link pin, about [N]
-DASHPOT = {"damping": 1e5, "full_damping": 5e4, "full_damping_depth": 1e-4}  # [N s/m], [N s/m], [m]
+# of the dashpots, by the stiffness of a linear law: Kelvin and Voigt's and IMPACT's [s], and its depth [m]
+DAMPING_TIME, FULL_DAMPING_TIME, FULL_DAMPING_DEPTH = 3e-4, 1.5e-4, 1e-4
 
 
 def cylinder_law(name: str, bearing: JournalBearing, restitution: float, length: float = PIN_LENGTH) -> Any:
@@ -35,22 +36,46 @@ def cylinder_law(name: str, bearing: JournalBearing, restitution: float, length:
     )
 
 
-def normal_laws(clearance_mm: float, restitution: float) -> dict[str, NormalLaw]:
-    """Every normal law for the rear-link pin, by name.
+def pin_length(bore_radius: float) -> float:
+    """Length of a bearing [m], assumed in proportion to its bore radius [m]."""
+    return PIN_LENGTH * bore_radius / paper_machine.BORE_RADIUS
 
-    Laws K depth^1.5 have the paper's K; linear laws have the stiffness with which those hold the pin's load,
-    and the dashpot of Kelvin and Voigt a damping ratio of some per cent. IMPACT has its common set of values.
+
+def normal_laws(
+    clearance_mm: float,
+    restitution: float,
+    *,
+    bore_radius: float = paper_machine.BORE_RADIUS,
+    stiffness: float | None = None,
+    load: float = RESTING_FORCE,
+) -> dict[str, NormalLaw]:
+    """Every normal law for a pin, by name; the rear-link pin's, unless told otherwise.
+
+    Laws K depth^1.5 have the stiffness of Eq. 5; linear laws that with which those hold the pin's load. The
+    dashpot of Kelvin and Voigt has a damping ratio of some per cent. IMPACT has its common set of values.
+
+    Arguments:
+        clearance_mm: radial clearance [mm].
+        restitution: e that is asked for [-].
+        bore_radius: of the pin [m].
+        stiffness: K of the laws K depth^1.5 [N/m^1.5]; None: that of Eq. 5.
+        load: that the pin holds at rest [N].
     """
-    k = paper_machine.stiffness(clearance_mm)
-    linear = RESTING_FORCE / Hertz(stiffness=k).resting_depth(RESTING_FORCE)
-    given = DASHPOT | {"restitution": restitution}
-    bearing = paper_machine.bearing(clearance_mm)
+    k = paper_machine.stiffness(clearance_mm, bore_radius) if stiffness is None else stiffness
+    linear = load / Hertz(stiffness=k).resting_depth(load)
+    given = {
+        "restitution": restitution,
+        "damping": DAMPING_TIME * linear,
+        "full_damping": FULL_DAMPING_TIME * linear,
+        "full_damping_depth": FULL_DAMPING_DEPTH,
+    }
+    bearing = paper_machine.bearing(clearance_mm, bore_radius)
     return {
         **{
             name: _filled(law, given | {"stiffness": linear if _is_linear(law) else k})
             for name, law in (POWER_LAWS | OTHER_LAWS).items()
         },
-        **{name: cylinder_law(name, bearing, restitution) for name in CYLINDER_LAWS},
+        **{name: cylinder_law(name, bearing, restitution, pin_length(bore_radius)) for name in CYLINDER_LAWS},
     }
 
 

@@ -1,22 +1,82 @@
 """Pictures of what contact laws deliver and change."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from string import ascii_lowercase
 
 import numpy as np
 import numpy.typing as npt
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
-from studies.common import rise
-from studies.common.numbers import Number, by_case
+from studies.common.numbers import Found, Number, by_case
 from studies.common.panels import fit_height, legend, letters
-from studies.contact_laws.cases import ASKED, TEXTBOOK
+from studies.common.rise import Watched, between
+from studies.contact_laws.cases import ASKED, KEY, TEXTBOOK
 from studies.contact_laws.catalogue import POWER_LAWS, title
 from studies.contact_laws.free_impact import PIN
 from support_exudyn import Result
 from support_exudyn.postprocessing.figures import style
 
 Series = npt.NDArray[np.float64]
+
+
+SHOWN = {"exact": 0, "lankarani_nikravesh": 1, "hunt_crossley": 2, "flores": 3}  # named in the answer's figure
+
+
+def answer_figure(found: Found) -> Figure:
+    """What laws deliver over what they are asked for (a), and the pin force under laws of the key table (b)."""
+    drawing = Figure(figsize=style.size(170, 72))
+    delivered, force = drawing.subplots(1, 2, width_ratios=(1.0, 1.15))
+    fine = np.linspace(0.01, 1.0, 200)
+    colours = (style.WITH_CLEARANCE, style.SMOOTH, style.THIRD, "black")
+    for name, law in POWER_LAWS.items():
+        curve = [law(stiffness=1.0, restitution=float(e)).delivered_restitution for e in fine]
+        place = SHOWN.get(name)
+        look = {"color": "#cccccc", "lw": 0.8, "zorder": 1.0}
+        if place is not None:
+            look = {
+                "color": colours[place],
+                "label": title(name),
+                "lw": 1.3,
+                "ls": ("-", "--", "-.", ":")[place],
+            }
+            points = {e: found.get(("delivered_restitution", f"{name} e={e:g}")) for e in ASKED}
+            shown = [(e, number.value) for e, number in points.items() if number]
+            delivered.plot(*zip(*shown, strict=True), "o", ms=2.6, color=colours[place])
+        delivered.plot(fine, curve, **look)
+    delivered.set(xlim=(0, 1), ylim=(0, 1), xlabel="restitution asked for [1]", ylabel="delivered [1]")
+    drawing.legend(*delivered.get_legend_handles_labels(), loc="outside lower left", ncols=2, fontsize=7)
+    rows = np.arange(len(KEY))
+    for name, marker, colour, label in (
+        ("largest_pin_force_any_step", "D", style.SMOOTH, "largest"),
+        ("mean_pin_force", "o", "black", "mean"),
+        ("std_pin_force", "s", style.WITH_CLEARANCE, "standard deviation"),
+    ):
+        numbers = [found[name, case] for case in KEY]
+        values, errors = (
+            [1e-3 * one for one in of]
+            for of in zip(*((n.value, n.numerical_error) for n in numbers), strict=True)
+        )
+        below = [min(error, 0.9 * value) for value, error in zip(values, errors, strict=True)]
+        force.errorbar(
+            values, rows, xerr=(below, errors), fmt=marker, ms=3.5, color=colour, capsize=2, lw=0.8, label=label
+        )
+    force.set(xscale="log", xlabel="pin force [kN]")
+    force.set_yticks(rows, [row_title(case).replace(", ", ",\n", 1) for case in KEY], fontsize=7)
+    force.invert_yaxis()
+    force.grid(axis="y", lw=0.3)
+    _plain_log(force)
+    drawing.legend(*force.get_legend_handles_labels(), loc="outside lower right", ncols=3, fontsize=7)
+    letters([delivered, force])
+    return drawing
+
+
+def _plain_log(axes: Axes) -> None:
+    """Ticks of a logarithmic force axis as plain numbers."""
+    axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 3.0)))
+    axes.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+    axes.xaxis.set_minor_formatter(NullFormatter())
 
 
 def restitution_figure(numbers: Sequence[Number]) -> Figure:
@@ -35,7 +95,7 @@ def restitution_figure(numbers: Sequence[Number]) -> Figure:
             *zip(*shown, strict=True), "o", ms=2.6, color=style.SMOOTH, mec="black", mew=0.3, label="engine"
         )
         axes.set(xlim=(0, 1), ylim=(0, 1), xticks=(0, 0.5, 1), yticks=(0, 0.5, 1))
-        axes.set_title(title(name), fontsize=8)
+    _label(panels.flat, POWER_LAWS)
     drawing.supxlabel("restitution asked for [1]", fontsize=9)
     drawing.supylabel("restitution delivered [1]", fontsize=9)
     panels[0, 0].legend(loc="lower right", fontsize=7, handlelength=1.5, borderaxespad=0.2)
@@ -46,7 +106,7 @@ def loop_figure(results: Mapping[str, Result]) -> Figure:
     """Force over depth in a free impact, a panel for each law."""
     drawing = Figure(figsize=style.size(170, 170))
     panels = drawing.subplots(4, 4)
-    for axes, (name, result) in zip(panels.flat, results.items(), strict=True):
+    for axes, result in zip(panels.flat, results.values(), strict=True):
         depth, force = result[f"pin.{PIN}.depth"], result[f"pin.{PIN}.normal_force"]
         closed = depth > 0.0
         ends = np.concatenate([[0.0], depth[closed], [0.0]])
@@ -56,22 +116,29 @@ def loop_figure(results: Mapping[str, Result]) -> Figure:
         held = [law.elastic_force(float(d)) if d > 0.0 else 0.0 for d in elastic]
         axes.plot(1e3 * elastic, 1e-3 * np.array(held), color="#999999", lw=0.8, ls=(0, (4, 2)))
         axes.set(xlim=(0, None), ylim=(0, None))
-        axes.set_title(title(name), fontsize=8)
         axes.locator_params(nbins=3)
+    _label(panels.flat, results)
     drawing.supxlabel("depth [mm]", fontsize=9)
     drawing.supylabel("normal force [kN]", fontsize=9)
     return drawing
 
 
-def rise_figure(numbers: Sequence[Number]) -> Figure:
-    """Mean, spread, peak and energy lost of the rise, a row for each law."""
+def _label(panels: Iterable[Axes], names: Iterable[str]) -> None:
+    """Letter and law of each panel, above its upper left corner."""
+    for letter, axes, name in zip(ascii_lowercase, panels, names, strict=False):
+        axes.set_title(rf"$\bf{{{letter}}}$  {title(name)}", fontsize=7.5, loc="left")
+
+
+def rise_figure(watched: Watched, numbers: Sequence[Number]) -> Figure:
+    """Mean, spread, peak and energy lost of the motion, a row for each law."""
     cases = list(dict.fromkeys(n.case for n in numbers))
     found = by_case(numbers)
+    moving = f"{watched.start:g} to {watched.end:g} s"
     shown = [
-        ("mean_pin_force", 1e-3, "mean force,\n3 to 5 s [kN]"),
-        ("std_pin_force", 1e-3, "its std,\n3 to 5 s [kN]"),
-        ("largest_pin_force_any_step", 1e-3, "largest force,\n0 to 5 s [kN]"),
-        ("energy_dissipated", 1.0, "energy lost,\n0 to 5 s [J]"),
+        ("mean_pin_force", 1e-3, f"mean force,\n{moving} [kN]"),
+        ("std_pin_force", 1e-3, f"its std,\n{moving} [kN]"),
+        ("largest_pin_force_any_step", 1e-3, "largest force,\nwhole run [kN]"),
+        ("energy_dissipated", 1.0, "energy lost,\nwhole run [J]"),
     ]
     drawing = Figure(figsize=style.size(178, 35 + 5 * len(cases)))
     panels = drawing.subplots(1, len(shown), sharey=True)
@@ -83,16 +150,14 @@ def rise_figure(numbers: Sequence[Number]) -> Figure:
         axes.set(xlabel=label)
         if values.max() > 4.0 * np.median(values) and values.min() > 0.0:
             axes.set_xscale("log")
-            axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 3.0)))
-            axes.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
-            axes.xaxis.set_minor_formatter(NullFormatter())
+            _plain_log(axes)
     panels[0].set_yticks(rows, [row_title(case) for case in cases], fontsize=7)
     panels[0].invert_yaxis()
     letters(list(panels))
     return drawing
 
 
-def permanent_figure(results: Mapping[str, Result]) -> Figure:
+def permanent_figure(watched: Watched, results: Mapping[str, Result]) -> Figure:
     """What becomes of the vibration after the last bounce, by how a contact that does not part is damped."""
     drawing = Figure(figsize=style.size(170, 125))
     whole, rest = drawing.subplots(2, 1)
@@ -106,13 +171,14 @@ def permanent_figure(results: Mapping[str, Result]) -> Figure:
             strict=True,
         ),
     ]
-    for axes, (begin, end) in ((whole, (0.0, 0.5)), (rest, (0.5, 1.5))):
+    end = min(1.5, results["lankarani_nikravesh"].time[-1])
+    for axes, span in ((whole, (0.0, end / 3.0)), (rest, (end / 3.0, end))):
         for case, colour, dashes, label in curves:
             result = results[case]
-            axes.plot(result.time, 1e-3 * result[rise.FORCE], color=colour, ls=dashes, lw=0.9, label=label)
-        axes.set(xlim=(begin, end), xlabel="time [s]", ylabel="pin force [kN]")
-    inside = [results[c][rise.FORCE][(results[c].time > 0.5) & (results[c].time < 1.5)] for c, *_ in curves]
-    fit_height(rest, (1e-3 * force for force in inside))
+            axes.plot(result.time, 1e-3 * result[watched.force], color=colour, ls=dashes, lw=0.9, label=label)
+        axes.set(xlim=span, xlabel="time [s]", ylabel="pin force [kN]")
+        inside = [results[c][watched.force][between(results[c], *span)] for c, *_ in curves]
+        fit_height(axes, (1e-3 * force for force in inside))
     letters([whole, rest])
     legend(drawing, whole, 1)
     return drawing

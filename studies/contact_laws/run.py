@@ -1,22 +1,24 @@
-"""What do contact laws deliver, and what does the choice of a law change in the rise of the support?
+"""What do contact laws deliver, and what does the choice of a law change in the motion?
 
 Every normal law is tried in free impacts through the engine: restitution asked for against delivered, beside
-the closed form, and loops of force over depth. Then the support rises under each law, frictionless under the
-normal laws and with each friction law; and with the textbook treatment of a contact that does not part.
+the closed form, and loops of force over depth. Then the machine moves under each law: without friction under
+the normal laws, with each friction law, and with the textbook treatment of a contact that does not part.
 """
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 
-from studies.common import paper_machine, rise
-from studies.common.numbers import Found, Number, by_case, counted, measured, measured_all, rounded
+from studies.common.numbers import Found, Number, by_case, cell, counted, measured, measured_all, rounded
 from studies.common.options import Options
+from studies.common.rise import Watched
 from studies.common.runs import run_cases, run_with_errors
 from studies.common.study import Study, StudyOutcome
 from studies.common.words import TextTable
 from studies.contact_laws import cases, catalogue, free_impact
-from studies.contact_laws.cases import FEW, IMPACT_STEPS, SPEED, WITH_CLEARANCE
+from studies.contact_laws.cases import FEW, IMPACT_STEPS, KEY, SPEED, Joint
 from studies.contact_laws.catalogue import POWER_LAWS, title
 from studies.contact_laws.figures import (
+    answer_figure,
     loop_figure,
     permanent_figure,
     restitution_figure,
@@ -25,7 +27,7 @@ from studies.contact_laws.figures import (
 )
 from support_exudyn import Result
 
-DELIVERED = "delivered_restitution"
+DELIVERED, LOST = "delivered_restitution", "energy_error"
 
 
 # --- measures ---
@@ -40,30 +42,49 @@ def restitution_numbers(results: Mapping[str, Result], expected: Mapping[str, fl
     return numbers
 
 
-RISE_MEASURES: dict[str, tuple[str, Callable[[Result], float]]] = {
-    "mean_pin_force": ("N", lambda r: float(r[rise.FORCE][rise.in_rise(r)].mean())),
-    "std_pin_force": ("N", lambda r: float(r[rise.FORCE][rise.in_rise(r)].std())),
-    "largest_pin_force_any_step": ("N", lambda r: float(r.largest_force[WITH_CLEARANCE])),
-    "energy_dissipated": ("J", lambda r: r.dissipated),
-    "energy_error": ("J", lambda r: r.energy_error),
-}
-RISE_COUNTS: dict[str, Callable[[Result], int]] = {
-    "impacts": lambda r: len(r.onsets[WITH_CLEARANCE]),
-    "clamped_steps": lambda r: r.counts.clamped_steps,
-}
-RISE_UNITS = {name: unit for name, (unit, _) in RISE_MEASURES.items()} | dict.fromkeys(RISE_COUNTS, "1")
+RISE_UNITS = {
+    "mean_pin_force": "N", "std_pin_force": "N", "largest_pin_force_any_step": "N", "energy_dissipated": "J",
+    "energy_error": "J", "impacts": "1", "clamped_steps": "1",
+}  # fmt: skip
 
 
-def rise_numbers(results: Mapping[str, Result]) -> list[Number]:
-    """Mean and spread over the records from 3 to 5 s, the rest over the whole run, by case."""
+def rise_numbers(watched: Watched, results: Mapping[str, Result]) -> list[Number]:
+    """Mean and spread while the machine moves, the rest over the whole run, by case."""
+    measures: dict[str, Callable[[Result], float]] = {
+        "mean_pin_force": lambda r: watched.mean(r, r[watched.force]),
+        "std_pin_force": lambda r: watched.spread(r, r[watched.force]),
+        "largest_pin_force_any_step": lambda r: float(r.largest_force[watched.pin]),
+        "energy_dissipated": lambda r: r.dissipated,
+        "energy_error": lambda r: r.energy_error,
+    }
+    counts: dict[str, Callable[[Result], int]] = {
+        "impacts": lambda r: len(r.onsets[watched.pin]),
+        "clamped_steps": lambda r: r.counts.clamped_steps,
+    }
+    units = {name: (RISE_UNITS[name], measure) for name, measure in measures.items()}
     numbers = []
     for case, result in results.items():
-        numbers += measured_all({case: result}, RISE_MEASURES)
-        numbers += [counted(name, case, result, count) for name, count in RISE_COUNTS.items()]
+        numbers += measured_all({case: result}, units)
+        numbers += [counted(name, case, result, count) for name, count in counts.items()]
     return numbers
 
 
 # --- tables ---
+
+
+def key_table(found: Found) -> TextTable:
+    """What an engineer asks for first, a row a law: what it delivers, and the motion under it."""
+    rows = []
+    for case in KEY:
+        restitutions = [found.get((DELIVERED, f"{case} e={asked:g}")) for asked in (min(FEW), max(FEW))]
+        forces = [found[f"{name}_pin_force", case] for name in ("mean", "std")]
+        peak = found["largest_pin_force_any_step", case]
+        kilonewtons = [rounded(1e-3 * n.value, 1e-3 * n.numerical_error) for n in (*forces, peak)]
+        delivered = ["" if n is None else f"{n.value:.3f}" for n in restitutions]
+        rows.append((row_title(case), *delivered, *kilonewtons))
+    asked = tuple(f"delivers for e = {e:g}" for e in (min(FEW), max(FEW)))
+    header = ("law", *asked, "mean force [kN]", "its std [kN]", "largest force [kN]")
+    return TextTable(header, tuple(rows))
 
 
 def restitution_table(numbers: Sequence[Number]) -> TextTable:
@@ -98,9 +119,10 @@ def rise_table(numbers: Sequence[Number]) -> TextTable:
     found = by_case(numbers)
     rows = []
     for case in dict.fromkeys(n.case for n in numbers):
-        row = [found[name, case] for name in RISE_UNITS]
-        rows.append((row_title(case), *(rounded(n.value, n.numerical_error) for n in row)))
-    header = ("law", *(f"{name.replace('_', ' ')} [{unit}]" for name, unit in RISE_UNITS.items()))
+        cells = [cell(found[name, case]) for name in RISE_UNITS if name != LOST]
+        rows.append((row_title(case), *cells, f"{found[LOST, case].value:.0e}"))
+    measured_of = (f"{name.replace('_', ' ')} [{unit}]" for name, unit in RISE_UNITS.items() if name != LOST)
+    header = ("law", *measured_of, "energy not accounted for [J]")
     return TextTable(header, tuple(rows), width=200)
 
 
@@ -108,31 +130,51 @@ def rise_table(numbers: Sequence[Number]) -> TextTable:
 
 
 def work(chosen: Options) -> StudyOutcome:
-    """Free impacts and the rise under every law."""
-    laws = cases.impact_laws(chosen.quick)
+    """Free impacts, and the motion under every law."""
+    subject = chosen.subject
+    ideal = run_cases({"ideal": subject.ideal}, chosen)["ideal"]
+    joint = Joint(subject, subject.watched.mean(ideal, ideal[subject.watched.force]))
+    laws = cases.impact_laws()
     impacts = {case: free_impact.free_impact(law, SPEED, IMPACT_STEPS) for case, (law, _) in laws.items()}
     loops = {
-        name: free_impact.free_impact(law, SPEED, 128, records=800) for name, law in cases.loop_laws().items()
+        f"loop {name}": free_impact.free_impact(law, SPEED, 128, records=800)
+        for name, law in cases.loop_laws().items()
     }
-    lifted = cases.rises(chosen.quick)
-    done = run_with_errors(lifted | impacts, chosen)
-    looped = run_cases(loops, chosen)
+    moved = {name: case for name, case in joint.runs.items() if case.accuracy is not None}
+    at_steps = {name: case for name, case in joint.runs.items() if case.accuracy is None}
+    made_anew = replace(chosen, kept=None)  # sooner than read: each takes a twentieth of a second
+    done = run_with_errors(impacts, made_anew) | run_cases(loops, made_anew)
+    done |= run_with_errors(at_steps, chosen) | run_cases(moved, chosen)
     restitutions = restitution_numbers(done, {case: expected for case, (_, expected) in laws.items()})
-    risen = {name: done[name] for name in lifted}
-    numbers = rise_numbers(risen)
+    risen = {name: done[name] for name in joint.runs}
+    numbers = rise_numbers(subject.watched, risen)
+    found = by_case([*restitutions, *numbers])
     drawings = {
+        "laws_at_a_glance": answer_figure(found),
         "delivered_restitution": restitution_figure(restitutions),
-        "force_depth_loops": loop_figure(looped),
-        "rise_under_each_law": rise_figure(numbers),
-        "permanent_contact": permanent_figure(risen),
+        "force_depth_loops": loop_figure({name.removeprefix("loop "): done[name] for name in loops}),
+        "rise_under_each_law": rise_figure(subject.watched, numbers),
+        "permanent_contact": permanent_figure(subject.watched, risen),
     }
-    tables = {"restitution_table": restitution_table(restitutions), "rise_table": rise_table(numbers)}
-    words = _of_impacts(restitutions) | _of_rises(numbers)
+    tables = {
+        "laws": key_table(found),
+        "restitution_table": restitution_table(restitutions),
+        "rise_table": rise_table(numbers),
+    }
+    words = (
+        _of_impacts(joint, restitutions)
+        | _of_rises(numbers)
+        | {
+            "joint": joint,
+            "at_steps": at_steps,
+            "goal": ideal.goal,
+        }
+    )
     live = {"permanent_contact": (0, 1)}
     return StudyOutcome([*restitutions, *numbers], words, drawings, tables, risen, live=live)
 
 
-def _of_impacts(numbers: Sequence[Number]) -> dict[str, object]:
+def _of_impacts(joint: Joint, numbers: Sequence[Number]) -> dict[str, object]:
     """What is said of free impacts, and of how all was run."""
     found = by_case(numbers)
     low, high = min(FEW), max(FEW)
@@ -142,8 +184,8 @@ def _of_impacts(numbers: Sequence[Number]) -> dict[str, object]:
         "impact": free_impact,
         "title": title,
         "row_title": row_title,
-        "pin_length": catalogue.PIN_LENGTH,
-        "bore_radius": paper_machine.bearing(cases.CLEARANCE_MM).bore_radius,
+        "pin_length": catalogue.pin_length(joint.pin.contact.bearing.bore_radius),
+        "bore_radius": joint.pin.contact.bearing.bore_radius,
         "offs": [_off(found, case) for of_law in _impacts(numbers).values() for case in of_law],
         "low": low,
         "high": high,
@@ -179,5 +221,5 @@ def _of_rises(numbers: Sequence[Number]) -> dict[str, object]:
     }
 
 
-study = Study("contact_laws", __doc__, work)
+study = Study("contact_laws", __doc__, work, seconds=30.0, own_machine=True)
 main = study.main

@@ -1,4 +1,4 @@
-"""The study of contact laws: that it holds every law, and its findings on a part of its quick form."""
+"""The study of contact laws: that it holds every law, and its findings with fewer restitutions."""
 
 from __future__ import annotations
 
@@ -12,22 +12,24 @@ import pytest
 
 import user_forces
 from studies.common.chapter import Chapter
+from studies.common.subject import own_subject, paper_subject
 from studies.contact_laws import cases as contact_law_cases
 from studies.contact_laws import catalogue
 from studies.contact_laws import run as study
 from studies.contact_laws.free_impact import delivered_restitution, free_impact
 from support_exudyn import Result, simulate
-from tests.studies.forms import ONLY_SLOW, on_the_quick_form, written
+from support_exudyn.files import machines
+from tests.studies.forms import ONLY_SLOW, ROUGH, on_the_quick_form, written
 from user_forces import FrictionLaw, Frictionless, ImpactVelocity, NormalLaw
 
-RISES = ("exact", "lankarani_nikravesh")
+ASKED = (0.1, 0.5, 0.9)  # restitutions
 
 
 @pytest.fixture(scope="module", params=ONLY_SLOW)
 def out(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The quick form with four rises."""
+    """The study with fewer restitutions."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(contact_law_cases, "QUICK_RISE", RISES)
+        patch.setattr(contact_law_cases, "ASKED", ASKED)
         return written("contact_laws", request.param, tmp_path_factory.mktemp("results"))
 
 
@@ -51,17 +53,17 @@ def test_the_catalogue_holds_every_law() -> None:
     assert friction | {Frictionless} == laws(FrictionLaw)
 
 
-def test_every_law_rises_in_the_full_form_and_is_tried_in_impacts() -> None:
-    rises = contact_law_cases.rises(quick=False)
+def test_every_law_moves_the_machine_and_is_tried_in_impacts() -> None:
+    rises = contact_law_cases.Joint(paper_subject(), catalogue.RESTING_FORCE).runs
     assert {
-        type(case.pins[contact_law_cases.WITH_CLEARANCE].contact.normal) for case in rises.values()
+        type(case.pins["rear_base"].contact.normal) for case in rises.values()
     } == laws(NormalLaw)
     assert {
-        type(case.pins[contact_law_cases.WITH_CLEARANCE].contact.friction) for case in rises.values()
+        type(case.pins["rear_base"].contact.friction) for case in rises.values()
     } == laws(FrictionLaw)
-    assert {type(law) for law, _ in contact_law_cases.impact_laws(quick=False).values()} == laws(NormalLaw)
+    assert {type(law) for law, _ in contact_law_cases.impact_laws().values()} == laws(NormalLaw)
     textbook = [
-        rises[name].pins[contact_law_cases.WITH_CLEARANCE].contact.normal.damping_speed
+        rises[name].pins["rear_base"].contact.normal.damping_speed
         for name in contact_law_cases.TEXTBOOK
     ]
     assert textbook == [ImpactVelocity(floor=1e-3), ImpactVelocity(floor=0.1)]
@@ -73,8 +75,9 @@ def test_restitution_cases_are_named_as_agreed_and_right(
 ) -> None:
     assert numbers["delivered_restitution", "exact e=0.9"]["value"] == pytest.approx(0.9, abs=3e-5)
     cases = [case for name, case in numbers if name == "delivered_restitution"]
-    laws_asked = len(catalogue.POWER_LAWS) + len(catalogue.CYLINDER_LAWS) + 1
-    assert len(cases) == laws_asked * len(contact_law_cases.QUICK_ASKED) + 7
+    of_few = len(catalogue.CYLINDER_LAWS) + 1
+    asked = len(catalogue.POWER_LAWS) * len(ASKED) + of_few * len(contact_law_cases.FEW)
+    assert len(cases) == asked + 7
     for case in cases:
         number = numbers["delivered_restitution", case]
         closed_form = numbers["closed_form_restitution", case]["value"]
@@ -86,18 +89,18 @@ def test_restitution_cases_are_named_as_agreed_and_right(
 
 
 @pytest.mark.parametrize("case", ["exact e=0.05", "flores e=0.5", "johnson e=0.9", "kelvin_voigt zeta=0.05"])
-def test_the_full_form_delivers_what_the_closed_form_says(case: str) -> None:
-    _check_full_form(case)
+def test_every_law_delivers_what_the_closed_form_says(case: str) -> None:
+    _check(case)
 
 
 @pytest.mark.parametrize("asked", contact_law_cases.FEW)
-def test_dashpots_do_so_in_the_full_form(asked: float) -> None:
+def test_dashpots_do_so(asked: float) -> None:
     # their force jumps at the impact
-    _check_full_form(f"anagnostopoulos e={asked:g}")
+    _check(f"anagnostopoulos e={asked:g}")
 
 
-def _check_full_form(case: str) -> None:
-    law, closed_form = contact_law_cases.impact_laws(quick=False)[case]
+def _check(case: str) -> None:
+    law, closed_form = contact_law_cases.impact_laws()[case]
     half = free_impact(law, contact_law_cases.SPEED, contact_law_cases.IMPACT_STEPS).refined()
     # the last two of the study's three runs
     coarse, fine = (delivered_restitution(simulate(run)) for run in (half, half.refined()))
@@ -117,11 +120,11 @@ def test_the_way_a_resting_contact_is_damped_matters(numbers: dict[tuple[str, st
 
 
 def test_every_file_is_there(out: Path) -> None:
-    for stem in ("delivered_restitution", "force_depth_loops", "rise_under_each_law", "permanent_contact"):
+    for stem in ("laws_at_a_glance", "delivered_restitution", "force_depth_loops", "rise_under_each_law", "permanent_contact"):
         assert (out / f"{stem}.png").read_bytes().startswith(b"\x89PNG")
     assert "Lankarani-Nikravesh" in (out / "restitution_table.txt").read_text(encoding="utf-8")
     assert "clamped steps" in (out / "rise_table.txt").read_text(encoding="utf-8")
-    assert len(list((out / "runs").iterdir())) == len(RISES) + len(contact_law_cases.TEXTBOOK)
+    assert len(list((out / "runs").iterdir())) == len(contact_law_cases.Joint(paper_subject(), 5e4).laws)
     assert Result.load(out / "runs" / "exact.h5").time[-1] == 5.0
 
 
@@ -131,6 +134,19 @@ def test_the_chapter_says_what_was_computed(out: Path, numbers: dict[tuple[str, 
     assert all((out / f"{picture.stem}.png").is_file() for picture in chapter.pictures)
     delivered = numbers["delivered_restitution", "lankarani_nikravesh e=0.1"]["value"]
     assert any(f"{delivered:.3f} for 0.1" in text for text in chapter.findings)
-    restitution, rise = chapter.sheets
+    key, restitution, rise = chapter.sheets
     assert len(restitution.rows) == len({case.split(" ")[0] for name, case in numbers if "restitution" in name})
-    assert len(rise.rows) == len(RISES) + len(contact_law_cases.TEXTBOOK)
+    assert len(rise.rows) == len({case for name, case in numbers if name == "mean_pin_force"})
+    assert [row[0] for row in key.rows][:2] == ["Exact", "Lankarani-Nikravesh"]
+    assert len(key.rows) <= 8
+
+
+@pytest.mark.slow
+def test_ones_own_machine_is_spoken_of_and_the_paper_is_left_out(tmp_path: Path) -> None:
+    subject = own_subject(Path(machines.__file__).parent / "zf18000.toml", "front_base")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(contact_law_cases, "ASKED", ASKED)
+        out = written("contact_laws", ROUGH, tmp_path, subject=subject)
+    chapter = Chapter.load(out)
+    assert "zf18000" in chapter.title
+    assert "paper" not in json.dumps(json.loads((out / "chapter.json").read_text(encoding="utf-8"))).lower()
