@@ -27,7 +27,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     parser.add_argument("names", nargs="*", metavar="NAME", help="studies to run (the paper's answer)")
     parser.add_argument("--all", action="store_true", help="run all studies")
     parser.add_argument("--list", action="store_true", help="tell all studies, their questions and times")
-    given = parser.parse_args(argv)
+    given = parser.parse_intermixed_args(argv)
     if given.list:
         return answered(_list)
     codes: list[int] = []

@@ -31,7 +31,6 @@ class Options:
     machines: int | None = None
     runs: int | None = None
     subject: Subject = field(default_factory=paper_subject)
-    quick: bool = False
 
     def of_study(self, name: str, workers: Workers) -> "Options":
         """These options for one of several studies, in a folder of its own."""

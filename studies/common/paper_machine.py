@@ -114,15 +114,6 @@ def clearance_rise(
     return replace(ideal_rise(step), pins=pins, solver=settings)
 
 
-def to_accuracy(rise: Scenario, quick: bool) -> Scenario:
-    """The scenario by whatever formulation is cheapest, to an accuracy that leaves nothing open in what is
-    printed.
-
-    quick: only to a thousandth of pin forces and paths.
-    """
-    return replace(rise, formulation="auto", solver=SolverSettings(), accuracy="standard" if quick else 1e-6)
-
-
 def oil_columns() -> dict[str, OilColumn]:
     """Both pairs of columns on oil, alike."""
     oil = OilColumn(bore_area=bore_area(OIL_BORE, 2), oil_length=OIL_LENGTH, bulk_modulus=BULK_MODULUS)

@@ -81,7 +81,7 @@ class Study:
         for case, run in found.runs.items():
             save_run(run, chosen.out, file_name(case))
         save_figures(chosen, found.figures, found.live)
-        words = {"subject": chosen.subject, "quick": chosen.quick, **found.words}
+        words = {"subject": chosen.subject, **found.words}
         chapter, sheets = Words(self.name).chapter(
             words, found.tables, found.figures, found.tiles, found.claims
         )

@@ -1,13 +1,12 @@
-"""Command lines of any words: options, or exit code 2 with a usage and one line; never a traceback."""
+"""Command lines of any words: options, a usage and one line, or what is wrong in a line; never a traceback."""
 
 from __future__ import annotations
 
 import contextlib
 import importlib
 import io
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -18,9 +17,11 @@ import studies.__main__ as all_studies
 from studies import report
 from studies.benchmarking import benchmark
 from studies.catalogue import STUDIES
-from studies.common import study
-from studies.common.study import ALL_OPTIONS, Options, options, run_main
+from studies.common import study as study_module
+from studies.common.options import Options, add_options, read_options
+from studies.common.study import Study
 from studies.scene_detail import run as scene_detail
+from support_exudyn.commands.command_line import Parser
 from tests import strategies as some
 from user_forces import InputError
 
@@ -30,6 +31,11 @@ words = (
             *(
                 "--out",
                 "--quick",
+                "--list",
+                "--all",
+                "--machine",
+                "--pin",
+                "--runs",
                 "--workers",
                 "--machines",
                 "--commit-evidence",
@@ -47,6 +53,9 @@ words = (
                 "--workers=1e3",
                 "--machines=-1",
                 "--machines=٣",
+                "--runs=-1",
+                "--machine=/dev/null",
+                "contact_laws",
                 "1",
                 "0",
             ),
@@ -92,72 +101,90 @@ def is_usage_and_a_line(said: str) -> None:
     assert "\n" not in wrong.strip()
 
 
-def check(code: int | None, said: str, chosen: Options | None) -> None:
+def check(given_back: Any, code: int | None, said: str) -> None:
+    """All is well, or the words are refused with a usage, or what they name is refused in a sentence."""
     assert code in (None, 0, 2)
+    assert given_back in (None, 0, 1)
     if code == 2:
         is_usage_and_a_line(said)
-    elif chosen is not None:
-        assert isinstance(chosen.out, Path)
-        if isinstance(chosen.workers, NoPool):  # which was asked for as many as were noted
-            return
-        assert isinstance(chosen.workers, int)
+    if given_back == 1:
+        (wrong,) = [line for line in said.splitlines() if line.startswith("error: ")]
+        assert len(wrong) < 1000
+
+
+def check_options(chosen: Options) -> None:
+    assert isinstance(chosen.out, Path)
+    for number in (chosen.machines, chosen.runs):
+        assert number is None or number >= 1
+    assert chosen.subject.is_paper or chosen.subject.pin
+    if isinstance(chosen.workers, int):
         assert chosen.workers >= 1
-        assert chosen.machines is None or chosen.machines >= 1
 
 
-@given(argv=command_lines, taken=st.lists(st.sampled_from(ALL_OPTIONS), unique=True))
+def options(argv: Sequence[str]) -> Options:
+    parser = Parser(prog="python -m studies.contact_laws")
+    add_options(parser, Path("results"))
+    return read_options(parser.parse_args(argv))
+
+
+@given(argv=command_lines)
 @some.tried("options")
-def test_options_of_a_study_are_taken_or_refused(argv: list[str], taken: Sequence[str]) -> None:
-    chosen, code, said = outcome(lambda: options("contact_laws", argv, "What is asked.", taken))
-    check(code, said, chosen)
-
-
-class NoPool:
-    """In place of processes."""
-
-    def __enter__(self) -> NoPool:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        pass
+def test_options_of_a_study_are_taken_or_refused(argv: list[str]) -> None:
+    try:
+        chosen, code, said = outcome(lambda: options(argv))
+    except (InputError, OSError):  # of a machine that is not there, which `main` says in a line
+        return
+    check(None, code, said)
+    if chosen is not None:
+        check_options(chosen)
 
 
 PLACES = (*(f"{name}.run" for name in STUDIES), "benchmarking.benchmark", "report")
 
 
 @pytest.fixture
-def nothing_runs(monkeypatch: pytest.MonkeyPatch) -> list[Options]:
-    """Studies that only note with what they would run."""
-    noted: list[Options] = []
+def noted(monkeypatch: pytest.MonkeyPatch) -> list[Options]:
+    """Studies that only note with what they would run, and write nothing."""
+    found: list[Options] = []
 
-    def note(_: object, chosen: Options) -> int:
-        noted.append(chosen)
-        return 0
+    @contextlib.contextmanager
+    def nothing(*_: object) -> Iterator[None]:
+        yield
 
-    for module in (study, scene_detail, benchmark):  # where a study begins
-        monkeypatch.setattr(module, "run_main", note)
-    monkeypatch.setattr(all_studies, "run_main", note)
-    monkeypatch.setattr(all_studies, "worker_pool", lambda number: NoPool())
-    monkeypatch.setattr(all_studies, "rebuild", lambda *_: 0)
-    monkeypatch.setattr(report, "rebuild", lambda *_: 0)
-    monkeypatch.setattr(
-        scene_detail, "EvidenceTable", SimpleNamespace(load=lambda _: SimpleNamespace(save=lambda _: 0))
-    )
-    return noted
+    monkeypatch.setattr(Study, "__call__", lambda _, chosen: found.append(chosen))
+    monkeypatch.setattr(benchmark, "study", lambda out: found.append(Options(out)))
+    for module in (study_module, all_studies):
+        monkeypatch.setattr(module, "output_folder", nothing)
+    for module in (study_module, all_studies, scene_detail):
+        monkeypatch.setattr(module, "say_short", lambda *_: None)
+    for module in (all_studies, report):
+        monkeypatch.setattr(module, "rebuild", lambda *_: 0)
+    monkeypatch.setattr(all_studies, "worker_pool", nothing)
+    return found
 
 
-def test_every_study_takes_its_command_line_or_refuses_it(nothing_runs: list[Options]) -> None:
+def test_every_study_takes_its_command_line_or_refuses_it(noted: list[Options]) -> None:
     mains = [importlib.import_module(f"studies.{name}").main for name in PLACES]
+    ran = set()
 
     @given(argv=command_lines, main=st.sampled_from((all_studies.main, *mains)))
     @some.tried("all studies")
     def holds(argv: list[str], main: Callable[[Sequence[str]], int]) -> None:
-        nothing_runs.clear()
-        given_back, code, said = outcome(lambda: main(argv))
-        assert given_back in (None, 0)
-        check(code, said, nothing_runs[0] if nothing_runs else None)
+        if "--commit-evidence" in " ".join(argv):
+            return  # which writes where it says
+        noted.clear()
+        check(*outcome(lambda: main(argv)))
+        for chosen in noted:
+            check_options(chosen)
+            ran.add(main)
 
     holds()
+    assert ran  # the words are not all refused
+
+
+def test_names_run_those_studies_in_folders_of_their_own(noted: list[Options]) -> None:
+    assert all_studies.main(["--runs", "7", "extremes", "--out", "here", "which_pin"]) == 0
+    assert [(chosen.out.name, chosen.runs) for chosen in noted] == [("extremes", 7), ("which_pin", 7)]
 
 
 @pytest.mark.parametrize("out", ["\x00", "a\x00b", "\ud800", "x" * 300, "/dev/null/x", "/proc/nothing"])
@@ -165,27 +192,27 @@ def test_a_folder_that_cannot_be_is_refused_in_a_sentence(
     out: str, capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    chosen, code, said = outcome(lambda: options("contact_laws", ["--out", out], "What is asked."))
+    monkeypatch.setattr(Study, "__call__", lambda *_: pytest.fail("ran"))
+    given_back, code, said = outcome(lambda: STUDIES["contact_laws"].main(["--out", out]))
     if code == 2:
         return is_usage_and_a_line(said)
-    assert run_main(lambda _: None, chosen) == 1
-    said = capsys.readouterr().err
+    assert (given_back, code) == (1, None)
     assert said.startswith("error: --out ")
     assert "allowed: " in said
     return None
 
 
-def test_an_input_that_a_study_refuses_is_a_sentence(
-    capsys: pytest.CaptureFixture[str], tmp_path: Path
-) -> None:
-    def study(_: Options) -> None:
+def test_an_input_that_a_study_refuses_is_a_sentence(tmp_path: Path) -> None:
+    def work(_: Options) -> Any:
         raise InputError("Scenario.step = 0.0: allowed: > 0")
 
-    assert run_main(study, Options(tmp_path, quick=True, workers=1)) == 1
-    assert "error: Scenario.step = 0.0: allowed: > 0" in capsys.readouterr().err
+    refusing = Study("refusing", "What is asked.", work)
+    given_back, _, said = outcome(lambda: refusing.main(["--out", str(tmp_path / "out")]))
+    assert given_back == 1
+    assert "error: Scenario.step = 0.0: allowed: > 0" in said
 
 
 def test_a_number_of_thousands_of_digits_is_refused_in_a_line() -> None:
-    chosen, code, said = outcome(lambda: options("contact_laws", ["--workers", "1" * 5000], "What is asked."))
+    chosen, code, said = outcome(lambda: options(["--workers", "1" * 5000]))
     assert (chosen, code) == (None, 2)
     is_usage_and_a_line(said)

@@ -23,7 +23,7 @@ def test_a_figure_is_written_as_png_and_pdf(tmp_path: Path) -> None:
     assert sorted(path.name for path in tmp_path.iterdir()) == ["line.pdf", "line.png"]
 
 
-def test_the_quick_form_needs_no_pdf(tmp_path: Path) -> None:
+def test_a_figure_may_go_without_a_pdf(tmp_path: Path) -> None:
     with style.look():
         assert style.save(drawing(), tmp_path, "line", pdf=False) == [tmp_path / "line.png"]
 

@@ -1,6 +1,6 @@
-"""Studies as tests run them: in the quick form, and in a rough one that costs a seventh of it.
+"""Studies as tests run them: as users do, and in a rough form that costs a seventh of it.
 
-The rough form does all that the quick one does, but runs each case once where that has it at half and at a
+The rough form does all that the whole one does, but runs each case once where that has it at half and at a
 quarter of its steps, too: the three are then the same run. Findings are there; of the errors one sees only that
 there are some. Tests of a study of the paper are made on the rough form by default, on both with the marker
 `slow`; those of the other studies only with it.
@@ -29,10 +29,10 @@ from support_exudyn.postprocessing.figures import style
 from support_exudyn.sweeps.workers import Workers
 from tests.at_once import at_once
 
-ROUGH, QUICK = "rough", "quick"
-FORMS = [ROUGH, pytest.param(QUICK, marks=pytest.mark.slow)]
-ONLY_SLOW = [pytest.param(form, marks=pytest.mark.slow) for form in (ROUGH, QUICK)]
-on_the_quick_form = pytest.mark.parametrize("out", FORMS[1:], indirect=True)  # where errors are looked at
+ROUGH, WHOLE = "rough", "whole"
+FORMS = [ROUGH, pytest.param(WHOLE, marks=pytest.mark.slow)]
+ONLY_SLOW = [pytest.param(form, marks=pytest.mark.slow) for form in (ROUGH, WHOLE)]
+on_the_whole_form = pytest.mark.parametrize("out", FORMS[1:], indirect=True)  # where errors are looked at
 ROUGH_ACCURACY = "standard"  # of runs to an accuracy
 COARSER = {"which_pin": 3.0, "drive_mode": 4.0, "contact_laws": 2.0}  # times as long rough steps and records
 SHORT = {  # strokes of scene_detail, in which pins still bounce
@@ -75,6 +75,6 @@ def written(
             patch.setattr(runs, "run_cases", partial(_once, coarser=COARSER.get(study, 1.0)))
             patch.setitem(style.STYLE, "savefig.dpi", 60)
             patch.setattr(scene_detail, "run_timed", _once_timed)
-        chosen = Options(folder, at_once(), machines=machines, quick=True)
+        chosen = Options(folder, at_once(), machines=machines)
         STUDIES[study](replace(chosen, subject=subject) if subject else chosen)
     return folder

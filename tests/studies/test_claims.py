@@ -17,9 +17,9 @@ from studies.claims.evidence import Evidence, Measured
 from studies.claims.plausible import REFERENCE
 from studies.claims.verdicts import KINDS, Ruling, rule
 from studies.common.chapter import Chapter
-from tests.studies.forms import FORMS, QUICK, ROUGH, written
+from tests.studies.forms import FORMS, ROUGH, WHOLE, written
 
-MACHINES = {ROUGH: 2, QUICK: 8}
+MACHINES = {ROUGH: 2, WHOLE: 8}
 
 
 @pytest.fixture(scope="module", params=FORMS)

@@ -18,7 +18,7 @@ from support_exudyn import Result
 from support_exudyn.postprocessing.figures import style
 from tests import figure_checks
 from tests.studies.another_way import by_the_engine, off
-from tests.studies.forms import FORMS, ROUGH, on_the_quick_form, written
+from tests.studies.forms import FORMS, ROUGH, on_the_whole_form, written
 
 
 @pytest.fixture(scope="module", params=FORMS)
@@ -143,7 +143,7 @@ def test_impacts_at_the_start_exceed_the_load_several_times(
         assert numbers["largest_pin_force", case]["value"] > 7.0 * 58778.944
 
 
-@on_the_quick_form  # the engine takes seconds a run; formulations are compared by short runs elsewhere
+@on_the_whole_form  # the engine takes seconds a run; formulations are compared by short runs elsewhere
 def test_printed_errors_cover_the_distance_from_another_formulation(
     out: Path, numbers: dict[tuple[str, str], dict[str, Any]]
 ) -> None:

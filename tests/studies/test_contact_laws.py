@@ -19,7 +19,7 @@ from studies.contact_laws import run as study
 from studies.contact_laws.free_impact import delivered_restitution, free_impact
 from support_exudyn import Result, simulate
 from support_exudyn.files import machines
-from tests.studies.forms import ONLY_SLOW, ROUGH, on_the_quick_form, written
+from tests.studies.forms import ONLY_SLOW, ROUGH, on_the_whole_form, written
 from user_forces import FrictionLaw, Frictionless, ImpactVelocity, NormalLaw
 
 ASKED = (0.1, 0.5, 0.9)  # restitutions
@@ -55,21 +55,16 @@ def test_the_catalogue_holds_every_law() -> None:
 
 def test_every_law_moves_the_machine_and_is_tried_in_impacts() -> None:
     rises = contact_law_cases.Joint(paper_subject(), catalogue.RESTING_FORCE).runs
-    assert {
-        type(case.pins["rear_base"].contact.normal) for case in rises.values()
-    } == laws(NormalLaw)
-    assert {
-        type(case.pins["rear_base"].contact.friction) for case in rises.values()
-    } == laws(FrictionLaw)
+    assert {type(case.pins["rear_base"].contact.normal) for case in rises.values()} == laws(NormalLaw)
+    assert {type(case.pins["rear_base"].contact.friction) for case in rises.values()} == laws(FrictionLaw)
     assert {type(law) for law, _ in contact_law_cases.impact_laws().values()} == laws(NormalLaw)
     textbook = [
-        rises[name].pins["rear_base"].contact.normal.damping_speed
-        for name in contact_law_cases.TEXTBOOK
+        rises[name].pins["rear_base"].contact.normal.damping_speed for name in contact_law_cases.TEXTBOOK
     ]
     assert textbook == [ImpactVelocity(floor=1e-3), ImpactVelocity(floor=0.1)]
 
 
-@on_the_quick_form
+@on_the_whole_form
 def test_restitution_cases_are_named_as_agreed_and_right(
     numbers: dict[tuple[str, str], dict[str, Any]],
 ) -> None:
@@ -120,7 +115,13 @@ def test_the_way_a_resting_contact_is_damped_matters(numbers: dict[tuple[str, st
 
 
 def test_every_file_is_there(out: Path) -> None:
-    for stem in ("laws_at_a_glance", "delivered_restitution", "force_depth_loops", "rise_under_each_law", "permanent_contact"):
+    for stem in (
+        "laws_at_a_glance",
+        "delivered_restitution",
+        "force_depth_loops",
+        "rise_under_each_law",
+        "permanent_contact",
+    ):
         assert (out / f"{stem}.png").read_bytes().startswith(b"\x89PNG")
     assert "Lankarani-Nikravesh" in (out / "restitution_table.txt").read_text(encoding="utf-8")
     assert "clamped steps" in (out / "rise_table.txt").read_text(encoding="utf-8")

@@ -13,7 +13,7 @@ from studies.common.chapter import Chapter
 from studies.common.subject import own_subject
 from studies.drive_mode.cases import COLUMNS, MODES, PINS, ModePlan, case_name, naive_peaks
 from studies.drive_mode.tables import CONVERGES, verdict
-from tests.studies.forms import FORMS, on_the_quick_form, written
+from tests.studies.forms import FORMS, on_the_whole_form, written
 from user_forces.values.value import InputError
 
 IDEAL, WITH_CLEARANCE = PINS
@@ -57,7 +57,7 @@ def test_the_sudden_start_strikes_rigid_columns_only(numbers: Numbers) -> None:
             assert numbers[f"impulse_{column}_end", case]["value"] < 0.0
 
 
-@on_the_quick_form
+@on_the_whole_form
 def test_peaks_on_oil_have_a_limit(numbers: Numbers) -> None:
     for pin in PINS:
         for name in ("largest_pin_force_in_rise", "largest_rear_column_force"):

@@ -31,7 +31,7 @@ def said(macro: str, *args: object, study: str = "which_pin") -> str:
 
 
 def made_up(errors: float = 0.0) -> dict[tuple[str, str], Number]:
-    """All numbers of the quick form: each pin has its own effect, and all five what they should together."""
+    """Each pin has its own effect, and all five what they should together."""
     numbers = []
     for name, (unit, _) in which_pin_measures.measures(PLAN).items():
         for friction in which_pin_cases.FRICTIONS:

@@ -20,7 +20,7 @@ from studies.which_pin.posture import loads, mean_shift
 from studies.which_pin.tables import in_order, rankings
 from support_exudyn import ClearancePin, CubicStep, Result, SolverSettings, reference_support, simulate
 from support_exudyn.mechanics.initial_eccentricity import eccentric
-from tests.studies.forms import ONLY_SLOW, on_the_quick_form, written
+from tests.studies.forms import ONLY_SLOW, on_the_whole_form, written
 from user_forces import Ambrosio, Exact, Hertz, JournalBearing, JournalContact, KelvinVoigt, Threlfall
 from user_forces.values.value import InputError
 
@@ -65,7 +65,7 @@ def test_virtual_work_tells_where_the_worn_support_stands(numbers: Numbers, axis
         )
 
 
-@on_the_quick_form
+@on_the_whole_form
 @pytest.mark.parametrize("friction", which_pin_cases.FRICTIONS)
 def test_shifts_add_up_and_shaking_does_so_only_without_friction(numbers: Numbers, friction: float) -> None:
     whole = which_pin_cases.case_name(PINS, friction)
