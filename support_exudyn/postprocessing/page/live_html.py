@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -19,6 +20,7 @@ PANEL_PX, ROW_PX = 215, 24  # heights of a panel, and of a row of names above it
 PHONE_PX, LETTER_PX, GLYPH_PX = 330, 5.7, 30  # by which names are put in columns
 LONG = 28  # letters of a y axis's label, above which its unit stands in a line of its own
 THICKER = 1.3  # pixels to a point
+KEPT = 64  # figures, for the next page
 # in dark mode light becomes dark, and colours stay
 CSS = "@media screen and (prefers-color-scheme: dark) { .live { filter: invert(0.92) hue-rotate(180deg); } }"
 
@@ -43,13 +45,24 @@ def html(figures: Mapping[str, LiveFigure]) -> LiveHtml:
     """
     if not figures:
         return LiveHtml("", {})
-    from bokeh.embed import components  # it takes half a second, which pages alone spend
-    from bokeh.resources import Resources
+    from bokeh.resources import Resources  # it takes half a second, which pages alone spend
 
-    script, places = components({name: _laid_out(figure) for name, figure in figures.items()})
+    made = {name: _components(name, figure) for name, figure in figures.items()}
     library = Resources(mode="inline", components=["bokeh"], minified=True).render_js()
-    held = {name: place.strip() for name, place in places.items()}
-    return LiveHtml(f"<style>{CSS}</style>\n{library}\n{script.strip()}\n", held)
+    scripts = "\n".join(script for script, _ in made.values())
+    return LiveHtml(
+        f"<style>{CSS}</style>\n{library}\n{scripts}\n", {name: at for name, (_, at) in made.items()}
+    )
+
+
+@lru_cache(maxsize=KEPT)  # a report is written anew after each study, and most of its figures are those before
+def _components(name: str, figure: LiveFigure) -> tuple[str, str]:
+    """The script of a figure, and the element where it is to stand; figures alike have elements of their own."""
+    del name
+    from bokeh.embed import components
+
+    script, place = components(_laid_out(figure))
+    return script.strip(), place.strip()
 
 
 def _laid_out(figure: LiveFigure) -> LayoutDOM:

@@ -8,6 +8,7 @@ import io
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 
 from jinja2 import BaseLoader, ChoiceLoader, Environment, PackageLoader, StrictUndefined
@@ -19,6 +20,7 @@ from rich.text import Text
 SHORT = 28  # characters of a cell that is kept in one line, unless the table is wide
 HARD_SPACE = "\u00a0"
 COLOURS = 128  # of a picture; drawings with thin lines and smooth edges keep their look
+KEPT = 256  # pictures, for the next page
 WIDEST = 1600  # pixels of a picture; a page shows it 800 wide
 SCRIPT = re.compile(r"<script\b([^>]*)>(.*?)</script>", re.DOTALL)
 
@@ -124,6 +126,13 @@ def image(path: Path) -> str:
 
     Raises OSError if it cannot be read.
     """
+    there = path.stat()
+    return _image(path, there.st_mtime_ns, there.st_size)
+
+
+@lru_cache(maxsize=KEPT)  # a report is written anew after each study, and most of its figures are those before
+def _image(path: Path, changed: int, size: int) -> str:
+    """The data URI of a file as it was changed last [ns], of so many bytes."""
     with Image.open(path) as opened:
         picture = Image.alpha_composite(Image.new("RGBA", opened.size, "white"), opened.convert("RGBA"))
     picture = picture.convert("RGB")
@@ -132,7 +141,7 @@ def image(path: Path) -> str:
             (WIDEST, round(picture.height * WIDEST / picture.width)), Image.Resampling.LANCZOS
         )
     small = io.BytesIO()
-    picture.quantize(COLOURS, dither=Image.Dither.NONE).save(small, "PNG", optimize=True)
+    picture.quantize(COLOURS, dither=Image.Dither.NONE).save(small, "PNG")
     return "data:image/png;base64," + base64.b64encode(small.getvalue()).decode("ascii")
 
 
