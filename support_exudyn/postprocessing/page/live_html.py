@@ -57,7 +57,7 @@ def html(figures: Mapping[str, LiveFigure]) -> LiveHtml:
 
 @lru_cache(maxsize=KEPT)  # a report is written anew after each study, and most of its figures are those before
 def _components(name: str, figure: LiveFigure) -> tuple[str, str]:
-    """The script of a figure, and the element where it is to stand; figures alike have elements of their own."""
+    """The script of a figure, and the element where it is to stand, of its own name."""
     del name
     from bokeh.embed import components
 
