@@ -31,18 +31,18 @@ def run_with_errors(cases: Mapping[str, Scenario], chosen: Options) -> dict[str,
 
     Each result is that of the shortest steps, and the others are its `coarser` ones: every number of it has the
     error that accuracies estimate, `Result.estimate`. Where numbers do not settle that is large, and no reason
-    to end a study.
+    to end a study. A case that asks for an accuracy has such errors by itself, and is run once.
 
     Raises SimulationError if a run fails.
     """
     steps: dict[str, list[Scenario]] = {}
     for name, case in cases.items():
         half = case.refined()
-        steps[name] = [case, half, half.refined()]
+        steps[name] = [case] if case.accuracy is not None else [case, half, half.refined()]
     # the longest first, so that no process is left alone with a long run at the end
-    runs = {_at(name, n): chosen[n] for n in (2, 1, 0) for name, chosen in steps.items()}
+    runs = {_at(name, n): at[n] for n in (2, 1, 0) for name, at in steps.items() if n < len(at)}
     good = run_cases(runs, chosen)
-    return {name: with_coarser([good[_at(name, n)] for n in range(3)]) for name in cases}
+    return {name: with_coarser([good[_at(name, n)] for n in range(len(at))]) for name, at in steps.items()}
 
 
 def _at(name: str, n: int) -> str:

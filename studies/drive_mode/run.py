@@ -22,7 +22,7 @@ from support_exudyn import Result
 def work(chosen: Options) -> StudyOutcome:
     """Both modes on all kinds of columns, and the peaks of the recipe that has no limit."""
     plan = ModePlan(chosen.subject)
-    results = _results(plan, chosen)
+    results = runs.run_with_errors(plan.scenarios, chosen)
     numbers = measure(plan, results)
     found = by_case(numbers)
     naive = tables.naive_said(naive_peaks()) if plan.subject.is_paper else None
@@ -40,14 +40,6 @@ def work(chosen: Options) -> StudyOutcome:
     return StudyOutcome(
         numbers, _words(plan, found, results, naive, sheets), drawings, sheets, results, live=live
     )
-
-
-def _results(plan: ModePlan, chosen: Options) -> dict[str, Result]:
-    """All cases: those to an accuracy have errors of their own, those at steps are run three times."""
-    steps = {name: case for name, case in plan.scenarios.items() if case.accuracy is None}
-    others = {name: case for name, case in plan.scenarios.items() if case.accuracy is not None}
-    found = runs.run_with_errors(steps, chosen) | runs.run_cases(others, chosen)
-    return {name: found[name] for name in plan.scenarios}
 
 
 def _words(
