@@ -11,6 +11,7 @@ from studies.catalogue import DEFAULT, STUDIES
 from studies.common.options import Options, add_options, read_options
 from studies.common.study import Study, output_folder, say_short
 from studies.report import rebuild
+from studies.reporting.places import PAGE
 from support_exudyn.commands.command_line import Parser, answered, say, warn
 from support_exudyn.simulation.at_start import EXIT_CODE
 from support_exudyn.sweeps.workers import Workers, worker_pool
@@ -67,6 +68,7 @@ def _run(names: Sequence[str], options: Options, pool: Workers) -> int:
     """Run studies one after the other; one that fails does not keep the others from the report."""
     began = time.perf_counter()
     failed = []
+    page = options.out / PAGE
     for n, name in enumerate(names):
         spent = time.perf_counter() - began
         left = sum(STUDIES[one].seconds for one in names[n:])
@@ -75,9 +77,11 @@ def _run(names: Sequence[str], options: Options, pool: Workers) -> int:
             failed.append(name)
         elif rebuild(options.out, list(STUDIES)):
             failed.append("report")
+        elif n == 0 and len(names) > 1:
+            say(f"report    {page} can be read now; every study adds to it")
     if failed:
         warn(f"error: failed: {', '.join(failed)}; the report has all the others")
-    say(f"\n{_seconds(time.perf_counter() - began)} in all; the report: {options.out / 'report.html'}")
+    say(f"\n{_seconds(time.perf_counter() - began)} in all; the report: {page}")
     return 1 if failed else 0
 
 

@@ -13,7 +13,7 @@ from studies.common.chapter import FILE
 from studies.reporting.content import ReportSection
 from studies.reporting.pages import pages
 from studies.reporting.places import PAGE
-from support_exudyn.commands.command_line import Parser, folder, warn
+from support_exudyn.commands.command_line import Parser, folder, say, warn
 from support_exudyn.files.whole_file import whole_file
 from user_forces.values.value import InputError
 
@@ -59,13 +59,12 @@ def sections(out: Path, order: Sequence[str]) -> list[ReportSection]:
 
 
 def rebuild(out: Path, order: Sequence[str]) -> int:
-    """Write the report from the folders below `out` and print its path. Returns the exit code."""
+    """Write the report from the folders below `out`; what is wrong is said. Returns the exit code."""
     try:
-        path = write_report(out, sections(out, order))
+        write_report(out, sections(out, order))
     except (InputError, OSError) as error:
         warn(f"error: {error}")
         return 1
-    print(path)
     return 0
 
 
@@ -78,7 +77,11 @@ def main(argv: Sequence[str] | None = None) -> int:
     parser.add_argument(
         "--out", type=folder, default=default, metavar="DIR", help=f"folder of results ({default})"
     )
-    return rebuild(parser.parse_args(argv).out, list(STUDIES))
+    out = parser.parse_args(argv).out
+    code = rebuild(out, list(STUDIES))
+    if not code:
+        say(str(out / PAGE))
+    return code
 
 
 if __name__ == "__main__":

@@ -39,32 +39,39 @@ def figures(rulings: Sequence[Ruling], reference: Evidence, machines: Machines) 
 
 
 def share_figure(rulings: Sequence[Ruling]) -> Figure:
-    """A bar a claim that has a measure."""
+    """A bar a claim that has a measure, in two columns."""
     shown = [(n, ruling) for n, ruling in enumerate(rulings, 1) if ruling.claim.judge is not None]
-    drawing = Figure(figsize=style.size(170, 24 + 4.3 * len(shown)))
-    axes = drawing.subplots()
+    rows = -(-len(shown) // 2)
+    drawing = Figure(figsize=style.size(170, 28 + 3.9 * rows))
+    panels = drawing.subplots(1, 2)
+    for axes, part in zip(panels, (shown[:rows], shown[rows:]), strict=True):
+        _bars(axes, part, rows)
+    drawing.supxlabel(SHARE, fontsize=9)
+    letters(panels)
+    found = {ruling.kind for _, ruling in shown}
+    bars = [Patch(color=colour, label=LEGEND[kind]) for kind, colour in COLOURS.items() if kind in found]
+    drawing.legend(handles=[*bars, *_squares()], loc="outside lower center", ncols=3)
+    return drawing
+
+
+def _bars(axes: Axes, shown: Sequence[tuple[int, Ruling]], rows: int) -> None:
+    """A column of so many rows: numbers of claims and what was ruled."""
     for y, (_, ruling) in enumerate(shown):
         if ruling.share is not None and ruling.interval is not None:
             low, high = ruling.interval
             axes.barh(y, 100 * ruling.share, color=COLOURS[ruling.kind], height=0.68)
             axes.plot([100 * low, 100 * high], [y, y], color="black", lw=0.9)
         else:
-            axes.text(
-                1.0, y, f"{ruling.claim.alone or 'left open on every machine'}: {ruling.kind}", va="center"
-            )
+            why = f"{ruling.claim.alone or 'left open on every machine'}: {ruling.kind}"
+            axes.text(1.0, y, why, va="center", fontsize=7)
         full = "black" if ruling.reference else "none"
-        axes.plot(104, y, "s", ms=4, color="black", mfc=full, clip_on=False)
-    labels = [f"{ruling.claim.name}  {n}" for n, ruling in shown]
-    axes.set_yticks(range(len(shown)), labels)
-    axes.set(xlim=(0, 107), xticks=(5, 20, 40, 60, 80, 95), ylim=(len(shown) - 0.4, -0.6), xlabel=SHARE)
+        axes.plot(104, y, "s", ms=3.5, color="black", mfc=full, clip_on=False)
+    axes.set_yticks(range(len(shown)), [f"{ruling.claim.name}  {n}" for n, ruling in shown], fontsize=7)
+    axes.set(xlim=(0, 107), xticks=(5, 50, 95), ylim=(rows - 0.4, -0.6))
     for bound in (NEARLY_ALL, 1.0 - NEARLY_ALL):
         axes.axvline(100 * bound, color="#777777", lw=0.7, ls=(0, (4, 2)))
     axes.grid(visible=False, axis="y")
     axes.set_axisbelow(True)
-    found = {ruling.kind for _, ruling in shown}
-    bars = [Patch(color=colour, label=LEGEND[kind]) for kind, colour in COLOURS.items() if kind in found]
-    drawing.legend(handles=[*bars, *_squares()], loc="outside lower center", ncols=2)
-    return drawing
 
 
 def _squares() -> list[Line2D]:

@@ -66,9 +66,10 @@ def _split_figure(results: Mapping[str, Result], channel: str, scale: float, lab
         _draw(axes, results, channel, scale, case, IDEAL)
         axes.set(xlabel="time [s]", ylabel=label, xlim=(0.0, 5.0))
         _mark_peak(axes, results[case], channel, scale, label)
-    low, high = panels["dry"].get_ylim()
-    panels["dry"].set_ylim(low, high + 0.08 * (high - low))
-    panels["smooth"].sharey(panels["dry"])
+    limits = [limit for name in ("dry", "smooth") for limit in panels[name].get_ylim()]
+    low, high = min(limits), max(limits)
+    for name in ("dry", "smooth"):
+        panels[name].set_ylim(low, high + 0.08 * (high - low))
     _draw(panels["rise"], results, channel, scale)
     panels["rise"].set(xlabel="time [s]", ylabel=label, xlim=(rise.START, rise.END))
     inside = rise.START + 1e-3, rise.END - 1e-3

@@ -19,10 +19,10 @@ from studies.common.numbers import (
     cell,
     compared,
     counted,
+    in_tile,
     measured,
     printed,
     rounded,
-    short,
 )
 from studies.common.options import Options
 from studies.common.runs import impacts, run_cases
@@ -200,12 +200,12 @@ def tiles(found: Found) -> tuple[Tile, ...]:
     alone = f"{in_rise.value / 1e3:.1f} kN ({against(in_rise, ideal_peak)})"
     way = "to the rear" if shift.value < 0.0 else "forward"
     return (
-        Tile("mean force in the pin", short(ideal_mean, 1e-3, "kN"), short(mean, 1e-3, "kN"),
+        Tile("mean force in the pin", in_tile(ideal_mean, 1e-3, "kN"), in_tile(mean, 1e-3, "kN"),
              against(mean, ideal_mean)),
-        Tile("peak force", short(ideal_peak, 1e-3, "kN"), short(peak, 1e-3, "kN"),
+        Tile("peak force", in_tile(ideal_peak, 1e-3, "kN"), in_tile(peak, 1e-3, "kN"),
              f"{times}, in the fall into the bore; in the rise alone {alone}"),
-        Tile("canopy tip, mean place", "0", short(shift, 1.0, "mm"), f"{way}, against the ideal pin"),
-        Tile("fluctuation of the force", short(ideal_shaking, 1e-3, "kN"), short(shaking, 1e-3, "kN"),
+        Tile("canopy tip, mean place", "0", in_tile(shift, 1.0, "mm"), f"{way}, against the ideal pin"),
+        Tile("fluctuation of the force", in_tile(ideal_shaking, 1e-3, "kN"), in_tile(shaking, 1e-3, "kN"),
              "root mean square of what is faster than 0.1 s"),
     )  # fmt: skip
 

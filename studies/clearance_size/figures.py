@@ -1,6 +1,6 @@
 """Counterparts of Fig. 6 to 11 of the paper."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -10,6 +10,7 @@ from studies.common import rise
 from studies.common.numbers import Found
 from studies.common.panels import WINDOWS, fit_height, forward_arrow, legend, letters, time_ticks
 from studies.common.paper_machine import SIZES_MM, case_name
+from studies.common.study import LivePanels
 from studies.common.subject import Subject
 from support_exudyn import Result
 from support_exudyn.postprocessing.figures import style
@@ -17,10 +18,6 @@ from support_exudyn.postprocessing.figures import style
 COLOURS = {0.5: "#009E73", 1.0: "#E69F00", 1.5: "#0072B2", 2.0: "#CC79A7"}  # Okabe and Ito
 DASHES = {0.5: "-", 1.0: (0, (5, 1)), 1.5: (0, (3, 1, 1, 1)), 2.0: (0, (1, 1))}  # for grey prints
 NO_FRICTION = "#777777"
-LIVE: dict[str, Sequence[int]] = {
-    "fig6_angular_velocity": (0,), "fig7_angular_acceleration": (0, 1, 2, 3), "fig8_pin_force": (0, 1, 2, 3),
-    "fig10_tip_shift": (0, 1), "fig11_column_angles": (0, 1, 2, 3),
-}  # fmt: skip
 Results = Mapping[str, Result]
 
 
@@ -43,9 +40,19 @@ def figures(subject: Subject, results: Results, found: Found) -> dict[str, Figur
     return drawings
 
 
-def live(drawings: Mapping[str, Figure]) -> dict[str, Sequence[int]]:
+def live(drawings: Mapping[str, Figure]) -> dict[str, LivePanels]:
     """Which panels of those figures are time series to look into."""
-    return {name: panels for name, panels in LIVE.items() if name in drawings}
+    sizes = [f"{size:.1f} mm" for size in reversed(SIZES_MM)]
+    found: dict[str, LivePanels] = {
+        "fig6_angular_velocity": (0,),
+        "fig7_angular_acceleration": {
+            n: f"angular acceleration, {one} [deg/s²]" for n, one in enumerate(sizes)
+        },
+        "fig8_pin_force": {n: f"pin force, {one} [kN]" for n, one in enumerate(sizes)},
+        "fig10_tip_shift": (0, 1),
+        "fig11_column_angles": (0, 1, 2, 3),
+    }
+    return {name: panels for name, panels in found.items() if name in drawings}
 
 
 def windows(watched: rise.Watched) -> list[tuple[float, float]]:

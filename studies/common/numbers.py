@@ -199,6 +199,12 @@ def short(number: Number, scale: float = 1.0, unit: str | None = None) -> str:
     return f"{text} ± {percent(share)}" if share >= 1e-5 else text
 
 
+def in_tile(number: Number, scale: float, unit: str) -> str:
+    """A number in three digits, with its error however small it is: "52.7 kN ± less than 0.001 %"."""
+    text, _, error = short(number, scale, unit).partition(" ± ")
+    return f"{text} ± {error or percent(0.0)}"
+
+
 def against(number: Number, other: Number) -> str:
     """How much a number is above or below another, in per cent of the other, to its error.
 

@@ -7,7 +7,7 @@ import textwrap
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from matplotlib.figure import Figure
@@ -29,6 +29,8 @@ from support_exudyn.postprocessing.page.pieces import HARD_SPACE, Sheet, unbroke
 from support_exudyn.sweeps.workers import Workers
 from user_forces.values.value import InputError
 
+LivePanels = Sequence[int] | Mapping[int, str]  # of a live figure, see `of_drawing`
+
 
 @dataclass(frozen=True)
 class StudyOutcome:
@@ -46,7 +48,7 @@ class StudyOutcome:
     tables: Mapping[str, TextTable]
     runs: Mapping[str, Result] = field(default_factory=dict)
     counts: Mapping[str, int] = field(default_factory=dict)
-    live: Mapping[str, Sequence[int]] = field(default_factory=dict)
+    live: Mapping[str, LivePanels] = field(default_factory=dict)
     tiles: Sequence[Tile] = ()
     claims: Sequence[JudgedClaim] = ()
 
@@ -133,11 +135,11 @@ def say_short(chapter: Chapter, out: Path) -> None:
 
 
 def save_figures(
-    chosen: Options, drawings: Mapping[str, Figure], live: Mapping[str, Sequence[int]] | None = None
+    chosen: Options, drawings: Mapping[str, Figure], live: Mapping[str, LivePanels] | None = None
 ) -> None:
     """Write a study's figures into its folder, as PNG, PDF and CSV; side by side if there is a pool.
 
-    live: which panels of a figure are written as a live figure, too.
+    live: which panels of a figure are written as a live figure, too, see `of_drawing`.
     """
     panels = live or {}
     jobs = [(drawing, chosen.out, name, panels.get(name, ())) for name, drawing in drawings.items()]
@@ -148,7 +150,7 @@ def save_figures(
             _save_figure(place, *job)
 
 
-def _save_figure(place: int, drawing: Figure, out: Path, name: str, live: Sequence[int]) -> None:
+def _save_figure(place: int, drawing: Figure, out: Path, name: str, live: LivePanels) -> None:
     del place
     with style.look():
         style.save(drawing, out, name)
@@ -164,7 +166,13 @@ def show_table(stem: Path, table: Sheet, width: int = 150) -> None:
 
 
 def save_table(stem: Path, table: Sheet, width: int) -> None:
-    """Write a table as text, so many characters wide, and as CSV."""
+    """Write a table as text, so many characters wide, and as CSV; names of files stand in place of links."""
+    table = replace(
+        table,
+        title=without_references(table.title),
+        rows=tuple(tuple(map(without_references, row)) for row in table.rows),
+        caption=without_references(table.caption),
+    )
     with whole_file(stem.with_suffix(".txt")) as temporary, temporary.open("w", encoding="utf-8") as file:
         Console(file=file, width=width).print(table.rich())
     with (

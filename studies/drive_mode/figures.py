@@ -9,6 +9,7 @@ from matplotlib.ticker import MultipleLocator
 
 from studies.common import rise
 from studies.common.panels import legend, letters
+from studies.common.study import LivePanels
 from studies.drive_mode.cases import END, MODES, ModePlan, case_name
 from studies.drive_mode.measures import extension
 from support_exudyn import Result, SuddenOpening
@@ -17,9 +18,11 @@ from support_exudyn.postprocessing.figures import style
 PAIRS = {"front": style.SMOOTH, "rear": style.WITH_CLEARANCE}
 DASHES = (0, (4, 2))
 # panels to look into, by figure
-LIVE = {
-    "fig13_rigid_columns": (2, 4, 6, 7), "fig13_oil_columns": (2, 4, 6, 7), "start_of_mode_1": (0, 1, 2),
-    "cylinders": (0, 2, 4, 6, 7), "cylinders_mode_1": (0, 2),
+PIN_FORCES = {6: "pin force, mode 1 [kN]", 7: "pin force, mode 2 [kN]"}
+LIVE: dict[str, LivePanels] = {
+    "fig13_rigid_columns": PIN_FORCES, "fig13_oil_columns": PIN_FORCES, "start_of_mode_1": (0, 1, 2),
+    "cylinders": {2: "speed, front, mode 1 [mm/s]", 4: "pressure, rear, mode 1 [MPa]", **PIN_FORCES},
+    "cylinders_mode_1": (0, 2),
 }  # fmt: skip
 Curve = Callable[[Result], rise.Series]  # what is drawn of a run at its records
 

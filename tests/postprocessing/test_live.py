@@ -106,6 +106,11 @@ def test_curves_of_a_drawing_are_its_labelled_lines_from_the_undermost() -> None
     assert max(v for v in under.y if v is not None) == 30.0
 
 
+def test_a_panel_can_be_told_what_it_is() -> None:
+    found = of_drawing(drawing(), {1: "pin force, mode 2 [kN]"})
+    assert [panel.label for panel in found.panels] == ["pin force, mode 2 [kN]"]
+
+
 def test_a_panel_without_curves_is_refused() -> None:
     figure = Figure()
     figure.subplots().plot([0.0, 1.0], [0.0, 1.0])

@@ -11,6 +11,7 @@ import pytest
 from rich.console import Console
 
 from studies.common.chapter import Chapter, JudgedClaim, Picture, Tile, without_references
+from studies.common.study import save_table
 from support_exudyn.postprocessing.page.pieces import Sheet
 from user_forces.values.value import InputError
 
@@ -112,3 +113,13 @@ def test_a_terminal_is_told_names_of_files_in_place_of_links() -> None:
         without_references("It grows [@force], see [@other/table.1] [@].")
         == "It grows force, see other/table.1 [@]."
     )
+
+
+def test_the_files_of_a_table_have_names_of_files_in_place_of_links(tmp_path: Path) -> None:
+    linked = Sheet("Title [@force]", ("case", "n"), (("a [@other/table.1]", "1"),), "See [@force].")
+    save_table(tmp_path / "table", linked, 100)
+    assert (tmp_path / "table.csv").read_text(encoding="utf-8").split() == ["case,n", "a", "other/table.1,1"]
+    text = (tmp_path / "table.txt").read_text(encoding="utf-8")
+    assert "[@" not in text
+    for part in ("Title force", "a other/table.1", "See force."):
+        assert part in text

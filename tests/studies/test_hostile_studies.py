@@ -240,6 +240,8 @@ def test_studies_are_run_by_name_and_unknown_ones_refused(
     said = capsys.readouterr()
     assert "study 2 of 3: two" in said.err
     assert "answer    So." in said.out
+    assert said.out.count("can be read now") == 2  # of the two commands with more than one study
+    assert said.out.count(str(tmp_path / "report.html")) == 3 + 2
     assert all_studies.main(["four", *place]) == 1
     assert "'four': no such study; allowed: one, two, three" in capsys.readouterr().err
     assert all_studies.main(["one", "--all", *place]) == 1

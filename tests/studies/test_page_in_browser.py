@@ -149,9 +149,12 @@ def test_the_first_screen_holds_the_answer(opened: Opened, width: int, height: i
     assert "8 times" in header.text
 
 
-def test_the_page_has_at_most_fourteen_screens(opened: Opened) -> None:
-    browser = opened()
-    assert browser.execute_script("return document.documentElement.scrollHeight") <= 14 * 800
+@pytest.mark.parametrize(("width", "height"), [(1000, 800), (1400, 900)])
+def test_the_page_has_at_most_fourteen_screens(opened: Opened, width: int, height: int) -> None:
+    browser = opened(width=width, height=height)
+    assert browser.execute_script("return document.documentElement.scrollHeight") <= 14 * height
+    for name in STUDIES:
+        assert browser.find_element(By.ID, name).size["height"] <= height
 
 
 @pytest.mark.parametrize("name", ["report.html", "appendix.html"])
@@ -197,6 +200,16 @@ def test_the_pointer_tells_the_value_that_the_file_holds(opened: Opened) -> None
       walk(document.body);
       return texts.join(" ");"""))  # fmt: skip
     assert str(FORCES[TIMES.index(2.0)]) in text
+
+
+@pytest.mark.parametrize("width", WIDTHS)
+def test_what_the_paper_says_can_be_read_at_every_width(opened: Opened, width: int) -> None:
+    browser = opened(width=width)
+    summaries = browser.find_elements(By.CSS_SELECTOR, "#claims-list summary")
+    assert len(summaries) == 5
+    for one in summaries:
+        assert one.size["width"] >= 0.5 * width
+        assert one.size["height"] > 0
 
 
 def test_claims_can_be_filtered_and_unfolded(opened: Opened) -> None:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from functools import cache
 from pathlib import Path
@@ -141,7 +141,7 @@ def live_panel(label: str, curves: Sequence[Drawn]) -> LivePanel:
     return LivePanel(in_line(label), tuple(found[number] for number in range(len(curves))))
 
 
-def of_drawing(drawing: Figure, panels: Sequence[int]) -> LiveFigure:
+def of_drawing(drawing: Figure, panels: Sequence[int] | Mapping[int, str]) -> LiveFigure:
     """The curves of some panels of a matplotlib figure, thinned so that no peak is lost.
 
     Curves are the lines of a panel that have a label. Those without one, and those across the whole panel, are
@@ -149,10 +149,11 @@ def of_drawing(drawing: Figure, panels: Sequence[int]) -> LiveFigure:
 
     Arguments:
         drawing: whose panels are drawn over the same quantity.
-        panels: which of `drawing.axes`.
+        panels: which of `drawing.axes`; or their labels by which, if the drawing says them elsewhere.
 
     Raises InputError for a panel that is not there, or that has no such curve.
     """
+    named = panels if isinstance(panels, Mapping) else {}
     found = []
     for number in panels:
         if not 0 <= number < len(drawing.axes):
@@ -162,7 +163,7 @@ def of_drawing(drawing: Figure, panels: Sequence[int]) -> LiveFigure:
         if not lines:
             raise InputError(f"panel {number} ({axes.get_ylabel()}): has no line with a label; allowed: some")
         curves = [_drawn(line) for line in sorted(lines, key=lambda line: float(line.get_zorder()))]
-        found.append(live_panel(axes.get_ylabel(), curves))
+        found.append(live_panel(named.get(number, axes.get_ylabel()), curves))
     of_panels = [drawing.axes[number].get_xlabel() for number in panels]
     labels = of_panels + [axes.get_xlabel() for axes in drawing.axes]
     return LiveFigure(in_line(next((label for label in labels if label), "")), tuple(found))
