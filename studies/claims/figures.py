@@ -21,9 +21,9 @@ from support_exudyn.postprocessing.figures import style
 COLOURS = dict(zip(KINDS, (style.THIRD, style.SMOOTH, style.PAPER, "#999999"), strict=True))
 LEGEND = {
     "holds": "holds", "holds only": "holds only for a part", "not supported": "not supported",
-    "cannot be judged": "cannot be judged: too few machines",
+    "cannot be judged": "cannot be judged",
 }  # fmt: skip
-SHARE = "share of plausible machines for which it holds [%]"
+SMALL = 6.5  # letters of the names of claims [points]
 WINDOWS = {"rise": "#999999", "rise and dwell": "#CC79A7"}  # over which forces are averaged
 
 Machines = Sequence[tuple[Sample, Evidence]]
@@ -42,15 +42,14 @@ def share_figure(rulings: Sequence[Ruling]) -> Figure:
     """A bar a claim that has a measure, in two columns."""
     shown = [(n, ruling) for n, ruling in enumerate(rulings, 1) if ruling.claim.judge is not None]
     rows = -(-len(shown) // 2)
-    drawing = Figure(figsize=style.size(170, 28 + 3.9 * rows))
+    drawing = Figure(figsize=style.size(180, 25 + 3.5 * rows))
     panels = drawing.subplots(1, 2)
     for axes, part in zip(panels, (shown[:rows], shown[rows:]), strict=True):
         _bars(axes, part, rows)
-    drawing.supxlabel(SHARE, fontsize=9)
     letters(panels)
     found = {ruling.kind for _, ruling in shown}
     bars = [Patch(color=colour, label=LEGEND[kind]) for kind, colour in COLOURS.items() if kind in found]
-    drawing.legend(handles=[*bars, *_squares()], loc="outside lower center", ncols=3)
+    drawing.legend(handles=[*bars, *_squares()], loc="outside lower center", ncols=3, fontsize=8)
     return drawing
 
 
@@ -62,12 +61,12 @@ def _bars(axes: Axes, shown: Sequence[tuple[int, Ruling]], rows: int) -> None:
             axes.barh(y, 100 * ruling.share, color=COLOURS[ruling.kind], height=0.68)
             axes.plot([100 * low, 100 * high], [y, y], color="black", lw=0.9)
         else:
-            why = f"{ruling.claim.alone or 'left open on every machine'}: {ruling.kind}"
-            axes.text(1.0, y, why, va="center", fontsize=7)
+            why = ruling.claim.alone or "open on all"
+            axes.text(8.0, y, why, va="center", fontsize=SMALL, color=COLOURS[ruling.kind])
         full = "black" if ruling.reference else "none"
-        axes.plot(104, y, "s", ms=3.5, color="black", mfc=full, clip_on=False)
-    axes.set_yticks(range(len(shown)), [f"{ruling.claim.name}  {n}" for n, ruling in shown], fontsize=7)
-    axes.set(xlim=(0, 107), xticks=(5, 50, 95), ylim=(rows - 0.4, -0.6))
+        axes.plot(110, y, "s", ms=3.5, color="black", mfc=full, clip_on=False)
+    axes.set_yticks(range(len(shown)), [f"{ruling.claim.name}  {n}" for n, ruling in shown], fontsize=SMALL)
+    axes.set(xlim=(0, 115), xticks=(5, 50, 95), ylim=(rows - 0.4, -0.6), xlabel="share of machines [%]")
     for bound in (NEARLY_ALL, 1.0 - NEARLY_ALL):
         axes.axvline(100 * bound, color="#777777", lw=0.7, ls=(0, (4, 2)))
     axes.grid(visible=False, axis="y")

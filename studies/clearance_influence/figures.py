@@ -7,6 +7,7 @@ from matplotlib.figure import Figure
 
 from studies.common import paper_machine, rise
 from studies.common.panels import WINDOWS, fit_height, legend, letters, time_ticks
+from studies.common.study import LivePanels
 from support_exudyn import Result
 from support_exudyn.postprocessing.figures import style
 
@@ -20,7 +21,12 @@ CURVES = {  # colour, width, dashes and label, the most restless one undermost
     SMOOTH: (style.SMOOTH, 1.2, "-", f"{CLEARANCE_MM} mm, no friction"),
     IDEAL: (style.IDEAL, 1.0, (0, (4, 2)), "ideal pin"),
 }
-LIVE = {"fig5_pin_force": (2,), "fig3_angular_velocity": (0,), "fig4_angular_acceleration": (2,)}
+FRICTION = {0: f"friction {paper_machine.SLIDING_COEFFICIENT}", 1: "no friction"}  # in panels, apart
+LIVE: dict[str, LivePanels] = {
+    "fig5_pin_force": {n: f"pin force, {which} [kN]" for n, which in FRICTION.items()},
+    "fig3_angular_velocity": (0,),
+    "fig4_angular_acceleration": {n: f"acceleration, {which} [deg/s²]" for n, which in FRICTION.items()},
+}
 
 
 def figures(results: Mapping[str, Result]) -> dict[str, Figure]:

@@ -27,7 +27,7 @@ from support_exudyn.postprocessing.look.solid import COLOURS, EDGE, Colour, Role
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.values.value import InputError, Vector2, short
 
-WIDTH_MM, HIGHEST_MM = 170.0, 140.0
+WIDTH_MM, HIGHEST_MM = 130.0, 110.0
 EDGE_MM, UNDER_MM, HATCH_MM = 3.0, 10.0, 2.2
 PALE = 0.4  # share of white in the colours of bodies, so that words on them are read
 SHOWN_CRANK = math.radians(50.0)  # of a crank that starts in line with its rod, where one hides the other

@@ -16,13 +16,14 @@ if TYPE_CHECKING:
     from bokeh.models.renderers import GlyphRenderer
     from bokeh.plotting import figure as Plot  # noqa: N812
 
-PANEL_PX, ROW_PX = 215, 24  # heights of a panel, and of a row of names above it
+PANEL_PX, LOWER_PX, ROW_PX = 215, 180, 24  # heights of a panel alone, of one of several, of a row of names
 PHONE_PX, LETTER_PX, GLYPH_PX = 330, 5.7, 30  # by which names are put in columns
 LONG = 28  # letters of a y axis's label, above which its unit stands in a line of its own
 THICKER = 1.3  # pixels to a point
 KEPT = 64  # figures, for the next page
-# in dark mode light becomes dark, and colours stay
-CSS = "@media screen and (prefers-color-scheme: dark) { .live { filter: invert(0.92) hue-rotate(180deg); } }"
+# in dark mode light becomes dark, and colours stay, made brighter: orange would be brown
+FILTER = "invert(0.92) hue-rotate(180deg) brightness(1.4)"
+CSS = f"@media screen and (prefers-color-scheme: dark) {{ .live {{ filter: {FILTER}; }} }}"
 
 
 @dataclass(frozen=True)
@@ -79,7 +80,8 @@ def _laid_out(figure: LiveFigure) -> LayoutDOM:
     drawn: dict[str, list[GlyphRenderer[Any]]] = {}
     first: dict[str, int] = {}
     for number, panel in enumerate(figure.panels):
-        plot = _plot(shared, panel.label, figure.x_label if number == len(figure.panels) - 1 else None)
+        height = LOWER_PX if len(figure.panels) > 1 else PANEL_PX
+        plot = _plot(shared, height, panel.label, figure.x_label if number == len(figure.panels) - 1 else None)
         _draw(plot, panel, figure.x_label, drawn)
         plots.append(plot)
         for one in panel.curves:
@@ -89,14 +91,14 @@ def _laid_out(figure: LiveFigure) -> LayoutDOM:
     return gridplot([[plot] for plot in plots], sizing_mode="stretch_width", toolbar_options={"logo": None})
 
 
-def _plot(shared: Range1d, label: str, x_label: str | None) -> Plot:
+def _plot(shared: Range1d, height: int, label: str, x_label: str | None) -> Plot:
     """An empty panel with its tools."""
     from bokeh.models import BoxZoomTool, PanTool, ResetTool, WheelZoomTool
     from bokeh.plotting import figure as bokeh_figure
 
     zoom = BoxZoomTool()
     return bokeh_figure(
-        height=PANEL_PX, x_range=shared, sizing_mode="stretch_width", x_axis_label=x_label,
+        height=height, x_range=shared, sizing_mode="stretch_width", x_axis_label=x_label,
         y_axis_label=label.replace(" [", "\n[") if len(label) > LONG else label,
         tools=[zoom, PanTool(), WheelZoomTool(), ResetTool()], active_drag=zoom, active_scroll=None,
         background_fill_alpha=0.0, border_fill_alpha=0.0, outline_line_color=None,
@@ -166,4 +168,4 @@ def _add_legend(plot: Plot, drawn: Mapping[str, Sequence[GlyphRenderer[Any]]]) -
         background_fill_alpha=0.0, label_text_font_size="12px", margin=0, spacing=6, location="left",
     )  # fmt: skip
     plot.add_layout(legend, "above")
-    plot.height = PANEL_PX + ROW_PX * -(-len(items) // columns)
+    plot.height += ROW_PX * -(-len(items) // columns)
