@@ -154,7 +154,7 @@ def rounded(value: float, error: float) -> str:
 
 def _plain(value: float, digits: int) -> str:
     """A number with so many decimals; below 0 that many zeros end it. Small ones with a power of ten."""
-    if digits > 9:
+    if digits > 8:
         return f"{value:.{max(0, digits + math.floor(math.log10(abs(value))))}e}" if value else "0"
     return f"{round(value, digits):.{max(0, digits)}f}"
 

@@ -138,13 +138,13 @@ def unequal_figure(runs: Mapping[str, Result]) -> Figure:
         "turn of the canopy [deg]",
         "indentation [mm]",
         "column force [kN]",
-        "moment on the rear pin [kN m]",
+        "moment on the\nrear pin [kN m]",
     )
     drive = with_clearance.scenario.drive
     for axes, label in zip(panels, labels, strict=False):
         axes.set(xlabel="time [s]", ylabel=label)
         axes.set_xlim(0.0, with_clearance.scenario.duration)
-        axes.set_xticks([drive.breaks[0], *drive.breaks[-1:]])
+        axes.set_xticks(np.linspace(drive.breaks[0], drive.breaks[-1], 5))
         axes.margins(y=0.12)
     for axes, run in zip(panels[4:], (with_clearance, equal), strict=True):
         _orbits(axes, run, sides)
@@ -210,7 +210,6 @@ def space_figure(runs: Mapping[str, Result]) -> Figure:
         apart = np.maximum(np.abs(other[force] - one[force]), LEAST_APART)
         below.semilogy(other.time, apart, color=style.WITH_CLEARANCE, lw=0.7, label="difference")
         below.set_xlim(0.0, one.scenario.duration)
-        below.set_xticks([0.0, *one.scenario.drive.breaks])
         below.set_xlabel("time [s]")
     panels[0, 0].set_ylabel("rear pin force [kN]")
     panels[1, 0].set_ylabel("difference [N]")

@@ -139,7 +139,7 @@ def test_depth_and_speeds_have_units() -> None:
     _, depth, speeds, _ = orbit(bouncing()).axes
     assert (depth.get_xlabel(), depth.get_ylabel()) == ("time [ms]", "depth [mm]")
     assert speeds.get_ylabel() == "speed [mm/s]"
-    assert lines(speeds)["closed"].ravel() == pytest.approx([15.0, 100.0])
+    assert lines(speeds)["impact"].ravel() == pytest.approx([15.0, 100.0])
     assert lines(speeds)["separation"].ravel() == pytest.approx([25.0, 80.0])
 
 

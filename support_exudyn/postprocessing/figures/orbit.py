@@ -111,7 +111,7 @@ def _draw_speeds(axes: Axes, shown: JournalPath, over_time: DisplayUnit) -> None
         return
     separated = [impact for impact in shown.impacts if impact.separation_time <= shown.time[-1]]
     for times, speeds, mark, colour, label in (
-        ([t.time for t in shown.impacts], [t.speed for t in shown.impacts], "v", style.IDEAL, "closed"),
+        ([t.time for t in shown.impacts], [t.speed for t in shown.impacts], "v", style.IDEAL, "impact"),
         (
             [t.separation_time for t in separated],
             [t.separation_velocity for t in separated],

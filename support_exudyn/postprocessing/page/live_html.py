@@ -168,4 +168,4 @@ def _add_legend(plot: Plot, drawn: Mapping[str, Sequence[GlyphRenderer[Any]]]) -
         background_fill_alpha=0.0, label_text_font_size="12px", margin=0, spacing=6, location="left",
     )  # fmt: skip
     plot.add_layout(legend, "above")
-    plot.height += ROW_PX * -(-len(items) // columns)
+    plot.height = (plot.height or PANEL_PX) + ROW_PX * -(-len(items) // columns)
