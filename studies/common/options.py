@@ -62,4 +62,7 @@ def read_options(given: argparse.Namespace) -> Options:
     if given.machine is None and given.pin is not None:
         raise InputError(f"--pin {given.pin}: allowed: together with --machine FILE")
     subject = own_subject(given.machine, given.pin) if given.machine else paper_subject()
+    if subject.is_slow:
+        only = "only the redundant formulation covers it: minutes where --list tells seconds"
+        warn(f"--machine {given.machine}: {only}")
     return Options(given.out, given.workers, given.out / KEPT, given.machines, given.runs, subject)

@@ -7,6 +7,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import SymLogNorm
 from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
+from matplotlib.ticker import MaxNLocator
 
 from studies.common.numbers import Found
 from studies.common.panels import forward_arrow, legend, letters
@@ -69,6 +71,7 @@ def shift_figure(plan: PinPlan, found: Found) -> Figure:
     bars.grid(visible=False, axis="y")
     bars.axvline(0.0, color=style.IDEAL, lw=0.6)
     bars.set_xlabel("mean shift of the tip forward [mm]")
+    bars.xaxis.set_major_locator(MaxNLocator(5))
     _end_to_end(plan, plane, found)
     plane.set(xlabel="forward [mm]", ylabel="up [mm]")
     forward_arrow(plane)
@@ -110,14 +113,19 @@ def force_figure(plan: PinPlan, found: Found) -> Figure:
     panels = list(drawing.subplots(2, 1))
     cases = [plan.case_name(pins, plan.frictions[0]) for pins in _cases(plan)]
     members = list(plan.forces.values())
-    changes = [[found[f"change_of_mean_force_{member}", case].value for member in members] for case in cases]
 
-    def over_ideal(member: str, case: str) -> float:
-        return found[f"largest_force_{member}", case].value / found[f"largest_force_{member}", IDEAL].value
+    def change(member: str, case: str) -> tuple[float, float]:
+        number = found[f"change_of_mean_force_{member}", case]
+        return number.value, number.numerical_error
 
-    peaks = [[100.0 * (over_ideal(member, case) - 1.0) for member in members] for case in cases]
-    for axes, values, label in zip(panels, (changes, peaks), ("mean force", "largest force"), strict=True):
-        _shades(axes, np.array(values))
+    def over_ideal(member: str, case: str) -> tuple[float, float]:
+        peak, ideal = (found[f"largest_force_{member}", one] for one in (case, IDEAL))
+        ratio = peak.value / ideal.value
+        error = (peak.numerical_error + ratio * ideal.numerical_error) / ideal.value
+        return 100.0 * (ratio - 1.0), 100.0 * error
+
+    for axes, of, label in zip(panels, (change, over_ideal), ("mean force", "largest force"), strict=True):
+        _shades(axes, np.array([[of(member, case) for member in members] for case in cases]))
         axes.set_xticks(range(len(members)), [_broken(name) for name in members], fontsize=7)
         axes.set_yticks(range(len(cases)), [name.replace("_", " ") for name in _names(plan)], fontsize=7)
         axes.set(ylabel="clearance pin", xlabel=f"change of the {label} [%] in")
@@ -125,21 +133,37 @@ def force_figure(plan: PinPlan, found: Found) -> Figure:
     return drawing
 
 
-def _shades(axes: Axes, values: np.ndarray) -> None:
-    """Numbers on squares: red where there is more, blue where there is less, the darker the more."""
+def _shades(axes: Axes, cells: np.ndarray) -> None:
+    """Numbers on squares: red where there is more, blue and hatched where there is less, the darker the more.
+
+    cells: numbers and their errors, shape (rows, columns, 2).
+    """
+    values = cells[:, :, 0]
     strongest = max(STRONG, float(np.abs(values).max()))
     norm = SymLogNorm(linthresh=FAINT, vmin=-3.0 * strongest, vmax=3.0 * strongest)
     axes.imshow(values, cmap="RdBu_r", norm=norm, aspect="auto")
     for row, column in np.ndindex(values.shape):
-        number = values[row, column]
-        text = f"{number:+.1f}" if abs(number) < 99.95 else f"{number:+.0f}"
+        number, error = cells[row, column]
         dark = abs(float(norm(number)) - 0.5) > 0.36
+        if number < 0.0:
+            corner = (column - 0.5, row - 0.5)
+            axes.add_patch(
+                Rectangle(corner, 1.0, 1.0, fill=False, hatch=HATCH, ec="#ffffff", lw=0.0, alpha=0.5)
+            )
         axes.text(
-            column, row, text, ha="center", va="center", fontsize=8, color="white" if dark else style.IDEAL
-        )
+            column, row, change_text(number, error), ha="center", va="center", fontsize=8,
+            color="white" if dark else style.IDEAL,
+        )  # fmt: skip
     axes.grid(visible=False)
     axes.spines[:].set_visible(False)
     axes.tick_params(length=0)
+
+
+def change_text(number: float, error: float) -> str:
+    """A change in per cent to a tenth at most, with its error where that shows."""
+    digits = 1 if abs(number) < 99.95 and error < 0.95 else 0
+    text = f"{number:+.{digits}f}" + (f" ± {error:.{digits}f}" if error >= 0.5 * 10.0**-digits else "")
+    return text.replace("-", "\N{MINUS SIGN}")
 
 
 def shaking_figure(plan: PinPlan, found: Found) -> Figure:
@@ -177,9 +201,10 @@ def load_figure(under_loads: Mapping[str, UnderLoad]) -> Figure:
     panels = drawing.subplots(2, 3, sharex=True, sharey=True)
     for axes, (name, under) in zip(panels.flat, under_loads.items(), strict=True):
         for pin, colour, dashes in zip(PINS, COLOURS, DASHES, strict=True):
+            first = int(pin.endswith("_shield"))  # pins at both ends of a link have the same curve
             axes.plot(
                 1e3 * under.extension, 1e3 * under.shift[pin], color=colour, ls=dashes, lw=1.2,
-                marker=MARKS[pin], ms=3, markevery=2, label=pin.replace("_", " "),
+                marker=MARKS[pin], ms=4, markevery=(first, 2), label=pin.replace("_", " "),
             )  # fmt: skip
         axes.axhline(0.0, color=PLAIN, lw=0.5)
         axes.annotate(name, (0.5, 1.0), (0.0, 7.0), "axes fraction", "offset points", ha="center", fontsize=8)

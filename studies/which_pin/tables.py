@@ -1,7 +1,7 @@
 """Rankings and tables of `which_pin`."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
@@ -99,7 +99,7 @@ def condition_table(plan: PinPlan, found: Found) -> TextTable:
         for friction, size in plan.conditions:
             if (name, plan.case_name(plan.pins[:1], friction, size)) in found:
                 row = plan.alone(found, name, friction, size)
-                numbers = (f"{n.value:.4g}" for n in row.values())
+                numbers = (cell(n) for n in row.values())
                 rows.append((what, f"{friction:g}, {size:g} mm", *numbers, order_of(row)))
     return TextTable(("effect", "friction, clearance", *plan.pins, "order"), tuple(rows), left=2, width=170)
 
@@ -110,18 +110,18 @@ def together_table(plan: PinPlan, found: Found) -> TextTable:
     for friction in plan.frictions:
         for name in effects_of(plan):
             for pins in _together(plan, found, friction):
-                expected = _expected(plan, found, name, pins, friction)
-                whole = found[name, plan.case_name(pins, friction)]
-                difference = against(whole, replace(whole, value=expected))
-                quantity = name.replace("_", " ")
+                whole, expected = (
+                    found[name, plan.case_name(pins, friction)],
+                    _expected(plan, found, name, pins, friction),
+                )
                 rows.append(
                     (
                         plan.case_name(pins, friction),
-                        quantity,
+                        name.replace("_", " "),
                         whole.unit,
-                        f"{expected:.4g}",
+                        cell(expected),
                         cell(whole),
-                        difference,
+                        against(whole, expected),
                     )
                 )
     header = ("clearance pins", "quantity", "unit", "of the single ones", "together", "difference")
@@ -150,16 +150,37 @@ ADD: dict[str, Callable[[Sequence[float]], float]] = {
 }
 
 
-def _expected(plan: PinPlan, found: Found, name: str, pins: Sequence[str], friction: float) -> float:
-    """What the effects of pins alone make together."""
-    single = plan.alone(found, name, friction)
-    return ADD[name]([single[pin].value for pin in pins])
+def _expected(plan: PinPlan, found: Found, name: str, pins: Sequence[str], friction: float) -> Number:
+    """What the effects of pins alone make together, with what their errors make of it."""
+    alone, add = plan.alone(found, name, friction), ADD[name]
+    values = {pin: alone[pin].value for pin in pins}
+    whole = add([*values.values()])
+    raised = (values | {pin: values[pin] + alone[pin].numerical_error} for pin in pins)
+    error = sum(abs(add([*one.values()]) - whole) for one in raised)
+    return Number(name, plan.case_name(pins, friction), whole, alone[pins[0]].unit, error)
 
 
-def excess(plan: PinPlan, found: Found, name: str, friction: float) -> float:
-    """By how many per cent all pins together have more than the single ones make."""
-    whole = found[name, plan.case_name(plan.pins, friction)].value
-    return 100.0 * (whole / _expected(plan, found, name, plan.pins, friction) - 1.0)
+@dataclass(frozen=True)
+class Sum:
+    """How far some pins together are off what the single ones make.
+
+    pins: what they are called. text: in words, to its error. off: in per cent of that.
+    """
+
+    pins: str
+    text: str
+    off: float
+
+
+def sums(plan: PinPlan, found: Found, name: str, friction: float) -> list[Sum]:
+    """All pins together against the single ones, and then every pair that was run."""
+    result = []
+    for pins in _together(plan, found, friction):
+        whole = found[name, plan.case_name(pins, friction)]
+        expected = _expected(plan, found, name, pins, friction)
+        off = 100.0 * abs(whole.value / expected.value - 1.0)
+        result.append(Sum(" + ".join(pins), against(whole, expected), off))
+    return result
 
 
 def posture_table(found: Found) -> TextTable:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from studies.common.numbers import Number, by_case
@@ -15,6 +16,7 @@ from studies.drive_mode.tables import CONVERGES, DIVERGES, VELOCITY, limits, vel
 from studies.which_pin import cases as which_pin_cases
 from studies.which_pin import measures as which_pin_measures
 from studies.which_pin import tables as which_pin_tables
+from studies.which_pin.figures import change_text
 from studies.which_pin.tables import condition_table, together_table
 from support_exudyn.machines.four_bar_shield import PINS
 
@@ -60,7 +62,7 @@ def test_an_order_is_open_where_errors_reach_over_it() -> None:
 def test_rankings_know_the_errors(errors: float, sign: str) -> None:
     found = made_up(errors)
     order = sign.join(reversed(PINS))
-    assert order in said("ranking", found, "by the shaking", 0.25)
+    assert order.replace("_", " ") in said("ranking", found, "by the shaking", 0.25)
     rows = condition_table(PLAN, found).rows
     assert {row[-1] for row in rows} == {order}
     assert [row[0] for row in which_pin_tables.ranking_table(PLAN, found, "by the shaking", 0.25).rows] == [
@@ -72,22 +74,43 @@ def test_rankings_know_the_errors(errors: float, sign: str) -> None:
 def test_sums_are_said_to_add_up_if_they_do() -> None:
     found = made_up()
     text = said("together", found, 0.25)
-    assert "+0.0 % off the sum of the single ones: shifts add up" in text
-    assert "shaking can be told" in text
+    assert "the tip's shift the same (their sum), so shifts add up" in text
+    assert "so shaking can be told" in text
     assert {row[-1] for row in together_table(PLAN, found).rows} == {"the same"}
     whole = which_pin_cases.case_name(PINS, 0.25)
     for name in (SHIFT, RIPPLE):
         found[name, whole] = replace(found[name, whole], value=3.0 * found[name, whole].value)
     text = said("together", found, 0.25)
-    assert "+200.0 % off the sum of the single ones: shifts do not add up" in text
-    assert "+200 % off" in text
-    assert "shaking cannot be told" in text
+    assert "the tip's shift +200 % (their sum), so shifts do not add up" in text
+    assert "the RMS fluctuation of the pin forces +200 %" in text
+    assert "so shaking cannot be told" in text
     assert [row[-1] for row in together_table(PLAN, found).rows] == [
         "+200 %",
         "+200 %",
         "the same",
         "the same",
     ]
+
+
+def test_two_pins_can_shake_otherwise_than_all_of_them() -> None:
+    found = made_up(errors=0.1)
+    pair = which_pin_cases.case_name((A, B), 0.0)
+    for name, value in ((SHIFT, 30.0), (RIPPLE, 2.0 * float(np.hypot(10.0, 20.0)))):
+        found[name, pair] = Number(name, pair, value, "N", 0.0)
+    text = said("together", found, 0.0)
+    assert f"of two pins up to +100 % ({A} + {B})".replace("_", " ") in text
+    assert "so shaking cannot be told" in text
+    row = together_table(PLAN, found).rows[-1]
+    # a tenth of each: hypot(10, 20) grows by 10/hypot and 40/hypot of it
+    assert row[3] == "22.4 ± 2.3"
+    assert row[5] == "+100 %"
+
+
+def test_a_change_is_drawn_to_its_error() -> None:
+    assert change_text(5.06, 0.01) == "+5.1"
+    assert change_text(-5.06, 0.3) == "\N{MINUS SIGN}5.1 ± 0.3"
+    assert change_text(5.06, 2.7) == "+5 ± 3"
+    assert change_text(179.06, 0.3) == "+179"
 
 
 def test_the_worst_case_of_the_closed_form_is_told() -> None:
