@@ -27,7 +27,7 @@ from support_exudyn.mechanics.trajectory import Series
 from user_forces.values.value import InputError
 
 LARGEST_FILE = 50_000_000  # bytes
-MOST_POINTS = 2000  # of a curve; a few more of several rough ones with the same x
+MOST_POINTS = 1500  # of a curve; a few more of several rough ones with the same x
 DIGITS = 7
 Dash = Literal["solid", "dashed", "dotted", "dotdash", "points"]
 DASHES: dict[str, Dash] = {"-": "solid", "--": "dashed", ":": "dotted", "-.": "dotdash"}

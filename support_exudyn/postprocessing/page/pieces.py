@@ -19,8 +19,8 @@ from rich.text import Text
 
 SHORT = 28  # characters of a cell that is kept in one line, unless the table is wide
 HARD_SPACE = "\u00a0"
-COLOURS = 128  # of a picture; drawings with thin lines and smooth edges keep their look
 KEPT = 256  # pictures, for the next page
+COLOURS = 64  # of a picture; drawings with thin lines and smooth edges keep their look
 WIDEST = 1600  # pixels of a picture; a page shows it 800 wide
 SCRIPT = re.compile(r"<script\b([^>]*)>(.*?)</script>", re.DOTALL)
 
