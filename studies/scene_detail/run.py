@@ -72,7 +72,7 @@ def work(chosen: Options) -> StudyOutcome:
     return StudyOutcome(measures.listed(measured), words, figures(measured), sheets, live=live)
 
 
-study = Study("scene_detail", __doc__, work, seconds=60.0)
+study = Study("scene_detail", __doc__, work, seconds=110.0)
 
 
 def main(argv: Sequence[str] | None = None) -> int:

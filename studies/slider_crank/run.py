@@ -194,5 +194,5 @@ def work(chosen: Options) -> StudyOutcome:
     return StudyOutcome(numbers, words, drawings, tables, results, live=live)
 
 
-study = Study("slider_crank", __doc__, work, seconds=15.0)
+study = Study("slider_crank", __doc__, work, seconds=18.0)
 main = study.main

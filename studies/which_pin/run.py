@@ -61,5 +61,5 @@ def _mu(friction: float) -> str:
     return f"mu{friction:g}".replace(".", "p")
 
 
-study = Study("which_pin", __doc__, work, seconds=60.0, own_machine=True)
+study = Study("which_pin", __doc__, work, seconds=70.0, own_machine=True)
 main = study.main

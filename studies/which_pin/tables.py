@@ -101,7 +101,7 @@ def condition_table(plan: PinPlan, found: Found) -> TextTable:
                 row = plan.alone(found, name, friction, size)
                 numbers = (cell(n) for n in row.values())
                 rows.append((what, f"{friction:g}, {size:g} mm", *numbers, order_of(row)))
-    return TextTable(("effect", "friction, clearance", *plan.pins, "order"), tuple(rows), left=2, width=170)
+    return TextTable(("effect", "friction, clearance", *plan.pins, "order"), tuple(rows), left=2, width=250)
 
 
 def together_table(plan: PinPlan, found: Found) -> TextTable:
