@@ -138,20 +138,19 @@ def _shades(axes: Axes, cells: np.ndarray) -> None:
 
     cells: numbers and their errors, shape (rows, columns, 2).
     """
-    values = cells[:, :, 0]
+    values = np.where(np.abs(cells[:, :, 0]) > cells[:, :, 1], cells[:, :, 0], 0.0)  # else the sign is open
     strongest = max(STRONG, float(np.abs(values).max()))
     norm = SymLogNorm(linthresh=FAINT, vmin=-3.0 * strongest, vmax=3.0 * strongest)
     axes.imshow(values, cmap="RdBu_r", norm=norm, aspect="auto")
     for row, column in np.ndindex(values.shape):
-        number, error = cells[row, column]
-        dark = abs(float(norm(number)) - 0.5) > 0.36
-        if number < 0.0:
+        dark = abs(float(norm(values[row, column])) - 0.5) > 0.36
+        if values[row, column] < 0.0:
             corner = (column - 0.5, row - 0.5)
             axes.add_patch(
                 Rectangle(corner, 1.0, 1.0, fill=False, hatch=HATCH, ec="#ffffff", lw=0.0, alpha=0.5)
             )
         axes.text(
-            column, row, change_text(number, error), ha="center", va="center", fontsize=8,
+            column, row, change_text(*cells[row, column]), ha="center", va="center", fontsize=8,
             color="white" if dark else style.IDEAL,
         )  # fmt: skip
     axes.grid(visible=False)
@@ -160,9 +159,14 @@ def _shades(axes: Axes, cells: np.ndarray) -> None:
 
 
 def change_text(number: float, error: float) -> str:
-    """A change in per cent to a tenth at most, with its error where that shows."""
+    """A change in per cent to a tenth at most, with its error where that shows; ± alone where it is larger."""
     digits = 1 if abs(number) < 99.95 and error < 0.95 else 0
-    text = f"{number:+.{digits}f}" + (f" ± {error:.{digits}f}" if error >= 0.5 * 10.0**-digits else "")
+    tells = error >= 0.5 * 10.0**-digits
+    if tells and error >= abs(number):
+        return f"±{abs(number) + error:.{digits}f}"
+    if abs(number) < 0.5 * 10.0**-digits:
+        return f"{0.0:.{digits}f}"
+    text = f"{number:+.{digits}f}" + (f" ± {error:.{digits}f}" if tells else "")
     return text.replace("-", "\N{MINUS SIGN}")
 
 

@@ -111,6 +111,8 @@ def test_a_change_is_drawn_to_its_error() -> None:
     assert change_text(-5.06, 0.3) == "\N{MINUS SIGN}5.1 ± 0.3"
     assert change_text(5.06, 2.7) == "+5 ± 3"
     assert change_text(179.06, 0.3) == "+179"
+    assert change_text(-2.0, 8.2) == "±10"
+    assert change_text(-0.02, 0.001) == "0.0"
 
 
 def test_the_worst_case_of_the_closed_form_is_told() -> None:
