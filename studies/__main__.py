@@ -5,6 +5,7 @@ import sys
 import time
 import traceback
 from collections.abc import Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
 
 from studies.catalogue import DEFAULT, STUDIES
@@ -65,24 +66,38 @@ def _chosen(given: argparse.Namespace) -> list[str]:
 
 
 def _run(names: Sequence[str], options: Options, pool: Workers) -> int:
-    """Run studies one after the other; one that fails does not keep the others from the report."""
+    """Run studies one after the other; one that fails does not keep the others from the report.
+
+    The report is written anew while the next study computes.
+    """
     began = time.perf_counter()
     failed = []
     page = options.out / PAGE
-    for n, name in enumerate(names):
-        spent = time.perf_counter() - began
-        left = sum(STUDIES[one].seconds for one in names[n:])
-        warn(f"study {n + 1} of {len(names)}: {name}; {_seconds(spent)} so far, about {_seconds(left)} to go")
-        if _one(STUDIES[name], options.of_study(name, pool)):
-            failed.append(name)
-        elif rebuild(options.out, list(STUDIES)):
-            failed.append("report")
-        elif n == 0 and len(names) > 1:
-            say(f"report    {page} can be read now; every study adds to it")
+    with ThreadPoolExecutor(max_workers=1) as writer:
+        written: list[Future[int]] = []
+        for n, name in enumerate(names):
+            spent = _seconds(time.perf_counter() - began)
+            left = _seconds(sum(STUDIES[one].seconds for one in names[n:]))
+            warn(f"study {n + 1} of {len(names)}: {name}; {spent} so far, about {left} to go")
+            if _one(STUDIES[name], options.of_study(name, pool)):
+                failed.append(name)
+                continue
+            first = not written and n + 1 < len(names)
+            written.append(writer.submit(_rewrite, options.out, f"{page} can be read now" if first else ""))
+    if any(one.result() for one in written):
+        failed.append("report")
     if failed:
         warn(f"error: failed: {', '.join(failed)}; the report has all the others")
     say(f"\n{_seconds(time.perf_counter() - began)} in all; the report: {page}")
     return 1 if failed else 0
+
+
+def _rewrite(out: Path, told: str) -> int:
+    """Write the report; what is told, once it can be read. Returns the exit code."""
+    code = rebuild(out, list(STUDIES))
+    if told and not code:
+        say(f"report    {told}; every study adds to it")
+    return code
 
 
 def _one(study: Study, options: Options) -> int:
