@@ -61,6 +61,8 @@ def _chosen(given: argparse.Namespace) -> list[str]:
     if given.all:
         return list(STUDIES)
     if given.machine and not given.names:
+        papers = [name for name in DEFAULT if not STUDIES[name].own_machine]
+        warn(f"left out, for they are about the paper's machine alone: {', '.join(papers)}")
         return [name for name in DEFAULT if STUDIES[name].own_machine]
     return given.names or list(DEFAULT)
 
@@ -87,8 +89,9 @@ def _run(names: Sequence[str], options: Options, pool: Workers) -> int:
     if any(one.result() for one in written):
         failed.append("report")
     if failed:
-        warn(f"error: failed: {', '.join(failed)}; the report has all the others")
-    say(f"\n{_seconds(time.perf_counter() - began)} in all; the report: {page}")
+        others = "; the report has all the others" if written else ""
+        warn(f"error: failed: {', '.join(failed)}{others}")
+    say(f"\n{_seconds(time.perf_counter() - began)} in all" + (f"; the report: {page}" if written else ""))
     return 1 if failed else 0
 
 

@@ -46,7 +46,7 @@ def add_options(parser: argparse.ArgumentParser, out: Path) -> None:
     machines = partial(count, most=MOST_MACHINES)
     add("--machines", type=machines, metavar="N", help="plausible machines that claims draws")
     add("--runs", type=partial(count, most=MOST_RUNS), metavar="N", help="scenes that extremes draws")
-    own = "your machine or scenario, a TOML file, in place of the paper's"
+    own = "your machine or scenario in place of the paper's: a TOML file, or a shipped machine's name"
     add("--machine", type=folder, metavar="FILE", help=own)
     add("--pin", metavar="PIN", help="the pin of your machine that gets clearance (rear_base)")
     add("--quick", action="store_true", help="has no effect: there is one form, as fast as the quick one was")

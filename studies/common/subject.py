@@ -10,8 +10,8 @@ from pathlib import Path
 from studies.common import paper_machine
 from studies.common.rise import PAPER, Watched
 from support_exudyn import ClearancePin, CubicStep, Scenario, SolverSettings
-from support_exudyn.files import load_toml, read_scenario
-from support_exudyn.files.machines.read import load_machine
+from support_exudyn.files import load_toml, read_scenario_file
+from support_exudyn.files.machines.read import load_machine, read_machine
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.simulation.automatic_settings import cheapest
 from user_forces import Ambrosio, Frictionless
@@ -105,16 +105,18 @@ def own_subject(path: Path, pin: str | None = None) -> Subject:
     """The machine of a TOML file: of a machine, which then does the paper's rise, or of a scenario.
 
     Arguments:
-        path: the file.
+        path: the file, or the name of a machine that comes with the package.
         pin: which pin gets clearance; None: the only one that is not ideal in the scenario, else the paper's.
 
     Raises InputError that names the file and what is allowed; OSError if it cannot be read.
     """
-    bores: Mapping[str, float] = {}
-    if "machine" in load_toml(path):
-        scenario = read_scenario(path)
+    shipped = path.suffix.lower() != ".toml" and not path.exists()
+    bores: Mapping[str, float]
+    if not shipped and "machine" in load_toml(path):
+        file = read_scenario_file(path)
+        scenario, bores = file.scenario, file.bore_radii
     else:
-        data = load_machine(path)
+        data = read_machine(str(path)) if shipped else load_machine(path)
         bores = data.bore_radii
         drive = CubicStep() if data.stroke is None else CubicStep(stroke=data.stroke)
         scenario = Scenario(machine=data.machine, drive=drive, duration=5.0)
@@ -126,5 +128,10 @@ def own_subject(path: Path, pin: str | None = None) -> Subject:
     given = scenario.pins.get(chosen)
     others = {name: one for name, one in scenario.pins.items() if name != chosen}
     clearance = given if isinstance(given, ClearancePin) else None
-    bore = bores.get(chosen, paper_machine.BORE_RADIUS)
+    if clearance is None and chosen not in bores:
+        raise InputError(
+            f"{path}: {chosen}: the radius of its bore is missing; allowed: {chosen} = ... below "
+            f"[bore_radius_mm] in the machine's file, or clearance in [pins.{chosen}] of a scenario"
+        )
+    bore = clearance.contact.bearing.bore_radius if clearance else bores[chosen]
     return Subject(replace(scenario, pins=others), chosen, clearance, bore, path.stem.replace("_", " "))

@@ -16,7 +16,7 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from studies.common import rise
+from studies.common import paper_machine, rise
 from studies.common import runs as runs_module
 from studies.common.numbers import (
     Number,
@@ -191,6 +191,36 @@ def test_a_machine_of_ones_own_does_the_papers_rise(tmp_path: Path) -> None:
     assert (subject.pin, subject.name) == ("rear_shield", "mine")
     assert subject.motion.duration == 5.0
     assert subject.with_clearance(1.0, 0.0).pins.keys() == {"rear_shield"}
+
+
+@pytest.mark.parametrize("form", ["name", "file", "scenario", "scenario with the pin"])
+def test_a_pin_of_ones_own_machine_has_the_bore_of_its_file(form: str, tmp_path: Path) -> None:
+    shutil.copy(MACHINES / "zf18000.toml", tmp_path / "mine.toml")
+    path = tmp_path / "mine.toml"
+    if form.startswith("scenario"):
+        path = tmp_path / "run.toml"
+        pin = "[pins.rear_base]\nclearance_mm = 1.5\n" if form.endswith("pin") else ""
+        path.write_text('machine = "mine.toml"\nduration_s = 5\ndrive = { mode = 2 }\n' + pin, encoding="utf-8")
+    subject = read("--machine", "zf18000" if form == "name" else str(path), "--pin", "rear_base").subject
+    contact = subject.with_clearance(1.5, 0.25).pins["rear_base"].contact  # type: ignore[attr-defined]
+    assert contact.bearing.bore_radius == pytest.approx(0.1008)
+    assert contact.normal.stiffness == pytest.approx(paper_machine.stiffness(1.5, 0.1008))
+    assert subject.bore_radius == contact.bearing.bore_radius
+
+
+def test_a_bore_that_is_said_nowhere_is_asked_for(tmp_path: Path) -> None:
+    text = (MACHINES / "zf18000.toml").read_text(encoding="utf-8")
+    before, _, after = text.partition("[bore_radius_mm]")
+    (tmp_path / "mine.toml").write_text(before + after.partition("\n[")[1] + after.partition("\n[")[2])
+    with pytest.raises(
+        InputError, match=r"mine\.toml: rear_base: the radius of its bore is missing; allowed: "
+    ):
+        read("--machine", str(tmp_path / "mine.toml"), "--pin", "rear_base")
+
+
+def test_a_machine_that_is_neither_a_file_nor_shipped_is_told_those_that_are() -> None:
+    with pytest.raises(InputError, match=r"allowed: .*zf18000"):
+        read("--machine", "zf1800")
 
 
 def test_a_pin_that_the_machine_does_not_have_is_refused(tmp_path: Path) -> None:

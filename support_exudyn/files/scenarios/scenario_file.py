@@ -1,7 +1,7 @@
 """Scenarios as TOML files, and the JSON Schema of these files."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -58,7 +58,8 @@ class ScenarioFile:
     """A scenario's file, read.
 
     scenario: what is run. name, description: of people, for people. errors: whether it is run with estimated
-    errors, see `simulate`. assumed: of the machine, because its file does not say it, in sentences.
+    errors, see `simulate`. assumed: of the machine, because its file does not say it, in sentences. bore_radii:
+    that the machine's file says of its pins [m].
     """
 
     scenario: Scenario
@@ -66,6 +67,7 @@ class ScenarioFile:
     description: str = ""
     errors: bool = False
     assumed: tuple[str, ...] = ()
+    bore_radii: Mapping[str, float] = field(default_factory=dict)
 
 
 def read_scenario(path: str | Path) -> Scenario:
@@ -109,7 +111,8 @@ def scenario_file_of(table: Mapping[str, Any], where: str, folder: Path) -> Scen
     machine = read_machine_of(rest, faults, folder)
     scenario = _scenario(rest, faults, folder, machine)
     faults.check()
-    return ScenarioFile(scenario, head.name, head.description, head.errors, machine.assumed if machine else ())
+    assumed, bores = (machine.assumed, machine.bore_radii) if machine else ((), {})
+    return ScenarioFile(scenario, head.name, head.description, head.errors, assumed, bores)
 
 
 def _scenario(table: dict[str, Any], faults: Faults, folder: Path, machine: MachineData | None) -> Any:
