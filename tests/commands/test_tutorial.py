@@ -66,8 +66,8 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
             assert kind == "sh"
             for line in text.splitlines():
                 done = subprocess.run(
-                    shlex.split(line), cwd=where, env={**os.environ, "PATH": path}, capture_output=True,
-                    text=True, timeout=300, check=False,
+                    shlex.split(line, comments=True), cwd=where, env={**os.environ, "PATH": path},
+                    capture_output=True, text=True, timeout=300, check=False,
                 )  # fmt: skip
                 assert (done.returncode, done.stderr) == (0, ""), line
                 (where / f"{line.split()[1]}.out").write_text(done.stdout, encoding="utf-8")

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 from studies.common.numbers import Number
+from studies.common.options import Options
 from studies.common.runs import run_with_errors
 from support_exudyn import Result, Scenario, SolverSettings
 
@@ -15,14 +17,14 @@ def by_a_tight_run(scenario: Scenario) -> Result:
     """By the same method at a tolerance far below that of any study."""
     solver = SolverSettings(tolerance=1e-10)
     chosen = replace(scenario, accuracy=None, formulation="reduced", solver=solver)
-    return run_with_errors({"": chosen}, 1)[""]
+    return run_with_errors({"": chosen}, Options(Path()))[""]
 
 
 def by_the_engine(scenario: Scenario) -> Result:
     """By rigid bodies, constraints and generalised alpha; nothing but data and laws is shared."""
     solver = SolverSettings(impact_steps=128, backend="symbolic")
     chosen = replace(scenario, accuracy=None, formulation="redundant", solver=solver, step=1e-3)
-    return run_with_errors({"": chosen}, 1)[""]
+    return run_with_errors({"": chosen}, Options(Path()))[""]
 
 
 def off(printed: dict[tuple[str, str], dict[str, Any]], others: Sequence[Number]) -> dict[str, float]:
