@@ -81,7 +81,7 @@ def check(name: str, scene: BenchmarkScene, scenario: Scenario, known: Mapping[s
     wrong = [
         abs(found[name].value / known[name] - 1.0)
         for name in names
-        if name.endswith(("force.mean", "force.spread", "force.largest")) and known[name]
+        if name.endswith(("force.mean", "force.std", "force.largest")) and known[name]
     ]
     return Check(
         name,

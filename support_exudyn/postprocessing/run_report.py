@@ -278,7 +278,7 @@ def _tiles(estimates: Mapping[str, Mapping[str, Estimate]], key: Sequence[str]) 
     """Up to four key numbers of one run, or of two: before and after."""
     if len(estimates) > 2:
         return ()
-    told = [name for name in key if name.rpartition(".")[2] in ("mean", "largest", "spread")]
+    told = [name for name in key if name.rpartition(".")[2] in ("mean", "largest", "std")]
     found = []
     for name in told[:4]:
         unit, *cells = _side_by_side([estimates[run].get(name) for run in estimates], TILE_DIGITS)

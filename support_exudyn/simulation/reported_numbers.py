@@ -20,12 +20,12 @@ ROUNDING = 1e-10  # share of a number, or of the largest of its kind, that no es
 # of forces; the largest is of the magnitude, the extremes have their sign
 STATISTICS: Mapping[str, Callable[[Series], float]] = {
     "mean": np.mean,
-    "spread": np.std,
+    "std": np.std,
     "largest": largest,
     "min": np.min,
     "max": np.max,
 }
-SIGNED, AVERAGED = ("min", "max"), ("mean", "spread")
+SIGNED, AVERAGED = ("min", "max"), ("mean", "std")
 FORCE, ANGULAR_ACCELERATION = ".force", ".angular_acceleration"  # how names of channels end
 ONSETS = 3  # of every clearance pin that are reported; each multiplies the errors of those before
 
@@ -97,7 +97,7 @@ def measures(result: RecordedRun, after: float, until: float) -> Mapping[str, Re
                 measure, between = over(name, statistic, after, until), _missed(word, name, after, until)
                 of = name if word in AVERAGED else ""  # of a single record, which others average out
                 share, values = left, most
-                if word == "spread":
+                if word == "std":
                     spread, mean = measure(result), float(np.abs(forces).mean())
                     # rounding of the forces scatters, and what scatters beside more adds next to nothing
                     values = spread + (math.hypot(spread, ROUNDING * most) - spread) / ROUNDING
@@ -108,7 +108,7 @@ def measures(result: RecordedRun, after: float, until: float) -> Mapping[str, Re
                 )
         elif name in turning:
             measure = over(name, np.std, after, until)
-            found[f"{name}.spread"] = ReportedNumber(
+            found[f"{name}.std"] = ReportedNumber(
                 channel.unit, measure, fastest, ANGULAR_ACCELERATION, left=left
             )
     for point in result.scenario.linkage.points:

@@ -59,10 +59,10 @@ class Result(RecordedRun):
     def numbers(self, after: float = 0.0, until: float = math.inf) -> dict[str, Estimate]:
         """The usual numbers with their estimated errors, by names such as `pin.rear_base.force.mean`.
 
-        Of the records between two times [s]: mean, spread (standard deviation) and largest magnitude of all
+        Of the records between two times [s]: mean, standard deviation (`std`) and largest magnitude of all
         forces, with
         `min` and `max` of those that have a sign;
-        spread of angular accelerations, mean place of traced points; and of clearance pins the largest force at
+        `std` of angular accelerations, mean place of traced points; and of clearance pins the largest force at
         any step (`pin.NAME.largest_force`, not only of the records) and the first three impacts.
 
         Errors are those of the steps, and of extremes also what may lie between the records; that a mean over

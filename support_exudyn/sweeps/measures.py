@@ -23,7 +23,6 @@ STATISTICS: Mapping[str, Callable[[np.ndarray], float]] = {
     "min": np.min,
     "first": lambda values: float(values[0]),
     "last": lambda values: float(values[-1]),
-    "spread": np.std,  # as `Result.numbers` calls them
     "largest": largest,
 }
 WILD = "*?["

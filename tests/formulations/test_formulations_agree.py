@@ -193,7 +193,7 @@ def test_runs_to_an_accuracy_agree_within_what_they_say(scene: str) -> None:
     # an estimate covers 95 of 100; those of a scene hang together
     assert np.mean(within) >= 0.9
     for pin in scenario.machine.linkage().pins:
-        for word in ("mean", "spread", "largest"):
+        for word in ("mean", "std", "largest"):
             name = f"pin.{pin}.force.{word}"
             # each may be off by a thousandth
             assert one[name].value == pytest.approx(other[name].value, rel=2e-3), name

@@ -145,12 +145,12 @@ def middle(name: str) -> float:
 
 def kind_of(name: str) -> str:
     """Whether a number is of turning bodies, of places, or of what has no largest size."""
-    return next((kind for kind in (".angular_acceleration.spread", "tip.") if kind in name), "")
+    return next((kind for kind in (".angular_acceleration.std", "tip.") if kind in name), "")
 
 
 def known_size(name: str) -> float:
     """The largest number of the kind, or value of the channel: turning bodies, places of points, forces."""
-    if name.endswith(".angular_acceleration.spread"):
+    if name.endswith(".angular_acceleration.std"):
         return max(np.abs(exact()[n]).max() for n in exact().channels if n.endswith(".angular_acceleration"))
     if name.startswith("tip."):
         return float(np.abs([exact()["tip.x"], exact()["tip.y"]]).max())
@@ -158,7 +158,7 @@ def known_size(name: str) -> float:
     if not channel.endswith(".force"):
         return 0.0
     largest = float(np.abs(exact()[channel]).max())
-    if word == "spread":  # to which rounding adds as scatter
+    if word == "std":  # to which rounding adds as scatter
         spread = float(exact()[channel].std())
         return spread + (math.hypot(spread, ROUNDING * largest) - spread) / ROUNDING
     return largest
@@ -244,7 +244,7 @@ def test_the_spread_of_a_force_that_hardly_varies_says_little_of_its_mean() -> N
     # the spread falls by a quarter from run to run, and is nearly all wrong; the mean is right to 1e-8
     run = three(*(with_channel(exact(), FORCE, mean + 0.25**n * noise) for n in range(3)))
     told = run.numbers()
-    assert told[f"{FORCE}.spread"].error > told[f"{FORCE}.spread"].value
+    assert told[f"{FORCE}.std"].error > told[f"{FORCE}.spread"].value
     assert told[f"{FORCE}.mean"].error < 1e-8 * mean
 
 
@@ -348,9 +348,9 @@ def test_the_worst_error_of_a_force_is_relative() -> None:
 def test_names_and_units() -> None:
     found = falling(1e-3, 0.25).numbers()
     units = {name: number.unit for name, number in found.items()}
-    assert units[f"{FORCE}.mean"] == units[f"{FORCE}.spread"] == units[f"{FORCE}.largest"] == "N"
+    assert units[f"{FORCE}.mean"] == units[f"{FORCE}.std"] == units[f"{FORCE}.largest"] == "N"
     assert units["front_column.force.mean"] == "N"
-    assert units["rear_link.angular_acceleration.spread"] == "rad/s^2"
+    assert units["rear_link.angular_acceleration.std"] == "rad/s^2"
     assert units["tip.x.mean"] == units["tip.y.mean"] == "m"
     assert units[f"pin.{PIN}.largest_force"] == "N"
     assert units[f"pin.{PIN}.onset_1.time"] == "s"
@@ -361,7 +361,7 @@ def test_names_and_units() -> None:
 Statistic = Callable[[np.ndarray], float]
 
 
-@pytest.mark.parametrize(("word", "statistic"), [("mean", np.mean), ("spread", np.std), ("largest", np.max)])
+@pytest.mark.parametrize(("word", "statistic"), [("mean", np.mean), ("std", np.std), ("largest", np.max)])
 @pytest.mark.parametrize(("after", "until"), [(0.0, math.inf), (0.02, math.inf), (0.0, 0.05), (0.02, 0.05)])
 def test_statistics_are_those_of_the_records_asked_for(
     word: str, statistic: Statistic, after: float, until: float
@@ -440,7 +440,7 @@ def test_a_spread_and_a_least_value_near_zero_are_as_uncertain_as_the_values_the
         return with_channel(exact(), FORCE, values)
 
     found = three(off(3e-8), off(2e-8), off(1e-8)).numbers()
-    spread, mean = found[f"{FORCE}.spread"], found[f"{FORCE}.mean"]
+    spread, mean = found[f"{FORCE}.std"], found[f"{FORCE}.mean"]
     assert spread.value < 1e-7
     assert spread.error >= ROUNDING * mean.value
     actuator = "front_column.force"
@@ -477,7 +477,7 @@ def test_what_newton_leaves_of_a_force_is_more_of_its_spread_where_it_hardly_var
     right = simulate(fine)
     known = measures(right, 0.0, math.inf)
     for pin in ("main", "crank_pin"):
-        name = f"pin.{pin}.force.spread"
+        name = f"pin.{pin}.force.std"
         found = result.numbers()[name]
         assert abs(found.value - known[name].measure(right)) < found.error < 1e-5 * found.value
     assert disagreement(result, right) < result.worst_error < 1e-5

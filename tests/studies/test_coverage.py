@@ -137,7 +137,7 @@ def test_a_number_of_a_reference_that_does_not_converge_tells_of_no_other_unless
 
 
 def test_a_number_near_zero_is_known_as_well_as_the_values_that_it_is_of() -> None:
-    names = ["rear_column.force.mean", "rear_column.force.spread"]
+    names = ["rear_column.force.mean", "rear_column.force.std"]
     runs = [dict(zip(names, (1e5, spread), strict=True)) for spread in (2.1e-6, 2.9e-6, 4e-6)]
     reference = Reference("redundant", *runs, 0.25)
     assert reference.error(names[1]) >= covered.NEWTON * 1e5
