@@ -5,8 +5,9 @@ import json
 import math
 import os
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from difflib import get_close_matches
 from functools import partial
 from pathlib import Path
 from typing import Any, NoReturn
@@ -22,10 +23,57 @@ LONGEST_REFUSAL = 400  # characters
 class Parser(argparse.ArgumentParser):
     """A command line; what is wrong with it is said in one line, whatever words it was given."""
 
+    def _check_value(self, action: argparse.Action, value: Any) -> None:
+        """Refuse a word that is none of the choices, with those that look like it."""
+        if action.choices is not None and value not in action.choices:
+            known = [str(one) for one in action.choices]
+            option = f"{action.option_strings[-1]} " if action.option_strings else ""
+            said = f"{option}{short(value)}: no such {str(action.metavar or action.dest).lower()}"
+            raise argparse.ArgumentError(None, f"{said}; {_meant(str(value), known)}")
+
     def error(self, message: str) -> NoReturn:
         """End the program with exit code 2, a usage and a line."""
         line = cleaned(" ".join(message.split()))
         super().error(line if len(line) <= LONGEST_REFUSAL else line[: LONGEST_REFUSAL - 3] + "...")
+
+
+class CommandParser(Parser):
+    """The line of one command: its options may stand before, between and behind its names."""
+
+    _is_mixing = False
+
+    def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
+        """The arguments, and nothing that is left: what the command does not know is refused here."""
+        if self._is_mixing:  # argparse comes back here, first for the options and then for the names
+            return super().parse_known_args(args, namespace)
+        self._is_mixing = True
+        try:
+            given, rest = self.parse_known_intermixed_args(args, namespace)
+        finally:
+            self._is_mixing = False
+        if rest:
+            self.error(self._unknown(rest))
+        return given, rest
+
+    def _unknown(self, rest: Sequence[str]) -> str:
+        word = next((one for one in rest if one.startswith("-")), rest[0])
+        if not word.startswith("-"):
+            return f"{short(word)}: is one name too many"
+        options = [
+            option
+            for action in self._actions
+            if action.help != argparse.SUPPRESS
+            for option in action.option_strings
+            if option.startswith("--")
+        ]
+        return f"{short(word.partition('=')[0])}: no such option; {_meant(word.partition('=')[0], options)}"
+
+
+def _meant(word: str, known: Iterable[str]) -> str:
+    names = list(known)
+    near = get_close_matches(word[:80], names, 2, 0.6)
+    guess = f"did you mean {' or '.join(near)}? " if near else ""
+    return f"{guess}allowed: {', '.join(names)}"
 
 
 def count(text: str, most: int = sys.maxsize) -> int:
@@ -54,11 +102,13 @@ def number(text: str, low: float = -math.inf, high: float = math.inf) -> float:
     return value
 
 
-def add_times(parser: argparse.ArgumentParser, start: float | None = None, end: float | None = None) -> None:
-    """Take --from and --until, times of a run, as `start` and `end` [s], with what they are if not given."""
+def add_times(parser: argparse.ArgumentParser, after: float | None = None, until: float | None = None) -> None:
+    """Take --after and --until, times of a run [s], with what they are if not given."""
     add, time = parser.add_argument, partial(number, low=0.0)
-    add("--from", dest="start", type=time, default=start, metavar="T", help="first time [s] (the start)")
-    add("--until", dest="end", type=time, default=end, metavar="T", help="last time [s] (the end)")
+    add("--after", type=time, default=after, metavar="T", help="first time [s] (the start)")
+    # the option's earlier name
+    add("--from", dest="after", type=time, default=after, help=argparse.SUPPRESS)
+    add("--until", type=time, default=until, metavar="T", help="last time [s] (the end)")
 
 
 def folder(text: str) -> Path:

@@ -47,11 +47,11 @@ def run(given: argparse.Namespace) -> None:
         raise InputError(
             f"{given.first}, {given.second}: have no channel in common; allowed: runs of like machines"
         )
-    found = compared(first, second, names, given.start, given.end)
+    found = compared(first, second, names, given.after, given.until)
     if given.json:
         answer({name: _object(one) for name, one in found.items()})
         return
-    ends = given.start, given.end
+    ends = given.after, given.until
     piece = "" if ends == WHOLE else f", {selection.said(first, *ends)}"
     printed(lambda console: _table(console, found, f"{given.second.name} less {given.first.name}{piece}"))
     if same := same_to_the_bit(first, second):

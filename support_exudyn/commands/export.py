@@ -34,7 +34,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     # RUN first: behind --to it would be taken for a format
     parser.usage = (
         "%(prog)s [-h] RUN [--to FORMAT ...] [--out DIR]\n"
-        "    [--every N | --frames-per-second F] [--from T] [--until T] [--json]"
+        "    [--every N | --frames-per-second F] [--after T] [--until T] [--json]"
     )
     add_run(parser)
     parser.add_argument(
@@ -68,8 +68,10 @@ def run(given: argparse.Namespace) -> None:
     from support_exudyn.postprocessing.export.solution_file import save_solution
     from support_exudyn.postprocessing.export.tables import TABLES, to_csv, to_hdf5
 
-    if given.end is not None and given.end < given.start:
-        raise InputError(f"--from {given.start:g} --until {given.end:g}: allowed: --until not before --from")
+    if given.until is not None and given.until < given.after:
+        raise InputError(
+            f"--after {given.after:g} --until {given.until:g}: allowed: --until not before --after"
+        )
     result = Result.load(given.run)
     name, out = given.run.stem, given.out or given.run.parent / f"{given.run.stem}_export"
 
@@ -78,8 +80,8 @@ def run(given: argparse.Namespace) -> None:
         return Sampling(
             every=given.every,
             frames_per_second=given.frames_per_second if said else usual.frames_per_second,
-            after=given.start,
-            until=given.end,
+            after=given.after,
+            until=given.until,
         )
 
     work: dict[str, Callable[[Progress], tuple[Path, ...]]] = {
@@ -106,7 +108,7 @@ def run(given: argparse.Namespace) -> None:
             size = sum(file.stat().st_size for file in files)
             took = time.perf_counter() - started
             say(f"{kind}: {files[0]} ({_counted(len(files))}, {size / 1e6:.3g} MB, {took:.2g} s)")
-        if kind in ("xdmf", "vtu") and given.end != given.start and result.time.size > 1:
+        if kind in ("xdmf", "vtu") and given.until != given.after and result.time.size > 1:
             _tell_of_a_single_step(len(sampling(MESHES).records(result.time)), kind)
     if len(refused) == len(USUAL):
         raise refused[USUAL[0]]

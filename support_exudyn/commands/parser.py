@@ -13,7 +13,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import Protocol, cast
 
-from support_exudyn.commands.command_line import Parser, say
+from support_exudyn.commands.command_line import CommandParser, Parser, say
 from support_exudyn.formulations.contract import SimulationError, told
 from support_exudyn.simulation.provenance import versions
 from support_exudyn.sweeps.workers import NoProcessError, ProcessEndedError
@@ -85,7 +85,7 @@ def parser() -> Parser:
         help="import this module first: files may then hold its machines, laws, drives, loads; repeatable",
     )
     several = whole.add_subparsers(
-        dest="command", required=True, metavar="COMMAND", parser_class=Parser, title="commands"
+        dest="command", required=True, metavar="COMMAND", parser_class=CommandParser, title="commands"
     )
     for name in NAMES:
         one = command(name)

@@ -1,4 +1,4 @@
-"""`plot RUN [CHANNEL...]`: figures of a run, as PNG and PDF."""
+"""`plot RUN... [CHANNEL...]`: figures of a run, or of several one upon another, as PNG and PDF."""
 
 from __future__ import annotations
 
@@ -6,20 +6,20 @@ import argparse
 import math
 import os
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import TYPE_CHECKING
 
 from support_exudyn.commands.command_line import (
     add_json,
     add_out,
-    add_run,
     add_times,
     answer,
     number,
     say,
     warn,
 )
+from support_exudyn.commands.runs import file_name, named_runs, runs_and_channels, said_channels, said_window
 from support_exudyn.postprocessing.figures.journal import chosen_pin, clearance_joints
 from support_exudyn.postprocessing.figures.selection import matching
 from support_exudyn.simulation.result import Result
@@ -28,18 +28,23 @@ from user_forces.values.value import InputError
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-HELP = "figures of a run as PNG and PDF: channels over time, journal orbit, Poincare section, force spectrum"
+HELP = "figures of runs as PNG and PDF: channels over time, journal orbit, Poincare section, force spectrum"
 Draw = Callable[[], "Figure"]
+OVER_TIME = "channels"
 KINDS = ("orbit", "poincare", "spectrum")  # of figures of a pin
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The run's file, what is drawn, and where to."""
     add = parser.add_argument
-    add_run(parser)
     add(
-        "channels", nargs="*", metavar="CHANNEL", help="channels over time: names, or patterns as 'pin.*.force'"
-    )  # fmt: skip
+        "names",
+        nargs="+",
+        metavar="RUN|CHANNEL",
+        help="files of runs, as Result.save writes them, then channels over time: names, or patterns as "
+        "'pin.*.force'; several runs are drawn one upon another",
+    )
+    add("--difference", action="store_true", help="of several runs: what differs from the first")
     add("--orbit", action="store_true", help="path of the journal of a clearance pin in its bore")
     add("--poincare", action="store_true", help="section once in every period of the drive, or by impacts")
     add("--spectrum", action="store_true", help="spectrum of the force in a pin")
@@ -62,9 +67,13 @@ def run(given: argparse.Namespace) -> None:
     """Draw, write, and print the names of the files."""
     from support_exudyn.postprocessing.figures import style
 
-    result = Result.load(given.run)
-    out = given.out or given.run.with_name(f"{given.run.stem}_figures")
-    wanted, optional = _wanted(result, given)
+    paths, given.channels = runs_and_channels(given.names)
+    if given.difference and len(paths) < 2:
+        raise InputError("--difference: needs a second run; allowed: plot FIRST.h5 SECOND.h5 [CHANNEL...]")
+    runs = {name: Result.load(path) for name, path in named_runs(paths).items()}
+    first = paths[0]
+    out = given.out or first.with_name(f"{first.stem}_figures")
+    wanted, optional = _of_several(runs, given) if len(runs) > 1 else _of_one(runs, given)
     drawings = []
     written = {}
     with style.look():
@@ -77,9 +86,9 @@ def run(given: argparse.Namespace) -> None:
                 warn(f"{name}: left out: {error}")
                 continue
             drawings.append(drawing)
-            paths = style.save(drawing, out, name)
-            written[name] = paths
-            for path in () if given.json else paths:
+            files = style.save(drawing, out, name)
+            written[name] = files
+            for path in () if given.json else files:
                 say(str(path))
         if given.json:
             answer({"figures": written})
@@ -87,8 +96,46 @@ def run(given: argparse.Namespace) -> None:
             _show(drawings)
 
 
+def _of_several(runs: Mapping[str, Result], given: argparse.Namespace) -> tuple[dict[str, Draw], set[str]]:
+    """Channels of several runs, one upon another or less those of the first."""
+    from support_exudyn.postprocessing.figures.overlay import difference, overlay
+
+    if given.orbit or given.poincare or given.spectrum or given.section or given.pin is not None:
+        raise InputError(
+            f"--orbit, --poincare, --spectrum, --section, --pin: are of one run, and {len(runs)} are given; "
+            "allowed with several: channels"
+        )
+    channels = given.channels or _told_first(next(iter(runs.values())))
+    draw = difference if given.difference else overlay
+    joined = ("_less_" if given.difference else "_and_").join([*runs][::-1] if given.difference else runs)
+    what = said_channels(given.channels) if given.channels else "overview"
+    name = file_name(joined, what, said_window(given.after, given.until))
+    return {name: lambda: draw(runs, channels, given.after, given.until)}, set()
+
+
+def _of_one(runs: Mapping[str, Result], given: argparse.Namespace) -> tuple[dict[str, Draw], set[str]]:
+    """Figures of a run, by names of files that tell run, channels and window; their titles tell the run."""
+    from support_exudyn.postprocessing.figures.style import named
+
+    ((called, result),) = runs.items()
+    wanted, optional = _wanted(result, given)
+    window = said_window(given.after, given.until)
+    phase = f"phase_{given.phase:g}" if given.phase else ""
+
+    def name(kind: str) -> str:
+        of_section = (*given.section, phase) if kind.startswith("poincare") else ()
+        return file_name(
+            called, said_channels(given.channels) if kind == OVER_TIME else kind, *of_section, window
+        )
+
+    def titled(draw: Draw) -> Draw:
+        return lambda: named(draw(), called)
+
+    return {name(kind): titled(draw) for kind, draw in wanted.items()}, {name(kind) for kind in optional}
+
+
 def _wanted(result: Result, given: argparse.Namespace) -> tuple[dict[str, Draw], set[str]]:
-    """What to draw by file name, and what of it may be left out where the run has none."""
+    """What to draw by kind, and what of it may be left out where the run has none."""
     asked = given.orbit or given.poincare or given.spectrum or bool(given.section)
     if not asked and given.pin is None and not given.channels:
         return _overview(result, given)
@@ -104,35 +151,42 @@ def _wanted(result: Result, given: argparse.Namespace) -> tuple[dict[str, Draw],
     return found | _of_pin(result, given, pin, [kind for kind, wanted in kinds.items() if wanted]), set()
 
 
-def _overview(result: Result, given: argparse.Namespace) -> tuple[dict[str, Draw], set[str]]:
-    """Forces and motion; orbit, section and spectrum of the first clearance pin."""
+def _told_first(result: Result) -> list[str]:
+    """Channels that are looked at first: forces and motion."""
     with_clearance = clearance_joints(result)
     points = [f"{point}.{axis}" for point in result.scenario.linkage.points for axis in "xy"]
     names = [f"pin.{with_clearance[0]}.force", f"pin.{with_clearance[0]}.depth"] if with_clearance else []
     if not with_clearance:
         names = [f"pin.{pin}.force" for pin in result.scenario.linkage.pins]
     names += [*points, *(f"{actuator}.force" for actuator in result.scenario.linkage.actuators)]
-    names = [name for name in names if name in result.channels]
-    found = _of_channels(result, given, names or [n for n in result.channels if n != "time"][:8])
+    return [name for name in names if name in result.channels] or [n for n in result.channels if n != "time"][
+        :8
+    ]
+
+
+def _overview(result: Result, given: argparse.Namespace) -> tuple[dict[str, Draw], set[str]]:
+    """Forces and motion; orbit, section and spectrum of the first clearance pin."""
+    with_clearance = clearance_joints(result)
+    found = _of_channels(result, given, _told_first(result))
     of_pin = _of_pin(result, given, with_clearance[0]) if with_clearance else {}
-    return {"overview": found["channels"]} | of_pin, set(of_pin)
+    return {"overview": found[OVER_TIME]} | of_pin, set(of_pin)
 
 
 def _of_channels(result: Result, given: argparse.Namespace, names: list[str]) -> dict[str, Draw]:
     from support_exudyn.postprocessing.figures.channels import over_time
 
-    return {"channels": lambda: over_time(result, names, given.start, given.end)}
+    return {OVER_TIME: lambda: over_time(result, names, given.after, given.until)}
 
 
 def _of_pin(
     result: Result, given: argparse.Namespace, pin: str | None, kinds: Sequence[str] = KINDS
 ) -> dict[str, Draw]:
-    """Figures of these kinds by file name, as far as the pin can have them."""
+    """Figures of these kinds, as far as the pin can have them."""
     from support_exudyn.postprocessing.figures.orbit import orbit
     from support_exudyn.postprocessing.figures.poincare import poincare
     from support_exudyn.postprocessing.figures.spectrum import force_spectrum
 
-    ends = given.start, given.end
+    ends = given.after, given.until
     pair = matching(result.channels, given.section)
     with_clearance = pin if pin in clearance_joints(result) else None
     found: dict[str, Draw] = {}

@@ -60,8 +60,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(given: argparse.Namespace) -> None:
     """Write them, with a progress bar on stderr."""
-    if given.still is not None and (given.start is not None or given.end is not None):
-        raise InputError("--still: is one picture; allowed: without --from and --until")
+    if given.still is not None and (given.after is not None or given.until is not None):
+        raise InputError("--still: is one picture; allowed: without --after and --until")
     result = Result.load(given.run)
     if given.still is not None:
         _still(given, result)
@@ -74,8 +74,8 @@ def run(given: argparse.Namespace) -> None:
             result,
             out,
             frames_per_second=given.frames_per_second,
-            start=given.start,
-            end=given.end,
+            after=given.after,
+            until=given.until,
             speed=given.speed,
             movie=given.movie,
             size=given.size,

@@ -4,9 +4,9 @@ import argparse
 from pathlib import Path
 
 from support_exudyn.commands.command_line import add_json, add_out, answer, folder, say
+from support_exudyn.commands.runs import named_runs
 from support_exudyn.files.whole_file import whole_file
 from support_exudyn.simulation.result import Result
-from user_forces.values.value import InputError
 
 HELP = "a page on runs: what was run, the machine, numbers with errors, live figures, a picture"
 FILE = "report.html"
@@ -30,7 +30,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(given: argparse.Namespace) -> None:
     """Write the page, and print its name."""
-    results = {name: Result.load(path) for name, path in _named(given.runs).items()}
+    results = {name: Result.load(path) for name, path in named_runs(given.runs).items()}
     from support_exudyn.postprocessing.run_report import run_report
 
     page = run_report(results, given.channels)
@@ -43,15 +43,3 @@ def run(given: argparse.Namespace) -> None:
         answer({"report": path})
     else:
         say(str(path))
-
-
-def _named(paths: list[Path]) -> dict[str, Path]:
-    """Names of runs for the page: of their files; with the folder where two have one name."""
-    found: dict[str, Path] = {}
-    for path in paths:
-        same = [other for other in paths if other.stem == path.stem]
-        name = path.stem if len(same) == 1 else str(path.with_suffix(""))
-        if name in found:
-            raise InputError(f"{path}: is given twice; allowed: every run once")
-        found[name] = path
-    return found

@@ -21,7 +21,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The run's file, and which channels."""
     add = parser.add_argument
     add_run(parser)
-    add("channels", nargs="*", metavar="CHANNEL", help="only these: names or patterns, such as 'pin.*.force'")
+    add(
+        "channels",
+        nargs="*",
+        default=[],
+        metavar="CHANNEL",
+        help="only these: names or patterns, such as 'pin.*.force'",
+    )
     add("--all", action="store_true", help="all channels, not only those looked at first")
     add_json(parser)
     add_times(parser, *WHOLE)
@@ -38,7 +44,7 @@ def run(given: argparse.Namespace) -> None:
 
 def _object(result: Result, given: argparse.Namespace) -> dict[str, Any]:
     """What scripts are told, in SI: every number with its error, and all channels unless some are asked for."""
-    ends = given.start, given.end
+    ends = given.after, given.until
     names = matching(result.channels, given.channels) or [name for name in result.channels if name != "time"]
     return {
         "run": given.run,
@@ -58,7 +64,7 @@ def _object(result: Result, given: argparse.Namespace) -> dict[str, Any]:
 
 def _tables(console: Console, result: Result, given: argparse.Namespace) -> None:
     names = matching(result.channels, given.channels)
-    ends = given.start, given.end
+    ends = given.after, given.until
     piece = "" if ends == WHOLE else f", {selection.said(result, *ends)}"
     if names:
         _show_channels(console, summary.of_channels(result, names, *ends), f"channels{piece}")

@@ -40,7 +40,7 @@ def compared(
 
     Raises InputError if a run lacks a channel, units differ, or no record is common.
     """
-    rows = _common(first, second, after, until)
+    rows = common_records(first, second, after, until)
     return {name: _difference(first, second, name, rows) for name in names}
 
 
@@ -57,7 +57,11 @@ def same_to_the_bit(first: Result, second: Result) -> int:
 Rows = tuple[npt.NDArray[np.intp], npt.NDArray[np.intp]]  # of the same times in both runs
 
 
-def _common(first: Result, second: Result, after: float, until: float) -> Rows:
+def common_records(first: Result, second: Result, after: float, until: float) -> Rows:
+    """The records of two runs that are of the same times, between two times [s].
+
+    Raises InputError if there are none.
+    """
     for run in (first, second):
         inside(run, after, until, fewest=1)  # says which times there are
     ticks = [np.round(run.time / CLEARANCE).astype(np.int64) for run in (first, second)]

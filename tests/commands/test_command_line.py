@@ -12,7 +12,7 @@ import pytest
 
 from support_exudyn.__main__ import main
 from support_exudyn.commands.command_line import answer
-from support_exudyn.commands.parser import NAMES, command
+from support_exudyn.commands.parser import NAMES, command, parser
 
 
 def test_help_tells_of_every_command_and_exit_code(capsys: pytest.CaptureFixture[str]) -> None:
@@ -60,7 +60,31 @@ def test_a_wrong_command_line_is_told_with_the_name_it_was_called_by(
     with pytest.raises(SystemExit) as end:
         main(["shaw"])
     assert end.value.code == 2
-    assert "invalid choice: 'shaw'" in capsys.readouterr().err
+    assert "'shaw': no such command; did you mean show or schema?" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["show", "run.h5", "--untl", "3"], "'--untl': no such option; did you mean --until"),
+        (["scenario", "run.h5", "other.h5"], "'other.h5': is one name too many"),
+        (["render", "run.h5", "--movie", "git"], "--movie 'git': no such movie; did you mean gif"),
+    ],
+)
+def test_a_wrong_word_is_told_with_those_that_look_like_it(
+    words: list[str], message: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit) as end:
+        main(words)
+    assert end.value.code == 2
+    assert message in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("place", [1, 2, 3])
+def test_options_stand_before_between_and_behind_names(place: int) -> None:
+    words = ["show", "rise.h5", "tip.*"]
+    given = parser().parse_args([*words[:place], "--after", "3", *words[place:]])
+    assert (given.run, given.channels, given.after) == (Path("rise.h5"), ["tip.*"], 3.0)
 
 
 def test_json_has_no_number_that_is_none(capsys: pytest.CaptureFixture[str]) -> None:

@@ -39,7 +39,8 @@ def run(error: float = 0.0) -> Result:
         ("Pa", 3e7, ("MPa", 1e-6)),
         ("m^3/s", 0.02, ("l/min", 6e4)),
         ("m", 1.5e-3, ("mm", 1e3)),
-        ("m", 3.0, ("m", 1.0)),
+        ("m", 3.0, ("mm", 1e3)),
+        ("m", 30.0, ("m", 1.0)),
         ("m", 2e-5, ("µm", 1e6)),
         ("rad", 1.0, ("deg", 180.0 / np.pi)),
         ("rad/s^2", 0.0, ("deg/s²", 180.0 / np.pi)),
@@ -92,7 +93,7 @@ def test_channels_of_a_unit_share_a_panel_and_are_shown_in_it() -> None:
     forces, places, angles, accelerations = drawing.axes
     assert [axes.get_ylabel() for axes in (forces, places, angles)] == [
         "force [kN]",
-        "length [m]",
+        "length [mm]",
         "angle [deg]",
     ]
     assert accelerations.get_ylabel().split() == ["angular", "acceleration", "[deg/s²]"]
@@ -112,13 +113,21 @@ def test_curves_of_a_panel_differ_in_colour_and_in_dashes() -> None:
     assert curves[2].get_color() == style.CONTACT
 
 
-def test_a_depth_is_not_drawn_beside_metres() -> None:
+def test_a_depth_is_not_drawn_beside_a_position() -> None:
     drawing = over_time(run(), ["pin.*.depth", "tip.x"])
-    assert [axes.get_ylabel() for axes in drawing.axes] == ["length [mm]", "length [m]"]
+    assert [axes.get_ylabel() for axes in drawing.axes] == ["length [mm]", "length [mm]"]
+
+
+def test_ranges_that_differ_a_hundredfold_have_axes_of_their_own() -> None:
+    def made(range_: float) -> Result:
+        places = {"tip__x": (3.0 + 0.1 * WAVE, "m"), "tip__y": (3.0 + range_ * WAVE, "m")}
+        return synthetic.journal(SCENARIO, TIME, 0.0 * TIME, 0.0 * TIME, [], **places)
+
+    assert [len(over_time(made(share * 0.1), ["tip.*"]).axes) for share in (0.011, 0.009, 0.0)] == [1, 2, 1]
 
 
 def test_a_piece_is_chosen_and_touches_are_marked() -> None:
-    drawing = over_time(run(), ["tip.x"], start=0.98, until=1.04)
+    drawing = over_time(run(), ["tip.x"], after=0.98, until=1.04)
     (axes,) = drawing.axes
     assert axes.get_xlabel() == "time [ms]"
     assert axes.get_xlim() == pytest.approx((980.0, 1040.0))
@@ -154,11 +163,11 @@ def test_what_cannot_be_drawn_is_refused() -> None:
     with pytest.raises(InputError, match="40 channels match; allowed in a figure: 32"):
         over_time(many, ["*"])
     with pytest.raises(InputError, match="0 records lie between"):
-        over_time(run(), ["tip.x"], start=7.0)
+        over_time(run(), ["tip.x"], after=7.0)
 
 
 @pytest.mark.parametrize("names", [["*"], ["tip.x"], ["*.force", "slide.nothing"]])
-@pytest.mark.parametrize("window", [{}, {"start": 1.0, "until": 1.05}])
+@pytest.mark.parametrize("window", [{}, {"after": 1.0, "until": 1.05}])
 def test_nothing_is_cut_off_or_overlaps(names: list[str], window: dict[str, float]) -> None:
     with style.look():
         figure_checks.check(over_time(run(), names, **window))

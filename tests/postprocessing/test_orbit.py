@@ -130,7 +130,7 @@ def test_contact_is_deep_and_said_so() -> None:
 
 
 def test_start_and_end_are_marked() -> None:
-    drawn = lines(orbit(bouncing(), start=2e-3, until=30e-3).axes[0])
+    drawn = lines(orbit(bouncing(), after=2e-3, until=30e-3).axes[0])
     assert drawn["start"][1] == pytest.approx(-0.2)
     assert drawn["end"][1] == pytest.approx(-1.5 + 0.08 * 5.0)
 
@@ -159,9 +159,9 @@ def test_runs_without_a_touch_say_so(away: float, words: str) -> None:
     "window",
     [
         {},
-        pytest.param({"start": 10e-3}, marks=pytest.mark.slow),
+        pytest.param({"after": 10e-3}, marks=pytest.mark.slow),
         pytest.param({"until": 12e-3}, marks=pytest.mark.slow),
-        {"start": 16e-3, "until": 24e-3},
+        {"after": 16e-3, "until": 24e-3},
     ],
 )
 def test_nothing_is_cut_off_or_overlaps(window: dict[str, float]) -> None:
@@ -177,4 +177,4 @@ def test_what_cannot_be_drawn_is_refused() -> None:
     with pytest.raises(InputError, match="rear_base"):
         orbit(bouncing(), "rear_bsae")
     with pytest.raises(InputError, match="0 records lie between"):
-        orbit(bouncing(), start=1.0)
+        orbit(bouncing(), after=1.0)

@@ -47,43 +47,77 @@ def both(*stems: str) -> set[str]:
 def test_without_a_wish_an_overview_is_drawn(runs: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["plot", str(runs / "with_clearance.h5")]) == 0
     out = runs / "with_clearance_figures"
-    expected = both("overview", "orbit_rear_base", "poincare_rear_base", "spectrum_rear_base")
+    kinds = "overview", "orbit_rear_base", "poincare_rear_base", "spectrum_rear_base"
+    expected = both(*(f"with_clearance_{kind}" for kind in kinds))
     assert names(out) == expected
     assert {Path(line).name for line in capsys.readouterr().out.splitlines()} == expected
-    assert (out / "overview.png").read_bytes().startswith(b"\x89PNG")
-    assert (out / "overview.pdf").read_bytes().startswith(b"%PDF")
+    assert (out / "with_clearance_overview.png").read_bytes().startswith(b"\x89PNG")
+    assert (out / "with_clearance_overview.pdf").read_bytes().startswith(b"%PDF")
 
 
 def test_a_run_with_ideal_pins_has_forces_and_motion(runs: Path, tmp_path: Path) -> None:
     assert main(["plot", str(runs / "ideal.h5"), "--out", str(tmp_path)]) == 0
-    assert names(tmp_path) == both("overview")
+    assert names(tmp_path) == both("ideal_overview")
 
 
 def test_what_a_run_has_none_of_is_left_out_of_the_overview_in_a_sentence(
     runs: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["plot", str(runs / "space.h5"), "--out", str(tmp_path)]) == 0
-    assert names(tmp_path) == both("overview", "orbit_rear_base")
+    assert names(tmp_path) == both("space_overview", "space_orbit_rear_base")
     said = capsys.readouterr().err
-    assert "poincare_rear_base: left out" in said
-    assert "spectrum_rear_base: left out" in said
+    assert "space_poincare_rear_base: left out" in said
+    assert "space_spectrum_rear_base: left out" in said
 
 
 def test_one_kind_of_one_pin_is_drawn(runs: Path, tmp_path: Path) -> None:
-    args = ["plot", str(runs / "crank.h5"), "--spectrum", "--pin", "main", "--from", "0.01"]
+    args = ["plot", str(runs / "crank.h5"), "--spectrum", "--after", "0.01", "--pin", "main"]
     assert main([*args, "--out", str(tmp_path)]) == 0
-    assert names(tmp_path) == both("spectrum_main")
+    assert names(tmp_path) == both("crank_spectrum_main_after_0.01_s")
 
 
 def test_sections_take_channels_and_a_phase(runs: Path, tmp_path: Path) -> None:
     args = ["plot", str(runs / "crank.h5"), "--section", "slider.x", "slider.velocity_x", "--phase", "0.25"]
     assert main([*args, "--out", str(tmp_path)]) == 0
-    assert names(tmp_path) == both("poincare")
+    assert names(tmp_path) == both("crank_poincare_slider.x_slider.velocity_x_phase_0.25")
 
 
 def test_channels_are_drawn_by_pattern(runs: Path, tmp_path: Path) -> None:
     assert main(["plot", str(runs / "with_clearance.h5"), "pin.*.force", "tip.?", "--out", str(tmp_path)]) == 0
-    assert names(tmp_path) == both("channels")
+    assert names(tmp_path) == both("with_clearance_pin.force_tip")
+
+
+def test_several_runs_are_drawn_one_upon_another(runs: Path, tmp_path: Path) -> None:
+    words = [str(runs / "ideal.h5"), str(runs / "with_clearance.h5"), "tip.*", "--out", str(tmp_path)]
+    assert main(["plot", "--until", "0.1", *words]) == 0
+    # the option between the names
+    assert main(["plot", *words[:2], "--difference", *words[2:]]) == 0
+    expected = both("ideal_and_with_clearance_tip_until_0.1_s", "with_clearance_less_ideal_tip")
+    assert names(tmp_path) == expected
+
+
+def test_the_same_piece_by_the_option_s_earlier_name(runs: Path, tmp_path: Path) -> None:
+    run = str(runs / "ideal.h5")
+    for option in ("--from", "--after"):
+        assert main(["plot", "--out", str(tmp_path / option), option, "0.1", run, "tip.x"]) == 0
+    assert names(tmp_path / "--from") == names(tmp_path / "--after") == both("ideal_tip.x_after_0.1_s")
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["ideal.h5", "--difference"], "needs a second run"),
+        (["ideal.h5", "with_clearance.h5", "--orbit"], "are of one run, and 2 are given"),
+        (["ideal.h5", "crank.h5", "--difference", "tip.x"], "in common"),
+        (["ideal.h5", "ideal.h5", "tip.x"], "is given twice"),
+        (["ideal.h5", "with_clearance.h5", "tip.w"], "tip.x"),
+    ],
+)
+def test_what_several_runs_cannot_show_is_said(
+    runs: Path, capsys: pytest.CaptureFixture[str], words: list[str], message: str
+) -> None:
+    assert main(["plot", *(str(runs / word) if word.endswith(".h5") else word for word in words)]) == 1
+    assert message in capsys.readouterr().err
 
 
 def test_without_a_display_a_sentence_says_so(
@@ -243,7 +277,7 @@ def test_all_figures_are_drawn_though_nobody_reads_their_names(runs: Path, tmp_p
         assert process.stderr is not None
         assert process.stderr.read() == b""
         assert process.wait() == 0
-    assert names(tmp_path) == both("channels", "orbit_slider_pin")
+    assert names(tmp_path) == both("crank_slider.x", "crank_orbit_slider_pin")
 
 
 def test_an_interruption_while_libraries_load_is_said_in_a_line(
@@ -290,7 +324,7 @@ def test_plot_and_export_name_their_files_for_scripts(
 ) -> None:
     assert main(["plot", str(runs / "ideal.h5"), "tip.x", "--out", str(tmp_path), "--json"]) == 0
     figures = json.loads(capsys.readouterr().out)["figures"]
-    assert {Path(path) for path in figures["channels"]} == set(tmp_path.iterdir())
+    assert {Path(path) for path in figures["ideal_tip.x"]} == set(tmp_path.iterdir())
     assert main(["export", str(runs / "ideal.h5"), "--to", "csv", "--out", str(tmp_path), "--json"]) == 0
     written = json.loads(capsys.readouterr().out)
     assert written == {"written": {"csv": [str(tmp_path / "ideal.csv")]}, "left_out": {}}

@@ -55,8 +55,8 @@ def test_a_motion_of_n_periods_is_n_points(share: float, points: int) -> None:
 
 def test_a_piece_of_the_run_keeps_the_phase() -> None:
     run = swinging(1.0)
-    assert periodic_times(run, 0.5, start=1.1, until=2.3) == pytest.approx([1.25, 1.75, 2.25])
-    assert periodic_times(run, 0.0, start=1.0, until=2.0) == pytest.approx([1.0, 1.5, 2.0])
+    assert periodic_times(run, 0.5, after=1.1, until=2.3) == pytest.approx([1.25, 1.75, 2.25])
+    assert periodic_times(run, 0.0, after=1.0, until=2.0) == pytest.approx([1.0, 1.5, 2.0])
 
 
 def test_the_section_is_drawn_in_the_bore_and_of_two_channels() -> None:
@@ -78,7 +78,7 @@ def test_channels_can_be_chosen() -> None:
     with pytest.raises(InputError, match="two names"):
         poincare(swinging(0.4), channels=names[:1])
     with pytest.raises(InputError, match="2 periods"):
-        poincare(swinging(0.4), channels=names, start=4.2)
+        poincare(swinging(0.4), channels=names, after=4.2)
 
 
 def closed(speeds: list[float]) -> Result:

@@ -337,7 +337,7 @@ def test_frames_and_a_gif(bouncing: Result, tmp_path: Path) -> None:
 
 
 def test_frames_are_what_stills_are(bouncing: Result, tmp_path: Path) -> None:
-    frames = render(bouncing, tmp_path / "f", start=0.04, end=0.12, size=SIZE, movie="none").frames
+    frames = render(bouncing, tmp_path / "f", after=0.04, until=0.12, size=SIZE, movie="none").frames
     assert len(frames) == 3
     with Image.open(frames[1]) as frame:
         picture = np.asarray(frame)
@@ -354,7 +354,7 @@ def test_the_time_of_a_still_is_told_as_finely_as_records_lie() -> None:
 
 
 def test_slow_motion_has_more_frames(bouncing: Result, tmp_path: Path) -> None:
-    written = render(bouncing, tmp_path / "f", start=0.05, end=0.06, speed=0.05, size=SIZE)
+    written = render(bouncing, tmp_path / "f", after=0.05, until=0.06, speed=0.05, size=SIZE)
     assert len(written.frames) == 6
     assert written.movie is not None
     with Image.open(written.movie) as movie:
@@ -363,7 +363,7 @@ def test_slow_motion_has_more_frames(bouncing: Result, tmp_path: Path) -> None:
 
 def test_an_mp4_has_all_frames(bouncing: Result, tmp_path: Path) -> None:
     ffmpeg = pytest.importorskip("imageio_ffmpeg")
-    written = render(bouncing, tmp_path / "run_frames", size=SIZE, movie="mp4", end=0.08)
+    written = render(bouncing, tmp_path / "run_frames", size=SIZE, movie="mp4", until=0.08)
     assert written.movie == tmp_path / "run.mp4"
     words = [ffmpeg.get_ffmpeg_exe(), "-i", str(written.movie), "-f", "rawvideo", "-pix_fmt", "rgb24", "-"]
     decoded = subprocess.run(words, check=True, capture_output=True)
@@ -378,11 +378,11 @@ def test_an_mp4_has_all_frames(bouncing: Result, tmp_path: Path) -> None:
 
 def test_earlier_frames_are_replaced_and_nothing_else(bouncing: Result, tmp_path: Path) -> None:
     folder = tmp_path / "f"
-    render(bouncing, folder, end=0.04, size=SIZE, movie="none", speed=0.5)
+    render(bouncing, folder, until=0.04, size=SIZE, movie="none", speed=0.5)
     assert len(list(folder.iterdir())) > 2
     for name in ("frame_0044.png", "frame_best.png", "notes.txt"):
         (folder / name).write_text("mine")
-    render(bouncing, folder, end=0.04, size=SIZE, movie="none")
+    render(bouncing, folder, until=0.04, size=SIZE, movie="none")
     assert sorted(path.name for path in folder.iterdir()) == [
         *("frame_0000.png", "frame_0001.png", "frame_0044.png", "frame_best.png", "notes.txt")
     ]
@@ -392,7 +392,7 @@ def test_earlier_frames_are_replaced_and_nothing_else(bouncing: Result, tmp_path
 
 @pytest.mark.parametrize("share", [0.2, 0.9])
 def test_an_interruption_leaves_all_as_it_was(bouncing: Result, tmp_path: Path, share: float) -> None:
-    render(bouncing, tmp_path / "run_frames", end=0.04, size=SIZE)
+    render(bouncing, tmp_path / "run_frames", until=0.04, size=SIZE)
     before = {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()}
 
     def interrupt(done: float) -> None:
@@ -400,14 +400,14 @@ def test_an_interruption_leaves_all_as_it_was(bouncing: Result, tmp_path: Path, 
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        render(bouncing, tmp_path / "run_frames", end=0.08, size=SIZE, progress=interrupt)
+        render(bouncing, tmp_path / "run_frames", until=0.08, size=SIZE, progress=interrupt)
     assert {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()} == before
     assert len(list(tmp_path.iterdir())) == 2
 
 
 def test_progress_goes_to_the_end(bouncing: Result, tmp_path: Path) -> None:
     told: list[float] = []
-    render(bouncing, tmp_path / "f", end=0.04, size=SIZE, progress=told.append)
+    render(bouncing, tmp_path / "f", until=0.04, size=SIZE, progress=told.append)
     assert told == sorted(told)
     assert told[-1] == 1.0
 
@@ -433,9 +433,9 @@ def test_frames_of_a_gif_last_as_long_as_the_movie(number: int, rate: float) -> 
         ({"frames_per_second": 60.0}, "of a GIF"),
         ({"speed": 0.0}, "speed = 0"),
         ({"speed": 1e-6}, "frames from"),
-        ({"start": -1.0}, "from = -1 s: allowed: 0 to 0.2 s"),
-        ({"end": 9.0}, "until = 9 s: allowed: 0 to 0.2 s"),
-        ({"start": 0.1, "end": 0.05}, "later than"),
+        ({"after": -1.0}, "after = -1 s: allowed: 0 to 0.2 s"),
+        ({"until": 9.0}, "until = 9 s: allowed: 0 to 0.2 s"),
+        ({"after": 0.1, "until": 0.05}, "later than"),
         ({"movie": "avi"}, "'avi': allowed: gif, mp4, none"),
         ({"size": (321, 180)}, "width = 321"),
         ({"size": (320, 20000)}, "height = 20000"),
@@ -460,7 +460,7 @@ def test_a_run_that_has_not_recorded_its_bodies_is_refused(tmp_path: Path) -> No
 def test_a_file_in_place_of_the_folder_is_refused(bouncing: Result, tmp_path: Path) -> None:
     (tmp_path / "f").write_text("mine")
     with pytest.raises(NotADirectoryError, match="a folder should be"):
-        render(bouncing, tmp_path / "f", end=0.04, size=SIZE)
+        render(bouncing, tmp_path / "f", until=0.04, size=SIZE)
     assert [path.name for path in tmp_path.iterdir()] == ["f"]
 
 
@@ -470,7 +470,7 @@ def test_leftovers_of_killed_processes_go_and_files_of_others_stay(bouncing: Res
     made = {tmp_path / "f" / f"frame_{n:04d}.png" for n in (900, 901)}
     (tmp_path / "f" / "frame_0900.png").write_text("of the user", encoding="utf-8")
     Image.new("RGB", (4, 4)).save(tmp_path / "f" / "frame_0901.png")
-    render(bouncing, tmp_path / "f", end=0.04, size=SIZE, movie="none")
+    render(bouncing, tmp_path / "f", until=0.04, size=SIZE, movie="none")
     assert os.name == "nt" or not left.exists()
     assert all(path.exists() for path in (*own, *made))
 
@@ -478,14 +478,14 @@ def test_leftovers_of_killed_processes_go_and_files_of_others_stay(bouncing: Res
 def test_a_folder_that_cannot_be_made_is_named(bouncing: Result, tmp_path: Path) -> None:
     (tmp_path / "file").touch()
     with pytest.raises(OSError, match=r"a folder should be; it cannot be written: '.*file/frames'"):
-        render(bouncing, tmp_path / "file" / "frames", end=0.04, size=SIZE)
+        render(bouncing, tmp_path / "file" / "frames", until=0.04, size=SIZE)
 
 
 @pytest.mark.parametrize("kind", DISKS)
 def test_a_full_disk_is_told_by_the_folder_of_the_frames(bouncing: Result, tmp_path: Path, kind: str) -> None:
     with little_room(tmp_path, 12_000, kind) as place:
         with pytest.raises(OSError, match=r"it cannot be written: '.*frames'"):
-            render(bouncing, place / "frames", end=0.1, size=SIZE, movie="none")
+            render(bouncing, place / "frames", until=0.1, size=SIZE, movie="none")
         assert list(place.iterdir()) == []
 
 

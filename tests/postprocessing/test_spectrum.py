@@ -128,7 +128,7 @@ def test_the_figure_shows_amplitudes_with_units_and_the_highest_peak() -> None:
 
 def test_over_time_a_tone_of_half_the_amplitude_is_six_decibels_lower() -> None:
     values = tone(125.0, 1.0) * np.where(TIME < 3.0, 1.0, 0.5)
-    drawing = force_spectrum(run(values), start=2.0)
+    drawing = force_spectrum(run(values), after=2.0)
     (mesh,) = drawing.axes[1].collections
     assert mesh.get_cmap()(1.0)[0] < 0.2 < mesh.get_cmap()(0.0)[0]  # dark where it is large
     levels = np.asarray(mesh.get_array()).reshape(mesh.get_coordinates().shape[0] - 1, -1)
@@ -156,7 +156,7 @@ def test_the_record_period_that_would_follow_the_shortest_touch_is_told() -> Non
 
 def test_the_piece_of_the_run_is_chosen() -> None:
     values = np.where(TIME < 2.0, tone(30.0, 1.0), tone(80.0, 1.0))
-    for window, expected in (({"until": 1.999}, 30.0), ({"start": 2.0}, 80.0)):
+    for window, expected in (({"until": 1.999}, 30.0), ({"after": 2.0}, 80.0)):
         curve = force_spectrum(run(values), over_time=False, **window).axes[0].lines[0]
         # 500 records to a piece: bins of 2 Hz
         assert curve.get_xdata()[np.argmax(curve.get_ydata())] == pytest.approx(expected, abs=1.01)

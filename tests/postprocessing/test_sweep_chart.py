@@ -33,7 +33,7 @@ def test_only_runs_that_differ_in_nothing_else_are_joined(friction: list[float],
 
 @pytest.mark.parametrize(
     ("tip", "unit", "first"),
-    [([4.145, 4.144, 4.142], "mm", 4145.0), ([4.1, 3.1, 2.1], "m", 4.1), ([4.1, 4.1, 4.1], "m", 4.1)],
+    [([4.145, 4.144, 4.142], "mm", 4145.0), ([4.1, 3.1, 2.1], "mm", 4100.0), ([4.1, 4.1, 4.1], "mm", 4100.0)],
 )
 def test_millimetres_in_metres_are_shown_in_millimetres(tip: list[float], unit: str, first: float) -> None:
     drawing = sweep_chart(table([0.1, 0.1, 0.1], tip), "pins.hinge.clearance_mm", "tip.x.mean")

@@ -1,5 +1,7 @@
 """Quick look: channels of a run over time."""
 
+from __future__ import annotations
+
 import math
 import textwrap
 from collections.abc import Sequence
@@ -26,6 +28,9 @@ PANEL_MM, LINE_MM, REST_MM = 38.0, 4.0, 30.0  # height of a panel, of a line of 
 LETTERS = 22  # of a line beside a panel
 PLAIN = (1e-3, 1e5)  # sizes of numbers that an axis shows as they are
 UNLIKE = 50.0  # by what factor sizes differ that are not drawn together
+FLAT = (
+    100.0  # by what factor the range of a panel may exceed that of a channel in it, which would look constant
+)
 VISIBLE = 2e-3  # share of a panel's height from which on an error is shaded
 
 
@@ -37,32 +42,52 @@ class Panel(NamedTuple):
 
 
 def groups(result: Result, names: Sequence[str], chosen: np.ndarray) -> list[Panel]:
-    """Panels: channels of one unit and of like size together, at most as many as there are colours."""
-    found: list[tuple[DisplayUnit, float, list[str]]] = []
+    """Panels: channels of one unit, of like size and like range together, as many as there are colours."""
+    found: list[_Group] = []
     for name in names:
-        size = float(np.abs(result[name][chosen]).max())
-        together = (one for one in found if _alike(result, one, name, size))
-        unit, largest, members = next(together, (readable(result.unit(name), size), size, []))
-        if members:
-            members.append(name)
+        values = result[name][chosen]
+        one = _Group([name], result.unit(name), float(values.min()), float(values.max()), float(np.ptp(values)))
+        place = next((n for n, other in enumerate(found) if other.takes(one)), None)
+        if place is None:
+            found.append(one)
         else:
-            found.append((unit, largest, [name]))
+            found[place] = found[place].with_another(one)
     most = len(CURVES)
     return [
-        Panel(unit, tuple(part.tolist()))
-        for unit, _, members in found
-        for part in np.array_split(np.array(members), math.ceil(len(members) / most))
+        Panel(readable(group.unit, group.size), tuple(part.tolist()))
+        for group in found
+        for part in np.array_split(np.array(group.names), math.ceil(len(group.names) / most))
     ]
 
 
-def _alike(result: Result, group: tuple[DisplayUnit, float, list[str]], name: str, size: float) -> bool:
-    """Whether a channel of this size [SI] is drawn together with others; zero is with anything of its unit."""
-    unit, largest, members = group
-    if result.unit(members[0]) != result.unit(name):
-        return False
-    if size == 0.0 or largest == 0.0:
-        return size == 0.0
-    return unit == readable(result.unit(name), size) and 1.0 / UNLIKE < size / largest < UNLIKE
+class _Group(NamedTuple):
+    """Channels of a unit [SI]: their least and greatest value, and the smallest range of one that varies."""
+
+    names: list[str]
+    unit: str
+    low: float
+    high: float
+    least_range: float
+
+    @property
+    def size(self) -> float:
+        return max(abs(self.low), abs(self.high))
+
+    def takes(self, one: _Group) -> bool:
+        """Whether another channel is drawn with these: none looks flat then, nor is told in another unit."""
+        if self.unit != one.unit:
+            return False
+        if self.size == 0.0 or one.size == 0.0:
+            return self.size == one.size
+        alike = 1.0 / UNLIKE < one.size / self.size < UNLIKE
+        together = self.with_another(one)
+        flat = together.high - together.low > FLAT * together.least_range > 0.0
+        return alike and not flat and readable(self.unit, self.size) == readable(one.unit, one.size)
+
+    def with_another(self, one: _Group) -> _Group:
+        ranges = [each for each in (self.least_range, one.least_range) if each > 0.0]
+        low, high = min(self.low, one.low), max(self.high, one.high)
+        return _Group(self.names + one.names, self.unit, low, high, min(ranges, default=0.0))
 
 
 def error_over_time(result: Result, name: str) -> Series | None:
@@ -81,12 +106,12 @@ def error_over_time(result: Result, name: str) -> Series | None:
     return multiple(result, r, last, before) * believed(result, r, last, before) + rounding
 
 
-def over_time(result: Result, channels: Sequence[str], start: float = 0.0, until: float = math.inf) -> Figure:
+def over_time(result: Result, channels: Sequence[str], after: float = 0.0, until: float = math.inf) -> Figure:
     """Channels over time, those of one unit together in a panel, with impacts and numerical errors.
 
     Arguments:
         channels: names, or patterns of them as in a shell.
-        start, until: what of the run is drawn [s].
+        after, until: what of the run is drawn [s].
 
     Raises InputError if there are none, if a pattern matches no channel, if they are too many, or if no records
     lie between the times.
@@ -98,10 +123,10 @@ def over_time(result: Result, channels: Sequence[str], start: float = 0.0, until
         raise InputError(
             f"{len(names)} channels match; allowed in a figure: {MOST}; name fewer, such as {names[0]!r}"
         )
-    chosen = inside(result, start, until)
+    chosen = inside(result, after, until)
     panels = groups(result, names, chosen)
     lines = sum(len(panel.names) for panel in panels)
-    title = f"{type(result.scenario.machine).__name__}, {said(result, start, until)}"
+    title = f"{type(result.scenario.machine).__name__}, {said(result, after, until)}"
     drawing = style.begin(170, REST_MM + PANEL_MM * len(panels) + LINE_MM * lines, title)
     rows = drawing.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
     seconds = readable("s", float(np.ptp(result.time[chosen])))
@@ -135,12 +160,16 @@ def _draw(
         worst[name] = float(error[chosen].max())
         if float(band.max()) > VISIBLE * max(float(np.ptp(values)), 1e-300):
             axes.fill_between(time, values - band, values + band, color=colour, alpha=0.25, lw=0.0)
-    if not PLAIN[0] < max(np.abs(axes.get_ylim())) < PLAIN[1]:  # no power of ten of its own above the axis
-        axes.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
-    quantity = units.QUANTITIES.get(result.unit(panel.names[0]), "value")
-    axes.set_ylabel(textwrap.fill(f"{quantity} [{panel.unit.name}]", LETTERS))
+    label_values(axes, units.QUANTITIES.get(result.unit(panel.names[0]), "value"), panel.unit.name)
     axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), fontsize=7, borderaxespad=0.0, ncols=1)
     return worst
+
+
+def label_values(axes: Axes, quantity: str, unit: str) -> None:
+    """Write beside an axis what is drawn along it, with no power of ten of its own above it."""
+    if not PLAIN[0] < max(np.abs(axes.get_ylim())) < PLAIN[1]:
+        axes.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+    axes.set_ylabel(textwrap.fill(f"{quantity} [{unit}]", LETTERS))
 
 
 def _mark_impacts(axes: Axes, result: Result, chosen: np.ndarray, seconds: DisplayUnit) -> None:

@@ -125,13 +125,13 @@ class JournalPath:
         return (n >= 0) & (times < ends[np.maximum(n, 0)])
 
 
-def journal(result: Result, pin: str | None = None, start: float = 0.0, until: float = math.inf) -> JournalPath:
+def journal(result: Result, pin: str | None = None, after: float = 0.0, until: float = math.inf) -> JournalPath:
     """The journal of a clearance pin between two times [s]; of the first clearance pin if none is named.
 
     Raises InputError if there is no such pin, or fewer than two records lie between the times.
     """
     pin = chosen_pin(result, pin, with_clearance=True)
-    chosen = inside(result, start, until)
+    chosen = inside(result, after, until)
     time = result.time[chosen]
     return JournalPath(
         pin=pin,

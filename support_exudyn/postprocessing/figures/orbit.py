@@ -28,18 +28,18 @@ IMPACT: dict[str, Any] = {
 }
 
 
-def orbit(result: Result, pin: str | None = None, start: float = 0.0, until: float = math.inf) -> Figure:
+def orbit(result: Result, pin: str | None = None, after: float = 0.0, until: float = math.inf) -> Figure:
     """Path of a journal's centre in its bore, true to scale; depth over time; speeds of the impacts.
 
     Arguments:
         pin: name of a clearance pin; the first one by default.
-        start, until: what of the run is drawn [s].
+        after, until: what of the run is drawn [s].
 
     Raises InputError if there is no such clearance pin, or fewer than two records lie between the times.
     """
-    shown = journal(result, pin, start, until)
+    shown = journal(result, pin, after, until)
     title = f"Journal orbit, pin {shown.pin}, {1e3 * shown.clearance:g} mm clearance"
-    drawing = style.begin(170, 112, f"{title}, {said(result, start, until)}")
+    drawing = style.begin(170, 112, f"{title}, {said(result, after, until)}")
     grid = drawing.add_gridspec(3, 2, width_ratios=(1.15, 1.0), height_ratios=(1.0, 1.0, 0.12))
     unit = readable("m", max(shown.clearance, float(np.hypot(shown.x, shown.y).max())))
     place = drawing.add_subplot(grid[:2, 0])

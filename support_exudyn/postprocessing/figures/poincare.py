@@ -63,12 +63,12 @@ def _period(drive: Drive, *, turns: bool) -> float | None:
     return None
 
 
-def periodic_times(result: Result, phase: float = 0.0, start: float = 0.0, until: float = math.inf) -> Series:
+def periodic_times(result: Result, phase: float = 0.0, after: float = 0.0, until: float = math.inf) -> Series:
     """Times within a run at which its drive is at a phase [s]; empty if the drives have no common period.
 
     Arguments:
         phase: share of the period, from 0 to 1.
-        start, until: of the piece of the run [s].
+        after, until: of the piece of the run [s].
 
     Raises InputError if the phase is not of the range.
     """
@@ -77,7 +77,7 @@ def periodic_times(result: Result, phase: float = 0.0, start: float = 0.0, until
     length = period(result.scenario)
     if length is None:
         return np.empty(0)
-    first, last = max(start, float(result.time[0])), min(until, float(result.time[-1]))
+    first, last = max(after, float(result.time[0])), min(until, float(result.time[-1]))
     n = np.arange(
         math.ceil((first - CLEARANCE) / length - phase), math.floor((last + CLEARANCE) / length - phase) + 1
     )
@@ -85,13 +85,13 @@ def periodic_times(result: Result, phase: float = 0.0, start: float = 0.0, until
 
 
 def stroboscopic(
-    result: Result, first: str, second: str, phase: float = 0.0, start: float = 0.0, until: float = math.inf
+    result: Result, first: str, second: str, phase: float = 0.0, after: float = 0.0, until: float = math.inf
 ) -> PoincareSection:
     """Two channels once in every period of the drive, straight between records.
 
     Raises InputError if the drive is not periodic, KeyError if there is no such channel.
     """
-    times = periodic_times(result, phase, start, until)
+    times = periodic_times(result, phase, after, until)
     if not times.size:
         raise InputError(
             "a section once in every period: the drives have no common period, or none begins in the piece "
@@ -103,7 +103,7 @@ def stroboscopic(
 def poincare(
     result: Result,
     pin: str | None = None,
-    start: float = 0.0,
+    after: float = 0.0,
     until: float = math.inf,
     *,
     phase: float = 0.0,
@@ -117,53 +117,53 @@ def poincare(
 
     Arguments:
         pin: name of a clearance pin; the first one by default.
-        start, until: what of the run is drawn [s].
+        after, until: what of the run is drawn [s].
         phase: of the period at which it is looked at, from 0 to 1.
         channels: names of the two of the second panel; only where the drive is periodic.
 
     Raises InputError if there is no such pin, no such record or impact, or no period where channels are asked
     for; KeyError if there is no such channel.
     """
-    inside(result, start, until)
+    inside(result, after, until)
     if channels and len(channels) != 2:
         raise InputError(f"channels = {short(list(channels))}: allowed for a section: two names")
-    times = periodic_times(result, phase, start, until)
+    times = periodic_times(result, phase, after, until)
     if channels and times.size < FEWEST_PERIODS:
         raise InputError(
             f"channels of a section: {times.size} periods of the drive lie in the piece that was asked for; "
             f"allowed: {FEWEST_PERIODS} and more, of a drive with a period"
         )
     if times.size >= FEWEST_PERIODS:
-        return _by_period(result, pin, start, until, phase, channels)
-    return _by_impact(result, journal(result, pin, start, until), start, until)
+        return _by_period(result, pin, after, until, phase, channels)
+    return _by_impact(result, journal(result, pin, after, until), after, until)
 
 
 # --- once in a period ---
 
 
 def _by_period(
-    result: Result, pin: str | None, start: float, until: float, phase: float, channels: Sequence[str]
+    result: Result, pin: str | None, after: float, until: float, phase: float, channels: Sequence[str]
 ) -> Figure:
     with_clearance = pin is not None or bool(clearance_joints(result))
-    shown = journal(result, pin, start, until) if with_clearance else None
+    shown = journal(result, pin, after, until) if with_clearance else None
     pair = tuple(channels) or _pair(result, shown.pin if shown else None)
     if shown is None and not pair:
         raise InputError("a section: the run has neither a clearance pin nor a moving body on record")
     of = f", pin {shown.pin}" if shown is not None else ""
-    title = f"Poincare section once in a period{of}, {said(result, start, until)}"
+    title = f"Poincare section once in a period{of}, {said(result, after, until)}"
     drawing = style.begin(170, 95 if shown else 110, title)
     panels = drawing.subplots(1, bool(shown) + bool(pair), squeeze=False)[0]
     closed = None
     if shown is not None:
-        closed = _draw_places(panels[0], result, shown, phase, start, until)
+        closed = _draw_places(panels[0], result, shown, phase, after, until)
         panels[0].set_title("a) journal's centre in its bore")
     if pair:
         axes = panels[-1]
-        _draw_section(axes, result, (pair[0], pair[1]), phase, start, until, closed)
+        _draw_section(axes, result, (pair[0], pair[1]), phase, after, until, closed)
         axes.set_title("b) two channels" if shown is not None else "two channels")
     length = period(result.scenario)
     assert length is not None  # there are times
-    count = periodic_times(result, phase, start, until).size
+    count = periodic_times(result, phase, after, until).size
     caption(
         drawing,
         f"{count} points, one in every period of the drive ({units.said(length, 's', 4)}) at {phase:g} of it; "
@@ -186,11 +186,11 @@ def _pair(result: Result, pin: str | None) -> tuple[str, ...]:
 
 
 def _draw_places(
-    axes: Axes, result: Result, shown: JournalPath, phase: float, start: float, until: float
+    axes: Axes, result: Result, shown: JournalPath, phase: float, after: float, until: float
 ) -> npt.NDArray[np.bool_]:
     """The journal's centre at every period. Returns at which of them it is in contact."""
     x, y, depth = (f"pin.{shown.pin}.{what}" for what in ("eccentricity_x", "eccentricity_y", "depth"))
-    section = stroboscopic(result, x, y, phase, start, until)
+    section = stroboscopic(result, x, y, phase, after, until)
     closed: npt.NDArray[np.bool_] = np.interp(section.time, result.time, result[depth]) > 0.0
     reach = max(shown.clearance, float(np.hypot(section.first, section.second).max()))
     unit = readable("m", reach)
@@ -208,11 +208,11 @@ def _draw_section(
     result: Result,
     pair: tuple[str, str],
     phase: float,
-    start: float,
+    after: float,
     until: float,
     closed: npt.NDArray[np.bool_] | None,
 ) -> None:
-    section = stroboscopic(result, *pair, phase, start, until)
+    section = stroboscopic(result, *pair, phase, after, until)
     (x, x_name), (y, y_name) = (
         _readable_spread(name, values, result.unit(name))
         for name, values in zip(pair, (section.first, section.second), strict=True)
@@ -252,17 +252,17 @@ def _marked(axes: Axes, x: Series, y: Series, closed: npt.NDArray[np.bool_] | No
 # --- at every impact ---
 
 
-def _by_impact(result: Result, shown: JournalPath, start: float, until: float) -> Figure:
+def _by_impact(result: Result, shown: JournalPath, after: float, until: float) -> Figure:
     if len(shown.impacts) < FEWEST_IMPACTS:
         why = "it is in contact throughout" if shown.in_contact.all() else "the drive has too few periods there"
         raise InputError(
-            f"a section of pin {shown.pin} from {said(result, start, until)}: it has "
+            f"a section of pin {shown.pin} from {said(result, after, until)}: it has "
             f"{len(shown.impacts)} impacts, and {why}; allowed: at least {FEWEST_IMPACTS} impacts, or "
             f"{FEWEST_PERIODS} periods of a periodic drive"
         )
     speeds = np.array([impact.speed for impact in shown.impacts])
     unit = readable("m/s", float(speeds.max()))
-    title = f"Poincare section by impacts, pin {shown.pin}, {said(result, start, until)}"
+    title = f"Poincare section by impacts, pin {shown.pin}, {said(result, after, until)}"
     drawing = style.begin(170, 95, title)
     places, returns = drawing.subplots(1, 2)
     _draw_impacts(places, DEGREES * _together(shown.directions), unit.scale * speeds, unit)

@@ -38,26 +38,26 @@ def matching(names: Collection[str], patterns: Sequence[str]) -> list[str]:
     return found
 
 
-def inside(result: Result, start: float, until: float, fewest: int = FEWEST) -> npt.NDArray[np.bool_]:
+def inside(result: Result, after: float, until: float, fewest: int = FEWEST) -> npt.NDArray[np.bool_]:
     """The records that lie between two times [s], as a mask (n,).
 
     Raises InputError if they are fewer than `fewest`.
     """
-    found = (result.time >= start - CLEARANCE) & (result.time <= until + CLEARANCE)
+    found = (result.time >= after - CLEARANCE) & (result.time <= until + CLEARANCE)
     if (count := int(found.sum())) < fewest:
         first, last = result.time[[0, -1]]
         raise InputError(
-            f"from {max(start, first):g} to {min(until, last):g} s: {count} records lie "
+            f"from {max(after, first):g} to {min(until, last):g} s: {count} records lie "
             f"between; allowed: times around at least {fewest} of the {result.time.size} records, "
             f"from {first:g} to {last:g} s"
         )
     return found
 
 
-def said(result: Result, start: float, until: float) -> str:
+def said(result: Result, after: float, until: float) -> str:
     """The piece in words, such as "3 to 5 s"."""
     first, last = result.time[[0, -1]]
-    return f"{max(start, first):g} to {min(until, last):g} s"
+    return f"{max(after, first):g} to {min(until, last):g} s"
 
 
 def spacing(result: Result) -> float:

@@ -126,7 +126,7 @@ def equally_spaced(time: Series, values: Series) -> tuple[Series, float, bool]:
 def force_spectrum(
     result: Result,
     pin: str | None = None,
-    start: float = 0.0,
+    after: float = 0.0,
     until: float = math.inf,
     *,
     segments: int = SEGMENTS,
@@ -136,17 +136,17 @@ def force_spectrum(
 
     Arguments:
         pin: name of a pin, with clearance or ideal; the first with clearance by default, or the first one.
-        start, until: of the piece of the run [s].
+        after, until: of the piece of the run [s].
         segments: see `spectrum`.
         over_time: whether a second panel shows how the spectrum changes over the time (spectrogram).
 
     Raises InputError if there is no such pin, or too few records lie between the times.
     """
     pin = chosen_pin(result, pin, with_clearance=False)
-    chosen = inside(result, start, until, FEWEST)
+    chosen = inside(result, after, until, FEWEST)
     time, force = result.time[chosen], result[f"pin.{pin}.force"][chosen]
     found = spectrum(time, force, segments)
-    title = f"Spectrum of the force in pin {pin}, {said(result, start, until)}"
+    title = f"Spectrum of the force in pin {pin}, {said(result, after, until)}"
     drawing = style.begin(170, 130 if over_time else 85, title)
     panels = drawing.subplots(2 if over_time else 1, 1, squeeze=False)[:, 0]
     _draw(panels[0], found, style.CONTACT if pin in result.onsets else style.IDEAL)

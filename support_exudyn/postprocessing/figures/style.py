@@ -36,6 +36,7 @@ CURVES: tuple[tuple[str, Dashes], ...] = (
     (PAPER, (0, (8, 1, 1, 1, 1, 1))),
 )
 CAPTION = 7  # size of the letters of a caption [points]
+TITLE = 95  # letters of a line of a title
 LETTER_MM = 1.3  # width of one of them, of a line that has many wide ones
 STYLE: dict[Any, Any] = {
     "font.family": "sans-serif",
@@ -71,6 +72,12 @@ def begin(width_mm: float, height_mm: float, title: str) -> Figure:
     """An empty figure of a size with a title on its left."""
     drawing = Figure(figsize=size(width_mm, height_mm))
     drawing.suptitle(title, x=0.01, ha="left")
+    return drawing
+
+
+def named(drawing: Figure, name: str) -> Figure:
+    """A figure with the name of what it shows before its title."""
+    drawing.suptitle("\n".join(textwrap.wrap(f"{name}: {drawing.get_suptitle()}", TITLE)), x=0.01, ha="left")
     return drawing
 
 

@@ -27,7 +27,8 @@ QUANTITIES = {
 }  # fmt: skip
 # for each unit: below which size what is shown, the smallest first
 SIZES: dict[str, tuple[tuple[float, DisplayUnit], ...]] = {
-    "m": ((1e-4, DisplayUnit("µm", 1e6)), (1.0, DisplayUnit("mm", 1e3)), (math.inf, DisplayUnit("m", 1.0))),
+    # of machines all in mm
+    "m": ((1e-4, DisplayUnit("µm", 1e6)), (10.0, DisplayUnit("mm", 1e3)), (math.inf, DisplayUnit("m", 1.0))),
     "m/s": (
         (1e-4, DisplayUnit("µm/s", 1e6)),
         (0.3, DisplayUnit("mm/s", 1e3)),

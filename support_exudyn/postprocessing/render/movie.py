@@ -66,12 +66,12 @@ class Moments:
         return min(int(np.searchsorted(self.time, past)), int(self.records[number]))
 
 
-def moments(time: Series, start: float | None, end: float | None, rate: float, speed: float) -> Moments:
+def moments(time: Series, after: float | None, until: float | None, rate: float, speed: float) -> Moments:
     """The times of the frames between two times of a run.
 
     Arguments:
         time: of the records [s].
-        start, end: of the movie in the run's time [s]; None: of the run.
+        after, until: of the movie in the run's time [s]; None: of the run.
         rate: frames a second.
         speed: seconds of the run in a second of the movie; below 1 slow motion.
 
@@ -80,21 +80,21 @@ def moments(time: Series, start: float | None, end: float | None, rate: float, s
     check_between("frames_per_second", rate, 0.1, MOST_A_SECOND, "")
     check_between("speed", speed, SLOWEST, FASTEST, "")
     first, last = float(time[0]), float(time[-1])
-    start = first if start is None else start
-    end = last if end is None else end
-    check_between("from", start, first, last, " s")
-    check_between("until", end, first, last, " s")
-    if end <= start and not time.size == 1:
-        raise InputError(f"until = {end} s: allowed: later than the first frame, at {start} s")
+    after = first if after is None else after
+    until = last if until is None else until
+    check_between("after", after, first, last, " s")
+    check_between("until", until, first, last, " s")
+    if until <= after and not time.size == 1:
+        raise InputError(f"until = {until} s: allowed: later than the first frame, at {after} s")
     step = speed / rate
-    number = math.floor((end - start) / step + 1e-9) + 1
+    number = math.floor((until - after) / step + 1e-9) + 1
     if number > MOST_FRAMES:
         raise InputError(
-            f"{number} frames from {start} to {end} s at {rate:g} a second and speed {speed:g}; allowed: up to "
-            f"{MOST_FRAMES}. Take a shorter time, a higher speed or fewer frames a second"
+            f"{number} frames from {after} to {until} s at {rate:g} a second and speed {speed:g}; allowed: "
+            f"up to {MOST_FRAMES}. Take a shorter time, a higher speed or fewer frames a second"
         )
-    times = start + step * np.arange(number, dtype=np.float64)
-    return Moments(times, nearest(time, times), time, step, rate, (start, end))
+    times = after + step * np.arange(number, dtype=np.float64)
+    return Moments(times, nearest(time, times), time, step, rate, (after, until))
 
 
 def moment(time: Series, at: float) -> Moments:

@@ -49,8 +49,8 @@ def render(
     folder: str | Path,
     *,
     frames_per_second: float = RATE,
-    start: float | None = None,
-    end: float | None = None,
+    after: float | None = None,
+    until: float | None = None,
     speed: float = 1.0,
     movie: str = "gif",
     movie_path: str | Path | None = None,
@@ -67,7 +67,7 @@ def render(
         result: the run; all bodies and the shown pin have to be recorded.
         folder: for frame_0000.png and so on.
         frames_per_second: of the movie, 0.1 to 240.
-        start, end: of the movie in the run's time [s]; None: of the run.
+        after, until: of the movie in the run's time [s]; None: of the run.
         speed: seconds of the run in a second of the movie: 0.01 for impacts, a hundred times slower.
         movie: "gif", "mp4" (needs the extra [movie]) or "none".
         movie_path: None: the folder's name with the movie's ending, without "_frames".
@@ -79,7 +79,7 @@ def render(
     cannot be written.
     """
     folder = Path(folder)
-    shown = moments(result.time, start, end, frames_per_second, speed)
+    shown = moments(result.time, after, until, frames_per_second, speed)
     movies.check(movie, frames_per_second, shown.times.size)
     target = _movie_path(folder, movie, movie_path)
     show = _Show(result, size, pin, shown)

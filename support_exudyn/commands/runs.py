@@ -1,0 +1,53 @@
+"""Files of runs on a command line: how they are told from channels, and what they are called."""
+
+import re
+from collections.abc import Sequence
+from pathlib import Path
+
+from support_exudyn.commands.command_line import folder
+from user_forces.values.value import InputError
+
+ENDING = ".h5"  # of runs
+NO_NAME = re.compile(r"[^\w.-]+")  # what is left out of a file's name
+LONGEST = 80  # letters of what a file's name says of channels
+
+
+def named_runs(paths: Sequence[Path]) -> dict[str, Path]:
+    """Names of runs, of their files; with the folder where two have one name.
+
+    Raises InputError if a run is given twice.
+    """
+    found: dict[str, Path] = {}
+    for path in paths:
+        same = [other for other in paths if other.stem == path.stem]
+        name = path.stem if len(same) == 1 else str(path.with_suffix(""))
+        if name in found:
+            raise InputError(f"{path}: is given twice; allowed: every run once")
+        found[name] = path
+    return found
+
+
+def runs_and_channels(words: Sequence[str]) -> tuple[list[Path], list[str]]:
+    """The runs and the channels among words: the first is a run, others are if they end so or are files."""
+    runs = [word for n, word in enumerate(words) if n == 0 or word.endswith(ENDING) or folder(word).is_file()]
+    return list(map(folder, runs)), [word for word in words if word not in runs]
+
+
+def file_name(*parts: str) -> str:
+    """A file's name of what a figure shows; patterns of channels without their stars."""
+    return "_".join(filter(None, (NO_NAME.sub("_", part).strip("_.") for part in parts)))
+
+
+def said_channels(patterns: Sequence[str]) -> str:
+    """Channels as a part of a file's name."""
+    words = [pattern.replace("*", "").replace("?", "").replace("..", ".").strip(".") for pattern in patterns]
+    text = "_".join(filter(None, words)) or "channels"
+    return text if len(text) <= LONGEST else f"{text[:LONGEST].rstrip('_.')}_and_others"
+
+
+def said_window(after: float, until: float) -> str:
+    """A window [s] as a part of a file's name; empty for the whole run."""
+    begins, ends = after > 0.0, until < float("inf")
+    if begins and ends:
+        return f"{after:g}_to_{until:g}_s"
+    return f"after_{after:g}_s" if begins else f"until_{until:g}_s" if ends else ""

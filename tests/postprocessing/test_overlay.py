@@ -1,0 +1,52 @@
+"""Several runs in one figure."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from support_exudyn import Result
+from support_exudyn.postprocessing.figures import style
+from support_exudyn.postprocessing.figures.overlay import difference, overlay
+from tests import figure_checks, synthetic
+from tests.cases.run_cases import loose_support
+from user_forces.values.value import InputError
+
+SCENARIO = loose_support(1.5)
+TIME = np.linspace(0.0, 2.0, 201)
+
+
+def run(shift: float, time: np.ndarray = TIME) -> Result:
+    still = np.zeros_like(time)
+    return synthetic.journal(SCENARIO, time, still, still, [], tip__x=(3.0 + shift * np.sin(time), "m"))
+
+
+def test_every_run_has_a_curve_in_the_panel_of_its_channel() -> None:
+    drawing = overlay({"a": run(0.1), "b": run(0.2)}, ["tip.x"])
+    (axes,) = drawing.axes
+    assert [line.get_label() for line in axes.lines] == ["a", "b"]
+    assert axes.lines[1].get_ydata() == pytest.approx(3000.0 + 200.0 * np.sin(TIME))
+    assert axes.get_ylabel() == "length [mm]"
+    assert drawing.get_suptitle() == "a and b, 0 to 2 s"
+
+
+def test_a_difference_is_taken_where_both_have_records() -> None:
+    drawing = difference({"a": run(0.1), "b": run(0.3, TIME[::2])}, ["tip.x"], until=1.0)
+    (line,) = drawing.axes[0].lines
+    shared = TIME[::2][TIME[::2] <= 1.0]
+    assert line.get_xdata() == pytest.approx(shared)
+    assert line.get_ydata() == pytest.approx(200.0 * np.sin(shared))
+    assert drawing.get_suptitle() == "b less a, 0 to 1 s"
+
+
+def test_too_few_or_too_many_runs_are_refused() -> None:
+    for count in (1, 6):
+        with pytest.raises(InputError, match="allowed in a figure: 2 to 5"):
+            overlay({str(n): run(0.1) for n in range(count)}, ["tip.x"])
+
+
+def test_nothing_is_cut_off() -> None:
+    with style.look():
+        runs = {"a first run with a long name": run(0.1), "a second one": run(0.2)}
+        figure_checks.check(overlay(runs, ["tip.x", "pin.rear_base.depth"]))
+        figure_checks.check(difference(runs, ["tip.x"]))
