@@ -1,34 +1,63 @@
-"""`chart STORE X Y`: a number of a sweep's runs over what was varied, as PNG and PDF."""
+"""`chart STORE [X] Y`: a number of a sweep over what was varied, its histogram or tornado."""
 
 import argparse
-import re
 
 from support_exudyn.commands.command_line import add_out, folder, say
+from support_exudyn.commands.runs import file_name
+from user_forces.values.value import InputError
 
-HELP = "figure of a sweep: one number over one varied field, with errors, as PNG and PDF"
-NO_NAME = re.compile(r"[^\w.-]+")  # what is left out of a file's name
+HELP = "figure of a sweep as PNG and PDF: a number over a varied field with errors, a histogram, or a tornado"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The sweep's store, and what is drawn."""
     add = parser.add_argument
     add("store", type=folder, metavar="STORE", help="folder of a sweep, or the table.parquet in it")
-    add("x", metavar="X", help="what was varied, such as pins.rear_base.clearance_mm")
-    add("y", metavar="Y", help="a number of the table, such as pin.rear_base.force.mean")
+    add(
+        "names",
+        nargs="+",
+        metavar="[X] Y",
+        help="what was varied, such as pins.rear_base.clearance_mm, and a number of the table, such as "
+        "pin.rear_base.force.mean; a number alone is drawn over what was varied, or as histogram if the runs "
+        "were drawn from distributions",
+    )
     add("--by", metavar="Z", help="something else that was varied, a curve for each of its values")
+    kind = parser.add_mutually_exclusive_group()
+    kind.add_argument("--histogram", action="store_true", help="how Y is distributed, with percentiles")
+    kind.add_argument("--tornado", action="store_true", help="by how much each varied field moves Y")
     add_out(parser, "folder of the figure (figures in the store)")
 
 
 def run(given: argparse.Namespace) -> None:
     """Draw, write, and print the names of the files."""
     from support_exudyn.postprocessing.figures import style
-    from support_exudyn.postprocessing.figures.sweep_chart import sweep_chart
-    from support_exudyn.sweeps.table import read_table
+    from support_exudyn.postprocessing.figures.sweep_chart import sweep_chart, varied_in
+    from support_exudyn.postprocessing.figures.sweep_distribution import histogram, tornado, usual_chart
+    from support_exudyn.sweeps.table import is_sampled, read_table
 
+    *before, y = given.names
+    if len(before) > 1:
+        raise InputError(f"{' '.join(given.names)}: allowed: what was varied and a number, or a number alone")
     table = read_table(given.store)
     store = given.store if given.store.is_dir() else given.store.parent
-    name = NO_NAME.sub("_", "_".join(filter(None, (given.y, "over", given.x, given.by and f"by_{given.by}"))))
+    one = given.histogram or given.tornado
+    if before and one:
+        raise InputError(f"{before[0]}: allowed with --histogram and --tornado: a number alone")
+    x = before[0] if before else usual_chart(table)
+    if not one and not before and (is_sampled(table) or x is None):
+        if not is_sampled(table):
+            raise InputError(
+                f"{y}: over which field? allowed: chart STORE X Y with X one of {', '.join(varied_in(table))}; "
+                "or --histogram, --tornado"
+            )
+        one = True
     with style.look():
-        drawing = sweep_chart(table, given.x, given.y, given.by)
+        if one:
+            drawing = tornado(table, y) if given.tornado else histogram(table, y)
+            name = file_name(y, "tornado" if given.tornado else "histogram")
+        else:
+            drawing = sweep_chart(table, x or "", y, given.by)
+            name = file_name(y, "over", x or "", f"by_{given.by}" if given.by else "")
+        style.named(drawing, store.resolve().name)
         for path in style.save(drawing, given.out or store / "figures", name):
             say(str(path))

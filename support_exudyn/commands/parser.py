@@ -24,6 +24,7 @@ NAMES: tuple[str, ...] = (
     "run",
     "sweep",
     "chart",
+    "table",
     "show",
     "compare",
     "plot",

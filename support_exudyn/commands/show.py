@@ -1,4 +1,4 @@
-"""`show RUN [CHANNEL...]`: what a run was and what came out, as tables in the terminal."""
+"""`show RUN [CHANNEL...]`, `show STORE [NUMBER...]`: what a run or a sweep was, as tables in the terminal."""
 
 import argparse
 import math
@@ -6,21 +6,27 @@ from typing import Any
 
 from rich.console import Console
 
-from support_exudyn.commands.command_line import add_json, add_run, add_times, answer
+from support_exudyn.commands.command_line import add_json, add_times, answer, folder
+from support_exudyn.commands.sweep_tables import is_store, show_sweep
 from support_exudyn.commands.tables import NARROWEST, facts, printed, show_numbers, show_table, show_touches
 from support_exudyn.postprocessing import summary as summary
 from support_exudyn.postprocessing.figures import selection
 from support_exudyn.postprocessing.figures.selection import matching
 from support_exudyn.simulation.result import Result
 
-HELP = "tables of what a run was and what came out of it"
+HELP = "tables of what a run or a sweep was and what came out of it"
 WHOLE = (0.0, math.inf)  # run
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The run's file, and which channels."""
     add = parser.add_argument
-    add_run(parser)
+    add(
+        "run",
+        type=folder,
+        metavar="RUN|STORE",
+        help="file of a run, as Result.save writes it; or the folder of a sweep",
+    )
     add(
         "channels",
         nargs="*",
@@ -35,6 +41,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(given: argparse.Namespace) -> None:
     """Print the tables; as many of them as are read, if another program takes them."""
+    if is_store(given.run):
+        show_sweep(given)
+        return
     result = Result.load(given.run)
     if given.json:
         answer(_object(result, given))

@@ -103,6 +103,7 @@ def _tell(outcome: SweepOutcome, given: argparse.Namespace, words: str) -> None:
     if given.dry_run:
         return
     say(str(outcome.table))
+    say(f"next: support-exudyn show {outcome.table.parent}")
     if sys.stdout.isatty():
         _show(outcome.table)
 

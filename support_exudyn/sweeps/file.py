@@ -17,6 +17,8 @@ from support_exudyn.files.machines.read import shipped
 from support_exudyn.files.scenarios.scenario_file import scenario_of
 from support_exudyn.files.toml.text import load_toml, parsed, text_of, toml_text
 from support_exudyn.scenario.scenario import Scenario
+from support_exudyn.sweeps.distributions import KEYS as DISTRIBUTION_KEYS
+from support_exudyn.sweeps.distributions import distribution_of
 from support_exudyn.sweeps.plan import (
     Inputs,
     Plan,
@@ -48,7 +50,9 @@ def read_sweep(path: str | Path) -> Plan:
     try:
         _only(data, KEYS, "")
         table, where, folder = _scenario(data, path)
-        varied = {name: _varied(item, f"vary.{name!r}") for name, item in _flat(_table(data, "vary"))}
+        varied = {
+            name: _varied(item, f"vary.{name!r}", path.parent) for name, item in _flat(_table(data, "vary"))
+        }
         told = where if isinstance(data.get("scenario"), dict) else f"{where} as {path} varies it"
         return Plan(
             points=_points(data, varied),
@@ -56,6 +60,7 @@ def read_sweep(path: str | Path) -> Plan:
             record=_record(_table(data, "record")),
             errors=table.get("errors") is True,
             text=text_of(path),
+            sampled=data.get("method") == "latin_hypercube",
         )
     except InputError as error:
         raise InputError(str(error) if str(error).startswith(str(path)) else f"{path}: {error}") from None
@@ -84,16 +89,20 @@ def _points(data: Table, varied: Varied) -> list[Point]:
         if name in data:
             raise InputError(f"{name}: means nothing here; allowed with method = 'latin_hypercube'")
     for name, one in varied.items():
+        if "distribution" in _table(data, "vary").get(name, ()):
+            raise InputError(f"vary.{name!r}.distribution: allowed with method = 'latin_hypercube'")
         if isinstance(one, Range) and not one.steps:
             raise InputError(f"vary.{name!r}.steps: missing; allowed with method = {method!r}: from 2 on")
     return grid(varied) if method == "grid" else side_by_side(varied)
 
 
-def _varied(item: Any, where: str) -> Any:
+def _varied(item: Any, where: str, folder: Path) -> Any:
     if isinstance(item, list):
         if not item:
             raise InputError(f"{where} = []: allowed: at least one value")
         return item
+    if "distribution" in item:
+        return distribution_of(item, where, folder)
     _only(item, RANGE_KEYS, f"{where}.")
     for key in ("from", "to"):
         if not _is_number(item.get(key)):
@@ -129,14 +138,14 @@ def _flat(table: Table, before: str = "") -> list[tuple[str, Any]]:
     found = []
     for key, item in table.items():
         name = f"{before}{key}"
-        if isinstance(item, dict) and not item.keys() & RANGE_KEYS:
+        if isinstance(item, dict) and not item.keys() & (RANGE_KEYS | DISTRIBUTION_KEYS):
             found += _flat(item, f"{name}.")
         elif isinstance(item, (dict, list)):
             found.append((name, item))
         else:
             raise InputError(
                 f"vary.{name!r} = {_said(item)}: allowed: a list of values, or a range such as "
-                "{from = 0.0, to = 0.3, steps = 4}"
+                '{from = 0.0, to = 0.3, steps = 4}, or {distribution = "normal", mean = 0.9, std = 0.02}'
             )
     return found
 

@@ -1,7 +1,8 @@
 """The numbers of a run that a sweep notes."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
+from difflib import get_close_matches
 from fnmatch import fnmatchcase
 
 import numpy as np
@@ -25,6 +26,13 @@ STATISTICS: Mapping[str, Callable[[np.ndarray], float]] = {
     "last": lambda values: float(values[-1]),
     "largest": largest,
 }
+TIMES: Mapping[str, Callable[[np.ndarray], int]] = {  # of extremes: which record it is
+    "largest_time": lambda values: int(np.abs(values).argmax()),
+    "max_time": lambda values: int(values.argmax()),
+    "min_time": lambda values: int(values.argmin()),
+}
+WORDS = (*STATISTICS, *TIMES)
+OF_SIGNED = ("max", "max_time")  # of a magnitude the greatest is the largest
 WILD = "*?["
 
 
@@ -48,20 +56,29 @@ def numbers(result: Result, record: Record) -> dict[str, StoredNumber]:
     }
 
 
-def check_numbers(scenario: Scenario, record: Record) -> None:
+def check_numbers(scenario: Scenario, names: Iterable[str]) -> None:
     """Raise InputError if a number that is named, not a pattern, is none that its runs could have."""
-    for name in record.numbers:
+    for name in names:
         channel, _, statistic = name.rpartition(".")
         if any(letter in name for letter in WILD) or _is_of_impacts(name, scenario):
             continue
-        if statistic not in STATISTICS:
+        if _is_magnitude(channel) and statistic in OF_SIGNED:
+            meant = f"{channel}.{statistic.replace('max', 'largest')}"
             raise InputError(
-                f"numbers: {short(name)}: no such number; allowed: a channel and one of "
-                f"{', '.join(STATISTICS)}, such as 'pin.rear_base.force.mean', patterns of such, "
+                f"numbers: {short(name)}: a magnitude has no sign, and its greatest value is called largest; "
+                f"did you mean {short(meant)}?"
+            )
+        if statistic not in WORDS:
+            words = get_close_matches(statistic, WORDS, 1)
+            guess = f"did you mean {short(f'{channel}.{words[0]}')}? " if words else ""
+            raise InputError(
+                f"numbers: {short(name)}: no such number; {guess}allowed: a channel and one of "
+                f"{', '.join(WORDS)}, such as 'pin.rear_base.force.mean', patterns of such, "
                 "pin.NAME.largest_force, pin.NAME.onset_1.time"
             )
         if channel not in scenario.channel_definitions:
-            near = ", ".join(list(scenario.channel_definitions)[:6])
+            known = [*scenario.channel_definitions]
+            near = ", ".join(get_close_matches(channel, known, 4, 0.5) or known[:6])
             raise InputError(
                 f"numbers: {short(name)}: runs have no channel {short(channel)}; allowed: those of the "
                 f"scenario, such as {near}; or a pattern, if only some of the runs have it"
@@ -84,24 +101,42 @@ def _matching(
         channel, _, statistic = pattern.rpartition(".")
         if pattern in usual:
             return {pattern: usual[pattern]}
-        if channel in result.channels and statistic in STATISTICS:
+        if channel in result.channels and statistic in WORDS:
             return {pattern: _kind(result, channel, statistic, record)}
         return {}
     found = {name: kind for name, kind in usual.items() if fnmatchcase(name, pattern)}
     for channel in result.channels:
-        for statistic in STATISTICS:
+        for statistic in WORDS:
             name = f"{channel}.{statistic}"
+            if _is_magnitude(channel) and statistic in OF_SIGNED:
+                continue
             if channel != "time" and name not in found and fnmatchcase(name, pattern):
                 found[name] = _kind(result, channel, statistic, record)
     return found
 
 
+def _is_magnitude(channel: str) -> bool:
+    return channel.startswith("pin.") and channel.endswith(".force")
+
+
 def _kind(result: Result, channel: str, statistic: str, record: Record) -> ReportedNumber:
-    compute = STATISTICS[statistic]
 
     def inside(run: RecordedRun) -> np.ndarray:
         # as of `Result.numbers`: times of records are sums of periods
         return (run.time >= record.after - 1e-9) & (run.time <= record.until + 1e-9)
+
+    if statistic in TIMES:
+        place = TIMES[statistic]
+
+        def when(run: RecordedRun) -> float:
+            return float(run.time[inside(run)][place(run[channel][inside(run)])])
+
+        def apart(run: RecordedRun) -> float:
+            """Half the time between records, among which the extreme may be."""
+            return 0.5 * float(np.diff(run.time).max(initial=0.0))
+
+        return ReportedNumber("s", when, missed=apart)
+    compute = STATISTICS[statistic]
 
     def measure(run: RecordedRun) -> float:
         return float(compute(run[channel][inside(run)]))

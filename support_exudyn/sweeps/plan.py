@@ -6,15 +6,17 @@ The points of a plan are all combinations of some values, lists side by side, or
 import itertools
 import json
 import math
+import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Context, Decimal
-from typing import Any, Literal
+from typing import Any, Literal, Protocol
 
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.values.value import InputError
 
 MOST = 1_000_000  # runs of a sweep
+MOST_NAMED, LONGEST_NAME = 3, 80  # inputs whose values stand in names of runs, and letters of these
 DIGITS = Context(prec=12)  # of numbers that are spread over a range: far finer than they are known
 Point = dict[str, Any]  # what is varied, as the sweep's file writes it
 Inputs = Mapping[str, Any]  # the same, to be read
@@ -48,7 +50,14 @@ class Range:
         return [self.at(n / (self.steps - 1)) for n in range(self.steps)]
 
 
-Varied = Mapping[str, Range | Choices]
+class Drawn(Protocol):
+    """Numbers of which some are more likely than others, see `distributions`."""
+
+    def at(self, share: float) -> Decimal:
+        """The number that a share of all is below, 0 to 1."""
+
+
+Varied = Mapping[str, Range | Drawn | Choices]
 
 
 def grid(varied: Varied) -> list[Point]:
@@ -72,7 +81,8 @@ def side_by_side(varied: Varied) -> list[Point]:
 def latin_hypercube(varied: Varied, samples: int, seed: int) -> list[Point]:
     """Points drawn so that each range, cut into as many equal parts as there are points, has one in each.
 
-    Of a list of choices each is drawn equally often, to within one. The same seed gives the same points.
+    Of a distribution the parts are equally likely. Of a list of choices each is drawn equally often, to within
+    one. The same seed gives the same points.
 
     Arguments:
         varied: ranges or lists of choices, by name.
@@ -94,14 +104,18 @@ def latin_hypercube(varied: Varied, samples: int, seed: int) -> list[Point]:
     ]
 
 
-def _drawn(one: Range | Choices, share: float, samples: int) -> Any:
-    if isinstance(one, Range):
+def _drawn(one: Range | Drawn | Choices, share: float, samples: int) -> Any:
+    if not isinstance(one, Sequence):
         return one.at(share)
     return one[int(share * samples) * len(one) // samples]  # by its part, so that all come up equally often
 
 
-def _listed(one: Range | Choices) -> list[Any]:
-    return one.values if isinstance(one, Range) else list(one)
+def _listed(one: Range | Drawn | Choices) -> list[Any]:
+    if isinstance(one, Range):
+        return one.values
+    if isinstance(one, Sequence):
+        return list(one)
+    raise InputError("vary: a distribution has no steps; allowed with method = 'latin_hypercube'")
 
 
 def _check_number(runs: int) -> None:
@@ -147,7 +161,8 @@ class Plan:
     points: what is varied, for each run, all with the same names. scenario: makes one from that; it raises
     InputError for what cannot be run, which is a row of the table with this reason. record: what is noted.
     errors: whether runs without an accuracy are made with estimated errors, see `simulate`. text: of the file
-    that says all this, if there is one; it is kept with the table.
+    that says all this, if there is one; it is kept with the table. sampled: whether the points are drawn from
+    distributions, so that percentiles of numbers mean something.
     """
 
     points: Sequence[Inputs]
@@ -155,8 +170,38 @@ class Plan:
     record: Record = Record()
     errors: bool = False
     text: str = ""
+    sampled: bool = False
+
+    @property
+    def run_names(self) -> list[str]:
+        """A readable name for each run, such as "clearance_mm_1.5_friction_0.25"; of many inputs its number."""
+        digits = len(str(len(self.points)))
+        numbered = [f"run_{n:0{digits}}" for n in range(1, len(self.points) + 1)]
+        if self.sampled or not 1 <= len(self.names) <= MOST_NAMED:
+            return numbered
+        words = _last_keys(self.names)
+        found = [
+            "_".join(f"{word}_{_in_a_name(point[n])}" for n, word in words.items()) for point in self.points
+        ]
+        return found if len(set(found)) == len(found) and max(map(len, found)) <= LONGEST_NAME else numbered
 
     @property
     def names(self) -> tuple[str, ...]:
         """Names of what is varied."""
         return tuple(self.points[0]) if self.points else ()
+
+
+def _last_keys(names: Sequence[str]) -> dict[str, str]:
+    """Names by the last of their keys; with those before where two would be alike."""
+    parts = {name: name.replace('"', "").split(".") for name in names}
+    size = next(
+        size
+        for size in range(1, max(map(len, parts.values())) + 1)
+        if len({"_".join(one[-size:]) for one in parts.values()}) == len(names)
+    )
+    return {name: "_".join(one[-size:]) for name, one in parts.items()}
+
+
+def _in_a_name(item: Any) -> str:
+    text = f"{float(item):.6g}" if isinstance(item, (Decimal, float)) else str(item)
+    return re.sub(r"[^\w.+-]+", "_", text).strip("_.")

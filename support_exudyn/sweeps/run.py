@@ -8,15 +8,17 @@ from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 
+from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.sweeps.key import key
 from support_exudyn.sweeps.measures import check_numbers
-from support_exudyn.sweeps.plan import Plan
+from support_exudyn.sweeps.plan import Inputs, Plan
 from support_exudyn.sweeps.store import Store, StoredRun
 from support_exudyn.sweeps.table import FILE, SweepTable
 from support_exudyn.sweeps.work import Task, in_processes, reason_of
 from user_forces.values.value import InputError
 
 SELDOM = 10.0  # the table is written every so many seconds while runs come in,
+LOOKED_AT = 100  # runs in which a number is looked for that the first has not
 SHARE = 0.02  # and this share of the time at most
 
 
@@ -96,6 +98,7 @@ def sweep(
         finally:
             keeper.look_again()
             keeper.write()
+            store.name_runs(dict(zip(keeper.table.run_names, keeper.table.keys, strict=True)))
         if prune:
             outcome.pruned = store.prune(keeper.table.keys)
     outcome.missing = tuple(
@@ -144,7 +147,7 @@ class _Keeper:
                 self._set([number], StoredRun("", "failed", reason_of(error)))
                 continue
             if not checked:
-                check_numbers(scenario, record)
+                self._check_numbers(scenario, number)
                 checked = True
             places = self._places.setdefault(name, [])
             places.append(number)
@@ -160,6 +163,22 @@ class _Keeper:
                 yield Task(name, scenario, record, self._plan.errors, again=whole)
         if len(refused) == len(self._plan.points):
             raise refused[0]  # that is no sweep
+
+    def _check_numbers(self, scenario: Scenario, first: int) -> None:
+        """Raise InputError for a number that no run can have.
+
+        A run with an ideal pin has fewer than one with clearance, so others are looked at, too.
+        """
+        others = self._plan.points[first + 1 :][:LOOKED_AT]
+        for name in self._plan.record.numbers:
+            if not _has_number(scenario, name) and not any(self._can_have(name, point) for point in others):
+                check_numbers(scenario, [name])
+
+    def _can_have(self, name: str, point: Inputs) -> bool:
+        try:
+            return _has_number(self._plan.scenario(point), name)
+        except Exception:  # of classes of one's own any
+            return False
 
     def _is_good(self, row: StoredRun, whole: bool) -> bool:
         """Whether what is known of a run is what is wanted."""
@@ -199,3 +218,11 @@ class _Keeper:
         self.table.write(self._store.folder)
         self._written = time.monotonic()
         self._wait = max(SELDOM, (self._written - began) / SHARE)
+
+
+def _has_number(scenario: Scenario, name: str) -> bool:
+    try:
+        check_numbers(scenario, [name])
+    except InputError:
+        return False
+    return True

@@ -2,6 +2,7 @@
 
     STORE/rows/KEY.json     what is noted of a run, or why there is none
     STORE/runs/KEY.h5       the run, as `Result.save` writes it
+    STORE/named/NAME.h5     the same file by a readable name, where the disk lets a file have two
     STORE/table.parquet     all of it in one table, and table.csv for eyes
 
 A run's file is written before its row, each whole: where there is a row, there was a run.
@@ -14,7 +15,7 @@ import hashlib
 import json
 import re
 from collections.abc import Collection, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 from typing import Literal, NamedTuple
@@ -160,6 +161,29 @@ class Store:
             return False
         return True
 
+    @property
+    def named(self) -> Path:
+        """The folder of the runs by readable names."""
+        return self.folder / "named"
+
+    def name_runs(self, keys: Mapping[str, str]) -> None:
+        """Let runs that are kept have readable names, too; those that had one before lose it.
+
+        Each is the same file by a second name, which takes no room. A disk that has no such names goes without.
+
+        keys: of runs, by their readable names.
+        """
+        if not any(self.runs.iterdir()):
+            return
+        self.named.mkdir(exist_ok=True)
+        for path in self.named.glob("*.h5"):
+            if path.is_file() and not path.is_symlink() and _begins_as_a_run(path):
+                path.unlink()
+        for name, key in keys.items():
+            if key and self.run_file(key).exists():
+                with suppress(OSError):  # no second names on this disk, or a file of somebody else's
+                    (self.named / f"{name}.h5").hardlink_to(self.run_file(key))
+
     def prune(self, keys: Collection[str]) -> int:
         """Remove rows of all other keys, and their runs. Returns of how many.
 
@@ -178,5 +202,9 @@ class Store:
             return False
         if path.suffix == ".json":
             return self.row(path.stem) is not None
-        with path.open("rb") as file:
-            return file.read(len(RUN)) == RUN
+        return _begins_as_a_run(path)
+
+
+def _begins_as_a_run(path: Path) -> bool:
+    with path.open("rb") as file:
+        return file.read(len(RUN)) == RUN

@@ -17,12 +17,13 @@ from support_exudyn.sweeps.plan import MOST, Plan
 from support_exudyn.sweeps.store import StoredRun
 from user_forces.values.value import InputError, cleaned, short
 
-FORMAT = "support_exudyn sweep 1"
+FORMAT = "support_exudyn sweep 2"
 FILE = "table.parquet"
 WHOLE = 2**63  # whole numbers of a column are smaller
 OWN = b"support_exudyn"  # of the schema's metadata
 UNIT_WORDS = {"^": "", "/": "_per_", " ": "_"}
 MEANINGS = {
+    "run": "readable name of the run, in the store's folder named",
     "key": "name of the run's files in the store",
     "status": "done, failed (it cannot be run, or stopped), killed (its process ended)",
     "reason": "why there are no numbers, or why they are less accurate than asked for",
@@ -47,6 +48,7 @@ class SweepTable:
     def __init__(self, plan: Plan) -> None:
         self._plan, self._size = plan, len(plan.points)
         self.keys: list[str] = [""] * self._size
+        self.run_names = plan.run_names
         self.status: list[str] = ["waiting"] * self._size
         self._reasons: list[str] = [""] * self._size
         self._wall_times = np.full(self._size, np.nan)
@@ -80,7 +82,8 @@ class SweepTable:
 
         for name in self._plan.names:
             add(name, _inputs([point[name] for point in self._plan.points]), meaning="varied")
-        for name, texts in (("key", self.keys), ("status", self.status), ("reason", self._reasons)):
+        texts_of = {"run": self.run_names, "key": self.keys, "status": self.status, "reason": self._reasons}
+        for name, texts in texts_of.items():
             add(name, pa.array(texts, pa.string()), meaning=MEANINGS[name])
         taken = pa.array(self._wall_times, mask=np.isnan(self._wall_times))
         add("wall_time_s", taken, "s", MEANINGS["wall_time_s"])
@@ -90,7 +93,12 @@ class SweepTable:
             if not np.isnan(column.errors).all():
                 errors = pa.array(column.errors, mask=np.isnan(column.errors))
                 add(f"{title}_error", errors, column.unit, f"estimated numerical error of {name}")
-        about = {"format": FORMAT, "sweep": self._plan.text, "program": program()}
+        about = {
+            "format": FORMAT,
+            "sweep": self._plan.text,
+            "program": program(),
+            "sampled": self._plan.sampled,
+        }
         return pa.table(columns, schema=pa.schema(fields, metadata={OWN: json.dumps(about)}))
 
     def write(self, folder: Path) -> Path:
@@ -128,13 +136,21 @@ def read_table(path: str | Path) -> pa.Table:
         found.validate(full=True)
         about = json.loads((found.schema.metadata or {}).get(OWN, b"{}"))
         known = about.get("format")
-        _check_columns(found)
+        if known == FORMAT:
+            _check_columns(found)
     except (pa.ArrowException, OSError, ValueError, AttributeError, RecursionError, MemoryError) as error:
         said = cleaned(" ".join(str(error).split()))
         raise InputError(f"{path}: not a table of a sweep, or damaged ({said})") from None
     if known != FORMAT:
-        raise InputError(f"{path}: format is {short(known)}, expected {FORMAT!r}")
+        raise InputError(
+            f"{path}: format is {short(known)}, expected {FORMAT!r}; the same `sweep` command writes it anew"
+        )
     return found
+
+
+def is_sampled(table: pa.Table) -> bool:
+    """Whether the runs of a sweep's table were drawn, so that percentiles of their numbers mean something."""
+    return json.loads((table.schema.metadata or {}).get(OWN, b"{}")).get("sampled") is True
 
 
 def _check_table(about: Any) -> None:

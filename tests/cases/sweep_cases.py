@@ -25,7 +25,7 @@ speed_m_per_s = 0.2
 clearance_mm = 1.0
 bore_radius_mm = 65.5
 """
-NUMBERS = ["pin.pin.force.mean", "pin.pin.force.max", "pin.pin.largest_force", "journal.x.last"]
+NUMBERS = ["pin.pin.force.mean", "pin.pin.force.largest", "pin.pin.largest_force", "journal.x.last"]
 
 
 def write_sweep(folder: Path, vary: str, *, head: str = "", record: str = "", duration: float = 0.02) -> Path:

@@ -274,7 +274,7 @@ def test_files_are_written_whole(tmp_path: Path) -> None:
             "a.toml: columns: unknown key; allowed: name, description, errors, machine, pins, actuators, ",
         ),
         (TOP + "[drives.x]\nmode = 1", "a.toml: drives.x: the machine has no such driven part; allowed: "),
-        (TOP + WITH_CLEARANCE.replace("1.5", "-1"), "a.toml: pins.rear_base.clearance_mm = -1: allowed: > 0"),
+        (TOP + WITH_CLEARANCE.replace("1.5", "-1"), "a.toml: pins.rear_base.clearance_mm = -1: allowed: >= 0"),
         (
             TOP + WITH_CLEARANCE.replace("1.5", "70"),
             "a.toml: pins.rear_base: clearance_mm = 70: leaves no journal in a bore of bore_radius_mm = 65.5",
@@ -324,7 +324,7 @@ def test_files_are_written_whole(tmp_path: Path) -> None:
         ),
         (
             TOP + WITH_CLEARANCE.replace("1.5", '"1.5"'),
-            "a.toml: pins.rear_base.clearance_mm = '1.5': allowed: a number > 0",
+            "a.toml: pins.rear_base.clearance_mm = '1.5': allowed: a number >= 0",
         ),
         (TOP + "drive.table = 'no.csv'", "a.toml: drive.table = 'no.csv': allowed: a file that can be read"),
         (TOP + "drives.table = 'no.csv'", "a.toml: drives.table = 'no.csv': allowed: a file that can be read"),

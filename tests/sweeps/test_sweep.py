@@ -60,7 +60,7 @@ def test_rows_are_in_the_order_of_the_plan_with_numbers_of_their_runs(tmp_path: 
         run = Result.load(store_of(path).run_file(name))
         assert run.scenario.machine.speed == table["machine.speed_m_per_s"][number]  # type: ignore[attr-defined]
         assert table["pin.pin.force.mean_N"][number] == float(np.mean(run["pin.pin.force"]))
-        assert table["pin.pin.force.max_N"][number] == float(np.max(run["pin.pin.force"]))
+        assert table["pin.pin.force.largest_N"][number] == float(np.max(run["pin.pin.force"]))
         assert table["pin.pin.largest_force_N"][number] == run.largest_force["pin"]
         assert table["journal.x.last_m"][number] == run["journal.x"][-1]
         assert table["wall_time_s"][number] == run.wall_time
@@ -106,9 +106,9 @@ def test_runs_that_miss_their_accuracy_are_told(
 
 
 def test_patterns_note_what_runs_have(tmp_path: Path, ran: list[Task]) -> None:
-    path = write_sweep(tmp_path, speeds(2), record='numbers = ["pin.*.force.m??", "*.first"]')
+    path = write_sweep(tmp_path, speeds(2), record='numbers = ["pin.*.force.[lm]*", "*.first"]')
     names = read_table(do(path).table).column_names
-    assert {"pin.pin.force.max_N", "pin.pin.force.min_N", "journal.x.first_m"} <= set(names)
+    assert {"pin.pin.force.largest_N", "pin.pin.force.min_N", "journal.x.first_m"} <= set(names)
     assert "pin.pin.force.mean_N" not in names
 
 
@@ -205,21 +205,21 @@ def test_another_program_makes_everything_again(
 
 
 def test_other_numbers_are_noted_of_runs_that_are_kept(tmp_path: Path, ran: list[Task]) -> None:
-    do(write_sweep(tmp_path, speeds(2), record='numbers = ["pin.pin.force.max"]'))
+    do(write_sweep(tmp_path, speeds(2), record='numbers = ["pin.pin.force.largest"]'))
     runs = {path: path.stat().st_mtime_ns for path in (tmp_path / "store" / "runs").iterdir()}
     path = write_sweep(tmp_path, speeds(2), record='numbers = ["journal.x.max"]')
     do(path)
     assert [task.again for task in ran] == [False, False, True, True]
     assert {path: path.stat().st_mtime_ns for path in (tmp_path / "store" / "runs").iterdir()} == runs
     noted = columns(tmp_path / "store")
-    assert "pin.pin.force.max_N" not in noted
+    assert "pin.pin.force.largest_N" not in noted
     do(write_sweep(tmp_path / "anew", speeds(2), record='numbers = ["journal.x.max"]'))
     assert columns(tmp_path / "anew" / "store") == noted
 
 
 def test_runs_that_are_not_kept_are_made_again_for_other_numbers(tmp_path: Path, ran: list[Task]) -> None:
     record = 'keep_runs = false\nnumbers = ["{}"]'
-    do(write_sweep(tmp_path, speeds(2), record=record.format("pin.pin.force.max")))
+    do(write_sweep(tmp_path, speeds(2), record=record.format("pin.pin.force.largest")))
     assert not list((tmp_path / "store" / "runs").iterdir())
     do(write_sweep(tmp_path, speeds(2), record=record.format("journal.x.max")))
     assert [task.again for task in ran] == [False] * 4
@@ -288,6 +288,55 @@ def test_two_at_once_are_kept_apart(tmp_path: Path, ran: list[Task]) -> None:
     assert not ran
 
 
+def test_clearance_zero_is_the_ideal_pin(tmp_path: Path) -> None:
+    path = tmp_path / "sweep.toml"
+    numbers = ["pin.rear_base.force.mean", "pin.rear_base.depth.max"]  # of which an ideal pin has the first
+    path.write_text(
+        'scenario = {machine = "reference", duration_s = 0.01, pins = {rear_base = {bore_radius_mm = 60}}}\n'
+        f'[vary]\n"pins.rear_base.clearance_mm" = [0, 1.0]\n[record]\nnumbers = {numbers}\n',
+        encoding="utf-8",
+    )
+    plan = read_sweep(path)
+    assert [sorted(plan.scenario(point).clearance_pins) for point in plan.points] == [[], ["rear_base"]]
+    assert known(plan, tmp_path / "store").runs == 2
+
+
+def test_runs_have_readable_names_in_the_store(tmp_path: Path, ran: list[Task]) -> None:
+    do(write_sweep(tmp_path, '"machine.speed_m_per_s" = [0.1, 0.2]'))
+    store = tmp_path / "store"
+    assert columns(store)["run"] == ["speed_m_per_s_0.1", "speed_m_per_s_0.2"]
+    for name, key in zip(columns(store)["run"], columns(store)["key"], strict=True):
+        assert (store / "named" / f"{name}.h5").samefile(store / "runs" / f"{key}.h5")
+    (store / "named" / "mine.h5").write_text("no run", encoding="utf-8")
+    do(write_sweep(tmp_path, '"machine.speed_m_per_s" = [0.2]'))
+    assert {one.name for one in (store / "named").iterdir()} == {"speed_m_per_s_0.2.h5", "mine.h5"}
+
+
+def test_the_time_of_an_extreme_is_a_number(tmp_path: Path, ran: list[Task]) -> None:
+    record = 'numbers = ["pin.pin.force.largest_time", "journal.x.*_time"]'
+    do(write_sweep(tmp_path, '"machine.speed_m_per_s" = [0.2]', record=record))
+    table = columns(tmp_path / "store")
+    (file,) = (tmp_path / "store" / "named").iterdir()
+    run = Result.load(file)
+    assert table["pin.pin.force.largest_time_s"] == [run.time[run["pin.pin.force"].argmax()]]
+    assert table["journal.x.max_time_s"] == [run.time[run["journal.x"].argmax()]]
+
+
+@pytest.mark.parametrize(
+    ("number", "message"),
+    [
+        ("pin.pin.force.max", "did you mean 'pin.pin.force.largest'"),
+        ("journal.x.larges", "did you mean 'journal.x.largest'"),
+        ("pin.pin.forse.mean", "such as pin.pin.force"),
+    ],
+)
+def test_a_number_that_no_run_has_is_told_with_what_it_may_mean(
+    tmp_path: Path, ran: list[Task], number: str, message: str
+) -> None:
+    with pytest.raises(InputError, match=message):
+        do(write_sweep(tmp_path, '"machine.speed_m_per_s" = [0.2]', record=f'numbers = ["{number}"]'))
+
+
 # --- the command ---
 
 
@@ -309,6 +358,62 @@ def test_the_command_tells_what_there_is(
     assert json.loads(capsys.readouterr().out)["found"] == 2
 
 
+DRAWN = """
+"pins.pin.restitution" = {distribution = "normal", mean = 0.8, std = 0.05, to = 0.99}
+"machine.speed_m_per_s" = {distribution = "uniform", from = 0.1, to = 0.3}
+"""
+
+
+def test_a_drawn_sweep_is_told_shown_and_drawn(
+    tmp_path: Path, ran: list[Task], capsys: pytest.CaptureFixture[str]
+) -> None:
+    do(write_sweep(tmp_path, DRAWN, head='method = "latin_hypercube"\nsamples = 12\nseed = 3'))
+    store = str(tmp_path / "store")
+    assert main(["show", store]) == 0
+    told = capsys.readouterr().out
+    for words in (
+        "12 runs: 12 done",
+        "pins.pin.restitution",
+        "5 %",
+        "confidence",
+        "Spearman",
+        "support-exudyn chart",
+    ):
+        assert words in told
+    assert main(["show", store, "pin.pin.force.*", "--json"]) == 0
+    number = json.loads(capsys.readouterr().out)["numbers"]["pin.pin.force.largest"]
+    values = columns(tmp_path / "store")["pin.pin.force.largest_N"]
+    assert number["percentiles"][1]["value"] == np.median(values)
+    assert number["ranking"][0]["name"] == "machine.speed_m_per_s"
+    assert main(["chart", store, "pin.pin.force.largest"]) == 0
+    assert main(["chart", store, "pin.pin.force.largest", "--tornado"]) == 0
+    files = {Path(line).name for line in capsys.readouterr().out.splitlines()}
+    assert {"pin.pin.force.largest_histogram.png", "pin.pin.force.largest_tornado.png"} <= files
+    for wrong in (["pin.pin.force.median"], ["pin.pin.force.largest", "--by", "x", "a", "b"]):
+        assert main(["chart", store, *wrong]) == 1
+
+
+@pytest.mark.parametrize(
+    ("kind", "words"),
+    [
+        ("md", "| run | machine.speed [m/s] | journal.x.last [mm] |"),
+        ("latex", r"run & machine.speed [m/s] & journal.x.last [mm] \\"),
+        ("csv", "machine.speed_m_per_s,run,status,journal.x.last_m"),
+    ],
+)
+def test_a_table_for_a_text(
+    tmp_path: Path, ran: list[Task], capsys: pytest.CaptureFixture[str], kind: str, words: str
+) -> None:
+    do(write_sweep(tmp_path, '"machine.speed_m_per_s" = [0.1, 0.2]'))
+    arguments = ["table", str(tmp_path / "store"), "--format", kind, "journal.*"]
+    assert main(arguments) == 0
+    printed = capsys.readouterr().out
+    assert words in printed
+    assert "speed" in printed.splitlines()[-1] or kind == "latex"
+    assert main([*arguments, "--out", str(tmp_path / "t")]) == 0
+    assert (tmp_path / "t").read_text(encoding="utf-8") == printed
+
+
 def test_a_chart_is_drawn_of_it(tmp_path: Path, ran: list[Task], capsys: pytest.CaptureFixture[str]) -> None:
     path = write_sweep(
         tmp_path, '"pins.pin.clearance_mm" = [0.5, 1.0]\n"machine.speed_m_per_s" = [0.1, 0.2, -0.1]'
@@ -316,7 +421,7 @@ def test_a_chart_is_drawn_of_it(tmp_path: Path, ran: list[Task], capsys: pytest.
     do(path)
     store = str(tmp_path / "store")
     by = ["--by", "pins.pin.clearance_mm", "--out", str(tmp_path)]
-    assert main(["chart", store, "machine.speed_m_per_s", "pin.pin.force.max", *by]) == 0
+    assert main(["chart", store, "machine.speed_m_per_s", "pin.pin.force.largest", *by]) == 0
     files = [Path(line) for line in capsys.readouterr().out.splitlines()]
     assert [file.suffix for file in files] == [".png", ".pdf"]
     assert all(file.stat().st_size > 1000 for file in files)

@@ -163,6 +163,8 @@ class ShortForms:
         short = reader.value(ShortPin, item, place)
         if isinstance(short, Failed) or self.data is None:
             return FAILED
+        if short.clearance == 0.0:  # as at the end of a sweep over clearances
+            return IdealPin()
         try:
             return short.pin(self.data.bore_radii.get(place[-1]))
         except InputError as error:

@@ -53,7 +53,7 @@ class ShortPin(Value):
     """A pin with clearance, in few words.
 
     Arguments:
-        clearance: radial, bore radius minus journal radius [m], > 0.
+        clearance: radial, bore radius minus journal radius [m], >= 0; 0 is an ideal pin, whatever else is said.
         bore_radius: [m], > 0; the machine's file may say it for the pin.
         restitution: of an impact, > 0 and <= 1; 0.9 if nothing is said.
         friction: sliding coefficient of Ambrosio's law, >= 0, 0: none; or a friction law as a table.
@@ -66,7 +66,7 @@ class ShortPin(Value):
         eccentricity: of the journal's centre from the bore's at the start [m], forward and up.
     """
 
-    clearance: Metres[Positive]
+    clearance: Metres[NonNegative]
     bore_radius: Metres[Positive] | None = None
     restitution: Restitution | None = None
     friction: NonNegative | FrictionLaw = 0.0

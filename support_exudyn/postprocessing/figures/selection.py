@@ -16,12 +16,13 @@ CLEARANCE = 1e-9  # [s], of times that were computed as sums of steps
 FEWEST = 2  # records that make a line
 
 
-def matching(names: Collection[str], patterns: Sequence[str]) -> list[str]:
+def matching(names: Collection[str], patterns: Sequence[str], kind: str = "channel") -> list[str]:
     """The names that any of the patterns matches, in the order of the patterns; time is not among them.
 
     Arguments:
         names: of channels.
         patterns: names, or patterns of them as in a shell, such as "pin.*.force".
+        kind: what they are names of.
 
     Raises InputError for a pattern that matches none.
     """
@@ -31,8 +32,8 @@ def matching(names: Collection[str], patterns: Sequence[str]) -> list[str]:
         if not matched:
             near = get_close_matches(pattern, names, 4, 0.4) or sorted(names)[:4]
             raise InputError(
-                f"{short(pattern)}: no such channel; allowed: names or patterns such as 'pin.*.force', of the "
-                f"{len(names)} that the run has, among them {', '.join(near)}"
+                f"{short(pattern)}: no such {kind}; allowed: names or patterns such as 'pin.*.force', of the "
+                f"{len(names)} that there are, among them {', '.join(near)}"
             )
         found += [name for name in matched if name not in found]
     return found

@@ -20,6 +20,7 @@ from user_forces.values.value import InputError, short
 if TYPE_CHECKING:
     import pyarrow as pa
 
+WALL_TIME = "wall_time_s"
 LITTLE = 1e-3  # share of a number in whose unit a smaller difference is still shown
 LOST = "#666666"  # runs without a result
 # curves: with markers, too, for grey prints
@@ -41,21 +42,21 @@ def sweep_chart(table: pa.Table, x: str, y: str, by: str | None = None) -> Figur
     Raises InputError if there is no such column, or if it has too many values for `by`.
     """
     varied = varied_in(table)
-    x = _column(x, varied)
-    by = None if by is None else _column(by, [name for name in varied if name != x])
-    y = _column(y, _numbers(table))
+    x = column(x, varied)
+    by = None if by is None else column(by, [name for name in varied if name != x])
+    y = number_column(table, y)
     rows = table.to_pydict()
     places, ticks = _places(rows[x])
     values = np.array([np.nan if one is None else one for one in rows[y]], dtype=float)
     if np.isnan(values).all():
-        raise InputError(f"{y}: no run has this number; allowed: {_some(_numbers(table))}")
-    unit = _metadata(table, y).get("unit", "")
+        raise InputError(f"{y}: no run has this number; allowed: {_some(numbers_in(table))}")
+    unit = metadata(table, y).get("unit", "")
     apart = float(np.nanmax(values) - np.nanmin(values))
     shown = readable_change(unit, float(np.nanmax(np.abs(values))), apart)
     alike = all(name in (x, by) or len(set(map(str, rows[name]))) == 1 for name in varied)
     known = f"{y}_error" in rows
     errors = np.array([np.nan if one is None else one for one in rows[f"{y}_error"]]) if known else None
-    drawing = style.begin(170, 95, f"{_bare(y, unit)} over {in_words(x).partition(' [')[0]}")
+    drawing = style.begin(170, 95, f"{bare(y, unit)} over {in_words(x).partition(' [')[0]}")
     axes = drawing.subplots()
     for label, chosen, (colour, marker, dashes) in _curves(rows, by, len(values)):
         there = chosen & ~np.isnan(values)
@@ -87,7 +88,7 @@ def sweep_chart(table: pa.Table, x: str, y: str, by: str | None = None) -> Figur
 
 def varied_in(table: pa.Table) -> list[str]:
     """The names of the columns of what was varied."""
-    return [name for name in table.column_names if _metadata(table, name).get("meaning") == "varied"]
+    return [name for name in table.column_names if metadata(table, name).get("meaning") == "varied"]
 
 
 def in_words(name: str) -> str:
@@ -137,10 +138,10 @@ def _places(values: list[Any]) -> tuple[np.ndarray, list[str] | None]:
 
 def _label(axes: Axes, x: str, y: str, unit: str, shown: str) -> None:
     axes.set_xlabel(in_words(x))
-    axes.set_ylabel(f"{_bare(y, unit)} [{shown}]" if shown else _bare(y, unit))
+    axes.set_ylabel(f"{bare(y, unit)} [{shown}]" if shown else bare(y, unit))
 
 
-def _bare(y: str, unit: str) -> str:
+def bare(y: str, unit: str) -> str:
     """The number without its unit at the end."""
     from support_exudyn.sweeps.table import with_unit  # and pyarrow
 
@@ -158,13 +159,25 @@ def _words(rows: Mapping[str, list[Any]], varied: list[str], x: str, by: str | N
     return text + "The runs were not made to an accuracy: nothing tells their numerical errors."
 
 
-def _numbers(table: pa.Table) -> list[str]:
-    first = table.column_names.index("wall_time_s")
+def numbers_in(table: pa.Table) -> list[str]:
+    """The names of the columns of numbers of the runs, without those of their errors."""
+    first = table.column_names.index(WALL_TIME)
     return [name for name in table.column_names[first:] if not name.endswith("_error")]
 
 
-def _column(name: str, allowed: list[str]) -> str:
-    """The column that is meant: by its name, or by that without its unit."""
+def numbers_by_name(table: pa.Table) -> dict[str, str]:
+    """The columns of numbers by their names without units; the time that runs took is none of these."""
+    columns = [name for name in numbers_in(table) if name != WALL_TIME]
+    return {bare(name, metadata(table, name).get("unit", "")): name for name in columns}
+
+
+def number_column(table: pa.Table, name: str) -> str:
+    """The column of a number, by its name with its unit or without. Raises InputError if there is none."""
+    return numbers_by_name(table).get(name) or column(name, numbers_in(table))
+
+
+def column(name: str, allowed: list[str]) -> str:
+    """The column of this name, with its unit or without. Raises InputError if there is none."""
     if name in allowed:
         return name
     begun = [one for one in allowed if one.startswith(f"{name}_")]
@@ -178,6 +191,7 @@ def _some(names: list[str]) -> str:
     return ", ".join(names[:8]) + (f" and {len(names) - 8} more" if len(names) > 8 else "") or "none"
 
 
-def _metadata(table: pa.Table, name: str) -> dict[str, str]:
+def metadata(table: pa.Table, name: str) -> dict[str, str]:
+    """Unit and meaning of a column."""
     found = table.schema.field(name).metadata or {}
     return {key.decode(): text.decode() for key, text in found.items()}

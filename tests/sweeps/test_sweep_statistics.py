@@ -1,0 +1,167 @@
+"""Numbers that are drawn from distributions, and what is said of the runs that were made with them."""
+
+from __future__ import annotations
+
+from decimal import Decimal
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from support_exudyn.sweeps.distributions import MeasuredNumbers, NormalNumbers, distribution_of
+from support_exudyn.sweeps.plan import Plan, Range, latin_hypercube
+from support_exudyn.sweeps.statistics import percentiles, ranking
+from user_forces.values.value import InputError
+
+HERE = Path()
+
+
+def test_a_normal_distribution_has_its_quantiles() -> None:
+    normal = NormalNumbers(0.9, 0.02)
+    # of the standard normal distribution, from tables
+    for share, deviation in ((0.5, 0.0), (0.8413447460685429, 1.0), (0.025, -1.959963984540054)):
+        assert float(normal.at(share)) == pytest.approx(0.9 + 0.02 * deviation, abs=1e-11)
+    assert normal.at(0.0).is_finite()
+    assert normal.at(1.0).is_finite()
+
+
+def test_a_truncated_one_stays_between_its_bounds_with_the_same_shape() -> None:
+    truncated = NormalNumbers(0.9, 0.05, high=0.9)
+    drawn = [float(truncated.at(share)) for share in np.linspace(0.0, 1.0, 101)]
+    assert max(drawn) <= 0.9
+    # half of the half is below the first quartile of the whole
+    assert float(truncated.at(0.5)) == pytest.approx(0.9 - 0.05 * 0.6744897501960817, abs=1e-11)
+
+
+def test_measured_numbers_are_all_equally_likely(tmp_path: Path) -> None:
+    (tmp_path / "e.csv").write_text("run, restitution\n1, 0.9\n2, 0.7\n3, 0.8\n", encoding="utf-8")
+    given = {"distribution": "file", "file": "e.csv", "column": "restitution"}
+    found = distribution_of(given, "vary.e", tmp_path)
+    assert found == MeasuredNumbers((0.7, 0.8, 0.9))
+    assert [found.at(share) for share in (0.0, 0.5, 0.75, 1.0)] == list(
+        map(Decimal, ("0.7", "0.8", "0.85", "0.9"))
+    )
+
+
+def test_uniform_ones_are_ranges() -> None:
+    ends = {"from": Decimal(1), "to": Decimal(100)}
+    assert distribution_of({"distribution": "uniform", **ends}, "", HERE) == Range(Decimal(1), Decimal(100))
+    logarithmic = distribution_of({"distribution": "log_uniform", **ends}, "", HERE)
+    assert float(logarithmic.at(0.5)) == pytest.approx(10.0)
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"distribution": "gauss"}, "distribution = 'gauss': allowed: 'uniform'"),
+        ({"distribution": "normal", "mean": 1}, "vary.e.std: missing"),
+        ({"distribution": "normal", "mean": 1, "std": 0}, "std = 0: allowed: > 0"),
+        ({"distribution": "normal", "mean": 1, "std": 1, "from": 2, "to": 1}, "from < to"),
+        ({"distribution": "uniform", "from": 0, "to": 1, "std": 1}, "vary.e.std: unknown key"),
+        ({"distribution": "log_uniform", "from": 0, "to": 1}, "> 0"),
+        ({"distribution": "normal", "mean": "x", "std": 1}, "mean = 'x': allowed: a number"),
+        ({"distribution": "file"}, "vary.e.file: missing"),
+    ],
+)
+def test_what_is_no_distribution_is_refused(given: dict[str, object], message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        distribution_of(given, "vary.e", HERE)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("a,b\n1,2\n", "allowed: a column of"),
+        ("e\n1\nx\n", "a number in every line"),
+        ("e\n1\n", "two or more"),
+    ],
+)
+def test_what_is_no_column_of_numbers_is_refused(tmp_path: Path, text: str, message: str) -> None:
+    (tmp_path / "e.csv").write_text(text, encoding="utf-8")
+    with pytest.raises(InputError, match=message):
+        distribution_of({"distribution": "file", "file": "e.csv"}, "vary.e", tmp_path)
+
+
+def test_a_hypercube_of_a_distribution_has_one_point_in_each_likely_part() -> None:
+    points = latin_hypercube({"e": NormalNumbers(0.0, 1.0)}, 200, 0)
+    drawn = np.array([float(point["e"]) for point in points])
+    assert drawn.mean() == pytest.approx(0.0, abs=0.01)
+    assert drawn.std() == pytest.approx(1.0, abs=0.03)
+
+
+# --- statistics ---
+
+
+def test_the_interval_of_a_median_is_between_the_runs_that_tables_say() -> None:
+    (median,) = percentiles(list(np.arange(1.0, 101.0)), [0.5])
+    # of 100 runs: the 40th and the 61st
+    assert (median.low, median.high) == (40.0, 61.0)
+    assert median.value == 50.5
+
+
+def test_too_few_runs_do_not_bound_a_far_percentile() -> None:
+    (found,) = percentiles([1.0, 2.0, 3.0], [0.95])
+    assert np.isnan(found.high)
+    assert found.value <= 3.0
+
+
+def test_intervals_hold_the_percentile_as_often_as_they_say() -> None:
+    random = np.random.default_rng(0)
+    within = 0
+    for _ in range(300):
+        (found,) = percentiles(random.exponential(size=60).tolist(), [0.9])
+        within += found.low <= -np.log(0.1) <= (np.inf if np.isnan(found.high) else found.high)
+    assert within / 300 >= 0.93
+
+
+def test_inputs_are_ranked_by_how_far_a_number_follows_them() -> None:
+    random = np.random.default_rng(1)
+    a, b = random.normal(size=(2, 200))
+    found = ranking(
+        {"b": b.tolist(), "a": a.tolist(), "same": [1.0] * 200, "word": ["x"] * 200},
+        np.exp(a + 0.2 * b).tolist(),
+    )
+    assert [one.name for one in found] == ["a", "b"]
+    # monotonic, whatever its shape
+    assert found[0].correlation > 0.95
+    assert found[0].is_certain
+    (exact,) = ranking({"a": a.tolist()}, (-(a**3)).tolist())
+    assert exact.correlation == pytest.approx(-1.0)
+
+
+def test_rank_intervals_hold_the_correlation_as_often_as_they_say() -> None:
+    random = np.random.default_rng(2)
+    rho = 0.6
+    # Spearman's correlation of a normal pair, in closed form
+    true = 6.0 / np.pi * np.arcsin(0.5 * rho)
+    within = 0
+    for _ in range(300):
+        x, noise = random.normal(size=(2, 50))
+        (found,) = ranking({"x": x.tolist()}, (rho * x + np.sqrt(1.0 - rho**2) * noise).tolist())
+        within += found.low <= true <= found.high
+    assert 0.92 <= within / 300 <= 0.99
+
+
+@pytest.mark.parametrize(
+    ("points", "names"),
+    [
+        (
+            [
+                {"pins.a.clearance_mm": Decimal("0.5"), "law": "Flores"},
+                {"pins.a.clearance_mm": 1, "law": "Hertz"},
+            ],
+            ["clearance_mm_0.5_law_Flores", "clearance_mm_1_law_Hertz"],
+        ),
+        (
+            [
+                {"pins.a.friction": 0.1, "pins.b.friction": 0.2},
+                {"pins.a.friction": 0.1, "pins.b.friction": 0.3},
+            ],
+            ["a_friction_0.1_b_friction_0.2", "a_friction_0.1_b_friction_0.3"],
+        ),
+        ([{"a": 1.00000001}, {"a": 1.00000002}], ["run_1", "run_2"]),
+        ([dict.fromkeys("abcd", n) for n in range(10)], [f"run_{n:02}" for n in range(1, 11)]),
+    ],
+)
+def test_runs_bear_readable_names(points: list[dict[str, object]], names: list[str]) -> None:
+    assert Plan(points, lambda inputs: None).run_names == names  # type: ignore[arg-type, return-value]
