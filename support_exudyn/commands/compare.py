@@ -52,7 +52,7 @@ def run(given: argparse.Namespace) -> None:
         answer({name: _object(one) for name, one in found.items()})
         return
     ends = given.after, given.until
-    piece = "" if ends == WHOLE else f", {selection.said(first, *ends)}"
+    piece = f", {selection.said(first, *ends)}"
     printed(lambda console: _table(console, found, f"{given.second.name} less {given.first.name}{piece}"))
     if same := same_to_the_bit(first, second):
         say(f"the same to the bit: all records of {same} channels")

@@ -16,8 +16,9 @@ from typing import Protocol, cast
 from support_exudyn.commands.command_line import CommandParser, Parser, say
 from support_exudyn.formulations.contract import SimulationError, told
 from support_exudyn.simulation.provenance import versions
+from support_exudyn.sweeps.key import OURS
 from support_exudyn.sweeps.workers import NoProcessError, ProcessEndedError
-from user_forces.values.value import InputError, short
+from user_forces.values.value import InputError, Value, kinds_of, short
 
 NAMES: tuple[str, ...] = (
     "check",
@@ -134,15 +135,23 @@ def import_modules(names: Iterable[str]) -> None:
 
 @contextmanager
 def at_work(names: Sequence[str]) -> Iterator[None]:
-    """While a command works with imported modules, what they do wrong is an InputError that tells it.
+    """While a command works with modules of one's own, what they do wrong is an InputError that tells it.
 
-    Without such modules an error that nobody expected is one of this program, and stays as it is.
+    Modules are imported by --import, or because a file names their classes. Without such modules an error that
+    nobody expected is one of this program, and stays as it is.
     """
     try:
         yield
     except (InputError, SimulationError, OSError, ProcessEndedError, NoProcessError, MemoryError):
         raise
     except Exception as error:
-        if not names:
+        own = [f"--import {name}" for name in names] or sorted(_own_modules())
+        if not own:
             raise
-        raise InputError(f"--import {', '.join(names)}: {told(error)}") from error
+        raise InputError(f"{', '.join(own)}: {told(error)}") from error
+
+
+def _own_modules() -> set[str]:
+    """Modules that have classes of one's own."""
+    modules = {kind.__module__ for kind in kinds_of(Value).values()}
+    return {name for name in modules if name.partition(".")[0] not in (*OURS, "tests")}

@@ -11,6 +11,7 @@ from support_exudyn.commands.tables import facts, printed, show_numbers, show_ta
 from support_exudyn.files import ScenarioFile, read_scenario_file
 from support_exudyn.files.whole_file import check_may_be_replaced, named, real_path
 from support_exudyn.postprocessing import summary as summary
+from support_exudyn.postprocessing.figures import selection
 from support_exudyn.scenario.scenario_data import ACCURACIES, LARGEST_GOAL, SMALLEST_GOAL
 from support_exudyn.simulation.result import Result
 from support_exudyn.simulation.simulate import simulate
@@ -87,10 +88,7 @@ def run(given: argparse.Namespace) -> None:
     else:
         printed(lambda console: _tell(console, result, file, list(files.values())))
     if result.goal is not None and not result.met:
-        print(
-            f"accuracy {result.goal:g}: NOT met, {result.worst_error:.1g} is estimated; refining did not help",
-            file=sys.stderr,
-        )
+        print(summary.unmet(result), file=sys.stderr)
 
 
 def _tell(console: Console, result: Result, file: ScenarioFile, written: list[Path]) -> None:
@@ -100,9 +98,14 @@ def _tell(console: Console, result: Result, file: ScenarioFile, written: list[Pa
     points = [name for name in summary.telling(result) if name.rpartition(".")[0] in linkage.points]
     if points:
         paths = [row[:-1] for row in summary.of_channels(result, points, *WHOLE)]
-        show_table(console, "paths", ("channel", "unit", ">least", ">mean", ">largest"), paths)
+        show_table(
+            console,
+            f"paths, {selection.said(result, *WHOLE)}",
+            ("channel", "unit", ">min", ">mean", ">max"),
+            paths,
+        )
     show_touches(console, result)
     assumed = [("assumed", sentence) for sentence in file.assumed]
-    show_table(console, "how", (), [*summary.how(result)[:-1], *assumed])
+    show_table(console, "how", (), [*summary.how(result, file.scenario.formulation)[:-1], *assumed])
     for path in written:
         print(path)

@@ -74,13 +74,13 @@ def _object(result: Result, given: argparse.Namespace) -> dict[str, Any]:
 def _tables(console: Console, result: Result, given: argparse.Namespace) -> None:
     names = matching(result.channels, given.channels)
     ends = given.after, given.until
-    piece = "" if ends == WHOLE else f", {selection.said(result, *ends)}"
+    piece = f", {selection.said(result, *ends)}"
     if names:
         _show_channels(console, summary.of_channels(result, names, *ends), f"channels{piece}")
         return
     show_table(console, "what was run", (), summary.what_was_run(result))
     show_table(console, "how", (), summary.how(result))
-    show_numbers(console, f"what came out{piece}", "no accuracy was asked", result, *ends)
+    show_numbers(console, "what came out", "no accuracy was asked", result, *ends)
     show_touches(console, result)
     telling = [name for name in result.channels if name != "time"] if given.all else summary.telling(result)
     rest = len(result.channels) - 1 - len(telling)

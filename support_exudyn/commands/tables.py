@@ -16,6 +16,7 @@ from rich.table import Table
 
 from support_exudyn.commands.command_line import silence_output
 from support_exudyn.postprocessing import summary as summary
+from support_exudyn.postprocessing.figures import selection
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import cleaned
 
@@ -73,11 +74,17 @@ def show_table(console: Console, title: str, header: Sequence[str], rows: Sequen
     print("\n".join(line.rstrip() for line in lines), end="\n\n")
 
 
-def show_numbers(console: Console, title: str, unknown: str, result: Result, start: float, end: float) -> None:
+def show_numbers(
+    console: Console, title: str, unknown: str, result: Result, after: float, until: float
+) -> None:
     """The table of the numbers of a run between two times [s]; unknown: why they may have no errors."""
     known = "± estimated numerical error" if result.coarser else f"numerical errors not known: {unknown}"
-    rows = summary.came_out(result, start, end)
-    show_table(console, f"{title} ({known})", ("number", ">value", ">±", "unit"), rows)
+    rows = summary.came_out(result, after, until)
+    header: tuple[str, ...] = ("number", ">value", ">±", "unit")
+    if not any(row[2] for row in rows):  # nothing to show there
+        header, rows = (*header[:2], header[3]), [(*row[:2], row[3]) for row in rows]
+    window = f"{selection.said(result, after, until)}"
+    show_table(console, f"{title}, {window} ({known})", header, rows)
 
 
 def show_touches(console: Console, result: Result) -> None:
@@ -87,11 +94,11 @@ def show_touches(console: Console, result: Result) -> None:
         show_table(console, "impacts, and speeds of approach and separation", header, rows)
 
 
-def facts(result: Result, start: float, end: float) -> dict[str, Any]:
+def facts(result: Result, after: float, until: float) -> dict[str, Any]:
     """Accuracy, cost and numbers of a run between two times [s], for scripts, in SI."""
     return {
         "accuracy": {"asked": result.goal, "met": result.met if result.goal is not None else None},
         "counts": asdict(result.counts),
         "wall_time_s": result.wall_time,
-        "numbers": {name: found._asdict() for name, found in summary.numbers(result, start, end).items()},
+        "numbers": {name: found._asdict() for name, found in summary.numbers(result, after, until).items()},
     }

@@ -180,9 +180,9 @@ def _lock(folder: Path, name: str) -> list[int]:
 
 @cache
 def _tell(module: str) -> None:
-    """Tell who sits before a terminal why nothing moves."""
+    """Tell why nothing moves."""
     for formulation in SECONDS.keys() & module.split("."):
-        if sys.stderr.isatty():
+        if sys.stderr is not None:
             text = f"compiling the {formulation} formulation, once on this machine"
             print(f"{text}: about {SECONDS[formulation]} s", file=sys.stderr)
 

@@ -5,13 +5,16 @@ import math
 from collections.abc import Iterable, Mapping
 from typing import Any
 
+from support_exudyn.formulations.registry import CHEAPEST_FIRST, FORMULATIONS, Formulation, formulation
 from support_exudyn.model.pins import ClearancePin, Pin
 from support_exudyn.postprocessing.figures.selection import inside
 from support_exudyn.postprocessing.figures.units import readable, said
+from support_exudyn.scenario.scenario_data import LARGEST_GOAL
 from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.reported_numbers import FORCE, measures
 from support_exudyn.simulation.result import Result
-from user_forces.values.value import Value
+from user_forces.friction.frictionless import Frictionless
+from user_forces.values.value import InputError, Value
 
 Row = tuple[str, ...]
 AT_ANY_STEP = ".largest_force"  # of the whole run, not only of the records
@@ -41,8 +44,11 @@ def what_was_run(result: Result) -> list[Row]:
     return rows
 
 
-def how(result: Result) -> list[Row]:
-    """Formulation, accuracy, counts, time taken and versions: name and words."""
+def how(result: Result, asked: str | None = None) -> list[Row]:
+    """Formulation, accuracy, counts, time taken and versions: name and words.
+
+    asked: the formulation that was asked for, if it is known; of "auto" it is said which ran and why.
+    """
     scenario, counts = result.scenario, result.counts
     if result.goal is None:
         accuracy = "none was asked for: settings as they stand"
@@ -55,12 +61,57 @@ def how(result: Result) -> list[Row]:
     if not scenario.chooses_steps:
         steps = f"steps of {said(scenario.step, 's')} and less, {scenario.solver.impact_steps} to an impact"
     return [
-        ("formulation", f"{scenario.formulation}, {steps}"),
+        ("formulation", f"{_formulation(result, asked or scenario.formulation)}; {steps}"),
         ("accuracy", accuracy),
         ("counts", ", ".join(f"{count} {name.replace('_', ' ')}" for name, count in made if count)),
         ("wall time", said(result.wall_time, "s") + (" (all runs of the accuracy)" if result.coarser else "")),
         ("made", f"{result.provenance.get('made_at', 'at a time unknown')} with {', '.join(versions)}"),
     ]
+
+
+def unmet(result: Result) -> str:
+    """What to change where the accuracy that was asked for was not met."""
+    told = result.worst_error
+    reached = f"{1.1 * told:.1g}" if math.isfinite(told) and 1.1 * told <= LARGEST_GOAL else ""
+    changes = [
+        f"ask for what was reached (accuracy = {reached})" if reached else "",
+        "a shorter duration_s, for every impact multiplies the errors of those before"
+        if any(result.onsets.values())
+        else "",
+        "a friction law with a less steep ramp (dynamic_speed)" if _has_friction(result) else "",
+        "means in place of largest values, which settle first",
+    ]
+    return (
+        f"accuracy {result.goal:g}: NOT met, {told:.1g} is estimated; shorter steps did not help. What may: "
+        + "; ".join(filter(None, changes))
+    )
+
+
+def _has_friction(result: Result) -> bool:
+    pins = result.scenario.clearance_pins.values()
+    return any(not isinstance(pin.contact.friction, Frictionless) for pin in pins)
+
+
+def _formulation(result: Result, asked: str) -> str:
+    """The formulation that ran, and if that was left to the program, why this one."""
+    ran = formulation(result.scenario.formulation).name
+    if asked != "auto":
+        return ran
+    if result.goal is None:
+        return f"{ran} (auto: without an accuracy that is always the one, for it covers every scene)"
+    cheaper = [one for one in CHEAPEST_FIRST if one.cost < FORMULATIONS[ran].cost]
+    if not cheaper:
+        return f"{ran} (auto: the cheapest, and it covers this scene)"
+    return f"{ran} (auto: {'; '.join(_why_not(one, result) for one in cheaper)})"
+
+
+def _why_not(cheaper: Formulation, result: Result) -> str:
+    try:
+        cheaper.check(dataclasses.replace(result.scenario, formulation="auto"))
+    except InputError as error:
+        reason = " ".join(str(error).split()).partition("; allowed")[0].partition(": not covered")[0]
+        return f"{cheaper.name} does not cover {reason}"
+    return f"{cheaper.name} would need too many steps for its friction"
 
 
 def numbers(result: Result, after: float, until: float) -> dict[str, Estimate]:

@@ -50,14 +50,14 @@ class Range:
         return [self.at(n / (self.steps - 1)) for n in range(self.steps)]
 
 
-class Drawn(Protocol):
+class Distributed(Protocol):
     """Numbers of which some are more likely than others, see `distributions`."""
 
     def at(self, share: float) -> Decimal:
         """The number that a share of all is below, 0 to 1."""
 
 
-Varied = Mapping[str, Range | Drawn | Choices]
+Varied = Mapping[str, Range | Distributed | Choices]
 
 
 def grid(varied: Varied) -> list[Point]:
@@ -104,13 +104,13 @@ def latin_hypercube(varied: Varied, samples: int, seed: int) -> list[Point]:
     ]
 
 
-def _drawn(one: Range | Drawn | Choices, share: float, samples: int) -> Any:
+def _drawn(one: Range | Distributed | Choices, share: float, samples: int) -> Any:
     if not isinstance(one, Sequence):
         return one.at(share)
     return one[int(share * samples) * len(one) // samples]  # by its part, so that all come up equally often
 
 
-def _listed(one: Range | Drawn | Choices) -> list[Any]:
+def _listed(one: Range | Distributed | Choices) -> list[Any]:
     if isinstance(one, Range):
         return one.values
     if isinstance(one, Sequence):

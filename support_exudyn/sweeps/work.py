@@ -52,7 +52,11 @@ def row_of(task: Task, result: Result) -> StoredRun:
     """The row of a run that was finished."""
     found = numbers(result, task.record)
     met = result.goal is None or result.met
-    reason = "" if met else f"accuracy {result.goal:g}: NOT met, {result.worst_error:.1g} is estimated"
+    reason = (
+        ""
+        if met
+        else f"accuracy {result.goal:g}: NOT met, {result.worst_error:.1g} is estimated; a larger one may do"
+    )
     return StoredRun(task.key, "done", reason, result.wall_time, found, task.record.digest)
 
 

@@ -101,12 +101,17 @@ def test_a_run_tells_what_came_out_and_where_it_is(tmp_path: Path, capsys: pytes
     told = capsys.readouterr()
     assert told.err == ""  # no bar where there is no terminal
     lines = told.out.splitlines()
-    assert lines[0].startswith("columns driven apart (numerical errors not known")
+    assert lines[0] == "columns driven apart, 0 to 2 s (± estimated numerical error)"
     assert lines[-1] == str(tmp_path / "columns_apart.h5")
     for word in ("pin.rear_base.force.mean", "tip.y", "formulation"):
         assert any(line.strip().startswith(word) for line in lines)
     result = Result.load(tmp_path / "columns_apart.h5")
-    assert result.scenario == read_scenario(tmp_path / "columns_apart.toml")
+    asked = read_scenario(tmp_path / "columns_apart.toml")
+    chosen = {"formulation": "redundant", "step": result.scenario.step, "solver": result.scenario.solver}
+    assert result.scenario == replace(asked, **chosen, accuracy=None)
+    assert result.met
+    # which formulation ran, and why not a cheaper one
+    assert "redundant (auto: reduced does not cover" in told.out
     # the actuators' lengths are 160 and 150 mm more than at the start, within what oil gives: 1.5 mm at 300 kN
     ends = {name: float(np.ptp(result[f"{name}.length"])) for name in ("front_column", "rear_column")}
     assert ends == pytest.approx({"front_column": 0.16, "rear_column": 0.15}, abs=1.5e-3)

@@ -270,6 +270,7 @@ def test_columns_are_in_the_order_of_the_first_row_whenever_rows_come(tmp_path: 
     assert found == {
         "x": [3, 1, 2],
         "y": ["q", "p", "r"],
+        "run": ["x_3_y_q", "x_1_y_p", "x_2_y_r"],
         "key": ["k0", "", "k2"],
         "status": ["done", "failed", "done"],
         "reason": ["", "because", ""],

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from support_exudyn.files.machines.read import SHIPPED
+from support_exudyn.files.scenarios.own_classes import without_places
 from support_exudyn.files.scenarios.short_forms import (
     DriveFile,
     DriveMode,
@@ -101,6 +102,8 @@ def scenario_of(table: Mapping[str, Any], where: str, folder: Path) -> Scenario:
 def scenario_file_of(table: Mapping[str, Any], where: str, folder: Path) -> ScenarioFile:
     """All that a table says. Arguments and errors as of `scenario_of`."""
     faults = Faults(where)
+    table = without_places(table, faults, folder)
+    faults.check()  # without these classes more would be wrong that is not
     head = Reader(faults).value(ScenarioHead, {key: table[key] for key in HEAD if key in table}, ())
     rest = {key: item for key, item in table.items() if key not in HEAD}
     other = next((said for key, said in OTHER_FILES.items() if key in rest and "machine" not in rest), "")

@@ -30,19 +30,32 @@ from user_forces.values.value import InputError, NonNegative, Positive, Restitut
 
 MATERIALS: Mapping[str, Material] = MappingProxyType({one.name: one for one in (STEEL, STEEL_35CRMO)})
 USUAL_RESTITUTION = 0.9
+COEFFICIENT = "sliding_coefficient"
 NEEDED = {"stiffness", "restitution"}  # all that the short form can give a law
 
 
 def simple_laws() -> tuple[str, ...]:
-    """Names of the laws K depth^1.5 that need a stiffness and, if anything else, a restitution."""
+    """Names of the laws that need a stiffness K of K depth^1.5 and a restitution at most."""
     known = GroupShape((NormalLaw,)).kinds.items()
-    return tuple(name for name, law in known if issubclass(law, ElasticPower) and _is_simple(law))
+    return tuple(name for name, law in known if _is_simple(law))
 
 
 def _is_simple(law: type[Value]) -> bool:
     info: Mapping[str, Any] = law.__pydantic_fields__  # type: ignore[attr-defined]
-    needed = {name for name, one in info.items() if one.is_required()}
-    return needed <= NEEDED and info["exponent"].default == 1.5
+    of_power = issubclass(law, ElasticPower) and info["exponent"].default == 1.5
+    return needed_by(law) <= NEEDED and (of_power or not info.keys() & {"stiffness", "exponent"})
+
+
+def simple_friction_laws() -> tuple[str, ...]:
+    """Names of the friction laws that need one coefficient at most."""
+    known = GroupShape((FrictionLaw,)).kinds.items()
+    return tuple(name for name, law in known if len(needed_by(law)) <= 1)
+
+
+def needed_by(law: type[Value]) -> set[str]:
+    """Names of the fields that a law has no default for."""
+    info: Mapping[str, Any] = law.__pydantic_fields__  # type: ignore[attr-defined]
+    return {name for name, one in info.items() if one.is_required()}
 
 
 NamedMaterial = Annotated[str, Names(MATERIALS)]
@@ -57,7 +70,10 @@ class ShortPin(Value):
         bore_radius: [m], > 0; the machine's file may say it for the pin.
         restitution: of an impact, > 0 and <= 1; 0.9 if nothing is said.
         friction: sliding coefficient of Ambrosio's law, >= 0, 0: none; or a friction law as a table.
-        law: of the normal force: one that needs a stiffness and a restitution only.
+        friction_law: one that needs a single coefficient, which `friction` is; Ambrosio's if nothing is said.
+            Of one's own by its place, "my_laws.py:MyFriction".
+        law: of the normal force: one that needs a stiffness and a restitution only. Of one's own by its place,
+            "my_laws.py:MyLaw".
         damping_speed: what the damping of the law is scaled with; the law's own default if nothing is said.
         stiffness: K of K depth^1.5: "external" or "internal", Hertz's for spheres that touch from outside or
             inside, from radii and materials; or a number [N/m^1.5], > 0.
@@ -70,6 +86,7 @@ class ShortPin(Value):
     bore_radius: Metres[Positive] | None = None
     restitution: Restitution | None = None
     friction: NonNegative | FrictionLaw = 0.0
+    friction_law: Annotated[str, Names(simple_friction_laws)] | None = None
     law: Annotated[str, Names(simple_laws)] = "LankaraniNikravesh"
     damping_speed: DampingSpeed | None = None
     stiffness: Literal["external", "internal"] | NewtonsPerMetreToN[Positive] = "external"
@@ -83,6 +100,8 @@ class ShortPin(Value):
         for name in ("restitution", "damping_speed"):
             if getattr(self, name) is not None and name not in _fields_of(self.law):
                 raise ValueError(f"{name}: the law {self.law} has none; allowed with it: to leave this out")
+        if self.friction_law is not None and isinstance(self.friction, FrictionLaw):
+            raise ValueError("friction_law: and a law as friction are two; allowed: one of them")
         for name in ("bore_material", "journal_material"):
             if getattr(self, name) is not None and not isinstance(self.stiffness, str):
                 raise ValueError(
@@ -110,7 +129,9 @@ class ShortPin(Value):
 
     def _normal(self, bearing: JournalBearing) -> NormalLaw:
         law: Any = GroupShape((NormalLaw,)).kinds[self.law]
-        given: dict[str, Any] = {"stiffness": self._stiffness(bearing)}
+        given: dict[str, Any] = {}
+        if "stiffness" in _fields_of(self.law):
+            given["stiffness"] = self._stiffness(bearing)
         if "restitution" in _fields_of(self.law):
             given["restitution"] = USUAL_RESTITUTION if self.restitution is None else self.restitution
         if self.damping_speed is not None:
@@ -129,6 +150,16 @@ class ShortPin(Value):
     def _friction(self) -> FrictionLaw:
         if isinstance(self.friction, FrictionLaw):
             return self.friction
+        if self.friction_law is not None:
+            law: Any = GroupShape((FrictionLaw,)).kinds[self.friction_law]
+            coefficient = next(iter(needed_by(law)), COEFFICIENT)
+            takes = coefficient in law.__pydantic_fields__
+            if self.friction and not takes:
+                raise InputError(
+                    f"friction = {self.friction:g}: {self.friction_law} has no coefficient; allowed with it: "
+                    "to leave this out"
+                )
+            return law(**({coefficient: self.friction} if takes else {}))  # type: ignore[no-any-return]
         return Ambrosio(sliding_coefficient=self.friction) if self.friction else JournalContact.friction
 
 

@@ -142,6 +142,9 @@ class Reader:
         return item
 
     def _refused(self, shape: Shape, item: Any, place: Place, unit: Unit | None, ending: str) -> Failed:
+        if "names" in shape and isinstance(item, str):
+            self.faults.add((), f"{said_place(place)} = {said(item)}: {nearest(item, shape['names'].options)}")
+            return FAILED
         range_ = allowed(shape, unit, ending)
         if shape.get("type") in ("number", "integer"):
             if not is_for(shape, item):

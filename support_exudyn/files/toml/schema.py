@@ -86,7 +86,11 @@ class Schemas:
             case {"enum": choices}:
                 return {"enum": list(choices)}
             case {"names": names}:
-                return {"enum": list(names.options)}
+                known = {"enum": list(names.options)}
+                # classes of one's own are named by their place
+                return (
+                    {"anyOf": [known, {"type": "string", "pattern": ":"}]} if callable(names.known) else known
+                )
             case {"prefixItems": shapes}:
                 items = list(map(inner, shapes))
                 same = all(one == items[0] for one in items)

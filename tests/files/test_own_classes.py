@@ -1,0 +1,87 @@
+"""Laws of one's own that a file names by where they are."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from support_exudyn import ClearancePin
+from support_exudyn.files import read_scenario
+from user_forces.values.value import InputError
+
+LAWS = """
+from user_forces import FrictionLaw, value
+from user_forces.expressions.scalar import tanh
+from user_forces.normal.power_law import ElasticPower
+from user_forces.values.value import NonNegative
+
+
+@value
+class {0}Normal(ElasticPower):
+    def __call__(self, depth, rate, speed):
+        return 2.0 * self.elastic_force(depth)
+
+
+@value
+class {0}Friction(FrictionLaw):
+    mu: NonNegative
+
+    def __call__(self, slip, normal_force, deflection=0.0):
+        return -self.mu * normal_force * tanh(slip / 1e-2)
+
+
+class {0}Plain:
+    pass
+"""
+TOP = """
+machine = "reference"
+duration_s = 0.1
+[pins.rear_base]
+clearance_mm = 1.5
+"""
+
+
+def write(folder: Path, lines: str, module: str, prefix: str) -> Path:
+    (folder / f"{module}.py").write_text(LAWS.format(prefix), encoding="utf-8")
+    (folder / "a.toml").write_text(TOP + lines, encoding="utf-8")
+    return folder / "a.toml"
+
+
+@pytest.mark.parametrize("place", ["own_laws_{}.py", "own_laws_{}"])
+def test_a_law_is_named_by_its_file_or_module(tmp_path: Path, place: str) -> None:
+    ending = "file" if place.endswith(".py") else "module"
+    module, prefix = f"own_laws_{ending}", f"Of{ending.title()}"
+    where = place.format(ending)
+    lines = f'law = "{where}:{prefix}Normal"\nfriction_law = "{where}:{prefix}Friction"\nfriction = 0.2'
+    pin = read_scenario(write(tmp_path, lines, module, prefix)).pins["rear_base"]
+    assert isinstance(pin, ClearancePin)
+    assert type(pin.contact.normal).__name__ == f"{prefix}Normal"
+    assert pin.contact.friction.to_data() == {"type": f"{prefix}Friction", "mu": 0.2}
+
+
+def test_a_law_of_its_own_in_full(tmp_path: Path) -> None:
+    lines = 'friction = {type = "own_laws_full.py:FullFriction", mu = 0.3}'
+    pin = read_scenario(write(tmp_path, lines, "own_laws_full", "Full")).pins["rear_base"]
+    assert isinstance(pin, ClearancePin)
+    assert pin.contact.friction.to_data() == {"type": "FullFriction", "mu": 0.3}
+
+
+@pytest.mark.parametrize(
+    ("lines", "message"),
+    [
+        ('law = "no_laws.py:A"', "law = 'no_laws.py:A': allowed: a file that is there"),
+        ('law = "no_such_laws:A"', "no module 'no_such_laws'"),
+        ('friction_law = "own_laws_bad.py:BadFricton"', "did you mean 'BadFriction'"),
+        ('friction_law = "own_laws_bad.py:BadPlain"', "made with @value"),
+        ('law = "own_laws_bad.py:BadFriction"', "law = 'BadFriction': .*allowed: BadNormal"),
+        ('law = "Lankarani"', "did you mean LankaraniNikravesh"),
+        ('friction_law = "Ambrosia"', "did you mean Ambrosio[?] allowed: Ambrosio, "),
+        ('friction_law = "Frictionless"\nfriction = 0.1', "Frictionless has no coefficient"),
+        ('friction_law = "Ambrosio"\nfriction = {type = "Ambrosio", sliding_coefficient = 0.1}', "are two"),
+    ],
+)
+def test_what_is_wrong_is_told_with_what_is_of_the_right_kind(tmp_path: Path, lines: str, message: str) -> None:
+    module = f"own_laws_{abs(hash(lines))}"  # of which a process knows one by each name
+    with pytest.raises(InputError, match=message):
+        read_scenario(write(tmp_path, lines.replace("own_laws_bad", module), module, "Bad"))
