@@ -17,6 +17,7 @@ from support_exudyn.commands.command_line import (
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError, short
 
+SOON, LONG = 5.0, 60.0  # [s] from which on it is said how long it takes, and how it takes less
 HELP = "ray-traced frames and a movie of a run, without a display"
 
 
@@ -52,8 +53,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default="gif",
         help="kind of the movie (gif: at most 960 pixels wide); mp4 needs the extra [movie]",
     )
-    add("--size", type=size, default=(1280, 720), metavar="WxH", help="of frames in pixels, even (1280x720)")
-    add("--pin", metavar="NAME", help="whose journal and force are shown (the first clearance pin)")
+    add("--size", type=size, metavar="WxH", help="of frames in pixels, even (960x540 of a gif, else 1280x720)")
+    add(
+        "--pin", metavar="NAME", help="whose force is shown, and journal first of all (the first clearance pin)"
+    )
     add("--still", type=number, metavar="T", help="a single picture at this time [s], and no movie")
     add_json(parser)
 
@@ -81,6 +84,7 @@ def run(given: argparse.Namespace) -> None:
             size=given.size,
             pin=given.pin,
             progress=progress,
+            announce=_announce,
         )
     if given.json:
         answer({"frames": written.frames, "movie": written.movie})
@@ -96,16 +100,25 @@ def run(given: argparse.Namespace) -> None:
         say(f"{written.movie} ({written.movie.stat().st_size / 1e6:.3g} MB)")
 
 
+def _announce(frames: int, seconds: float) -> None:
+    """Say beforehand how long it takes, where it takes long."""
+    if seconds < SOON:
+        return
+    took = f"{seconds:.0f} s" if seconds < 120.0 else f"{seconds / 60.0:.0f} min"
+    less = "; faster: --size 640x360, or less of the run by --after and --until" if seconds > LONG else ""
+    print(f"{frames} frames, about {took}{less}", file=sys.stderr, flush=True)
+
+
 def _still(given: argparse.Namespace, result: Result) -> None:
     from PIL import Image
 
     from support_exudyn.files.whole_file import whole_file
-    from support_exudyn.postprocessing.render import still
+    from support_exudyn.postprocessing.render import SIZE, still
 
     path = given.out or given.run.with_name(f"{given.run.stem}_{given.still:g}s.png")
     if path.suffix.lower() != ".png":
         raise InputError(f"--out {path}: allowed with --still: a name that ends in .png")
-    picture = still(result, given.still, size=given.size, pin=given.pin)
+    picture = still(result, given.still, size=given.size or SIZE, pin=given.pin)
     with whole_file(path) as temporary:
         Image.fromarray(picture).save(temporary, format="PNG")
     if given.json:

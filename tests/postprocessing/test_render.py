@@ -23,7 +23,7 @@ from support_exudyn.model.loads.roof import Roof
 from support_exudyn.postprocessing.export.meshes import machine_mesh
 from support_exudyn.postprocessing.figures.style import CONTACT, FLIGHT
 from support_exudyn.postprocessing.render import render, still
-from support_exudyn.postprocessing.render.frame import Layout
+from support_exudyn.postprocessing.render.frame import Layout, inset_boxes
 from support_exudyn.postprocessing.render.movie import durations, moment
 from support_exudyn.postprocessing.render.panels import Inset, pin_view
 from support_exudyn.postprocessing.render.scene import RenderedScene
@@ -345,6 +345,40 @@ def test_frames_are_what_stills_are(bouncing: Result, tmp_path: Path) -> None:
     other = still(bouncing, 0.08, size=SIZE)[machine]
     # arrows are scaled by what is shown, and numbers stand elsewhere: the machine is the same
     assert (np.abs(picture[machine].astype(int) - other.astype(int)).max(axis=-1) > 8).mean() < 0.05
+
+
+def test_a_frame_in_which_nothing_is_seen_to_move_is_not_traced_anew(
+    bouncing: Result, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    real, traced = Stage.image, []
+
+    def image(stage: Stage, places: Any) -> Any:
+        traced.append(1)
+        return real(stage, places)
+
+    monkeypatch.setattr(Stage, "image", image)
+    told: list[tuple[int, float]] = []
+    window = {"after": 0.05, "until": 0.06, "speed": 0.005}
+    written = render(
+        bouncing, tmp_path / "f", **window, size=SIZE, movie="none", announce=lambda *said: told.append(said)
+    )  # fmt: skip
+    assert len(written.frames) > 40
+    assert 1 <= len(traced) < len(written.frames) / 4
+    ((frames, seconds),) = told
+    assert frames == len(written.frames)
+    assert seconds > 0.0
+
+
+def test_all_clearance_pins_have_their_insets() -> None:
+    panel = (980, 48, 1266, 578)
+    for count in range(1, 12):
+        boxes = inset_boxes(panel, count, 1.0)
+        assert len(boxes) == count
+        for n, (left, top, right, bottom) in enumerate(boxes):
+            assert abs((right - left) - (bottom - top)) <= 1
+            assert panel[0] <= left < right <= panel[2]
+            assert panel[1] <= top < bottom <= panel[3]
+            assert all(right <= a or c <= left or bottom <= b or d <= top for a, b, c, d in boxes[:n])
 
 
 def test_the_time_of_a_still_is_told_as_finely_as_records_lie() -> None:

@@ -1,5 +1,7 @@
 """A frame: the machine as the ray tracer sees it, and what is written and drawn on and beside it."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from support_exudyn.model.pins import ClearancePin
@@ -37,23 +39,47 @@ class Layout:
         self.strip: Box = (left, bottom + round(28 * u), right - margin, height - round(30 * u))
 
 
+SMALL = 0.72  # size of the letters of an inset that is one of several
+GAP = 8.0  # between insets
+WORDS = 135.0  # height of what is written below them
+
+
+def inset_boxes(panel: Box, count: int, unit: float) -> list[Box]:
+    """Places of so many insets in a panel: squares, as large as leaves room for the words below them."""
+    left, top, right, bottom = panel
+    if count < 2:
+        return [(left, top, right, top + right - left)][:count]
+    gap, room = GAP * unit, bottom - top - WORDS * unit
+
+    def side(columns: int) -> float:
+        return min((right - left + gap) / columns, room / -(-count // columns)) - gap
+
+    columns = max(range(1, count + 1), key=side)
+    step = side(columns) + gap
+    corners = [(left + n % columns * step, top + n // columns * step) for n in range(count)]
+    return [(round(x), round(y), round(x + step - gap), round(y + step - gap)) for x, y in corners]
+
+
 class Painter:
     """Paints all frames of a run; what does not change is drawn once.
 
     Arguments:
         scene: the run.
         layout, camera: of the frames.
-        pin: whose force is shown; None: nothing is.
+        pins: the first is that whose force is shown; of the others journals and arrows. Empty: nothing is.
         moments: of the frames.
     """
 
     def __init__(
-        self, scene: RenderedScene, layout: Layout, camera: Camera, pin: PinView | None, moments: Moments
+        self, scene: RenderedScene, layout: Layout, camera: Camera, pins: Sequence[PinView], moments: Moments
     ) -> None:
+        pin = pins[0] if pins else None
+        self._others = pins[1:]
         self._scene, self._layout, self._camera, self._pin = scene, layout, camera, pin
         self._moments, self._time = moments, scene.poses.time
         self._sheet = Canvas(layout.width, layout.height)
-        self._inset: Inset | None = None
+        self._insets: list[tuple[PinView, Inset]] = []
+        self._below = layout.panel[1]  # of the insets
         u, (left, _, right, bottom) = layout.unit, layout.line
         text = title(scene.result.scenario, pin)
         self._sheet.write((left, 0.66 * bottom), text, 17 * u, room=right - left - 360 * u)
@@ -70,10 +96,15 @@ class Painter:
 
     def _panel(self, pin: PinView) -> None:
         """Draw what of the panel does not change: the bore, and the scale of the arrow."""
-        u, sheet, (left, top, right, _) = self._layout.unit, self._sheet, self._layout.panel
-        if pin.bore is not None:
-            self._inset = Inset((left, top, right, top + right - left), pin.bore, u)
-            self._inset.draw_still(sheet)
+        u, sheet = self._layout.unit, self._sheet
+        with_bore = [one for one in (pin, *self._others) if one.bore is not None]
+        several = len(with_bore) > 1
+        for one, box in zip(with_bore, inset_boxes(self._layout.panel, len(with_bore), u), strict=True):
+            assert one.bore is not None
+            inset = Inset(box, one.bore, SMALL * u if several else u, one.name if several else "")
+            inset.draw_still(sheet)
+            self._insets.append((one, inset))
+            self._below = box[3]
         x, y = self._words
         sheet.write((x, y), f"force in {pin.name.replace('_', ' ')}", 14 * u, anchor="left top")
         sheet.write((x, y + 76 * u), f"on the {pin.on}", 14 * u, anchor="left top")
@@ -85,8 +116,7 @@ class Painter:
     @property
     def _words(self) -> tuple[float, float]:
         """The corner of what of the panel is below the inset."""
-        left, top, right, _ = self._layout.panel
-        return left, top + (right - left if self._inset else 0) + round(18 * self._layout.unit)
+        return self._layout.panel[0], self._below + round(18 * self._layout.unit)
 
     def frame(self, machine: Image, number: int) -> Image:
         """The frame of a number, around the picture of the machine."""
@@ -118,17 +148,25 @@ class Painter:
     def _force(self, pin: PinView, record: int, number: int) -> None:
         """Draw arrows, numbers, journal and cursor."""
         u, sheet, (left, top) = self._layout.unit, self._sheet, self._words
-        size, largest = float(pin.size[record]), LONGEST / ARROW * self._usual
-        cut, force = size > largest, pin.force[record] * (min(1.0, largest / size) if size > 0.0 else 0.0)
+        size = float(pin.size[record])
+        for one in self._others:
+            self._arrow(one, record, *self._drawn(one, record))
+        force, cut = self._drawn(pin, record)
         self._arrow(pin, record, force, cut)
         colour = INK if size > 0.0 else FAINT
         sheet.write((left, top + 28 * u), f"{size / 1e3:.1f} kN", 30 * u, colour, "left top", bold=True)
         if cut:
             sheet.write((left, top + 126 * u), "the arrow is cut short", 13 * u, FAINT, "left top")
-        if self._inset is not None:
+        for one, inset in self._insets:
+            force, cut = self._drawn(one, record)
             arrow = self._scale * float(force[0]), -self._scale * float(force[1])
-            self._inset.draw(sheet, record, self._moments.back(number, TRAIL), arrow, cut)
+            inset.draw(sheet, record, self._moments.back(number, TRAIL), arrow, cut)
         self._strip.cursor(sheet, float(self._time[record]), size)
+
+    def _drawn(self, pin: PinView, record: int) -> tuple[np.ndarray, bool]:
+        """The force whose arrow is drawn (2,) [N], and whether that is cut short."""
+        size, largest = float(pin.size[record]), LONGEST / ARROW * self._usual
+        return pin.force[record] * (min(1.0, largest / size) if size > 0.0 else 0.0), size > largest
 
     def _arrow(self, pin: PinView, record: int, force: np.ndarray, cut: bool) -> None:
         """Draw the arrow of the force in the machine's picture, and a mark on the pin."""
@@ -139,7 +177,7 @@ class Painter:
         mark = IDEAL if pin.bore is None else CONTACT if pin.bore.closed[record] else FLIGHT
         self._sheet.disc(place, 8.0 * u, mark, 1.5 * u)
         tip = (place[0] + float(along[0]), place[1] + float(along[1]))
-        self._sheet.arrow(place, tip, self._colour, 8.0 * u, cut)
+        self._sheet.arrow(place, tip, IDEAL if pin.bore is None else CONTACT, 8.0 * u, cut)
 
 
 def title(scenario: Scenario, pin: PinView | None) -> str:

@@ -101,6 +101,25 @@ def pin_view(result: Result, name: str | None = None) -> PinView | None:
     return PinView(name, "journal", force, path, bore)
 
 
+def pin_views(result: Result, name: str | None = None) -> list[PinView]:
+    """A pin as `pin_view` gives it, then all other clearance pins whose force and journal were recorded."""
+    first = pin_view(result, name)
+    if first is None:
+        return []
+    others = [pin.name for pin in placed_pins(result.scenario) if pin.with_clearance is not None]
+    return [
+        first,
+        *(pin_view(result, one) or first for one in others if one != first.name and _seen(result, one)),
+    ]
+
+
+def _seen(result: Result, name: str) -> bool:
+    try:
+        return pin_view(result, name) is not None
+    except InputError:  # not recorded
+        return False
+
+
 def _eccentricity(result: Result, name: str) -> Series:
     sides = ("left_", "right_") if result.scenario.dimensions == 3 else ("",)
     ends = [
@@ -159,10 +178,11 @@ class Inset:
         box: where, a square [pixels].
         bore: journal in its bore at the records.
         unit: by what lengths of a frame of 1280 x 720 are multiplied.
+        name: of the pin, where there are several insets; these are small, and say less.
     """
 
-    def __init__(self, box: Box, bore: Bore, unit: float) -> None:
-        self._box, self._bore, self._unit = box, bore, unit
+    def __init__(self, box: Box, bore: Bore, unit: float, name: str = "") -> None:
+        self._box, self._bore, self._unit, self._name = box, bore, unit, name.replace("_", " ")
         bearing = bore.pin.contact.bearing
         left, top, right, bottom = box
         self.centre: Point = (0.5 * (left + right), 0.5 * (top + bottom) + 2 * unit)  # of the bore
@@ -174,7 +194,7 @@ class Inset:
     @property
     def title(self) -> str:
         """The words for how much the clearance is enlarged."""
-        return f"clearance \u00d7 {said(self.factor)}"
+        return f"{self._name or 'clearance'} \u00d7 {said(self.factor)}"
 
     def draw_still(self, sheet: Canvas) -> None:
         """Draw what does not change: the bore, and what is said of it."""
@@ -182,7 +202,10 @@ class Inset:
         sheet.box(self._box, "#eef0f2", 6 * u)
         sheet.disc(self.centre, RING * self._radius, HOUSING)
         sheet.disc(self.centre, self._radius, "#ffffff")
-        sheet.write((left + 8 * u, top + 8 * u), self.title, 14 * u, anchor="left top", bold=True)
+        place, room = (left + 8 * u, top + 8 * u), right - left - 16 * u
+        sheet.write(place, self.title, 14 * u, anchor="left top", bold=True, room=room)
+        if self._name:
+            return
         if self._bore.can_tilt:
             sheet.write((right - 8 * u, top + 8 * u), "middle of the pin", 13 * u, FAINT, "right top")
         carrier = "base" if self._bore.carrier == GROUND else self._bore.carrier.replace("_", " ")

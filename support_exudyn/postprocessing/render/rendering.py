@@ -1,10 +1,13 @@
 """Frames and movies of a run, as files and as pictures."""
 
 import os
+import time as clock
+from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
 from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
@@ -14,7 +17,7 @@ from support_exudyn.postprocessing.export.whole_set import whole_set
 from support_exudyn.postprocessing.render import movie as movies
 from support_exudyn.postprocessing.render.frame import Layout, Painter
 from support_exudyn.postprocessing.render.movie import Moments, moment, moments
-from support_exudyn.postprocessing.render.panels import pin_view
+from support_exudyn.postprocessing.render.panels import pin_views
 from support_exudyn.postprocessing.render.scene import RenderedScene
 from support_exudyn.postprocessing.render.sheet import Image as Picture
 from support_exudyn.postprocessing.render.stage import Stage
@@ -22,8 +25,11 @@ from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
 
 SIZE = (1280, 720)
+OF_GIF = (960, 540)  # GIFs are no wider
+SEEN = 0.25  # pixels by which something has to move before it is drawn anew
 SMALLEST, LARGEST = (320, 180), (3840, 2160)
 RATE = 25.0
+Announce = Callable[[int, float], None]
 FRAMES_SHARE = 0.85  # of the time that is spent before the movie
 NAME = "frame_{:04d}.png"
 FRAME = "frame_*.png"
@@ -54,9 +60,10 @@ def render(
     speed: float = 1.0,
     movie: str = "gif",
     movie_path: str | Path | None = None,
-    size: tuple[int, int] = SIZE,
+    size: tuple[int, int] | None = None,
     pin: str | None = None,
     progress: Progress = silent,
+    announce: Announce = lambda frames, seconds: None,
 ) -> Rendered:
     """Write frames of a run to a folder, and a movie of them.
 
@@ -71,9 +78,12 @@ def render(
         speed: seconds of the run in a second of the movie: 0.01 for impacts, a hundred times slower.
         movie: "gif", "mp4" (needs the extra [movie]) or "none".
         movie_path: None: the folder's name with the movie's ending, without "_frames".
-        size: width and height of frames [pixels], even, 320 x 180 to 3840 x 2160.
-        pin: whose journal and force are shown; None: the first clearance pin, or the first of all.
+        size: width and height of frames [pixels], even, 320 x 180 to 3840 x 2160; None: 960 x 540 of a GIF,
+            else 1280 x 720.
+        pin: whose force is shown, and its journal first of all clearance pins; None: the first clearance pin,
+            or the first of all.
         progress: is told the share that is done.
+        announce: is told how many frames there are and about how long they take [s], once the first is made.
 
     Raises InputError if one of these is out of its range or a channel was not recorded, OSError if something
     cannot be written.
@@ -82,10 +92,11 @@ def render(
     shown = moments(result.time, after, until, frames_per_second, speed)
     movies.check(movie, frames_per_second, shown.times.size)
     target = _movie_path(folder, movie, movie_path)
-    show = _Show(result, size, pin, shown)
+    show = _Show(result, size or (OF_GIF if movie == "gif" else SIZE), pin, shown)
     names = [NAME.format(n) for n in range(shown.times.size)]
     earlier = {old.name for old in folder.glob(FRAME) if old.stem[len("frame_") :].isdigit() and _is_ours(old)}
     share = FRAMES_SHARE if target else 1.0
+    announce(len(names), show.duration())
     with whole_set(folder, names, (), earlier) as made:
         paths = [made / name for name in names]
         with ThreadPoolExecutor(1) as painters:  # paints and writes while the next one is traced
@@ -127,16 +138,36 @@ class _Show:
         _check_size(size)
         self._scene = RenderedScene(result)
         self._shown = shown
-        view = pin_view(result, pin)
-        layout = Layout(*size, view is not None)
+        views = pin_views(result, pin)
+        layout = Layout(*size, bool(views))
         left, top, right, bottom = layout.picture
-        camera = self._scene.camera(right - left, bottom - top)
+        self._camera = camera = self._scene.camera(right - left, bottom - top)
         self._stage = Stage(self._scene.props(), camera, _processors())
-        self._painter = Painter(self._scene, layout, camera, view, shown)
+        self._painter = Painter(self._scene, layout, camera, views, shown)
+        self._traced: tuple[np.ndarray, Picture] | None = None
 
     def machine(self, number: int) -> Picture:
-        """The machine alone, of a frame."""
-        return self._stage.image(self._scene.places(int(self._shown.records[number])))
+        """The machine alone, of a frame; that of an earlier one if nothing is seen to have moved since."""
+        record = int(self._shown.records[number])
+        where = self._camera.pixels(self._scene.corners(record))
+        if self._traced is None or _has_moved(self._traced[0], where):
+            self._traced = where, self._stage.image(self._scene.places(record))
+        return self._traced[1]
+
+    def duration(self) -> float:
+        """About how long all frames take [s], by how long the first does."""
+        began = clock.perf_counter()
+        picture = self.machine(0)
+        traced = clock.perf_counter()
+        self.frame(picture, 0)
+        painting = clock.perf_counter() - traced
+        number, last = 0, None
+        for record in self._shown.records.tolist():
+            where = self._camera.pixels(self._scene.corners(record))
+            if last is None or _has_moved(last, where):
+                number, last = number + 1, where
+        frames = self._shown.records.size
+        return max(number * (traced - began), 0.0) + frames * painting
 
     def frame(self, machine: Picture, number: int) -> Picture:
         """The whole frame."""
@@ -148,6 +179,11 @@ class _Show:
         said.add_text("Software", MAKER)
         frame = Image.fromarray(self.frame(machine, number))
         frame.save(path, format="PNG", compress_level=QUICKLY, pnginfo=said)
+
+
+def _has_moved(before: np.ndarray, now: np.ndarray) -> bool:
+    """Whether any of the places (n, 2) [pixels] has moved so far that it is seen."""
+    return bool(np.abs(now - before).max() > SEEN)
 
 
 def _processors() -> int:

@@ -41,6 +41,16 @@ class RenderedScene:
                 found += [pose.cylinder(strut.cylinder.bounds)[0], pose.rod(strut.rod.bounds)[0]]
         return np.concatenate(found)
 
+    def corners(self, record: int) -> Series:
+        """The corners of boxes around all that may move, at a record, shape (n, 3) [m]."""
+        found = [self.poses.of(s.body).points(s.mesh.bounding_box.vertices, record) for s in self.look.solids]
+        for strut in self.look.struts:
+            ends = strut_pose(strut, self.poses, record)
+            found.append(np.array([ends.foot, ends.head]))
+        if self.surroundings is not None:
+            found.append(np.array([[0.0, self.roof(record), 0.0]]))
+        return np.concatenate(found)
+
     def _hull(self, solid: Solid, record: int) -> Series:
         """The outermost points of a solid (n, 3) [m]."""
         return self.poses.of(solid.body).points(solid.mesh.convex_hull.vertices, record)
