@@ -136,8 +136,8 @@ def read_table(path: str | Path) -> pa.Table:
         found.validate(full=True)
         about = json.loads((found.schema.metadata or {}).get(OWN, b"{}"))
         known = about.get("format")
-        if known == FORMAT:
-            _check_columns(found)
+        if known == FORMAT or not str(known).startswith(FORMAT.rpartition(" ")[0]):
+            _check_columns(found)  # tables of other versions may have others
     except (pa.ArrowException, OSError, ValueError, AttributeError, RecursionError, MemoryError) as error:
         said = cleaned(" ".join(str(error).split()))
         raise InputError(f"{path}: not a table of a sweep, or damaged ({said})") from None

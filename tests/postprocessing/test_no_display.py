@@ -105,6 +105,24 @@ def test_an_exception_is_told_by_its_last_line(monkeypatch: pytest.MonkeyPatch) 
         check_display()
 
 
+def test_the_reason_comes_before_what_drivers_warn_of(monkeypatch: pytest.MonkeyPatch) -> None:
+    told = (
+        "print('libEGL warning: x'); print('warning: y'); print('warning: z'); print('  what():  no context')"
+    )
+    trial = f"import os, sys; {told}; sys.stdout.flush(); os.abort()"
+    monkeypatch.setattr("support_exudyn.postprocessing.viewer.view.TRY", trial)
+    monkeypatch.delenv("EXUDYN_SUPPRESS_UI_WINDOW_OPEN", raising=False)
+    with pytest.raises(NoDisplayError, match=r"here: what\(\):  no context; libEGL"):
+        check_display()
+
+
+def test_a_window_that_dies_without_a_word_is_told_with_its_signal(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("support_exudyn.postprocessing.viewer.view.TRY", "import os; os.kill(os.getpid(), 9)")
+    monkeypatch.delenv("EXUDYN_SUPPRESS_UI_WINDOW_OPEN", raising=False)
+    with pytest.raises(NoDisplayError, match=r"ended by signal 9 \(SIGKILL\)"):
+        check_display()
+
+
 def test_a_display_that_never_answers_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("support_exudyn.postprocessing.viewer.view.TRY", "import time; time.sleep(600)")
     monkeypatch.setattr("support_exudyn.postprocessing.viewer.view.LONGEST", 0.2)

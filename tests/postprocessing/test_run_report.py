@@ -59,7 +59,7 @@ def test_the_page_has_all_its_parts_and_loads_nothing(page: Path) -> None:
     for outside in re.findall(r'(?:src|href)="([^"]*)"', elements):
         assert outside.startswith(("data:", "#")), outside
     assert "rear_link.angular_velocity" in text
-    assert "tip.x [m]" in text
+    assert "tip.x [mm]" in text
     assert elements.count("data:image/png") == 3  # machine, print of the channels, still
 
 

@@ -281,7 +281,7 @@ def test_columns_are_in_the_order_of_the_first_row_whenever_rows_come(tmp_path: 
         "b_N_error": [0.25, None, None],
         "c_N": [None, None, 2.0],
     }
-    assert list(found)[6:] == ["a_N", "a_N_error", "b_N", "b_N_error", "c_N"]
+    assert list(found)[7:] == ["a_N", "a_N_error", "b_N", "b_N_error", "c_N"]
     texts = csv.read_csv(tmp_path / "table.csv").to_pydict()
     assert np.array_equal(texts["x"], found["x"])
     assert texts["a_N"] == found["a_N"]

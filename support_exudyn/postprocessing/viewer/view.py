@@ -1,5 +1,6 @@
 """Exudyn's solution viewer on a run: its model with the look of the machine, moving as it did."""
 
+import signal
 import subprocess
 import sys
 import tempfile
@@ -17,6 +18,7 @@ from exudyn.basicUtilities import SetSolutionState
 from support_exudyn.formulations.engine_settings import quiet_engine
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.postprocessing.export.solution_file import Solution, check_fits, read_solution, rows
+from support_exudyn.postprocessing.render.panels import PinView, pin_views
 from support_exudyn.postprocessing.viewer.viewer_model import SHOWN, ViewerModel, model_for_viewer
 from support_exudyn.simulation.provenance import installed
 from support_exudyn.simulation.result import Result
@@ -52,10 +54,13 @@ if not active:
     raise SystemExit("the engine's window did not open")
 """
 UNTOLD = ("terminate called", "Setup OpenGL", "Traceback", "  ")  # beginnings of lines that tell no reason
+PICTURES = "`python -m support_exudyn render RUN` writes pictures without a window"
 INSTEAD = (
-    "without a display, `python -m support_exudyn render RUN` writes pictures, and "
-    "`xvfb-run -a python -m support_exudyn view RUN` opens the window on a display in memory"
+    f"{PICTURES}, and `xvfb-run -a python -m support_exudyn view RUN` opens the window on a display in memory"
 )
+NO_TKINTER = "no tkinter"  # as TRY says it
+WHAT = "what():"  # what a C++ exception tells
+TOLD = (WHAT, "error", "failed")  # in lines that tell a reason
 
 
 class NoDisplayError(OSError):
@@ -73,7 +78,12 @@ def check_display() -> None:
             )
     if (reason := _reason()) is not None:
         raise NoDisplayError(
-            f"no window can be opened here: {reason}. Allowed: a desktop with OpenGL; {INSTEAD}"
+            f"no window can be opened here: {reason}. "
+            + (
+                f"Else {PICTURES}"
+                if reason.startswith(NO_TKINTER)
+                else f"Allowed: a desktop with OpenGL; {INSTEAD}"
+            )
         )
 
 
@@ -95,8 +105,14 @@ def _reason() -> str | None:
     if tried.returncode == 0:
         return None
     said = [line.rstrip() for line in (tried.stderr + "\n" + tried.stdout).splitlines()]
-    telling = [line for line in said if line and not line.startswith(UNTOLD)]
-    return "; ".join(telling[:3]) or f"the engine's window ended with code {tried.returncode}"
+    telling = [line.strip() for line in said if line and (WHAT in line or not line.startswith(UNTOLD))]
+    # the reason before what drivers warn of
+    telling.sort(key=lambda line: not any(word in line.lower() for word in TOLD))
+    ended = f"the engine's window ended with code {tried.returncode}"
+    if tried.returncode < 0:
+        name = {item.value: item.name for item in signal.Signals}.get(-tried.returncode, "unknown")
+        ended = f"the engine's window was ended by signal {-tried.returncode} ({name})"
+    return "; ".join([*dict.fromkeys(telling[:3])] or [ended])
 
 
 # --- the viewer ---
@@ -204,7 +220,7 @@ def window(
     for sentence in differing_versions(result):
         print(f"warning: {sentence}", file=sys.stderr)
     read = None if solution is None else read_solution(solution)
-    model = model_for_viewer(result.scenario)
+    model = model_for_viewer(result.scenario, _views(result), result.time)
     container = model.scene.container
     try:
         if read is not None and solution is not None:
@@ -222,6 +238,14 @@ def window(
         if container.renderer.IsActive():
             container.renderer.Stop()
         model.scene.release()
+
+
+def _views(result: Result) -> list[PinView]:
+    """The clearance pins that are shown beside the machine; none of runs that have not recorded them."""
+    try:
+        return pin_views(result)
+    except InputError:
+        return []
 
 
 def title(result: Result, name: str = "") -> str:
@@ -268,7 +292,7 @@ def reach(model: ViewerModel, solution: Solution) -> tuple[Series, Series]:
             corners += [model.place(solid.body, (x, y, z)) for x, y, z in box]
         for strut in model.look.struts:
             corners += [model.place(strut.foot, strut.foot_point), model.place(strut.head, strut.head_point)]
-    points = np.array(corners)
+    points = np.concatenate([np.array(corners), model.insets.corners])
     return points.min(axis=0), points.max(axis=0)
 
 

@@ -4,7 +4,7 @@ Only what is drawn is added: surfaces of the bodies, and bodies of the ground, w
 equations stay those of the model that runs.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any, NamedTuple
@@ -29,7 +29,9 @@ from support_exudyn.postprocessing.look.solid import (
     Solid,
     solids_of,
 )
+from support_exudyn.postprocessing.render.panels import PinView
 from support_exudyn.postprocessing.viewer.engine_graphics import EngineSurface, engine_surface
+from support_exudyn.postprocessing.viewer.pin_insets import PinInsets
 from support_exudyn.scenario.scenario import Scenario
 from user_forces import JournalBearing
 from user_forces.values.value import Vector3
@@ -38,6 +40,7 @@ BORE: Colour = (0.0, 0.0, 0.0)
 PROUD = 0.02  # how far journals stand out of what they join, of its width
 AROUND = 2.0  # radii around a pin within which that is looked for
 CORNERS = 64  # of a bore's rim
+STILL_TIME = np.zeros(1)
 SHOWN = exudyn.ConfigurationType.Visualization
 POSITION = exudyn.OutputVariableType.Position
 
@@ -47,10 +50,12 @@ class ViewerModel:
     """A model and its look.
 
     scene: the model; its `release` ends it. look: all that is drawn, journals of clearance pins with it.
+    insets: of clearance pins, beside the machine.
     """
 
     scene: Model
     look: Look
+    insets: PinInsets
 
     def place(self, body: str, point: Vector3) -> Series:
         """The place of a point of the start posture in the state that is shown [m]."""
@@ -61,8 +66,13 @@ class ViewerModel:
         return np.array(self.scene.mbs.GetObjectOutputBody(item.object, POSITION, local, SHOWN))
 
 
-def model_for_viewer(scenario: Scenario) -> ViewerModel:
-    """The model of a scenario, as `model` makes it, with the look of its machine."""
+def model_for_viewer(
+    scenario: Scenario, views: Sequence[PinView] = (), time: Series = STILL_TIME
+) -> ViewerModel:
+    """The model of a scenario, as `model` makes it, with the look of its machine.
+
+    views, time: pins whose journals and forces are shown beside it, and the times of their records [s].
+    """
     scene, look = model(scenario), looks.look(scenario)
     with_clearance = [
         (pin, pin.with_clearance.contact.bearing)
@@ -73,7 +83,9 @@ def model_for_viewer(scenario: Scenario) -> ViewerModel:
     whole = replace(
         look, solids=(*look.solids, *(_journal(pin, bearing, look) for pin, bearing in with_clearance))
     )
-    shown = ViewerModel(scene, whole)
+    corners = np.concatenate([solid.mesh.bounds for solid in whole.solids])
+    insets = PinInsets(views, time, corners.min(axis=0), corners.max(axis=0))
+    shown = ViewerModel(scene, whole, insets)
     for name, item in scene.bodies.items():
         drawn = [_of_solid(solid, _axes(scene, name)) for solid in solids_of(whole, name)]
         drawn += [_of_rim(rim, _axes(scene, name)) for body, rim in rims if body == name]
@@ -84,7 +96,12 @@ def model_for_viewer(scenario: Scenario) -> ViewerModel:
     moving = [part for strut in look.struts for part in _parts(shown, strut)]
     scene.mbs.AddObject(
         ObjectGround(
-            visualization=VObjectGround(graphicsDataUserFunction=lambda mbs, item: [part() for part in moving])
+            visualization=VObjectGround(
+                graphicsDataUserFunction=lambda mbs, item: [
+                    *(part() for part in moving),
+                    *insets.graphics(mbs.systemData.GetTime(SHOWN)),
+                ]
+            )
         )
     )
     kept = scene.mbs.systemData.GetSystemState(INITIAL)  # which assembling would set back

@@ -1,0 +1,108 @@
+"""Clearance pins beside the machine in the viewer: journals in their bores, enlarged, and the force on them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.colors import to_rgb
+
+from support_exudyn.mechanics.trajectory import Series
+from support_exudyn.postprocessing.figures.style import CONTACT, FLIGHT
+from support_exudyn.postprocessing.render.panels import SHOWN, PinView, round_up, said, usual
+
+RADIUS = 0.07  # of a bore, of the machine's length
+APART = 3.2  # distance of bores, in radii
+LONGEST = 1.5  # of an arrow, in radii: that of the usual force is as long as the radius
+HEAD = 0.25  # of an arrow, of its length
+CORNERS = 48  # of a circle
+INK, JOURNAL = (0.1, 0.1, 0.1), (0.45, 0.45, 0.48)
+TURN = np.linspace(0.0, 2.0 * math.pi, CORNERS + 1)
+CIRCLE = np.column_stack([np.cos(TURN), np.sin(TURN)])
+
+
+class PinInsets:
+    """The insets of clearance pins, in a row below the machine.
+
+    Arguments:
+        views: of the pins; those that are ideal have none.
+        time: of the records (n,) [s].
+        low, high: least and largest coordinates of the machine (3,) [m].
+    """
+
+    def __init__(self, views: Sequence[PinView], time: Series, low: Series, high: Series) -> None:
+        self._views = [view for view in views if view.bore is not None]
+        self._time = time
+        self._radius = RADIUS * float(high[0] - low[0])
+        self._depth = float(low[2])  # one looks along z
+        middle, y = 0.5 * float(low[0] + high[0]), float(low[1]) - 2.0 * self._radius
+        step = APART * self._radius
+        self._centres = [
+            (middle + (n - 0.5 * (len(self._views) - 1)) * step, y) for n in range(len(self._views))
+        ]
+
+    @property
+    def corners(self) -> Series:
+        """What has to be seen of them, shape (n, 3) [m]."""
+        reach = 1.8 * self._radius
+        return np.array(
+            [
+                [x + side * reach, y + side * reach, self._depth]
+                for x, y in self._centres
+                for side in (-1.0, 1.0)
+            ]
+        ).reshape(-1, 3)
+
+    def graphics(self, now: float) -> list[dict[str, Any]]:
+        """What the engine draws of them at a time [s]: that of the record next to it."""
+        record = int(np.abs(self._time - now).argmin())
+        return [
+            part
+            for view, centre in zip(self._views, self._centres, strict=True)
+            for part in self._of(view, np.array(centre), record)
+        ]
+
+    def _of(self, view: PinView, centre: Series, record: int) -> Iterator[dict[str, Any]]:
+        assert view.bore is not None
+        bearing = view.bore.pin.contact.bearing
+        factor = max(1.0, round_up(SHOWN * bearing.bore_radius / bearing.clearance))
+        scale = factor * self._radius / bearing.bore_radius  # metres drawn to a metre of eccentricity
+        at = centre + scale * view.bore.eccentricity[record]
+        inside = self._radius - scale * bearing.clearance
+        colour = to_rgb(CONTACT if view.bore.closed[record] else FLIGHT)
+        yield self._disc(at, inside)
+        yield self._line(centre + self._radius * CIRCLE, INK)
+        yield self._line(at + inside * CIRCLE, colour)
+        size = float(view.size[record])
+        if size > 0.0:
+            length = min(size / usual(view.size), LONGEST) * self._radius
+            yield from self._arrow(at, length * view.force[record] / size, colour)
+        lines = view.name.replace("_", " "), f"{size / 1e3:.1f} kN, gap x {said(factor)}"
+        for n, words in enumerate(lines):
+            x, y = centre + self._radius * np.array([1.0, -1.4 - 0.4 * n])  # x points to the left here
+            yield {"type": "Text", "text": words, "position": [x, y, self._depth], "color": [*INK, 1.0]}
+
+    def _line(self, points: Series, colour: Sequence[float]) -> dict[str, Any]:
+        data = np.column_stack([points, np.full(len(points), self._depth)])
+        return {"type": "Line", "color": [*colour, 1.0], "data": data.ravel()}
+
+    def _arrow(self, at: Series, way: Series, colour: Sequence[float]) -> Iterator[dict[str, Any]]:
+        tip, aside = at + way, np.array([-way[1], way[0]])
+        yield self._line(np.array([at, tip]), colour)
+        for side in (-0.5, 0.5):
+            yield self._line(np.array([tip - HEAD * (way + side * aside), tip]), colour)
+
+    def _disc(self, at: Series, radius: float) -> dict[str, Any]:
+        points = np.vstack([at, at + radius * CIRCLE[:-1]])
+        ring = np.arange(CORNERS)
+        triangles = np.column_stack([np.zeros(CORNERS), 1 + (ring + 1) % CORNERS, 1 + ring]).astype(np.int64)
+        return {
+            "type": "TriangleList",
+            # behind the lines
+            "points": np.column_stack([points, np.full(len(points), self._depth + 0.01 * radius)]).ravel(),
+            "normals": np.tile([0.0, 0.0, -1.0], len(points)),
+            "triangles": triangles.ravel(),
+            "colors": np.tile([*JOURNAL, 1.0], len(points)),
+        }
