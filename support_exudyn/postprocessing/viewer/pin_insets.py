@@ -35,6 +35,7 @@ class PinInsets:
     def __init__(self, views: Sequence[PinView], time: Series, low: Series, high: Series) -> None:
         self._views = [view for view in views if view.bore is not None]
         self._time = time
+        self._usual = max((usual(view.size) for view in self._views), default=1.0)
         self._radius = RADIUS * float(high[0] - low[0])
         self._depth = float(low[2])  # one looks along z
         middle, y = 0.5 * float(low[0] + high[0]), float(low[1]) - 2.0 * self._radius
@@ -77,7 +78,7 @@ class PinInsets:
         yield self._line(at + inside * CIRCLE, colour)
         size = float(view.size[record])
         if size > 0.0:
-            length = min(size / usual(view.size), LONGEST) * self._radius
+            length = min(size / self._usual, LONGEST) * self._radius
             yield from self._arrow(at, length * view.force[record] / size, colour)
         lines = view.name.replace("_", " "), f"{size / 1e3:.1f} kN, gap x {said(factor)}"
         for n, words in enumerate(lines):

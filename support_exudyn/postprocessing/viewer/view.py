@@ -269,6 +269,7 @@ def _prepare(settings: Any, text: str, size: tuple[int, int]) -> None:
     settings.view0.window.renderWindowSize = list(size)
     settings.view0.window.showComputationInfo = True
     settings.openGL.multiSampling = 4
+    settings.openGL.lineWidth = 2.0
     # the stronger light on the side from which one looks
     settings.openGL.light0.position = [-2.0, 4.0, -10.0, 0.0]
     settings.openGL.light1.position = [2.0, 4.0, 10.0, 0.0]
