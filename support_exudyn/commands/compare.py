@@ -29,6 +29,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add(
         "channels",
         nargs="*",
+        default=[],
         metavar="CHANNEL",
         help="only these: names or patterns, such as 'tip.*'; by default forces and traced points",
     )

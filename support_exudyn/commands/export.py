@@ -4,6 +4,7 @@ import argparse
 import sys
 import time
 from collections.abc import Callable
+from difflib import get_close_matches
 from functools import partial
 from pathlib import Path
 
@@ -21,7 +22,7 @@ from support_exudyn.commands.command_line import (
 )
 from support_exudyn.formulations.contract import Progress
 from support_exudyn.simulation.result import Result
-from user_forces.values.value import InputError
+from user_forces.values.value import InputError, short
 
 HELP = "moving meshes for ParaView (XDMF, VTU) and tables of all channels (CSV, HDF5)"
 USUAL = ("xdmf", "vtu", "csv", "hdf5")
@@ -31,17 +32,12 @@ SLOWEST, FASTEST = 1e-9, 1e9  # frames a second
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The run's file, what to write of it, and where to."""
-    # RUN first: behind --to it would be taken for a format
-    parser.usage = (
-        "%(prog)s [-h] RUN [--to FORMAT ...] [--out DIR]\n"
-        "    [--every N | --frames-per-second F] [--after T] [--until T] [--json]"
-    )
     add_run(parser)
     parser.add_argument(
         "--to",
-        nargs="+",
-        choices=FORMATS,
-        metavar="FORMAT",
+        action="extend",
+        type=formats,
+        metavar="FORMAT[,FORMAT]",
         help="xdmf: NAME.xdmf and NAME_pins.xdmf, with one HDF5 file for both; vtu: a folder NAME_vtu with a "
         "file per step, machine.pvd and pins.pvd; csv: NAME.csv; hdf5: NAME_channels.h5 for MATLAB and others; "
         "solution: NAME_solution.txt, Exudyn's own solution file, all records; by default all but the last "
@@ -59,6 +55,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     add_json(parser)
     add_times(parser, 0.0)
+
+
+def formats(text: str) -> list[str]:
+    """Formats from the command line, with commas between them."""
+    found = [one.strip() for one in text.split(",")]
+    for one in found:
+        if one not in FORMATS:
+            near = get_close_matches(one[:80], FORMATS, 1)
+            guess = f"did you mean {near[0]}? " if near else ""
+            raise argparse.ArgumentTypeError(
+                f"{short(one)}: no such format; {guess}allowed: {', '.join(FORMATS)}"
+            )
+    return found
 
 
 def run(given: argparse.Namespace) -> None:

@@ -13,7 +13,20 @@ from tests.commands.test_fuzz_commands import outcome, words
 
 options = st.sampled_from(
     (
-        *("--all", "--from", "--until", "--orbit", "--poincare", "--spectrum", "--pin", "--phase"),
+        *(
+            "--all",
+            "--from",
+            "--after",
+            "--until",
+            "--difference",
+            "--tornado",
+            "--histogram",
+            "--orbit",
+            "--poincare",
+            "--spectrum",
+            "--pin",
+            "--phase",
+        ),
         *(
             "--out",
             "--show",

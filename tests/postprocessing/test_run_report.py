@@ -64,7 +64,7 @@ def test_the_page_has_all_its_parts_and_loads_nothing(page: Path) -> None:
 
 
 def test_one_run_of_another_machine_beside_its_file(runs: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["report", str(runs / "crank.h5"), "--channels", "pin.slider_pin.*", "slider.x"]) == 0
+    assert main(["report", str(runs / "crank.h5"), "pin.slider_pin.*", "slider.x"]) == 0
     path = Path(capsys.readouterr().out.strip())
     assert path == runs / "crank_report.html"
     text = path.read_text(encoding="utf-8")
@@ -91,8 +91,8 @@ def test_a_folder_takes_report_html_and_scripts_are_told_where(
     ("words", "told"),
     [
         (["ideal.h5", "ideal.h5"], "is given twice"),
-        (["ideal.h5", "--channels", "pin.middle.force"], "no such channel"),
-        (["ideal.h5", "--channels", "*"], r"channels to draw over time; allowed: 1 to 24"),
+        (["ideal.h5", "pin.middle.force"], "no such channel"),
+        (["ideal.h5", "*"], r"channels to draw over time; allowed: 1 to 24"),
         (["none.h5"], "none.h5"),
     ],
 )
