@@ -15,11 +15,20 @@ from support_exudyn.commands.command_line import (
     add_out,
     add_times,
     answer,
+    folder,
     number,
     say,
     warn,
 )
-from support_exudyn.commands.runs import file_name, named_runs, runs_and_channels, said_channels, said_window
+from support_exudyn.commands.runs import (
+    file_name,
+    files_of_curves,
+    named_runs,
+    runs_and_channels,
+    said_channels,
+    said_window,
+)
+from support_exudyn.postprocessing.curves import Curves, read_curves
 from support_exudyn.postprocessing.figures.journal import chosen_pin, clearance_joints
 from support_exudyn.postprocessing.figures.selection import matching
 from support_exudyn.simulation.result import Result
@@ -42,7 +51,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         nargs="+",
         metavar="RUN|CHANNEL",
         help="files of runs, as Result.save writes them, then channels over time: names, or patterns as "
-        "'pin.*.force'; several runs are drawn one upon another",
+        "'pin.*.force'; several runs are drawn one upon another, and so are curves of CSV files "
+        "(time_s,tip.x_mm)",
     )
     add("--difference", action="store_true", help="of several runs: what differs from the first")
     add("--orbit", action="store_true", help="path of the journal of a clearance pin in its bore")
@@ -67,13 +77,22 @@ def run(given: argparse.Namespace) -> None:
     """Draw, write, and print the names of the files."""
     from support_exudyn.postprocessing.figures import style
 
-    paths, given.channels = runs_and_channels(given.names)
-    if given.difference and len(paths) < 2:
-        raise InputError("--difference: needs a second run; allowed: plot FIRST.h5 SECOND.h5 [CHANNEL...]")
+    tables = files_of_curves(given.names)
+    paths, given.channels = runs_and_channels([name for name in given.names if folder(name) not in tables])
+    if not paths:
+        raise InputError(
+            f"{tables[0]}: is no run; allowed: a run beside which it is drawn, plot RUN {tables[0]}"
+        )
+    if given.difference and (len(paths) < 2 or tables):
+        raise InputError(
+            "--difference: needs a second run, and no CSV; allowed: plot FIRST.h5 SECOND.h5 [CHANNEL...]"
+        )
     runs = {name: Result.load(path) for name, path in named_runs(paths).items()}
     first = paths[0]
     out = given.out or first.with_name(f"{first.stem}_figures")
-    wanted, optional = _of_several(runs, given) if len(runs) > 1 else _of_one(runs, given)
+    curves = {name: read_curves(path) for name, path in named_runs(tables).items()}
+    several = len(runs) + len(curves) > 1
+    wanted, optional = _of_several(runs, curves, given) if several else _of_one(runs, given)
     drawings = []
     written = {}
     with style.look():
@@ -96,21 +115,32 @@ def run(given: argparse.Namespace) -> None:
             _show(drawings)
 
 
-def _of_several(runs: Mapping[str, Result], given: argparse.Namespace) -> tuple[dict[str, Draw], set[str]]:
-    """Channels of several runs, one upon another or less those of the first."""
+def _of_several(
+    runs: Mapping[str, Result], curves: Mapping[str, Curves], given: argparse.Namespace
+) -> tuple[dict[str, Draw], set[str]]:
+    """Channels of several runs and of CSV files, one upon another or less those of the first."""
     from support_exudyn.postprocessing.figures.overlay import difference, overlay
 
     if given.orbit or given.poincare or given.spectrum or given.section or given.pin is not None:
         raise InputError(
-            f"--orbit, --poincare, --spectrum, --section, --pin: are of one run, and {len(runs)} are given; "
-            "allowed with several: channels"
+            f"--orbit, --poincare, --spectrum, --section, --pin: are of one run, and {len(runs) + len(curves)} "
+            "are given; allowed with several: channels"
         )
-    channels = given.channels or _told_first(next(iter(runs.values())))
-    draw = difference if given.difference else overlay
-    joined = ("_less_" if given.difference else "_and_").join([*runs][::-1] if given.difference else runs)
+    first = next(iter(runs.values()))
+    in_files = [
+        name
+        for name in first.channels
+        if any(one.of(name, first.unit(name)) is not None for one in curves.values())
+    ]
+    channels = given.channels or [name for name in in_files if name != "time"] or _told_first(first)
+    names = [*runs, *curves]
+    joined = ("_less_" if given.difference else "_and_").join(names[::-1] if given.difference else names)
     what = said_channels(given.channels) if given.channels else "overview"
     name = file_name(joined, what, said_window(given.after, given.until))
-    return {name: lambda: draw(runs, channels, given.after, given.until)}, set()
+    ends = given.after, given.until
+    if given.difference:
+        return {name: lambda: difference(runs, channels, *ends)}, set()
+    return {name: lambda: overlay(runs, channels, *ends, curves)}, set()
 
 
 def _of_one(runs: Mapping[str, Result], given: argparse.Namespace) -> tuple[dict[str, Draw], set[str]]:

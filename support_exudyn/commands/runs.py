@@ -8,6 +8,7 @@ from support_exudyn.commands.command_line import folder
 from user_forces.values.value import InputError
 
 ENDING = ".h5"  # of runs
+CSV = ".csv"
 NO_NAME = re.compile(r"[^\w.-]+")  # what is left out of a file's name
 LONGEST = 80  # letters of what a file's name says of channels
 
@@ -25,6 +26,11 @@ def named_runs(paths: Sequence[Path]) -> dict[str, Path]:
             raise InputError(f"{path}: is given twice; allowed: every run once")
         found[name] = path
     return found
+
+
+def files_of_curves(words: Sequence[str]) -> list[Path]:
+    """The CSV files among words."""
+    return [folder(word) for word in words if word.lower().endswith(CSV)]
 
 
 def runs_and_channels(words: Sequence[str]) -> tuple[list[Path], list[str]]:

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 from support_exudyn import Result
+from support_exudyn.postprocessing.curves import read_curves
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.figures.overlay import difference, overlay
 from tests import figure_checks, synthetic
@@ -37,6 +40,18 @@ def test_a_difference_is_taken_where_both_have_records() -> None:
     assert line.get_xdata() == pytest.approx(shared)
     assert line.get_ydata() == pytest.approx(200.0 * np.sin(shared))
     assert drawing.get_suptitle() == "b less a, 0 to 1 s"
+
+
+@pytest.mark.parametrize(
+    ("title", "scale"), [("tip.x_mm", 1e-3), ("tip.x [mm]", 1e-3), ("tip.x_m", 1.0), ("tip.x [m]", 1.0)]
+)
+def test_curves_of_files_are_read_by_their_units(tmp_path: Path, title: str, scale: float) -> None:
+    path = tmp_path / "a.csv"
+    path.write_text(f"time_ms,{title}\n0,1\n500,2\n", encoding="utf-8")
+    drawing = overlay({"a": run(0.1)}, ["tip.x"], curves={"b": read_curves(path)})
+    line = drawing.axes[0].lines[1]
+    assert line.get_xdata() == pytest.approx([0.0, 0.5])
+    assert line.get_ydata() == pytest.approx([1e3 * scale, 2e3 * scale])
 
 
 def test_too_few_or_too_many_runs_are_refused() -> None:

@@ -96,6 +96,25 @@ def test_several_runs_are_drawn_one_upon_another(runs: Path, tmp_path: Path) -> 
     assert names(tmp_path) == expected
 
 
+def test_a_curve_of_a_csv_file_is_drawn_beside_a_run(
+    runs: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    measured = tmp_path / "measured.csv"
+    measured.write_text("time_ms,tip.x_mm,other\n0,3195,1\n100,3194,2\n", encoding="utf-8")
+    assert main(["plot", str(runs / "ideal.h5"), str(measured), "--out", str(tmp_path / "out")]) == 0
+    assert names(tmp_path / "out") == both("ideal_and_measured_overview")
+    for text, message in (
+        ("time_s,x\n0,1\n", "has none of these channels"),
+        ("tip.x_mm\n1\n", "has no times"),
+        ("time_s,tip.x_mm\n0,x\n", "line 2, column tip.x_mm: 'x': allowed: a number"),
+        ("time_s,tip.x_mm\n0\n", "line 2: has 1 items"),
+    ):
+        measured.write_text(text, encoding="utf-8")
+        assert main(["plot", str(runs / "ideal.h5"), str(measured), "tip.x"]) == 1
+        assert message in capsys.readouterr().err
+    assert main(["plot", str(measured)]) == 1
+
+
 def test_the_same_piece_by_the_option_s_earlier_name(runs: Path, tmp_path: Path) -> None:
     run = str(runs / "ideal.h5")
     for option in ("--from", "--after"):

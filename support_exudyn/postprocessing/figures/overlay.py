@@ -1,7 +1,7 @@
 """Several runs in one figure: their channels one upon another, or what differs from the first."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from support_exudyn.postprocessing.comparison import common_records
+from support_exudyn.postprocessing.curves import Curves
 from support_exudyn.postprocessing.figures import style, units
 from support_exudyn.postprocessing.figures.channels import error_over_time, label_values
 from support_exudyn.postprocessing.figures.journal import Series
@@ -18,6 +19,7 @@ from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
 
 CURVES = style.CURVES
+NO_CURVES: Mapping[str, Curves] = {}
 MOST = 16  # panels
 PANEL_MM, REST_MM, LINE_MM = 38.0, 34.0, 4.5  # height of a panel, of the rest, and of a line that names a run
 SECONDS = "s"
@@ -33,14 +35,19 @@ class _Curve(NamedTuple):
 
 
 def overlay(
-    runs: Mapping[str, Result], channels: Sequence[str], after: float = 0.0, until: float = math.inf
+    runs: Mapping[str, Result],
+    channels: Sequence[str],
+    after: float = 0.0,
+    until: float = math.inf,
+    curves: Mapping[str, Curves] = NO_CURVES,
 ) -> Figure:
     """Channels of several runs over time: a panel for each channel, a curve for each run that has it.
 
     Arguments:
-        runs: by the names that the figure calls them, 2 to 5.
+        runs: by the names that the figure calls them, at least one.
         channels: names, or patterns of them as in a shell.
         after, until: what of the runs is drawn [s].
+        curves: of CSV files, by the names that the figure calls them; with the runs 2 to 5.
 
     Raises InputError if runs or channels are too few or too many, if a pattern matches no channel, if a channel
     has two units, or if no records lie between the times.
@@ -52,10 +59,33 @@ def overlay(
 
     panels = {
         channel: [curve(name, run, channel) for name, run in runs.items() if channel in run.channels]
-        for channel in _channels(runs, channels)
+        for channel in _channels(runs, channels, len(curves))
     }
-    title = f"{_several(runs)}, {said(next(iter(runs.values())), after, until)}"
+    for name, found in curves.items():
+        drawn = {channel: _measured(name, found, channel, runs, after, until) for channel in panels}
+        if not any(drawn.values()):
+            known = ", ".join(list(found.columns)[:6])
+            raise InputError(
+                f"{found.path}: has none of these channels between these times; allowed: columns such as "
+                f"{next(iter(panels))}_mm beside time_s; it has {known}"
+            )
+        for channel, one in drawn.items():
+            panels[channel] += one
+    title = f"{_several([*runs, *curves])}, {said(next(iter(runs.values())), after, until)}"
     return _drawn(runs, panels, title, "")
+
+
+def _measured(
+    name: str, found: Curves, channel: str, runs: Mapping[str, Result], after: float, until: float
+) -> list[_Curve]:
+    """The curve of a file for a channel; none if it has none."""
+    run = next(run for run in runs.values() if channel in run.channels)
+    values, time = found.of(channel, run.unit(channel)), found.time
+    if values is None:
+        return []
+    last = min(until, max(float(one.time[-1]) for one in runs.values()))
+    chosen = (time >= after) & (time <= last) & np.isfinite(values)
+    return [_Curve(name, time[chosen], values[chosen], np.zeros(int(chosen.sum())))] if chosen.any() else []
 
 
 def difference(
@@ -88,9 +118,9 @@ def difference(
     return _drawn(runs, panels, title, "difference of ")
 
 
-def _channels(runs: Mapping[str, Result], patterns: Sequence[str]) -> list[str]:
-    if not 2 <= len(runs) <= len(CURVES):
-        raise InputError(f"{len(runs)} runs: allowed in a figure: 2 to {len(CURVES)}")
+def _channels(runs: Mapping[str, Result], patterns: Sequence[str], others: int = 0) -> list[str]:
+    if not (runs and 2 <= len(runs) + others <= len(CURVES)):
+        raise InputError(f"{len(runs) + others} runs: allowed in a figure: 2 to {len(CURVES)}")
     known = list(dict.fromkeys(name for run in runs.values() for name in run.channels))
     names = matching(known, patterns)
     if not 1 <= len(names) <= MOST:
@@ -106,7 +136,7 @@ def _errors(run: Result, channel: str) -> Series:
     return np.full(run.time.size, np.nan) if found is None else found
 
 
-def _several(runs: Mapping[str, Result]) -> str:
+def _several(runs: Iterable[str]) -> str:
     *before, last = runs
     return f"{', '.join(before)} and {last}" if before else last
 
