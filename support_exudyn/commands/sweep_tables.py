@@ -9,6 +9,7 @@ from support_exudyn.commands.command_line import answer, say
 from support_exudyn.commands.tables import printed, show_table
 
 ENDING = ".parquet"
+BOUNDING = 72  # runs that bound the percentiles of 5 and 95 %: 0.95^72 < 0.025
 MOST = 8  # numbers that are shown unless all or some are asked for
 
 
@@ -41,7 +42,10 @@ def show_sweep(given: argparse.Namespace) -> None:
         more = len(names) - len(chosen)
         rest = f" ({more} more: --all)" if more > 0 and not given.channels else ""
         band = ", percentiles with their 95 % confidence intervals" if is_sampled(table) else ""
-        show_table(console, f"what came out{rest}{band}", *sweep_summary.what_came_out(table, chosen))
+        header, rows = sweep_summary.what_came_out(table, chosen)
+        if any("- to" in cell or "to -" in cell for row in rows for cell in row):
+            band += f" (-: not bounded by so few runs; {BOUNDING} do)"
+        show_table(console, f"what came out{rest}{band}", header, rows)
         if rows := sweep_summary.what_it_follows(table, chosen):
             title = "what it follows: Spearman's rank correlation, -1 to 1, with its 95 % confidence interval"
             show_table(console, title, ("number", "input", ">correlation", ">interval", "words"), rows)
