@@ -244,7 +244,7 @@ def test_the_spread_of_a_force_that_hardly_varies_says_little_of_its_mean() -> N
     # the spread falls by a quarter from run to run, and is nearly all wrong; the mean is right to 1e-8
     run = three(*(with_channel(exact(), FORCE, mean + 0.25**n * noise) for n in range(3)))
     told = run.numbers()
-    assert told[f"{FORCE}.std"].error > told[f"{FORCE}.spread"].value
+    assert told[f"{FORCE}.std"].error > told[f"{FORCE}.std"].value
     assert told[f"{FORCE}.mean"].error < 1e-8 * mean
 
 
