@@ -1,8 +1,9 @@
 """Dynamics of linkages with clearance in their pins, on Exudyn.
 
-    from support_exudyn import ClearancePin, CubicStep, Scenario, reference_support, simulate
+    from support_exudyn import ClearancePin, CubicStep, Scenario, machine, simulate
 
-    result = simulate(Scenario(machine=reference_support(), drive=CubicStep(), duration=5.0))
+    pins = {"rear_base": ClearancePin.simple(clearance=0.5e-3, bore_radius=0.06, friction=0.1)}
+    result = simulate(Scenario(machine=machine("zf18000"), pins=pins, drive=CubicStep(), duration=5.0))
     result["pin.rear_base.force"]  # newton, at result.time
 
 One entry, `simulate`; everything else is a value that is handed in. SI units and radians.
@@ -16,7 +17,15 @@ from support_exudyn.simulation import at_start as at_start
 
 # isort: split
 
-from support_exudyn.files.machines import cylinders_and_rods, load_support, reference_support
+from support_exudyn.files.machines import (
+    cylinders_and_rods,
+    load_machine,
+    load_support,
+    machine,
+    reference_support,
+)
+from support_exudyn.files.scenarios.scenario_file import read_scenario
+from support_exudyn.files.scenarios.simple_scenario import simple_scenario
 from support_exudyn.formulations.contract import Failure, SimulationError
 from support_exudyn.machines.four_column_support import HydraulicSupport
 from support_exudyn.machines.free_impact import ImpactStand
@@ -64,6 +73,12 @@ from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.recommend import Recommendation, recommend
 from support_exudyn.simulation.result import Result
 from support_exudyn.simulation.simulate import simulate
+from user_forces.contact import JournalContact
+from user_forces.friction.law import FrictionLaw
+from user_forces.journal import JournalBearing
+from user_forces.normal.law import NormalLaw
+from user_forces.values.names import meant
+from user_forces.values.value import InputError, value
 
 if TYPE_CHECKING:
     from support_exudyn.postprocessing.export.solution_file import save_solution
@@ -83,6 +98,7 @@ __all__ = [
     "Estimate",
     "Failure",
     "FallingBlock",
+    "FrictionLaw",
     "Held",
     "HydraulicCylinder",
     "HydraulicSupport",
@@ -90,12 +106,16 @@ __all__ = [
     "ImpactStand",
     "Impulse",
     "Inlet",
+    "InputError",
+    "JournalBearing",
+    "JournalContact",
     "LinearActuator",
     "Linkage",
     "Load",
     "LoadedPoint",
     "Lumped",
     "Machine",
+    "NormalLaw",
     "OilColumn",
     "Onset",
     "OwnBody",
@@ -124,12 +144,17 @@ __all__ = [
     "Width",
     "bore_area",
     "cylinders_and_rods",
+    "load_machine",
     "load_support",
+    "machine",
     "ravn_slider_crank",
+    "read_scenario",
     "recommend",
     "reference_support",
     "save_solution",
+    "simple_scenario",
     "simulate",
+    "value",
 ]
 
 
@@ -139,4 +164,9 @@ def __getattr__(name: str) -> Any:
         from support_exudyn.postprocessing.export.solution_file import save_solution
 
         return save_solution
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}; {meant(name, __all__)}")
+
+
+def __dir__() -> list[str]:
+    """All names, also those that are imported when they are asked for."""
+    return sorted({*globals(), *__all__})

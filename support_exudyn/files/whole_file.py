@@ -4,16 +4,18 @@ import errno
 import os
 import re
 import stat
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from contextlib import ExitStack, contextmanager
+from difflib import get_close_matches
 from pathlib import Path
 
 from support_exudyn.files.temporary import fcntl, workshop
-from user_forces.values.value import InputError
+from user_forces.values.value import InputError, cleaned
 
 LOCK = ".support_exudyn.lock"
 HOLDER = re.compile(rb"(\d+\n)?")  # what is in a lock: the process that has it
 REFUSED = "it cannot be written"
+LETTERS = 80  # of a name that are compared and told
 
 
 @contextmanager
@@ -97,6 +99,26 @@ def check_is_file(path: str | Path, most: int) -> None:
         raise InputError(f"{path}: is no regular file; allowed: files")
     if status.st_size > most:
         raise InputError(f"{path}: has more than {most} bytes, {status.st_size}; allowed: as many")
+
+
+def missing_file(path: str | Path, allowed: str, names: Collection[str] = ()) -> FileNotFoundError:
+    """What is raised of a file that is not there: the folder, names that look like it, and what is allowed.
+
+    Arguments:
+        path: that was given.
+        allowed: what could have been given.
+        names: that could have been given instead of a path.
+    """
+    path = Path(path)
+    try:
+        beside = [one.name for one in path.parent.iterdir() if one.suffix == path.suffix or not path.suffix]
+    except OSError:
+        beside = []
+    near = get_close_matches(path.name[:LETTERS], [*names, *beside], 1)
+    guess = f"; did you mean {near[0]!r}?" if near else ""
+    folder = "" if path.parent.is_dir() else f", nor a folder {str(path.parent)!r:.{LETTERS}}"
+    said = f"no such file{folder}; allowed: {allowed}{guess}"
+    return FileNotFoundError(errno.ENOENT, cleaned(said), str(path))
 
 
 def named(error: OSError, path: str | Path) -> OSError:

@@ -15,7 +15,7 @@ import h5py
 import numpy as np
 
 from support_exudyn.files.hdf5 import BLOCK, Inside, check_checksum, with_checksum, write_series
-from support_exudyn.files.whole_file import contents, whole_file
+from support_exudyn.files.whole_file import contents, missing_file, whole_file
 from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.mechanics.trajectory import Counts, Impulse
 from support_exudyn.scenario.recorded_channels import Channel
@@ -128,7 +128,7 @@ class Result(RecordedRun):
         at all.
         """
         if not Path(path).exists():
-            raise FileNotFoundError(f"{path}: no such file; allowed: files that Result.save has written")
+            raise missing_file(path, "files that Result.save has written")
         if Path(path).is_dir():
             raise IsADirectoryError(
                 errno.EISDIR, "is a directory; allowed: files that Result.save has written", str(path)

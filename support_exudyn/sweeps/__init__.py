@@ -13,6 +13,8 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from user_forces.values.names import meant
+
 if TYPE_CHECKING:
     from support_exudyn.sweeps.file import read_sweep
     from support_exudyn.sweeps.plan import Plan, Record, grid, latin_hypercube, side_by_side
@@ -47,5 +49,10 @@ _PLACES = {
 
 def __getattr__(name: str) -> Any:
     if name not in _PLACES:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}; {meant(name, _PLACES)}")
     return getattr(import_module(f"{__name__}.{_PLACES[name]}"), name)
+
+
+def __dir__() -> list[str]:
+    """All names, also those that are imported when they are asked for."""
+    return sorted({*globals(), *__all__})

@@ -144,6 +144,7 @@ def test_actuators_that_are_not_driven_are_no_driven_parts() -> None:
 
 
 def test_a_machine_has_no_details_unless_it_says_so() -> None:
+    @value
     class Plain(Machine):
         def linkage(self) -> Linkage:
             return Linkage(bodies={"a": BODY})

@@ -13,11 +13,12 @@ from support_exudyn import ClearancePin, CubicStep, Scenario, UniformSpeed, ravn
 from support_exudyn.files import parsed, read_value, scenario_of, table_of, toml_text
 from support_exudyn.files.machines.read import read_machine
 from support_exudyn.files.scenarios.short_forms import DriveFile, DriveMode, DrivesFile
-from support_exudyn.files.scenarios.short_pin import USUAL_RESTITUTION, ShortPin, simple_laws
+from support_exudyn.files.scenarios.short_pin import ShortPin, simple_laws
 from support_exudyn.files.toml.shapes import GroupShape, field_shapes
 from support_exudyn.machines.slider_crank import SliderCrank
 from support_exudyn.model.drives.drive import Stroke
 from support_exudyn.model.drives.table_drive import TableDrive
+from support_exudyn.model.pins import USUAL_RESTITUTION
 from tests import strategies as some
 from user_forces import (
     STEEL,

@@ -161,6 +161,7 @@ class Branching(Spring):
         return math.nan if depth > 1e-5 else 1e9 * depth
 
 
+@value
 class Slipping(FrictionLaw):
     """Infinite beyond a slip."""
 

@@ -54,7 +54,7 @@ def against(slip: float, force: float) -> float:
 
 
 @value
-class TwoCoefficients(FrictionLaw):
+class TwoCoefficients(FrictionLaw, ABC):
     """Laws whose coefficient of friction is larger at rest than in fast slip.
 
     Arguments:

@@ -1,7 +1,7 @@
 """Laws for a cylinder in a cylindrical bore that touch along a line of length L."""
 
 import math
-from abc import abstractmethod
+from abc import ABC, abstractmethod
 from typing import ClassVar
 
 from user_forces.expressions.scalar import is_number, log, maximum, sqrt
@@ -15,7 +15,7 @@ SMALLEST = 1e-14  # of z - 1: at the largest depth, where the root is 1
 
 
 @value
-class CylinderLaw(Hysteresis):
+class CylinderLaw(Hysteresis, ABC):
     """F = L p(depth) (1 + chi rate / w), p the load per length of two parallel cylinders, one in the other.
 
     chi is the exact damping factor unless a law says otherwise, so a free impact delivers e.

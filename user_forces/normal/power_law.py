@@ -1,5 +1,6 @@
 """Laws whose elastic force is K depth^n."""
 
+from abc import ABC
 from typing import Annotated
 
 from pydantic import Field
@@ -12,7 +13,7 @@ from user_forces.values.value import InputError, Positive, Real, value
 
 
 @value
-class ElasticPower(NormalLaw):
+class ElasticPower(NormalLaw, ABC):
     """The elastic part F_el = K depth^n.
 
     Arguments:
@@ -45,7 +46,7 @@ class ElasticPower(NormalLaw):
 
 
 @value
-class PowerLaw(ElasticPower, Hysteresis):
+class PowerLaw(ElasticPower, Hysteresis, ABC):
     """F = K depth^n (1 + chi rate / w); what chi is, is the law.
 
     Arguments:

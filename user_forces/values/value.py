@@ -20,7 +20,7 @@ from abc import ABC
 from collections.abc import Mapping, Sequence
 from decimal import Decimal
 from difflib import get_close_matches
-from typing import Annotated, Any, ClassVar, TypeVar
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, TypeVar
 
 import annotated_types
 import numpy as np
@@ -28,8 +28,11 @@ from pydantic import AfterValidator, BeforeValidator, ConfigDict, Field, Validat
 from pydantic.dataclasses import dataclass as pydantic_dataclass
 from typing_extensions import Self, dataclass_transform
 
+from user_forces.values.names import Named, no_attribute
+
 LARGEST = 1e30  # of any number: products of several neither overflow nor vanish
 NEAR = 4  # names that are told of many
+NEAREST = 80  # letters of a name that are compared
 DEEPEST = 32  # of plain data, in containers within containers; a scenario has 7
 
 
@@ -99,10 +102,26 @@ class Value:
         Value._register[cls.__name__] = cls
 
     def __new__(cls, *args: Any, **kwargs: Any) -> Self:
-        """The new value. A class that only groups others is refused, since nothing could be read back."""
-        if ABC in cls.__bases__ and not _has_fields(cls):
-            raise InputError(f"{cls.__name__}: is a kind of values; allowed: {_names(kinds_of(cls))}")
+        """The new value.
+
+        Raises InputError of a class that only groups others, and of one that `value` has not made: nothing
+        could be read back.
+        """
+        if (ABC in cls.__bases__ and not _has_fields(cls)) or inspect.isabstract(cls):
+            if _is_made(cls) or ABC in cls.__bases__:
+                raise InputError(f"{cls.__name__}: is a kind of values; allowed: {_names(kinds_of(cls))}")
+            _check_whole(cls)
+        if not _is_made(cls):
+            raise InputError(
+                f"{cls.__name__}: is no class of values, which are checked, saved and read; allowed: the line "
+                f"@value before `class {cls.__name__}`, with `from support_exudyn import value`"
+            )
         return super().__new__(cls)
+
+    if not TYPE_CHECKING:  # for people: who checks types is told of every wrong name
+
+        def __getattr__(self, name: str) -> Any:
+            return no_attribute(self, name)
 
     def to_data(self) -> dict[str, Any]:
         """Plain data (dict, list, str, float, int, bool, None) from which `from_data` rebuilds."""
@@ -111,8 +130,8 @@ class Value:
 
     @staticmethod
     def of_name(name: str) -> type[Value]:
-        """The class of this name. Raises KeyError if there is none."""
-        return Value._register[name]
+        """The class of this name. Raises KeyError that says which names are near if there is none."""
+        return Named(Value._register, "class of values")[name]
 
     @staticmethod
     def from_data(data: Mapping[str, Any]) -> Any:
@@ -131,6 +150,33 @@ def kinds_of(cls: type[Value]) -> dict[str, type[Value]]:
 
 def _has_fields(cls: Any) -> bool:
     return dataclasses.is_dataclass(cls)
+
+
+def _is_made(cls: type[Value]) -> bool:
+    """Whether `value` has made a class; or one that it derives from, and it has no fields of its own."""
+    if "__pydantic_fields__" in vars(cls):
+        return True
+    fields = [one for one in inspect.get_annotations(cls).values() if "ClassVar" not in str(one)]
+    return _has_fields(cls) and not fields
+
+
+def _check_whole(cls: Any) -> None:
+    """Raise InputError if a class lacks methods of its kind, and is none that others are derived from."""
+    missing = sorted(getattr(cls, "__abstractmethods__", ()))
+    own = [name for name in missing if name in vars(cls)]
+    if not missing or own or ABC in cls.__bases__:
+        return
+    told = [f"{name}, {_first_line(getattr(cls, name))}" for name in missing]
+    raise InputError(
+        f"class {cls.__name__}: lacks {'; '.join(told)}; allowed: a class that defines "
+        f"{'it' if len(missing) == 1 else 'them'}, or ABC among its bases if only others are derived from it"
+    )
+
+
+def _first_line(method: Any) -> str:
+    """What a method is for; a property is none that is called."""
+    said = (inspect.getdoc(method) or "see its kind").partition("\n")[0].rstrip(".")
+    return f"{'a property' if isinstance(method, property) else 'a method'} ({said})"
 
 
 def _names(names: Mapping[str, Any]) -> str:
@@ -187,8 +233,10 @@ def value(cls: type[T]) -> type[T]:
     """Class decorator: a frozen, keyword-only data class whose fields are checked when it is made.
 
     Unknown, missing and out-of-range fields raise InputError, which names the field, its value and
-    what is allowed.
+    what is allowed. So does the class itself where it is defined, if it lacks a method of its kind; classes
+    that only others derive from have ABC among their bases.
     """
+    _check_whole(cls)
     config = ConfigDict(extra="forbid", allow_inf_nan=False, arbitrary_types_allowed=True)
     made: Any = pydantic_dataclass(frozen=True, kw_only=True, config=config)(cls)
     checked_init = made.__init__
@@ -204,12 +252,15 @@ def value(cls: type[T]) -> type[T]:
             raise InputError(
                 "\n".join(_sentence(made, e) for e in _first(error.errors(include_url=False)))
             ) from None
-        for name, item in vars(self).items():
-            if isinstance(item, Mapping) and "type" in item:
+        for name, item in list(vars(self).items()):
+            if not isinstance(item, Mapping):
+                continue
+            if "type" in item:
                 raise InputError(
                     f"{made.__name__}.{name}: 'type': cannot be used as a name, it marks what kind of value "
                     "data are of; allowed: any other"
                 )
+            object.__setattr__(self, name, Named(item, f"name in {made.__name__}.{name}"))
 
     __init__.__doc__ = checked_init.__doc__
     made.__init__ = __init__
@@ -235,7 +286,9 @@ def _sentence(cls: Any, error: Mapping[str, Any]) -> str:
     where = f"{cls.__name__}.{path}" if path else cls.__name__
     fields = [f.name for f in dataclasses.fields(cls)]
     if error["type"] in ("unexpected_keyword_argument", "unexpected_positional_argument"):
-        return f"{where} = {short(error['input'])}: unknown field; the fields are {', '.join(fields)}"
+        near = get_close_matches(path[:NEAREST], fields, 1)
+        guess = f"did you mean {near[0]}? " if near else ""
+        return f"{where} = {short(error['input'])}: unknown field; {guess}the fields are {', '.join(fields)}"
     if error["type"] in ("missing", "missing_keyword_only_argument"):
         return f"{where}: missing; it has no default"
     if error["type"] == "value_error" and not path:  # a check of ours over several fields

@@ -17,9 +17,11 @@ from support_exudyn.files.machines.supports import FourColumnSupportFile, TwoLeg
 from support_exudyn.files.toml.reading import read_value
 from support_exudyn.files.toml.schema import Schemas, without
 from support_exudyn.files.toml.text import parsed, text_of
+from support_exudyn.files.whole_file import missing_file
 from support_exudyn.machines.four_column_support import HydraulicSupport
 from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.model.actuators import CylinderAndRod, OilColumn, RigidActuator
+from support_exudyn.model.machine import Machine
 from user_forces.values.value import InputError, short
 
 FILES: Mapping[str, type[FourColumnSupportFile | TwoLegShieldFile | SliderCrankFile]] = {
@@ -44,14 +46,33 @@ def read_machine(name: str, folder: Path | None = None) -> MachineData:
     return load_machine((folder or Path()) / name, named=folder is not None)
 
 
-def load_machine(path: str | Path, named: bool = False) -> MachineData:
-    """Read a machine data file of any kind into SI; named: by another file, see `load_toml`.
+def machine(name: str | Path) -> Machine:
+    """A machine by the name of one that comes with the package, or by the path of its data file.
 
-    Raises InputError, naming file, key, value and what is allowed, for anything that does not fit; OSError if
-    there is no file.
+    Arguments and errors as of `load_machine`, which also gives the radii of the bores.
     """
+    return load_machine(name).machine
+
+
+def load_machine(path: str | Path, named: bool = False) -> MachineData:
+    """Read a machine data file of any kind into SI.
+
+    Arguments:
+        path: of the file; or the name of a machine that comes with the package, one of `SHIPPED`.
+        named: by another file, see `load_toml`.
+
+    Raises InputError, naming file, key, value and what is allowed, for anything that does not fit;
+    FileNotFoundError if there is no file.
+    """
+    if str(path) in SHIPPED and not named:
+        return shipped(str(path))
     path = Path(path)
-    text = text_of(path)
+    try:
+        text = text_of(path)
+    except FileNotFoundError as error:
+        if named:
+            raise
+        raise missing_file(path, f"a machine data file, or one of {', '.join(SHIPPED)}", SHIPPED) from error
     try:
         found = _of_text(text)
     except InputError as error:
@@ -95,7 +116,7 @@ def reference_support() -> HydraulicSupport:
 def load_support(path: str | Path) -> HydraulicSupport:
     """Read the data file of a four-column support into SI; for other kinds see `load_machine`.
 
-    Raises InputError, naming file and key, for anything that does not fit; OSError if there is no file.
+    Arguments and errors as of `load_machine`.
     """
     machine = load_machine(path).machine
     if not isinstance(machine, HydraulicSupport):
@@ -110,12 +131,12 @@ def cylinders_and_rods(
 
     Arguments:
         drive: what holds their lengths; rigid if nothing is said.
-        path: of the machine data file whose `[columns.NAME]` say masses and lengths; by default that of the
-            reference support.
+        path: of the machine data file whose `[columns.NAME]` say masses and lengths, or the name of a machine
+            that comes with the package; by default "reference".
 
     Raises as `load_machine` does.
     """
-    columns = (shipped("reference") if path is None else load_machine(path)).actuators
+    columns = load_machine("reference" if path is None else path).actuators
     return dict(columns) if drive is None else {k: replace(item, drive=drive) for k, item in columns.items()}
 
 

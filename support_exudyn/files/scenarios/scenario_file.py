@@ -21,7 +21,7 @@ from support_exudyn.files.toml.schema import Schemas, without
 from support_exudyn.files.toml.shapes import GroupShape, field_shapes
 from support_exudyn.files.toml.text import load_toml, toml_text
 from support_exudyn.files.toml.writing import table_of
-from support_exudyn.files.whole_file import whole_file
+from support_exudyn.files.whole_file import missing_file, whole_file
 from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.model.actuators import ActuatorModel, CylinderAndRod
 from support_exudyn.model.drives.drive import Drive
@@ -83,7 +83,11 @@ def read_scenario(path: str | Path) -> Scenario:
 def read_scenario_file(path: str | Path) -> ScenarioFile:
     """All that the TOML file of a scenario says. Raises as `read_scenario` does."""
     path = Path(path)
-    return scenario_file_of(load_toml(path), str(path), path.parent)
+    try:
+        table = load_toml(path)
+    except FileNotFoundError as error:
+        raise missing_file(path, "the TOML file of a scenario") from error
+    return scenario_file_of(table, str(path), path.parent)
 
 
 def scenario_of(table: Mapping[str, Any], where: str, folder: Path) -> Scenario:

@@ -91,6 +91,8 @@ def read_machine_of(table: Mapping[str, Any], faults: Faults, folder: Path) -> M
     if isinstance(given, dict):
         found = Reader(faults).item({"group": GroupShape((Machine,))}, given, ("machine",))
         return None if isinstance(found, Failed) else MachineData(found)
+    if isinstance(given, (Machine, MachineData)):  # made by a program, see `simple_scenario`
+        return MachineData(given) if isinstance(given, Machine) else given
     said = f"a path that ends in .toml, one of {', '.join(SHIPPED)}, or a table [machine]"
     if given is None:
         faults.add(("machine",), f"missing; allowed: {said}")

@@ -11,17 +11,8 @@ from pydantic import model_validator
 
 from support_exudyn.files.toml.shapes import GroupShape, Names
 from support_exudyn.model.pins import ClearancePin
-from user_forces.contact import JournalContact
-from user_forces.friction.ambrosio import Ambrosio
 from user_forces.friction.law import FrictionLaw
-from user_forces.journal import JournalBearing
-from user_forces.materials import (
-    STEEL,
-    STEEL_35CRMO,
-    Material,
-    external_contact_stiffness,
-    internal_contact_stiffness,
-)
+from user_forces.materials import STEEL, STEEL_35CRMO, Material
 from user_forces.normal.damping_speed import DampingSpeed
 from user_forces.normal.law import NormalLaw
 from user_forces.normal.power_law import ElasticPower
@@ -29,7 +20,6 @@ from user_forces.values.units import Metres, NewtonsPerMetreToN
 from user_forces.values.value import InputError, NonNegative, Positive, Restitution, Value, Vector2, value
 
 MATERIALS: Mapping[str, Material] = MappingProxyType({one.name: one for one in (STEEL, STEEL_35CRMO)})
-USUAL_RESTITUTION = 0.9
 COEFFICIENT = "sliding_coefficient"
 NEEDED = {"stiffness", "restitution"}  # all that the short form can give a law
 
@@ -123,31 +113,23 @@ class ShortPin(Value):
                 f"clearance_mm = {1e3 * self.clearance:g}: leaves no journal in a bore of bore_radius_mm = "
                 f"{1e3 * radius:g}; allowed: > 0 and < {1e3 * radius:g}"
             )
-        bearing = JournalBearing(bore_radius=radius, clearance=self.clearance)
-        contact = JournalContact(bearing=bearing, normal=self._normal(bearing), friction=self._friction())
-        return ClearancePin(contact=contact, bore=self.bore, eccentricity=self.eccentricity)
-
-    def _normal(self, bearing: JournalBearing) -> NormalLaw:
         law: Any = GroupShape((NormalLaw,)).kinds[self.law]
-        given: dict[str, Any] = {}
-        if "stiffness" in _fields_of(self.law):
-            given["stiffness"] = self._stiffness(bearing)
-        if "restitution" in _fields_of(self.law):
-            given["restitution"] = USUAL_RESTITUTION if self.restitution is None else self.restitution
-        if self.damping_speed is not None:
-            given["damping_speed"] = self.damping_speed
-        return law(**given)  # type: ignore[no-any-return]
-
-    def _stiffness(self, bearing: JournalBearing) -> float:
-        """K [N/m^1.5]."""
-        if isinstance(self.stiffness, float):
-            return self.stiffness
-        form = external_contact_stiffness if self.stiffness == "external" else internal_contact_stiffness
-        return form(
-            bearing, _material(self.bore_material, STEEL), _material(self.journal_material, STEEL_35CRMO)
+        return ClearancePin.simple(
+            clearance=self.clearance,
+            bore_radius=radius,
+            restitution=self.restitution,
+            friction=self._friction(),
+            law=law,
+            damping_speed=self.damping_speed,
+            stiffness=self.stiffness,
+            bore_material=_material(self.bore_material, STEEL),
+            journal_material=_material(self.journal_material, STEEL_35CRMO),
+            bore=self.bore,
+            eccentricity=self.eccentricity,
         )
 
-    def _friction(self) -> FrictionLaw:
+    def _friction(self) -> float | FrictionLaw:
+        """The law, or the coefficient of the usual one."""
         if isinstance(self.friction, FrictionLaw):
             return self.friction
         if self.friction_law is not None:
@@ -160,7 +142,7 @@ class ShortPin(Value):
                     "to leave this out"
                 )
             return law(**({coefficient: self.friction} if takes else {}))  # type: ignore[no-any-return]
-        return Ambrosio(sliding_coefficient=self.friction) if self.friction else JournalContact.friction
+        return self.friction
 
 
 def _fields_of(law: str) -> set[str]:

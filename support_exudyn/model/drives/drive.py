@@ -72,7 +72,7 @@ class Held(Drive):
 
 
 @value
-class Stroke(Drive):
+class Stroke(Drive, ABC):
     """A stroke between two times, at rest before and after.
 
     Arguments:

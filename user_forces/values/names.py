@@ -1,0 +1,63 @@
+"""Names that somebody asks for: what is said of one that is not there."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from difflib import get_close_matches
+from typing import Any, NoReturn, TypeVar
+
+T = TypeVar("T")
+NEAR = 3  # names that are told of many
+LIKE = 0.6  # least likeness of those
+LETTERS = 80  # of a name that are compared
+
+
+class UnknownNameError(KeyError):
+    """A name that is not there, said in a sentence; a plain KeyError would print it in quotes."""
+
+    def __str__(self) -> str:
+        return str(self.args[0]) if self.args else ""
+
+
+class Named(dict[str, T]):
+    """A table by name. What is not in it is told with the names that look like it.
+
+    Arguments:
+        items: names and what they stand for.
+        what: a name is of, such as "channel".
+    """
+
+    def __init__(self, items: Mapping[str, T] | Iterable[tuple[str, T]] = (), what: str = "entry") -> None:
+        super().__init__(items)
+        self.what = what
+
+    def __missing__(self, name: Any) -> NoReturn:
+        raise UnknownNameError(f"{name!r:.{LETTERS}}: no such {self.what}; {meant(name, self)}")
+
+
+def meant(name: Any, known: Iterable[str]) -> str:
+    """The way out of a name that is not known: those like it, or some of those that there are."""
+    names = [one for one in known if isinstance(one, str)]
+    near = get_close_matches(str(name)[:LETTERS], names, NEAR, LIKE)
+    if near:
+        return f"did you mean {' or '.join(map(repr, near))}?"
+    if not names:
+        return "there are none"
+    more = f" and {len(names) - NEAR} more" if len(names) > NEAR else ""
+    return f"there are {', '.join(map(repr, names[:NEAR]))}{more}"
+
+
+def no_attribute(item: Any, name: str, more: str = "") -> Any:
+    """What `__getattr__` of a data class does with a name that it has not: AttributeError in a sentence.
+
+    more: another way out, such as "; channels are taken by result['tip.x']".
+    """
+    kind = type(item)
+    if name in dir(kind):  # a property that failed inside: let it say so itself
+        return object.__getattribute__(item, name)
+    if name.startswith("_"):  # asked for by Python and by notebooks, of everything
+        raise AttributeError(f"{kind.__name__!r} object has no attribute {name!r}", name=name, obj=item)
+    known = [one for one in dir(item) if not one.startswith("_")]
+    near = get_close_matches(name[:LETTERS], known, NEAR, LIKE)
+    guess = f"did you mean {' or '.join(near)}?" if near else f"there are {', '.join(known)}"
+    raise AttributeError(f"{kind.__name__} has no attribute {name!r}; {guess}{more}", name=name, obj=item)
