@@ -11,6 +11,7 @@ One entry, `simulate`; everything else is a value that is handed in. SI units an
 
 from __future__ import annotations
 
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from support_exudyn.simulation import at_start as at_start
@@ -24,8 +25,6 @@ from support_exudyn.files.machines import (
     machine,
     reference_support,
 )
-from support_exudyn.files.scenarios.scenario_file import read_scenario
-from support_exudyn.files.scenarios.simple_scenario import simple_scenario
 from support_exudyn.formulations.contract import Failure, SimulationError
 from support_exudyn.machines.four_column_support import HydraulicSupport
 from support_exudyn.machines.free_impact import ImpactStand
@@ -66,6 +65,7 @@ from support_exudyn.model.loads import AppliedForce, FallingBlock, Load, LoadedP
 from support_exudyn.model.machine import Machine
 from support_exudyn.model.pins import ClearancePin, IdealPin, Pin
 from support_exudyn.model.to_space import Width
+from support_exudyn.scenario.presentation import Presenter, present_by
 from support_exudyn.scenario.recorded_channels import Channel
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scenario.solver_settings import SolverSettings
@@ -81,7 +81,11 @@ from user_forces.values.names import meant
 from user_forces.values.value import InputError, value
 
 if TYPE_CHECKING:
+    from support_exudyn.files.scenarios.scenario_file import read_scenario
+    from support_exudyn.files.scenarios.simple_scenario import simple_scenario
     from support_exudyn.postprocessing.export.solution_file import save_solution
+    from support_exudyn.postprocessing.known_channels import channels
+    from support_exudyn.postprocessing.side_by_side import RunsSideBySide, compare
 
 __all__ = [
     "ActuatorModel",
@@ -129,6 +133,7 @@ __all__ = [
     "Result",
     "RigidActuator",
     "Roof",
+    "RunsSideBySide",
     "Scenario",
     "SimulationError",
     "Slide",
@@ -143,6 +148,8 @@ __all__ = [
     "UniformSpeed",
     "Width",
     "bore_area",
+    "channels",
+    "compare",
     "cylinders_and_rods",
     "load_machine",
     "load_support",
@@ -158,15 +165,32 @@ __all__ = [
 ]
 
 
-def __getattr__(name: str) -> Any:
-    """What needs the engine, which a program that only reads runs should not wait for."""
-    if name == "save_solution":
-        from support_exudyn.postprocessing.export.solution_file import save_solution
+# what needs the engine, reads scenarios or draws: imported when it is asked for, so that others need not wait
+_LATER = {
+    "RunsSideBySide": "postprocessing.side_by_side",
+    "channels": "postprocessing.known_channels",
+    "compare": "postprocessing.side_by_side",
+    "read_scenario": "files.scenarios.scenario_file",
+    "save_solution": "postprocessing.export.solution_file",
+    "simple_scenario": "files.scenarios.simple_scenario",
+}
 
-        return save_solution
+
+def __getattr__(name: str) -> Any:
+    if name in _LATER:
+        return getattr(import_module(f"{__name__}.{_LATER[name]}"), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}; {meant(name, __all__)}")
 
 
 def __dir__() -> list[str]:
     """All names, also those that are imported when they are asked for."""
     return sorted({*globals(), *__all__})
+
+
+def _presenter() -> Presenter:
+    from support_exudyn.postprocessing import notebook
+
+    return notebook
+
+
+present_by(_presenter)

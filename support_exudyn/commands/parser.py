@@ -22,6 +22,7 @@ from user_forces.values.value import InputError, Value, kinds_of, short
 
 NAMES: tuple[str, ...] = (
     "check",
+    "channels",
     "run",
     "sweep",
     "chart",

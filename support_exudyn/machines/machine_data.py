@@ -2,9 +2,11 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 from support_exudyn.model.actuators import CylinderAndRod
 from support_exudyn.model.machine import Machine
+from user_forces.values.names import Named, no_attribute
 
 
 @dataclass(frozen=True)
@@ -27,3 +29,13 @@ class MachineData:
     sources: Mapping[str, str] = field(default_factory=dict)
     kind: str = ""
     assumed: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        """Let what is asked for by a wrong name be told with those that look like it."""
+        object.__setattr__(self, "bore_radii", Named(self.bore_radii, "pin with a bore_radius_mm"))
+        object.__setattr__(self, "actuators", Named(self.actuators, "actuator with masses"))
+
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> object:
+            return no_attribute(self, name)

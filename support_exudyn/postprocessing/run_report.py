@@ -247,7 +247,7 @@ def _numbers(title: str, estimates: Mapping[str, Mapping[str, Estimate]], names:
     rows = []
     for name in names:
         found = [estimates[run].get(name) for run in estimates]
-        rows.append((name, *_side_by_side(found)))
+        rows.append((name, *summary.side_by_side(found)))
     known = any(math.isfinite(one.error) for found in estimates.values() for one in found.values())
     note = (
         "± estimated numerical error; where none is told, it is below the last digit."
@@ -257,23 +257,6 @@ def _numbers(title: str, estimates: Mapping[str, Mapping[str, Estimate]], names:
     return Sheet(title, ("number", "unit", *estimates), tuple(rows), note, left=2, name="numbers")
 
 
-def _side_by_side(found: Sequence[Estimate | None], most: int = DIGITS) -> tuple[str, ...]:
-    """Unit, and numbers in it, of at most so many digits."""
-    there = [one for one in found if one is not None]
-    unit = readable(there[0].unit, max(abs(one.value) for one in there))
-    return unit.name, *("" if one is None else _to_error(one, unit.scale, most) for one in found)
-
-
-def _to_error(number: Estimate, scale: float, most: int = DIGITS) -> str:
-    """A number to the first digit of its error, and the error, unless that is below the shown digits."""
-    value, error = scale * number.value, scale * number.error
-    size = math.floor(math.log10(abs(value))) if value else 0
-    decimals = max(-math.floor(math.log10(error)), 0) if math.isfinite(error) and error > 0.0 else math.inf
-    if decimals > most - 1 - size:
-        return f"{value:.{most}g}"
-    return f"{value:.{decimals}f} ± {error:.{decimals}f}"
-
-
 def _tiles(estimates: Mapping[str, Mapping[str, Estimate]], key: Sequence[str]) -> tuple[KeyNumber, ...]:
     """Up to four key numbers of one run, or of two: before and after."""
     if len(estimates) > 2:
@@ -281,7 +264,7 @@ def _tiles(estimates: Mapping[str, Mapping[str, Estimate]], key: Sequence[str]) 
     told = [name for name in key if name.rpartition(".")[2] in ("mean", "largest", "std")]
     found = []
     for name in told[:4]:
-        unit, *cells = _side_by_side([estimates[run].get(name) for run in estimates], TILE_DIGITS)
+        unit, *cells = summary.side_by_side([estimates[run].get(name) for run in estimates], TILE_DIGITS)
         if all(cells):
             found.append(KeyNumber(name, f"{cells[-1]} {unit}", cells[0] if len(cells) > 1 else ""))
     return tuple(found)

@@ -2,13 +2,14 @@
 
 import dataclasses
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from support_exudyn.formulations.registry import CHEAPEST_FIRST, FORMULATIONS, Formulation, formulation
 from support_exudyn.model.pins import ClearancePin, Pin
 from support_exudyn.postprocessing.figures.selection import inside
 from support_exudyn.postprocessing.figures.units import readable, said
+from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scenario.scenario_data import LARGEST_GOAL
 from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.reported_numbers import FORCE, measures
@@ -25,8 +26,12 @@ DIGITS = 6  # of numbers without known error
 
 
 def what_was_run(result: Result) -> list[Row]:
+    """Machine, pins, drives and settings of a result: name and words."""
+    return what_is_run(result.scenario)
+
+
+def what_is_run(scenario: Scenario) -> list[Row]:
     """Machine, pins, drives and settings: name and words."""
-    scenario = result.scenario
     space = "in the plane" if scenario.dimensions == 2 else "in space"
     rows: list[Row] = [
         ("machine", f"{type(scenario.machine).__name__}, {space}"),
@@ -34,7 +39,7 @@ def what_was_run(result: Result) -> list[Row]:
         ("start", f"{scenario.start}, gravity {scenario.gravity[0]:g}, {scenario.gravity[1]:g} m/s²"),
     ]
     others = [name for name in scenario.linkage.pins if name not in scenario.pins]
-    rows += [(f"pin {name}", _pin(result, name, pin)) for name, pin in scenario.pins.items()]
+    rows += [(f"pin {name}", _pin(scenario, name, pin)) for name, pin in scenario.pins.items()]
     if others:
         rows.append(("ideal pins", ", ".join(others)))
     parts = {**scenario.actuators, **scenario.parts, **scenario.loads}
@@ -210,6 +215,23 @@ def with_error(found: Estimate) -> Row:
     return f"{value:.{digits}f}", f"{error:.1e}", unit.name
 
 
+def side_by_side(found: Sequence[Estimate | None], most: int = DIGITS) -> Row:
+    """Unit, and numbers of several runs in it with their errors, of at most so many digits; None: empty."""
+    there = [one for one in found if one is not None]
+    unit = readable(there[0].unit, max(abs(one.value) for one in there))
+    return unit.name, *("" if one is None else to_error(one, unit.scale, most) for one in found)
+
+
+def to_error(number: Estimate, scale: float, most: int = DIGITS) -> str:
+    """A number to the first digit of its error, and the error, unless that is below the shown digits."""
+    value, error = scale * number.value, scale * number.error
+    size = math.floor(math.log10(abs(value))) if value else 0
+    decimals = max(-math.floor(math.log10(error)), 0) if math.isfinite(error) and error > 0.0 else math.inf
+    if decimals > most - 1 - size:
+        return f"{value:.{most}g}"
+    return f"{value:.{decimals}f} ± {error:.{decimals}f}"
+
+
 def words(item: Any) -> str:
     """A value as its name and its parameters, in SI; settings that are none are left out."""
     if isinstance(item, Value):
@@ -223,14 +245,14 @@ def words(item: Any) -> str:
     return f"{item:g}" if isinstance(item, float) else str(item)
 
 
-def _pin(result: Result, name: str, pin: Pin) -> str:
+def _pin(scenario: Scenario, name: str, pin: Pin) -> str:
     if not isinstance(pin, ClearancePin):
         return words(pin)
     contact = pin.contact
     bearing = contact.bearing
     return (
         f"{1e3 * bearing.clearance:g} mm clearance in a bore of {1e3 * bearing.bore_radius:g} mm radius in "
-        f"{getattr(result.scenario.linkage.pins[name], pin.bore)}, {words(contact.normal)}, "
+        f"{getattr(scenario.linkage.pins[name], pin.bore)}, {words(contact.normal)}, "
         f"{words(contact.friction)}"
     )
 

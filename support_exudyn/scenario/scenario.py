@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from pydantic import field_validator, model_validator
 
+from support_exudyn.scenario.presentation import presenter
 from support_exudyn.scenario.scenario_data import ACCURACIES, LARGEST_GOAL, SMALLEST_GOAL, ScenarioData
 from support_exudyn.scenario.validation import check
 from user_forces.values.value import InputError, short, value
@@ -36,6 +37,10 @@ class Scenario(ScenarioData):
     def _fits_the_machine(self) -> Scenario:
         check(self)
         return self
+
+    def _repr_html_(self) -> str:
+        """What is run, for notebooks."""
+        return presenter().page_of_scenario(self)
 
     def refined(self, factor: float = 2) -> Scenario:
         """The run with all steps, also those of impacts, so many times shorter.

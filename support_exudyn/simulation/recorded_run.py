@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -12,6 +13,7 @@ from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.mechanics.trajectory import Counts, Impulse, Series
 from support_exudyn.scenario.recorded_channels import Channel
 from support_exudyn.scenario.scenario import Scenario
+from user_forces.values.names import Named, UnknownNameError, no_attribute
 from user_forces.values.value import InputError, short
 
 
@@ -41,6 +43,17 @@ class RecordedRun:
     goal: float | None = None
     coarser: RecordedRun | None = None
 
+    def __post_init__(self) -> None:
+        """Let what is asked for by a wrong name be told with those that look like it."""
+        kinds = {"channels": "channel", "onsets": "clearance pin", "largest_force": "clearance pin"}
+        for name, kind in kinds.items():
+            object.__setattr__(self, name, Named(getattr(self, name), kind))
+
+    if not TYPE_CHECKING:  # for people: who checks types is told of every wrong name
+
+        def __getattr__(self, name: str) -> Any:
+            return no_attribute(self, name, f"; channels are taken by name, {type(self).__name__}['time']")
+
     def __repr__(self) -> str:
         """In a line; all else is asked for by name."""
         what = f"{type(self).__name__} of {type(self.scenario.machine).__name__}, {self.scenario.formulation}"
@@ -51,21 +64,25 @@ class RecordedRun:
         """Values of a channel, shape (n,), in SI."""
         return self._channel(name).values
 
+    def _ipython_key_completions_(self) -> list[str]:
+        """Names of the channels, which notebooks complete."""
+        return list(self.channels)
+
     def unit(self, name: str) -> str:
         """Unit of a channel."""
         return self._channel(name).unit
 
     def _channel(self, name: str) -> Channel:
         if not isinstance(name, str):
-            raise KeyError(f"{short(name)}: no such channel; allowed: names, see `channels`")
+            raise UnknownNameError(f"{short(name)}: no such channel; allowed: names, see `channels`")
         if name not in self.channels and name in self.scenario.channel_definitions:
-            raise KeyError(
+            raise UnknownNameError(
                 f"{name!r}: was not recorded, for the scenario asks for channels = {self.scenario.channels}; "
                 "allowed: runs of a scenario that asks for it too"
             )
         if name not in self.channels:
             near = get_close_matches(name, self.channels, 3, 0.4) or list(self.channels)[:3]
-            raise KeyError(
+            raise UnknownNameError(
                 f"{short(name)}: no such channel; there are {len(self.channels)}, see `channels`, among them "
                 f"{', '.join(near)}"
             )

@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import cast
+from typing import TYPE_CHECKING, cast
 
 import h5py
 import numpy as np
@@ -18,12 +18,20 @@ from support_exudyn.files.hdf5 import BLOCK, Inside, check_checksum, with_checks
 from support_exudyn.files.whole_file import contents, missing_file, whole_file
 from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.mechanics.trajectory import Counts, Impulse
+from support_exudyn.scenario.presentation import presenter
 from support_exudyn.scenario.recorded_channels import Channel
+from support_exudyn.simulation.data_frames import to_pandas, to_xarray
 from support_exudyn.simulation.estimate import Estimate, error, errors, fall, worst_error
 from support_exudyn.simulation.memory import available
 from support_exudyn.simulation.recorded_run import RecordedRun
 from support_exudyn.simulation.reported_numbers import measures
+from user_forces.values.names import Named
 from user_forces.values.value import InputError, Value, cleaned
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
+    from matplotlib.figure import Figure
 
 FORMAT = "support_exudyn result 5"
 DAMAGES = (OSError, LookupError, AttributeError, TypeError, ValueError, RuntimeError, MemoryError)
@@ -56,7 +64,7 @@ class Result(RecordedRun):
 
         return Estimate(float(measure(self)), float(error(measured, self, self.fall)), unit)
 
-    def numbers(self, after: float = 0.0, until: float = math.inf) -> dict[str, Estimate]:
+    def numbers(self, after: float = 0.0, until: float = math.inf) -> Named[Estimate]:
         """The usual numbers with their estimated errors, by names such as `pin.rear_base.force.mean`.
 
         Of the records between two times [s]: mean, standard deviation (`std`) and largest magnitude of all
@@ -71,7 +79,8 @@ class Result(RecordedRun):
         self._check()
         kinds = measures(self, after, until)
         known = errors(kinds, self, self.fall)
-        return {name: Estimate(kind.measure(self), known[name], kind.unit) for name, kind in kinds.items()}
+        found = {name: Estimate(kind.measure(self), known[name], kind.unit) for name, kind in kinds.items()}
+        return Named(found, "number")
 
     @cached_property
     def fall(self) -> float:
@@ -99,6 +108,41 @@ class Result(RecordedRun):
                 "the run has nothing to estimate errors by; allowed: runs with an accuracy, "
                 "simulate(scenario, accuracy='standard'), or with errors, simulate(scenario, errors=True)"
             )
+
+    # --- notebooks ---
+
+    def to_pandas(self) -> pd.DataFrame:
+        """All channels as a table: a row for each record, the index its time [s], all in SI.
+
+        `attrs` has "units" and "meanings" by name. Raises InputError if pandas is not installed.
+        """
+        return to_pandas(self)
+
+    def to_xarray(self) -> xr.Dataset:
+        """All channels over the coordinate `time` [s], each with its `units` and `long_name`, all in SI.
+
+        Raises InputError if xarray is not installed.
+        """
+        return to_xarray(self)
+
+    def plot(self, *channels: str, after: float = 0.0, until: float = math.inf) -> Figure:
+        """A figure of channels over time, those of one unit together, with impacts and numerical errors.
+
+        Arguments:
+            channels: names, or patterns of them as in a shell, "pin.*.force"; that one if none are given.
+            after, until: what of the run is drawn [s].
+
+        Returns:
+            A figure of matplotlib without pyplot, which notebooks show; `savefig` writes it.
+
+        Raises InputError if a pattern matches no channel, if they are too many, or if no records lie between
+        the times.
+        """
+        return presenter().figure(self, channels, after, until)
+
+    def _repr_html_(self) -> str:
+        """What was run and what came out, for notebooks."""
+        return presenter().page_of_result(self)
 
     # --- file ---
 

@@ -15,7 +15,7 @@ import pytest
 
 from support_exudyn import Result, simulate
 from support_exudyn.__main__ import main
-from support_exudyn.postprocessing.run_report import _to_error
+from support_exudyn.postprocessing.summary import to_error
 from support_exudyn.simulation.estimate import Estimate
 from tests.cases.run_cases import loose_slider_crank, loose_support, support
 
@@ -116,7 +116,7 @@ def test_what_cannot_be_is_said_in_a_line(
     ],
 )
 def test_numbers_are_printed_to_their_error(value: float, error: float, text: str) -> None:
-    assert _to_error(Estimate(value, error, "N"), 1.0) == text
+    assert to_error(Estimate(value, error, "N"), 1.0) == text
 
 
 # --- in a browser ---

@@ -1,5 +1,6 @@
 """One look for all figures."""
 
+import io
 import textwrap
 from contextlib import AbstractContextManager
 from pathlib import Path
@@ -35,6 +36,7 @@ CURVES: tuple[tuple[str, Dashes], ...] = (
     (IDEAL, (0, (1, 1))),
     (PAPER, (0, (8, 1, 1, 1, 1, 1))),
 )
+SCREEN_DPI = 110  # of figures in notebooks
 CAPTION = 7  # size of the letters of a caption [points]
 TITLE = 95  # letters of a line of a title
 LETTER_MM = 1.3  # width of one of them, of a line that has many wide ones
@@ -68,9 +70,19 @@ def size(width_mm: float, height_mm: float) -> tuple[float, float]:
     return width_mm / 25.4, height_mm / 25.4
 
 
+class NotebookFigure(Figure):
+    """A figure that notebooks show without pyplot."""
+
+    def _repr_png_(self) -> bytes:
+        """The figure as PNG."""
+        with look(), io.BytesIO() as image:
+            self.savefig(image, format="png", dpi=SCREEN_DPI)
+            return image.getvalue()
+
+
 def begin(width_mm: float, height_mm: float, title: str) -> Figure:
     """An empty figure of a size with a title on its left."""
-    drawing = Figure(figsize=size(width_mm, height_mm))
+    drawing = NotebookFigure(figsize=size(width_mm, height_mm))
     drawing.suptitle(title, x=0.01, ha="left")
     return drawing
 

@@ -1,0 +1,246 @@
+"""Results and scenarios in notebooks: tables, figures, completion, runs side by side, channels before a run."""
+
+from __future__ import annotations
+
+import json
+import math
+import pickle
+import sys
+from collections.abc import Mapping
+from dataclasses import replace
+from html.parser import HTMLParser
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from support_exudyn import Result, channels, compare, load_machine, simulate
+from support_exudyn.__main__ import main
+from support_exudyn.postprocessing.html import html_table
+from tests.cases.run_cases import SLIDER_PIN, loose_slider_crank, slider_crank
+from user_forces import InputError
+
+FORCE = f"pin.{SLIDER_PIN}.force"
+DURATION = 0.004
+
+
+@pytest.fixture(scope="module")
+def runs() -> Mapping[str, Result]:
+    ideal = replace(slider_crank(DURATION), step=1e-5)
+    loose = loose_slider_crank(DURATION, formulation="reduced")
+    return {"ideal": simulate(ideal, errors=True), "loose": simulate(loose)}
+
+
+class Cells(HTMLParser):
+    """The rows of the tables of a page, one after another; fails where tags do not fit together."""
+
+    def __init__(self, page: str) -> None:
+        super().__init__()
+        self.rows: list[list[str]] = []
+        self.open: list[str] = []
+        self.feed(page)
+        assert not self.open
+
+    def handle_starttag(self, tag: str, attrs: object) -> None:
+        self.open.append(tag)
+        if tag == "tr":
+            self.rows.append([])
+        if tag in ("td", "th"):
+            self.rows[-1].append("")
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open.pop() == tag
+
+    def handle_data(self, data: str) -> None:
+        if self.open[-1] in ("td", "th"):
+            self.rows[-1][-1] += data
+
+
+# --- tables of others ---
+
+
+def test_pandas_has_every_channel_over_time_with_its_unit(runs: Mapping[str, Result]) -> None:
+    pytest.importorskip("pandas")
+    run = runs["loose"]
+    frame = run.to_pandas()
+    assert frame.index.name == "time"
+    assert [*frame.columns] == [name for name in run.channels if name != "time"]
+    np.testing.assert_array_equal(frame.index.to_numpy(), run.time)
+    np.testing.assert_array_equal(frame[FORCE].to_numpy(), run[FORCE])
+    assert frame.attrs["units"][FORCE] == "N"
+    assert frame.attrs["meanings"][FORCE] == run.channels[FORCE].meaning
+
+
+def test_xarray_has_every_channel_with_unit_and_meaning(runs: Mapping[str, Result]) -> None:
+    pytest.importorskip("xarray")
+    run = runs["loose"]
+    found = run.to_xarray()
+    assert set(found.variables) == set(run.channels)
+    np.testing.assert_array_equal(found[FORCE].sel(time=run.time[7]), run[FORCE][7])
+    assert found[FORCE].attrs == {"units": "N", "long_name": run.channels[FORCE].meaning}
+    assert found["time"].attrs["units"] == "s"
+    assert found.attrs["machine"] == "SliderCrank"
+
+
+@pytest.mark.parametrize(("name", "ask"), [("pandas", Result.to_pandas), ("xarray", Result.to_xarray)])
+def test_a_library_that_is_missing_is_named_with_the_way_to_have_it(
+    runs: Mapping[str, Result], name: str, ask: object, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, name, None)
+    with pytest.raises(InputError, match=rf"to_{name}: needs {name}, .* pip install 'support-exudyn\[data\]'"):
+        ask(runs["ideal"])  # type: ignore[operator]
+
+
+# --- in a notebook ---
+
+
+def test_a_plot_is_a_figure_that_notebooks_show_without_pyplot(runs: Mapping[str, Result]) -> None:
+    figure = runs["loose"].plot(FORCE, "slider.x", after=0.001, until=0.003)
+    assert [axes.get_ylabel() for axes in figure.axes] == ["force [kN]", "length [mm]"]
+    drawn = figure.axes[1].lines[0].get_xdata()
+    assert math.isclose(float(np.ptp(np.asarray(drawn))), 2.0)  # ms
+    assert figure._repr_png_().startswith(b"\x89PNG")  # type: ignore[attr-defined]
+    drawn_by_default = runs["ideal"].plot().get_suptitle()
+    assert "SliderCrank" in drawn_by_default
+    with pytest.raises(InputError, match="no such channel"):
+        runs["loose"].plot("pim.*")
+
+
+def test_keys_are_completed(runs: Mapping[str, Result]) -> None:
+    assert runs["loose"]._ipython_key_completions_() == list(runs["loose"].channels)
+
+
+def test_a_result_shows_what_was_run_and_what_came_out(runs: Mapping[str, Result]) -> None:
+    rows = Cells(runs["ideal"]._repr_html_()).rows
+    assert ["machine", "SliderCrank, in the plane"] in rows
+    assert ["number", "value", "±", "unit"] in rows
+    told = {row[0]: row for row in rows}
+    mean = runs["ideal"].numbers()[f"{FORCE}.mean"]
+    assert float(told[f"{FORCE}.mean"][1]) * 1e3 == pytest.approx(mean.value, rel=1e-3)
+    without = Cells(runs["loose"]._repr_html_()).rows
+    assert ["number", "value", "unit"] in without  # no column that is empty
+    assert any(row[:2] == [SLIDER_PIN, f"1 of {len(runs['loose'].onsets[SLIDER_PIN])}"] for row in without)
+
+
+def test_a_scenario_shows_what_is_run(runs: Mapping[str, Result]) -> None:
+    rows = dict(Cells(runs["loose"].scenario._repr_html_()).rows)  # type: ignore[arg-type]
+    assert rows["formulation"] == "reduced"
+    assert rows[f"pin {SLIDER_PIN}"].startswith("0.5 mm clearance in a bore of 10 mm radius")
+
+
+def test_names_of_others_are_no_html() -> None:
+    page = html_table("<b>", ("a", ">b"), [("<script>", "\x1b[1m")])
+    assert Cells(page).rows == [["a", "b"], ["<script>", "\\x1b[1m"]]
+    assert "<script>" not in page
+
+
+def test_results_are_whole_after_pickling(runs: Mapping[str, Result]) -> None:
+    again = pickle.loads(pickle.dumps(runs["loose"]))
+    np.testing.assert_array_equal(again[FORCE], runs["loose"][FORCE])
+    with pytest.raises(KeyError, match="no such clearance pin; did you mean 'slider_pin'"):
+        again.onsets["slider_pni"]
+
+
+@pytest.mark.parametrize(
+    ("ask", "said"),
+    [
+        (lambda run: run["pin.slider_pin.forc"], "no such channel; there are .* pin.slider_pin.force"),
+        (lambda run: run.channels["slider.z"], "no such channel; did you mean 'slider.y' or 'slider.x'"),
+        (lambda run: run.numbers()[f"{FORCE}.maen"], rf"no such number; did you mean '{FORCE}.mean'"),
+        (lambda run: run.largest_force["main"], "no such clearance pin; there are none"),
+    ],
+)
+def test_a_wrong_name_is_told_with_those_that_look_like_it(
+    runs: Mapping[str, Result], ask: object, said: str
+) -> None:
+    with pytest.raises(KeyError, match=said) as caught:
+        ask(runs["ideal"])  # type: ignore[operator]
+    assert str(caught.value)[0] in "'p"  # a sentence, not one in quotes
+
+
+def test_a_channel_asked_for_as_an_attribute_is_told_how_to_ask(runs: Mapping[str, Result]) -> None:
+    with pytest.raises(AttributeError, match=r"no attribute 'tme'; did you mean time.*Result\['time'\]"):
+        runs["ideal"].tme  # type: ignore[attr-defined] # noqa: B018
+
+
+# --- side by side ---
+
+
+def test_numbers_stand_side_by_side_with_their_errors(runs: Mapping[str, Result]) -> None:
+    both = compare(**runs)
+    numbers = both.numbers[f"{FORCE}.mean"]
+    assert numbers["ideal"] == runs["ideal"].numbers()[f"{FORCE}.mean"]
+    assert numbers["loose"].value == pytest.approx(float(runs["loose"][FORCE].mean()))
+    assert math.isnan(numbers["loose"].error)
+    assert [*both.numbers[f"pin.{SLIDER_PIN}.largest_force"]] == ["loose"]
+    rows = {row[0]: row for row in Cells(both._repr_html_()).rows}
+    assert rows["number"] == ["number", "unit", "ideal", "loose"]
+    assert rows[f"{FORCE}.mean"][1] == "kN"
+    assert rows[f"pin.{SLIDER_PIN}.largest_force"][2] == ""
+    assert str(both).startswith("errors of loose not known")
+    assert f"{FORCE}.mean" in str(both)
+
+
+def test_a_window_is_that_of_all_runs(runs: Mapping[str, Result]) -> None:
+    part = compare(runs["ideal"], runs["loose"], after=0.002, until=0.003)
+    inside = (runs["loose"].time > 0.002 - 1e-9) & (runs["loose"].time < 0.003 + 1e-9)
+    found = part.numbers[f"{FORCE}.largest"]["run 2"].value
+    assert found == runs["loose"][FORCE][inside].max()
+    figure = part.plot(FORCE)
+    assert len(figure.axes[0].lines) >= 2
+    assert part.plot("slider.x", difference=True).axes
+
+
+def test_numbers_side_by_side_are_a_table_of_pandas(runs: Mapping[str, Result]) -> None:
+    pytest.importorskip("pandas")
+    table = compare(**runs).to_pandas()
+    row = table.loc[f"{FORCE}.mean"]
+    estimate = runs["ideal"].numbers()[f"{FORCE}.mean"]
+    assert (row["unit"], row["ideal"], row["ideal error"]) == ("N", estimate.value, estimate.error)
+
+
+def test_files_of_runs_are_compared_by_their_names(runs: Mapping[str, Result], tmp_path: Path) -> None:
+    runs["loose"].save(tmp_path / "worn.h5")
+    both = compare(tmp_path / "worn.h5", new=runs["ideal"])
+    assert [*both.runs] == ["worn", "new"]
+    with pytest.raises(InputError, match="worn: two runs have this name"):
+        compare(tmp_path / "worn.h5", worn=runs["ideal"])
+    with pytest.raises(InputError, match="runs: 1 given; allowed: 2 or more"):
+        compare(runs["ideal"])
+    with pytest.raises(InputError, match="run 2 = 3: allowed: results of `simulate`"):
+        compare(runs["ideal"], 3)  # type: ignore[arg-type]
+    with pytest.raises(FileNotFoundError, match=r"Result\.save has written; did you mean 'worn\.h5'"):
+        compare(tmp_path / "wron.h5", new=runs["ideal"])
+
+
+# --- channels before a run ---
+
+
+def test_channels_before_a_run_are_those_after_it(runs: Mapping[str, Result]) -> None:
+    run = runs["loose"]
+    known = channels(run.scenario)
+    assert {name: (one.unit, one.meaning) for name, one in run.channels.items()} == dict(known)
+    assert [*channels(run.scenario, "slider.[xy]")] == ["slider.x", "slider.y"]
+    assert ["slider.x", "m", "position, forward"] in Cells(known._repr_html_()).rows
+    assert [line.split()[:2] for line in str(known).splitlines()[:2]] == [["time", "s"], ["crank.x", "m"]]
+    with pytest.raises(KeyError, match=r"no such channel; did you mean 'slider\.x'"):
+        known["slider.xx"]
+
+
+def test_channels_are_known_of_machines_and_files(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    of_machine = channels("slider_crank")
+    assert (
+        of_machine == channels(load_machine("slider_crank")) == channels(load_machine("slider_crank").machine)
+    )
+    file = tmp_path / "one.toml"
+    file.write_text('machine = "slider_crank"\nduration_s = 1\npins.slider_pin.clearance_mm = 0.1\n')
+    assert set(channels(file)) - set(of_machine) >= {"pin.slider_pin.depth"}
+    assert main(["channels", str(file), "pin.slider_pin.*", "--json"]) in (0, None)
+    told = json.loads(capsys.readouterr().out)
+    assert told["pin.slider_pin.depth"]["unit"] == "m"
+    assert main(["channels", "slider_crank"]) in (0, None)
+    assert "41 channels" in capsys.readouterr().out
+    with pytest.raises(FileNotFoundError, match="did you mean 'slider_crank'"):
+        channels("slider_cranc")
+    with pytest.raises(InputError, match="of = 3: allowed: a scenario, a machine"):
+        channels(3)  # type: ignore[arg-type]
