@@ -165,7 +165,8 @@ class Outcome:
     """A finished run of a formulation.
 
     trajectory: at the records. onsets: for each clearance pin the beginnings of contact. largest_force: for
-    each clearance pin the largest force [N] at any time. impulses: where the speed of rigid actuators or cranks
+    each clearance pin the largest force [N] at any time. largest_force_time: the end of the step that has it
+    [s]. impulses: where the speed of rigid actuators or cranks
     jumped.
     counts: what the solver did.
     """
@@ -173,5 +174,6 @@ class Outcome:
     trajectory: Trajectory | ObservedRun
     onsets: Mapping[str, tuple[Onset, ...]]
     largest_force: Mapping[str, float]
+    largest_force_time: Mapping[str, float]
     impulses: tuple[Impulse, ...]
     counts: Counts

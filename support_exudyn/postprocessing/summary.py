@@ -18,7 +18,7 @@ from user_forces.friction.frictionless import Frictionless
 from user_forces.values.value import InputError, Value
 
 Row = tuple[str, ...]
-AT_ANY_STEP = ".largest_force"  # of the whole run, not only of the records
+AT_ANY_STEP = (".largest_force", ".largest_force_time")  # of the whole run, not only of the records
 IMPACTS = 3  # of every pin that are told one by one
 VERSIONS = ("support-exudyn", "exudyn", "python", "numpy", "scipy", "numba")
 ROUNDING = 1e-14  # share of a channel's largest value that is shown as zero

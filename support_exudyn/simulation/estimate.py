@@ -87,6 +87,8 @@ def fall(result: RecordedRun) -> float:
         return FIRST_ORDER
     ratios = []
     for kind in measures(result, 0.0, math.inf).values():
+        if not kind.settles:
+            continue
         a, b, c = (kind.measure(run) for run in (coarsest, coarser, result))
         if abs(b - a) > ROUNDING * max(abs(c), kind.size):
             ratios.append(abs(c - b) / abs(b - a))

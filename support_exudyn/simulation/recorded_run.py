@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from difflib import get_close_matches
 from typing import TYPE_CHECKING, Any
 
@@ -23,7 +23,8 @@ class RecordedRun:
 
     scenario: what was run. channels: quantities over time by name, see `result["tip.x"]`.
     onsets: for each clearance pin the beginnings of contact. largest_force: for each clearance pin the
-    largest force [N] at any time, also inside steps. impulses: where the speed of
+    largest force [N] at any time, also inside steps. largest_force_time: the end of the step that has it [s].
+    impulses: where the speed of
     rigid actuators or cranks jumped. counts: what the solver did.
     wall_time: [s], of building, settling and integrating, of all runs that an accuracy took.
     provenance: versions and platform.
@@ -40,12 +41,14 @@ class RecordedRun:
     counts: Counts
     wall_time: float
     provenance: Mapping[str, str]
+    largest_force_time: Mapping[str, float] = field(default_factory=dict)
     goal: float | None = None
     coarser: RecordedRun | None = None
 
     def __post_init__(self) -> None:
         """Let what is asked for by a wrong name be told with those that look like it."""
         kinds = {"channels": "channel", "onsets": "clearance pin", "largest_force": "clearance pin"}
+        kinds["largest_force_time"] = "clearance pin"
         for name, kind in kinds.items():
             object.__setattr__(self, name, Named(getattr(self, name), kind))
 

@@ -57,6 +57,8 @@ class ReportedNumber(NamedTuple):
     from records; of extremes, see `extremes.missed`. values: the largest value that it is computed from, which
     rounding and what Newton's method leaves are shares of: a least value can be next to nothing beside it.
     step: by how much a single step may be wrong, which counts where runs agree but for rounding.
+    settles: whether it tends to something as steps become shorter; the time of a largest value may jump from
+    peak to peak, and says nothing of how fast other numbers settle.
     """
 
     unit: str
@@ -68,6 +70,7 @@ class ReportedNumber(NamedTuple):
     missed: Measure = _nothing
     values: float = 0.0
     step: float = 0.0
+    settles: bool = True
 
 
 def measures(result: RecordedRun, after: float, until: float) -> Mapping[str, ReportedNumber]:
@@ -106,6 +109,13 @@ def measures(result: RecordedRun, after: float, until: float) -> Mapping[str, Re
                 found[f"{name}.{word}"] = ReportedNumber(
                     channel.unit, measure, 0.0, family, of, share, between, values
                 )
+                if word == "largest":
+                    found[f"{name}.largest_time"] = ReportedNumber(
+                        "s",
+                        time_of_largest(name, after, until),
+                        missed=_other_times(name, after, until),
+                        settles=False,
+                    )
         elif name in turning:
             measure = over(name, np.std, after, until)
             found[f"{name}.std"] = ReportedNumber(
@@ -124,6 +134,10 @@ def measures(result: RecordedRun, after: float, until: float) -> Mapping[str, Re
             found[f"pin.{pin}.largest_force"] = ReportedNumber(
                 "N", _largest(pin), family="force.largest", left=left
             )
+            if pin in result.largest_force_time:
+                found[f"pin.{pin}.largest_force_time"] = ReportedNumber(
+                    "s", _time_at_any_step(pin), missed=_other_impacts(pin), settles=False
+                )
         for n, onset in enumerate(onsets[:ONSETS]):
             impact = f"pin.{pin}.onset_{n + 1}"
             late, slow = _of_a_step(result.scenario, pin, onset) if steps_chosen else (0.0, 0.0)
@@ -182,6 +196,37 @@ def over(name: str, statistic: Callable[[np.ndarray], float], after: float, unti
     return measure
 
 
+def time_of_largest(name: str, after: float, until: float) -> Measure:
+    """The time [s] of the record, between two times [s], at which a channel is largest in magnitude."""
+
+    def measure(run: RecordedRun) -> float:
+        inside = _inside(run, after, until)
+        return float(run.time[inside][np.abs(run[name][inside]).argmax()])
+
+    return measure
+
+
+def _other_times(name: str, after: float, until: float) -> Measure:
+    """How far the time of a largest value may be off [s].
+
+    To the farthest record whose magnitude comes as near to the largest as the runs differ in that, and as
+    records may miss of it; and one period of the records.
+    """
+
+    def measure(run: RecordedRun) -> float:
+        inside = _inside(run, after, until)
+        time, values = run.time[inside], np.abs(run[name][inside])
+        doubt, other = missed("largest", run[name][inside], time, run.scenario.breaks), run.coarser
+        while other is not None:
+            doubt = max(doubt, abs(float(values.max()) - largest(other[name][_inside(other, after, until)])))
+            other = other.coarser
+        # the one may be less and the other more
+        near = time[values >= values.max() - 2.0 * doubt]
+        return float(np.abs(near - time[values.argmax()]).max()) + float(np.diff(time).max(initial=0.0))
+
+    return measure
+
+
 def _missed(word: str, name: str, after: float, until: float) -> Measure:
     def measure(run: RecordedRun) -> float:
         inside = _inside(run, after, until)
@@ -192,6 +237,23 @@ def _missed(word: str, name: str, after: float, until: float) -> Measure:
 
 def _largest(pin: str) -> Measure:
     return lambda run: run.largest_force[pin]
+
+
+def _time_at_any_step(pin: str) -> Measure:
+    return lambda run: run.largest_force_time.get(pin, math.nan)
+
+
+def _other_impacts(pin: str) -> Measure:
+    """How far the time of the largest force at any step may be off [s]: as far as the runs are apart in it."""
+
+    def measure(run: RecordedRun) -> float:
+        times, other = [run.largest_force_time[pin]], run.coarser
+        while other is not None:
+            times.append(other.largest_force_time.get(pin, math.nan))
+            other = other.coarser
+        return max(times) - min(times)
+
+    return measure
 
 
 def _onset(pin: str, n: int, field: str) -> Measure:

@@ -68,10 +68,10 @@ class Result(RecordedRun):
         """The usual numbers with their estimated errors, by names such as `pin.rear_base.force.mean`.
 
         Of the records between two times [s]: mean, standard deviation (`std`) and largest magnitude of all
-        forces, with
-        `min` and `max` of those that have a sign;
-        `std` of angular accelerations, mean place of traced points; and of clearance pins the largest force at
-        any step (`pin.NAME.largest_force`, not only of the records) and the first three impacts.
+        forces and when that is (`largest_time`), with `min` and `max` of those that have a sign; `std` of
+        angular accelerations, mean place of traced points; and of clearance pins the largest force at any step
+        of the run and when it is (`pin.NAME.largest_force` and `largest_force_time`, not only of the records)
+        and the first three impacts.
 
         Errors are those of the steps, and of extremes also what may lie between the records; that a mean over
         few records is not the mean over time is not among them.
@@ -208,6 +208,8 @@ def _write(group: h5py.Group, result: Result) -> None:
             "time [s], initial impact velocity [m/s], time of separation [s], speed of separation [m/s]"
         )
         data.attrs["largest_force_N"] = result.largest_force[name]
+        if name in result.largest_force_time:
+            data.attrs["largest_force_time_s"] = result.largest_force_time[name]
     if result.coarser is not None:
         _write(group.create_group("coarser"), result.coarser)
 
@@ -227,6 +229,11 @@ def _read(group: Inside) -> Result:
         channels=channels,
         onsets={name: _onsets(name, data.values) for name, data in onsets.items()},
         largest_force={name: float(data.attributes["largest_force_N"]) for name, data in onsets.items()},
+        largest_force_time={
+            name: float(data.attributes["largest_force_time_s"])
+            for name, data in onsets.items()
+            if "largest_force_time_s" in data.attributes  # runs of earlier versions do not tell it
+        },
         impulses=tuple(Impulse(**item) for item in group.data("impulses")),
         counts=Counts(**group.data("counts")),
         wall_time=float(group.attributes["wall_time_s"]),

@@ -39,6 +39,7 @@ def single_run(scenario: Scenario, progress: Progress) -> Result:
         channels=asked(scenario, found),
         onsets=outcome.onsets,
         largest_force=outcome.largest_force,
+        largest_force_time=outcome.largest_force_time,
         impulses=outcome.impulses,
         counts=outcome.counts,
         wall_time=time.perf_counter() - began,

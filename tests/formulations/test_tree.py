@@ -299,7 +299,7 @@ def test_integrals_are_exact_to_their_degree() -> None:
 def top(curve: Callable[[np.ndarray], np.ndarray], steps: int = 1) -> float:
     """The top that is found of a quantity, a function of step plus fraction."""
     values = curve(np.arange(steps)[:, None] + POINTS)
-    return largest(values, lambda number, fraction: curve(number + fraction))
+    return largest(values, lambda number, fraction: curve(number + fraction))[0]
 
 
 @pytest.mark.parametrize("where", [0.05, 0.3, 0.41, 0.6, 0.9, 0.97, 1.0, 1.7])
@@ -319,7 +319,16 @@ def test_the_top_is_sought_in_more_than_the_step_with_the_highest_point() -> Non
 def test_there_may_be_no_top() -> None:
     assert top(lambda t: t) == 1.0  # rising: at the end
     assert top(lambda t: -1.0 - t) == 0.0
-    assert largest(np.empty((0, 5)), lambda number, fraction: fraction) == 0.0
+    assert largest(np.empty((0, 5)), lambda number, fraction: fraction) == (0.0, 0)
+
+
+@pytest.mark.parametrize(("where", "step"), [(0.3, 0), (1.7, 1), (2.41, 2)])
+def test_the_step_of_the_top_is_told(where: float, step: int) -> None:
+    def curve(t: np.ndarray) -> np.ndarray:
+        return np.asarray(7.0 - 3.0 * abs(t - where))
+
+    values = curve(np.arange(3)[:, None] + POINTS)
+    assert largest(values, lambda number, fraction: curve(number + fraction))[1] == step
 
 
 # --- steps and records ---

@@ -51,7 +51,8 @@ from support_exudyn.formulations.reduced.support import jump
 FINISHED, STUCK, TOO_MANY_STEPS, TOO_MANY_IMPACTS, DEAD_CENTRE, PAUSED = range(6)
 # what is reported of a run
 STEPS, EVALUATIONS, LARGEST, STOPPED_AT, IMPACTS, JUMPS, LAST_STEP, NOT_A_NUMBER, RECORDS = range(9)
-ACCEPTED, CUTS, CLAMPED, REPORT = range(9, 13)  # steps: accepted, cut to end at an event, that end in tension
+ACCEPTED, CUTS, CLAMPED = range(9, 12)  # steps: accepted, cut to end at an event, that end in tension
+LARGEST_AT, REPORT = range(12, 14)  # end of the step with the largest force [s]
 # With what a run goes on after a pause: whether it is in the midst of a segment, time [s], next step [s], last
 # error, and of the last step's end the rate of the state and the contact
 MIDST, AT, NEXT_STEP, LAST_ERROR, RATES = range(5)
@@ -289,7 +290,9 @@ def integrate(
             last = h >= stop - t
         if memory[CLOSED] != 0.0:
             first, final = size(now), size(then)
-            report[LARGEST] = peak(p, segment, memory, t, h, path, report[LARGEST], first, final, probe, there)
+            highest = peak(p, segment, memory, t, h, path, report[LARGEST], first, final, probe, there)
+            if highest > report[LARGEST]:
+                report[LARGEST], report[LARGEST_AT] = highest, t + h
         report[ACCEPTED] += 1
         memory[ASKED_DEPTH] = 0.0
         report[CUTS] += what not in (NOTHING, RETURN)

@@ -20,6 +20,7 @@ from support_exudyn.formulations.reduced.integrate import (
     IMPACTS,
     JUMPS,
     LARGEST,
+    LARGEST_AT,
     LAST_STEP,
     NEXT_STEP,
     NOT_A_NUMBER,
@@ -199,6 +200,7 @@ def _outcome(scenario: Scenario, made: RunArrays) -> Outcome:
         trajectory=trajectory(scenario, made.model, made.p.tolist(), made.rows),
         onsets={name: tuple(Onset(*impact) for impact in impacts)} if with_clearance else {},
         largest_force={name: float(report[LARGEST])} if with_clearance else {},
+        largest_force_time={name: float(report[LARGEST_AT])} if with_clearance else {},
         impulses=tuple(_impulse(row) for row in made.jumps[: int(report[JUMPS])].tolist()),
         counts=Counts(
             steps=int(report[ACCEPTED if with_clearance else STEPS]),

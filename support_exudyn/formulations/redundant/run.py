@@ -99,6 +99,7 @@ def _outcome(scene: Scene, progress: Progress) -> Outcome:
         trajectory=trajectory(scene, recorder.history(), needed),
         onsets={name: tuple(pin.onsets) for name, pin in scene.clearance_joints.items()},
         largest_force={name: pin.largest_force for name, pin in scene.clearance_joints.items()},
+        largest_force_time={name: pin.largest_force_time for name, pin in scene.clearance_joints.items()},
         impulses=tuple(solving.impulses),
         counts=counts,
     )
@@ -119,6 +120,8 @@ def _outcome_in_space(scene: SpatialScene, progress: Progress) -> Outcome:
         | {name: tuple(pin.onsets) for name, pin in edges.items()},
         largest_force={name: group[0].whole.largest_force for name, group in groups}
         | {name: pin.largest_force for name, pin in edges.items()},
+        largest_force_time={name: group[0].whole.largest_force_time for name, group in groups}
+        | {name: pin.largest_force_time for name, pin in edges.items()},
         impulses=tuple(solving.impulses),
         counts=counts,
     )

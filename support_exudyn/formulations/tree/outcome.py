@@ -186,12 +186,16 @@ class EvaluatedRun:
         needed = needs(self.scenario)
         inside = self._within(np.repeat(steps, len(POINTS)), np.tile(POINTS, len(steps)))
         pins = run.pins.values()
+        tops = {
+            name: largest(_sizes(inside, name).reshape(-1, len(POINTS)), self._force_of(name))
+            for name in inside.contacts
+        }
         return Outcome(
             trajectory=self._trajectory(inside, needed),
             onsets={name: tuple(pin.onsets) for name, pin in run.pins.items()},
-            largest_force={
-                name: largest(_sizes(inside, name).reshape(-1, len(POINTS)), self._force_of(name))
-                for name in inside.contacts
+            largest_force={name: top for name, (top, _) in tops.items()},
+            largest_force_time={
+                name: float(self.time[step + 1]) if top > 0.0 else 0.0 for name, (top, step) in tops.items()
             },
             impulses=(),  # all actuators give, so nothing is struck
             counts=Counts(

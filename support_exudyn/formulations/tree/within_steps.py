@@ -87,8 +87,8 @@ def running(values: Matrix, step: Matrix, number: Numbers, fraction: Matrix) -> 
     return np.asarray(before + part)
 
 
-def largest(values: Matrix, look: Look) -> float:
-    """The top of a quantity, at least 0, which may be a corner.
+def largest(values: Matrix, look: Look) -> tuple[float, int]:
+    """The top of a quantity, at least 0, which may be a corner; and the number of the step that has it.
 
     Of the steps whose highest point is near the highest of all, what is around it is looked at ever closer.
 
@@ -97,17 +97,18 @@ def largest(values: Matrix, look: Look) -> float:
         look: the quantity at fractions (m,) of the steps with these numbers (m,).
     """
     if not (values > 0.0).any():
-        return 0.0
+        return 0.0, 0
     highest = values.max(axis=1)
     steps = np.flatnonzero(highest >= NEAR_TOP * highest.max())
     steps = steps[np.argsort(highest[steps])][-MOST_TOPS:]
     point = values[steps].argmax(axis=1)
     low, high = POINTS[np.maximum(point - 1, 0)], POINTS[np.minimum(point + 1, len(POINTS) - 1)]
-    each, top = np.arange(len(steps)), float(highest.max())
+    each, top, at = np.arange(len(steps)), float(highest.max()), int(highest.argmax())
     for _ in range(NARROWINGS):
         x = low + (high - low) * np.linspace(0.0, 1.0, SAMPLES)[:, None]
         found = look(np.tile(steps, SAMPLES), x.ravel()).reshape(x.shape)
         best = found.argmax(axis=0)
         low, high = x[np.maximum(best - 1, 0), each], x[np.minimum(best + 1, SAMPLES - 1), each]
-        top = max(top, float(found.max()))
-    return top
+        if (more := float(found.max())) > top:
+            top, at = more, int(steps[found.max(axis=0).argmax()])
+    return top, at

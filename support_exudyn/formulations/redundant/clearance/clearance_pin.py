@@ -95,6 +95,7 @@ class ClearanceJoint:
         self.onsets: list[Onset] = []
         self.clamped_steps = 0
         self.largest_force = 0.0
+        self.largest_force_time = 0.0  # end of the step that has it [s]
 
     @property
     def engine_force(self) -> EngineForce:
@@ -187,12 +188,15 @@ class ClearanceJoint:
         force = self.force
         if force.clamped:
             self.clamped_steps += 1
+        was_largest = self.largest_force
         before, self._size = self._size, math.hypot(force.normal_force, force.friction_force)
         self._angle = self._place_angle()
         self.largest_force = max(self.largest_force, self._size)
         near = self.course is not None and max(before, self._size) > NEAR_PEAK * self.largest_force
         if near and has_a_top(self._size_within, before, self._size):
             self.largest_force = peak(self._size_within, self.largest_force)
+        if self.largest_force > was_largest:
+            self.largest_force_time = t
 
     def _course(self) -> Course:
         """The course of the step that has been tried, from the last accepted one to its end."""

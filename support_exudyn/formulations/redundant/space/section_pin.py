@@ -203,6 +203,7 @@ class SectionJournal:
         self.sections: list[SectionPin] = []
         self.onsets: list[Onset] = []  # of the journal, which was all apart
         self.largest_force = 0.0  # [N], at any time
+        self.largest_force_time = 0.0  # end of the step that has it [s]
         self._bound = 0.0  # of the force at the end of the last step [N]
         self._places: list[Vector2] = []  # of the sections in the bore at its end, bore's axes [m]
         # of each section: whether it was in contact before the step, and its impact in it
@@ -242,9 +243,12 @@ class SectionJournal:
         has = near and has_a_top(self._bound_within, before, self._bound)
         if has or self._bound > self.largest_force:
             self._places = [pin.moving.now()[1][:2] for pin in self.sections]
+            was_largest = self.largest_force
             self.largest_force = max(self.largest_force, self._resultant(1.0))
             if has:
                 self.largest_force = peak(self._resultant, self.largest_force)
+            if self.largest_force > was_largest:
+                self.largest_force_time = t
 
     def _look_for_separation(self, t: float) -> None:
         """If in the step to t [s] the last sections have separated: note when, and their highest speed."""
