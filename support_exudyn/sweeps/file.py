@@ -16,6 +16,7 @@ from support_exudyn.files import machines
 from support_exudyn.files.machines.read import shipped
 from support_exudyn.files.scenarios.scenario_file import scenario_of
 from support_exudyn.files.toml.text import load_toml, parsed, text_of, toml_text
+from support_exudyn.files.whole_file import missing_file
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.sweeps.distributions import KEYS as DISTRIBUTION_KEYS
 from support_exudyn.sweeps.distributions import distribution_of
@@ -46,7 +47,10 @@ def read_sweep(path: str | Path) -> Plan:
     Raises InputError that names file, key, value and what is allowed; OSError if there is no such file.
     """
     path = Path(path)
-    data = load_toml(path)
+    try:
+        data = load_toml(path)
+    except FileNotFoundError as error:
+        raise missing_file(path, "the TOML file of a sweep") from error
     try:
         _only(data, KEYS, "")
         table, where, folder = _scenario(data, path)

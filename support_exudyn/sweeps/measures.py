@@ -74,7 +74,7 @@ def check_numbers(scenario: Scenario, names: Iterable[str]) -> None:
             raise InputError(
                 f"numbers: {short(name)}: no such number; {guess}allowed: a channel and one of "
                 f"{', '.join(WORDS)}, such as 'pin.rear_base.force.mean', patterns of such, "
-                "pin.NAME.largest_force, pin.NAME.onset_1.time"
+                "pin.NAME.largest_force, pin.NAME.largest_force_time, pin.NAME.onset_1.time"
             )
         if channel not in scenario.channel_definitions:
             known = [*scenario.channel_definitions]
@@ -90,7 +90,10 @@ def _is_of_impacts(name: str, scenario: Scenario) -> bool:
     return (
         parts[0] == "pin"
         and ".".join(parts[1:2]) in scenario.linkage.pins
-        and (parts[2:] == ["largest_force"] or (len(parts) == 4 and parts[2].startswith("onset_")))
+        and (
+            parts[2:] in (["largest_force"], ["largest_force_time"])
+            or (len(parts) == 4 and parts[2].startswith("onset_"))
+        )
     )
 
 

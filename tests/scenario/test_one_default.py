@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -44,7 +45,8 @@ MADE: dict[type[Value], tuple[tuple[type[Value], ...], set[str]]] = {
             JournalBearing,
             *(GroupShape((NormalLaw,)).kinds[law] for law in simple_laws()),
         ),
-        {"clearance", "bore_radius", "restitution", "law", "stiffness", "bore_material", "journal_material"},
+        {"clearance", "bore_radius", "restitution", "stiffness", "bore_material", "journal_material"}
+        | {"law", "friction_law"},
     ),
     DriveMode: ((CubicStep, UniformSpeed), {"mode"}),
     DriveFile: ((TableDrive,), {"table", "column"}),
@@ -92,6 +94,15 @@ def test_every_default_of_a_short_form_is_that_of_what_it_makes(short: type[Valu
         usual = {None, *([0.0] if name == "friction" else [])}  # which mean: whatever the class has
         assert item in usual or all(one == item for one in there), name
     assert shared
+
+
+def test_a_simple_pin_in_python_has_the_defaults_of_files() -> None:
+    ours = {name: one.default for name, one in inspect.signature(ClearancePin.simple).parameters.items()}
+    files = defaults(ShortPin)
+    assert ours.pop("law").__name__ == files["law"]
+    assert (ours.pop("bore_material"), ours.pop("journal_material")) == (STEEL, STEEL_35CRMO)
+    said = {name: one for name, one in ours.items() if one is not inspect.Parameter.empty}
+    assert said == {name: files[name] for name in said}
 
 
 @pytest.mark.parametrize("mode", [1, 2])
