@@ -14,7 +14,7 @@ from scipy.sparse.csgraph import connected_components
 ROOT = Path(__file__).parents[1]
 PACKAGES = ("support_exudyn", "user_forces", "studies")
 LONGEST = 420  # lines of a file
-ABOVE = ("commands", "postprocessing", "sweeps", "simulation", "files")
+ABOVE = ("commands", "documentation", "postprocessing", "sweeps", "simulation", "files")
 BELOW = ("formulations", "machines", "scenario", "mechanics", "model")
 ROOMS = [*(ROOT / "support_exudyn" / name for name in ABOVE + BELOW), ROOT / "user_forces", ROOT / "studies"]
 

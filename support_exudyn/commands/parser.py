@@ -21,6 +21,7 @@ from support_exudyn.sweeps.workers import NoProcessError, ProcessEndedError
 from user_forces.values.value import InputError, Value, kinds_of, short
 
 NAMES: tuple[str, ...] = (
+    "init",
     "check",
     "channels",
     "run",
@@ -36,6 +37,7 @@ NAMES: tuple[str, ...] = (
     "export",
     "scenario",
     "schema",
+    "docs",
 )
 
 INSTALLED = "support-exudyn"

@@ -1,6 +1,5 @@
 from __future__ import annotations
 
-import re
 from pathlib import Path
 
 import pytest
@@ -11,13 +10,13 @@ from studies.clearance_influence import run as clearance_influence
 from studies.common.paper_machine import clearance_rise
 from studies.readme_pictures import FOLDER, PICTURES, Runs, main
 from support_exudyn import simulate
+from tests.pages import links, pages
 
-README = Path(__file__).parents[2] / "README.md"
 QUICK = ("machine.png", "journal_orbit.png", "spectrum.png")  # rest: many runs, or a movie
 
 
-def test_the_readme_shows_what_is_made() -> None:
-    shown = re.findall(r"!\[.*?\]\(studies/pictures/(.*?)\)", README.read_text(encoding="utf-8"))
+def test_the_pages_show_what_is_made() -> None:
+    shown = [link.rpartition("/")[2] for page in pages() for link in links(page) if "studies/pictures/" in link]
     assert sorted(shown) == sorted(PICTURES)
     assert sorted(path.name for path in FOLDER.iterdir()) == sorted(PICTURES)
 

@@ -15,7 +15,7 @@ from user_forces.normal.law import NormalLaw
 from user_forces.values.value import Value
 
 FOUND = laws(NormalLaw) | laws(FrictionLaw)
-README = Path(__file__).parents[2] / "README.md"
+LAWS = Path(user_forces.__file__).parent / "laws.md"
 
 
 def test_every_file_holds_a_law_or_says_why_not() -> None:
@@ -29,14 +29,14 @@ def test_every_file_holds_a_law_or_says_why_not() -> None:
 def test_a_law_is_offered_by_name_and_told(name: str) -> None:
     law: type[Value] = FOUND[name]
     assert getattr(user_forces, law.__name__) is law
-    assert f"`{law.__name__}`" in README.read_text(encoding="utf-8")
+    assert f"`{law.__name__}`" in LAWS.read_text(encoding="utf-8")
     assert title(law)
     assert source(law)
     assert 1850 < year(law) < 2100 or name == "adams_impact"
 
 
-def test_the_readme_tells_what_laws_deliver() -> None:
-    rows = re.findall(r"^\|[ *]*`(\w+)`.*?\|((?: [.]\d{3} \|){5})$", README.read_text(encoding="utf-8"), re.M)
+def test_the_page_tells_what_laws_deliver() -> None:
+    rows = re.findall(r"^\|[ *]*`(\w+)`.*?\|((?: [.]\d{3} \|){5})$", LAWS.read_text(encoding="utf-8"), re.M)
     told = {name: [float(one) for one in re.findall(r"[.]\d{3}", numbers)] for name, numbers in rows}
     asked: Any = laws(user_forces.PowerLaw).values()
     assert {law.__name__ for law in asked} == told.keys() - {"Anagnostopoulos"}

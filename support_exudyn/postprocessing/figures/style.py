@@ -82,7 +82,8 @@ class NotebookFigure(Figure):
 
 def begin(width_mm: float, height_mm: float, title: str) -> Figure:
     """An empty figure of a size with a title on its left."""
-    drawing = NotebookFigure(figsize=size(width_mm, height_mm))
+    # laid out also where the figure is drawn outside of `look`
+    drawing = NotebookFigure(figsize=size(width_mm, height_mm), layout="constrained")
     drawing.suptitle(title, x=0.01, ha="left")
     return drawing
 

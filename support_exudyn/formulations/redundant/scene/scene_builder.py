@@ -39,7 +39,9 @@ from support_exudyn.scenario.scenario import Scenario
 from user_forces.values.value import Vector2
 
 
-class _PlaneBuilder(EngineBuilder):
+class PlaneBuilder(EngineBuilder):
+    """Builds the engine's model of a scenario in the plane."""
+
     def __init__(self, scenario: Scenario) -> None:
         super().__init__(scenario)
         self.linkage = scenario.linkage
@@ -56,6 +58,7 @@ class _PlaneBuilder(EngineBuilder):
         )
 
     def add_body(self, body: Body) -> BodyItem:
+        """Add a body."""
         node = self.mbs.AddNode(
             NodeRigidBody2D(
                 referenceCoordinates=[*body.centre, body.angle],
@@ -123,6 +126,7 @@ class _PlaneBuilder(EngineBuilder):
         )
 
     def add_friction(self, pin: IdealPin, name: str) -> PinFriction:
+        """Add the friction of an ideal pin of this name."""
         assert pin.friction is not None  # the pins without are left out
         assert pin.radius is not None  # goes with it
         place = self.linkage.pins[name]
@@ -130,6 +134,7 @@ class _PlaneBuilder(EngineBuilder):
         return PinFriction(self.mbs, pin.friction, pin.radius, *ends)
 
     def add_crank(self, crank: Crank) -> Any:
+        """Add what holds a crank's angle; returns its number in the engine."""
         markers = [
             self.fixed,
             self.mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=self.bodies[crank.body].node, coordinate=2)),
@@ -137,6 +142,7 @@ class _PlaneBuilder(EngineBuilder):
         return self.mbs.AddObject(ObjectConnectorCoordinate(markerNumbers=markers))
 
     def add_slide(self, slide: Slide) -> Any:
+        """Add a guide; returns its number in the engine."""
         # the moment is about the first marker, which therefore is the body's; the normal is the second one's
         markers = [self.marker(slide.body, slide.point), self.marker(slide.against, slide.point)]
         carrier = 0.0 if slide.against == GROUND else self.bodies[slide.against].body.angle
@@ -151,6 +157,7 @@ class _PlaneBuilder(EngineBuilder):
         )
 
     def build(self) -> Scene:
+        """The whole scene."""
         scenario, linkage, mbs = self.scenario, self.linkage, self.mbs
         given = scenario.pins.items()
         for name in (*(name for name, pin in given if not pin.holds), *scenario.held_pins):
@@ -224,4 +231,4 @@ class _PlaneBuilder(EngineBuilder):
 
 def build(scenario: Scenario) -> Scene:
     """The engine's model of a scenario at its start, before any settling."""
-    return _PlaneBuilder(scenario).build()
+    return PlaneBuilder(scenario).build()

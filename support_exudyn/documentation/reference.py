@@ -1,0 +1,104 @@
+"""Public names in Python, a page for each room: their docstrings, units and ranges, and an example of each."""
+
+import inspect
+import sys
+from collections import defaultdict
+from collections.abc import Iterator, Mapping
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+from support_exudyn.files.toml.shapes import FieldShape, allowed, field_shapes
+from user_forces.values.value import InputError, Value
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+MODULES = (
+    "support_exudyn",
+    "support_exudyn.files",
+    "support_exudyn.files.machines",
+    "support_exudyn.sweeps",
+    "user_forces",
+)
+INHERITED = "Result"  # what a run recorded is told with it
+
+
+def public_names() -> dict[str, Any]:
+    """All names that users import, each as MODULE.NAME, with what it stands for."""
+    found: dict[str, Any] = {}
+    for name in MODULES:
+        module = import_module(name)
+        for one in getattr(module, "__all__", None) or _imported(module):
+            thing = getattr(module, one)
+            if not inspect.ismodule(thing) and thing not in found.values():
+                found[f"{name}.{one}"] = thing
+    return found
+
+
+def _imported(module: Any) -> Iterator[str]:
+    tree = inspect.getsource(module)
+    for line in tree.splitlines():
+        if line.startswith("from ") and " as " in line:
+            yield line.rpartition(" as ")[2]
+
+
+def examples() -> Mapping[str, str]:
+    """The example of each public name."""
+    with (Path(__file__).parent / "names.toml").open("rb") as file:
+        found: Mapping[str, str] = tomllib.load(file)
+    return found
+
+
+def room_of(name: str, thing: Any) -> str:
+    """The room in which a public name is at home."""
+    where = getattr(thing, "__module__", None) or name.rpartition(".")[0]
+    first, *rest = where.split(".")
+    return rest[0] if first == "support_exudyn" and rest else first
+
+
+def reference_pages() -> dict[str, str]:
+    """Pages of Markdown by room."""
+    shown = examples()
+    rooms: dict[str, list[str]] = defaultdict(list)
+    for name, thing in sorted(public_names().items(), key=lambda item: item[0].rpartition(".")[2].lower()):
+        rooms[room_of(name, thing)].append(_entry(name, thing, shown))
+    return {room: f"# {room}\n\n" + "\n\n".join(entries) + "\n" for room, entries in sorted(rooms.items())}
+
+
+def _entry(name: str, thing: Any, shown: Mapping[str, str]) -> str:
+    short = name.rpartition(".")[2]
+    if short not in shown:
+        raise InputError(f"names.toml: {short}: missing; allowed: an example of every public name")
+    parts = []
+    if inspect.isclass(thing) or inspect.isfunction(thing):
+        parts.append(f"::: {thing.__module__}.{thing.__qualname__}")
+        if short == INHERITED:
+            parts[-1] += "\n    options:\n      inherited_members: true"
+    else:  # a value that is there
+        parts.append(f"## {short}\n\n`{thing!r}`")
+    if inspect.isclass(thing) and issubclass(thing, Value) and hasattr(thing, "__pydantic_fields__"):
+        parts.append(_fields(thing))
+    parts.append(f"**Example**\n\n```python\n{shown[short].strip()}\n```")
+    return "\n\n".join(part for part in parts if part)
+
+
+def _fields(cls: type[Value]) -> str:
+    """Unit, range and default of every argument of a class."""
+    rows = [
+        f"| `{one.name}` | {one.unit.symbol if one.unit else ''} | {_said(one)} | {_default(one)} |"
+        for one in field_shapes(cls).values()
+    ]
+    head = ["| argument | unit | allowed | if nothing is said |", "|---|---|---|---|"]
+    return "\n".join([*head, *rows]) if rows else ""
+
+
+def _said(one: FieldShape) -> str:
+    text = allowed(one.shape) + (", or None" if one.allows_none else "")
+    return text.replace("|", "\\|")
+
+
+def _default(one: FieldShape) -> str:
+    return "needed" if one.required else f"`{one.default!r}`".replace("|", "\\|")

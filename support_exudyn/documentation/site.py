@@ -1,0 +1,209 @@
+"""The site: pages are laid out as they lie in the project, mkdocs makes HTML of them, links are checked."""
+
+import logging
+import re
+import shutil
+from collections.abc import Iterator, Mapping
+from html.parser import HTMLParser
+from importlib.util import find_spec
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+from urllib.parse import unquote, urlsplit
+
+from support_exudyn.documentation.findings import findings_page
+from support_exudyn.documentation.gallery import gallery_page
+from support_exudyn.documentation.keys import keys_page
+from support_exudyn.documentation.known_channels import channels_page
+from support_exudyn.documentation.reference import reference_pages
+from support_exudyn.files import scenario_schema
+from support_exudyn.files.machines import machine_schema
+from user_forces.values.value import InputError
+
+HERE = Path(__file__).parent
+ROOT = HERE.parents[1]
+LINK = re.compile(r"\]\(([^)\s#]+)")
+NEEDED = ("mkdocs", "material", "mkdocstrings", "mkdocstrings_handlers")
+
+
+def build_site(out: Path, commands: str, results: Path | None = None) -> None:
+    """Build the site.
+
+    Arguments:
+        out: folder of the site; what is in it is replaced.
+        commands: the page on commands, Markdown.
+        results: folder of a run of the studies, for the page on their findings.
+
+    Raises InputError if the extra [docs] or the sources are missing, if an example fails, at every warning of
+    mkdocs, for links that lead nowhere, and for pages that load something from the internet.
+    """
+    missing = [name for name in NEEDED if find_spec(name) is None]
+    if missing:
+        raise InputError(
+            f"{missing[0]}: is not installed; allowed: the extra [docs], python -m pip install -e '.[docs]'"
+        )
+    if not (ROOT / "studies" / "examples").is_dir() or not (ROOT / "README.md").is_file():
+        raise InputError(f"{ROOT}: has no README.md and studies/examples; allowed: a checkout of the project")
+    with TemporaryDirectory() as work:
+        pages = Path(work) / "pages"
+        nav = _lay_out(pages, commands, results)
+        _make(Path(work), pages, nav, out)
+    faults = broken_links(out)
+    if faults:
+        raise InputError("\n".join(faults))
+
+
+def rooms() -> list[str]:
+    """The READMEs of the rooms, and what contributors read."""
+    found = [ROOT / "support_exudyn" / "README.md", *sorted((ROOT / "support_exudyn").glob("*/**/README.md"))]
+    found = [path for path in found if path.parent.name != "extending"]
+    return [
+        *(path.relative_to(ROOT).as_posix() for path in found),
+        "user_forces/README.md",
+        ".github/CONTRIBUTING.md",
+    ]
+
+
+# --- pages ---
+
+
+def _lay_out(pages: Path, commands: str, results: Path | None) -> list[Any]:
+    """Write all pages into a folder, with what they link to; returns their order."""
+    import yaml
+
+    nav: list[Any] = yaml.safe_load((HERE / "mkdocs.yml").read_text(encoding="utf-8"))["nav"]
+    reference = pages / "reference"
+    reference.mkdir(parents=True)
+    named = reference_pages()
+    written = {
+        "commands": commands,
+        "scenario_keys": keys_page("Keys of a scenario's file", scenario_schema()),
+        "machine_keys": keys_page("Keys of a machine's file", machine_schema()),
+        "channels": channels_page(),
+        "findings": findings_page(results, reference / "pictures"),
+        "gallery": gallery_page(ROOT / "studies" / "examples", reference / "pictures"),
+        **{f"names_{room}": text for room, text in named.items()},
+    }
+    for name, text in written.items():
+        (reference / f"{name}.md").write_text(text, encoding="utf-8")
+    _fill(nav, "Names in Python", [f"reference/names_{room}.md" for room in named])
+    _fill(nav, "How it is built", rooms())
+    for name in _leaves(nav):
+        if not name.startswith("reference/"):
+            _copy(ROOT / name, pages)
+    return nav
+
+
+def _copy(page: Path, pages: Path) -> None:
+    """Copy a page, and the files that it links to and that are no pages."""
+    text = page.read_text(encoding="utf-8")
+    linked = (page.parent / link for link in LINK.findall(text) if not re.match(r"\w+:", link))
+    for path in [page, *(one for one in linked if one.is_file() and one.suffix != ".md")]:
+        place = pages / path.resolve().relative_to(ROOT)
+        place.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(path, place)
+
+
+def _fill(nav: list[Any], title: str, names: list[str]) -> None:
+    for item in nav:
+        if isinstance(item, dict):
+            for key, inside in item.items():
+                if key == title:
+                    item[key] = names
+                elif isinstance(inside, list):
+                    _fill(inside, title, names)
+
+
+def _leaves(nav: list[Any]) -> Iterator[str]:
+    for item in nav:
+        if isinstance(item, str):
+            yield item
+        else:
+            for inside in item.values():
+                yield from _leaves(inside) if isinstance(inside, list) else [inside]
+
+
+# --- HTML ---
+
+
+class _Kept(logging.Handler):
+    """Warnings, kept to be told."""
+
+    def __init__(self) -> None:
+        super().__init__(logging.WARNING)
+        self.lines: list[str] = []
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Keep a warning."""
+        self.lines.append(record.getMessage())
+
+
+def _make(work: Path, pages: Path, nav: list[Any], out: Path) -> None:
+    """Let mkdocs make the site; its warnings are an InputError."""
+    from mkdocs.commands.build import build
+    from mkdocs.config import load_config
+    from mkdocs.exceptions import MkDocsException
+
+    settings = work / "mkdocs.yml"
+    shutil.copy(HERE / "mkdocs.yml", settings)
+    kept = _Kept()
+    log = logging.getLogger("mkdocs")
+    log.addHandler(kept)
+    try:
+        config = load_config(str(settings), docs_dir=str(pages), site_dir=str(out.resolve()), nav=nav)
+        config.plugins.on_startup(command="build", dirty=False)
+        build(config)
+    except MkDocsException as error:
+        raise InputError("\n".join(kept.lines or [str(error)])) from error
+    finally:
+        log.removeHandler(kept)
+    if kept.lines:
+        raise InputError("\n".join(kept.lines))
+
+
+class _Page(HTMLParser):
+    """What a page links to, what it loads, and the places in it that can be linked to."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.links: list[str] = []
+        self.loads: list[str] = []
+        self.places: set[str] = set()
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        """Note a link, something that is loaded, or a place."""
+        given: Mapping[str, str | None] = dict(attrs)
+        if place := given.get("id"):
+            self.places.add(place)
+        if tag == "a" and (link := given.get("href")):
+            self.links.append(link)
+        elif loaded := given.get("src") or (given.get("href") if tag == "link" else None):
+            self.loads.append(loaded)
+
+
+def broken_links(site: Path) -> list[str]:
+    """What is wrong with the links of a site: a line each; links to other sites are not followed.
+
+    Arguments:
+        site: folder of HTML.
+    """
+    found: dict[Path, _Page] = {}
+    for path in sorted(site.rglob("*.html")):
+        found[path.resolve()] = page = _Page()
+        page.feed(path.read_text(encoding="utf-8"))
+    lines = []
+    for path, page in found.items():
+        if path.name == "404.html":  # whose links are those of a server
+            continue
+        where = path.relative_to(site.resolve()).as_posix()
+        lines += [f"{where}: loads {one} from elsewhere" for one in page.loads if urlsplit(one).netloc]
+        for link in (*page.links, *page.loads):
+            parts = urlsplit(link)
+            if parts.scheme or parts.netloc:
+                continue
+            target = (path.parent / unquote(parts.path)).resolve() if parts.path else path
+            if not target.is_file():
+                lines.append(f"{where}: {link}: leads nowhere")
+            elif parts.fragment and target in found and unquote(parts.fragment) not in found[target].places:
+                lines.append(f"{where}: {link}: there is no such place")
+    return lines
