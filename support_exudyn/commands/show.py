@@ -12,6 +12,7 @@ from support_exudyn.commands.tables import NARROWEST, facts, printed, show_numbe
 from support_exudyn.postprocessing import summary as summary
 from support_exudyn.postprocessing.figures import selection
 from support_exudyn.postprocessing.figures.selection import matching
+from support_exudyn.postprocessing.figures.units import said
 from support_exudyn.simulation.result import Result
 
 HELP = "tables of what a run or a sweep was and what came out of it"
@@ -74,7 +75,7 @@ def _object(result: Result, given: argparse.Namespace) -> dict[str, Any]:
 def _tables(console: Console, result: Result, given: argparse.Namespace) -> None:
     names = matching(result.channels, given.channels)
     ends = given.after, given.until
-    piece = f", {selection.said(result, *ends)}"
+    piece = f" at the records every {said(result.scenario.record_period, 's')}, {selection.said(result, *ends)}"
     if names:
         _show_channels(console, summary.of_channels(result, names, *ends), f"channels{piece}")
         return

@@ -30,6 +30,7 @@ from support_exudyn.postprocessing.page.pieces import (
     image,
     templates,
 )
+from support_exudyn.postprocessing.shown_numbers import LARGEST, LARGEST_TIME, hardest_first, label, shown
 from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
@@ -40,6 +41,7 @@ WHOLE = (0.0, math.inf)
 DIGITS = 6  # of numbers whose error is smaller, or not known
 PANEL_MM = 42.0
 STILL = (1280, 720)
+MOST_TILES = 4
 TILE_DIGITS = 4  # of those in large type
 
 
@@ -87,7 +89,8 @@ def run_report(runs: Mapping[str, Result], channels: Sequence[str] = ()) -> str:
         "Channels over time. Thinned to the least and the greatest record of short pieces: no peak is lost."
     )
     over_time = ShownFigure(_picture(_printed(live)), caption, Markup(pages.places["channels"]), "channels")
-    estimates = {name: summary.numbers(result, *WHOLE) for name, result in runs.items()}
+    found_of = [summary.numbers(result, *WHOLE) for result in runs.values()]
+    estimates = dict(zip(runs, shown([*runs.values()], found_of, *WHOLE), strict=True))
     key = _key_names(runs, estimates)
     every = list(dict.fromkeys(number for found in estimates.values() for number in found))
     still, no_still = _still(runs)
@@ -216,8 +219,7 @@ def _still(runs: Mapping[str, Result]) -> tuple[ShownFigure | None, str]:
 
     name = next((name for name, one in runs.items() if one.scenario.clearance_pins), next(iter(runs)))
     result = runs[name]
-    pins = [n for pin in _watched_pins(result) for n in result.channels if n == f"pin.{pin}.force"]
-    time = float(result.time[int(np.argmax(result[pins[0]]))]) if pins else float(result.time[-1])
+    time, when = _telling_time(result)
     try:
         picture = still(result, time, size=STILL)
     except (InputError, RuntimeError) as error:
@@ -225,8 +227,25 @@ def _still(runs: Mapping[str, Result]) -> tuple[ShownFigure | None, str]:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "still.png"
         Image.fromarray(picture).save(path)
-        when = f"when {pins[0]} is largest, at {time:.6g} s" if pins else f"at its end, {time:.6g} s"
         return ShownFigure(image(path), f"Run {name} {when}.", anchor="still"), ""
+
+
+def _telling_time(result: Result) -> tuple[float, str]:
+    """When the hardest hit pin has its largest force [s], and that in words; without forces the run's end."""
+    forces = {pin: f"pin.{pin}.force" for pin in _watched_pins(result)}
+    peaks = {pin: float(result[name].max()) for pin, name in forces.items() if name in result.channels}
+    loose = {pin: force for pin, force in result.largest_force.items() if pin in result.scenario.clearance_pins}
+    if not (peaks or loose):
+        return float(result.time[-1]), f"at its end, {result.time[-1]:.6g} s"
+    peaks = loose or peaks  # at any step, or at the records
+    pin = max(peaks, key=lambda name: peaks[name])
+    time = result.largest_force_time.get(pin)
+    if time is None:
+        if forces[pin] not in result.channels:
+            return float(result.time[-1]), f"at its end, {result.time[-1]:.6g} s"
+        time = float(result.time[int(np.argmax(result[forces[pin]]))])
+    time = min(time, float(result.time[-1]))
+    return time, f"when the force in {pin} is largest, at {time:.6g} s"
 
 
 # --- tables ---
@@ -247,7 +266,7 @@ def _numbers(title: str, estimates: Mapping[str, Mapping[str, Estimate]], names:
     rows = []
     for name in names:
         found = [estimates[run].get(name) for run in estimates]
-        rows.append((name, *summary.side_by_side(found)))
+        rows.append((label(name), *summary.side_by_side(found)))
     known = any(math.isfinite(one.error) for found in estimates.values() for one in found.values())
     note = (
         "± estimated numerical error; where none is told, it is below the last digit."
@@ -258,16 +277,26 @@ def _numbers(title: str, estimates: Mapping[str, Mapping[str, Estimate]], names:
 
 
 def _tiles(estimates: Mapping[str, Mapping[str, Estimate]], key: Sequence[str]) -> tuple[KeyNumber, ...]:
-    """Up to four key numbers of one run, or of two: before and after."""
+    """Up to four key numbers of one run, or of two, before and after: those of the hardest hit pin first."""
     if len(estimates) > 2:
         return ()
-    told = [name for name in key if name.rpartition(".")[2] in ("mean", "largest", "std")]
-    found = []
-    for name in told[:4]:
-        unit, *cells = summary.side_by_side([estimates[run].get(name) for run in estimates], TILE_DIGITS)
-        if all(cells):
+    last = [*estimates.values()][-1]
+    hardest = hardest_first(last) or hardest_first(next(iter(estimates.values())))
+    told = [f"pin.{pin}{end}" for pin in hardest[:1] for end in (LARGEST, LARGEST_TIME, ".force.mean")]
+    told += [f"pin.{pin}{LARGEST}" for pin in hardest[1:2]]
+    told += [name for name in key if name.rpartition(".")[2] in ("mean", "largest", "std")]
+    found: list[KeyNumber] = []
+    for name in dict.fromkeys(told):
+        numbers = [one.get(name, one.get(_of_ideal(name))) for one in estimates.values()]
+        if len(found) < MOST_TILES and all(numbers):
+            unit, *cells = summary.side_by_side(numbers, TILE_DIGITS)
             found.append(KeyNumber(name, f"{cells[-1]} {unit}", cells[0] if len(cells) > 1 else ""))
     return tuple(found)
+
+
+def _of_ideal(name: str) -> str:
+    """What an ideal pin has in place of a clearance pin's number at any step."""
+    return name.replace(LARGEST_TIME, ".force.largest_time").replace(LARGEST, ".force.largest")
 
 
 def _impacts(runs: Mapping[str, Result]) -> Sheet:

@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 from support_exudyn.postprocessing import summary
 from support_exudyn.postprocessing.figures import overlay, style
 from support_exudyn.postprocessing.html import html_table
+from support_exudyn.postprocessing.shown_numbers import shown
 from support_exudyn.simulation.data_frames import library
 from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.result import Result
@@ -42,18 +43,23 @@ class RunsSideBySide:
     @cached_property
     def numbers(self) -> Mapping[str, Mapping[str, Estimate]]:
         """Numbers that any run has, by name, of each run that has it; an error that is not known is NaN."""
-        found: Named[dict[str, Estimate]] = Named(what="number")
-        for run, result in self.runs.items():
-            for name, number in summary.numbers(result, self.after, self.until).items():
-                found.setdefault(name, {})[run] = number
-        return found
+        return _by_name(self._of_runs)
 
     def rows(self) -> list[summary.Row]:
-        """A row for each number: name, unit in which it is read best, and value ± error of each run."""
+        """A row for each printed number: name, unit in which it is read best, and value ± error of each run."""
+        found_of = [*self._of_runs.values()]
+        printed = dict(
+            zip(self.runs, shown([*self.runs.values()], found_of, self.after, self.until), strict=True)
+        )
         return [
             (name, *summary.side_by_side([found.get(run) for run in self.runs]))
-            for name, found in self.numbers.items()
+            for name, found in _by_name(printed).items()
         ]
+
+    @cached_property
+    def _of_runs(self) -> Mapping[str, Mapping[str, Estimate]]:
+        """Numbers by run."""
+        return {run: summary.numbers(result, self.after, self.until) for run, result in self.runs.items()}
 
     def to_pandas(self) -> pd.DataFrame:
         """A row for each number, in SI: `unit`, and of each run its value and `NAME error`.
@@ -104,6 +110,15 @@ class RunsSideBySide:
         if not unknown:
             return said
         return f"errors of {', '.join(unknown)} not known, for no accuracy was asked; of others {said}"
+
+
+def _by_name(of_runs: Mapping[str, Mapping[str, Estimate]]) -> Named[dict[str, Estimate]]:
+    """Numbers of runs by number, then by run."""
+    found: Named[dict[str, Estimate]] = Named(what="number")
+    for run, numbers in of_runs.items():
+        for name, number in numbers.items():
+            found.setdefault(name, {})[run] = number
+    return found
 
 
 def compare(

@@ -9,6 +9,7 @@ from support_exudyn.formulations.registry import CHEAPEST_FIRST, FORMULATIONS, F
 from support_exudyn.model.pins import ClearancePin, Pin
 from support_exudyn.postprocessing.figures.selection import inside
 from support_exudyn.postprocessing.figures.units import readable, said
+from support_exudyn.postprocessing.shown_numbers import AT_ANY_STEP, label, shown
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scenario.scenario_data import LARGEST_GOAL
 from support_exudyn.simulation.estimate import Estimate
@@ -18,7 +19,6 @@ from user_forces.friction.frictionless import Frictionless
 from user_forces.values.value import InputError, Value
 
 Row = tuple[str, ...]
-AT_ANY_STEP = (".largest_force", ".largest_force_time")  # of the whole run, not only of the records
 IMPACTS = 3  # of every pin that are told one by one
 VERSIONS = ("support-exudyn", "exudyn", "python", "numpy", "scipy", "numba")
 ROUNDING = 1e-14  # share of a channel's largest value that is shown as zero
@@ -140,14 +140,12 @@ def numbers(result: Result, after: float, until: float) -> dict[str, Estimate]:
 
 
 def came_out(result: Result, after: float, until: float) -> list[Row]:
-    """`numbers` in the units in which they are read best: name, value, error (empty if not known), unit.
+    """`numbers` as they are printed, see `shown`: name, value, error (empty if not known), unit.
 
     Raises InputError if no record lies between.
     """
-    return [
-        (f"{name}, any step of the run" if name.endswith(AT_ANY_STEP) else name, *with_error(found))
-        for name, found in numbers(result, after, until).items()
-    ]
+    (found,) = shown([result], [numbers(result, after, until)], after, until)
+    return [(label(name), *with_error(number)) for name, number in found.items()]
 
 
 def impacts(result: Result) -> list[Row]:

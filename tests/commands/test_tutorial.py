@@ -159,7 +159,7 @@ def test_the_sweep_is_a_straight_line(folder: Path) -> None:
     assert -2.4e-3 < line[0] < -1.8e-3
     # at 2 mm friction sets the pin vibrating: its force swings, and the mean place moves
     # by less than a hundredth of the shift
-    peaks = [float(row["pin.rear_base.force.largest_N"]) for row in table]
+    peaks = [float(row["pin.rear_base.largest_force_N"]) for row in table]
     assert max(peaks[:3]) < 26e3
     assert peaks[3] > 1.5 * peaks[2]
     assert tips[3] == pytest.approx(np.polyval(line, sizes[3]), abs=4e-5)

@@ -1,0 +1,70 @@
+"""Which numbers of runs are printed, in which order, and by which names."""
+
+from collections.abc import Mapping, Sequence
+
+from support_exudyn.simulation.estimate import Estimate
+from support_exudyn.simulation.result import Result
+
+LARGEST = ".largest_force"  # of a clearance pin, at any step of the run
+LARGEST_TIME = f"{LARGEST}_time"
+AT_ANY_STEP = (LARGEST, LARGEST_TIME)
+AT_RECORDS = (".force.largest", ".force.largest_time")  # the same of the records only
+
+
+def hardest_first(found: Mapping[str, Estimate]) -> list[str]:
+    """The clearance pins of a run by their largest force at any step, the hardest hit first.
+
+    found: numbers of the run by name, as `Result.numbers` names them.
+    """
+    largest = {name: one.value for name, one in found.items() if name.endswith(LARGEST)}
+    ranked = sorted(largest, key=lambda name: -largest[name])
+    return [name.removeprefix("pin.").removesuffix(LARGEST) for name in ranked]
+
+
+def shown(
+    runs: Sequence[Result], numbers: Sequence[Mapping[str, Estimate]], after: float, until: float
+) -> list[dict[str, Estimate]]:
+    """The numbers of some runs as they are printed.
+
+    The largest forces of clearance pins at any step come first, the hardest hit pin before the others. The
+    largest of the records is left out where a pin has the other one: it is smaller, and ranks pins differently.
+    Of a piece of a run it stays, for the other is of the whole run.
+
+    Arguments:
+        runs: the runs.
+        numbers: of each its numbers by name.
+        after, until: times between which they were taken [s].
+
+    Returns:
+        Of each run the numbers that are printed, in their order.
+    """
+    first = [f"pin.{pin}{end}" for found in numbers for pin in hardest_first(found) for end in AT_ANY_STEP]
+    names = list(dict.fromkeys([*first, *(name for found in numbers for name in found)]))
+    left_out = {
+        name
+        for name in names
+        if name.endswith(AT_RECORDS) and all(_has_any_step(name, found) for found in numbers if name in found)
+    }
+    if not all(_is_whole(run, after, until) for run in runs):
+        left_out = set()
+    return [
+        {name: found[name] for name in names if name in found and name not in left_out} for found in numbers
+    ]
+
+
+def label(name: str) -> str:
+    """The name of a number with what it is taken from, where a clearance pin has two of a kind."""
+    if name.endswith(AT_ANY_STEP):
+        return f"{name}, any step of the run"
+    if name.startswith("pin.") and name.endswith(AT_RECORDS):
+        return f"{name}, of the records"
+    return name
+
+
+def _has_any_step(name: str, found: Mapping[str, Estimate]) -> bool:
+    """Whether a run has the number at any step beside the one of the records."""
+    return f"{name.rpartition('.force.')[0]}{LARGEST}" in found
+
+
+def _is_whole(run: Result, after: float, until: float) -> bool:
+    return bool(after <= run.time[0] and until >= run.time[-1])

@@ -1,0 +1,76 @@
+"""Which pin hits hardest is told by the largest force at any step, the same wherever runs are printed."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+
+from support_exudyn.postprocessing.run_report import _telling_time, _tiles
+from support_exudyn.postprocessing.shown_numbers import hardest_first, label, shown
+from support_exudyn.simulation.estimate import Estimate
+from tests import synthetic
+from tests.cases.run_cases import PIN, loose_support
+
+TIME = np.arange(11) * 0.1
+RUN = synthetic.journal(loose_support(1.5, 0.25), TIME, 0.0 * TIME, 0.0 * TIME, [])
+
+
+def of_pins(**pins: tuple[float, float]) -> Mapping[str, Estimate]:
+    """Numbers of pins: the largest force of the records, and at any step."""
+    found: dict[str, Estimate] = {}
+    for pin, (at_records, at_any_step) in pins.items():
+        found[f"pin.{pin}.force.mean"] = Estimate(1.0, 0.1, "N")
+        found[f"pin.{pin}.force.largest"] = Estimate(at_records, 500.0, "N")
+        found[f"pin.{pin}.force.largest_time"] = Estimate(0.5, 0.01, "s")
+    for pin, (_, at_any_step) in pins.items():
+        if not math.isnan(at_any_step):
+            found[f"pin.{pin}.largest_force"] = Estimate(at_any_step, 1.0, "N")
+            found[f"pin.{pin}.largest_force_time"] = Estimate(0.51, 0.001, "s")
+    return found
+
+
+# by its records the first one hits harder, which it does not
+TWO = of_pins(a=(90e3, 100e3), b=(80e3, 130e3))
+
+
+def test_the_hardest_hit_pin_comes_first_and_its_records_do_not_contradict() -> None:
+    (found,) = shown([RUN], [TWO], 0.0, math.inf)
+    assert hardest_first(TWO) == ["b", "a"]
+    assert [*found][:4] == [f"pin.{pin}.largest_force{end}" for pin in "ba" for end in ("", "_time")]
+    assert not [name for name in found if ".force.largest" in name]
+    assert "pin.a.force.mean" in found
+
+
+def test_of_a_piece_both_are_told_by_names_that_say_of_what() -> None:
+    (found,) = shown([RUN], [TWO], 0.3, math.inf)
+    assert set(found) == set(TWO)
+    assert label("pin.a.force.largest") == "pin.a.force.largest, of the records"
+    assert label("pin.a.largest_force") == "pin.a.largest_force, any step of the run"
+    assert label("front_column.force.largest") == "front_column.force.largest"
+
+
+def test_an_ideal_pin_keeps_its_largest_force_beside_one_with_clearance() -> None:
+    ideal = of_pins(a=(7e3, math.nan))
+    first, second = shown([RUN, RUN], [ideal, TWO], 0.0, math.inf)
+    assert first["pin.a.force.largest"].value == 7e3
+    assert second["pin.a.force.largest"].value == 90e3
+    assert "pin.b.force.largest" not in second
+
+
+def test_the_tiles_of_a_report_are_of_the_hardest_hit_pin() -> None:
+    names = [tile.name for tile in _tiles({"run": TWO}, [*TWO])]
+    assert names == [
+        "pin.b.largest_force", "pin.b.largest_force_time", "pin.b.force.mean", "pin.a.largest_force",
+    ]  # fmt: skip
+    before = _tiles({"ideal": of_pins(b=(7e3, math.nan)), "loose": TWO}, [*TWO])
+    assert (before[0].before, before[0].value.partition(" ")[0]) == ("7.0 ± 0.5", "130")
+
+
+def test_the_picture_of_a_report_is_of_the_largest_force_at_any_step() -> None:
+    force = {PIN: 9e4}
+    found = synthetic.journal(RUN.scenario, TIME, 0.0 * TIME, 0.0 * TIME, [])
+    object.__setattr__(found, "largest_force", force)
+    object.__setattr__(found, "largest_force_time", {PIN: 0.4321})
+    assert _telling_time(found) == (0.4321, f"when the force in {PIN} is largest, at 0.4321 s")
