@@ -17,6 +17,7 @@ from rich.table import Table
 from support_exudyn.commands.command_line import silence_output
 from support_exudyn.postprocessing import summary as summary
 from support_exudyn.postprocessing.figures import selection
+from support_exudyn.postprocessing.shown_numbers import ranking
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import cleaned
 
@@ -77,7 +78,7 @@ def show_table(console: Console, title: str, header: Sequence[str], rows: Sequen
 def show_numbers(
     console: Console, title: str, unknown: str, result: Result, after: float, until: float
 ) -> None:
-    """The table of the numbers of a run between two times [s]; unknown: why they may have no errors."""
+    """The numbers of a run between two times [s], and which pin is hit hardest; unknown: why without errors."""
     known = "± estimated numerical error" if result.coarser else f"numerical errors not known: {unknown}"
     rows = summary.came_out(result, after, until)
     header: tuple[str, ...] = ("number", ">value", ">±", "unit")
@@ -85,6 +86,8 @@ def show_numbers(
         header, rows = (*header[:2], header[3]), [(*row[:2], row[3]) for row in rows]
     window = f"{selection.said(result, after, until)}"
     show_table(console, f"{title}, {window} ({known})", header, rows)
+    if order := ranking(summary.numbers(result, after, until)):
+        console.print(order, markup=False, soft_wrap=True, end="\n\n")
 
 
 def show_touches(console: Console, result: Result) -> None:

@@ -30,7 +30,14 @@ from support_exudyn.postprocessing.page.pieces import (
     image,
     templates,
 )
-from support_exudyn.postprocessing.shown_numbers import LARGEST, LARGEST_TIME, hardest_first, label, shown
+from support_exudyn.postprocessing.shown_numbers import (
+    LARGEST,
+    LARGEST_TIME,
+    hardest_first,
+    label,
+    ranking,
+    shown,
+)
 from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
@@ -50,13 +57,14 @@ class RunReport:
     """What the page says.
 
     runs: their names. numbers: the first ones are those of the clearance pins. still: a picture, or None and
-    `no_still`, why not.
+    `no_still`, why not. hardest: of each run with several clearance pins, how hard each is hit.
     """
 
     runs: tuple[str, ...]
     tiles: tuple[KeyNumber, ...]
     machines: tuple[ShownFigure, ...]
     over_time: ShownFigure
+    hardest: tuple[str, ...]
     key: ShownTable
     numbers: ShownTable
     impacts: ShownTable
@@ -99,6 +107,7 @@ def run_report(runs: Mapping[str, Result], channels: Sequence[str] = ()) -> str:
         _tiles(estimates, key),
         _machines(runs),
         over_time,
+        tuple(f"{name} {order}" for name, found in estimates.items() if (order := ranking(found))),
         ShownTable(_numbers("Numbers of the clearance pins and traced points", estimates, key), "key"),
         ShownTable(_numbers("All numbers", estimates, every), "numbers"),
         ShownTable(_impacts(runs), "impacts"),

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 
+from support_exudyn.postprocessing.figures.units import said
 from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.result import Result
 
@@ -19,6 +20,20 @@ def hardest_first(found: Mapping[str, Estimate]) -> list[str]:
     largest = {name: one.value for name, one in found.items() if name.endswith(LARGEST)}
     ranked = sorted(largest, key=lambda name: -largest[name])
     return [name.removeprefix("pin.").removesuffix(LARGEST) for name in ranked]
+
+
+def ranking(found: Mapping[str, Estimate]) -> str:
+    """Which of several clearance pins is hit hardest, how hard and when, then the others; empty for one pin.
+
+    found: numbers of the run by name, as `Result.numbers` names them.
+    """
+    told = [_hit(pin, found) for pin in hardest_first(found)]
+    return f"hits hardest: {told[0]}; then {'; '.join(told[1:])}" if len(told) > 1 else ""
+
+
+def _hit(pin: str, found: Mapping[str, Estimate]) -> str:
+    force, when = found[f"pin.{pin}{LARGEST}"], found.get(f"pin.{pin}{LARGEST_TIME}")
+    return f"{pin}, {said(force.value, force.unit, 4)}" + (f" at {said(when.value, 's', 4)}" if when else "")
 
 
 def shown(

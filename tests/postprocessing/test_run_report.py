@@ -52,7 +52,8 @@ def test_the_page_has_all_its_parts_and_loads_nothing(page: Path) -> None:
     assert "<title>Runs ideal, loose</title>" in text
     for said in (
         "clearance in rear_base", "pin.rear_base.force.mean", "CubicStep (stroke 0.5", "formulation",
-        "wall time", "exudyn 1.", "Run loose when the force in rear_base is largest", "estimated numerical error",
+        "wall time", "exudyn 1.", "Run loose when the force in rear_base is largest",
+        "estimated numerical error",
     ):  # fmt: skip
         assert said in text, said
     elements = re.sub(r"(?s)<script.*?</script>", "", text)

@@ -6,9 +6,13 @@ import math
 from collections.abc import Mapping
 
 import numpy as np
+import pytest
+from rich.console import Console
 
+from support_exudyn.commands.tables import show_numbers
+from support_exudyn.postprocessing import summary as summary
 from support_exudyn.postprocessing.run_report import _telling_time, _tiles
-from support_exudyn.postprocessing.shown_numbers import hardest_first, label, shown
+from support_exudyn.postprocessing.shown_numbers import hardest_first, label, ranking, shown
 from support_exudyn.simulation.estimate import Estimate
 from tests import synthetic
 from tests.cases.run_cases import PIN, loose_support
@@ -20,7 +24,7 @@ RUN = synthetic.journal(loose_support(1.5, 0.25), TIME, 0.0 * TIME, 0.0 * TIME, 
 def of_pins(**pins: tuple[float, float]) -> Mapping[str, Estimate]:
     """Numbers of pins: the largest force of the records, and at any step."""
     found: dict[str, Estimate] = {}
-    for pin, (at_records, at_any_step) in pins.items():
+    for pin, (at_records, _) in pins.items():
         found[f"pin.{pin}.force.mean"] = Estimate(1.0, 0.1, "N")
         found[f"pin.{pin}.force.largest"] = Estimate(at_records, 500.0, "N")
         found[f"pin.{pin}.force.largest_time"] = Estimate(0.5, 0.01, "s")
@@ -41,6 +45,19 @@ def test_the_hardest_hit_pin_comes_first_and_its_records_do_not_contradict() -> 
     assert [*found][:4] == [f"pin.{pin}.largest_force{end}" for pin in "ba" for end in ("", "_time")]
     assert not [name for name in found if ".force.largest" in name]
     assert "pin.a.force.mean" in found
+
+
+def test_pins_are_ranked_in_a_line_by_the_largest_force_at_any_step() -> None:
+    assert ranking(TWO) == "hits hardest: b, 130 kN at 0.51 s; then a, 100 kN at 0.51 s"
+    assert ranking(of_pins(a=(90e3, 100e3), b=(99e3, math.nan))) == ""
+
+
+def test_run_and_show_print_the_ranking(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(summary, "numbers", lambda *_: TWO)
+    show_numbers(Console(width=150), "what came out", "none asked", RUN, 0.0, math.inf)
+    assert "hits hardest: b, 130 kN at 0.51 s; then a, 100 kN at 0.51 s\n" in capsys.readouterr().out
 
 
 def test_of_a_piece_both_are_told_by_names_that_say_of_what() -> None:
