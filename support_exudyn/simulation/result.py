@@ -15,6 +15,7 @@ import h5py
 import numpy as np
 
 from support_exudyn.files.hdf5 import BLOCK, Inside, check_checksum, with_checksum, write_series
+from support_exudyn.files.own_modules import import_modules_of, modules_of
 from support_exudyn.files.whole_file import contents, missing_file, whole_file
 from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.mechanics.trajectory import Counts, Impulse
@@ -149,15 +150,19 @@ class Result(RecordedRun):
     def save(self, path: str | Path) -> Path:
         """Write everything to one HDF5 file: /channels/NAME with units, and the rest as JSON attributes.
 
-        The run by which errors are estimated stands likewise in /coarser. The file begins with a digest of all
-        that follows, so that `load` takes no damaged one for good.
+        The run by which errors are estimated stands likewise in /coarser. Of classes of one's own the modules
+        are noted, with their absolute paths. The file begins with a digest of all that follows, so that `load`
+        takes no damaged one for good.
 
         Raises OSError that names the file if it cannot be written; an older one is then as it was.
         """
         # made in memory: on a full disk HDF5 would end the whole process
         with h5py.File("result", "w", driver="core", backing_store=False, userblock_size=BLOCK) as file:
             file.attrs["format"] = FORMAT
+            data = self.scenario.to_data()
             _write(file, self)
+            if own := modules_of(data):
+                file.attrs["own_classes"] = json.dumps(own)
             file.flush()
             image = file.id.get_file_image()
         with whole_file(path) as temporary:
@@ -166,10 +171,10 @@ class Result(RecordedRun):
 
     @staticmethod
     def load(path: str | Path) -> Result:
-        """Read what `save` wrote.
+        """Read what `save` wrote; modules of one's own that it needs are imported from where they were.
 
-        Raises InputError if the file is not a whole result file, or was changed; OSError if it cannot be opened
-        at all.
+        Raises InputError if the file is not a whole result file, or was changed, or if a module that it needs
+        is not there; OSError if it cannot be opened at all.
         """
         if not Path(path).exists():
             raise missing_file(path, "files that Result.save has written")
@@ -181,7 +186,10 @@ class Result(RecordedRun):
         try:
             check_checksum(data, FORMAT)
             with h5py.File(h5py.h5f.open_file_image(data), "r") as file:
-                return _read(Inside(file, len(data)))
+                whole = Inside(file, len(data))
+                if "own_classes" in whole.attributes:
+                    import_modules_of(whole.data("own_classes"))
+                return _read(whole)
         except InputError as error:  # of a value that is not known or does not fit
             raise InputError(f"{path}: {error}") from None
         except DAMAGES as error:

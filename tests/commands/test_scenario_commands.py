@@ -207,10 +207,16 @@ def test_laws_of_ones_own(
     (tmp_path / "a.toml").write_text(FALL)
     assert "pins.pin.law = 'Twice': allowed: " in refused(["run", "a.toml"], capsys)
     assert program("--import", "my_laws", "run", "a.toml", folder=tmp_path).returncode == 0
-    assert "Twice" in refused(["show", "a.h5"], capsys)
-    shown = program("--import", "my_laws", "show", "a.h5", folder=tmp_path)
+    (tmp_path / "elsewhere").mkdir()
+    for folder in (tmp_path, tmp_path / "elsewhere"):  # the run knows where the module is
+        shown = program("show", str(tmp_path / "a.h5"), folder=folder)
+        assert (shown.returncode, shown.stderr) == (0, "")
+        assert "Twice" in shown.stdout
+    moved = (tmp_path / "my_laws.py").rename(tmp_path / "elsewhere" / "my_laws.py")
+    told = refused(["show", "a.h5"], capsys)
+    assert f"'Twice' is a class of module my_laws, which was at {tmp_path / 'my_laws.py'}: there is no" in told
+    shown = program("--import", "my_laws", "show", str(tmp_path / "a.h5"), folder=moved.parent)
     assert (shown.returncode, shown.stderr) == (0, "")
-    assert "Twice" in shown.stdout
 
 
 @pytest.mark.parametrize(

@@ -37,13 +37,13 @@ def _inside(key: str, item: Any, place: Place, faults: Faults, folder: Path) -> 
     if key not in KEYS or not isinstance(item, str) or not (found := NAMED.fullmatch(item)):
         return item
     try:
-        _check_class(_module(found["module"], folder), found["name"])
+        _check_class(own_module(found["module"], folder), found["name"])
     except InputError as error:
         faults.add((), f"{said_place(place)} = {said(item)}: {error}")
     return found["name"]
 
 
-def _module(name: str, folder: Path) -> ModuleType:
+def own_module(name: str, folder: Path) -> ModuleType:
     """A module by its name or its file. Raises InputError that says what is allowed."""
     path = (folder / name).resolve() if name.endswith(ENDING) else None
     if path is not None and not path.is_file():
