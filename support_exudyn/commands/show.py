@@ -1,4 +1,4 @@
-"""`show RUN [CHANNEL...]`, `show STORE [NUMBER...]`: what a run or a sweep was, as tables in the terminal."""
+"""`show RUN [CHANNEL|NUMBER...]`, `show STORE [NUMBER...]`: what a run or a sweep was, as tables."""
 
 import argparse
 import math
@@ -32,8 +32,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "channels",
         nargs="*",
         default=[],
-        metavar="CHANNEL",
-        help="only these: names or patterns, such as 'pin.*.force'",
+        metavar="CHANNEL|NUMBER",
+        help="only these channels and numbers: names or patterns, such as 'pin.*.force', '*largest_force'",
     )
     add("--all", action="store_true", help="all channels, not only those looked at first")
     add_json(parser)
@@ -55,7 +55,9 @@ def run(given: argparse.Namespace) -> None:
 def _object(result: Result, given: argparse.Namespace) -> dict[str, Any]:
     """What scripts are told, in SI: every number with its error, and all channels unless some are asked for."""
     ends = given.after, given.until
-    names = matching(result.channels, given.channels) or [name for name in result.channels if name != "time"]
+    names = [name for name in result.channels if name != "time"]
+    if given.channels:
+        names, _ = _asked(result, given)
     return {
         "run": given.run,
         "scenario": result.scenario.to_data(),
@@ -72,11 +74,20 @@ def _object(result: Result, given: argparse.Namespace) -> dict[str, Any]:
     }
 
 
+def _asked(result: Result, given: argparse.Namespace) -> tuple[list[str], list[str]]:
+    """The channels and the numbers that are asked for by names or patterns."""
+    numbers = summary.numbers(result, given.after, given.until)
+    found = matching([*result.channels, *numbers], given.channels, "channel or number")
+    return [name for name in found if name in result.channels], [name for name in found if name in numbers]
+
+
 def _tables(console: Console, result: Result, given: argparse.Namespace) -> None:
-    names = matching(result.channels, given.channels)
     ends = given.after, given.until
     piece = f" at the records every {said(result.scenario.record_period, 's')}, {selection.said(result, *ends)}"
-    if names:
+    if given.channels:
+        names, numbers = _asked(result, given)
+        if numbers:
+            show_numbers(console, "numbers", "no accuracy was asked", result, *ends, only=numbers)
         _show_channels(console, summary.of_channels(result, names, *ends), f"channels{piece}")
         return
     show_table(console, "what was run", (), summary.what_was_run(result))

@@ -76,17 +76,26 @@ def show_table(console: Console, title: str, header: Sequence[str], rows: Sequen
 
 
 def show_numbers(
-    console: Console, title: str, unknown: str, result: Result, after: float, until: float
+    console: Console,
+    title: str,
+    unknown: str,
+    result: Result,
+    after: float,
+    until: float,
+    only: Sequence[str] = (),
 ) -> None:
-    """The numbers of a run between two times [s], and which pin is hit hardest; unknown: why without errors."""
+    """The numbers of a run between two times [s], and which pin is hit hardest.
+
+    unknown: why they may have no errors. only: names of those that are shown; without, all and the pins.
+    """
     known = "± estimated numerical error" if result.coarser else f"numerical errors not known: {unknown}"
-    rows = summary.came_out(result, after, until)
+    rows = summary.came_out(result, after, until, only)
     header: tuple[str, ...] = ("number", ">value", ">±", "unit")
     if not any(row[2] for row in rows):  # nothing to show there
         header, rows = (*header[:2], header[3]), [(*row[:2], row[3]) for row in rows]
     window = f"{selection.said(result, after, until)}"
     show_table(console, f"{title}, {window} ({known})", header, rows)
-    if order := ranking(summary.numbers(result, after, until)):
+    if not only and (order := ranking(summary.numbers(result, after, until))):
         console.print(order, markup=False, soft_wrap=True, end="\n\n")
 
 

@@ -139,12 +139,17 @@ def numbers(result: Result, after: float, until: float) -> dict[str, Estimate]:
     return found | {name: Estimate(value, math.nan, "J") for name, value in _energies(result).items()}
 
 
-def came_out(result: Result, after: float, until: float) -> list[Row]:
+def came_out(result: Result, after: float, until: float, only: Sequence[str] = ()) -> list[Row]:
     """`numbers` as they are printed, see `shown`: name, value, error (empty if not known), unit.
+
+    only: names of those that are asked for.
 
     Raises InputError if no record lies between.
     """
-    (found,) = shown([result], [numbers(result, after, until)], after, until)
+    every = numbers(result, after, until)
+    found = {name: every[name] for name in only}
+    if not only:
+        (found,) = shown([result], [every], after, until)
     return [(label(name), *with_error(number)) for name, number in found.items()]
 
 

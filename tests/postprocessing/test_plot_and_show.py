@@ -315,6 +315,25 @@ def test_show_refuses_unknown_channels(runs: Path, capsys: pytest.CaptureFixture
     assert "tip.x" in capsys.readouterr().err
 
 
+def test_numbers_are_shown_by_the_names_that_they_are_printed_with(
+    runs: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    said = shown(runs / "with_clearance.h5", capsys, "*largest_force*")
+    largest = Result.load(runs / "with_clearance.h5").largest_force["rear_base"]
+    (row,) = [line.split() for line in said.splitlines() if "rear_base.largest_force," in line]
+    assert float(row[6]) == pytest.approx(1e-3 * largest, rel=1e-2)
+    assert "energy" not in said
+    both = shown(runs / "with_clearance.h5", capsys, "pin.rear_base.force.largest", "tip.x")
+    assert "pin.rear_base.force.largest, of the records" in both
+    assert "\n tip.x " in both
+    assert main(["show", str(runs / "with_clearance.h5"), "*largest_torce*"]) == 1
+    assert "no such channel or number" in capsys.readouterr().err
+    assert main(["show", str(runs / "with_clearance.h5"), "*largest_force*", "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told["channels"] == {}
+    assert "pin.rear_base.largest_force" in told["numbers"]
+
+
 def test_show_for_scripts_has_what_the_tables_have(runs: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["show", str(runs / "with_clearance.h5"), "--json"]) == 0
     told = json.loads(capsys.readouterr().out)
