@@ -89,13 +89,14 @@ def show_numbers(
     unknown: why they may have no errors. only: names of those that are shown; without, all and the pins.
     """
     known = "± estimated numerical error" if result.coarser else f"numerical errors not known: {unknown}"
-    rows = summary.came_out(result, after, until, only)
+    found = summary.printed(result, after, until, only)
+    rows = summary.rows_of(found)
     header: tuple[str, ...] = ("number", ">value", ">±", "unit")
     if not any(row[2] for row in rows):  # nothing to show there
         header, rows = (*header[:2], header[3]), [(*row[:2], row[3]) for row in rows]
     window = f"{selection.said(result, after, until)}"
     show_table(console, f"{title}, {window} ({known})", header, rows)
-    if not only and (order := ranking(summary.numbers(result, after, until))):
+    if not only and (order := ranking(found)):
         console.print(order, markup=False, soft_wrap=True, end="\n\n")
 
 

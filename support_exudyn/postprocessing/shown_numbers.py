@@ -9,6 +9,8 @@ from support_exudyn.simulation.result import Result
 LARGEST = ".largest_force"  # of a clearance pin, at any step of the run
 LARGEST_TIME = f"{LARGEST}_time"
 AT_ANY_STEP = (LARGEST, LARGEST_TIME)
+TIME = "_time"  # of largest values, which may jump from peak to peak
+VAGUE = 0.1  # share of a window; a time with a larger error is one of several alike peaks
 AT_RECORDS = (".force.largest", ".force.largest_time")  # the same of the records only
 
 
@@ -25,7 +27,7 @@ def hardest_first(found: Mapping[str, Estimate]) -> list[str]:
 def ranking(found: Mapping[str, Estimate]) -> str:
     """Which of several clearance pins is hit hardest, how hard and when, then the others; empty for one pin.
 
-    found: numbers of the run by name, as `Result.numbers` names them.
+    found: numbers of the run that are printed, see `shown`; a time that is not among them is not told.
     """
     told = [_hit(pin, found) for pin in hardest_first(found)]
     return f"hits hardest: {told[0]}; then {'; '.join(told[1:])}" if len(told) > 1 else ""
@@ -43,7 +45,8 @@ def shown(
 
     The largest forces of clearance pins at any step come first, the hardest hit pin before the others. The
     largest of the records is left out where a pin has the other one: it is smaller, and ranks pins differently.
-    Of a piece of a run it stays, for the other is of the whole run.
+    Of a piece of a run it stays, for the other is of the whole run. The time of a largest value is left out
+    where its error exceeds a tenth of the window: there are several alike peaks then.
 
     Arguments:
         runs: the runs.
@@ -63,8 +66,23 @@ def shown(
     if not all(_is_whole(run, after, until) for run in runs):
         left_out = set()
     return [
-        {name: found[name] for name in names if name in found and name not in left_out} for found in numbers
+        {
+            name: found[name]
+            for name in names
+            if name in found and name not in left_out and not _is_vague(name, found[name], run, after, until)
+        }
+        for run, found in zip(runs, numbers, strict=True)
     ]
+
+
+def _is_vague(name: str, number: Estimate, run: Result, after: float, until: float) -> bool:
+    """Whether a time of a largest value may be that of another peak; never where its error is not known."""
+    if not name.endswith(TIME):
+        return False
+    first, last = float(run.time[0]), float(run.time[-1])
+    if not name.endswith(LARGEST_TIME):
+        first, last = max(first, after), min(last, until)
+    return number.error > VAGUE * (last - first)
 
 
 def label(name: str) -> str:

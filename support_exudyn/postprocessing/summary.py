@@ -139,18 +139,23 @@ def numbers(result: Result, after: float, until: float) -> dict[str, Estimate]:
     return found | {name: Estimate(value, math.nan, "J") for name, value in _energies(result).items()}
 
 
-def came_out(result: Result, after: float, until: float, only: Sequence[str] = ()) -> list[Row]:
-    """`numbers` as they are printed, see `shown`: name, value, error (empty if not known), unit.
-
-    only: names of those that are asked for.
+def printed(result: Result, after: float, until: float, only: Sequence[str] = ()) -> dict[str, Estimate]:
+    """`numbers` that are printed, in their order, see `shown`; only: names of those that are asked for.
 
     Raises InputError if no record lies between.
     """
     every = numbers(result, after, until)
-    found = {name: every[name] for name in only}
-    if not only:
-        (found,) = shown([result], [every], after, until)
+    return {name: every[name] for name in only} if only else shown([result], [every], after, until)[0]
+
+
+def rows_of(found: Mapping[str, Estimate]) -> list[Row]:
+    """Numbers in the units in which they are read best: name, value, error (empty if not known), unit."""
     return [(label(name), *with_error(number)) for name, number in found.items()]
+
+
+def came_out(result: Result, after: float, until: float) -> list[Row]:
+    """The rows of the numbers that are printed. Raises InputError if no record lies between."""
+    return rows_of(printed(result, after, until))
 
 
 def impacts(result: Result) -> list[Row]:

@@ -68,6 +68,22 @@ def test_of_a_piece_both_are_told_by_names_that_say_of_what() -> None:
     assert label("front_column.force.largest") == "front_column.force.largest"
 
 
+@pytest.mark.parametrize(
+    ("error", "after", "stays"),
+    [(0.09, 0.0, True), (0.11, 0.0, False), (0.09, 0.5, False), (math.inf, 0.0, False), (math.nan, 0.0, True)],
+)
+def test_a_time_that_may_be_of_another_peak_is_not_printed(error: float, after: float, stays: bool) -> None:
+    name = "front_column.force.largest_time"
+    (found,) = shown([RUN], [{name: Estimate(0.6, error, "s")}], after, math.inf)
+    assert (name in found) == stays
+
+
+def test_the_ranking_tells_no_time_of_several_alike_peaks() -> None:
+    vague = {**TWO, "pin.b.largest_force_time": Estimate(0.51, 0.5, "s")}
+    (found,) = shown([RUN], [vague], 0.0, math.inf)
+    assert ranking(found) == "hits hardest: b, 130 kN; then a, 100 kN at 0.51 s"
+
+
 def test_an_ideal_pin_keeps_its_largest_force_beside_one_with_clearance() -> None:
     ideal = of_pins(a=(7e3, math.nan))
     first, second = shown([RUN, RUN], [ideal, TWO], 0.0, math.inf)
