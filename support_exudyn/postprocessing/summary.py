@@ -55,9 +55,16 @@ def how(result: Result, asked: str | None = None) -> list[Row]:
     asked: the formulation that was asked for, if it is known; of "auto" it is said which ran and why.
     """
     scenario, counts = result.scenario, result.counts
-    if result.goal is None:
+    cost = ""
+    if result.goal is None and result.coarser is None:
         accuracy = "none was asked for: settings as they stand"
+    elif result.goal is None:
+        accuracy = (
+            f"errors were asked for, no accuracy: {result.worst_error:.1g} estimated, settings as they stand"
+        )
+        cost = " (all runs that the errors took)"
     else:
+        cost = " (all runs of the accuracy)" if result.coarser else ""
         met = "met" if result.met else "NOT met"
         accuracy = f"{result.goal:g} asked for, {result.worst_error:.1g} estimated: {met}"
     made = dataclasses.asdict(counts).items()
@@ -69,7 +76,7 @@ def how(result: Result, asked: str | None = None) -> list[Row]:
         ("formulation", f"{_formulation(result, asked or scenario.formulation)}; {steps}"),
         ("accuracy", accuracy),
         ("counts", ", ".join(f"{count} {name.replace('_', ' ')}" for name, count in made if count)),
-        ("wall time", said(result.wall_time, "s") + (" (all runs of the accuracy)" if result.coarser else "")),
+        ("wall time", said(result.wall_time, "s") + cost),
         ("made", f"{result.provenance.get('made_at', 'at a time unknown')} with {', '.join(versions)}"),
     ]
 

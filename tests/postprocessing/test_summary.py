@@ -92,6 +92,10 @@ def test_a_loose_pin_is_told_with_its_clearance_and_the_body_of_its_bore(bore: s
 
 def test_whether_an_accuracy_was_met_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
     assert dict(summary.how(run()))["accuracy"].startswith("none was asked for")
+    monkeypatch.setattr(Result, "worst_error", 0.004)
+    said = dict(summary.how(replace(run(), coarser=run())))  # errors = true
+    assert said["accuracy"].startswith("errors were asked for, no accuracy: 0.004 estimated")
+    assert "all runs that the errors took" in said["wall time"]
     for error, word in ((0.004, "met"), (0.04, "NOT met")):
         monkeypatch.setattr(Result, "worst_error", error)
         said = dict(summary.how(replace(run(), goal=0.01, coarser=run())))
