@@ -16,6 +16,7 @@ from PIL.ImageColor import getrgb
 from support_exudyn import Result
 from support_exudyn.postprocessing.figures.selection import nearest
 from support_exudyn.postprocessing.figures.style import CONTACT, FLIGHT
+from support_exudyn.postprocessing.figures.units import said_beside
 from support_exudyn.postprocessing.render import movie, panels
 from support_exudyn.postprocessing.render.movie import moments
 from support_exudyn.postprocessing.render.panels import (
@@ -286,6 +287,28 @@ def test_the_cursor_is_at_its_time_and_force() -> None:
     assert dark[:, 0].mean() == pytest.approx(60 + 0.4 * 500, abs=1.0)
     wide = [row for row in np.unique(dark[:, 1]) if np.count_nonzero(dark[:, 1] == row) >= 6]
     assert np.mean(wide) == pytest.approx(80.0, abs=1.5)  # the dot
+
+
+@pytest.mark.parametrize(("peak", "unit", "top"), [(40.0, "N", 43.2), (10e3, "kN", 10.8)])
+def test_small_forces_are_shown_in_newtons(peak: float, unit: str, top: float) -> None:
+    _, sheet = shown_strip(np.full_like(TIME, peak), TIME >= 0.0, 0.0, 1.0)
+    assert f"force [{unit}] over time [s]" in [text.get_text() for text in sheet.axes.texts]
+    assert sheet.axes.figure is not None
+    assert sheet.axes.figure.axes[1].get_ylim() == pytest.approx((0.0, top))
+
+
+@pytest.mark.parametrize(
+    ("force", "peak", "text"),
+    [
+        (40.0, 90.0, "40.0 N"),
+        (40.0, 9e4, "40.0 N"),
+        (60.0, 9e4, "0.1 kN"),
+        (0.0, 9e4, "0.0 kN"),
+        (5e4, 9e4, "50.0 kN"),
+    ],
+)
+def test_no_force_is_said_to_be_nought(force: float, peak: float, text: str) -> None:
+    assert said_beside(force, "N", peak) == text
 
 
 def test_what_is_cut_off_is_said() -> None:

@@ -6,6 +6,7 @@ import numpy as np
 
 from support_exudyn.model.pins import ClearancePin
 from support_exudyn.postprocessing.figures.style import CONTACT, FLIGHT, IDEAL
+from support_exudyn.postprocessing.figures.units import readable, said_beside
 from support_exudyn.postprocessing.render.movie import Moments
 from support_exudyn.postprocessing.render.panels import TRAIL, Inset, PinView, Strip, round_down, said, usual
 from support_exudyn.postprocessing.render.scene import RenderedScene
@@ -85,6 +86,7 @@ class Painter:
         self._sheet.write((left, 0.66 * bottom), text, 17 * u, room=right - left - 360 * u)
         if pin is not None:
             inside = (self._time >= moments.shown[0]) & (self._time <= moments.shown[1])
+            self._peak = float(pin.size.max(initial=0.0))  # [N]
             self._usual = usual(pin.size[moments.records] if moments.times.size > 1 else pin.size[inside])
             wide, high = layout.picture[2] - layout.picture[0], layout.picture[3] - layout.picture[1]
             self._scale = ARROW * min(high, 0.55 * wide) / self._usual  # pixels to a newton
@@ -108,10 +110,11 @@ class Painter:
         x, y = self._words
         sheet.write((x, y), f"force in {pin.name.replace('_', ' ')}", 14 * u, anchor="left top")
         sheet.write((x, y + 76 * u), f"on the {pin.on}", 14 * u, anchor="left top")
-        bar = round_down(self._usual / 1e3)
-        long = bar * 1e3 * self._scale
+        force = readable("N", self._usual)
+        bar = round_down(force.scale * self._usual)
+        long = bar / force.scale * self._scale
         sheet.arrow((x, y + 110 * u), (x + long, y + 110 * u), self._colour, 5.5 * u)
-        sheet.write((x + long + 14 * u, y + 110 * u), f"{said(bar)} kN", 14 * u, anchor="left center")
+        sheet.write((x + long + 14 * u, y + 110 * u), f"{said(bar)} {force.name}", 14 * u, anchor="left center")
 
     @property
     def _words(self) -> tuple[float, float]:
@@ -154,7 +157,9 @@ class Painter:
         force, cut = self._drawn(pin, record)
         self._arrow(pin, record, force, cut)
         colour = INK if size > 0.0 else FAINT
-        sheet.write((left, top + 28 * u), f"{size / 1e3:.1f} kN", 30 * u, colour, "left top", bold=True)
+        sheet.write(
+            (left, top + 28 * u), said_beside(size, "N", self._peak), 30 * u, colour, "left top", bold=True
+        )
         if cut:
             sheet.write((left, top + 126 * u), "the arrow is cut short", 13 * u, FAINT, "left top")
         for one, inset in self._insets:

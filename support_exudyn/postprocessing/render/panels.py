@@ -13,6 +13,7 @@ from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.model.pins import ClearancePin
 from support_exudyn.postprocessing.figures.style import CONTACT, FLIGHT, IDEAL, draw_pieces, pieces
+from support_exudyn.postprocessing.figures.units import readable
 from support_exudyn.postprocessing.look.poses import Poses, placed_pins
 from support_exudyn.postprocessing.look.solid import COLOURS, Role
 from support_exudyn.postprocessing.render.sheet import FAINT, INK, RULE, SMALLEST_FONT, Box, Canvas, Point
@@ -271,7 +272,8 @@ class Strip:
         self._box, self._unit = box, unit
         self._start, self._length = start, max(end - start, 1e-12)
         inside = (time >= start - 1e-12) & (time <= end + 1e-12)
-        self._time, self._force = time[inside], pin.size[inside] / 1e3
+        self._shown = readable("N", float(pin.size[inside].max(initial=0.0)))
+        self._time, self._force = time[inside], self._shown.scale * pin.size[inside]
         self._touching = None if pin.bore is None else pin.bore.closed[inside]
         self._peak = float(self._force.max(initial=0.0))
         self._top = min(CUT * usual(self._force), 1.08 * self._peak) if self._peak > 0.0 else 1.0
@@ -292,7 +294,7 @@ class Strip:
         axes.tick_params("x", length=4 * u)
         axes.grid(axis="y", color=RULE, lw=max(1.0, u))
         axes.set_axisbelow(True)
-        name = sheet.write((left, top - 9 * u), "force [kN] over time [s]", 13 * u)
+        name = sheet.write((left, top - 9 * u), f"force [{self._shown.name}] over time [s]", 13 * u)
         if self._touching is not None:
             axes.legend(
                 handles=[Patch(fc=CONTACT, label="contact"), Patch(fc=FLIGHT, label="free flight")],
@@ -301,7 +303,7 @@ class Strip:
                 handleheight=0.3, handletextpad=0.5, columnspacing=1.5, labelcolor=INK,
             )  # fmt: skip
         if self._peak > self._top:
-            text = f"cut off at {self._top:.3g} kN, largest {self._peak:.4g} kN"
+            text = f"cut off at {self._top:.3g} {self._shown.name}, largest {self._peak:.4g} {self._shown.name}"
             sheet.write((right, top - 9 * u), text, 12 * u, FAINT, "right baseline")
         force = np.minimum(self._force, self._top)
         if self._touching is None:
@@ -315,6 +317,6 @@ class Strip:
         """Draw the cursor at a time [s], with a dot at the force [N]."""
         u, (left, top, right, bottom) = self._unit, self._box
         x = left + (time - self._start) / self._length * (right - left)
-        y = bottom - min(force / 1e3 / self._top, 1.0) * (bottom - top)
+        y = bottom - min(self._shown.scale * force / self._top, 1.0) * (bottom - top)
         sheet.line(np.array([x, x]), np.array([top, bottom]), INK, 1.4 * u)
         sheet.disc((x, y), 4.5 * u, INK, 1.2 * u)

@@ -11,6 +11,7 @@ from matplotlib.colors import to_rgb
 
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.postprocessing.figures.style import CONTACT, FLIGHT
+from support_exudyn.postprocessing.figures.units import said_beside
 from support_exudyn.postprocessing.render.panels import SHOWN, PinView, round_up, said, usual
 
 RADIUS = 0.07  # of a bore, of the machine's length
@@ -80,7 +81,10 @@ class PinInsets:
         if size > 0.0:
             length = min(size / self._usual, LONGEST) * self._radius
             yield from self._arrow(at, length * view.force[record] / size, colour)
-        lines = view.name.replace("_", " "), f"{size / 1e3:.1f} kN, gap x {said(factor)}"
+        lines = (
+            view.name.replace("_", " "),
+            f"{said_beside(size, 'N', float(view.size.max(initial=0.0)))}, gap x {said(factor)}",
+        )
         for n, words in enumerate(lines):
             x, y = centre + self._radius * np.array([1.0, -1.4 - 0.4 * n])  # x points to the left here
             yield {"type": "Text", "text": words, "position": [x, y, self._depth], "color": [*INK, 1.0]}
