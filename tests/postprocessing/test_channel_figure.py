@@ -113,6 +113,17 @@ def test_curves_of_a_panel_differ_in_colour_and_in_dashes() -> None:
     assert curves[2].get_color() == style.CONTACT
 
 
+def test_five_clearance_pins_are_in_one_panel_in_five_colours() -> None:
+    pins = ("rear_base", "front_base", "rear_shield", "front_shield", "shield_canopy")
+    found = run()
+    scenario = replace(SCENARIO, formulation="redundant", pins=dict.fromkeys(pins, SCENARIO.pins["rear_base"]))
+    channel = found.channels["pin.rear_base.force"]
+    channels = {**found.channels, **{f"pin.{pin}.force": channel for pin in pins}}
+    found = replace(found, scenario=scenario, channels=channels, onsets=dict.fromkeys(pins, ()))
+    (axes,) = over_time(found, ["pin.*.force"]).axes
+    assert len({line.get_color() for line in axes.lines}) == len(axes.lines) == len(pins)
+
+
 def test_a_depth_is_not_drawn_beside_a_position() -> None:
     drawing = over_time(run(), ["pin.*.depth", "tip.x"])
     assert [axes.get_ylabel() for axes in drawing.axes] == ["length [mm]", "length [mm]"]

@@ -22,7 +22,7 @@ from support_exudyn.simulation.reported_numbers import ROUNDING
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
 
-CURVES = style.CURVES[:4]  # of a panel
+CURVES = style.CURVES  # of a panel
 MOST = 32  # channels in a figure
 PANEL_MM, LINE_MM, REST_MM = 38.0, 4.0, 30.0  # height of a panel, of a line of its legend, and of the rest
 LETTERS = 22  # of a line beside a panel
@@ -147,10 +147,11 @@ def _draw(
     """Returns the largest error of each channel that has one, SI."""
     time, scale = seconds.scale * result.time[chosen], panel.unit.scale
     worst = {}
-    with_clearance = {f"pin.{pin}.force" for pin in clearance_joints(result)}
+    loose = {f"pin.{pin}.force" for pin in clearance_joints(result)} & set(panel.names)
     for name, (colour, dashes) in zip(panel.names, CURVES, strict=False):
         values = scale * result[name][chosen]
-        colour = style.CONTACT if name in with_clearance else colour
+        if len(loose) == 1 and name in loose:  # several are told apart as others are
+            colour = style.CONTACT
         label = f"{name}: {result.channels[name].meaning}"
         axes.plot(time, values, color=colour, ls=dashes, lw=0.9, label=label, rasterized=time.size > 20000)
         error = error_over_time(result, name)
