@@ -8,12 +8,21 @@ from rich.console import Console
 
 from support_exudyn.commands.command_line import add_json, add_times, answer, folder
 from support_exudyn.commands.sweep_tables import is_store, show_sweep
-from support_exudyn.commands.tables import NARROWEST, facts, printed, show_numbers, show_table, show_touches
+from support_exudyn.commands.tables import (
+    NARROWEST,
+    facts,
+    printed,
+    show_impacts,
+    show_numbers,
+    show_table,
+    show_touches,
+)
 from support_exudyn.postprocessing import summary as summary
 from support_exudyn.postprocessing.figures import selection
 from support_exudyn.postprocessing.figures.selection import matching
 from support_exudyn.postprocessing.figures.units import said
 from support_exudyn.simulation.result import Result
+from user_forces.values.value import InputError
 
 HELP = "tables of what a run or a sweep was and what came out of it"
 WHOLE = (0.0, math.inf)  # run
@@ -35,6 +44,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="CHANNEL|NUMBER",
         help="only these channels and numbers: names or patterns, such as 'pin.*.force', '*largest_force'",
     )
+    add("--impacts", action="store_true", help="all impacts of a run's clearance pins, with their forces")
     add("--all", action="store_true", help="all channels, not only those looked at first")
     add_json(parser)
     add_times(parser, *WHOLE)
@@ -43,9 +53,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(given: argparse.Namespace) -> None:
     """Print the tables; as many of them as are read, if another program takes them."""
     if is_store(given.run):
+        if given.impacts:
+            raise InputError(f"{given.run}: --impacts: is a sweep; allowed: the file of a run")
         show_sweep(given)
         return
     result = Result.load(given.run)
+    if given.impacts and not result.onsets:
+        raise InputError(f"{given.run}: --impacts: has no clearance pin; allowed: a run that has some")
     if given.json:
         answer(_object(result, given))
         return
@@ -65,8 +79,13 @@ def _object(result: Result, given: argparse.Namespace) -> dict[str, Any]:
         "provenance": dict(result.provenance),
         "impacts": {
             pin: [
-                {"time_s": o.time, "speed_m_per_s": o.speed, "parting_time_s": o.separation_time}
-                for o in onsets
+                {
+                    "time_s": o.time,
+                    "speed_m_per_s": o.speed,
+                    "parting_time_s": o.separation_time,
+                    "force_at_records_N": summary.force_of_impact(result, pin, n),
+                }
+                for n, o in enumerate(onsets)
             ]
             for pin, onsets in result.onsets.items()
         },
@@ -84,6 +103,11 @@ def _asked(result: Result, given: argparse.Namespace) -> tuple[list[str], list[s
 def _tables(console: Console, result: Result, given: argparse.Namespace) -> None:
     ends = given.after, given.until
     piece = f" at the records every {said(result.scenario.record_period, 's')}, {selection.said(result, *ends)}"
+    if given.impacts:
+        rows = summary.impacts(result, None, *ends)
+        show_impacts(console, f"impacts, {selection.said(result, *ends)}", rows)
+        if not given.channels:
+            return
     if given.channels:
         names, numbers = _asked(result, given)
         if numbers:

@@ -22,6 +22,7 @@ from support_exudyn.simulation.result import Result
 from user_forces.values.value import cleaned
 
 NARROWEST = 25  # characters that words are worth showing in
+IMPACTS: tuple[str, ...] = ("pin", "impact", ">time", ">lasts", ">approach", ">parting", ">force")
 PIPED = 150  # characters of a line where there is no terminal
 
 
@@ -101,10 +102,21 @@ def show_numbers(
 
 
 def show_touches(console: Console, result: Result) -> None:
-    """The table of the impacts of a run, if there are any."""
+    """The table of the first impacts of a run, if it has clearance pins."""
     if rows := summary.impacts(result):
-        header = ("pin", "impact", ">time", ">lasts", ">approach", ">parting")
-        show_table(console, "impacts, and speeds of approach and separation", header, rows)
+        more = any(len(onsets) > summary.IMPACTS for onsets in result.onsets.values())
+        show_impacts(console, "first impacts" + (" (all: show RUN --impacts)" if more else ""), rows)
+
+
+def show_impacts(console: Console, title: str, rows: Sequence[summary.Row]) -> None:
+    """A table of impacts."""
+    header = IMPACTS
+    if _unbroken(header, rows) > console.width:  # of records, and so the first that can be missed
+        header, rows = header[:-1], [row[:-1] for row in rows]
+    told = "speeds of approach and separation"
+    if len(header) == len(IMPACTS):
+        told += ", largest force at the records"
+    show_table(console, f"{title}, {told}", header, rows)
 
 
 def facts(result: Result, after: float, until: float) -> dict[str, Any]:

@@ -12,7 +12,7 @@ from support_exudyn.postprocessing.html import html_table
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.result import Result
 
-IMPACTS = ("pin", "impact", ">time", ">lasts", ">speed of approach", ">of separation")
+IMPACTS = ("pin", "impact", ">time", ">lasts", ">speed of approach", ">of separation", ">force at records")
 FORCES = ("pin.*.force",)  # that are drawn if nothing is named
 
 

@@ -310,7 +310,7 @@ def _of_ideal(name: str) -> str:
 
 def _impacts(runs: Mapping[str, Result]) -> Sheet:
     rows = [(run, *row) for run, result in runs.items() for row in summary.impacts(result)]
-    header = ("run", "pin", "impact", "time", "lasts", "approach", "separation")
+    header = ("run", "pin", "impact", "time", "lasts", "approach", "separation", "force at records")
     return Sheet("First impacts, and speeds of approach and separation", header, tuple(rows), left=3)
 
 

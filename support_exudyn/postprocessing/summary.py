@@ -165,21 +165,45 @@ def came_out(result: Result, after: float, until: float) -> list[Row]:
     return rows_of(printed(result, after, until))
 
 
-def impacts(result: Result) -> list[Row]:
-    """The first impacts of every clearance pin: pin, number, time, duration, speeds before and after."""
+def impacts(
+    result: Result, most: int | None = IMPACTS, after: float = 0.0, until: float = math.inf
+) -> list[Row]:
+    """Impacts of every clearance pin: pin, number, time, duration, speeds before and after, largest force.
+
+    The force is that of the records between onset and separation, "" if none lies there or none was recorded.
+
+    Arguments:
+        most: how many of each pin; None: all.
+        after, until: times between which they begin [s].
+    """
     rows: list[Row] = []
     for pin, onsets in result.onsets.items():
-        if not onsets:
-            rows.append((pin, "none", "", "", "", ""))
-        for n, one in enumerate(onsets[:IMPACTS]):
+        inside = [(n, one) for n, one in enumerate(onsets) if after <= one.time <= until]
+        if not inside:
+            rows.append((pin, "none", "", "", "", "", ""))
+        for n, one in inside[:most]:
             lasted, separated = one.separation_time - one.time, math.isfinite(one.separation_time)
             ends = "to the next impact" if n + 1 < len(onsets) else "to the end"
+            force = force_of_impact(result, pin, n)
             rows.append((
                 pin, f"{n + 1} of {len(onsets)}", said(one.time, "s", 6),
                 said(lasted, "s", 4) if separated else ends,
                 said(one.speed, "m/s", 5), said(one.separation_velocity, "m/s", 5) if separated else "",
+                "" if force is None else said(force, "N", 4),
             ))  # fmt: skip
     return rows
+
+
+def force_of_impact(result: Result, pin: str, n: int) -> float | None:
+    """Largest force of a clearance pin at the records of an impact [N], n from 0 on; None without records."""
+    onsets, name = result.onsets[pin], f"pin.{pin}{FORCE}"
+    end = onsets[n].separation_time
+    if not math.isfinite(end):
+        end = onsets[n + 1].time if n + 1 < len(onsets) else math.inf
+    during = (result.time >= onsets[n].time) & (result.time <= end)
+    if name not in result.channels or not during.any():
+        return None
+    return float(result[name][during].max())
 
 
 def of_channels(result: Result, names: Iterable[str], after: float, until: float) -> list[Row]:

@@ -334,6 +334,20 @@ def test_numbers_are_shown_by_the_names_that_they_are_printed_with(
     assert "pin.rear_base.largest_force" in told["numbers"]
 
 
+def test_all_impacts_are_shown_when_asked_for(runs: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    result = Result.load(runs / "with_clearance.h5")
+    count = len(result.onsets["rear_base"])
+    assert count > 3
+    said = shown(runs / "with_clearance.h5", capsys, "--impacts")
+    assert said.count(f" of {count} ") == count
+    assert "what was run" not in said
+    forces = [line.split()[-2:] for line in said.splitlines() if line.rstrip().endswith("kN")]
+    largest = max(float(value) for value, _ in forces)
+    assert largest == pytest.approx(1e-3 * result["pin.rear_base.force"].max(), rel=1e-3)
+    assert main(["show", str(runs / "ideal.h5"), "--impacts"]) == 1
+    assert "has no clearance pin" in capsys.readouterr().err
+
+
 def test_show_for_scripts_has_what_the_tables_have(runs: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["show", str(runs / "with_clearance.h5"), "--json"]) == 0
     told = json.loads(capsys.readouterr().out)

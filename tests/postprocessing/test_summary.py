@@ -52,11 +52,21 @@ def test_energies_are_those_at_the_end_and_the_largest_that_is_missing() -> None
 
 def test_touches_are_told_with_what_followed() -> None:
     assert summary.impacts(run()) == [
-        (PIN, "1 of 3", "0.1 s", "2.5 ms", "200 mm/s", "180 mm/s"),
-        (PIN, "2 of 3", "0.3 s", "to the next impact", "50 mm/s", ""),
-        (PIN, "3 of 3", "0.6 s", "to the end", "2 m/s", ""),
+        (PIN, "1 of 3", "0.1 s", "2.5 ms", "200 mm/s", "180 mm/s", "1 kN"),
+        (PIN, "2 of 3", "0.3 s", "to the next impact", "50 mm/s", "", "1 kN"),
+        (PIN, "3 of 3", "0.6 s", "to the end", "2 m/s", "", "4 kN"),
     ]
-    assert summary.impacts(replace(run(), onsets={PIN: ()})) == [(PIN, "none", "", "", "", "")]
+    assert summary.impacts(replace(run(), onsets={PIN: ()})) == [(PIN, "none", "", "", "", "", "")]
+
+
+def test_all_impacts_are_told_or_those_of_a_piece() -> None:
+    found = replace(
+        run(), onsets={PIN: tuple(Onset(0.01 + 0.1 * n, 0.1, 0.05 + 0.1 * n, 0.1) for n in range(9))}
+    )
+    assert [row[1] for row in summary.impacts(found)] == ["1 of 9", "2 of 9", "3 of 9"]
+    assert len(summary.impacts(found, None)) == 9
+    assert [row[1] for row in summary.impacts(found, None, 0.2, 0.35)] == ["3 of 9", "4 of 9"]
+    assert {row[6] for row in summary.impacts(found, None)} == {""}  # between records
 
 
 def test_channels_have_their_least_mean_and_largest_value_in_the_piece() -> None:
