@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from support_exudyn.__main__ import main
+from support_exudyn.files.machines import load_machine
 from support_exudyn.files.scenarios.scenario_file import read_scenario
 from support_exudyn.files.starters import KINDS, starter
 from support_exudyn.sweeps import read_sweep
@@ -36,6 +37,8 @@ def test_files_are_written_once_and_nothing_is_replaced(
 def test_files_are_what_they_say(kind: str, tmp_path: Path) -> None:
     assert main(["init", kind, "--out", str(tmp_path)]) == 0
     assert main(["check", str(tmp_path / "machine.toml"), "--out", str(tmp_path)]) == 0
+    data = load_machine(tmp_path / "machine.toml")
+    assert data.bore_radii.keys() == data.machine.linkage().pins.keys()  # any pin may be given a clearance
     for name in ("ideal", "clearance"):
         assert len(read_scenario(tmp_path / f"{name}.toml").pins) == (name == "clearance")
     assert read_sweep(tmp_path / "sizes.toml")
