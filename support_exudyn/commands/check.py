@@ -6,7 +6,7 @@ from functools import partial
 from pathlib import Path
 
 from support_exudyn.commands.command_line import add_out, number, say
-from support_exudyn.files.machines.read import read_machine
+from support_exudyn.files.scenarios.scenario_file import read_machine_in
 from user_forces.values.value import InputError
 
 HELP = "draw a machine and tell its mobility, closure, dead centres, static forces, and what looks wrong"
@@ -19,8 +19,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add(
         "machine",
         metavar="FILE",
-        help="machine data file, a path that ends in .toml; or a machine that comes with the package: "
-        "reference, zf18000, two_leg_shield, slider_crank",
+        help="machine data file, a path that ends in .toml; or a scenario's file, also of a machine of one's "
+        "own; or a machine that comes with the package: reference, zf18000, two_leg_shield, slider_crank",
     )
     add_out(parser, "where the figure goes; by default beside the file, or here")
     add(
@@ -38,7 +38,7 @@ def run(given: argparse.Namespace) -> None:
     from support_exudyn.postprocessing.figures import style
     from support_exudyn.postprocessing.figures.checks import check_figure
 
-    data = read_machine(given.machine)
+    data = read_machine_in(given.machine)
     try:
         report = check_machine(data, None if given.stroke_mm is None else given.stroke_mm / 1e3)
     except InputError as error:  # of a stroke that is too long

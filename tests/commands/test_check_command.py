@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +12,7 @@ from PIL import Image
 
 from support_exudyn.__main__ import main
 from support_exudyn.files.machines import SHIPPED
+from support_exudyn.files.starters import starter
 from tests.machine_files import written
 
 # of the kind of the reference support, too
@@ -74,3 +76,42 @@ def test_a_stroke_that_is_no_number_is_a_wrong_command_line(capsys: pytest.Captu
         main(["check", "reference", "--stroke-mm", "far"])
     assert ended.value.code == 2
     assert "allowed: a number" in capsys.readouterr().err
+
+
+# dead centres of the starter with a crank of 220 mm: where it and the ground make coupler and rocker straight
+STRAIGHT = math.degrees(math.acos((0.22**2 + 0.28**2 - 0.45**2) / (2 * 0.22 * 0.28)) - 1.0)
+
+
+@pytest.mark.parametrize(
+    ("crank", "message"),
+    [
+        ("0.10", "crank: turns right round"),
+        ("0.22", f"locks or opens -185.2 degrees and {STRAIGHT:.1f} degrees"),
+    ],
+)
+def test_a_scenario_has_its_own_machine_checked(
+    crank: str, message: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    texts = starter("own_machine")
+    name = f"crank_rocker_{crank[2:]}"  # of which a process knows one
+    kind = f"Rocker{crank[2:]}"
+    (tmp_path / f"{name}.py").write_text(
+        texts["crank_rocker.py"].replace("CrankRocker", kind), encoding="utf-8"
+    )
+    text = texts["ideal.toml"].replace("crank_rocker.py:CrankRocker", f"{name}.py:{kind}")
+    path = tmp_path / "ideal.toml"
+    path.write_text(text.replace("crank = 0.10", f"crank = {crank}"), encoding="utf-8")
+    assert main(["check", str(path)]) == 0
+    said = capsys.readouterr()
+    assert message in said.out
+    assert said.err == ""
+    assert (tmp_path / "ideal_check.png").exists()
+
+
+def test_a_scenario_of_a_known_machine_is_checked_as_that(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "turn.toml"
+    path.write_text('machine = "slider_crank"\nduration_s = 1\n', encoding="utf-8")
+    assert main(["check", str(path), "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["kind"] == "slider_crank"

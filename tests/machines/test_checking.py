@@ -16,6 +16,7 @@ from support_exudyn.files.machines import load_machine
 from support_exudyn.files.machines.read import read_machine
 from support_exudyn.machines.check import CheckReport as Report
 from support_exudyn.machines.check import check_machine
+from support_exudyn.machines.check.any_machine import check_any
 from support_exudyn.machines.check.shield import check_shield
 from support_exudyn.machines.check.shield_stroke import Shield, Station, _between, _cross, _station, stations
 from support_exudyn.machines.check.statics import mobility
@@ -295,10 +296,32 @@ def test_a_stroke_downwards_is_looked_at_too() -> None:
     assert down.numbers["dead_centres"]["below"]["margin_m"] == pytest.approx(0.92, abs=0.01)
 
 
-def test_other_machines_are_not_covered() -> None:
+def test_a_machine_that_nothing_drives_has_no_static_forces() -> None:
     stand = ImpactStand(bore_mass=1.0, journal_mass=1.0, speed=0.1)
-    with pytest.raises(InputError, match="ImpactStand: not covered"):
-        check_machine(MachineData(stand))
+    found = check_machine(MachineData(stand))
+    assert found.kind == "ImpactStand"
+    assert found.sheets == []
+    assert "degrees of freedom are left" in found.warnings[0]
+
+
+def test_a_linkage_alone_gives_the_forces_of_the_check_of_slider_cranks() -> None:
+    """Two ways to the same: postures in closed form, and by Newton's method from the linkage."""
+    data = read_machine("slider_crank")
+    known = check_machine(data).numbers["stations"]
+    found = check_any(data, None).numbers["stations"]
+    start = data.machine.start_angle  # type: ignore[attr-defined]
+    assert start == 0.0  # so that both have the same stations
+    for one, other in zip(known, found, strict=True):
+        assert one["crank_rad"] == pytest.approx(other["travel"])
+        for pin, force in one["pins_N"].items():
+            assert other["pins_N"][pin] == pytest.approx(force, abs=1e-6)
+
+
+def test_a_support_follows_its_columns_by_its_linkage_alone() -> None:
+    with pytest.raises(InputError, match="no single actuator drives this machine"):
+        check_any(read_machine("reference"), 0.1)
+    with pytest.raises(InputError, match="no single actuator drives this machine"):
+        check_any(read_machine("slider_crank"), 0.1)
 
 
 # --- faults that nobody would have noticed ---

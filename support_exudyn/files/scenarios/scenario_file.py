@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from support_exudyn.files.machines.read import SHIPPED
+from support_exudyn.files.machines.read import SHIPPED, load_machine, read_machine
 from support_exudyn.files.scenarios.own_classes import without_places
 from support_exudyn.files.scenarios.short_forms import (
     DriveFile,
@@ -88,6 +88,30 @@ def read_scenario_file(path: str | Path) -> ScenarioFile:
     except FileNotFoundError as error:
         raise missing_file(path, "the TOML file of a scenario") from error
     return scenario_file_of(table, str(path), path.parent)
+
+
+def read_machine_in(path: str | Path) -> MachineData:
+    """The machine of a TOML file: of that of a machine, or of that of a scenario, whose rest is not read.
+
+    Raises InputError that names file, key, value and what is allowed; OSError if a file cannot be read.
+    """
+    if str(path) in SHIPPED or not str(path).lower().endswith(".toml"):
+        return read_machine(str(path))
+    path = Path(path)
+    try:
+        table = load_toml(path)
+    except FileNotFoundError:
+        return load_machine(path)  # which says what there is
+    if "machine" not in table:
+        return load_machine(path)
+    faults = Faults(str(path))
+    table = without_places({"machine": table["machine"]}, faults, path.parent)
+    faults.check()
+    found = read_machine_of(table, faults, path.parent)
+    faults.check()
+    if found is None:
+        raise InputError(f"{path}: machine: cannot be read")
+    return found
 
 
 def scenario_of(table: Mapping[str, Any], where: str, folder: Path) -> Scenario:

@@ -1,5 +1,8 @@
 """What can be said of a machine before it is run: mobility, closure, dead centres, statics, doubts."""
 
+from dataclasses import replace
+
+from support_exudyn.machines.check.any_machine import check_any
 from support_exudyn.machines.check.report import CheckReport, CheckTable
 from support_exudyn.machines.check.shield import check_shield
 from support_exudyn.machines.check.slider_crank import check_crank
@@ -19,14 +22,15 @@ def check_machine(data: MachineData, stroke: float | None = None) -> CheckReport
         stroke: by how much its columns extend from the start on [m]; by default as the file says, otherwise
             three tenths of the shortest column.
 
-    Raises InputError if it cannot go so far, or if machines of this kind are not covered.
+    Machines of other kinds are looked at by their linkage alone.
+
+    Raises InputError if it cannot go so far.
     """
+    data = data if data.kind else replace(data, kind=type(data.machine).__name__)
     if isinstance(data.machine, FourBarShield):
         return check_shield(data, data.machine, stroke)
     if isinstance(data.machine, SliderCrank):
         if stroke is not None:
             raise InputError(f"stroke = {stroke} m: a crank turns right round; allowed: none")
         return check_crank(data, data.machine)
-    raise InputError(
-        f"machine = {type(data.machine).__name__}: not covered; allowed: shield supports and slider-cranks"
-    )
+    return check_any(data, stroke)
