@@ -14,7 +14,8 @@ LAWS = """
 from user_forces import FrictionLaw, value
 from user_forces.expressions.scalar import tanh
 from user_forces.normal.power_law import ElasticPower
-from user_forces.values.value import NonNegative
+from user_forces.normal.law import NormalLaw
+from user_forces.values.value import NonNegative, Positive
 
 
 @value
@@ -29,6 +30,21 @@ class {0}Friction(FrictionLaw):
 
     def __call__(self, slip, normal_force, deflection=0.0):
         return -self.mu * normal_force * tanh(slip / 1e-2)
+
+
+@value
+class {0}Rig(NormalLaw):
+    stiffness: Positive = 1e8
+    exponent: Positive = 1.2
+
+    def __call__(self, depth, rate, speed):
+        return self.elastic_force(depth)
+
+    def elastic_force(self, depth):
+        return self.stiffness * depth**self.exponent
+
+    def elastic_energy(self, depth):
+        return self.stiffness * depth ** (self.exponent + 1.0) / (self.exponent + 1.0)
 
 
 class {0}Plain:
@@ -76,6 +92,10 @@ def test_a_law_of_its_own_in_full(tmp_path: Path) -> None:
         ('friction_law = "own_laws_bad.py:BadPlain"', "made with @value"),
         ('law = "own_laws_bad.py:BadFriction"', "law = 'BadFriction': .*allowed: BadNormal"),
         ('law = "Lankarani"', "did you mean LankaraniNikravesh"),
+        ('law = "Johnson"', "law takes laws of stiffness and restitution only, and Johnson has .*ClearancePin"),
+        ('law = "NoRig"', '[.]py:CLASS", or --import MODULE'),
+        ('friction_law = "Stribeck"', "takes laws of one coefficient only.*friction = {"),
+        ('law = "own_laws_bad.py:BadRig"', r"BadRig has fields of its own: .*\[pins.NAME.contact\] normal = {"),
         ('friction_law = "Ambrosia"', "did you mean Ambrosio[?] allowed: Ambrosio, "),
         ('friction_law = "Frictionless"\nfriction = 0.1', "Frictionless has no coefficient"),
         ('friction_law = "Ambrosio"\nfriction = {type = "Ambrosio", sliding_coefficient = 0.1}', "are two"),

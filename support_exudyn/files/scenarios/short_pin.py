@@ -48,6 +48,28 @@ def needed_by(law: type[Value]) -> set[str]:
     return {name for name, one in info.items() if one.is_required()}
 
 
+def _law_in_full(name: str) -> str:
+    """What to do with a law that the short form has no room for, or that is not known."""
+    return _in_full(name, NormalLaw, "law", "stiffness and restitution", "in [pins.NAME.contact] normal = ")
+
+
+def _friction_in_full(name: str) -> str:
+    """The same of a friction law."""
+    return _in_full(name, FrictionLaw, "friction_law", "one coefficient", "friction = ")
+
+
+def _in_full(name: str, base: type[Value], key: str, takes: str, place: str) -> str:
+    known = GroupShape((base,)).kinds
+    if name not in known:
+        return f'a law of your own: {key} = "FILE.py:CLASS", or --import MODULE before the command'
+    needed = ", ".join(sorted(needed_by(known[name]))) or "fields of its own"
+    pin = 'type = "ClearancePin" and ' if base is NormalLaw else ""
+    return (
+        f"{key} takes laws of {takes} only, and {name} has {needed}: give it in full, "
+        f'{pin}{place}{{ type = "{name}", ... }}'
+    )
+
+
 NamedMaterial = Annotated[str, Names(MATERIALS)]
 
 
@@ -76,8 +98,8 @@ class ShortPin(Value):
     bore_radius: Metres[Positive] | None = None
     restitution: Restitution | None = None
     friction: NonNegative | FrictionLaw = 0.0
-    friction_law: Annotated[str, Names(simple_friction_laws)] | None = None
-    law: Annotated[str, Names(simple_laws)] = "LankaraniNikravesh"
+    friction_law: Annotated[str, Names(simple_friction_laws, instead=_friction_in_full)] | None = None
+    law: Annotated[str, Names(simple_laws, instead=_law_in_full)] = "LankaraniNikravesh"
     damping_speed: DampingSpeed | None = None
     stiffness: Literal["external", "internal"] | NewtonsPerMetreToN[Positive] = "external"
     bore_material: NamedMaterial | Material | None = None

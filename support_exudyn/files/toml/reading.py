@@ -143,7 +143,9 @@ class Reader:
 
     def _refused(self, shape: Shape, item: Any, place: Place, unit: Unit | None, ending: str) -> Failed:
         if "names" in shape and isinstance(item, str):
-            self.faults.add((), f"{said_place(place)} = {said(item)}: {nearest(item, shape['names'].options)}")
+            names = shape["names"]
+            more = f"; {names.instead(item)}" if names.instead else ""
+            self.faults.add((), f"{said_place(place)} = {said(item)}: {nearest(item, names.options)}{more}")
             return FAILED
         range_ = allowed(shape, unit, ending)
         if shape.get("type") in ("number", "integer"):

@@ -43,11 +43,12 @@ class Names:
 
     known: the names, each with what it means; of a table of tables, a mapping of names in place of the meaning;
     or a function that gives the names of a text, which later classes may add to. required: keys that a table
-    must have.
+    must have. instead: what to do with a name that is none of them, in words.
     """
 
     known: Mapping[str, Any] | Callable[[], Sequence[str]]
     required: tuple[str, ...] = ()
+    instead: Callable[[str], str] | None = None
 
     @property
     def options(self) -> tuple[str, ...]:
