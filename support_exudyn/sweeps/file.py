@@ -19,6 +19,7 @@ from support_exudyn.files.toml.text import load_toml, parsed, text_of, toml_text
 from support_exudyn.files.whole_file import missing_file
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.sweeps.distributions import KEYS as DISTRIBUTION_KEYS
+from support_exudyn.sweeps.distributions import KINDS as DISTRIBUTIONS
 from support_exudyn.sweeps.distributions import distribution_of
 from support_exudyn.sweeps.plan import (
     Inputs,
@@ -37,6 +38,10 @@ METHODS = ("grid", "list", "latin_hypercube")
 KEYS = {"scenario", "method", "vary", "record", "samples", "seed"}
 RECORD_KEYS = {"numbers", "keep_runs", "after_s", "until_s"}
 RANGE_KEYS = {"from", "to", "steps", "scale"}
+RANGE, NORMAL = (
+    "{from = 0.0, to = 0.3, steps = 4}",
+    '{distribution = "normal", mean = 0.9, std = 0.02}',
+)
 MACHINE = "machine"
 Table = dict[str, Any]
 
@@ -107,6 +112,10 @@ def _varied(item: Any, where: str, folder: Path) -> Any:
         return item
     if "distribution" in item:
         return distribution_of(item, where, folder)
+    if said := sorted(item.keys() & (DISTRIBUTION_KEYS - RANGE_KEYS)):
+        raise InputError(
+            f"{where}: has {', '.join(said)} and no distribution; allowed: {_example(said)}, or a range {RANGE}"
+        )
     _only(item, RANGE_KEYS, f"{where}.")
     for key in ("from", "to"):
         if not _is_number(item.get(key)):
@@ -142,6 +151,8 @@ def _flat(table: Table, before: str = "") -> list[tuple[str, Any]]:
     found = []
     for key, item in table.items():
         name = f"{before}{key}"
+        if isinstance(item, dict):
+            _check_shorthand(name, item)
         if isinstance(item, dict) and not item.keys() & (RANGE_KEYS | DISTRIBUTION_KEYS):
             found += _flat(item, f"{name}.")
         elif isinstance(item, (dict, list)):
@@ -149,9 +160,34 @@ def _flat(table: Table, before: str = "") -> list[tuple[str, Any]]:
         else:
             raise InputError(
                 f"vary.{name!r} = {_said(item)}: allowed: a list of values, or a range such as "
-                '{from = 0.0, to = 0.3, steps = 4}, or {distribution = "normal", mean = 0.9, std = 0.02}'
+                f"{RANGE}, or {NORMAL}"
             )
     return found
+
+
+def _check_shorthand(name: str, item: Table) -> None:
+    """Raise InputError for {normal = [0.9, 0.02]}: there is one way to write a distribution."""
+    for kind in DISTRIBUTIONS.keys() & item.keys():
+        given = item[kind]
+        numbers = given if isinstance(given, list) else [given]
+        if len(item) == 1 and all(map(_is_number, numbers)):
+            needed = ", ".join(f"{key} = ..." for key in DISTRIBUTIONS[kind][0])
+            raise InputError(
+                f"vary.{name!r} = {{{kind} = ...}}: allowed: {{distribution = {_quoted(kind)}, {needed}}}"
+            )
+
+
+def _example(keys: list[str]) -> str:
+    """A distribution that has these keys."""
+    for kind, (needed, more) in DISTRIBUTIONS.items():
+        if set(keys) <= {*needed, *more}:
+            return f"{{distribution = {_quoted(kind)}, {', '.join(f'{key} = ...' for key in needed)}}}"
+    return NORMAL
+
+
+def _quoted(kind: str) -> str:
+    """A text as TOML has it."""
+    return f'"{kind}"'
 
 
 # --- what TOML gives ---
