@@ -6,7 +6,8 @@ from typing import Any
 
 Schema = Mapping[str, Any]
 LIMITS = {"exclusiveMinimum": ">", "minimum": ">=", "exclusiveMaximum": "<", "maximum": "<="}
-TOP = "Where a key has several forms, each with a unit of its own, the range is that of the first."
+LONGEST = 30  # letters of a default in a column of a terminal
+TOP = "Where a key has several forms, each with a unit of its own, range and unit are those of the first."
 
 
 def keys_page(title: str, schema: Schema) -> str:
@@ -17,6 +18,35 @@ def keys_page(title: str, schema: Schema) -> str:
         schema: a JSON Schema, as `scenario_schema` and `machine_schema` give it.
     """
     return _KeysPage(schema.get("$defs", {})).text(title, schema)
+
+
+def key_tables(schema: Schema) -> dict[str, list[tuple[str, str, str]]]:
+    """The tables of that page for terminals: by the name of their class, of the file itself empty.
+
+    A row is a key (the others of one quantity behind what it means), its default, and what it takes and means.
+
+    Arguments:
+        schema: as of `keys_page`.
+    """
+    tables: dict[str, list[tuple[str, str, str]]] = {"": []}
+    name = ""
+    for line in keys_page("", schema).splitlines():
+        if line.startswith("## "):
+            name = line[3:]
+        elif line.startswith("| `"):
+            keys, takes, default, meaning = map(_bare, re.split(r" (?<!\\)\| ?", line[2:])[:4])
+            first, *others = keys.split(", ")
+            if len(default) > LONGEST:
+                default, meaning = "", f"{meaning} By default {default}."
+            also = f" Also {', '.join(others)}." if others else ""
+            said = ": ".join(filter(None, (takes, meaning)))
+            tables.setdefault(name, []).append((first, default, said + also))
+    return tables
+
+
+def _bare(cell: str) -> str:
+    """A cell without the signs of Markdown."""
+    return re.sub(r"(?<!\\)\[([^]]*)\]\(#[^)]*\)", r"\1", cell).replace("\\", "").replace("`", "").strip()
 
 
 class _KeysPage:
@@ -56,12 +86,7 @@ class _KeysPage:
         rows: list[tuple[list[str], Schema]] = []
         for key, one in schema["properties"].items():
             stem = rows[-1][0][0].rpartition("_")[0] if rows else ""
-            same = (
-                rows
-                and stem
-                and key.startswith(stem)
-                and one.get("description") == rows[-1][1].get("description")
-            )
+            same = rows and stem and key.startswith(stem) and _unitless(one) == _unitless(rows[-1][1])
             if same and "const" not in one:
                 rows[-1][0].append(key)
             else:
@@ -122,6 +147,11 @@ class _KeysPage:
             case {"type": "boolean"}:
                 return "`true` or `false`"
         return "anything"
+
+
+def _unitless(one: Schema) -> str:
+    """What is said of a key, without units."""
+    return re.sub(r"\[[^]]*\]", "", one.get("description", ""))
 
 
 def _plain(text: str) -> str:

@@ -131,9 +131,12 @@ def test_it_says_what_fields_are() -> None:
     schema = scenario_schema()
     step = schema["properties"]["step_ms"]
     assert (step["exclusiveMinimum"], step["maximum"], step["default"]) == (0, 100, 0.5)
-    assert step["description"].startswith("largest time step [s], > 0")
+    assert step["description"].startswith("largest time step [ms], > 0")
+    assert schema["properties"]["step_s"]["description"].startswith("largest time step [s], > 0")
+    assert schema["properties"]["duration_ms"]["description"].startswith("end time [ms], > 0")
+    assert schema["$defs"]["JournalBearing"]["properties"]["clearance_mm"]["description"].count("[mm")
     stroke = schema["$defs"]["UniformSpeed"]["properties"]["stroke_mm"]
-    assert stroke["description"].startswith("[m], 0.5 by default")
+    assert stroke["description"].startswith("[mm; numbers in this text are in m], 0.5 by default")
 
 
 def test_every_field_of_every_class_is_described() -> None:
@@ -157,3 +160,17 @@ def test_the_command_writes_it(tmp_path: Path, capsys: pytest.CaptureFixture[str
 def test_examples_come_with_the_package() -> None:
     names = {one.name for one in resources.files("support_exudyn.files.examples").iterdir()}
     assert {"rise.toml", "columns_apart.toml", "columns_apart.csv"} <= names
+
+
+def test_the_command_lists_keys_in_words(capsys: pytest.CaptureFixture[str]) -> None:
+    for kind, key in (("scenario", "duration_s"), ("machine", "rod_length_mm")):
+        assert main(["schema", kind, "--list"]) == 0
+        text = capsys.readouterr().out
+        line = next(line for line in text.splitlines() if line.strip().startswith(key))
+        assert "needed" in line
+        assert "a number > 0" in line
+        assert key.rpartition("_")[0] + "_" in line.partition("Also ")[2]
+        assert "](#" not in text
+        assert max(map(len, text.splitlines())) <= 170
+    assert main(["schema", "scenario", "--list", "--out", "a.json"]) == 1
+    assert "allowed with --list" in capsys.readouterr().err

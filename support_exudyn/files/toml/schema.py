@@ -1,6 +1,7 @@
 """JSON Schemas of files, made from what the classes declare, by which editors complete and check TOML."""
 
 import inspect
+import re
 from collections.abc import Mapping
 from decimal import Decimal
 from itertools import combinations
@@ -22,6 +23,10 @@ from user_forces.values.value import Value
 
 DRAFT = "https://json-schema.org/draft/2020-12/schema"
 Table = dict[str, Any]
+
+
+BRACKETS = re.compile(r"\[([^\]]*)\]")
+NUMBER = re.compile(r"(?<![\w^])\d[\d.e-]*")
 
 
 class Schemas:
@@ -69,7 +74,7 @@ class Schemas:
         if field.unit is not None and len(field.keys) > len(field.unit.endings):  # numbers or words
             shape = either([one for one in options(shape) if is_numeric(one) is bool(ending)])
         default = _default(field, ending)
-        said = {"description": field.help} if field.help else {}
+        said = {"description": _help(field, ending)} if field.help else {}
         return said | self.item(shape, field.unit, ending) | ({} if default is None else {"default": default})
 
     def item(self, shape: Shape, unit: Unit | None = None, ending: str = "") -> Table:
@@ -125,6 +130,21 @@ class Schemas:
     def whole(self, title: str, table: Table) -> Table:
         """A schema of a file, with all that it refers to."""
         return {"$schema": DRAFT, "title": title, **table, "$defs": dict(sorted(self.defs.items()))}
+
+
+def _help(field: FieldShape, ending: str) -> str:
+    """The help on a field, with the unit of a key in place of that of the program."""
+    unit = field.unit
+    if unit is None or not ending or unit.endings[ending] == 1:
+        return field.help
+    for found in BRACKETS.finditer(field.help):
+        of_program = found[1].replace(" ", "_").replace("/", "_per_").replace("^", "")
+        if unit.endings.get(of_program) == 1:
+            before, after = field.help[: found.start()], field.help[found.end() :]
+            here = ending.replace("_per_", "/").replace("_", " ")
+            numbers = any(set(one) & set("123456789") for one in NUMBER.findall(BRACKETS.sub("", field.help)))
+            return f"{before}[{here}{f'; numbers in this text are in {found[1]}' if numbers else ''}]{after}"
+    return field.help
 
 
 def _default(field: FieldShape, ending: str) -> Any:
