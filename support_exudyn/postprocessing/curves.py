@@ -16,6 +16,7 @@ from support_exudyn.mechanics.trajectory import Series
 from user_forces.values import units
 from user_forces.values.value import InputError, short
 
+SEPARATORS = {";": "';'", "\t": "tab"}  # of other tables
 LARGEST = 200_000_000  # bytes
 UNITS = {
     "s": units.Seconds, "m": units.Metres, "m/s": units.MetresPerSecond, "m/s^2": units.MetresPerSecondSquared,
@@ -73,6 +74,17 @@ def _number(cell: str, where: str) -> float:
         raise InputError(f"{where}: {short(cell)}: allowed: a number such as 12.5") from None
 
 
+def _check_separator(path: Path, title: str) -> None:
+    """Raise InputError for a first line that something else than commas separates."""
+    for sign, said in SEPARATORS.items():
+        if sign in title:
+            raise InputError(
+                f"{path}: line 1: separator {said} found; allowed: commas between items, and decimals with a "
+                "point, 12.5"
+            )
+    raise InputError(f"{path}: line 1: has one title; allowed: two and more, such as time_s,tip.x_mm")
+
+
 def read_curves(path: Path) -> Curves:
     """The curves of a CSV file: a line of titles with units, such as `time_s,tip.x_mm`, then numbers.
 
@@ -89,6 +101,8 @@ def read_curves(path: Path) -> Curves:
             f"{path}: is empty; allowed: titles such as time_s,tip.x_mm, and a line of numbers or more"
         )
     titles = [cell.strip() for cell in rows[0]]
+    if len(titles) == 1:
+        _check_separator(path, titles[0])
     columns: dict[str, list[float]] = {title: [] for title in titles}
     for number, row in enumerate(rows[1:], 2):
         if len(row) != len(titles):

@@ -54,6 +54,32 @@ def test_curves_of_files_are_read_by_their_units(tmp_path: Path, title: str, sca
     assert line.get_ydata() == pytest.approx([1e3 * scale, 2e3 * scale])
 
 
+def test_measured_points_are_markers_and_those_beyond_the_run_are_told(tmp_path: Path) -> None:
+    path = tmp_path / "a.csv"
+    path.write_text("time_s,tip.x_mm\n0,1\n1,2\n2.5,3\n3,3\n", encoding="utf-8")
+    drawing = overlay({"a": run(0.1)}, ["tip.x"], curves={"b": read_curves(path)})
+    line = drawing.axes[0].lines[1]
+    assert (line.get_marker(), line.get_linestyle()) == ("o", "None")
+    said = " ".join(drawing.get_supxlabel().split())
+    assert "2 points of b beyond the end of the run, 2 s, are not drawn" in said
+    assert "Nothing is said of the errors of b" in said
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("time_s;tip.x_mm\n0,5;1,2\n", "separator ';' found; allowed: commas .* point"),
+        ("time_s,tip.x\n0,1\n1,2\n", "has a column of none of these channels with its unit; .*tip.x_mm"),
+        ("time_s,tip.x_mm\n5,1\n6,2\n", "its times, 5 to 6 s, have no number between 0 and 2 s"),
+    ],
+)
+def test_each_fault_of_a_file_has_a_sentence_of_its_own(tmp_path: Path, text: str, message: str) -> None:
+    path = tmp_path / "a.csv"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(InputError, match=message):
+        overlay({"a": run(0.1)}, ["tip.x"], curves={"b": read_curves(path)})
+
+
 def test_too_few_or_too_many_runs_are_refused() -> None:
     for count in (1, 6):
         with pytest.raises(InputError, match="allowed in a figure: 2 to 5"):

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -21,17 +21,22 @@ from user_forces.values.value import InputError
 CURVES = style.CURVES
 NO_CURVES: Mapping[str, Curves] = {}
 MOST = 16  # panels
+FEW = 60  # points of a file that are drawn as markers
 PANEL_MM, REST_MM, LINE_MM = 38.0, 34.0, 4.5  # height of a panel, of the rest, and of a line that names a run
 SECONDS = "s"
 
 
 class _Curve(NamedTuple):
-    """A line of a panel: its run, times [s], values and their errors, NaN if not known (n,), SI."""
+    """A line of a panel: its run, times [s], values and their errors, NaN if not known (n,), SI.
+
+    of_file: whether it is of a CSV file, of whose errors nothing is said.
+    """
 
     run: str
     time: Series
     values: Series
     errors: Series
+    of_file: bool = False
 
 
 def overlay(
@@ -64,15 +69,11 @@ def overlay(
     for name, found in curves.items():
         drawn = {channel: _measured(name, found, channel, runs, after, until) for channel in panels}
         if not any(drawn.values()):
-            known = ", ".join(list(found.columns)[:6])
-            raise InputError(
-                f"{found.path}: has none of these channels between these times; allowed: columns such as "
-                f"{next(iter(panels))}_mm beside time_s; it has {known}"
-            )
+            raise InputError(_none_drawn(found, panels, runs, after, until))
         for channel, one in drawn.items():
             panels[channel] += one
     title = f"{_several([*runs, *curves])}, {said(next(iter(runs.values())), after, until)}"
-    return _drawn(runs, panels, title, "")
+    return _drawn(runs, panels, title, "", _left_out(curves, runs, until))
 
 
 def _measured(
@@ -83,9 +84,40 @@ def _measured(
     values, time = found.of(channel, run.unit(channel)), found.time
     if values is None:
         return []
-    last = min(until, max(float(one.time[-1]) for one in runs.values()))
+    last = min(until, _end(runs))
     chosen = (time >= after) & (time <= last) & np.isfinite(values)
-    return [_Curve(name, time[chosen], values[chosen], np.zeros(int(chosen.sum())))] if chosen.any() else []
+    none = np.zeros(int(chosen.sum()))
+    return [_Curve(name, time[chosen], values[chosen], none, of_file=True)] if chosen.any() else []
+
+
+def _end(runs: Mapping[str, Result]) -> float:
+    """Last time of all runs [s]."""
+    return max(float(one.time[-1]) for one in runs.values())
+
+
+def _none_drawn(
+    found: Curves, channels: Iterable[str], runs: Mapping[str, Result], after: float, until: float
+) -> str:
+    """Why nothing of a file is drawn: it lacks the channels, or its times are others."""
+    units_of = {channel: run.unit(channel) for run in runs.values() for channel in run.channels}
+    if any(found.of(channel, units_of[channel]) is not None for channel in channels):
+        return (
+            f"{found.path}: its times, {found.time[0]:g} to {found.time[-1]:g} s, have no number between "
+            f"{max(after, 0.0):g} and {min(until, _end(runs)):g} s; allowed: some within the run"
+        )
+    known = ", ".join(list(found.columns)[:6])
+    return (
+        f"{found.path}: has a column of none of these channels with its unit; allowed: columns such as "
+        f"{next(iter(channels))}_mm beside time_s; it has {known}"
+    )
+
+
+def _left_out(curves: Mapping[str, Curves], runs: Mapping[str, Result], until: float) -> str:
+    """A sentence on points of files beyond the end of the runs; empty if there are none."""
+    end = _end(runs)
+    beyond = {name: int((found.time > end).sum()) for name, found in curves.items()} if until >= end else {}
+    told = [f"{number} points of {name}" for name, number in beyond.items() if number]
+    return f"{' and '.join(told)} beyond the end of the run, {end:g} s, are not drawn." if told else ""
 
 
 def difference(
@@ -141,7 +173,13 @@ def _several(runs: Iterable[str]) -> str:
     return f"{', '.join(before)} and {last}" if before else last
 
 
-def _drawn(runs: Mapping[str, Result], panels: Mapping[str, Sequence[_Curve]], title: str, what: str) -> Figure:
+def _drawn(
+    runs: Mapping[str, Result],
+    panels: Mapping[str, Sequence[_Curve]],
+    title: str,
+    what: str,
+    more: str = "",
+) -> Figure:
     lines = max(len(curves) for curves in panels.values())
     drawing = style.begin(170, REST_MM + PANEL_MM * len(panels) + LINE_MM * lines, title)
     rows = drawing.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
@@ -163,14 +201,17 @@ def _drawn(runs: Mapping[str, Result], panels: Mapping[str, Sequence[_Curve]], t
     rows[-1].set_xlabel(f"time [{seconds.name}]")
     rows[-1].set_xlim(seconds.scale * first, seconds.scale * last)
     known = all(np.isfinite(one.errors).all() for curves in panels.values() for one in curves)
+    files = dict.fromkeys(one.run for curves in panels.values() for one in curves if one.of_file)
     style.caption(
         drawing,
-        "Records, joined by straight lines. "
+        f"Records, joined by straight lines{' (few points of a file: markers)' if files else ''}. "
         + (
-            "Shaded where it can be seen: estimated numerical error."
+            f"Shaded where it can be seen: estimated numerical error{' of the runs' if files else ''}."
             if known
             else "Not all runs were made to an accuracy: nothing tells the numerical errors of those."
-        ),
+        )
+        + (f" Nothing is said of the errors of {_several(files)}." if files else "")
+        + (f" {more}" if more else ""),
     )
     return drawing
 
@@ -186,7 +227,10 @@ def _panel(
     for one in curves:
         colour, dashes = looks[one.run]
         time, values, band = seconds * one.time, shown.scale * one.values, shown.scale * one.errors
-        axes.plot(time, values, color=colour, ls=dashes, lw=0.9, label=one.run, rasterized=time.size > 20000)
+        look: dict[str, Any] = {"ls": dashes, "lw": 0.9}
+        if one.of_file and time.size <= FEW:  # measured points are seen as such
+            look = {"ls": "", "marker": "o", "ms": 3.5, "mfc": "none", "mew": 1.0, "zorder": 3}
+        axes.plot(time, values, color=colour, label=one.run, rasterized=time.size > 20000, **look)
         if np.isfinite(band).all() and band.max() > 0.0:
             axes.fill_between(time, values - band, values + band, color=colour, alpha=0.25, lw=0.0)
     label_values(axes, units.QUANTITIES.get(unit, "value"), shown.name)
