@@ -1,6 +1,7 @@
 """`chart STORE [X] Y`: a number of a sweep over what was varied, its histogram or tornado."""
 
 import argparse
+from collections.abc import Sequence
 
 from support_exudyn.commands.command_line import add_out, folder, say
 from support_exudyn.commands.runs import file_name
@@ -15,11 +16,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("store", type=folder, metavar="STORE", help="folder of a sweep, or the table.parquet in it")
     add(
         "names",
-        nargs="+",
+        nargs="*",
+        default=[],
         metavar="[X] Y",
         help="what was varied, such as pins.rear_base.clearance_mm, and a number of the table, such as "
         "pin.rear_base.force.mean; a number alone is drawn over what was varied, or as histogram if the runs "
-        "were drawn from distributions",
+        "were drawn from distributions; without, the only number that was recorded",
     )
     add("--by", metavar="Z", help="something else that was varied, a curve for each of its values")
     kind = parser.add_mutually_exclusive_group()
@@ -31,14 +33,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(given: argparse.Namespace) -> None:
     """Draw, write, and print the names of the files."""
     from support_exudyn.postprocessing.figures import style
-    from support_exudyn.postprocessing.figures.sweep_chart import sweep_chart, varied_in
+    from support_exudyn.postprocessing.figures.sweep_chart import numbers_by_name, sweep_chart, varied_in
     from support_exudyn.postprocessing.figures.sweep_distribution import histogram, tornado, usual_chart
     from support_exudyn.sweeps.table import is_sampled, read_table
 
-    *before, y = given.names
-    if len(before) > 1:
+    if len(given.names) > 2:
         raise InputError(f"{' '.join(given.names)}: allowed: what was varied and a number, or a number alone")
     table = read_table(given.store)
+    *before, y = given.names or [_only_number(list(numbers_by_name(table)))]
     store = given.store if given.store.is_dir() else given.store.parent
     one = given.histogram or given.tornado
     if before and one:
@@ -61,3 +63,10 @@ def run(given: argparse.Namespace) -> None:
         style.named(drawing, store.resolve().name)
         for path in style.save(drawing, given.out or store / "figures", name):
             say(str(path))
+
+
+def _only_number(known: Sequence[str]) -> str:
+    """The number that is drawn where none is named."""
+    if len(known) != 1:
+        raise InputError(f"Y: which number? allowed: {', '.join(known) or 'none was recorded'}")
+    return known[0]

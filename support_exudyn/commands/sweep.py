@@ -62,7 +62,7 @@ def run(given: argparse.Namespace) -> None:
     from support_exudyn.sweeps.run import known
 
     plan = read_sweep(given.file)
-    out = given.out or given.file.with_name(f"{given.file.stem}_sweep")
+    out = given.out or plan.store or Path()
     if given.dry_run:
         outcome = known(plan, out, given.retry_failed)
         _tell(

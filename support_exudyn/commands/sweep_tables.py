@@ -36,9 +36,9 @@ def show_sweep(given: argparse.Namespace) -> None:
     say(sweep_summary.counts(table) + "\n")
 
     def tell(console: Console) -> None:
-        show_table(console, "what varied", ("input", ">values", "words"), sweep_summary.what_varied(table))
+        show_table(console, "what varied", ("input", ">values", "remark"), sweep_summary.what_varied(table))
         if rows := sweep_summary.reasons(table):
-            show_table(console, "what went wrong", (">runs", "words"), rows)
+            show_table(console, "what went wrong", (">runs", "remark"), rows)
         more = len(names) - len(chosen)
         rest = f" ({more} more: --all)" if more > 0 and not given.channels else ""
         band = ", percentiles with their 95 % confidence intervals" if is_sampled(table) else ""
@@ -48,7 +48,10 @@ def show_sweep(given: argparse.Namespace) -> None:
         show_table(console, f"what came out{rest}{band}", header, rows)
         if rows := sweep_summary.what_it_follows(table, chosen):
             title = "what it follows: Spearman's rank correlation, -1 to 1, with its 95 % confidence interval"
-            show_table(console, title, ("number", "input", ">correlation", ">interval", "words"), rows)
+            header = ("number", "input", ">correlation", ">interval", "remark")
+            if not any(row[-1] for row in rows):  # nothing is remarked
+                header, rows = header[:-1], [row[:-1] for row in rows]
+            show_table(console, title, header, rows)
 
     printed(tell)
     if chosen:
@@ -57,7 +60,8 @@ def show_sweep(given: argparse.Namespace) -> None:
         store = given.run if given.run.is_dir() else given.run.parent
         say("next:")
         say(f"  support-exudyn chart {store} {field} {number}")
-        say(f"  support-exudyn chart {store} {number} --tornado")
+        if len(varied_in(table)) > 1:  # which of them matters most
+            say(f"  support-exudyn chart {store} {number} --tornado")
         say(f"  support-exudyn table {store} --format md")
         runs = (store / "named" / f"{name}.h5" for name in table.column("run").to_pylist())
         if kept := next((path for path in runs if path.exists()), None):

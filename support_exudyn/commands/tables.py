@@ -22,7 +22,7 @@ from support_exudyn.simulation.result import Result
 from user_forces.values.value import cleaned
 
 NARROWEST = 25  # characters that words are worth showing in
-IMPACTS: tuple[str, ...] = ("pin", "impact", ">time", ">lasts", ">approach", ">parting", ">force")
+WORDS = ("words", "meaning", "remark")  # heads of columns whose cells may be broken
 PIPED = 150  # characters of a line where there is no terminal
 
 
@@ -41,9 +41,7 @@ def _unbroken(header: Sequence[str], rows: Sequence[Sequence[str]]) -> int:
     """Width of a table's names and numbers, with the least that words take; the terminal may be narrower."""
     names = header or ("", "words")
     wide = [
-        NARROWEST
-        if name in ("words", "meaning")
-        else max(cell_len(text) for text in (name, *(row[n] for row in rows)))
+        NARROWEST if name in WORDS else max(cell_len(text) for text in (name, *(row[n] for row in rows)))
         for n, name in enumerate(names)
     ]
     return sum(wide) + 3 * len(wide) + 2  # with what stands between and beside them
@@ -62,7 +60,7 @@ def show_table(console: Console, title: str, header: Sequence[str], rows: Sequen
         table.add_column(
             escape(name.lstrip(">")) if header else "",
             justify="right" if name.startswith(">") else "left",
-            no_wrap=name not in ("words", "meaning"),
+            no_wrap=name not in WORDS,
             overflow="fold",
         )
     for row in rows:

@@ -38,6 +38,13 @@ FORMAT = "support_exudyn result 5"
 DAMAGES = (OSError, LookupError, AttributeError, TypeError, ValueError, RuntimeError, MemoryError)
 
 
+OTHERS = {  # what files are that are no runs, and which command takes them
+    ".csv": "a CSV table, no run: `plot RUN {path}` draws its curves over a run, `show STORE` tells of a sweep",
+    ".parquet": "the table of a sweep, no run: `show`, `table` and `chart` take it",
+    ".toml": "a text that people write, no run: `run` makes one of a scenario, `check` looks at a machine",
+}
+
+
 @dataclass(frozen=True, repr=False)
 class Result(RecordedRun):
     """A finished run: what it has recorded, the estimated errors of its numbers, and its file.
@@ -181,6 +188,10 @@ class Result(RecordedRun):
         if Path(path).is_dir():
             raise IsADirectoryError(
                 errno.EISDIR, "is a directory; allowed: files that Result.save has written", str(path)
+            )
+        if (other := OTHERS.get(Path(path).suffix.lower())) is not None:
+            raise InputError(
+                f"{path}: is {other.format(path=path)}; allowed: files that Result.save has written"
             )
         data = contents(path, available())
         try:

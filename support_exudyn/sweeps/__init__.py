@@ -2,8 +2,8 @@
 
     from support_exudyn.sweeps import read_sweep, read_table, sweep
 
-    sweep(read_sweep("clearance.toml"), "clearance_sweep")
-    table = read_table("clearance_sweep")  # a pyarrow table; .to_pandas() where pandas is there
+    sweep(read_sweep("clearance.toml"))  # into clearance_sweep
+    table = read_table("clearance_sweep").to_pandas()  # without: a pyarrow table, which prints all its columns
 
 A run has a key, made of its inputs and of the program; what the store holds under that key is not run again.
 """

@@ -70,6 +70,7 @@ def read_sweep(path: str | Path) -> Plan:
             errors=table.get("errors") is True,
             text=text_of(path),
             sampled=data.get("method") == "latin_hypercube",
+            store=path.with_name(f"{path.stem}_sweep"),
         )
     except InputError as error:
         raise InputError(str(error) if str(error).startswith(str(path)) else f"{path}: {error}") from None

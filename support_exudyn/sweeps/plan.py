@@ -10,6 +10,7 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Context, Decimal
+from pathlib import Path
 from typing import Any, Literal, Protocol
 
 from support_exudyn.scenario.scenario import Scenario
@@ -162,7 +163,8 @@ class Plan:
     InputError for what cannot be run, which is a row of the table with this reason. record: what is noted.
     errors: whether runs without an accuracy are made with estimated errors, see `simulate`. text: of the file
     that says all this, if there is one; it is kept with the table. sampled: whether the points are drawn from
-    distributions, so that percentiles of numbers mean something.
+    distributions, so that percentiles of numbers mean something. store: where it is kept if no folder is said,
+    beside its file; None of a plan without a file.
     """
 
     points: Sequence[Inputs]
@@ -171,6 +173,7 @@ class Plan:
     errors: bool = False
     text: str = ""
     sampled: bool = False
+    store: Path | None = None
 
     @property
     def run_names(self) -> list[str]:

@@ -52,7 +52,7 @@ Told = Callable[[SweepOutcome], None]
 
 def sweep(
     plan: Plan,
-    out: str | Path,
+    out: str | Path | None = None,
     *,
     workers: int | None = None,
     scheduler: str = "",
@@ -67,16 +67,20 @@ def sweep(
 
     Arguments:
         plan: what to run and what to note.
-        out: folder of the store; made if it is missing.
+        out: folder of the store; made if it is missing. By default NAME_sweep beside the sweep's file.
         workers: number of processes on this machine, >= 1; as many as there are cores if None.
         scheduler: address of a Dask scheduler, whose workers then run it all.
         retry_failed: run again what has failed before; what was killed is in any case.
         prune: remove what the store holds of other runs than those of the plan, when all is done.
         progress: is told how far it is after every row.
 
-    Raises InputError if no run can be made of any point, for numbers that no run can have, or if the cluster
-    runs another program; OSError if the store cannot be written to, or if another process is writing there.
+    Raises InputError if no run can be made of any point, if no folder is known, for numbers that no run can
+    have, or if the cluster runs another program; OSError if the store cannot be written to, or if another
+    process is writing there.
     """
+    out = plan.store if out is None else out
+    if out is None:
+        raise InputError("out = None: the plan has no file beside which its store may lie; allowed: a folder")
     store = Store(Path(out))
     outcome = SweepOutcome(len(plan.points), store.folder / FILE)
     with store.writing():

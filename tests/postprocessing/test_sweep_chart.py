@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pyarrow as pa
 import pytest
 
-from support_exudyn.postprocessing.figures.sweep_chart import sweep_chart
+from support_exudyn.__main__ import main
+from support_exudyn.postprocessing.figures.sweep_chart import number_column, sweep_chart
+from user_forces.values.value import InputError
 
 SIZES = [1.0, 2.0, 3.0]
 
@@ -42,3 +46,27 @@ def test_millimetres_in_metres_are_shown_in_millimetres(tip: list[float], unit: 
     line = axes.containers[0][0]
     # one product of floats away
     assert line.get_ydata()[0] == pytest.approx(first, rel=1e-15)
+
+
+def test_numbers_are_listed_by_their_names_without_units() -> None:
+    with pytest.raises(InputError, match=r"no such number; allowed: tip\.x\.mean$"):
+        number_column(table([0.1] * 3, SIZES), "nothing")
+
+
+def test_the_only_number_needs_no_name_and_one_input_no_tornado(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    found = table([0.1, 0.1, 0.1], [4.145, 4.144, 4.142])
+    found = found.append_column("reason", pa.array([""] * 3)).append_column("run", pa.array(["a", "b", "c"]))
+    monkeypatch.setattr("support_exudyn.sweeps.table.read_table", lambda path: found)
+    assert main(["chart", str(tmp_path)]) == 0
+    assert "tip.x.mean_over_pins.hinge.clearance_mm.png" in capsys.readouterr().out
+    assert main(["show", str(tmp_path)]) == 0
+    said = capsys.readouterr().out
+    assert "remark" in said
+    assert "words" not in said
+    assert "--tornado" in said  # two inputs
+    one = found.drop_columns(["pins.hinge.friction"])
+    monkeypatch.setattr("support_exudyn.sweeps.table.read_table", lambda path: one)
+    assert main(["show", str(tmp_path)]) == 0
+    assert "--tornado" not in capsys.readouterr().out

@@ -82,6 +82,15 @@ def test_a_damaged_file_is_refused(result: Result, tmp_path: Path, damage: str) 
         Result.load(path)
 
 
+@pytest.mark.parametrize(
+    ("name", "command"), [("a.csv", "plot RUN"), ("t.parquet", "`chart`"), ("a.toml", "`run`")]
+)
+def test_what_is_no_run_is_told_with_the_command_that_takes_it(tmp_path: Path, name: str, command: str) -> None:
+    (tmp_path / name).write_text("time_s,a\n", encoding="utf-8")
+    with pytest.raises(InputError, match=f"no run: .*{command}"):
+        Result.load(tmp_path / name)
+
+
 # --- runs by which errors are estimated ---
 
 

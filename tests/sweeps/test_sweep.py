@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -41,6 +42,13 @@ def do(path: Path, **options: object) -> SweepOutcome:
 
 def store_of(path: Path) -> Store:
     return Store(path.parent / "store")
+
+
+def test_without_a_folder_the_store_lies_beside_the_file(tmp_path: Path, ran: list[Task]) -> None:
+    plan = read_sweep(write_sweep(tmp_path, '"pins.pin.clearance_mm" = [0.5]'))
+    assert sweep(plan).table.parent == tmp_path / "sweep_sweep"
+    with pytest.raises(InputError, match=r"out = None: .*allowed: a folder"):
+        sweep(replace(plan, store=None))
 
 
 # --- the table ---
@@ -426,4 +434,4 @@ def test_a_chart_is_drawn_of_it(tmp_path: Path, ran: list[Task], capsys: pytest.
     assert [file.suffix for file in files] == [".png", ".pdf"]
     assert all(file.stat().st_size > 1000 for file in files)
     assert main(["chart", store, "machine.speed_m_per_s", "pin.pin.force.median"]) == 1
-    assert "no such column; allowed: pin.pin.force." in capsys.readouterr().err
+    assert "no such number; allowed: pin.pin.force." in capsys.readouterr().err

@@ -173,7 +173,11 @@ def numbers_by_name(table: pa.Table) -> dict[str, str]:
 
 def number_column(table: pa.Table, name: str) -> str:
     """The column of a number, by its name with its unit or without. Raises InputError if there is none."""
-    return numbers_by_name(table).get(name) or column(name, numbers_in(table))
+    known, columns = numbers_by_name(table), numbers_in(table)
+    if name in known or name in columns:
+        return known.get(name, name)
+    near = get_close_matches(name, known, 5, 0.4)
+    raise InputError(f"{short(name)}: no such number; allowed: {_some(near or list(known))}")
 
 
 def column(name: str, allowed: list[str]) -> str:
