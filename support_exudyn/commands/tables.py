@@ -22,6 +22,7 @@ from support_exudyn.simulation.result import Result
 from user_forces.values.value import cleaned
 
 NARROWEST = 25  # characters that words are worth showing in
+IMPACTS: tuple[str, ...] = ("pin", "impact", ">time", ">lasts", ">approach", ">parting", ">force")
 WORDS = ("words", "meaning", "remark")  # heads of columns whose cells may be broken
 PIPED = 150  # characters of a line where there is no terminal
 

@@ -57,7 +57,8 @@ def test_the_only_number_needs_no_name_and_one_input_no_tornado(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     found = table([0.1, 0.1, 0.1], [4.145, 4.144, 4.142])
-    found = found.append_column("reason", pa.array([""] * 3)).append_column("run", pa.array(["a", "b", "c"]))
+    for name, cells in (("reason", [""] * 3), ("run", ["a", "b", "c"])):
+        found = found.add_column(2, name, pa.array(cells))
     monkeypatch.setattr("support_exudyn.sweeps.table.read_table", lambda path: found)
     assert main(["chart", str(tmp_path)]) == 0
     assert "tip.x.mean_over_pins.hinge.clearance_mm.png" in capsys.readouterr().out
