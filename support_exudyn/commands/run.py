@@ -106,6 +106,6 @@ def _tell(console: Console, result: Result, file: ScenarioFile, written: list[Pa
         )
     show_touches(console, result)
     assumed = [("assumed", sentence) for sentence in file.assumed]
-    show_table(console, "how", (), [*summary.how(result, file.scenario.formulation)[:-1], *assumed])
+    show_table(console, "how", (), [*summary.how(result)[:-1], *assumed])
     for path in written:
         print(path)

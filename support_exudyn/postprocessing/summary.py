@@ -13,6 +13,7 @@ from support_exudyn.postprocessing.shown_numbers import AT_ANY_STEP, label, show
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scenario.scenario_data import LARGEST_GOAL
 from support_exudyn.simulation.estimate import Estimate
+from support_exudyn.simulation.provenance import FORMULATION_ASKED
 from support_exudyn.simulation.reported_numbers import FORCE, measures
 from support_exudyn.simulation.result import Result
 from user_forces.friction.frictionless import Frictionless
@@ -49,10 +50,10 @@ def what_is_run(scenario: Scenario) -> list[Row]:
     return rows
 
 
-def how(result: Result, asked: str | None = None) -> list[Row]:
+def how(result: Result) -> list[Row]:
     """Formulation, accuracy, counts, time taken and versions: name and words.
 
-    asked: the formulation that was asked for, if it is known; of "auto" it is said which ran and why.
+    Of a formulation that was left to the program it is said which ran and why.
     """
     scenario, counts = result.scenario, result.counts
     cost = ""
@@ -73,7 +74,7 @@ def how(result: Result, asked: str | None = None) -> list[Row]:
     if not scenario.chooses_steps:
         steps = f"steps of {said(scenario.step, 's')} and less, {scenario.solver.impact_steps} to an impact"
     return [
-        ("formulation", f"{_formulation(result, asked or scenario.formulation)}; {steps}"),
+        ("formulation", f"{_formulation(result)}; {steps}"),
         ("accuracy", accuracy),
         ("counts", ", ".join(f"{count} {name.replace('_', ' ')}" for name, count in made if count)),
         ("wall time", said(result.wall_time, "s") + cost),
@@ -104,8 +105,9 @@ def _has_friction(result: Result) -> bool:
     return any(not isinstance(pin.contact.friction, Frictionless) for pin in pins)
 
 
-def _formulation(result: Result, asked: str) -> str:
+def _formulation(result: Result) -> str:
     """The formulation that ran, and if that was left to the program, why this one."""
+    asked = result.provenance.get(FORMULATION_ASKED, result.scenario.formulation)
     ran = formulation(result.scenario.formulation).name
     if asked != "auto":
         return ran

@@ -7,6 +7,7 @@ from importlib.metadata import PackageNotFoundError, version
 
 PACKAGES = ("support-exudyn", "exudyn", "numpy", "scipy", "matplotlib", "meshio", "h5py", "pydantic")
 OPTIONAL = ("numba",)
+FORMULATION_ASKED = "formulation_asked"  # key of a run for which another one was chosen
 
 
 @cache  # asking the packages' metadata takes longer than a short run

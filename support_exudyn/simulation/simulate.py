@@ -8,6 +8,7 @@ from support_exudyn.formulations.contract import Failure, Progress, SimulationEr
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scenario.scenario_data import Accuracy
 from support_exudyn.simulation.halved_steps import run_halving_steps
+from support_exudyn.simulation.provenance import FORMULATION_ASKED
 from support_exudyn.simulation.result import Result
 from support_exudyn.simulation.single_run import single_run
 from support_exudyn.simulation.to_accuracy import run_to_accuracy
@@ -81,7 +82,11 @@ def _run(run: Callable[[Scenario, Progress], Result], scenario: Scenario, progre
     try:
         if scenario.solver.result_checks:
             _look_at_laws(scenario)
-        return run(scenario, progress)
+        result = run(scenario, progress)
+        if scenario.formulation == result.scenario.formulation:
+            return result
+        asked = {FORMULATION_ASKED: scenario.formulation}  # of "auto" it is told why which one ran
+        return replace(result, provenance={**result.provenance, **asked})
     except SystemExit as error:  # it would end the program without a word, and perhaps as if all was done
         raise SimulationError(Failure(f"the program was asked to end: {told(error)}", OWN, 0.0)) from None
 

@@ -167,3 +167,9 @@ def test_an_expression_may_stand_on_either_side_of_larger_and_smaller() -> None:
     unknown: Any = UNKNOWN
     assert scalar.maximum(unknown, 2.0) == scalar.maximum(2.0, unknown) == ("larger", 2.0)
     assert scalar.minimum(unknown, 2.0) == scalar.minimum(2.0, unknown) == ("smaller", 2.0)
+
+
+@pytest.mark.parametrize("function", [math.exp, math.sqrt, float])
+def test_functions_of_math_are_refused_with_where_theirs_are(function: Callable[[Any], float]) -> None:
+    with pytest.raises(TypeError, match=r"from user_forces\.expressions\.scalar import exp"):
+        function(Expression())

@@ -23,6 +23,13 @@ class Expression:
         """Not known yet: a law that branches on it would take one branch for all times."""
         raise TypeError("a law must not branch with `if`, `and`, `or` or `not` on its arguments; use `where`")
 
+    def __float__(self) -> float:
+        """Not known yet: functions of `math` and `numpy` would take it for a number."""
+        raise TypeError(
+            "a law must not use functions of math or numpy on its arguments; allowed: those of "
+            "user_forces.expressions.scalar, such as `from user_forces.expressions.scalar import exp`"
+        )
+
     def function(self, name: str) -> Expression:
         """The function of this name of it: sqrt, exp, log, tanh, cos, sin, abs or sign."""
         raise NotImplementedError
