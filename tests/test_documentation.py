@@ -96,4 +96,8 @@ def test_the_site_is_built_without_the_internet(tmp_path: Path) -> None:
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
     assert "ClearancePin" in (tmp_path / "site" / "reference" / "names_model.html").read_text(encoding="utf-8")
+    assert (tmp_path / "site" / "reference" / "index.html").is_file()
+    assert "IPKernelApp" not in done.stderr
+    keys = (tmp_path / "site" / "reference" / "scenario_keys.html").read_text(encoding="utf-8")
+    assert "site.css" in keys  # by which keys are not broken mid-word
     assert (tmp_path / "site" / "search" / "search_index.json").is_file()

@@ -73,7 +73,12 @@ def _run_notebook(script: Path, folder: Path, picture: Path) -> None:
 
     notebook = nbformat.read(script, as_version=4)
     try:
-        NotebookClient(notebook, timeout=300, resources={"metadata": {"path": str(folder)}}).execute()
+        NotebookClient(
+            notebook,
+            timeout=300,
+            resources={"metadata": {"path": str(folder)}},
+            extra_arguments=["--IPKernelApp.log_level=40"],  # of its warnings none is of the notebook
+        ).execute()
     except CellExecutionError as error:
         raise InputError(f"{script.name}: {error}; allowed: a notebook whose cells run") from error
     for cell in notebook.cells:

@@ -3,7 +3,7 @@
 import logging
 import re
 import shutil
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from html.parser import HTMLParser
 from importlib.util import find_spec
 from pathlib import Path
@@ -75,7 +75,9 @@ def _lay_out(pages: Path, commands: str, results: Path | None) -> list[Any]:
     reference = pages / "reference"
     reference.mkdir(parents=True)
     named = reference_pages()
+    shutil.copy(HERE / "site.css", reference)
     written = {
+        "index": _reference_index(named),
         "commands": commands,
         "scenario_keys": keys_page("Keys of a scenario's file", scenario_schema()),
         "machine_keys": keys_page("Keys of a machine's file", machine_schema()),
@@ -92,6 +94,18 @@ def _lay_out(pages: Path, commands: str, results: Path | None) -> list[Any]:
         if not name.startswith("reference/"):
             _copy(ROOT / name, pages)
     return nav
+
+
+def _reference_index(rooms_of_names: Iterable[str]) -> str:
+    """The first page of the reference, which links to all others, Markdown."""
+    pages = {
+        "commands": "what every command takes",
+        "scenario_keys": "keys of a scenario's file",
+        "machine_keys": "keys of a machine's file",
+        "channels": "what a run records",
+        **{f"names_{room}": f"names in Python: `{room}`" for room in rooms_of_names},
+    }
+    return "# Reference\n\n" + "".join(f"- [{said}]({name}.md)\n" for name, said in pages.items())
 
 
 def _copy(page: Path, pages: Path) -> None:
