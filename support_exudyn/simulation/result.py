@@ -189,7 +189,7 @@ class Result(RecordedRun):
             raise IsADirectoryError(
                 errno.EISDIR, "is a directory; allowed: files that Result.save has written", str(path)
             )
-        if (other := OTHERS.get(Path(path).suffix.lower())) is not None:
+        if Path(path).is_file() and (other := OTHERS.get(Path(path).suffix.lower())) is not None:
             raise InputError(
                 f"{path}: is {other.format(path=path)}; allowed: files that Result.save has written"
             )
