@@ -151,7 +151,8 @@ def test_printed_errors_cover_the_distance_from_another_formulation(
     others = {case: by_the_engine(Result.load(path).scenario) for case, path in stems.items()}
     shares = off(numbers, study.measure(others))
     assert max(shares.values()) < 5.0, max(shares, key=lambda name: shares[name])
-    assert sum(share <= 1.0 for share in shares.values()) >= 0.95 * len(shares)
+    # two of a hundred
+    assert sum(share > 1.0 for share in shares.values()) <= math.ceil(0.02 * len(shares))
     for case in study.CASES:
         for name in ("mean_pin_force", "std_pin_force", "std_angular_acceleration"):
             assert shares[f"{name}, {case}"] <= 1.0

@@ -124,6 +124,7 @@ LASTS = 10.0  # [s] that a run takes in the viewer unless asked otherwise
 MOST_SKIPPED = 200  # rows from frame to frame, as many as the viewer's slider has
 MOST_LOOKED_AT = 60  # states by which the camera is set
 MARGIN = 1.15  # of what is seen, over what the machine needs
+WORDS = 0.15  # of the window's height, on top, where the engine writes name and time
 FROM_THE_SIDE = (0.0, pi, 0.0)  # rotation vector: one looks along +z, with the goaf (-x) on the right
 
 
@@ -278,6 +279,7 @@ def _prepare(settings: Any, text: str, size: tuple[int, int]) -> None:
 def _camera(model: ViewerModel, solution: Solution, size: tuple[int, int]) -> tuple[float, list[float]]:
     """Half the height that is seen [m], and where one looks in the axes of the screen [m]: at all rows."""
     low, high = reach(model, solution)
+    high[1] = low[1] + (high[1] - low[1]) / (1.0 - WORDS)
     x, y, z = 0.5 * (low + high)
     width, height = high[0] - low[0], high[1] - low[1]
     return 0.5 * MARGIN * max(height, width * size[1] / size[0]), [-x, y, -z]
