@@ -216,9 +216,9 @@ def against(number: Number, other: Number) -> str:
     if error >= abs(change):
         most = abs(change) + error
         return f"the same within {_two_digits(most)} %" if most else "the same"
-    digits = max(
-        0, min(1 - math.floor(math.log10(abs(change))), -math.floor(math.log10(error)) if error else 9)
-    )
+    first = -math.floor(math.log10(abs(change)))  # decimals up to its first digit
+    right = -math.ceil(math.log10(error)) if error else first + 1  # up to the last that the error leaves
+    digits = max(0, first, min(right, first + 1))
     return f"{change:+.{digits}f} %"
 
 

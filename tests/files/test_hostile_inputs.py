@@ -208,7 +208,7 @@ READERS: dict[str, Callable[[Path], Any]] = {
 def test_what_has_no_end_is_refused_wherever_it_is_read(
     tmp_path: Path, kind: str, what: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    path = tmp_path / "file.toml"
+    path = tmp_path / ("file.h5" if kind == "show" else "file.toml")  # a text is told by its name, unread
     if what == "pipe":
         os.mkfifo(path)
     elif what == "device":
@@ -222,8 +222,7 @@ def test_what_has_no_end_is_refused_wherever_it_is_read(
     reading.join(60.0)
     assert codes == [1]
     error = capsys.readouterr().err
-    told = ("no regular file", "has more than", "is a text that people write")  # the last by its name, unread
-    assert any(words in error for words in told)
+    assert "no regular file" in error or "has more than" in error
 
 
 @posix_only

@@ -260,7 +260,7 @@ def test_scenes_are_of_the_users_machine(own: Subject) -> None:
     assert list(found) == ["no friction", "friction 0.25"]
     for scene in found.values():
         # the paper's share of the bore, which has a radius of 100.8 mm
-        assert scene.label.startswith("my support: 2.31 mm")
+        assert scene.label.startswith(f"my support: {1.5 * 100.8 / 65.5:.2f} mm")
         assert scene.pin == "rear_base"
         # records are at the ends of the steps of others, twice and two fifths of ours
         for share in variants.FIXED_STEPS:

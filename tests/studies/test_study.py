@@ -98,10 +98,9 @@ def test_a_change_in_per_cent_is_told_to_its_error(share: float, change: float) 
     else:
         number = text.removesuffix(" %")
         assert number.startswith(("+", "-"))
-        last = 10.0 ** -len(number.partition(".")[2])  # the place of the last digit: the first of the error
-        assert abs(float(number) - 100.0 * change) <= 0.501 * last
-        assert last == 1.0 or last >= 0.099 * error
-        assert last == 1.0 or last >= 0.0099 * abs(100.0 * change)
+        digits = len(number.partition(".")[2])
+        assert abs(float(number) - 100.0 * change) <= 0.501 * 10.0**-digits
+        assert digits == 0 or 10.0**-digits >= 0.99 * min(error, 0.1 * abs(100.0 * change))
 
 
 def test_the_error_of_records_covers_what_lies_between_them() -> None:
