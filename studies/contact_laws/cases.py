@@ -99,7 +99,7 @@ class Joint:
 
     @property
     def clearance_mm(self) -> float:
-        """Of the pin, radial."""
+        """The radial clearance of the pin [mm]."""
         return round(1e3 * self.pin.contact.bearing.clearance, 9)
 
     @property

@@ -40,7 +40,7 @@ class ModePlan:
 
     @cached_property
     def clearance_mm(self) -> float:
-        """Of the pin that gets clearance."""
+        """The radial clearance of the pin that gets some [mm]."""
         given = self.subject.given
         return CLEARANCE_MM if given is None else round(1e3 * given.contact.bearing.clearance, 9)
 

@@ -82,7 +82,7 @@ class CountedShare:
 
     @property
     def said(self) -> str:
-        """In per cent, with the interval."""
+        """The share in per cent, with its interval."""
         low, high = (f"{100.0 * one:.3g}" for one in self.interval)
         return f"{100.0 * self.value:.3g} % ({low} to {high} %)"
 

@@ -113,7 +113,7 @@ class PinPlan:
 
     @property
     def clearance_mm(self) -> float:
-        """Of the pins."""
+        """The radial clearance of the pins [mm]."""
         given = self.subject.given
         return CLEARANCE_MM if given is None else round(1e3 * given.contact.bearing.clearance, 9)
 

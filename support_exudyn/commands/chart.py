@@ -42,24 +42,21 @@ def run(given: argparse.Namespace) -> None:
     table = read_table(given.store)
     *before, y = given.names or [_only_number(list(numbers_by_name(table)))]
     store = given.store if given.store.is_dir() else given.store.parent
-    one = given.histogram or given.tornado
-    if before and one:
+    if before and (given.histogram or given.tornado):
         raise InputError(f"{before[0]}: allowed with --histogram and --tornado: a number alone")
-    x = before[0] if before else usual_chart(table)
-    if not one and not before and (is_sampled(table) or x is None):
-        if not is_sampled(table):
+    with style.look():
+        if given.tornado:
+            drawing, name = tornado(table, y), file_name(y, "tornado")
+        elif given.histogram or (not before and is_sampled(table)):
+            drawing, name = histogram(table, y), file_name(y, "histogram")
+        elif (x := before[0] if before else usual_chart(table)) is None:
             raise InputError(
                 f"{y}: over which field? allowed: chart STORE X Y with X one of {', '.join(varied_in(table))}; "
                 "or --histogram, --tornado"
             )
-        one = True
-    with style.look():
-        if one:
-            drawing = tornado(table, y) if given.tornado else histogram(table, y)
-            name = file_name(y, "tornado" if given.tornado else "histogram")
         else:
-            drawing = sweep_chart(table, x or "", y, given.by)
-            name = file_name(y, "over", x or "", f"by_{given.by}" if given.by else "")
+            drawing = sweep_chart(table, x, y, given.by)
+            name = file_name(y, "over", x, f"by_{given.by}" if given.by else "")
         style.named(drawing, store.resolve().name)
         for path in style.save(drawing, given.out or store / "figures", name):
             say(str(path))

@@ -29,7 +29,7 @@ class Parser(argparse.ArgumentParser):
             known = [str(one) for one in action.choices]
             option = f"{action.option_strings[-1]} " if action.option_strings else ""
             said = f"{option}{short(value)}: no such {str(action.metavar or action.dest).lower()}"
-            raise argparse.ArgumentError(None, f"{said}; {_meant(str(value), known)}")
+            raise argparse.ArgumentError(None, f"{said}; {meant(str(value), known)}")
 
     def error(self, message: str) -> NoReturn:
         """End the program with exit code 2, a usage and a line."""
@@ -66,10 +66,11 @@ class CommandParser(Parser):
             for option in action.option_strings
             if option.startswith("--")
         ]
-        return f"{short(word.partition('=')[0])}: no such option; {_meant(word.partition('=')[0], options)}"
+        return f"{short(word.partition('=')[0])}: no such option; {meant(word.partition('=')[0], options)}"
 
 
-def _meant(word: str, known: Iterable[str]) -> str:
+def meant(word: str, known: Iterable[str]) -> str:
+    """The way out of a word that is not known: those that look like it, and all that are allowed."""
     names = list(known)
     near = get_close_matches(word[:80], names, 2, 0.6)
     guess = f"did you mean {' or '.join(near)}? " if near else ""

@@ -4,7 +4,6 @@ import argparse
 import sys
 import time
 from collections.abc import Callable
-from difflib import get_close_matches
 from functools import partial
 from pathlib import Path
 
@@ -15,6 +14,7 @@ from support_exudyn.commands.command_line import (
     add_times,
     answer,
     count,
+    meant,
     number,
     say,
     shown_progress,
@@ -62,11 +62,7 @@ def formats(text: str) -> list[str]:
     found = [one.strip() for one in text.split(",")]
     for one in found:
         if one not in FORMATS:
-            near = get_close_matches(one[:80], FORMATS, 1)
-            guess = f"did you mean {near[0]}? " if near else ""
-            raise argparse.ArgumentTypeError(
-                f"{short(one)}: no such format; {guess}allowed: {', '.join(FORMATS)}"
-            )
+            raise argparse.ArgumentTypeError(f"{short(one)}: no such format; {meant(one, FORMATS)}")
     return found
 
 

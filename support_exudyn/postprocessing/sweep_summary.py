@@ -122,7 +122,7 @@ def what_it_follows(table: pa.Table, columns: list[str]) -> list[Row]:
 
 
 def data_of(table: pa.Table, columns: list[str]) -> dict[str, Any]:
-    """The same for scripts, in SI."""
+    """What came out, for scripts: of each number its unit, statistics, percentiles and ranks, in SI."""
     numbers: dict[str, Any] = {}
     for one in (number_of(table, column) for column in columns):
         if not one.values.size:
