@@ -5,6 +5,8 @@ Nothing in this package knows a multibody engine. Everything is SI (m, s, kg, N,
 """
 
 from user_forces.catalogue import laws as laws
+from user_forces.conformal import LineContact as LineContact
+from user_forces.conformal import line_contact as line_contact
 from user_forces.contact import ContactForce as ContactForce
 from user_forces.contact import JournalContact as JournalContact
 from user_forces.contact import SlipHistory as SlipHistory
@@ -54,6 +56,7 @@ from user_forces.normal.law import NormalLaw as NormalLaw
 from user_forces.normal.lee_wang import LeeWang as LeeWang
 from user_forces.normal.liu import Liu as Liu
 from user_forces.normal.pereira import Pereira as Pereira
+from user_forces.normal.pin_in_bore import PinInBore as PinInBore
 from user_forces.normal.power_law import PowerLaw as PowerLaw
 from user_forces.normal.radzimovsky import Radzimovsky as Radzimovsky
 from user_forces.normal.safaeifar_farshidianfar import SafaeifarFarshidianfar as SafaeifarFarshidianfar

@@ -1,6 +1,11 @@
 """Journal, normal law and friction law together: the force of a bore on its journal."""
 
+from __future__ import annotations
+
+from dataclasses import replace
 from typing import NamedTuple
+
+from pydantic import model_validator
 
 from user_forces.expressions.scalar import hypot, is_number, maximum, where
 from user_forces.friction.frictionless import Frictionless
@@ -63,6 +68,21 @@ class JournalContact(Value):
     bearing: JournalBearing
     normal: NormalLaw
     friction: FrictionLaw = Frictionless()
+
+    @model_validator(mode="after")
+    def _law_is_of_this_bearing(self) -> JournalContact:
+        own = getattr(self.normal, "bearing", self.bearing)
+        if own != self.bearing:
+            raise ValueError(
+                f"normal.bearing = {own}: is another than that of the contact; allowed: {self.bearing}"
+            )
+        return self
+
+    def with_clearance(self, clearance: float) -> JournalContact:
+        """The same bore and laws with another radial clearance [m], > 0."""
+        bearing = replace(self.bearing, clearance=clearance)
+        own = {"bearing": bearing} if hasattr(self.normal, "bearing") else {}
+        return replace(self, bearing=bearing, normal=replace(self.normal, **own))  # type: ignore[type-var]
 
     def force(
         self,

@@ -6,11 +6,13 @@ and what stands for it in the engine, see `formulations.redundant.scene.scene_bu
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
-from typing import Any, Literal, NamedTuple
+from typing import Any, Final, Literal, NamedTuple
 
 from pydantic import model_validator
 
+from user_forces.backing import pin_stiffness
 from user_forces.contact import JournalContact
 from user_forces.friction.ambrosio import Ambrosio
 from user_forces.friction.frictionless import Frictionless
@@ -20,18 +22,23 @@ from user_forces.materials import (
     STEEL,
     STEEL_35CRMO,
     Material,
+    effective_modulus,
     external_contact_stiffness,
     internal_contact_stiffness,
 )
 from user_forces.normal.damping_speed import DampingSpeed
+from user_forces.normal.exact import Exact
 from user_forces.normal.lankarani_nikravesh import LankaraniNikravesh
 from user_forces.normal.law import NormalLaw
+from user_forces.normal.pin_in_bore import PinInBore, lends_damping
 from user_forces.values.units import Metres
 from user_forces.values.value import InputError, Positive, Value, Vector2, short, value
 
 USUAL_RESTITUTION = 0.9
 HERTZ_EXPONENT = 1.5
-HERTZ = {"external": external_contact_stiffness, "internal": internal_contact_stiffness}
+HERTZ = {"paper": external_contact_stiffness, "internal": internal_contact_stiffness}
+CYLINDERS: Final = "cylinders"
+Stiffness = Literal["cylinders", "paper", "internal"]
 
 
 class Refusal(NamedTuple):
@@ -120,11 +127,16 @@ class ClearancePin(Pin):
         bore: which of the two bodies of the pin's place carries the bore.
         eccentricity: of the journal's centre from the bore's at the start [m], forward and up; up to the
             clearance it is free, beyond it is pressed in. The bodies are laid out for it, see `eccentric`.
+        length: of the contact, along the axis [m], for its pressure; None: as the machine knows it.
+        bore_material, journal_material: by whose yield strength the pressure is judged.
     """
 
     contact: JournalContact
     bore: Literal["first", "second"] = "first"
     eccentricity: Metres[Vector2] = (0.0, 0.0)
+    length: Metres[Positive] | None = None
+    bore_material: Material = STEEL
+    journal_material: Material = STEEL_35CRMO
 
     @classmethod
     def simple(
@@ -134,9 +146,11 @@ class ClearancePin(Pin):
         bore_radius: float,
         restitution: float | None = None,
         friction: float | FrictionLaw = 0.0,
-        law: type[NormalLaw] = LankaraniNikravesh,
+        law: type[NormalLaw] | None = None,
         damping_speed: DampingSpeed | None = None,
-        stiffness: Literal["external", "internal"] | float = "external",
+        stiffness: Stiffness | float | None = None,
+        length: float | None = None,
+        backing_stiffness: float | None = None,
         bore_material: Material = STEEL,
         journal_material: Material = STEEL_35CRMO,
         bore: Literal["first", "second"] = "first",
@@ -144,17 +158,22 @@ class ClearancePin(Pin):
     ) -> ClearancePin:
         """A clearance pin in few words, as scenario files have it; the rest has usual values.
 
-            ClearancePin.simple(clearance=0.5e-3, bore_radius=0.06, restitution=0.9, friction=0.1)
+            ClearancePin.simple(clearance=0.5e-3, bore_radius=0.06, length=0.5, restitution=0.9, friction=0.1)
 
         Arguments:
             clearance: radial, bore radius minus journal radius [m], > 0.
             bore_radius: [m], > clearance; `load_machine(NAME).bore_radii` has those of a machine.
             restitution: of an impact, > 0 and <= 1; 0.9 if nothing is said.
             friction: sliding coefficient of Ambrosio's law, >= 0, 0: none; or a friction law.
-            law: class of the normal force, one that needs nothing but a stiffness and a restitution.
+            law: class of the normal force, one that needs nothing but a stiffness and a restitution; `Exact` on
+                cylinders, `LankaraniNikravesh` else.
             damping_speed: what the damping of the law is scaled with; the law's own default if None.
-            stiffness: K of K depth^1.5: "external" or "internal", Hertz's for spheres that touch from outside
-                or inside, from radii and materials; or a number [N/m^1.5], > 0.
+            stiffness: "cylinders": the pin along its length, `PinInBore`; the rest are K of K depth^1.5:
+                "paper": Eq. 5 of the paper, two spheres; "internal": a sphere in a hollow sphere; or a number
+                [N/m^1.5], > 0. By default "cylinders" with a length and a law that allows it, else "paper".
+            length: of the contact, along the axis [m], > 0.
+            backing_stiffness: of pin and link behind the contact of cylinders [N/m], > 0; inf: rigid; by
+                default that of the pin's bending and shear.
             bore_material, journal_material: for the stiffness.
             bore: which of the two bodies of the pin's place carries the bore.
             eccentricity: of the journal's centre from the bore's at the start [m], forward and up.
@@ -162,38 +181,32 @@ class ClearancePin(Pin):
         Raises InputError that names what does not fit, its value and what is allowed.
         """
         bearing = JournalBearing(bore_radius=bore_radius, clearance=clearance)
-        has, given = _fields_of(law), dict[str, Any]()
-        if "stiffness" in has:
-            given["stiffness"] = stiffness
-        elif stiffness != "external":
-            raise InputError(
-                f"stiffness = {short(stiffness)}: {law.__name__} has none; allowed: to leave it out"
-            )
-        named = "stiffness" in has and isinstance(stiffness, str)
-        if named:
-            if stiffness not in HERTZ:
-                allowed = " or ".join(map(repr, HERTZ))
-                raise InputError(f"stiffness = {short(stiffness)}: allowed: {allowed}, or a number, > 0")
-            given["stiffness"] = HERTZ[stiffness](bearing, bore_material, journal_material)
-        for name, asked in (("restitution", restitution), ("damping_speed", damping_speed)):
-            if asked is not None and name not in has:
-                raise InputError(
-                    f"{name} = {short(asked)}: {law.__name__} has none; allowed: None with this law"
-                )
-            if asked is not None:
-                given[name] = asked
-        if "restitution" in has:
-            given.setdefault("restitution", USUAL_RESTITUTION)
+        if stiffness is None and length is not None and (law is None or lends_damping(law)):
+            stiffness = CYLINDERS
         if not isinstance(friction, FrictionLaw):
             friction = Ambrosio(sliding_coefficient=friction) if friction != 0.0 else Frictionless()
-        normal = law(**given)
-        if named and getattr(normal, "exponent", HERTZ_EXPONENT) != HERTZ_EXPONENT:
-            raise InputError(
-                f"stiffness = {stiffness!r}: is of K depth^{HERTZ_EXPONENT}, and {law.__name__} is not; "
-                "allowed with this law: a number"
+        materials = bore_material, journal_material
+        normal: NormalLaw
+        if stiffness == CYLINDERS:
+            normal = _on_cylinders(
+                bearing, law or Exact, length, backing_stiffness, restitution, damping_speed, materials
             )
-        contact = JournalContact(bearing=bearing, normal=normal, friction=friction)
-        return cls(contact=contact, bore=bore, eccentricity=eccentricity)
+        elif backing_stiffness is not None:
+            raise InputError(
+                f"backing_stiffness = {backing_stiffness:g}: is of stiffness = {CYLINDERS!r} alone; "
+                "allowed: to leave it out"
+            )
+        else:
+            chosen = law or LankaraniNikravesh
+            normal = _of_power(bearing, chosen, stiffness, restitution, damping_speed, materials)
+        return cls(
+            contact=JournalContact(bearing=bearing, normal=normal, friction=friction),
+            bore=bore,
+            eccentricity=eccentricity,
+            length=length,
+            bore_material=bore_material,
+            journal_material=journal_material,
+        )
 
     @property
     def offset(self) -> Vector2:
@@ -216,6 +229,75 @@ class ClearancePin(Pin):
     def losses(self) -> dict[str, object]:
         """A clearance pin loses energy by the damping and the friction of its contact."""
         return {"damping_loss": self.contact.normal, "friction_loss": self.contact.friction}
+
+
+def _on_cylinders(
+    bearing: JournalBearing,
+    law: type[NormalLaw],
+    length: float | None,
+    backing: float | None,
+    restitution: float | None,
+    damping_speed: DampingSpeed | None,
+    materials: tuple[Material, Material],
+) -> PinInBore:
+    """The pin along its length, with the damping of a law."""
+    _fields_of(law)
+    if length is None:
+        raise InputError(f"length: missing; a pin with stiffness = {CYLINDERS!r} has one; allowed: > 0 m")
+    if not lends_damping(law):
+        raise InputError(
+            f"law = {law.__name__}: has a force of its own; allowed with stiffness = {CYLINDERS!r}: laws that "
+            "are a damping factor, such as Exact, Flores or LankaraniNikravesh"
+        )
+    if backing is None:
+        backing = pin_stiffness(bearing.journal_radius, length, materials[1])
+    speed = {} if damping_speed is None else {"damping_speed": damping_speed}
+    return PinInBore(
+        bearing=bearing,
+        length=length,
+        effective_modulus=effective_modulus(*materials),
+        restitution=USUAL_RESTITUTION if restitution is None else restitution,
+        backing_stiffness=None if backing == math.inf else backing,
+        damping=law.__name__,
+        **speed,
+    )
+
+
+def _of_power(
+    bearing: JournalBearing,
+    law: type[NormalLaw],
+    stiffness: str | float | None,
+    restitution: float | None,
+    damping_speed: DampingSpeed | None,
+    materials: tuple[Material, Material],
+) -> NormalLaw:
+    """A law of a stiffness and a restitution at most."""
+    has, given = _fields_of(law), dict[str, Any]()
+    if "stiffness" in has:
+        given["stiffness"] = stiffness = "paper" if stiffness is None else stiffness
+    elif stiffness is not None:
+        raise InputError(f"stiffness = {short(stiffness)}: {law.__name__} has none; allowed: to leave it out")
+    named = isinstance(stiffness, str)
+    if isinstance(stiffness, str):
+        if stiffness not in HERTZ:
+            allowed = " or ".join(map(repr, (CYLINDERS, *HERTZ)))
+            hint = "; what was 'external' is called 'paper'" if stiffness == "external" else ""
+            raise InputError(f"stiffness = {short(stiffness)}: allowed: {allowed}, or a number, > 0{hint}")
+        given["stiffness"] = HERTZ[stiffness](bearing, *materials)
+    for name, asked in (("restitution", restitution), ("damping_speed", damping_speed)):
+        if asked is not None and name not in has:
+            raise InputError(f"{name} = {short(asked)}: {law.__name__} has none; allowed: None with this law")
+        if asked is not None:
+            given[name] = asked
+    if "restitution" in has:
+        given.setdefault("restitution", USUAL_RESTITUTION)
+    normal = law(**given)
+    if named and getattr(normal, "exponent", HERTZ_EXPONENT) != HERTZ_EXPONENT:
+        raise InputError(
+            f"stiffness = {stiffness!r}: is of K depth^{HERTZ_EXPONENT}, and {law.__name__} is not; "
+            "allowed with this law: a number"
+        )
+    return normal
 
 
 def _fields_of(law: Any) -> set[str]:

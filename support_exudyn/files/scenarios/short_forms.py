@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from difflib import get_close_matches
@@ -22,7 +23,8 @@ from support_exudyn.model.actuators import CylinderAndRod
 from support_exudyn.model.drives.drive import CubicStep, Drive, Stroke, UniformSpeed
 from support_exudyn.model.drives.table_drive import TableDrive
 from support_exudyn.model.machine import Machine
-from support_exudyn.model.pins import IdealPin
+from support_exudyn.model.pin_surroundings import contact_length, links_stiffness
+from support_exudyn.model.pins import ClearancePin, IdealPin
 from user_forces.values.units import Metres, Seconds
 from user_forces.values.value import InputError, NonNegative, Positive, Real, Value, value
 
@@ -168,7 +170,7 @@ class ShortForms:
         if short.clearance == 0.0:  # as at the end of a sweep over clearances
             return IdealPin()
         try:
-            return short.pin(self.data.bore_radii.get(place[-1]))
+            return self._in_machine(short, self.data, place[-1])
         except InputError as error:
             if short.bore_radius is None and place[-1] not in self.data.bore_radii:
                 bores = ", ".join(self.data.bore_radii) or "no pin"
@@ -177,6 +179,14 @@ class ShortForms:
             for line in str(error).splitlines():
                 reader.faults.add(place, line)
             return FAILED
+
+    @staticmethod
+    def _in_machine(short: ShortPin, data: MachineData, name: str) -> ClearancePin:
+        """A pin with what the machine knows of it."""
+        known = name in data.machine.linkage().pins
+        length = contact_length(data.machine, name) if known else None
+        links = partial(links_stiffness, data.machine, name) if known else (lambda material: math.inf)
+        return short.pin(data.bore_radii.get(name), length, links)
 
     def actuator(self, reader: Reader, item: Any, place: Place) -> Any:
         """An actuator of two bodies whose masses the machine's file says."""

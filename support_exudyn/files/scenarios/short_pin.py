@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Callable, Mapping
 from dataclasses import fields
 from types import MappingProxyType
 from typing import Annotated, Any, Literal
@@ -10,13 +11,15 @@ from typing import Annotated, Any, Literal
 from pydantic import model_validator
 
 from support_exudyn.files.toml.shapes import GroupShape, Names
-from support_exudyn.model.pins import ClearancePin
+from support_exudyn.model.pins import CYLINDERS, ClearancePin, Stiffness
+from user_forces.backing import in_series, pin_stiffness
 from user_forces.friction.law import FrictionLaw
 from user_forces.materials import STEEL, STEEL_35CRMO, Material
 from user_forces.normal.damping_speed import DampingSpeed
 from user_forces.normal.law import NormalLaw
+from user_forces.normal.pin_in_bore import lends_damping
 from user_forces.normal.power_law import ElasticPower
-from user_forces.values.units import Metres, NewtonsPerMetreToN
+from user_forces.values.units import Metres, NewtonsPerMetre, NewtonsPerMetreToN
 from user_forces.values.value import InputError, NonNegative, Positive, Restitution, Value, Vector2, value
 
 MATERIALS: Mapping[str, Material] = MappingProxyType({one.name: one for one in (STEEL, STEEL_35CRMO)})
@@ -84,11 +87,16 @@ class ShortPin(Value):
         friction: sliding coefficient of Ambrosio's law, >= 0, 0: none; or a friction law as a table.
         friction_law: one that needs a single coefficient, which `friction` is; Ambrosio's if nothing is said.
             Of one's own by its place, "my_laws.py:MyFriction".
-        law: of the normal force: one that needs a stiffness and a restitution only. Of one's own by its place,
+        law: of the normal force: one that needs a stiffness and a restitution only; if nothing is said Exact
+            with stiffness = "cylinders", else LankaraniNikravesh. Of one's own by its place,
             "my_laws.py:MyLaw".
         damping_speed: what the damping of the law is scaled with; the law's own default if nothing is said.
-        stiffness: K of K depth^1.5: "external" or "internal", Hertz's for spheres that touch from outside or
-            inside, from radii and materials; or a number [N/m^1.5], > 0.
+        stiffness: "cylinders": the pin along its length; the rest are K of K depth^1.5: "paper": Eq. 5 of the
+            paper, two spheres; "internal": a sphere in a hollow sphere; or a number [N/m^1.5], > 0. "cylinders"
+            where the length is known and the law allows it, else "paper", if nothing is said.
+        length: of the contact, along the pin's axis [m], > 0; the machine's file may say it for the pin.
+        backing_stiffness: of pin and link behind the contact of cylinders: "rigid", a number [N/m], > 0, or
+            "estimated" from the pin's bending and shear and the links' sections; so if nothing is said.
         bore_material, journal_material: names or tables; steel and 35CrMo if nothing is said.
         bore: which of the two bodies of the pin's place carries the bore.
         eccentricity: of the journal's centre from the bore's at the start [m], forward and up.
@@ -99,9 +107,11 @@ class ShortPin(Value):
     restitution: Restitution | None = None
     friction: NonNegative | FrictionLaw = 0.0
     friction_law: Annotated[str, Names(simple_friction_laws, instead=_friction_in_full)] | None = None
-    law: Annotated[str, Names(simple_laws, instead=_law_in_full)] = "LankaraniNikravesh"
+    law: Annotated[str, Names(simple_laws, instead=_law_in_full)] | None = None
     damping_speed: DampingSpeed | None = None
-    stiffness: Literal["external", "internal"] | NewtonsPerMetreToN[Positive] = "external"
+    stiffness: Stiffness | NewtonsPerMetreToN[Positive] | None = None
+    length: Metres[Positive] | None = None
+    backing_stiffness: Literal["estimated", "rigid"] | NewtonsPerMetre[Positive] | None = None
     bore_material: NamedMaterial | Material | None = None
     journal_material: NamedMaterial | Material | None = None
     bore: Literal["first", "second"] = ClearancePin.bore
@@ -110,20 +120,30 @@ class ShortPin(Value):
     @model_validator(mode="after")
     def _nothing_is_left_unused(self) -> ShortPin:
         for name in ("restitution", "damping_speed"):
-            if getattr(self, name) is not None and name not in _fields_of(self.law):
+            if self.law and getattr(self, name) is not None and name not in _fields_of(self.law):
                 raise ValueError(f"{name}: the law {self.law} has none; allowed with it: to leave this out")
         if self.friction_law is not None and isinstance(self.friction, FrictionLaw):
             raise ValueError("friction_law: and a law as friction are two; allowed: one of them")
         for name in ("bore_material", "journal_material"):
-            if getattr(self, name) is not None and not isinstance(self.stiffness, str):
+            if getattr(self, name) is not None and isinstance(self.stiffness, float):
                 raise ValueError(
                     f"{name}: would be left unused, for the stiffness is given as a number; "
                     "allowed: one of them"
                 )
         return self
 
-    def pin(self, bore_radius: float | None = None) -> ClearancePin:
-        """The pin in full; bore_radius: of the machine's file [m], if this has none."""
+    def pin(
+        self,
+        bore_radius: float | None = None,
+        length: float | None = None,
+        links: Callable[[Material], float] = lambda material: math.inf,
+    ) -> ClearancePin:
+        """The pin in full.
+
+        Arguments:
+            bore_radius, length: of the machine's file [m], if this has none.
+            links: stiffness [N/m] of the links that the pin joins, of a material.
+        """
         radius = bore_radius if self.bore_radius is None else self.bore_radius
         if radius is None:
             raise InputError(
@@ -135,7 +155,24 @@ class ShortPin(Value):
                 f"clearance_mm = {1e3 * self.clearance:g}: leaves no journal in a bore of bore_radius_mm = "
                 f"{1e3 * radius:g}; allowed: > 0 and < {1e3 * radius:g}"
             )
-        law: Any = GroupShape((NormalLaw,)).kinds[self.law]
+        law: Any = None if self.law is None else GroupShape((NormalLaw,)).kinds[self.law]
+        length = length if self.length is None else self.length
+        if self.stiffness == CYLINDERS and length is None:
+            raise InputError(
+                "length_mm: missing, and the machine's file says none for this pin below [width_mm.pins]; "
+                "allowed: > 0, here or there"
+            )
+        bore, journal = _material(self.bore_material, STEEL), _material(self.journal_material, STEEL_35CRMO)
+        on_cylinders = self.stiffness == CYLINDERS or (
+            self.stiffness is None and length is not None and (law is None or lends_damping(law))
+        )
+        if self.backing_stiffness is not None and not on_cylinders:
+            raise InputError(
+                'backing_stiffness: is of stiffness = "cylinders" alone; allowed without it: to leave this out'
+            )
+        backing = None
+        if on_cylinders and length is not None:
+            backing = self._backing(radius, length, journal, links(bore))
         return ClearancePin.simple(
             clearance=self.clearance,
             bore_radius=radius,
@@ -144,11 +181,21 @@ class ShortPin(Value):
             law=law,
             damping_speed=self.damping_speed,
             stiffness=self.stiffness,
-            bore_material=_material(self.bore_material, STEEL),
-            journal_material=_material(self.journal_material, STEEL_35CRMO),
+            length=length,
+            backing_stiffness=backing,
+            bore_material=bore,
+            journal_material=journal,
             bore=self.bore,
             eccentricity=self.eccentricity,
         )
+
+    def _backing(self, bore_radius: float, length: float, journal: Material, links: float) -> float:
+        """Stiffness [N/m] of pin and links behind the contact; infinite if it is rigid."""
+        if isinstance(self.backing_stiffness, float):
+            return self.backing_stiffness
+        if self.backing_stiffness == "rigid":
+            return math.inf
+        return in_series((pin_stiffness(bore_radius - self.clearance, length, journal), links))
 
     def _friction(self) -> float | FrictionLaw:
         """The law, or the coefficient of the usual one."""

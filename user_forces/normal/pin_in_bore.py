@@ -1,0 +1,160 @@
+"""A pin in a bore as steel is: line contact over the pin's length, in series with pin and link."""
+
+from __future__ import annotations
+
+import math
+from functools import cached_property, lru_cache
+from typing import Any, ClassVar, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+from numpy.polynomial import chebyshev
+from pydantic import model_validator
+
+from user_forces.conformal import relative_depth, relative_load
+from user_forces.expressions.scalar import log, maximum, where
+from user_forces.normal.cylinder import CylinderLaw
+from user_forces.normal.power_law import PowerLaw
+from user_forces.values.units import NewtonsPerMetre
+from user_forces.values.value import Positive, kinds_of, value
+
+DEGREE = 16  # of the polynomial that stands for the inverted law
+SHALLOWEST = 1e-6  # depth over clearance below which the force is linear in the depth
+LOWEST = math.log(SHALLOWEST)
+WIDEST = math.radians(60.0)  # half angle up to which the law is valid
+NARROWEST = 1e-9  # half angle [rad] below all that a force makes
+HALVINGS = 60
+FORCES = ("__call__", "elastic_force", "elastic_energy")
+
+Array = npt.NDArray[np.float64]
+
+
+def lends_damping(law: type[object]) -> bool:
+    """Whether a law of K depth^n is nothing but a damping factor, which another elastic force can have too."""
+    return issubclass(law, PowerLaw) and all(getattr(law, name) is getattr(PowerLaw, name) for name in FORCES)
+
+
+@value
+class PinInBore(CylinderLaw):
+    """F = F_el (1 + chi rate / w), F_el that of a pin over its length, held by pin and link.
+
+        depth = p D(half angle) / (2 E*) + L p / k,    F_el = L p
+
+    p is the load per length, the half angle follows from it, and D is the elastic solution, see
+    `user_forces.conformal`: Johnson's line contact at small angles, Persson's conformal contact beyond. k is
+    the stiffness with which pin and link give besides. Valid for half angles up to 60 degrees.
+
+    The law is inverted once, when it is made: F_el / depth is a polynomial in the logarithm of the depth. It is
+    within 1e-4 of the closed form, and closer the more pin and link give. The energy is the exact integral of
+    that force. Below a millionth of the clearance the force is linear in the depth.
+
+    Arguments:
+        bearing: radii R2 of the bore, R1 of the pin, and clearance dR = R2 - R1 [m].
+        length: L of the contact, along the axis [m], > 0.
+        effective_modulus: E* [Pa], see `user_forces.effective_modulus`.
+        restitution: e [-], > 0 and <= 1.
+        damping_speed: what w is: the initial impact velocity v0 in a free impact.
+        backing_stiffness: k of pin and link, in series with the contact [N/m], > 0; None: they are rigid.
+        damping: the law whose damping factor chi it has; "Exact" delivers the restitution asked for.
+
+    Source: Johnson, Contact Mechanics (1985), section 5.6; Persson, Chalmers (1964).
+    """
+
+    TITLE: ClassVar[str] = "Pin in bore"
+
+    backing_stiffness: NewtonsPerMetre[Positive] | None = None
+    damping: str = "Exact"
+
+    @model_validator(mode="after")
+    def _damping_is_known(self) -> PinInBore:
+        known = {name: law for name, law in kinds_of(PowerLaw).items() if lends_damping(law)}
+        if self.damping not in known:
+            raise ValueError(f"damping = {self.damping!r}: allowed: {', '.join(sorted(known))}")
+        return self
+
+    def factor(self, restitution: float) -> float:
+        """The damping factor of the law that `damping` names."""
+        law: type[Any] = kinds_of(PowerLaw)[self.damping]
+        return float(law(stiffness=1.0, restitution=restitution).damping_factor)
+
+    @property
+    def largest_depth(self) -> float:
+        """Depth [m] at a half contact angle of 60 degrees."""
+        return self.bearing.clearance * math.exp(self._inverse.highest)
+
+    def elastic_force(self, depth: float) -> float:
+        """F_el [N]."""
+        self.check(depth)
+        return self._stiffness * depth * _polynomial(self._inverse.force, self._place(depth))
+
+    def elastic_energy(self, depth: float) -> float:
+        """Integral of the force [J]."""
+        self.check(depth)
+        inverse, unit = self._inverse, self._stiffness * SHALLOWEST**2 * self.bearing.clearance**2
+        rest = unit * (0.5 * _polynomial(inverse.force, -1.0) - _polynomial(inverse.energy, -1.0))
+        square = self._stiffness * depth * depth
+        deep = square * _polynomial(inverse.energy, self._place(depth)) + rest
+        linear = 0.5 * square * _polynomial(inverse.force, -1.0)
+        return where(depth < SHALLOWEST * self.bearing.clearance, linear, deep)
+
+    @cached_property
+    def _stiffness(self) -> float:
+        """2 E* L [N/m]."""
+        return 2.0 * self.effective_modulus * self.length
+
+    @cached_property
+    def _inverse(self) -> _Inverse:
+        return _inverse(0.0 if self.backing_stiffness is None else self._stiffness / self.backing_stiffness)
+
+    def _place(self, depth: float) -> float:
+        """Where a depth lies between the ends of the inverted law, from -1 to 1."""
+        inverse = self._inverse
+        middle, half = 0.5 * (inverse.highest + LOWEST), 0.5 * (inverse.highest - LOWEST)
+        shift = math.log(self.bearing.clearance) + middle
+        return maximum((log(depth) - shift) / half, -1.0)
+
+
+class _Inverse(NamedTuple):
+    """The inverted law, for depths over the clearance from SHALLOWEST to exp(highest).
+
+    force: F_el / (2 E* L depth), as coefficients of the powers of x, which goes from -1 to 1 as the logarithm
+    of the depth does. energy: the same of the energy over 2 E* L depth^2.
+    """
+
+    highest: float
+    force: tuple[float, ...]
+    energy: tuple[float, ...]
+
+
+@lru_cache(maxsize=256)
+def _inverse(backing: float) -> _Inverse:
+    """The inverted law; backing: 2 E* L / k, the part of the depth that pin and link add."""
+
+    def logarithm(angles: Array) -> Array:
+        return np.asarray(np.log(relative_load(angles) * (relative_depth(angles) + backing)))
+
+    highest = float(logarithm(np.array([WIDEST]))[0])
+    half = 0.5 * (highest - LOWEST)
+    nodes = chebyshev.chebpts1(DEGREE + 1)
+    wanted = LOWEST + half * (nodes + 1.0)
+    low, high = np.full(nodes.size, math.log(NARROWEST)), np.full(nodes.size, math.log(WIDEST))
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        below = logarithm(np.exp(middle)) < wanted
+        low, high = np.where(below, middle, low), np.where(below, high, middle)
+    ratios = 1.0 / (relative_depth(np.exp(0.5 * (low + high))) + backing)
+    force = chebyshev.cheb2poly(chebyshev.chebfit(nodes, ratios, DEGREE))
+    energy = np.zeros(DEGREE + 1)
+    carried = 0.0
+    for n in range(DEGREE, -1, -1):  # of 2 Q + dQ/ds = P, s the logarithm of the depth
+        energy[n] = 0.5 * (force[n] - carried)
+        carried = n * energy[n] / half
+    return _Inverse(highest, tuple(force.tolist()), tuple(energy.tolist()))
+
+
+def _polynomial(coefficients: tuple[float, ...], x: float) -> float:
+    """The sum of coefficients times powers of x, by Horner's scheme."""
+    found = coefficients[-1]
+    for one in reversed(coefficients[:-1]):
+        found = found * x + one
+    return found
