@@ -15,9 +15,11 @@ from rich.markup import escape
 from rich.table import Table
 
 from support_exudyn.commands.command_line import silence_output
+from support_exudyn.postprocessing import pin_contact
 from support_exudyn.postprocessing import summary as summary
 from support_exudyn.postprocessing.figures import selection
 from support_exudyn.postprocessing.shown_numbers import ranking
+from support_exudyn.scenario.pin_pressure import PressedPin
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import cleaned
 
@@ -116,6 +118,15 @@ def show_impacts(console: Console, title: str, rows: Sequence[summary.Row]) -> N
     if len(header) == len(IMPACTS):
         told += ", largest force at the records"
     show_table(console, f"{title}, {told}", header, rows)
+
+
+def show_pressed(console: Console, title: str, pins: Sequence[PressedPin]) -> None:
+    """The table of how hard clearance pins are pressed, and what yields; nothing without such pins."""
+    if not pins:
+        return
+    show_table(console, title, pin_contact.HEADER, pin_contact.rows(pins))
+    for warning in pin_contact.warnings(pins):
+        console.print(f"warning: {warning}", markup=False, soft_wrap=True, end="\n\n")
 
 
 def facts(result: Result, after: float, until: float) -> dict[str, Any]:

@@ -15,6 +15,7 @@ from PIL import Image
 
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.linkage import GROUND
+from support_exudyn.postprocessing import pin_contact
 from support_exudyn.postprocessing import summary as summary
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.figures.machine import machine_drawing
@@ -68,6 +69,7 @@ class RunReport:
     key: ShownTable
     numbers: ShownTable
     impacts: ShownTable
+    pressed: ShownTable
     what: ShownTable
     still: ShownFigure | None
     no_still: str
@@ -111,6 +113,7 @@ def run_report(runs: Mapping[str, Result], channels: Sequence[str] = ()) -> str:
         ShownTable(_numbers("Numbers of the clearance pins and traced points", estimates, key), "key"),
         ShownTable(_numbers("All numbers", estimates, every), "numbers"),
         ShownTable(_impacts(runs), "impacts"),
+        ShownTable(_pressed(runs), "pressed"),
         ShownTable(_what(runs), "what"),
         still,
         no_still,
@@ -312,6 +315,15 @@ def _impacts(runs: Mapping[str, Result]) -> Sheet:
     rows = [(run, *row) for run, result in runs.items() for row in summary.impacts(result)]
     header = ("run", "pin", "impact", "time", "lasts", "approach", "separation", "force at records")
     return Sheet("First impacts, and speeds of approach and separation", header, tuple(rows), left=3)
+
+
+def _pressed(runs: Mapping[str, Result]) -> Sheet:
+    """How hard the clearance pins are pressed at their largest force."""
+    pins = [(run, one) for run, result in runs.items() for one in pin_contact.hardest_pressed(result)]
+    rows = [(run, *row) for run, one in pins for row in pin_contact.rows([one])]
+    header = ("run", *(name.lstrip(">") for name in pin_contact.HEADER))
+    note = " ".join(f"{run}, {told}." for run, one in pins for told in pin_contact.warnings([one]))
+    return Sheet("Clearance pins under their largest force", header, tuple(rows), note, left=2)
 
 
 def _what(runs: Mapping[str, Result]) -> Sheet:

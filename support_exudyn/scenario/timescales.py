@@ -47,12 +47,13 @@ class Timescales:
 class LoadedContact(NamedTuple):
     """A clearance pin's contact under a static load in the start posture.
 
-    contact: its laws. load: what it carries [N]. along: its direction, any if it is but rounding (2,).
-    inverse_mass: of the journal, ground's axes (2, 2) [1/kg]. mass: that moves with it along the load [kg].
+    pin: its name. contact: its laws. load: what it carries [N]. along: its direction, any if it is but rounding
+    (2,). inverse_mass: of the journal, ground's axes (2, 2) [1/kg]. mass: that moves with it along the load [kg].
     lightest: that moves with it in any direction [kg]. stiffness: of the contact there [N/m]; 0 if it carries
     nothing or cannot hold it.
     """
 
+    pin: str
     contact: JournalContact
     load: float
     along: Matrix
@@ -108,7 +109,7 @@ def loaded_contacts(scenario: Scenario) -> list[LoadedContact]:
             else:
                 load = mass * pull
             stiffness = _slope(pin.contact.normal, load) if load > 0.0 else 0.0
-            found.append(LoadedContact(pin.contact, load, along, inverse_mass, mass, lightest, stiffness))
+            found.append(LoadedContact(name, pin.contact, load, along, inverse_mass, mass, lightest, stiffness))
     return found
 
 

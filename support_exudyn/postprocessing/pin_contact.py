@@ -1,0 +1,58 @@
+"""How hard clearance pins are pressed, as a table: what `show`, `check` and the page of a run tell."""
+
+import math
+from collections.abc import Sequence
+
+from support_exudyn.postprocessing.figures.units import said
+from support_exudyn.scenario.pin_pressure import PressedPin, pressed_pin
+from support_exudyn.simulation.result import Result
+
+HEADER = (
+    "pin",
+    ">force",
+    ">peak pressure",
+    ">of first yield",
+    ">half angle",
+    ">depth",
+    ">stiffness",
+    "contact",
+)
+DIGITS = 3  # of numbers of a theory that neglects edges, friction and roughness
+
+
+def hardest_pressed(result: Result) -> list[PressedPin]:
+    """Every clearance pin of a run under its largest force at any step."""
+    pins, forces = result.scenario.clearance_pins, result.largest_force
+    return [
+        pressed_pin(result.scenario.machine, name, pin, forces[name])
+        for name, pin in pins.items()
+        if name in forces
+    ]
+
+
+def rows(pins: Sequence[PressedPin]) -> list[tuple[str, ...]]:
+    """Pin, force, pressure, its share of first yield, half contact angle, depth, stiffness, kind of contact."""
+    return [
+        (
+            one.name,
+            said(one.force, "N", DIGITS),
+            "" if one.line is None else said(one.line.peak_pressure, "Pa", DIGITS),
+            "" if math.isnan(one.yield_share) else f"{100.0 * one.yield_share:.{DIGITS}g} %",
+            "" if one.line is None else f"{math.degrees(one.line.half_angle):.{DIGITS}g}°",
+            said(one.depth, "m", DIGITS) if math.isfinite(one.depth) else "",
+            f"{one.stiffness / 1e6:.{DIGITS}g} kN/mm" if math.isfinite(one.stiffness) else "",
+            _kind(one),
+        )
+        for one in pins
+    ]
+
+
+def warnings(pins: Sequence[PressedPin]) -> list[str]:
+    """What yields, in sentences."""
+    return [one.warning for one in pins if one.warning]
+
+
+def _kind(one: PressedPin) -> str:
+    if one.line is None:
+        return "length unknown" if one.length is None else "beyond the theory"
+    return "conformal" if one.line.conformal else "line"

@@ -1,0 +1,100 @@
+"""How hard a clearance pin is pressed: pressure against the yield strength, contact angle, depth, stiffness."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from support_exudyn.model.machine import Machine
+from support_exudyn.model.pin_surroundings import contact_length
+from support_exudyn.model.pins import ClearancePin
+from support_exudyn.scenario.scenario import Scenario
+from support_exudyn.scenario.timescales import loaded_contacts
+from user_forces.conformal import LineContact, line_contact
+from user_forces.materials import Material, effective_modulus
+from user_forces.values.value import InputError
+
+# peak pressure of a line contact over the yield strength in tension at which a body begins to yield, below its
+# surface: by Tresca's criterion (Johnson, Contact Mechanics (1985), Eq. 6.4)
+FIRST_YIELD = 1.67
+
+
+@dataclass(frozen=True)
+class PressedPin:
+    """A clearance pin under a force.
+
+    name: of the pin. force: [N]. length: of the contact [m], None if it is not known. line: the elastic contact
+    along it; None without a length and if the force is beyond the theory. softest: the material that yields
+    first; None if no yield strength is known. depth: under the law in use [m]; stiffness: the law's slope there
+    [N/m]; both nan where the law cannot hold the force.
+    """
+
+    name: str
+    force: float
+    length: float | None
+    line: LineContact | None
+    softest: Material | None
+    depth: float
+    stiffness: float
+
+    @property
+    def yield_share(self) -> float:
+        """Peak pressure over that at which the softer body begins to yield; nan if it is not known."""
+        if self.line is None or self.softest is None or self.softest.yield_strength is None:
+            return math.nan
+        return self.line.peak_pressure / (FIRST_YIELD * self.softest.yield_strength)
+
+    @property
+    def warning(self) -> str | None:
+        """That the pin yields, in one sentence; None if it does not, or nobody knows."""
+        if not self.yield_share > 1.0 or self.line is None or self.softest is None:
+            return None
+        return (
+            f"{self.name}: {self.force / 1e3:.4g} kN on {1e3 * (self.length or 0.0):.4g} mm press with "
+            f"{self.line.peak_pressure / 1e6:.4g} MPa, {self.yield_share:.3g} times what {self.softest.name} "
+            "bears before it yields: an elastic contact is too stiff there"
+        )
+
+
+def pressed_pin(machine: Machine, name: str, pin: ClearancePin, force: float) -> PressedPin:
+    """A pin of a machine under a force [N] >= 0.
+
+    Arguments:
+        machine: that knows the pin's length, unless the pin says it.
+        name: of the pin.
+        pin: its contact and materials.
+        force: that presses it [N].
+    """
+    length = contact_length(machine, name) if pin.length is None else pin.length
+    materials = (pin.bore_material, pin.journal_material)
+    line = None
+    if length is not None:
+        try:
+            line = line_contact(pin.contact.bearing, length, effective_modulus(*materials), force)
+        except InputError:  # beyond the theory
+            line = None
+    depth, stiffness = _under(pin, force)
+    known = [one for one in materials if one.yield_strength is not None]
+    softest = min(known, key=lambda one: one.yield_strength or 0.0, default=None)
+    return PressedPin(name, force, length, line, softest, depth, stiffness)
+
+
+def statically_pressed(scenario: Scenario) -> list[PressedPin]:
+    """Every clearance pin under the largest static load of the start posture: weight, or weight and loads."""
+    loads: dict[str, float] = {}
+    for one in loaded_contacts(scenario):
+        loads[one.pin] = max(one.load, loads.get(one.pin, 0.0))
+    pins = scenario.clearance_pins
+    return [pressed_pin(scenario.machine, name, pins[name], load) for name, load in loads.items()]
+
+
+def _under(pin: ClearancePin, force: float) -> tuple[float, float]:
+    """Depth [m] and slope [N/m] of a pin's law under a force."""
+    law = pin.contact.normal
+    try:
+        depth = law.resting_depth(force)
+        if depth <= 0.0:
+            return 0.0, 0.0
+        return depth, (law.elastic_force(depth) - law.elastic_force(0.999 * depth)) / (0.001 * depth)
+    except (InputError, ArithmeticError):
+        return math.nan, math.nan
