@@ -37,8 +37,8 @@ class Material(Value):
         return (1.0 - self.poisson_ratio**2) / (math.pi * self.elastic_modulus)
 
 
-# Table 1 of the same paper: the parts of the support, and the pin. It tells no yield strength. Here the parts have
-# that of S355 plates of 16 to 40 mm (EN 10025-2), the pin that of quenched and tempered 35CrMo (GB/T 3077).
+# Table 1 of the same paper: the parts of the support, and the pin. It tells no yield strength. Here the parts
+# have that of S355 plates of 16 to 40 mm (EN 10025-2), the pin that of tempered 35CrMo (GB/T 3077).
 STEEL = Material(
     name="steel", elastic_modulus=2.07e11, poisson_ratio=0.29, density=7801.0, yield_strength=3.45e8
 )

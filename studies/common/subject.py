@@ -12,6 +12,7 @@ from studies.common.rise import PAPER, Watched
 from support_exudyn import ClearancePin, CubicStep, Scenario, SolverSettings
 from support_exudyn.files import load_toml, read_scenario_file
 from support_exudyn.files.machines.read import load_machine, read_machine
+from support_exudyn.files.scenarios.short_pin import ShortPin, pin_in_machine
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.simulation.automatic_settings import cheapest
 from user_forces import Ambrosio, Frictionless
@@ -24,8 +25,9 @@ class Subject:
     """What a study is about.
 
     motion: the run with an ideal pin. pin: the pin that gets clearance. given: its pin in the user's scenario,
-    of which all but the clearance and the friction is kept; None: contact as in the paper's pin, in a bore of
-    bore_radius [m]. name: how sentences call the machine; empty for the paper's.
+    of which all but the clearance and the friction is kept; None: the paper's contact for the paper's machine,
+    else the usual one, in a bore of bore_radius [m]. name: how sentences call the machine; empty for the
+    paper's.
     """
 
     motion: Scenario
@@ -64,13 +66,14 @@ class Subject:
 
     def with_clearance(self, clearance_mm: float, sliding_coefficient: float) -> Scenario:
         """The run with this radial clearance in the pin, to the accuracy of studies."""
-        if self.given is None:
+        if self.is_paper:
             pin = paper_machine.clearance_joint(clearance_mm, sliding_coefficient, self.bore_radius)
+        elif self.given is None:
+            short = ShortPin(clearance=clearance_mm / 1e3, friction=sliding_coefficient)
+            pin = pin_in_machine(short, self.motion.machine, self.pin, self.bore_radius)
         else:
-            contact = self.given.contact
-            bearing = replace(contact.bearing, clearance=clearance_mm / 1e3)
-            contact = replace(contact, bearing=bearing, friction=self._law(sliding_coefficient))
-            pin = replace(self.given, contact=contact)
+            contact = self.given.contact.with_clearance(clearance_mm / 1e3)
+            pin = replace(self.given, contact=replace(contact, friction=self._law(sliding_coefficient)))
         return to_accuracy(replace(self.motion, pins={**self.motion.pins, self.pin: pin}))
 
     def _law(self, sliding_coefficient: float) -> FrictionLaw:

@@ -40,7 +40,7 @@ def rows(pins: Sequence[PressedPin]) -> list[tuple[str, ...]]:
             "" if math.isnan(one.yield_share) else f"{100.0 * one.yield_share:.{DIGITS}g} %",
             "" if one.line is None else f"{math.degrees(one.line.half_angle):.{DIGITS}g}°",
             said(one.depth, "m", DIGITS) if math.isfinite(one.depth) else "",
-            f"{one.stiffness / 1e6:.{DIGITS}g} kN/mm" if math.isfinite(one.stiffness) else "",
+            f"{one.stiffness / 1e9:.{DIGITS}g} MN/mm" if math.isfinite(one.stiffness) else "",
             _kind(one),
         )
         for one in pins

@@ -48,9 +48,9 @@ class LoadedContact(NamedTuple):
     """A clearance pin's contact under a static load in the start posture.
 
     pin: its name. contact: its laws. load: what it carries [N]. along: its direction, any if it is but rounding
-    (2,). inverse_mass: of the journal, ground's axes (2, 2) [1/kg]. mass: that moves with it along the load [kg].
-    lightest: that moves with it in any direction [kg]. stiffness: of the contact there [N/m]; 0 if it carries
-    nothing or cannot hold it.
+    (2,). inverse_mass: of the journal, ground's axes (2, 2) [1/kg]. mass: that moves with it along the load
+    [kg]. lightest: that moves with it in any direction [kg]. stiffness: of the contact there [N/m]; 0 if it
+    carries nothing or cannot hold it.
     """
 
     pin: str

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from difflib import get_close_matches
@@ -14,7 +13,7 @@ from pydantic import model_validator
 
 from support_exudyn.files.machines.read import SHIPPED, read_machine
 from support_exudyn.files.scenarios.drive_table import one_drive, read_drives
-from support_exudyn.files.scenarios.short_pin import ShortPin
+from support_exudyn.files.scenarios.short_pin import ShortPin, pin_in_machine
 from support_exudyn.files.toml.faults import Faults, Place, said
 from support_exudyn.files.toml.reading import FAILED, Failed, Reader
 from support_exudyn.files.toml.shapes import GroupShape
@@ -23,8 +22,7 @@ from support_exudyn.model.actuators import CylinderAndRod
 from support_exudyn.model.drives.drive import CubicStep, Drive, Stroke, UniformSpeed
 from support_exudyn.model.drives.table_drive import TableDrive
 from support_exudyn.model.machine import Machine
-from support_exudyn.model.pin_surroundings import contact_length, links_stiffness
-from support_exudyn.model.pins import ClearancePin, IdealPin
+from support_exudyn.model.pins import IdealPin
 from user_forces.values.units import Metres, Seconds
 from user_forces.values.value import InputError, NonNegative, Positive, Real, Value, value
 
@@ -170,7 +168,8 @@ class ShortForms:
         if short.clearance == 0.0:  # as at the end of a sweep over clearances
             return IdealPin()
         try:
-            return self._in_machine(short, self.data, place[-1])
+            name = place[-1]
+            return pin_in_machine(short, self.data.machine, name, self.data.bore_radii.get(name))
         except InputError as error:
             if short.bore_radius is None and place[-1] not in self.data.bore_radii:
                 bores = ", ".join(self.data.bore_radii) or "no pin"
@@ -179,14 +178,6 @@ class ShortForms:
             for line in str(error).splitlines():
                 reader.faults.add(place, line)
             return FAILED
-
-    @staticmethod
-    def _in_machine(short: ShortPin, data: MachineData, name: str) -> ClearancePin:
-        """A pin with what the machine knows of it."""
-        known = name in data.machine.linkage().pins
-        length = contact_length(data.machine, name) if known else None
-        links = partial(links_stiffness, data.machine, name) if known else (lambda material: math.inf)
-        return short.pin(data.bore_radii.get(name), length, links)
 
     def actuator(self, reader: Reader, item: Any, place: Place) -> Any:
         """An actuator of two bodies whose masses the machine's file says."""

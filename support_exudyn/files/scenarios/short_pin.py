@@ -5,12 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import fields
+from functools import partial
 from types import MappingProxyType
 from typing import Annotated, Any, Literal
 
 from pydantic import model_validator
 
 from support_exudyn.files.toml.shapes import GroupShape, Names
+from support_exudyn.model.machine import Machine
+from support_exudyn.model.pin_surroundings import contact_length, links_stiffness
 from support_exudyn.model.pins import CYLINDERS, ClearancePin, Stiffness
 from user_forces.backing import in_series, pin_stiffness
 from user_forces.friction.law import FrictionLaw
@@ -212,6 +215,21 @@ class ShortPin(Value):
                 )
             return law(**({coefficient: self.friction} if takes else {}))  # type: ignore[no-any-return]
         return self.friction
+
+
+def pin_in_machine(short: ShortPin, machine: Machine, name: str, bore_radius: float | None) -> ClearancePin:
+    """A pin with what the machine knows of it: the length of its contact, and the links that it joins.
+
+    Arguments:
+        short: what is said of the pin.
+        machine: with a pin of this name, or without one: then nothing is known.
+        name: of the pin.
+        bore_radius: of the machine's file [m], None if it says none.
+    """
+    if name not in machine.linkage().pins:
+        return short.pin(bore_radius)
+    length = contact_length(machine, name)
+    return short.pin(bore_radius, length, partial(links_stiffness, machine, name))
 
 
 def _fields_of(law: str) -> set[str]:

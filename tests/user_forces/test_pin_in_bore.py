@@ -1,0 +1,179 @@
+"""The law of a pin along its length: its closed form, its energy, what it delivers, its backing."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.integrate import quad, solve_ivp
+
+from user_forces import (
+    STEEL,
+    STEEL_35CRMO,
+    Exact,
+    Flores,
+    Impact,
+    InputError,
+    Johnson,
+    JournalBearing,
+    JournalContact,
+    LankaraniNikravesh,
+    LoadError,
+    PinInBore,
+    effective_modulus,
+    line_contact,
+)
+from user_forces.backing import bar_stiffness, in_series, pin_stiffness
+
+MODULUS = effective_modulus(STEEL, STEEL_35CRMO)
+
+
+def law(clearance: float = 1.5e-3, backing: float | None = 3e9, **given: object) -> PinInBore:
+    fields = {"length": 0.7, "effective_modulus": MODULUS, "restitution": 0.9, **given}
+    bearing = JournalBearing(bore_radius=0.0655, clearance=clearance)
+    return PinInBore(bearing=bearing, backing_stiffness=backing, **fields)  # type: ignore[arg-type]
+
+
+@given(
+    clearance=st.floats(1e-5, 3e-3),
+    backing=st.none() | st.floats(1e8, 1e12),
+    force=st.floats(1e2, 1e7),
+    length=st.floats(0.05, 2.0),
+)
+def test_the_inverted_law_is_the_closed_form(
+    clearance: float, backing: float | None, force: float, length: float
+) -> None:
+    one = law(clearance, backing, length=length)
+    contact = line_contact(one.bearing, length, MODULUS, force)
+    depth = contact.depth + (force / backing if backing else 0.0)
+    if contact.half_angle > math.radians(60.0) or depth < 1e-6 * clearance:
+        return
+    assert one.elastic_force(depth) == pytest.approx(force, rel=1.2e-4)
+
+
+def test_the_more_the_pin_gives_the_closer_the_law_is() -> None:
+    found = []
+    for backing in (None, 1e11, 3e9):
+        one = law(backing=backing)
+        errors = []
+        for force in np.geomspace(1e2, 1e7, 41):
+            depth = line_contact(one.bearing, 0.7, MODULUS, force).depth + (force / backing if backing else 0.0)
+            errors.append(abs(one.elastic_force(depth) / force - 1.0))
+        found.append(max(errors))
+    assert found[0] < 1e-4
+    assert found[1] < 3e-5
+    assert found[2] < 5e-7
+
+
+@given(clearance=st.floats(1e-5, 3e-3), backing=st.none() | st.floats(1e8, 1e12), share=st.floats(1e-9, 0.1))
+def test_the_energy_is_the_integral_of_the_force(clearance: float, backing: float | None, share: float) -> None:
+    one = law(clearance, backing)
+    depth = min(share * clearance, 0.9 * one.largest_depth)
+    linear = min(depth, 1e-6 * clearance)
+    work = quad(one.elastic_force, 0.0, linear, epsabs=0.0, epsrel=1e-13)[0]
+    work += quad(one.elastic_force, linear, depth, epsabs=0.0, epsrel=1e-13, limit=200)[0]
+    assert one.elastic_energy(depth) == pytest.approx(work, rel=1e-10)
+
+
+@given(backing=st.none() | st.floats(1e8, 1e12), clearance=st.floats(1e-5, 3e-3))
+def test_the_force_rises_and_joins_at_a_millionth_of_the_clearance(
+    backing: float | None, clearance: float
+) -> None:
+    one = law(clearance, backing)
+    depths = np.geomspace(1e-9 * clearance, 0.999 * one.largest_depth, 300)
+    forces = np.array([one.elastic_force(depth) for depth in depths])
+    assert (np.diff(forces) > 0.0).all()
+    edge = 1e-6 * clearance
+    for part in (one.elastic_force, one.elastic_energy):
+        assert part(edge * (1.0 + 1e-12)) == pytest.approx(part(edge * (1.0 - 1e-12)), rel=1e-9)
+
+
+@pytest.mark.parametrize("restitution", [0.2, 0.6, 0.9])
+@pytest.mark.parametrize("backing", [None, 3e9])
+def test_a_free_impact_gives_back_what_was_asked_for(restitution: float, backing: float | None) -> None:
+    one = law(backing=backing, restitution=restitution)
+    speed, mass = 0.3, 400.0
+    impact = Impact(speed, mass)
+
+    def motion(time: float, state: np.ndarray) -> list[float]:  # type: ignore[type-arg]
+        del time
+        depth, rate = state
+        return [rate, -one(max(depth, 1e-30), rate, impact) / mass]
+
+    def parted(time: float, state: np.ndarray) -> float:  # type: ignore[type-arg]
+        return float(state[0]) if time > 0.0 else 1.0
+
+    parted.terminal, parted.direction = True, -1  # type: ignore[attr-defined]
+    times = (0.0, 20.0 * one.impact_time(impact))
+    run = solve_ivp(motion, times, [1e-18, speed], events=parted, rtol=1e-10, atol=1e-16, method="DOP853")
+    assert -run.y_events[0][0][1] / speed == pytest.approx(restitution, rel=1e-5)
+
+
+def test_its_damping_can_be_that_of_another_law() -> None:
+    assert law(damping="Flores").damping_factor == Flores(stiffness=1.0, restitution=0.9).damping_factor
+    given = LankaraniNikravesh(stiffness=1.0, restitution=0.9)
+    assert law(damping="LankaraniNikravesh").delivered_restitution == given.delivered_restitution
+    assert law().damping_factor == Exact(stiffness=1.0, restitution=0.9).damping_factor
+    with pytest.raises(InputError, match=r"damping = 'Hertz': allowed: .*Exact.*Flores"):
+        law(damping="Hertz")
+
+
+def test_without_backing_it_is_johnson_where_angles_are_small() -> None:
+    one = law(backing=None)
+    other = Johnson(bearing=one.bearing, length=0.7, effective_modulus=MODULUS, restitution=0.9)
+    for force in (1e3, 51.4e3, 445e3):
+        assert one.resting_depth(force) == pytest.approx(other.resting_depth(force), rel=1e-3)
+
+
+def test_pin_and_link_add_their_share_of_the_depth() -> None:
+    stiff, soft = law(backing=None), law(backing=3e9)
+    assert soft.resting_depth(51.4e3) - stiff.resting_depth(51.4e3) == pytest.approx(51.4e3 / 3e9, rel=1e-4)
+
+
+def test_beyond_sixty_degrees_it_is_refused() -> None:
+    one = law(1e-5, None)
+    with pytest.raises(LoadError, match="PinInBore: depth = "):
+        one.elastic_force(1.001 * one.largest_depth)
+    with pytest.raises(LoadError, match="PinInBore: force = "):
+        one.resting_depth(1e12)
+
+
+def test_a_contact_and_its_law_have_one_bearing() -> None:
+    one = law()
+    contact = JournalContact(bearing=one.bearing, normal=one)
+    wider = contact.with_clearance(2e-3)
+    assert wider.bearing == wider.normal.bearing == JournalBearing(bore_radius=0.0655, clearance=2e-3)  # type: ignore[attr-defined]
+    with pytest.raises(InputError, match=r"normal.bearing = .*: is another than that of the contact"):
+        JournalContact(bearing=wider.bearing, normal=one)
+
+
+# --- what pin and link give ---
+
+
+def test_the_reference_supports_rear_pin_gives_as_an_engineer_reckons() -> None:
+    """By hand: pin 4 to 6e9 in bending, 1.5e10 in shear, link 1.2e10; the joint 3 to 5e9 N/m."""
+    pin, link = pin_stiffness(0.064, 0.7, STEEL_35CRMO), bar_stiffness(500.0, 1.034, STEEL)
+    assert 1.1e10 < link < 1.3e10
+    assert 3.0e9 < in_series((pin, link)) < 5.0e9
+    assert in_series(()) == math.inf
+
+
+@pytest.mark.parametrize("slenderness", [0.5, 2.0, 20.0])
+def test_a_pin_bends_as_a_clamped_beam(slenderness: float) -> None:
+    """The mean deflection of Timoshenko's beam under an even load, from its equations."""
+    radius = 0.05
+    length = 2.0 * radius * slenderness
+    nu, modulus = STEEL.poisson_ratio, STEEL.elastic_modulus
+    area, moment = math.pi * radius**2, math.pi * radius**4 / 4.0
+    shear = 6.0 * (1.0 + nu) / (7.0 + 6.0 * nu) * modulus / (2.0 * (1.0 + nu)) * area
+    q = 1.0 / length
+
+    def deflection(x: float) -> float:
+        bending = q * x**2 * (length - x) ** 2 / (24.0 * modulus * moment)
+        return bending + q * x * (length - x) / (2.0 * shear)
+
+    mean = quad(deflection, 0.0, length)[0] / length
+    assert pin_stiffness(radius, length, STEEL) == pytest.approx(1.0 / mean, rel=1e-12)
