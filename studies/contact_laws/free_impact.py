@@ -26,10 +26,9 @@ def free_impact(law: NormalLaw, speed: float, impact_steps: int, records: int = 
     time = LONGEST * 2.94 * depth / speed
     flight = 0.01 * time
     clearance = 10.0 * speed * time
-    start = clearance - speed * flight
-    contact = JournalContact(
-        bearing=JournalBearing(bore_radius=10.0 * clearance, clearance=clearance), normal=law
-    )
+    wide = JournalBearing(bore_radius=10.0 * clearance, clearance=clearance)
+    contact = JournalContact(bearing=getattr(law, "bearing", wide), normal=law)  # of cylinders it has its own
+    start = contact.bearing.clearance - speed * flight
     return Scenario(
         machine=ImpactStand(bore_mass=BORE_MASS, journal_mass=JOURNAL_MASS, speed=speed, eccentricity=start),
         pins={PIN: ClearancePin(contact=contact)},

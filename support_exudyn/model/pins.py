@@ -127,7 +127,7 @@ class ClearancePin(Pin):
         bore: which of the two bodies of the pin's place carries the bore.
         eccentricity: of the journal's centre from the bore's at the start [m], forward and up; up to the
             clearance it is free, beyond it is pressed in. The bodies are laid out for it, see `eccentric`.
-        length: of the contact, along the axis [m], for its pressure; None: as the machine knows it.
+        length: of the contact, along the axis [m], for its pressure; None: as the law or the machine knows it.
         bore_material, journal_material: by whose yield strength the pressure is judged.
     """
 
@@ -203,7 +203,7 @@ class ClearancePin(Pin):
             contact=JournalContact(bearing=bearing, normal=normal, friction=friction),
             bore=bore,
             eccentricity=eccentricity,
-            length=length,
+            length=None if stiffness == CYLINDERS else length,
             bore_material=bore_material,
             journal_material=journal_material,
         )
@@ -280,9 +280,9 @@ def _of_power(
     named = isinstance(stiffness, str)
     if isinstance(stiffness, str):
         if stiffness not in HERTZ:
-            allowed = " or ".join(map(repr, (CYLINDERS, *HERTZ)))
+            allowed = ", ".join(map(repr, (CYLINDERS, *HERTZ)))
             hint = "; what was 'external' is called 'paper'" if stiffness == "external" else ""
-            raise InputError(f"stiffness = {short(stiffness)}: allowed: {allowed}, or a number, > 0{hint}")
+            raise InputError(f"stiffness = {short(stiffness)}: allowed: {allowed} or a number, > 0{hint}")
         given["stiffness"] = HERTZ[stiffness](bearing, *materials)
     for name, asked in (("restitution", restitution), ("damping_speed", damping_speed)):
         if asked is not None and name not in has:

@@ -60,12 +60,13 @@ def pressed_pin(machine: Machine, name: str, pin: ClearancePin, force: float) ->
     """A pin of a machine under a force [N] >= 0.
 
     Arguments:
-        machine: that knows the pin's length, unless the pin says it.
+        machine: that knows the pin's length, unless the pin or its law says it.
         name: of the pin.
         pin: its contact and materials.
         force: that presses it [N].
     """
-    length = contact_length(machine, name) if pin.length is None else pin.length
+    law_length = getattr(pin.contact.normal, "length", None)
+    length = pin.length or law_length or contact_length(machine, name)
     materials = (pin.bore_material, pin.journal_material)
     line = None
     if length is not None:

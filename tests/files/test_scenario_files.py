@@ -77,7 +77,7 @@ def test_the_papers_rise_in_short_is_that_of_the_studies() -> None:
 
 
 def test_a_pin_in_short_is_that_of_the_studies() -> None:
-    text = 'friction = 0.25\nrestitution = 0.9\ndamping_speed = {type = "ImpactVelocity"}'
+    text = 'friction = 0.25\nrestitution = 0.9\nstiffness = "paper"\ndamping_speed = {type = "ImpactVelocity"}'
     assert scenario(TOP + WITH_CLEARANCE + text).pins["rear_base"] == clearance_joint(1.5, 0.25)
 
 

@@ -91,11 +91,13 @@ def test_a_simple_pin_takes_law_friction_and_stiffness() -> None:
 def test_what_a_simple_pin_would_not_use_is_refused() -> None:
     with pytest.raises(InputError, match=r"restitution = 0.9: Hertz has none"):
         ClearancePin.simple(clearance=1e-3, bore_radius=0.06, law=Hertz, restitution=0.9)
-    with pytest.raises(InputError, match=r"stiffness = 'external': is of K depth\^1.5, and Anagnostopoulos"):
+    with pytest.raises(InputError, match=r"stiffness = 'paper': is of K depth\^1.5, and Anagnostopoulos"):
         ClearancePin.simple(clearance=1e-3, bore_radius=0.06, law=Anagnostopoulos)
     with pytest.raises(InputError, match=r"law = .*: allowed: a class of normal laws"):
         ClearancePin.simple(clearance=1e-3, bore_radius=0.06, law=Hertz(stiffness=1e9))  # type: ignore[arg-type]
-    with pytest.raises(InputError, match=r"stiffness = 'outer': allowed: 'external' or 'internal'"):
+    with pytest.raises(
+        InputError, match=r"stiffness = 'outer': allowed: 'cylinders', 'paper', 'internal' or a number"
+    ):
         ClearancePin.simple(clearance=1e-3, bore_radius=0.06, stiffness="outer")  # type: ignore[arg-type]
 
 

@@ -64,10 +64,12 @@ def scenario(
     time = LONGEST * 2.94 * depth / speed
     flight = 0.1 * time
     clearance = 10.0 * speed * (flight + time)
+    wide = JournalBearing(bore_radius=10.0 * clearance, clearance=clearance)
+    bearing = getattr(law, "bearing", wide)
+    eccentricity = bearing.clearance - speed * flight
     machine = ImpactStand(
-        bore_mass=bore_mass, journal_mass=journal_mass, speed=speed, eccentricity=clearance - speed * flight
+        bore_mass=bore_mass, journal_mass=journal_mass, speed=speed, eccentricity=eccentricity
     )
-    bearing = JournalBearing(bore_radius=10.0 * clearance, clearance=clearance)
     contact = JournalContact(bearing=bearing, normal=law)
     fields: dict[str, Any] = {
         "machine": machine,

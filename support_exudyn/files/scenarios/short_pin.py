@@ -184,7 +184,7 @@ class ShortPin(Value):
             law=law,
             damping_speed=self.damping_speed,
             stiffness=self.stiffness,
-            length=length,
+            length=length if on_cylinders else self.length,
             backing_stiffness=backing,
             bore_material=bore,
             journal_material=journal,

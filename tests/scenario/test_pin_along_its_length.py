@@ -1,0 +1,176 @@
+"""A pin with clearance in its machine: its length, what pin and links give, how hard it is pressed."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from support_exudyn import ClearancePin, Scenario, ravn_slider_crank, reference_support, simple_scenario
+from support_exudyn.model.pin_surroundings import contact_length, links_stiffness
+from support_exudyn.scenario.pin_pressure import FIRST_YIELD, pressed_pin, statically_pressed
+from user_forces import (
+    STEEL,
+    STEEL_35CRMO,
+    Exact,
+    Flores,
+    Hertz,
+    InputError,
+    Johnson,
+    JournalContact,
+    LankaraniNikravesh,
+    Material,
+    PinInBore,
+    effective_modulus,
+    external_contact_stiffness,
+    internal_contact_stiffness,
+)
+from user_forces.backing import pin_stiffness
+
+LINK = math.hypot(574.0, 862.0) / 1e3  # rear link of the reference support, from its pivots [m]
+LINK_STIFFNESS = 2.07e11 * 500.0 / (7801.0 * LINK**2)  # 500 kg of steel
+
+
+def pin_of(**keys: object) -> ClearancePin:
+    keys = {"clearance_mm": 1.5, **keys}
+    found = simple_scenario("reference", duration_s=1, drive={"mode": 2}, pins={"rear_base": keys})
+    return found.clearance_pins["rear_base"]
+
+
+def law_of(**keys: object) -> PinInBore:
+    law = pin_of(**keys).contact.normal
+    assert isinstance(law, PinInBore)
+    return law
+
+
+def test_a_pin_of_which_nothing_is_said_touches_along_its_length() -> None:
+    law = law_of()
+    assert law.length == 0.7
+    assert law.effective_modulus == effective_modulus(STEEL, STEEL_35CRMO)
+    assert (law.damping, law.restitution, law.delivered_restitution) == ("Exact", 0.9, pytest.approx(0.9))
+    give = 1.0 / pin_stiffness(0.064, 0.7, STEEL_35CRMO) + 1.0 / LINK_STIFFNESS
+    assert law.backing_stiffness == pytest.approx(1.0 / give, rel=1e-12)
+    assert 3e9 < 1.0 / give < 5e9  # the joint as a whole, reckoned by hand elsewhere
+
+
+def test_what_is_said_is_taken() -> None:
+    assert law_of(backing_stiffness="rigid").backing_stiffness is None
+    assert law_of(backing_stiffness_kN_per_mm=4e3).backing_stiffness == 4e9
+    assert law_of(length_mm=350).length == 0.35
+    assert law_of(law="Flores").damping == "Flores"
+    soft = {"name": "soft", "elastic_modulus_GPa": 100, "poisson_ratio": 0.3, "density_kg_per_m3": 8000}
+    material = Material(name="soft", elastic_modulus=1e11, poisson_ratio=0.3, density=8000.0)
+    assert law_of(journal_material=soft).effective_modulus == effective_modulus(STEEL, material)
+
+
+def test_spheres_stay_by_name() -> None:
+    bearing = law_of().bearing
+    for name, stiffness in (("paper", external_contact_stiffness), ("internal", internal_contact_stiffness)):
+        k = stiffness(bearing, STEEL, STEEL_35CRMO)
+        assert pin_of(stiffness=name).contact.normal == LankaraniNikravesh(stiffness=k, restitution=0.9)
+    assert isinstance(pin_of(law="Hertz").contact.normal, Hertz)  # a force of its own, not a damping factor
+
+
+def test_in_python_the_length_makes_the_choice() -> None:
+    simple = ClearancePin.simple(clearance=0.0015, bore_radius=0.0655, length=0.7)
+    assert isinstance(simple.contact.normal, PinInBore)
+    assert simple.contact.normal.backing_stiffness == pin_stiffness(0.064, 0.7, STEEL_35CRMO)
+    rigid = ClearancePin.simple(
+        clearance=0.0015, bore_radius=0.0655, length=0.7, law=Flores, backing_stiffness=math.inf
+    )
+    assert rigid.contact.normal == replace(simple.contact.normal, backing_stiffness=None, damping="Flores")
+    spheres = ClearancePin.simple(clearance=0.0015, bore_radius=0.0655)
+    assert isinstance(spheres.contact.normal, LankaraniNikravesh)
+
+
+@pytest.mark.parametrize(
+    ("keys", "told"),
+    [
+        ({"stiffness": "external"}, "stiffness"),
+        (
+            {"stiffness": "paper", "backing_stiffness": "rigid"},
+            'backing_stiffness: is of stiffness = "cylinders"',
+        ),
+        ({"law": "Hertz", "stiffness": "cylinders"}, "law = Hertz: has a force of its own; allowed with"),
+        ({"stiffness": "paper", "length_mm": -1}, "length_mm"),
+    ],
+)
+def test_what_does_not_fit_is_told(keys: dict[str, object], told: str) -> None:
+    with pytest.raises(InputError, match=told):
+        pin_of(**keys)
+
+
+def test_a_length_that_nobody_knows_is_asked_for() -> None:
+    pins = {"slider_pin": {"clearance_mm": 0.5, "stiffness": "cylinders"}}
+    with pytest.raises(InputError, match=r"length_mm: missing, .*\[width_mm.pins\]"):
+        simple_scenario("slider_crank", duration_s=0.1, drive={"type": "Steady", "rate_rpm": 10}, pins=pins)
+    with pytest.raises(InputError, match=r"length: missing"):
+        ClearancePin.simple(clearance=0.0015, bore_radius=0.0655, stiffness="cylinders")
+
+
+def test_pins_of_a_pair_add_up_and_unknown_ones_are_unknown() -> None:
+    support = reference_support()
+    assert contact_length(support, "rear_base") == 0.7
+    assert contact_length(support, "front_base") == 0.24  # 120 mm of each of two front links
+    assert contact_length(support, "nothing") is None
+    assert contact_length(ravn_slider_crank(), "slider_pin") is None
+    assert links_stiffness(support, "rear_base", STEEL) == pytest.approx(LINK_STIFFNESS)
+    assert links_stiffness(support, "shield_canopy", STEEL) == math.inf  # no link on either side
+
+
+# --- pressure ---
+
+
+def test_a_pin_tells_pressure_angle_depth_and_slope() -> None:
+    support = reference_support()
+    pin = pin_of()
+    found = pressed_pin(support, "rear_base", pin, 51.4e3)
+    assert found.line is not None
+    assert math.degrees(found.line.half_angle) == pytest.approx(1.34, rel=0.01)
+    assert found.line.peak_pressure == pytest.approx(30.8e6, rel=0.01)
+    assert found.depth == pytest.approx(1.92e-6 + 51.4e3 / 3.14e9, rel=0.02)
+    assert found.stiffness == pytest.approx(1.0 / (1.0 / 3.0e10 + 1.0 / 3.14e9), rel=0.02)
+    assert found.yield_share == pytest.approx(found.line.peak_pressure / (FIRST_YIELD * 3.45e8))
+    assert found.warning is None
+    # the pressure is that of the pin, whatever law the run has
+    paper = pressed_pin(support, "rear_base", pin_of(stiffness="paper"), 51.4e3)
+    assert paper.line == found.line
+    assert paper.depth == pytest.approx(153e-6, rel=0.01)
+    assert paper.stiffness == pytest.approx(5.04e8, rel=0.01)
+
+
+def test_a_pin_that_yields_is_told_in_a_sentence() -> None:
+    pin = pin_of()
+    found = pressed_pin(reference_support(), "rear_base", pin, 3e7)
+    assert found.warning is not None
+    assert found.warning.startswith("rear_base: 3e+04 kN on 700 mm press with")
+    unknown = Material(name="tin", elastic_modulus=5e10, poisson_ratio=0.3, density=7300.0)
+    bare = replace(pin, bore_material=unknown, journal_material=unknown)
+    assert pressed_pin(reference_support(), "rear_base", bare, 3e7).warning is None
+
+
+def test_without_a_length_or_a_law_that_holds_it_nothing_is_made_up() -> None:
+    simple = ClearancePin.simple(clearance=0.0005, bore_radius=0.01)
+    found = pressed_pin(ravn_slider_crank(), "slider_pin", simple, 1e3)
+    assert found.line is None
+    assert math.isnan(found.yield_share)
+    assert found.depth > 0.0
+    law = Johnson(bearing=simple.contact.bearing, length=0.01, effective_modulus=1e11, restitution=0.9)
+    short = ClearancePin(contact=JournalContact(bearing=simple.contact.bearing, normal=law))
+    beyond = pressed_pin(ravn_slider_crank(), "slider_pin", short, 1e8)
+    assert math.isnan(beyond.depth)
+    assert math.isnan(beyond.stiffness)
+
+
+def test_the_static_load_is_that_of_the_weight() -> None:
+    scenario = Scenario(machine=reference_support(), duration=1.0, pins={"rear_base": pin_of()})
+    (found,) = statically_pressed(scenario)
+    assert found.name == "rear_base"
+    assert found.force == pytest.approx(60.7e3, rel=0.05)
+
+
+def test_an_exact_law_is_the_usual_one_on_cylinders(tmp_path: Path) -> None:
+    del tmp_path
+    assert Exact(stiffness=1.0, restitution=0.9).damping_factor == law_of().damping_factor
