@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from support_exudyn.model.actuators import CylinderAndRod
 from support_exudyn.model.machine import Machine
 from user_forces.values.names import Named, no_attribute
+from user_forces.values.sourced import SourcedNumber
 
 
 @dataclass(frozen=True)
@@ -18,7 +19,8 @@ class MachineData:
     as two bodies. stroke: by how much its actuators extend from the start posture on in use [m], None if it is
     not said.
     sources: where the data come from, by what they are of. kind: as the file says. assumed: what was assumed
-    because the file does not say it, in sentences.
+    because the file does not say it, in sentences. sourced: numbers of the file that say their range or their
+    source, by their dotted keys, such as "parts.shield.1.mass_kg", in the units of these.
     """
 
     machine: Machine
@@ -29,6 +31,7 @@ class MachineData:
     sources: Mapping[str, str] = field(default_factory=dict)
     kind: str = ""
     assumed: tuple[str, ...] = ()
+    sourced: Mapping[str, SourcedNumber] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         """Let what is asked for by a wrong name be told with those that look like it."""

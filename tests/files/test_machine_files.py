@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 import sys
 from importlib import resources
@@ -68,14 +69,44 @@ def test_the_slider_crank_is_that_of_the_studies() -> None:
     assert read_machine("slider_crank").machine == ravn_slider_crank()
 
 
-def test_the_full_size_support_is_the_reference_divided_by_0_65() -> None:
-    large, small = read_machine("zf18000").machine, reference_support()
-    assert isinstance(large, HydraulicSupport)
-    for name in HydraulicSupport.pivots():
-        # rounded to 1 mm
-        assert getattr(large, name) == pytest.approx(
-            tuple(x / 0.65 for x in getattr(small, name)), abs=5.001e-4
+def test_the_full_size_support_has_the_published_pivots() -> None:
+    published = {  # height and distance to the face [m]
+        "front_base": (0.953, -0.947),
+        "rear_base": (0.461, -1.862),
+        "rear_shield": (1.787, -2.745),
+        "front_shield": (2.212, -2.381),
+        "front_head": (3.477, 1.035),
+        "front_foot": (0.310, 0.708),
+        "rear_head": (3.464, -0.479),
+        "hinge": (3.488, -1.218),
+        "rear_foot": (0.264, -0.446),  # read off the drawing
+    }
+    large = load_support("zf18000")
+    for name, (height, ahead) in published.items():
+        assert tuple(1e3 * x for x in getattr(large, name)) == pytest.approx(
+            (1e3 * ahead + 1862, 1e3 * height), abs=1e-9
         )
+    for one, other, length in (  # which the publication states, to 1 cm; the last as an end of a cylinder
+        ("front_base", "front_shield", 1.91),
+        ("rear_base", "rear_shield", 1.59),
+        ("rear_shield", "front_shield", 0.56),
+        ("front_shield", "hinge", 1.73),
+        ("hinge", "front_head", 2.25),
+        ("hinge", "rear_head", 0.74),
+    ):
+        assert math.dist(getattr(large, one), getattr(large, other)) == pytest.approx(length, abs=0.00501)
+    columns = read_machine("zf18000").actuators
+    assert 2.0 * columns["front_column"].cylinder_centre == pytest.approx(1.49, abs=0.00501)
+    ends = {"front_column": ((0.310, 0.708), (1.787, 0.859)), "rear_column": ((0.264, -0.446), (1.701, -0.465))}
+    for name, (foot, end) in ends.items():
+        assert 2.0 * columns[name].cylinder_centre == pytest.approx(math.dist(foot, end), abs=5.01e-4)
+
+
+def test_the_reference_is_the_full_size_support_times_0_65() -> None:
+    large, small = load_support("zf18000"), reference_support()
+    for name in HydraulicSupport.pivots():
+        off = 3.0e-3 if name == "rear_foot" else 5.001e-4  # read off a drawing; rounded to 1 mm
+        assert getattr(small, name) == pytest.approx(tuple(0.65 * x for x in getattr(large, name)), abs=off)
     for body, parts in small.parts.items():
         for one, other in zip(large.parts[body], parts, strict=True):
             assert one.mass == pytest.approx(other.mass / 0.65**3, abs=5.001)  # rounded to 10 kg

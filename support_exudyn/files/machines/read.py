@@ -22,6 +22,7 @@ from support_exudyn.machines.four_column_support import HydraulicSupport
 from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.model.actuators import CylinderAndRod, OilColumn, RigidActuator
 from support_exudyn.model.machine import Machine
+from user_forces.values.sourced import SourcedNumber
 from user_forces.values.value import InputError, short
 
 FILES: Mapping[str, type[FourColumnSupportFile | TwoLegShieldFile | SliderCrankFile]] = {
@@ -89,7 +90,10 @@ def _of_text(text: str) -> MachineData:
     sweep ask for that again and again, and finding it takes longer than a short run.
     """
     data = parsed(text, "")
-    return read_value(FILES[_kind(data)], data).data()
+    sourced: dict[str, SourcedNumber] = {}
+    file = read_value(FILES[_kind(data)], data, sourced=sourced)
+    named = {key: replace(one, source=file.sources.get(one.source, one.source)) for key, one in sourced.items()}
+    return replace(file.data(), sourced=named)
 
 
 def shipped(name: str) -> MachineData:
@@ -142,7 +146,7 @@ def cylinders_and_rods(
 
 def machine_schema() -> dict[str, Any]:
     """The JSON Schema (2020-12) of machine data files, which are told apart by their key `kind`."""
-    schemas = Schemas()
+    schemas = Schemas(sourced=True)
     tables = []
     for kind in FILES.values():
         schemas.defs[kind.__name__] = without(schemas.table(kind), "type")

@@ -1,5 +1,6 @@
 """Where in a file something stands, and what is said of all that is wrong in it."""
 
+import re
 from collections.abc import Collection, Mapping
 from decimal import Decimal
 from difflib import get_close_matches
@@ -51,6 +52,11 @@ def nearest(word: str, known: Collection[str]) -> str:
 def said_place(place: Place) -> str:
     """Keys as TOML joins them."""
     return ".".join(map(step, place))
+
+
+def dotted_key(place: Place) -> str:
+    """Keys as a sweep joins them: those of lists are the numbers of their items, from 0."""
+    return re.sub(r"\[(\d+)\]", r".\1", said_place(place))
 
 
 def said(item: Any, level: int = 0) -> str:

@@ -7,8 +7,17 @@ from decimal import Decimal
 from difflib import get_close_matches
 from typing import Any, TypeVar
 
-from support_exudyn.files.toml.faults import Faults, Place, nearest, said, said_place
-from support_exudyn.files.toml.shapes import BOUNDS, FieldShape, GroupShape, Shape, allowed, field_shapes
+from support_exudyn.files.toml.faults import Faults, Place, dotted_key, nearest, said, said_place
+from support_exudyn.files.toml.shapes import (
+    BOUNDS,
+    SOURCED_KEYS,
+    FieldShape,
+    GroupShape,
+    Shape,
+    allowed,
+    field_shapes,
+)
+from user_forces.values.sourced import SourcedNumber
 from user_forces.values.units import Unit
 from user_forces.values.value import DEEPEST, LARGEST, InputError, Value
 
@@ -31,12 +40,19 @@ class Reader:
     """Reads values from tables, and collects what is wrong with them.
 
     faults: what was wrong so far. short_forms: for a class, another way to write its values: is given the item
-    and its place, and gives the value, FAILED, or None if the item is in the long form.
+    and its place, and gives the value, FAILED, or None if the item is in the long form. sourced: where numbers
+    may be tables `{ value, from, to, source }`, these are put there by their dotted keys; None: they may not.
     """
 
-    def __init__(self, faults: Faults, short_forms: Mapping[type[Value], ShortForm] | None = None) -> None:
+    def __init__(
+        self,
+        faults: Faults,
+        short_forms: Mapping[type[Value], ShortForm] | None = None,
+        sourced: dict[str, SourcedNumber] | None = None,
+    ) -> None:
         self.faults = faults
         self.short_forms = dict(short_forms or {})
+        self.sourced = sourced
 
     def value(self, cls: type[Value], table: Mapping[str, Any], place: Place, base: Value | None = None) -> Any:
         """A value of a class from its table, whose `type` has been looked at; FAILED if something is wrong.
@@ -121,6 +137,8 @@ class Reader:
         if "group" in shape:
             return self._group(shape, item, place)
         if not is_for(shape, item):
+            if self.sourced is not None and isinstance(item, dict) and is_for(shape, 0):
+                return self._sourced(self.sourced, shape, item, place, unit, ending)
             return self._refused(shape, item, place, unit, ending)
         match shape:
             case {"anyOf": several}:
@@ -155,6 +173,47 @@ class Reader:
                 range_ += f" up to {LARGEST:g}, in SI"
         self.faults.wrong(place, item, range_)
         return FAILED
+
+    def _sourced(
+        self,
+        found: dict[str, SourcedNumber],
+        shape: Shape,
+        table: Mapping[str, Any],
+        place: Place,
+        unit: Unit | None,
+        ending: str,
+    ) -> Any:
+        """The value of a number that is a table with its range and source; the whole is put into `found`."""
+        before = len(self.faults.lines)
+        for key in [one for one in table if one not in SOURCED_KEYS]:
+            self.faults.add((*place, key), f"unknown key; {nearest(key, SOURCED_KEYS)}")
+        numbers = {key: table[key] for key in ("value", "from", "to") if key in table}
+        for key, item in numbers.items():
+            if is_for(shape, item):
+                numbers[key] = self.item(shape, item, (*place, key), unit, ending)
+            else:
+                self._refused(shape, item, (*place, key), unit, ending)
+        if "value" not in table and table.keys() <= SOURCED_KEYS.keys():  # it may be misspelt
+            self.faults.add((*place, "value"), "missing; it has no default")
+        for one, other in (("from", "to"), ("to", "from")):
+            if one in table and other not in table:
+                self.faults.add((*place, other), "missing; a range has from and to")
+        source = table.get("source", "")
+        if not isinstance(source, str) or ("source" in table and not source.strip()):
+            self.faults.wrong((*place, "source"), source, "a text that is not empty")
+        if len(self.faults.lines) == before and "from" in table:
+            low, high = table["from"], table["to"]
+            if low > high:
+                self.faults.wrong((*place, "from"), low, f"<= to = {said(high)}")
+            elif not low <= table["value"] <= high:
+                self.faults.wrong((*place, "value"), table["value"], f"from {said(low)} to {said(high)}")
+        if len(self.faults.lines) > before:
+            return FAILED
+        written = {key: Decimal(table[key]) for key in numbers}
+        found[dotted_key(place)] = SourcedNumber(
+            written["value"], written.get("from"), written.get("to"), source
+        )
+        return numbers["value"]
 
     def _table(self, shape: Shape, table: Any, place: Place, unit: Unit | None, ending: str) -> Any:
         """A table of items by name: of any, or of those that the shape has."""
@@ -208,6 +267,7 @@ def read_value(
     table: Mapping[str, Any],
     where: str = "",
     short_forms: Mapping[type[Value], ShortForm] | None = None,
+    sourced: dict[str, SourcedNumber] | None = None,
 ) -> V:
     """A value from its table, as `load_toml` or a part of it gives it.
 
@@ -215,12 +275,12 @@ def read_value(
         cls: a class of values, or a kind of them; then `type` in the table says which.
         table: of the value.
         where: what errors call it: the name of its file.
-        short_forms: see `Reader`.
+        short_forms, sourced: see `Reader`.
 
     Raises InputError with a line for everything that is wrong: file, key, value, and what is allowed.
     """
     faults = Faults(where)
-    found = Reader(faults, short_forms).item({"group": GroupShape((cls,))}, table, ())
+    found = Reader(faults, short_forms, sourced).item({"group": GroupShape((cls,))}, table, ())
     faults.check()
     return found  # type: ignore[no-any-return]
 

@@ -9,6 +9,7 @@ from typing import Any
 
 from support_exudyn.files.toml.shapes import (
     BOUNDS,
+    SOURCED_KEYS,
     FieldShape,
     GroupShape,
     Shape,
@@ -18,6 +19,7 @@ from support_exudyn.files.toml.shapes import (
     options,
     scaled,
 )
+from user_forces.values.sourced import SourcedNumber
 from user_forces.values.units import Unit
 from user_forces.values.value import Value
 
@@ -32,11 +34,13 @@ NUMBER = re.compile(r"(?<![\w^])\d[\d.e-]*")
 class Schemas:
     """Schemas of values; those of classes are kept once, in `defs`, and referred to.
 
-    besides: for a class, schemas of further ways to write its values.
+    sourced: whether every number may be a table with its range and source. besides: for a class, schemas of
+    further ways to write its values.
     """
 
-    def __init__(self) -> None:
-        self.defs: Table = {}
+    def __init__(self, sourced: bool = False) -> None:
+        self.defs: Table = {SourcedNumber.__name__: _sourced()} if sourced else {}
+        self.sourced = sourced
         self.besides: dict[type[Value], list[Table]] = {}
 
     def value(self, cls: type[Value]) -> Table:
@@ -114,7 +118,13 @@ class Schemas:
                 }
                 return {"type": "object", "properties": inside, **needed, "additionalProperties": False}
         bounds = {name: _plain(scaled(shape[name], unit, ending)) for name in BOUNDS if name in shape}
-        return {"type": shape["type"], **bounds}
+        plain = {"type": shape["type"], **bounds}
+        if not self.sourced or shape["type"] not in ("number", "integer"):
+            return plain
+        table: Table = {"$ref": f"#/$defs/{SourcedNumber.__name__}"}
+        if bounds:
+            table = {"allOf": [table, {"properties": dict.fromkeys(("value", "from", "to"), bounds)}]}
+        return {"anyOf": [plain, table]}
 
     def _group(self, group: GroupShape) -> Table:
         """The schema of a table whose type says its class, and of the other ways to write its values."""
@@ -130,6 +140,25 @@ class Schemas:
     def whole(self, title: str, table: Table) -> Table:
         """A schema of a file, with all that it refers to."""
         return {"$schema": DRAFT, "title": title, **table, "$defs": dict(sorted(self.defs.items()))}
+
+
+def _sourced() -> Table:
+    """The schema of a number that is a table with its range and source."""
+    texts = {"source": {"type": "string", "pattern": r"\S"}}
+    return {
+        "type": "object",
+        "description": (inspect.getdoc(SourcedNumber) or "").partition("\n")[0],
+        "properties": {
+            key: {"description": said, **texts.get(key, {"type": "number"})}
+            for key, said in SOURCED_KEYS.items()
+        },
+        "required": ["value"],
+        "oneOf": [
+            {"required": ["from", "to"]},
+            {"not": {"anyOf": [{"required": ["from"]}, {"required": ["to"]}]}},
+        ],
+        "additionalProperties": False,
+    }
 
 
 def _help(field: FieldShape, ending: str) -> str:

@@ -34,6 +34,12 @@ BOUNDS: dict[str, tuple[str, str, Callable[[float, float], bool]]] = {
     "exclusiveMaximum": ("lt", "<", operator.lt),
     "maximum": ("le", "<=", operator.le),
 }
+SOURCED_KEYS = {  # of a number that is a table, where numbers may be
+    "value": "what is reckoned with",
+    "from": "the least that it may be, in the same unit",
+    "to": "the largest that it may be, in the same unit",
+    "source": "where it comes from, and what the range rests on",
+}
 ENTRY = re.compile(r"^(?P<names>\w+(?:, \w+)*): (?P<text>.*)$")
 
 

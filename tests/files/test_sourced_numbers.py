@@ -1,0 +1,140 @@
+"""Numbers of machine files that say their range and their source, and those that say them wrongly."""
+
+from __future__ import annotations
+
+import re
+from decimal import Decimal
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from jsonschema import Draft7Validator, Draft202012Validator
+
+from support_exudyn.__main__ import main
+from support_exudyn.files.machines import SHIPPED, load_machine, machine_schema, read_machine
+from support_exudyn.files.machines.read import _of_text
+from support_exudyn.files.toml.text import parsed, toml_text
+from support_exudyn.machines.check import check_machine
+from tests.files.test_schemas import plain
+from tests.machine_files import OURS, written
+from user_forces import InputError
+from user_forces.values.sourced import SourcedNumber
+
+VALIDATORS = [kind(machine_schema()) for kind in (Draft202012Validator, Draft7Validator)]
+PLAIN = {  # the files that come with the package, with numbers alone
+    name: parsed((resources.files("support_exudyn.files.machines") / f"{name}.toml").read_text("utf-8"), name)
+    for name in SHIPPED
+}
+
+
+def bare(item: Any) -> Any:
+    """A table of a file whose numbers say neither range nor source."""
+    if isinstance(item, dict):
+        return item["value"] if "value" in item else {key: bare(one) for key, one in item.items()}
+    return list(map(bare, item)) if isinstance(item, list) else item
+
+
+def clothed(item: Any, key: str, draw: st.DrawFn, found: dict[str, SourcedNumber]) -> Any:
+    """The table, some of whose numbers say a range, a source, or both, and are put into `found`."""
+    if isinstance(item, dict):
+        return {name: clothed(one, f"{key}.{name}", draw, found) for name, one in item.items()}
+    if isinstance(item, list):
+        return [clothed(one, f"{key}.{n}", draw, found) for n, one in enumerate(item)]
+    if not isinstance(item, (int, Decimal)) or draw(st.booleans()):
+        return item
+    table: dict[str, Any] = {"value": item}
+    if draw(st.booleans()):
+        shares = st.decimals("0.1", "1", places=3)
+        ends = sorted((Decimal(item) * draw(shares), Decimal(item) / draw(shares)))
+        table |= {"from": ends[0], "to": ends[1]}
+    if draw(st.booleans()):
+        table["source"] = draw(st.sampled_from(["a drawing", "assumed"]))
+    found[key[1:]] = SourcedNumber(Decimal(item), table.get("from"), table.get("to"), table.get("source", ""))
+    return table
+
+
+@given(data=st.data(), name=st.sampled_from(SHIPPED))
+def test_numbers_with_range_and_source_make_the_same_machine(data: st.DataObject, name: str) -> None:
+    expected: dict[str, SourcedNumber] = {}
+    table = clothed(bare(PLAIN[name]), "", data.draw, expected)
+    found, was = _of_text(toml_text(table)), read_machine(name)
+    assert found.machine == was.machine
+    assert (found.bore_radii, found.actuators, found.stroke) == (was.bore_radii, was.actuators, was.stroke)
+    assert dict(found.sourced) == expected
+    for validator in VALIDATORS:
+        assert not list(validator.iter_errors(plain(table)))
+
+
+@pytest.mark.parametrize(
+    ("new", "said"),
+    [
+        ("{ value = 900, from = 950, to = 1200 }", ".value = 900: allowed: from 950 to 1200"),
+        ("{ value = 900, from = 1200, to = 800 }", ".from = 1200: allowed: <= to = 800"),
+        ('{ value = 900, source = " " }', ".source = ' ': allowed: a text that is not empty"),
+        ("{ value = 900, source = 3 }", ".source = 3: allowed: a text that is not empty"),
+        ("{ value = 900, from = 800 }", ".to: missing; a range has from and to"),
+        ("{ value = 900, to = 1000 }", ".from: missing; a range has from and to"),
+        ("{ value = 900, from = 0, to = 1000 }", ".from = 0: allowed: > 0"),
+        ("{ value = -900, from = 1, to = 1000 }", ".value = -900: allowed: > 0"),
+        ('{ value = 900, from = "low", to = 1000 }', ".from = 'low': allowed: a number > 0"),
+        ("{ value = 900, from = nan, to = 1000 }", ".from = NaN: allowed: > 0 up to 1e+30, in SI"),
+        ("{ value = { value = 900 } }", ".value = a table: allowed: a number > 0"),
+        ('{ from = 800, to = 1000, source = "a" }', ".value: missing; it has no default"),
+        ("{}", ".value: missing; it has no default"),
+        ("{ valeu = 900 }", ".valeu: unknown key; did you mean value? allowed: value, from, to, source"),
+    ],
+)
+def test_what_is_wrong_is_told_by_its_key(new: str, said: str, tmp_path: Path) -> None:
+    path = written(tmp_path, "rear_link = 900", f"rear_link = {new}")
+    with pytest.raises(InputError) as caught:
+        load_machine(path)
+    assert str(caught.value) == f"{path}: masses_kg.rear_link{said}"
+    table = plain(parsed(path.read_text("utf-8"), ""))
+    ordered = ".value = 900: allowed: from" in said or "<= to" in said or "NaN" in said  # not seen by a schema
+    assert all(bool(list(validator.iter_errors(table))) is not ordered for validator in VALIDATORS)
+
+
+def test_a_source_may_be_one_of_the_file(tmp_path: Path) -> None:
+    text = OURS.replace("rear_link = 900", 'rear_link = { value = 900, source = "weighed" }')
+    path = written(tmp_path, "[pivots_mm]", '[sources]\nweighed = "by us, in spring"\n[pivots_mm]', text)
+    assert load_machine(path).sourced["masses_kg.rear_link"].source == "by us, in spring"
+
+
+def test_files_of_scenarios_have_no_such_numbers(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "a.toml"
+    path.write_text('machine = "reference"\nduration_s = { value = 1, source = "a" }\n', encoding="utf-8")
+    assert main(["run", str(path)]) == 1
+    assert "duration_s = a table: allowed: a number > 0" in capsys.readouterr().err
+
+
+def test_check_tells_each_with_range_and_source(tmp_path: Path) -> None:
+    text = OURS.replace("rear_link = 900", "rear_link = { value = 900, from = 800, to = 1000, source = 'a' }")
+    path = written(tmp_path, "tip = [3900,", "tip = [{ value = 3900, from = 3800.5, to = 4000 },", text)
+    report = check_machine(load_machine(path))
+    lines = [" ".join(line.split()) for line in report.lines()]
+    assert lines[lines.index("numbers of the file: a") + 2] == "masses_kg.rear_link 900 800 1000"
+    unsaid = lines.index("numbers of the file: their source is not said")
+    assert lines[unsaid + 2] == "pivots_mm.tip.0 3900 3800.5 4000"
+    assert report.data()["file_numbers"]["masses_kg.rear_link"] == {
+        "value": 900.0,
+        "from": 800.0,
+        "to": 1000.0,
+        "source": "a",
+    }
+    assert any(re.match(r"- assumed: canopy: its 5200 kg are a uniform bar", line) for line in lines)
+
+
+@pytest.mark.parametrize("name", ["reference", "zf18000"])
+def test_assumed_masses_of_shipped_supports_have_ranges(name: str) -> None:
+    sourced = read_machine(name).sourced
+    masses = {key: one for key, one in sourced.items() if key.endswith("mass_kg")}
+    assert len(masses) == 11
+    for one in masses.values():
+        assert one.low is not None
+        assert one.high is not None
+        assert float(one.low / one.value) == pytest.approx(0.6, abs=0.005)
+        assert float(one.high / one.value) == pytest.approx(2.5, abs=0.01)
+        assert "11 to 14 t" in one.source
