@@ -33,7 +33,8 @@ BORE_RADIUS = 0.0655  # [m], implied by Table 2
 RESTITUTION = 0.9  # assumed; the paper gives none
 SLIDING_COEFFICIENT = 0.25  # assumed: dry steel on steel
 # oil of the columns, assumed: four columns of 250 mm bore (380 mm of the ZF18000 times 0.65), two to a pair;
-# an emulsion of oil in water with the air and the hoses that come with it
+# an emulsion of oil in water with the air and the hoses that come with it, 1.5 GPa; by the published vertical
+# stiffness of four shields it would be 1.96 GPa
 OIL_BORE, OIL_LENGTH, BULK_MODULUS = 0.25, 0.5, 1.5e9  # [m], [m] at the start of the rise, [Pa]
 # jack of the tail beam as a closed cushion of oil, assumed: one cylinder
 JACK = OilColumn(bore_area=bore_area(0.14), oil_length=0.3, bulk_modulus=BULK_MODULUS)

@@ -86,7 +86,12 @@ def contact_and_drive() -> TextTable:
         ("speed v_d above which it is full (Eq. 8)", ASSUMED, "mm/s", millimetres(friction.dynamic_speed)),
         ("oil: bore of a column, two to a pair", ASSUMED, "mm", millimetres(paper_machine.OIL_BORE)),
         ("oil: length under the pistons at the start", ASSUMED, "mm", millimetres(paper_machine.OIL_LENGTH)),
-        ("oil: bulk modulus", ASSUMED, "GPa", f"{paper_machine.BULK_MODULUS / 1e9:g}"),
+        (
+            "oil: bulk modulus (1.96 by the published stiffness of four shields)",
+            ASSUMED,
+            "GPa",
+            f"{paper_machine.BULK_MODULUS / 1e9:g}",
+        ),
         (
             "oil: damping time",
             ASSUMED,

@@ -50,7 +50,7 @@ class OilColumn(ActuatorModel):
     Arguments:
         bore_area: A, area of the piston, all actuators of a pair together [m^2], > 0.
         oil_length: h, length of the oil under the piston at the start [m], > 0.
-        bulk_modulus: B of the oil or emulsion [Pa], > 0.
+        bulk_modulus: B of the oil or emulsion [Pa], > 0; 1.96e9 by the published stiffness of four shields.
         damping_time: T [s], >= 0; a mass on the actuator that vibrates at w rad/s is damped by T w / 2 of the
             critical damping.
     """

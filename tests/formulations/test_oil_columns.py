@@ -74,6 +74,16 @@ def test_a_machine_on_oil_stays_where_it_is() -> None:
     np.testing.assert_allclose(still[FORCE], 58778.944, rtol=1e-6)  # as printed in the reference
 
 
+@pytest.mark.parametrize(
+    ("bore", "length", "published"), [(0.4, 3.0, 16.8), (0.5, 3.0, 26.2), (0.5, 3.55, 22.2), (0.6, 4.5, 25.1)]
+)
+def test_the_published_stiffness_of_four_shields_follows_from_one_bulk_modulus(
+    bore: float, length: float, published: float
+) -> None:
+    legs = OilColumn(bore_area=bore_area(bore, number=2), oil_length=length, bulk_modulus=1.96e9)
+    assert legs.stiffness(0.0) / (1e3 * 9.81 / 1e-3) == pytest.approx(published, rel=5e-3)  # t/mm
+
+
 @pytest.mark.parametrize("share", [0.0, 0.05, 0.3])
 def test_a_sudden_start_follows_the_closed_form_of_a_damped_oscillator(share: float) -> None:
     # so long a cushion that its stiffness stays 1e8 N/m while 2.5 mm are let in
