@@ -71,7 +71,7 @@ def read_sweep(path: str | Path) -> Plan:
         varied = {  # what is said of a key itself goes before what the machine's file states
             name: one
             for name, one in stated.items()
-            if not any(f"{name}.".startswith(f"{key}.") for key in said)
+            if not any(f"{name}.".startswith(f"{key}.") for key in said.keys() - {MACHINE})
         } | said
         told = where if isinstance(data.get("scenario"), dict) else f"{where} as {path} varies it"
         return Plan(
@@ -351,6 +351,8 @@ def maker(table: Table, where: str, folder: Path, names: tuple[str, ...]) -> Fro
     its file cannot be read.
     """
     of_machine = [name for name in names if keys_of(name)[0] == MACHINE and len(keys_of(name)) > 1]
+    if of_machine and MACHINE in names:
+        raise InputError(f"vary.{MACHINE!r} and vary.{of_machine[0]!r}: allowed: one of them")
     given = table.get(MACHINE)
     if not of_machine or isinstance(given, dict):
         return FromTables(table, where, folder)

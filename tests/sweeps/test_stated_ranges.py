@@ -86,6 +86,7 @@ def test_what_is_said_of_a_key_goes_before_what_the_file_states(tmp_path: Path) 
         ('"machine.masses_kg.front_link" = "stated range"', None, r"ours.toml states a range for no such"),
         ('"machine.masses_kg.canpy" = "stated range"', None, r"did you mean machine.masses_kg.canopy"),
         ('duration_s = "stated range"', None, r"states a range for no such number"),
+        ('machine = ["a.toml"]\n"machine.*" = "stated range"', None, r"vary.'machine' and vary"),
         ('"machine.*" = "told"', None, '"stated range" for numbers of the machine'),
     ],
 )
