@@ -9,6 +9,8 @@ import numpy as np
 from studies.common import paper_machine
 from support_exudyn import ClearancePin
 from user_forces import (
+    STEEL,
+    STEEL_35CRMO,
     Ambrosio,
     Exact,
     Flores,
@@ -19,10 +21,14 @@ from user_forces import (
     JournalContact,
     LankaraniNikravesh,
     NormalLaw,
+    PinInBore,
+    effective_modulus,
 )
 from user_forces.normal.power_law import PowerLaw
 
-LAWS: tuple[type[PowerLaw], ...] = (LankaraniNikravesh, Exact, HuntCrossley, Gonthier, Flores)
+POWER_LAWS: tuple[type[PowerLaw], ...] = (LankaraniNikravesh, Exact, HuntCrossley, Gonthier, Flores)
+LAWS = (*(law.__name__ for law in POWER_LAWS), PinInBore.__name__)
+LENGTH, MODULUS = 0.7, effective_modulus(STEEL, STEEL_35CRMO)  # of the rear-link pin [m], [Pa]
 PAPER = paper_machine.stiffness(1.5)  # N/m^1.5
 DEPTH = 1e-3  # [m] at which laws of all exponents press alike
 BORE_RADIUS = paper_machine.BORE_RADIUS
@@ -75,6 +81,7 @@ class Point:
     spectral_radius: float = 0.5
     bore: Literal["first", "second"] = "first"
     eccentricity: tuple[float, float] = (0.0, 0.0)  # in clearances
+    bore_radius: float = BORE_RADIUS  # [m]
     pace: float = 1.0  # by which runs are as long, in time and steps
 
     @property
@@ -82,14 +89,24 @@ class Point:
         """The clearance pin."""
         c = self.clearance_m
         x, y = self.eccentricity
-        bearing = JournalBearing(bore_radius=BORE_RADIUS, clearance=c)
+        bearing = JournalBearing(bore_radius=self.bore_radius, clearance=c)
         contact = JournalContact(bearing=bearing, normal=self.normal, friction=self.friction)
         return ClearancePin(contact=contact, bore=self.bore, eccentricity=(c * x, c * y))
 
     @property
     def normal(self) -> NormalLaw:
-        """The law of the normal force: as strong as the paper's at a depth of 1 mm, whatever its exponent."""
-        kind = next(law for law in LAWS if law.__name__ == self.law)
+        """The law of the normal force: as strong as the paper's at a depth of 1 mm, whatever its exponent.
+
+        A pin along its length has no exponent, and a modulus from a tenth to ten times that of steel.
+        """
+        if self.law == PinInBore.__name__:
+            return PinInBore(
+                bearing=JournalBearing(bore_radius=self.bore_radius, clearance=self.clearance_m),
+                length=LENGTH,
+                effective_modulus=self.stiffness ** (1.0 / 3.0) * MODULUS,
+                restitution=self.restitution,
+            )
+        kind = next(law for law in POWER_LAWS if law.__name__ == self.law)
         stiffness = self.stiffness * PAPER * DEPTH ** (1.5 - self.exponent)
         return kind(stiffness=stiffness, restitution=self.restitution, exponent=self.exponent)
 
@@ -119,6 +136,6 @@ def drawn(random: np.random.Generator, box: bool) -> Point:
         **found,  # type: ignore[arg-type]
         static_speed_m_s=static if dynamic > static and random.uniform() < 0.9 else 0.0,
         dynamic_speed_m_s=dynamic,
-        law=LAWS[random.integers(len(LAWS))].__name__,
+        law=LAWS[random.integers(len(LAWS))],
         bore="first" if random.uniform() < 0.5 else "second",
     )

@@ -298,10 +298,9 @@ def cranked(point: Point, rpm: float, accuracy: Accuracy | None) -> Scenario:
 
 def _small(point: Point) -> ClearancePin:
     """The pin in the slider's bearing, whose clearance is at most half of the bore."""
-    pin = replace(point, clearance_m=min(point.clearance_m, 0.5 * SLIDER_BEARING)).pin
-    bearing = replace(pin.contact.bearing, bore_radius=SLIDER_BEARING)
-    normal = replace(point, stiffness=0.1 * point.stiffness).normal  # light bodies
-    return replace(pin, contact=replace(pin.contact, bearing=bearing, normal=normal))
+    clearance = min(point.clearance_m, 0.5 * SLIDER_BEARING)
+    light = 0.1 * point.stiffness  # as its bodies are
+    return replace(point, clearance_m=clearance, bore_radius=SLIDER_BEARING, stiffness=light).pin
 
 
 def long_crank(rod: float, crank: float) -> SliderCrank:
