@@ -11,7 +11,8 @@ from support_exudyn.machines.check.report import CheckReport, CheckTable
 from support_exudyn.machines.check.statics import Array, Statics, mobility, statics
 from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.mechanics.kinetics import Kinetics, kinetics_of
-from support_exudyn.model.linkage import GROUND, Linkage
+from support_exudyn.mechanics.postures import missing
+from support_exudyn.model.linkage import Linkage
 from user_forces.values.value import InputError
 
 STEPS, TOLD = 360, 12  # postures between the ends, and rows of the table less one
@@ -192,40 +193,14 @@ def _closed(kinetics: Kinetics, drive: str, travel: float, near: Array, step: fl
     scale = np.tile([1.0 / size, 1.0 / size, 1.0], len(kinetics.bodies))
     position += speed * step
     for _ in range(ITERATIONS):
-        gaps = _gaps(kinetics, drive, travel, position)
-        if np.abs(gaps).max() < CLOSED * size:
+        short = missing(kinetics, position, {}, {drive: travel})
+        if np.abs(short).max() < CLOSED * size:
             turned = float(np.abs(scale * (position - near)).max())
             at_first = abs(step) if drive in kinetics.linkage.cranks else abs(step) / size
             usual = float(np.abs(scale * speed).max()) * abs(step)
             return position if turned <= NEAR * at_first + 1.5 * min(usual, 0.05) else None
-        position = position - np.linalg.lstsq(kinetics.rows(position), gaps, rcond=None)[0]
+        position = position + np.linalg.lstsq(kinetics.rows(position), short, rcond=None)[0]
     return None
-
-
-def _gaps(kinetics: Kinetics, drive: str, travel: float, position: Array) -> Array:
-    """By how much every constraint is missed [m], [rad], in the order of the rows."""
-    linkage = kinetics.linkage
-    gaps: list[float] = []
-    for pin in linkage.pins.values():
-        gaps += kinetics.relative(position, pin)[0].tolist()
-    for name, one in linkage.actuators.items():
-        foot = kinetics.point(position, one.foot, one.foot_point)[0]
-        head = kinetics.point(position, one.head, one.head_point)[0]
-        gaps.append(float(np.hypot(*(head - foot))) - one.start_length - (travel if name == drive else 0.0))
-    for name, crank in linkage.cranks.items():
-        gaps.append(_turn(kinetics, position, crank.body) - (travel if name == drive else 0.0))
-    for slide in linkage.slides.values():
-        point = kinetics.point(position, slide.body, slide.point)[0]
-        origin = kinetics.point(position, slide.against, slide.point)[0]
-        carrier = _turn(kinetics, position, slide.against)
-        angle = slide.direction + carrier
-        gaps.append(float(np.array([-math.sin(angle), math.cos(angle)]) @ (point - origin)))
-        gaps.append(_turn(kinetics, position, slide.body) - carrier)
-    return np.array(gaps)
-
-
-def _turn(kinetics: Kinetics, position: Array, body: str) -> float:
-    return 0.0 if body == GROUND else float(position[kinetics.bodies[body].first + 2])
 
 
 def _told(moved: Sequence[Moved]) -> list[Moved]:

@@ -1,0 +1,80 @@
+"""Postures of a linkage whose driven parts have moved and whose pins' two points lie apart."""
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+
+from support_exudyn.mechanics.kinetics import Kinetics, Matrix
+from support_exudyn.model.linkage import GROUND, PinPlace
+from support_exudyn.model.plane_geometry import minus
+from user_forces.values.value import Vector2
+
+ROUNDS = 20
+CLOSED = 1e-13  # [m]
+ROUNDINGS = 8.0  # of the coordinates
+LARGEST = 10.0  # [m], [rad]: in one search nothing moves so far
+
+
+def missing(
+    closed: Kinetics, position: Matrix, offsets: Mapping[str, Vector2], travels: Mapping[str, float]
+) -> Matrix:
+    """What each constraint is short of, in the order of `Kinetics.rows` (m,) [m], [rad].
+
+    Arguments:
+        closed: a linkage with all pins closed and all actuators rigid.
+        position: coordinates of all bodies (n,).
+        offsets: by pin, centre of its second body's point minus that of the first [m]; else as at the start.
+        travels: by actuator and crank, how far it has moved from the start on [m], [rad]; else 0.
+    """
+    linkage = closed.linkage
+    short: list[float] = []
+    for name, place in linkage.pins.items():
+        short += list(np.array(_offset(place, offsets.get(name))) - closed.relative(position, place)[0])
+    for name, actuator in linkage.actuators.items():
+        foot, head = (
+            closed.point(position, body, point)[0]
+            for body, point in ((actuator.foot, actuator.foot_point), (actuator.head, actuator.head_point))
+        )
+        short.append(actuator.start_length + travels.get(name, 0.0) - math.dist(foot, head))
+    short += [
+        travels.get(name, 0.0) - turn(closed, position, crank.body) for name, crank in linkage.cranks.items()
+    ]
+    for slide in linkage.slides.values():
+        carrier = turn(closed, position, slide.against)
+        angle = slide.direction + carrier
+        ends = (closed.point(position, body, slide.point)[0] for body in (slide.body, slide.against))
+        x, y = np.subtract(*ends)
+        short += [math.sin(angle) * x - math.cos(angle) * y, carrier - turn(closed, position, slide.body)]
+    return np.array(short)
+
+
+def posture(
+    closed: Kinetics, near: Matrix, offsets: Mapping[str, Vector2], travels: Mapping[str, float]
+) -> Matrix | None:
+    """Coordinates of all bodies (n,) with these offsets and travels, see `missing`; None if none are found.
+
+    Each step of the search is the one of least mass times distance squared.
+
+    near: coordinates from which they are looked for (n,).
+    """
+    enough = max(CLOSED, ROUNDINGS * math.ulp(closed.linkage.farthest))
+    position = near
+    for _ in range(ROUNDS):
+        short = missing(closed, position, offsets, travels)
+        if np.abs(short).max(initial=0.0) < enough:
+            return position
+        position = position + closed.respond(position, np.zeros_like(position), short)[0]
+        if not np.abs(position - near).max() < LARGEST:
+            return None
+    return None
+
+
+def turn(closed: Kinetics, position: Matrix, body: str) -> float:
+    """By what angle a body has turned since the start [rad]."""
+    return 0.0 if body == GROUND else float(position[closed.bodies[body].first + 2])
+
+
+def _offset(place: PinPlace, asked: Vector2 | None) -> Vector2:
+    """Centre on the second body minus that on the first [m]; that of the machine where none is asked for."""
+    return asked or minus(place.second_point, place.first_point)

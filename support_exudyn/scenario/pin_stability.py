@@ -1,0 +1,245 @@
+"""Whether the pins of a scenario would shake under their load, from its postures alone: nothing is run.
+
+Every pin is looked at by itself, as a clearance pin among closed ones: those that have clearance with their own
+contact, the others as if they had the play of the first of those. Actuators are as long as they are driven, so
+oil counts as rigid.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from support_exudyn.mechanics.body_motion import BodyMotion
+from support_exudyn.mechanics.drive_acceleration import accelerations
+from support_exudyn.mechanics.kinetics import Kinetics, Matrix, kinetics_of
+from support_exudyn.mechanics.loaded_journal import loaded_journals
+from support_exudyn.mechanics.pin_stability import (
+    LoadedJournal,
+    SlidingPin,
+    critical_friction,
+    sliding_pin,
+    without_state,
+)
+from support_exudyn.mechanics.postures import posture
+from support_exudyn.mechanics.reactions import push, weight_of
+from support_exudyn.mechanics.trajectory import Series
+from support_exudyn.model.drives.drive import Reciprocating
+from support_exudyn.model.linkage import GROUND
+from support_exudyn.model.loads.load import LoadedPoint
+from support_exudyn.model.pins import ClearancePin
+from support_exudyn.scenario.scenario import Scenario
+from user_forces.contact import JournalContact
+from user_forces.normal.law import LoadError
+
+SAMPLES = 24  # postures between two breaks of the drives
+PARTS = 64  # into which the way between two postures is divided, at most
+
+
+@dataclass(frozen=True)
+class PinOutlook:
+    """What small motions of a pin's journal would do over a scenario.
+
+    Arguments:
+        pin: its name. assumed: whether it has no clearance, and is looked at as if it had.
+        contact: laws and play it is looked at with.
+        times: (n,) [s]. travels: how far the first driven part has gone by then (n,) [m], [rad].
+        journals: what it feels then. found: its equilibrium, and how it shakes; None where there is none.
+    """
+
+    pin: str
+    assumed: bool
+    contact: JournalContact
+    times: Series
+    travels: Series
+    journals: Sequence[LoadedJournal]
+    found: Sequence[SlidingPin | None]
+
+    @property
+    def worst(self) -> int | None:
+        """The place in `times` at which small motions grow fastest, or decay slowest; None: none is told."""
+        told = [n for n, pin in enumerate(self.found) if pin is not None]
+        return max(told, key=lambda n: self.growth(n)) if told else None
+
+    def growth(self, n: int) -> float:
+        """Growth rate at the n-th time [1/s]; not a number where there is no equilibrium."""
+        pin = self.found[n]
+        return math.nan if pin is None else pin.growth
+
+    @property
+    def stable(self) -> bool:
+        """Whether nothing shakes at any time, and there is an equilibrium at each."""
+        return all(pin is not None and pin.stable for pin in self.found)
+
+    @property
+    def critical_friction(self) -> float:
+        """The smallest coefficient with which it shakes at the worst time [-]; infinite: none up to 1."""
+        worst = self.worst
+        return math.inf if worst is None else critical_friction(self.journals[worst], self.contact)
+
+
+def pin_outlooks(scenario: Scenario, times: Sequence[float] | None = None) -> list[PinOutlook]:
+    """What small motions of the journal of every pin would do, in the order of the linkage.
+
+    Arguments:
+        scenario: in the plane.
+        times: at which it is looked at [s], in order; by default over the time in which its drives move, of
+            motions that repeat themselves over the first time round.
+
+    Returns an empty list where no pin has clearance, where nothing moves, where hydraulic cylinders move the
+    machine, whose posture is not known beforehand, or where degrees of freedom are left.
+    """
+    clearances = scenario.clearance_pins
+    if not clearances or scenario.dimensions == 3 or scenario.cylinders:
+        return []
+    usual = next(iter(clearances.values()))
+    way = _Way.of(scenario, _moving_times(scenario) if times is None else times)
+    if way is None:
+        return []
+    return [_outlook(way, name, clearances.get(name), usual) for name in scenario.unloaded.pins]
+
+
+def _outlook(way: "_Way", name: str, own: ClearancePin | None, usual: ClearancePin) -> PinOutlook:
+    pin = usual if own is None else own
+    second, contact = pin.bore == "first", without_state(pin.contact)
+    journals, found = way.loaded(name, second, contact)
+    return PinOutlook(name, own is None, contact, way.times, way.travels, journals, found)
+
+
+@dataclass(frozen=True)
+class _Way:
+    """Postures of a scenario with all pins closed: times (n,), travels of the first driven part (n,), positions
+    (n, 3 bodies), second derivatives of drives (n, driven).
+    """
+
+    scenario: Scenario
+    closed: Kinetics
+    times: Series
+    travels: Series
+    position: Series
+    driven: Series
+
+    @classmethod
+    def of(cls, scenario: Scenario, times: Sequence[float]) -> "_Way | None":
+        """The postures at these times, as far as the linkage closes; None if there are none."""
+        linkage = scenario.unloaded
+        closed = kinetics_of(linkage)
+        still = np.zeros(3 * len(linkage.bodies))
+        if np.linalg.matrix_rank(closed.rows(still)) < still.size:
+            return None
+        positions: list[Matrix] = []
+        reached, position = 0.0, still
+        for time in times:
+            there = _went(scenario, closed, position, reached, time)
+            if there is None:
+                break
+            reached, position = time, there
+            positions.append(there)
+        if not positions:
+            return None
+        at = np.array(times[: len(positions)])
+        names = (*closed.actuators, *linkage.cranks)
+        driven = [accelerations(scenario.drive_of(name), at, scenario.duration) for name in names]
+        lead = scenario.drive_of(scenario.driven[0])
+        travels = np.array([lead.extension(t) for t in at.tolist()])
+        return cls(scenario, closed, at, travels, np.array(positions), np.array(driven).T)
+
+    def loaded(
+        self, name: str, second: bool, contact: JournalContact
+    ) -> tuple[list[LoadedJournal], list[SlidingPin | None]]:
+        """What the journal of a pin feels, and its equilibria; second: whether its second body carries it.
+
+        The first equilibria follow from the postures with the journal in the middle; with it there the machine
+        stands a little otherwise, and with it the load.
+        """
+        position, sign = self.position, 1.0 if second else -1.0
+        for last in (False, True):
+            journals = self._journals(name, second, position)
+            found = [_slides(journal, contact) for journal in journals]
+            if last:
+                break
+            laid = []
+            for at, time, pin in zip(position, self.times.tolist(), found, strict=True):
+                x, y = (0.0, 0.0) if pin is None else (sign * pin.place).tolist()
+                moved = posture(self.closed, at, {name: (x, y)}, _travels(self.scenario, self.closed, time))
+                laid.append(at if moved is None else moved)
+            position = np.array(laid)
+        return journals, found
+
+    def _journals(self, name: str, second: bool, position: Series) -> list[LoadedJournal]:
+        scenario, linkage = self.scenario, self.closed.linkage
+        velocity = np.array(
+            [self._velocity(at, t) for at, t in zip(position, self.times.tolist(), strict=True)]
+        )
+        motion = BodyMotion(linkage, position, velocity, np.zeros_like(position))
+        forces = weight_of(motion, scenario.gravity) + _loaded(scenario, motion, self.times)
+        return loaded_journals(linkage, name, second, position, velocity, self.driven, forces)
+
+    def _velocity(self, position: Matrix, time: float) -> Matrix:
+        """Of all bodies as they are driven (n,)."""
+        rates = self.closed.rates(lambda name: self.scenario.drive_of(name).speed(time))
+        return self.closed.respond(position, np.zeros_like(position), rates)[0]
+
+
+def _slides(journal: LoadedJournal, contact: JournalContact) -> SlidingPin | None:
+    try:
+        return sliding_pin(journal, contact)
+    except LoadError:
+        return None
+
+
+def _travels(scenario: Scenario, closed: Kinetics, time: float) -> dict[str, float]:
+    names = (*closed.actuators, *closed.linkage.cranks)
+    return {name: scenario.drive_of(name).extension(time) for name in names}
+
+
+def _went(scenario: Scenario, closed: Kinetics, position: Matrix, reached: float, time: float) -> Matrix | None:
+    """The posture at a time from that at an earlier one, in as few parts as it takes; None if it is lost."""
+    parts = 1
+    while parts <= PARTS:
+        there: Matrix | None = position
+        for t in np.linspace(reached, time, parts + 1)[1:].tolist():
+            there = None if there is None else posture(closed, there, {}, _travels(scenario, closed, t))
+        if there is not None:
+            return there
+        parts *= 2
+    return None
+
+
+def _moving_times(scenario: Scenario) -> list[float]:
+    """Times at which something that is driven moves, evenly between breaks [s]."""
+    drives = [scenario.drive_of(name) for name in scenario.driven]
+    end = scenario.duration
+    for name in scenario.driven:
+        drive = scenario.drive_of(name)
+        if isinstance(drive, Reciprocating):
+            end = min(end, drive.period)
+        if name in scenario.linkage.cranks and drive.initial_speed != 0.0:
+            end = min(end, 2.0 * math.pi / abs(drive.initial_speed))
+    breaks = sorted({t for drive in drives for t in drive.breaks if 0.0 < t < end})
+    found: list[float] = []
+    for first, last in pairwise([0.0, *breaks, end]):
+        middles = first + (np.arange(SAMPLES) + 0.5) / SAMPLES * (last - first)
+        found += [t for t in middles.tolist() if any(drive.speed(t) != 0.0 for drive in drives)]
+    return found
+
+
+def _loaded(scenario: Scenario, motion: BodyMotion, times: Series) -> Series:
+    """Forces of loads that stand on the ground, on all coordinates (n, 3 bodies)."""
+    forces = np.zeros_like(motion.position)
+    for name, load in scenario.loads.items():
+        if load.against(name) != GROUND or load.body not in motion.linkage.bodies:
+            continue
+        point = motion.point(load.body, load.point)
+        way = point.position - np.array(load.point)
+        states = np.column_stack([times, way, point.velocity]).tolist()
+        push(
+            forces,
+            motion,
+            load.body,
+            np.array([load.force(LoadedPoint(*one)) for one in states]),
+            point.position,
+        )
+    return forces
