@@ -10,11 +10,12 @@ from studies.extremes import run as extremes
 from studies.scene_detail import run as scene_detail
 from studies.slider_crank import run as slider_crank
 from studies.speed_accuracy import run as speed_accuracy
+from studies.stability import run as stability
 from studies.which_pin import run as which_pin
 
 _IN_ORDER = (
     clearance_influence, clearance_size, drive_mode, claims, which_pin, scene_detail, contact_laws,
-    slider_crank, speed_accuracy, extremes,
+    slider_crank, stability, speed_accuracy, extremes,
 )  # fmt: skip
 STUDIES: dict[str, Study] = {module.study.name: module.study for module in _IN_ORDER}
 DEFAULT = ("clearance_influence", "clearance_size", "drive_mode", "claims")  # the paper's answer

@@ -6,7 +6,7 @@ oil counts as rigid.
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -21,6 +21,7 @@ from support_exudyn.mechanics.pin_stability import (
     SlidingPin,
     critical_friction,
     sliding_pin,
+    with_friction,
     without_state,
 )
 from support_exudyn.mechanics.postures import posture
@@ -45,7 +46,8 @@ class PinOutlook:
     Arguments:
         pin: its name. assumed: whether it has no clearance, and is looked at as if it had.
         contact: laws and play it is looked at with.
-        times: (n,) [s]. travels: how far the first driven part has gone by then (n,) [m], [rad].
+        times: (n,) [s]. travels: how far the first driven part has gone by then (n,) [m], [rad]. turns: whether
+            that is a crank.
         journals: what it feels then. found: its equilibrium, and how it shakes; None where there is none.
     """
 
@@ -54,6 +56,7 @@ class PinOutlook:
     contact: JournalContact
     times: Series
     travels: Series
+    turns: bool
     journals: Sequence[LoadedJournal]
     found: Sequence[SlidingPin | None]
 
@@ -79,14 +82,31 @@ class PinOutlook:
         worst = self.worst
         return math.inf if worst is None else critical_friction(self.journals[worst], self.contact)
 
+    def over_friction(self, coefficients: Sequence[float]) -> tuple[Series, Series, Series]:
+        """Growth rates [1/s], margins to growth [1/s] and normal mobilities [1/kg] for other frictions.
 
-def pin_outlooks(scenario: Scenario, times: Sequence[float] | None = None) -> list[PinOutlook]:
+        Each is (coefficients, times); not a number where the journal has no equilibrium.
+        """
+        found = np.full((3, len(coefficients), len(self.times)), math.nan)
+        for row, coefficient in enumerate(coefficients):
+            contact = with_friction(self.contact, coefficient)
+            for column, journal in enumerate(self.journals):
+                pin = _slides(journal, contact)
+                if pin is not None:
+                    found[:, row, column] = pin.growth, pin.margin, pin.normal_mobility
+        return found[0], found[1], found[2]
+
+
+def pin_outlooks(
+    scenario: Scenario, times: Sequence[float] | None = None, pins: Collection[str] | None = None
+) -> list[PinOutlook]:
     """What small motions of the journal of every pin would do, in the order of the linkage.
 
     Arguments:
         scenario: in the plane.
         times: at which it is looked at [s], in order; by default over the time in which its drives move, of
             motions that repeat themselves over the first time round.
+        pins: names of those that are asked for; by default all.
 
     Returns an empty list where no pin has clearance, where nothing moves, where hydraulic cylinders move the
     machine, whose posture is not known beforehand, or where degrees of freedom are left.
@@ -98,14 +118,15 @@ def pin_outlooks(scenario: Scenario, times: Sequence[float] | None = None) -> li
     way = _Way.of(scenario, _moving_times(scenario) if times is None else times)
     if way is None:
         return []
-    return [_outlook(way, name, clearances.get(name), usual) for name in scenario.unloaded.pins]
+    asked = [name for name in scenario.unloaded.pins if pins is None or name in pins]
+    return [_outlook(way, name, clearances.get(name), usual) for name in asked]
 
 
 def _outlook(way: "_Way", name: str, own: ClearancePin | None, usual: ClearancePin) -> PinOutlook:
     pin = usual if own is None else own
     second, contact = pin.bore == "first", without_state(pin.contact)
     journals, found = way.loaded(name, second, contact)
-    return PinOutlook(name, own is None, contact, way.times, way.travels, journals, found)
+    return PinOutlook(name, own is None, contact, way.times, way.travels, way.turns, journals, found)
 
 
 @dataclass(frozen=True)
@@ -145,6 +166,11 @@ class _Way:
         lead = scenario.drive_of(scenario.driven[0])
         travels = np.array([lead.extension(t) for t in at.tolist()])
         return cls(scenario, closed, at, travels, np.array(positions), np.array(driven).T)
+
+    @property
+    def turns(self) -> bool:
+        """Whether what moves it first is a crank."""
+        return self.scenario.driven[0] in self.closed.linkage.cranks
 
     def loaded(
         self, name: str, second: bool, contact: JournalContact

@@ -1,0 +1,1 @@
+"""Can it be told without a run whether a loaded pin shakes?"""

@@ -1,0 +1,185 @@
+"""The pins whose small motions are predicted and run: the reference support in mid-rise, driven slowly.
+
+A run begins in the posture of the instant, with the journal where it would stay, and a little off. Two runs of
+a case differ by nothing but the way in which it is off: their difference is a small motion by itself, free of
+all that both do alike, such as following the load's direction as that turns.
+"""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from studies.common.paper_machine import BORE_RADIUS, RESTITUTION
+from support_exudyn import ClearancePin, Scenario, SolverSettings, Steady, reference_support
+from support_exudyn.mechanics.pin_stability import LoadedJournal, SlidingPin
+from support_exudyn.scenario.pin_stability import PinOutlook, pin_outlooks
+from user_forces import Ambrosio
+from user_forces.values.value import InputError
+
+Array = npt.NDArray[np.float64]
+
+PINS = ("rear_base", "front_base", "rear_shield", "front_shield")
+CLEARANCE, LENGTH = 1.5e-3, 0.7  # [m]
+STIFFNESSES: dict[str, dict[str, Any]] = {
+    "Eq. 5": {"stiffness": "paper"},
+    "internal": {"stiffness": "internal"},
+    "cylinders": {"stiffness": "cylinders", "length": LENGTH},
+    "cylinders, rigid": {"stiffness": "cylinders", "length": LENGTH, "backing_stiffness": math.inf},
+}
+FRICTIONS = (0.1, 0.2, 0.25)
+MID_RISE = 0.25  # [m], extension of the columns
+# Slow, so that the journal starts nearly as the load's direction turns; friction's ramp is narrowed with it
+SPEED, STATIC_SPEED, DYNAMIC_SPEED = 0.02, 1e-6, 1e-4  # of the columns; of friction [m/s]
+SMALL = 1e-3  # of the depth: how far off a journal ever is, apart from what both runs do
+SWINGS = 2.0  # that a run lasts, unless it grows too much by then
+FACTOR = 4.0  # exp of that a run may grow by, if one swing is over by then
+RECORDS = 120  # of a run
+FINE = 0.1  # of the angle by which the fastest of the four motions swings on: a step
+IMPACT_STEPS = 16  # of what no run makes
+TOLERANCE = 1e-10  # of the reduced formulation
+LOOK_AHEAD = 1e-4  # [s] from which on it is told how fast the equilibrium moves
+SIDES = (1.0, -1.0)
+
+
+@dataclass(frozen=True)
+class PinCase:
+    """A pin that is predicted and run: its name, stiffness, coefficient of friction."""
+
+    pin: str
+    stiffness: str
+    friction: float
+
+    @property
+    def name(self) -> str:
+        """What the study calls it."""
+        return f"{self.pin}, {self.stiffness}, mu_d = {self.friction:g}"
+
+    def clearance_pin(self) -> ClearancePin:
+        """The pin, its journal in the middle."""
+        friction = Ambrosio(
+            sliding_coefficient=self.friction, static_speed=STATIC_SPEED, dynamic_speed=DYNAMIC_SPEED
+        )
+        return ClearancePin.simple(
+            clearance=CLEARANCE,
+            bore_radius=BORE_RADIUS,
+            restitution=RESTITUTION,
+            friction=friction,
+            **STIFFNESSES[self.stiffness],
+        )
+
+    def scenario(self, duration: float = 0.1, step: float = 1e-3) -> Scenario:
+        """The machine in mid-rise, moving on, for so long and in such steps [s]."""
+        machine = reference_support()
+        middle = machine.extended(MID_RISE)
+        assert middle is not None
+        reduced = self.pin == "rear_base"
+        settings = {"tolerance": TOLERANCE} if reduced else {"impact_steps": IMPACT_STEPS}
+        return Scenario(
+            machine=replace(machine, start_hinge_height=middle.hinge[1]),
+            drive=Steady(rate=SPEED),
+            duration=duration,
+            step=step,
+            record_period=duration / RECORDS,
+            pins={self.pin: self.clearance_pin()},
+            channels=(f"pin.{self.pin}.*",),
+            formulation="reduced" if reduced else "redundant",
+            solver=SolverSettings(result_checks=False, **settings),
+        )
+
+
+CASES = tuple(PinCase(pin, stiffness, mu) for pin in PINS for stiffness in STIFFNESSES for mu in FRICTIONS)
+
+
+@dataclass(frozen=True)
+class Prepared:
+    """A case, ready to be run.
+
+    predicted: in the middle of the run. runs: two scenarios. depth: at the equilibrium [m].
+    """
+
+    case: PinCase
+    predicted: SlidingPin
+    runs: tuple[Scenario, Scenario]
+    depth: float
+
+
+def prepared(case: PinCase) -> Prepared:
+    """The prediction of a case and its two runs.
+
+    Both begin at rest, while the equilibrium moves on. That by itself excites the motion that grows; they begin
+    so far off the equilibrium that it does so least by the end of the run.
+    """
+    scenario = case.scenario()
+    start = _outlook(scenario, case, [0.0, LOOK_AHEAD])
+    pin, later = map(_told, start.found)
+    moves = (later.place - pin.place) / LOOK_AHEAD
+    duration = run_time(pin)
+    calm = _calm(start.journals[0], pin, moves, duration)
+    step = FINE / float(np.abs(pin.roots).max())
+    normal = pin.place / np.linalg.norm(pin.place)
+    off = SMALL * pin.depth * min(1.0, math.exp(-pin.growth * duration))
+    runs = []
+    for side in SIDES:
+        x, y = (pin.place + calm + side * off * normal).tolist()
+        there = replace(case.clearance_pin(), eccentricity=(x, y))
+        runs.append(replace(case.scenario(duration, step), pins={case.pin: there}))
+    middle = _outlook(scenario, case, [0.5 * duration])
+    return Prepared(case, _told(middle.found[0]), (runs[0], runs[1]), pin.depth)
+
+
+def run_time(pin: SlidingPin) -> float:
+    """For how long a pin is run [s]: some swings, or until it has grown, but one swing at least."""
+    swing = 1.0 / pin.frequency
+    return min(SWINGS * swing, max(FACTOR / max(abs(pin.growth), 1e-9), swing))
+
+
+def _outlook(scenario: Scenario, case: PinCase, times: list[float]) -> PinOutlook:
+    return pin_outlooks(scenario, times, (case.pin,))[0]
+
+
+def _told(found: SlidingPin | None) -> SlidingPin:
+    if found is None:
+        raise InputError(
+            "stability: a pin has no place at which it slides; allowed: frictions with which it has"
+        )
+    return found
+
+
+def _calm(journal: LoadedJournal, pin: SlidingPin, moves: Array, duration: float) -> Array:
+    """How far from its equilibrium (2,) [m] a journal at rest is to begin, while that moves on [m/s].
+
+    The start is a sum of the four motions that go with the roots. Of each the part counts that is left, or has
+    grown, by the end; their sum of squares is made the least.
+    """
+    free = np.zeros((4, 4))
+    free[:2, 2:] = np.eye(2)
+    free[2:, :2] = -journal.inverse_mass @ pin.stiffness
+    free[2:, 2:] = -journal.inverse_mass @ pin.damping
+    roots, motions = np.linalg.eig(free)
+    parts = np.linalg.inv(motions) * np.linalg.norm(motions[:2], axis=0)[:, None]
+    parts = parts * np.exp(np.maximum(roots.real * duration, 0.0))[:, None]
+    known = parts[:, 2:] @ moves
+    both = np.vstack([parts[:, :2].real, parts[:, :2].imag])
+    found: Array = np.linalg.lstsq(both, np.concatenate([known.real, known.imag]), rcond=None)[0]
+    return found
+
+
+def all_scenarios(ready: Mapping[str, Prepared]) -> dict[str, Scenario]:
+    """Both runs of every case at its steps and at half of them, by name."""
+    found = {}
+    for name, one in ready.items():
+        for n, scenario in enumerate(one.runs):
+            found[run_name(name, n, fine=False)] = scenario
+            # records stay, so that both are read at the same times
+            finer = scenario.refined()
+            found[run_name(name, n, fine=True)] = replace(finer, record_period=scenario.record_period)
+    return found
+
+
+def run_name(case: str, side: int, *, fine: bool) -> str:
+    """What a run of a case is called."""
+    return f"{case}, {'inwards' if side else 'outwards'}{', half steps' if fine else ''}"

@@ -1,0 +1,80 @@
+"""Where in its stroke a loaded pin that slides would shake, and with which friction."""
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import SymLogNorm
+from matplotlib.figure import Figure
+
+from support_exudyn.postprocessing.figures import style
+from support_exudyn.scenario.pin_stability import PinOutlook, pin_outlooks
+from support_exudyn.scenario.scenario import Scenario
+from user_forces.values.value import InputError
+
+FRICTIONS = tuple(np.linspace(0.0, 0.5, 26).tolist())  # that are drawn
+COLOURS = "RdBu_r"
+LINEAR, LARGEST = 1.0, 1000.0  # [1/s] up to which the colours are linear, and to which they go
+PAINLEVE = "Painlevé's threshold"
+
+
+def stability_map(scenario: Scenario, pins: Sequence[str] = ()) -> Figure:
+    """Growth rates over stroke and friction, a panel for each pin that is told; by default for all.
+
+    Raises InputError if nothing is told of the scenario's pins.
+    """
+    outlooks = pin_outlooks(scenario, pins=pins or None)
+    if not outlooks:
+        raise InputError(
+            "stability: nothing is told; allowed: a scenario in the plane with a clearance pin, whose drives "
+            "move it and leave nothing free, without hydraulic cylinders"
+        )
+    columns = min(3, len(outlooks))
+    rows = math.ceil(len(outlooks) / columns)
+    drawing = style.begin(
+        60 * columns + 20, 58 * rows + 22, "Growth rate of small motions over stroke and friction"
+    )
+    panels = drawing.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
+    for axes, one in zip(panels.flat, outlooks, strict=False):
+        colours = draw_map(axes, one)
+        axes.set_title(f"{one.pin}, if it had play" if one.assumed else one.pin, fontsize=8)
+    for axes in panels.flat[len(outlooks) :]:
+        axes.set_visible(False)
+    finish(drawing, list(panels.flat[: len(outlooks)]), colours, turns=bool(scenario.linkage.cranks))
+    return drawing
+
+
+def draw_map(axes: Axes, outlook: PinOutlook, frictions: Sequence[float] = FRICTIONS) -> ScalarMappable:
+    """Draw the growth rate of a pin, the border beyond which it shakes, and Painleve's threshold."""
+    found = outlook.over_friction(frictions)
+    scale = np.degrees(1.0) if outlook.turns else 1e3
+    order = np.argsort(outlook.travels, kind="stable")
+    stroke = scale * outlook.travels[order]
+    growth, margin, mobility = (values[:, order] for values in found)
+    colours = axes.pcolormesh(
+        stroke,
+        frictions,
+        np.clip(growth, -LARGEST, LARGEST),
+        norm=SymLogNorm(LINEAR, vmin=-LARGEST, vmax=LARGEST, base=10),
+        cmap=COLOURS,
+        shading="nearest",
+        rasterized=True,
+    )
+    for values, dashes in ((margin, "-"), (mobility, "--")):
+        if np.nanmin(values) < 0.0 < np.nanmax(values):
+            axes.contour(stroke, frictions, values, levels=[0.0], colors=["black"], linestyles=[dashes])
+    axes.grid(visible=False)
+    return colours
+
+
+def finish(drawing: Figure, panels: Sequence[Axes], colours: ScalarMappable, *, turns: bool = False) -> None:
+    """Label the panels of maps, with one bar of colours and one legend."""
+    drawing.supxlabel("crank angle [deg]" if turns else "stroke [mm]", fontsize=9)
+    drawing.supylabel("sliding coefficient of friction [1]", fontsize=9)
+    bar = drawing.colorbar(colours, ax=list(panels), ticks=[-100, -10, -1, 0, 1, 10, 100, 1000], aspect=30)
+    bar.set_label("growth rate [1/s]")
+    (edge,) = panels[0].plot([], [], color="black", label="grows beyond")
+    (threshold,) = panels[0].plot([], [], color="black", ls="--", label=PAINLEVE)
+    drawing.legend(handles=[edge, threshold], loc="outside upper right", ncols=2, fontsize=7)

@@ -1,0 +1,127 @@
+"""The growth of small motions, predicted and in runs; and the roots that a motion is made of."""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from studies.common.chapter import Chapter
+from studies.common.options import Options
+from studies.stability import cases
+from studies.stability import run as study
+from studies.stability.cases import PinCase, all_scenarios, prepared, run_name
+from studies.stability.measures import ALIKE, difference, fastest, growth, roots
+from support_exudyn import ClearancePin, Scenario, simulate
+
+
+@pytest.mark.parametrize("growths", [(5.0, -30.0), (-2.0, -8.0), (400.0, -410.0)])
+def test_the_roots_of_a_motion_made_of_two_vibrations_are_found(growths: tuple[float, float]) -> None:
+    time = np.linspace(0.0, 0.02, 121)
+    angles = (400.0, 290.0)
+    motion = sum(
+        np.exp(rate * time)[:, None] * np.column_stack([np.cos(w * time), share * np.sin(w * time + 0.4)])
+        for rate, w, share in zip(growths, angles, (0.7, -1.4), strict=True)
+    )
+    found = roots(time, 1e-9 * motion)
+    assert np.sort(found.real)[::2] == pytest.approx(np.sort(growths), rel=1e-6, abs=1e-4)
+    assert np.unique(np.abs(found.imag).round(2)) == pytest.approx(np.sort(angles), rel=1e-4)
+    leading = fastest(found)
+    assert leading.real == pytest.approx(max(growths), rel=1e-6, abs=1e-4)
+
+
+def measured(case: PinCase) -> float:
+    """By how much the growth of a case in two runs is off, as a share; checks how fine its steps are."""
+    one = prepared(case)
+    runs = {name: simulate(scenario) for name, scenario in all_scenarios({case.name: one}).items()}
+    found = growth(one, runs)
+    assert found.by_steps < 0.02
+    assert found.frequency_measured == pytest.approx(found.frequency_predicted, rel=0.01)
+    assert found.moved < 0.05  # small, so that the prediction can hold
+    return found.off
+
+
+@pytest.mark.parametrize("stiffness", cases.STIFFNESSES)
+@pytest.mark.parametrize("friction", [0.05, 0.17])
+def test_the_rear_pin_grows_as_predicted(stiffness: str, friction: float) -> None:
+    assert measured(PinCase("rear_base", stiffness, friction)) < ALIKE
+
+
+@pytest.mark.parametrize(
+    ("pin", "friction"), [("rear_shield", 0.22), ("front_shield", 0.15), ("front_base", 0.4)]
+)
+def test_other_pins_grow_or_decay_as_predicted(pin: str, friction: float) -> None:
+    assert measured(PinCase(pin, "cylinders", friction)) < ALIKE
+
+
+def drawn(seed: int) -> type[PinCase]:
+    """Cases of another machine, clearance, bore, restitution and direction, as a generator draws them."""
+    random = np.random.default_rng(seed)
+    clearance, bore = float(random.uniform(0.3e-3, 2.5e-3)), float(random.uniform(0.04, 0.09))
+    restitution, speed = float(random.uniform(0.6, 1.0)), float(random.choice([-1.0, 1.0]) * cases.SPEED)
+    heavier, stroke = float(random.uniform(0.5, 3.0)), float(random.uniform(0.0, 0.5))
+
+    class Drawn(PinCase):
+        def clearance_pin(self) -> ClearancePin:
+            usual = super().clearance_pin()
+            return ClearancePin.simple(
+                clearance=clearance,
+                bore_radius=bore,
+                restitution=restitution,
+                friction=usual.contact.friction,
+                **cases.STIFFNESSES[self.stiffness],
+            )
+
+        def scenario(self, duration: float = 0.1, step: float = 1e-3) -> Scenario:
+            usual = super().scenario(duration, step)
+            machine = usual.machine
+            height = cases.reference_support().extended(stroke).hinge[1]
+            parts = {
+                body: tuple(
+                    replace(part, mass=heavier * part.mass, inertia=heavier * part.inertia, moments=None)
+                    for part in parts
+                )
+                for body, parts in machine.parts.items()
+            }
+            return replace(
+                usual,
+                machine=replace(machine, start_hinge_height=height, parts=parts),
+                drive=replace(usual.drive, rate=speed),
+                pins={self.pin: self.clearance_pin()},
+            )
+
+    return Drawn
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_drawn_scenes_grow_as_predicted(seed: int) -> None:
+    random = np.random.default_rng(1000 + seed)
+    stiffness = str(random.choice(list(cases.STIFFNESSES)))
+    assert measured(drawn(seed)("rear_base", stiffness, float(random.uniform(0.03, 0.25)))) < ALIKE
+
+
+def test_the_difference_of_two_runs_is_small_and_grows() -> None:
+    case = PinCase("rear_base", "cylinders", 0.2)
+    one = prepared(case)
+    runs = {run_name(case.name, n, fine=True): simulate(scenario) for n, scenario in enumerate(one.runs)}
+    time, motion = difference(one, runs, fine=True)
+    sizes = np.linalg.norm(motion, axis=1)
+    assert sizes[0] == pytest.approx(
+        2.0 * cases.SMALL * one.depth * math.exp(-one.predicted.growth * time[-1]), rel=0.05
+    )
+    assert 10.0 * sizes[0] < sizes[-1] < one.depth
+
+
+@pytest.mark.slow
+def test_the_whole_study(tmp_path: Path) -> None:
+    chapter = study.study(Options(tmp_path, workers=2))
+    assert isinstance(chapter, Chapter)
+    assert chapter.answer.startswith("Yes: in 48 cases")
+    summary = json.loads((tmp_path / "summary.json").read_text("utf-8"))
+    assert len({number["case"] for number in summary["numbers"] if number["name"] == "growth_rate"}) == 48
+    for name in ("stability", "map"):
+        assert (tmp_path / f"{name}.png").read_bytes().startswith(b"\x89PNG")
