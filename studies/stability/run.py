@@ -187,5 +187,5 @@ def work(chosen: Options) -> StudyOutcome:
     return StudyOutcome(reported, words, drawings, tables, kept)
 
 
-study = Study("stability", __doc__, work, seconds=45.0)
+study = Study("stability", __doc__, work, seconds=25.0)
 main = study.main
