@@ -1,16 +1,34 @@
 """`check FILE`: what can be said of a machine before it is run."""
 
+from __future__ import annotations
+
 import argparse
 import json
+from collections.abc import Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from support_exudyn.commands.command_line import add_out, number, say
-from support_exudyn.files.scenarios.scenario_file import read_machine_in
+from support_exudyn.files.scenarios.scenario_file import read_machine_in, read_scenario
+from support_exudyn.files.scenarios.simple_scenario import simple_scenario
+from support_exudyn.files.toml.text import load_toml
+from support_exudyn.machines.machine_data import MachineData
+from support_exudyn.postprocessing import pin_shaking
 from user_forces.values.value import InputError
+
+if TYPE_CHECKING:
+    from support_exudyn.machines.check import CheckReport, CheckTable
+    from support_exudyn.scenario.pin_stability import PinOutlook
 
 HELP = "draw a machine and tell its mobility, closure, dead centres, static forces, and what looks wrong"
 FARTHEST = 1e5  # [mm]
+PLAY_MM, FRICTION, RISE_TIME = (
+    1.0,
+    0.25,
+    2.0,
+)  # assumed of a machine alone: clearance, friction, [s] for its stroke
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -49,11 +67,58 @@ def run(given: argparse.Namespace) -> None:
     out = given.out or (path.parent if own else Path())
     with style.look():
         written = style.save(check_figure(report), out, f"{path.stem if own else given.machine}_check")
+    outlooks, assumed = _outlooks(given, data, report)
     if given.json:
-        say(json.dumps(report.data() | {"figures": [str(one) for one in written]}, indent=2))
+        more = {"pin_stability": pin_shaking.data(outlooks), "figures": [str(one) for one in written]}
+        say(json.dumps(report.data() | more, indent=2))
         return
     for line in report.lines():
         say(line)
+    if outlooks:
+        say("")
+        for line in _table(outlooks).lines():
+            say(line)
+    if assumed:
+        say(f"  {assumed}")
     say("")
     for one in written:
         say(str(one))
+
+
+def _outlooks(
+    given: argparse.Namespace, data: MachineData, report: CheckReport
+) -> tuple[list[PinOutlook], str]:
+    """Whether its pins shake as they slide, and what was assumed for it or why it is not told.
+
+    Of a scenario's file with the pins, laws and drives that it says; of a machine's with play assumed.
+    """
+    from support_exudyn.scenario.pin_stability import pin_outlooks
+
+    if _is_scenario(given.machine):
+        try:
+            return pin_outlooks(read_scenario(given.machine)), ""
+        except InputError as error:  # its machine is all that had to be right so far
+            first = str(error).splitlines()[0]
+            return [], f"whether its pins shake is not told, the scenario has errors: {first}"
+    stroke = report.numbers.get("stroke_m")
+    pin = next(iter(data.bore_radii), None)
+    if stroke is None or pin is None:
+        return [], ""
+    drive = {"mode": 1, "start_s": 0.0, "end_s": RISE_TIME, "stroke_mm": 1e3 * stroke}
+    pins = {pin: {"clearance_mm": PLAY_MM, "friction": FRICTION}}
+    scenario = simple_scenario(data, duration_s=RISE_TIME, drive=drive, pins=pins)
+    told = [replace(one, assumed=False) for one in pin_outlooks(scenario)]  # all of them are
+    return told, f"assumed of every pin: {PLAY_MM:g} mm of clearance, a friction of {FRICTION:g}"
+
+
+def _table(outlooks: Sequence[PinOutlook]) -> CheckTable:
+    from support_exudyn.machines.check import CheckTable
+
+    header = [name.lstrip(">") for name in pin_shaking.HEADER]
+    return CheckTable(pin_shaking.TITLE, header, pin_shaking.rows(outlooks))
+
+
+def _is_scenario(name: str) -> bool:
+    """Whether a file is that of a scenario, which names its machine."""
+    path = Path(name)
+    return path.suffix.lower() == ".toml" and path.is_file() and "machine" in load_toml(path)

@@ -15,14 +15,17 @@ from support_exudyn.commands.tables import (
     show_impacts,
     show_numbers,
     show_pressed,
+    show_shaking,
     show_table,
     show_touches,
 )
+from support_exudyn.postprocessing import pin_shaking
 from support_exudyn.postprocessing import summary as summary
 from support_exudyn.postprocessing.figures import selection
 from support_exudyn.postprocessing.figures.selection import matching
 from support_exudyn.postprocessing.figures.units import said
 from support_exudyn.postprocessing.pin_contact import hardest_pressed
+from support_exudyn.scenario.pin_stability import PinOutlook, pin_outlooks
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
 
@@ -91,8 +94,14 @@ def _object(result: Result, given: argparse.Namespace) -> dict[str, Any]:
             ]
             for pin, onsets in result.onsets.items()
         },
+        "pin_stability": pin_shaking.data(_outlooks(result)),
         "channels": {name: summary.extent(result, name, *ends) for name in names},
     }
+
+
+def _outlooks(result: Result) -> list[PinOutlook]:
+    """Whether the clearance pins of a run shake, by their postures alone."""
+    return pin_outlooks(result.scenario, pins=tuple(result.scenario.clearance_pins))
 
 
 def _asked(result: Result, given: argparse.Namespace) -> tuple[list[str], list[str]]:
@@ -120,6 +129,7 @@ def _tables(console: Console, result: Result, given: argparse.Namespace) -> None
     show_table(console, "how", (), summary.how(result))
     show_numbers(console, "what came out", "no accuracy was asked", result, *ends)
     show_pressed(console, "clearance pins under their largest force", hardest_pressed(result))
+    show_shaking(console, _outlooks(result))
     show_touches(console, result)
     telling = [name for name in result.channels if name != "time"] if given.all else summary.telling(result)
     rest = len(result.channels) - 1 - len(telling)

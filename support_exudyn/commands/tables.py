@@ -15,11 +15,12 @@ from rich.markup import escape
 from rich.table import Table
 
 from support_exudyn.commands.command_line import silence_output
-from support_exudyn.postprocessing import pin_contact
+from support_exudyn.postprocessing import pin_contact, pin_shaking
 from support_exudyn.postprocessing import summary as summary
 from support_exudyn.postprocessing.figures import selection
 from support_exudyn.postprocessing.shown_numbers import ranking
 from support_exudyn.scenario.pin_pressure import PressedPin
+from support_exudyn.scenario.pin_stability import PinOutlook
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import cleaned
 
@@ -127,6 +128,12 @@ def show_pressed(console: Console, title: str, pins: Sequence[PressedPin]) -> No
     show_table(console, title, pin_contact.HEADER, pin_contact.rows(pins))
     for warning in pin_contact.warnings(pins):
         console.print(f"warning: {warning}", markup=False, soft_wrap=True, end="\n\n")
+
+
+def show_shaking(console: Console, outlooks: Sequence[PinOutlook]) -> None:
+    """The table of which loaded pins shake as they slide; nothing where nothing is told of them."""
+    if outlooks:
+        show_table(console, pin_shaking.TITLE, pin_shaking.HEADER, pin_shaking.rows(outlooks))
 
 
 def facts(result: Result, after: float, until: float) -> dict[str, Any]:

@@ -116,6 +116,11 @@ class SlidingPin:
         return abs(root.imag) / (2.0 * math.pi) if vibrates else 0.0
 
     @property
+    def friction(self) -> float:
+        """Friction force over normal force [-]."""
+        return float(np.linalg.norm(self.friction_along)) / self.normal_force
+
+    @property
     def margin(self) -> float:
         """By how much the growth rate stays below what counts as growth [1/s]; negative: it shakes."""
         return NEGLIGIBLE * abs(self._root) - self.growth

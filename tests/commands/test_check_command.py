@@ -115,3 +115,53 @@ def test_a_scenario_of_a_known_machine_is_checked_as_that(
     path.write_text('machine = "slider_crank"\nduration_s = 1\n', encoding="utf-8")
     assert main(["check", str(path), "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["kind"] == "slider_crank"
+
+
+SCENARIO = """
+machine = "reference"
+duration_s = 5
+drive = { mode = 2 }
+
+[pins.rear_base]
+clearance_mm = 1.5
+friction = 0.25
+stiffness = "paper"
+"""
+
+
+def test_a_scenario_is_told_which_pins_shake(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "rise.toml"
+    path.write_text(SCENARIO, "utf-8")
+    assert main(["check", str(path)]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    start = next(n for n, line in enumerate(lines) if line.startswith("do loaded pins shake"))
+    told = {line.split()[0].rstrip(","): line for line in lines[start + 2 : start + 7]}
+    assert [" shakes " in told[pin] for pin in ("rear_base", "rear_shield")] == [True, True]
+    assert [" stable " in told[pin] for pin in ("front_base", "front_shield", "shield_canopy")] == [True] * 3
+    assert "if it had such play" in told["front_base"]
+    assert "if it had such play" not in told["rear_base"]
+    assert told["rear_base"].split()[-1].startswith("0.02")
+
+
+def test_a_scenario_with_errors_is_told_its_machine_alone(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "rise.toml"
+    path.write_text(SCENARIO.replace("0.25", "-1"), "utf-8")
+    assert main(["check", str(path)]) == 0
+    said = capsys.readouterr().out
+    assert "degrees of freedom: " in said
+    assert "whether its pins shake is not told, the scenario has errors: " in said
+    assert "pins.rear_base.friction" in said
+
+
+@pytest.mark.slow
+def test_a_machine_alone_is_told_with_what_is_assumed(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = written(tmp_path)
+    assert main(["check", str(path), "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)["pin_stability"]
+    assert not any(one["assumed"] for one in told)
+    assert main(["check", "slider_crank", "--out", str(tmp_path), "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["pin_stability"] == []  # nobody knows how fast it turns
