@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import argparse
 import json
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Iterator, Sequence
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -15,12 +14,14 @@ from support_exudyn.files.scenarios.scenario_file import read_machine_in, read_s
 from support_exudyn.files.scenarios.simple_scenario import simple_scenario
 from support_exudyn.files.toml.text import load_toml
 from support_exudyn.machines.machine_data import MachineData
-from support_exudyn.postprocessing import pin_shaking
+from support_exudyn.postprocessing import pin_contact, pin_shaking
 from user_forces.values.value import InputError
 
 if TYPE_CHECKING:
     from support_exudyn.machines.check import CheckReport, CheckTable
+    from support_exudyn.scenario.pin_pressure import PressedPin
     from support_exudyn.scenario.pin_stability import PinOutlook
+    from support_exudyn.scenario.scenario import Scenario
 
 HELP = "draw a machine and tell its mobility, closure, dead centres, static forces, and what looks wrong"
 FARTHEST = 1e5  # [mm]
@@ -55,6 +56,8 @@ def run(given: argparse.Namespace) -> None:
     from support_exudyn.machines.check import check_machine  # and numpy's linear algebra
     from support_exudyn.postprocessing.figures import style
     from support_exudyn.postprocessing.figures.checks import check_figure
+    from support_exudyn.scenario.pin_pressure import statically_pressed
+    from support_exudyn.scenario.pin_stability import pin_outlooks
 
     data = read_machine_in(given.machine)
     try:
@@ -67,55 +70,62 @@ def run(given: argparse.Namespace) -> None:
     out = given.out or (path.parent if own else Path())
     with style.look():
         written = style.save(check_figure(report), out, f"{path.stem if own else given.machine}_check")
-    outlooks, assumed = _outlooks(given, data, report)
+    scenario, told = _looked_at(given, data, report)
+    outlooks = pin_outlooks(scenario) if scenario else []
+    pressed = statically_pressed(scenario) if scenario else []
     if given.json:
-        more = {"pin_stability": pin_shaking.data(outlooks), "figures": [str(one) for one in written]}
+        more = {
+            "pins_under_static_load": pin_contact.data(pressed),
+            "pin_stability": pin_shaking.data(outlooks),
+            "figures": [str(one) for one in written],
+        }
         say(json.dumps(report.data() | more, indent=2))
         return
     for line in report.lines():
         say(line)
-    if outlooks:
+    for table in _tables(pressed, outlooks):
         say("")
-        for line in _table(outlooks).lines():
+        for line in table.lines():
             say(line)
-    if assumed:
-        say(f"  {assumed}")
+    for said in (*told, *(f"warning: {one}" for one in pin_contact.warnings(pressed))):
+        say(f"  {said}")
     say("")
     for one in written:
         say(str(one))
 
 
-def _outlooks(
+def _looked_at(
     given: argparse.Namespace, data: MachineData, report: CheckReport
-) -> tuple[list[PinOutlook], str]:
-    """Whether its pins shake as they slide, and what was assumed for it or why it is not told.
+) -> tuple[Scenario | None, list[str]]:
+    """The scenario whose pins are looked at, and what was assumed for it or why there is none.
 
-    Of a scenario's file with the pins, laws and drives that it says; of a machine's with play assumed.
+    Of a scenario's file that with the pins, laws and drives that it says; of a machine's one with play assumed.
     """
-    from support_exudyn.scenario.pin_stability import pin_outlooks
-
     if _is_scenario(given.machine):
         try:
-            return pin_outlooks(read_scenario(given.machine)), ""
+            return read_scenario(given.machine), []
         except InputError as error:  # its machine is all that had to be right so far
             first = str(error).splitlines()[0]
-            return [], f"whether its pins shake is not told, the scenario has errors: {first}"
+            return None, [f"nothing is told of its pins, the scenario has errors: {first}"]
     stroke = report.numbers.get("stroke_m")
-    pin = next(iter(data.bore_radii), None)
-    if stroke is None or pin is None:
-        return [], ""
+    if stroke is None or not data.bore_radii:
+        return None, []
     drive = {"mode": 1, "start_s": 0.0, "end_s": RISE_TIME, "stroke_mm": 1e3 * stroke}
-    pins = {pin: {"clearance_mm": PLAY_MM, "friction": FRICTION}}
+    pins = {name: {"clearance_mm": PLAY_MM, "friction": FRICTION} for name in data.bore_radii}
     scenario = simple_scenario(data, duration_s=RISE_TIME, drive=drive, pins=pins)
-    told = [replace(one, assumed=False) for one in pin_outlooks(scenario)]  # all of them are
-    return told, f"assumed of every pin: {PLAY_MM:g} mm of clearance, a friction of {FRICTION:g}"
+    return scenario, [f"assumed of every pin: {PLAY_MM:g} mm of clearance, a friction of {FRICTION:g}"]
 
 
-def _table(outlooks: Sequence[PinOutlook]) -> CheckTable:
+def _tables(pressed: Sequence[PressedPin], outlooks: Sequence[PinOutlook]) -> Iterator[CheckTable]:
+    """How hard clearance pins are pressed, and whether they shake; what there is nothing of is left out."""
     from support_exudyn.machines.check import CheckTable
 
-    header = [name.lstrip(">") for name in pin_shaking.HEADER]
-    return CheckTable(pin_shaking.TITLE, header, pin_shaking.rows(outlooks))
+    for title, header, rows in (
+        (pin_contact.STATIC, pin_contact.HEADER, pin_contact.rows(pressed)),
+        (pin_shaking.TITLE, pin_shaking.HEADER, pin_shaking.rows(outlooks)),
+    ):
+        if rows:
+            yield CheckTable(title, [name.lstrip(">") for name in header], rows)
 
 
 def _is_scenario(name: str) -> bool:

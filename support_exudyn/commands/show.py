@@ -19,12 +19,11 @@ from support_exudyn.commands.tables import (
     show_table,
     show_touches,
 )
-from support_exudyn.postprocessing import pin_shaking
+from support_exudyn.postprocessing import pin_contact, pin_shaking
 from support_exudyn.postprocessing import summary as summary
 from support_exudyn.postprocessing.figures import selection
 from support_exudyn.postprocessing.figures.selection import matching
 from support_exudyn.postprocessing.figures.units import said
-from support_exudyn.postprocessing.pin_contact import hardest_pressed
 from support_exudyn.scenario.pin_stability import PinOutlook, pin_outlooks
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
@@ -128,7 +127,7 @@ def _tables(console: Console, result: Result, given: argparse.Namespace) -> None
     show_table(console, "what was run", (), summary.what_was_run(result))
     show_table(console, "how", (), summary.how(result))
     show_numbers(console, "what came out", "no accuracy was asked", result, *ends)
-    show_pressed(console, "clearance pins under their largest force", hardest_pressed(result))
+    show_pressed(console, pin_contact.LARGEST, pin_contact.hardest_pressed(result))
     show_shaking(console, _outlooks(result))
     show_touches(console, result)
     telling = [name for name in result.channels if name != "time"] if given.all else summary.telling(result)

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from typing import Any
 
 from support_exudyn.postprocessing.figures.units import said
 from support_exudyn.scenario.pin_pressure import PressedPin, pressed_pin
@@ -17,6 +18,8 @@ HEADER = (
     ">stiffness",
     "contact",
 )
+STATIC = "clearance pins under their static load, start posture"
+LARGEST = "clearance pins under their largest force"
 DIGITS = 3  # of numbers of a theory that neglects edges, friction and roughness
 
 
@@ -45,6 +48,28 @@ def rows(pins: Sequence[PressedPin]) -> list[tuple[str, ...]]:
         )
         for one in pins
     ]
+
+
+def data(pins: Sequence[PressedPin]) -> list[dict[str, Any]]:
+    """The same as plain data, SI; what is not known is None."""
+    return [
+        {
+            "pin": one.name,
+            "force_N": one.force,
+            "length_m": one.length,
+            "peak_pressure_Pa": None if one.line is None else one.line.peak_pressure,
+            "share_of_first_yield": _known(one.yield_share),
+            "half_angle_rad": None if one.line is None else one.line.half_angle,
+            "depth_m": _known(one.depth),
+            "stiffness_N_per_m": _known(one.stiffness),
+            "conformal": None if one.line is None else one.line.conformal,
+        }
+        for one in pins
+    ]
+
+
+def _known(number: float) -> float | None:
+    return number if math.isfinite(number) else None
 
 
 def warnings(pins: Sequence[PressedPin]) -> list[str]:

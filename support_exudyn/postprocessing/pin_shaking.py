@@ -1,7 +1,7 @@
 """Whether loaded pins that slide shake, as a table: what `show` and `check` tell before and after a run."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from support_exudyn.postprocessing.figures.units import said
@@ -35,7 +35,7 @@ def rows(outlooks: Sequence[PinOutlook]) -> list[tuple[str, ...]]:
             (
                 pin,
                 "stable" if told["stable"] else "shakes",
-                f"{told['growth_rate_per_s']:.{DIGITS}g} /s",
+                f"{_growth(told):.{DIGITS}g} /s",
                 said(told["frequency_Hz"], "Hz", DIGITS) if told["frequency_Hz"] else "none",
                 at,
                 f"{told['friction']:.{DIGITS}g}",
@@ -43,6 +43,12 @@ def rows(outlooks: Sequence[PinOutlook]) -> list[tuple[str, ...]]:
             )
         )
     return found
+
+
+def _growth(told: Mapping[str, Any]) -> float:
+    """The growth rate [1/s], without what is rounding where nothing grows."""
+    growth: float = told["growth_rate_per_s"]
+    return min(growth, 0.0) if told["stable"] else growth
 
 
 def data(outlooks: Sequence[PinOutlook]) -> list[dict[str, Any]]:

@@ -323,7 +323,7 @@ def _pressed(runs: Mapping[str, Result]) -> Sheet:
     rows = [(run, *row) for run, one in pins for row in pin_contact.rows([one])]
     header = ("run", *(name.lstrip(">") for name in pin_contact.HEADER))
     note = " ".join(f"{run}, {told}." for run, one in pins for told in pin_contact.warnings([one]))
-    return Sheet("Clearance pins under their largest force", header, tuple(rows), note, left=2)
+    return Sheet(pin_contact.LARGEST.capitalize(), header, tuple(rows), note, left=2)
 
 
 def _what(runs: Mapping[str, Result]) -> Sheet:

@@ -143,6 +143,26 @@ def test_a_scenario_is_told_which_pins_shake(tmp_path: Path, capsys: pytest.Capt
     assert told["rear_base"].split()[-1].startswith("0.02")
 
 
+def test_a_scenario_is_told_how_hard_its_pins_are_pressed(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "rise.toml"
+    path.write_text(SCENARIO, "utf-8")
+    assert main(["check", str(path), "--json"]) == 0
+    (pin,) = json.loads(capsys.readouterr().out)["pins_under_static_load"]
+    assert pin["pin"] == "rear_base"
+    assert pin["length_m"] == 0.7
+    # as a line, whatever the law; the depth is that of Eq. 5
+    assert pin["peak_pressure_Pa"] == pytest.approx(30.8e6 * math.sqrt(pin["force_N"] / 51.4e3), rel=0.01)
+    assert pin["depth_m"] == pytest.approx(153e-6 * (pin["force_N"] / 51.4e3) ** (2.0 / 3.0), rel=0.01)
+    assert pin["conformal"] is False
+    path.write_text(SCENARIO.replace("rear_base]", "rear_base]\nlength_mm = 0.7"), "utf-8")
+    assert main(["check", str(path)]) == 0
+    told = " ".join(capsys.readouterr().out.split())
+    assert "warning: rear_base: " in told
+    assert "bears before it yields: an elastic contact is too stiff there" in told
+
+
 def test_a_scenario_with_errors_is_told_its_machine_alone(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -151,7 +171,7 @@ def test_a_scenario_with_errors_is_told_its_machine_alone(
     assert main(["check", str(path)]) == 0
     said = capsys.readouterr().out
     assert "degrees of freedom: " in said
-    assert "whether its pins shake is not told, the scenario has errors: " in said
+    assert "nothing is told of its pins, the scenario has errors: " in said
     assert "pins.rear_base.friction" in said
 
 
