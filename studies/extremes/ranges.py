@@ -28,10 +28,11 @@ from user_forces.normal.power_law import PowerLaw
 
 POWER_LAWS: tuple[type[PowerLaw], ...] = (LankaraniNikravesh, Exact, HuntCrossley, Gonthier, Flores)
 LAWS = (*(law.__name__ for law in POWER_LAWS), PinInBore.__name__)
-LENGTH, MODULUS = 0.7, effective_modulus(STEEL, STEEL_35CRMO)  # of the rear-link pin [m], [Pa]
 PAPER = paper_machine.stiffness(1.5)  # N/m^1.5
 DEPTH = 1e-3  # [m] at which laws of all exponents press alike
 BORE_RADIUS = paper_machine.BORE_RADIUS
+SLENDERNESS = 0.7 / BORE_RADIUS  # length of the pin over the radius of its bore
+MODULUS = effective_modulus(STEEL, STEEL_35CRMO)
 
 
 class Span(NamedTuple):
@@ -102,7 +103,7 @@ class Point:
         if self.law == PinInBore.__name__:
             return PinInBore(
                 bearing=JournalBearing(bore_radius=self.bore_radius, clearance=self.clearance_m),
-                length=LENGTH,
+                length=SLENDERNESS * self.bore_radius,
                 effective_modulus=self.stiffness ** (1.0 / 3.0) * MODULUS,
                 restitution=self.restitution,
             )
