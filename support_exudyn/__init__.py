@@ -2,7 +2,8 @@
 
     from support_exudyn import ClearancePin, CubicStep, Scenario, machine, simulate
 
-    pins = {"rear_base": ClearancePin.simple(clearance=0.5e-3, bore_radius=0.06, friction=0.1)}
+    pin = ClearancePin.simple(clearance=0.5e-3, bore_radius=0.06, length=0.5, friction=0.1)
+    pins = {"rear_base": pin}
     result = simulate(Scenario(machine=machine("zf18000"), pins=pins, drive=CubicStep(), duration=5.0))
     result["pin.rear_base.force"]  # newton, at result.time
 

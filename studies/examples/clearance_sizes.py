@@ -1,7 +1,7 @@
 """Clearance sizes
 
-Four clearances side by side. The tip moves to the rear in proportion to the clearance. The line does not
-begin at the ideal pin, because the load presses the journal a little into its bore.
+Four clearances side by side. The tip moves to the rear in proportion to the clearance. The line begins at the
+ideal pin: a pin along its length is pressed in by some 0.02 mm only.
 """
 
 from matplotlib import pyplot as plt

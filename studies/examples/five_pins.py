@@ -6,16 +6,15 @@ step of the run, and when that was.
 
 from matplotlib import pyplot as plt
 
-from support_exudyn import ClearancePin, CubicStep, Scenario, load_machine, simulate
+from support_exudyn import CubicStep, machine, simple_scenario, simulate
 
-support = load_machine("reference")
-pin = ClearancePin.simple(clearance=0.001, bore_radius=0.0655, restitution=0.7)
-scenario = Scenario(
-    machine=support.machine,
-    pins=dict.fromkeys(support.machine.linkage().pins, pin),
+pins = machine("reference").linkage().pins  # radii of bores and lengths come from the machine's file
+scenario = simple_scenario(
+    "reference",
+    pins=dict.fromkeys(pins, {"clearance_mm": 1.0, "restitution": 0.7}),
     drive=CubicStep(stroke=0.002, start=0.0, end=0.16),
-    duration=0.16,
-    record_period=1e-4,
+    duration_s=0.16,
+    record_period_s=1e-4,
 )
 result = simulate(scenario)
 

@@ -61,6 +61,7 @@ ALIKE = 0.5  # of the distances of numbers that go wrong alike, that each is at 
 SAFETY_OF_WORST = 6.0  # covers all of two thousand runs at the extremes (`studies/extremes/run.py`)
 IRREGULAR = 4.0  # times that, where Newton's method failed: steps then are not those that were asked for
 FASTEST, SLOWEST = 0.25, 0.8  # r: three runs tell nothing beyond
+MOST_DIGITS = 12  # of a number that is printed
 FIRST_ORDER = 0.5  # r where there are two runs only
 SMALLEST_SPREAD = 1e-3  # of the mean
 SMALLEST_EXTENT = (
@@ -76,7 +77,14 @@ class Estimate(NamedTuple):
     unit: str
 
     def __str__(self) -> str:
-        return f"{self.value:.9g} ± {self.error:.1g} {self.unit}"
+        """The number to the first digit of its error, of `MOST_DIGITS` at most, and its unit."""
+        if not (math.isfinite(self.error) and self.error > 0.0 and math.isfinite(self.value)):
+            return f"{self.value:.9g} ± {self.error:.1g} {self.unit}"
+        size = math.floor(math.log10(abs(self.value))) if self.value else 0
+        decimals = min(-math.floor(math.log10(float(f"{self.error:.1g}"))), MOST_DIGITS - 1 - size)
+        if decimals <= 0:
+            return f"{round(self.value, decimals):.0f} ± {round(self.error, decimals):.0f} {self.unit}"
+        return f"{self.value:.{decimals}f} ± {self.error:.1g} {self.unit}"
 
 
 def fall(result: RecordedRun) -> float:
