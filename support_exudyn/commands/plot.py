@@ -58,7 +58,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--orbit", action="store_true", help="path of the journal of a clearance pin in its bore")
     add("--poincare", action="store_true", help="section once in every period of the drive, or by impacts")
     add("--spectrum", action="store_true", help="spectrum of the force in a pin")
-    add("--pin", metavar="NAME", help="pin of orbit, section and spectrum (the first with clearance)")
+    add("--stability", action="store_true", help="where pins shake as they slide, over stroke and friction")
+    add(
+        "--pin", metavar="NAME", help="pin of orbit, section, spectrum and stability (the first with clearance)"
+    )
     add_times(parser, -math.inf, math.inf)
     add(
         "--phase",
@@ -121,10 +124,18 @@ def _of_several(
     """Channels of several runs and of CSV files, one upon another or less those of the first."""
     from support_exudyn.postprocessing.figures.overlay import difference, overlay
 
-    if given.orbit or given.poincare or given.spectrum or given.section or given.pin is not None:
+    of_one = (
+        given.orbit,
+        given.poincare,
+        given.spectrum,
+        given.stability,
+        given.section,
+        given.pin is not None,
+    )
+    if any(of_one):
         raise InputError(
-            f"--orbit, --poincare, --spectrum, --section, --pin: are of one run, and {len(runs) + len(curves)} "
-            "are given; allowed with several: channels"
+            "--orbit, --poincare, --spectrum, --stability, --section, --pin: are of one run, and "
+            f"{len(runs) + len(curves)} are given; allowed with several: channels"
         )
     first = next(iter(runs.values()))
     in_files = [
@@ -166,6 +177,8 @@ def _of_one(runs: Mapping[str, Result], given: argparse.Namespace) -> tuple[dict
 
 def _wanted(result: Result, given: argparse.Namespace) -> tuple[dict[str, Draw], set[str]]:
     """What to draw by kind, and what of it may be left out where the run has none."""
+    if given.stability:
+        return _stability(result, given), set()
     asked = given.orbit or given.poincare or given.spectrum or bool(given.section)
     if not asked and given.pin is None and not given.channels:
         return _overview(result, given)
@@ -179,6 +192,16 @@ def _wanted(result: Result, given: argparse.Namespace) -> tuple[dict[str, Draw],
     )
     kinds = {"orbit": given.orbit, "poincare": given.poincare or given.section, "spectrum": given.spectrum}
     return found | _of_pin(result, given, pin, [kind for kind, wanted in kinds.items() if wanted]), set()
+
+
+def _stability(result: Result, given: argparse.Namespace) -> dict[str, Draw]:
+    """The map of where its pins shake; it is told by the scenario, so that it goes with no other figure."""
+    from support_exudyn.postprocessing.figures.stability_map import stability_map
+
+    if given.orbit or given.poincare or given.spectrum or given.section or given.channels:
+        raise InputError("--stability: is drawn by itself; allowed: plot RUN --stability [--pin NAME]")
+    pins = () if given.pin is None else (chosen_pin(result, given.pin, with_clearance=False),)
+    return {"stability": lambda: stability_map(result.scenario, pins)}
 
 
 def _told_first(result: Result) -> list[str]:

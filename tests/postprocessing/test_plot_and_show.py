@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 import subprocess
 import sys
@@ -68,6 +69,22 @@ def test_what_a_run_has_none_of_is_left_out_of_the_overview_in_a_sentence(
     said = capsys.readouterr().err
     assert "space_poincare_rear_base: left out" in said
     assert "space_spectrum_rear_base: left out" in said
+
+
+def test_where_pins_shake_is_drawn_and_told(
+    runs: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    run = str(runs / "crank.h5")
+    assert main(["plot", run, "--stability", "--pin", "slider_pin", "--out", str(tmp_path)]) == 0
+    assert names(tmp_path) == both("crank_stability")
+    capsys.readouterr()
+    assert main(["show", run, "--json"]) == 0
+    (told,) = json.loads(capsys.readouterr().out)["pin_stability"]
+    assert told["pin"] == "slider_pin"
+    assert told["stable"] is (told["growth_rate_per_s"] < 1e-4 * 2.0 * math.pi * told["frequency_Hz"])
+    assert "do loaded pins shake as they slide?" in shown(Path(run), capsys)
+    assert main(["plot", run, "--stability", "--orbit", "--out", str(tmp_path)]) == 1
+    assert "--stability: is drawn by itself" in capsys.readouterr().err
 
 
 def test_one_kind_of_one_pin_is_drawn(runs: Path, tmp_path: Path) -> None:

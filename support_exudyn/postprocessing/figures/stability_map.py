@@ -33,9 +33,7 @@ def stability_map(scenario: Scenario, pins: Sequence[str] = ()) -> Figure:
         )
     columns = min(3, len(outlooks))
     rows = math.ceil(len(outlooks) / columns)
-    drawing = style.begin(
-        60 * columns + 20, 58 * rows + 22, "Growth rate of small motions over stroke and friction"
-    )
+    drawing = style.begin(max(60 * columns + 20, 100), 58 * rows + 22, "Do pins shake as they slide?")
     panels = drawing.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
     for axes, one in zip(panels.flat, outlooks, strict=False):
         colours = draw_map(axes, one)
@@ -71,10 +69,15 @@ def draw_map(axes: Axes, outlook: PinOutlook, frictions: Sequence[float] = FRICT
 
 def finish(drawing: Figure, panels: Sequence[Axes], colours: ScalarMappable, *, turns: bool = False) -> None:
     """Label the panels of maps, with one bar of colours and one legend."""
-    drawing.supxlabel("crank angle [deg]" if turns else "stroke [mm]", fontsize=9)
-    drawing.supylabel("sliding coefficient of friction [1]", fontsize=9)
+    place = panels[0].get_subplotspec()
+    columns = place.get_gridspec().ncols if place is not None else 1
+    for axes in panels[-columns:]:
+        axes.set_xlabel("crank angle [deg]" if turns else "stroke [mm]")
+        axes.tick_params(labelbottom=True)
+    for axes in panels[::columns]:
+        axes.set_ylabel("sliding friction [1]")
     bar = drawing.colorbar(colours, ax=list(panels), ticks=[-100, -10, -1, 0, 1, 10, 100, 1000], aspect=30)
     bar.set_label("growth rate [1/s]")
     (edge,) = panels[0].plot([], [], color="black", label="grows beyond")
     (threshold,) = panels[0].plot([], [], color="black", ls="--", label=PAINLEVE)
-    drawing.legend(handles=[edge, threshold], loc="outside upper right", ncols=2, fontsize=7)
+    drawing.legend(handles=[edge, threshold], loc="outside lower center", ncols=2, fontsize=7)
