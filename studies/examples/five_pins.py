@@ -11,7 +11,7 @@ from support_exudyn import CubicStep, machine, simple_scenario, simulate
 pins = machine("reference").linkage().pins  # radii of bores and lengths come from the machine's file
 scenario = simple_scenario(
     "reference",
-    pins=dict.fromkeys(pins, {"clearance_mm": 1.0, "restitution": 0.7}),
+    pins={name: {"clearance_mm": 1.0, "restitution": 0.7} for name in pins},
     drive=CubicStep(stroke=0.002, start=0.0, end=0.16),
     duration_s=0.16,
     record_period_s=1e-4,

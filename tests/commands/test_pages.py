@@ -129,7 +129,7 @@ def test_command_lines_of_pages_can_be_read() -> None:
 def test_toml_is_read(one: Listing, tmp_path: Path) -> None:
     path = tmp_path / "shown.toml"
     path.write_text(one.text, encoding="utf-8")
-    if "[record]" in one.text:
+    if "[vary]" in one.text:
         scenario = next(other for other in listings(one.page) if "machine = " in other.text)
         (tmp_path / "rise.toml").write_text(scenario.text, encoding="utf-8")
         assert read_sweep(path)
