@@ -27,6 +27,7 @@ from user_forces.values.value import cleaned
 NARROWEST = 25  # characters that words are worth showing in
 IMPACTS: tuple[str, ...] = ("pin", "impact", ">time", ">lasts", ">approach", ">parting", ">force")
 WORDS = ("words", "meaning", "remark")  # heads of columns whose cells may be broken
+FEWEST = 3  # columns: pin, force, pressure
 PIPED = 150  # characters of a line where there is no terminal
 
 
@@ -125,7 +126,10 @@ def show_pressed(console: Console, title: str, pins: Sequence[PressedPin]) -> No
     """The table of how hard clearance pins are pressed, and what yields; nothing without such pins."""
     if not pins:
         return
-    show_table(console, title, pin_contact.HEADER, pin_contact.rows(pins))
+    header, rows = pin_contact.HEADER, pin_contact.rows(pins)
+    while len(header) > FEWEST and _unbroken(header, rows) > console.width:  # from the last on
+        header, rows = header[:-1], [row[:-1] for row in rows]
+    show_table(console, title, header, rows)
     for warning in pin_contact.warnings(pins):
         console.print(f"warning: {warning}", markup=False, soft_wrap=True, end="\n\n")
 
