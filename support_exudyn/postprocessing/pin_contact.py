@@ -8,7 +8,7 @@ from support_exudyn.postprocessing.figures.units import said
 from support_exudyn.scenario.pin_pressure import PressedPin, pressed_pin
 from support_exudyn.simulation.result import Result
 
-HEADER = (
+HEADER: tuple[str, ...] = (
     "pin",
     ">force",
     ">peak pressure",
