@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 from studies.claims.evidence import Evidence, Measured, Verdict, every, opposite, rising, some, within
 from studies.claims.plausible_runs import CLEARANCES, IDEAL, MODE_1, MODE_1_IDEAL, OIL, OIL_IDEAL
@@ -16,11 +17,38 @@ SMALL = 0.02  # of the mean force
 NOTICED = 1e-3  # of the vertical share of a column's force
 A_BLOW = 1.0  # [N s]
 MIDDLE = CLEARANCES[2]  # 1.5 mm, the clearance of section 3
+GREAT_AT = {0.05: 0.02}  # shown in place of half of it
 LAST_DIGIT = 5.1e-4  # of a printed stiffness [N/mm^1.5]
 SIDES = ("front", "rear")
 
 Judge = Callable[[Evidence], Verdict]
 Tell = Callable[[Evidence], str]
+
+
+@dataclass(frozen=True)
+class Varied:
+    """A judge by a threshold that others might put elsewhere.
+
+    at: the judge by a threshold. used: the one that decides. shown: at which the shares are told besides.
+    """
+
+    at: Callable[[float], Judge]
+    used: float
+    shown: tuple[float, ...]
+
+    def __call__(self, e: Evidence) -> Verdict:
+        """Whether it holds on a machine."""
+        return self.at(self.used)(e)
+
+
+def _share(used: float, at: Callable[[float], Judge]) -> Varied:
+    """A judge by a share of a range or a number; shown at about half of it and at twice it, too."""
+    return Varied(at, used, tuple(sorted({GREAT_AT.get(used, 0.5 * used), used, 2.0 * used})))
+
+
+def _trends(at: Callable[[float], Judge]) -> Varied:
+    """A judge by the correlation of trends."""
+    return Varied(at, ALIKE, (0.98, ALIKE, 0.995))
 
 
 def _nothing(e: Evidence) -> str:
@@ -34,8 +62,8 @@ class Claim:
     where: abstract, section or conclusion. text: what is claimed. reading: what is measured, or why nothing can
     be. paper: what it prints, if anything. judge: whether it holds on one machine, None if it cannot be
     judged. tell: our numbers on one machine. alone: why it is judged on the reference support alone, empty if
-    on all plausible machines. name: in a few words. figure, table: what shows it, as study/stem and
-    study/name; figure is empty if a table alone does.
+    on plausible machines. on_oil: asked of those that are run on oil, too. name: in a few words. figure, table:
+    what shows it, as study/stem and study/name; figure is empty if a table alone does.
     """
 
     where: str
@@ -45,6 +73,7 @@ class Claim:
     tell: Tell = _nothing
     paper: str = ""
     alone: str = ""
+    on_oil: bool = False
     name: str = ""
     figure: str = ""
     table: str = ""
@@ -64,8 +93,11 @@ def _growth(e: Evidence, quantity: str) -> float:
     return 100.0 * (e[CLEARANCES[3], quantity].value / e[CLEARANCES[0], quantity].value - 1.0)
 
 
-def _fluctuates(quantity: str, share: float, cases: tuple[str, ...] = (MIDDLE,)) -> Judge:
-    return lambda e: every(e[c, f"rms_{quantity}"].above(_range(e, quantity).times(share)) for c in cases)
+def _fluctuates(quantity: str, used: float, cases: tuple[str, ...] = (MIDDLE,)) -> Judge:
+    def at(share: float) -> Judge:
+        return lambda e: every(e[c, f"rms_{quantity}"].above(_range(e, quantity).times(share)) for c in cases)
+
+    return _share(used, at)
 
 
 def _fluctuation_said(quantity: str, unit: str, digits: int = 3) -> Tell:
@@ -77,7 +109,11 @@ def _fluctuation_said(quantity: str, unit: str, digits: int = 3) -> Tell:
 
 
 def _alike(quantity: str, cases: tuple[str, ...] = (MIDDLE,)) -> Judge:
-    return lambda e: every(e[c, f"likeness_{quantity}"].above(ALIKE) for c in cases)
+    return _trends(_alike_at(quantity, cases))
+
+
+def _alike_at(quantity: str, cases: tuple[str, ...] = (MIDDLE,)) -> Callable[[float], Judge]:
+    return lambda least: lambda e: every(e[c, f"likeness_{quantity}"].above(least) for c in cases)
 
 
 def _alike_said(quantity: str, cases: tuple[str, ...] = (MIDDLE,)) -> Tell:
@@ -118,9 +154,16 @@ def _jump_between_1_and_1p5(e: Evidence) -> Verdict:
     return every(big.above(small.times(1.5)) for big in (one_and_half, two) for small in (half, one))
 
 
-def _upright_changes(e: Evidence) -> Verdict:
-    pairs = ([e[IDEAL, f"{side}_upright"], e[MIDDLE, f"{side}_upright"]] for side in SIDES)
-    return some(opposite(within(pair, NOTICED)) for pair in pairs)
+def _upright_changes(share: float) -> Judge:
+    def judge(e: Evidence) -> Verdict:
+        pairs = ([e[IDEAL, f"{side}_upright"], e[MIDDLE, f"{side}_upright"]] for side in SIDES)
+        return some(opposite(within(pair, share)) for pair in pairs)
+
+    return judge
+
+
+def _stages_within(stages: tuple[str, ...]) -> Callable[[float], Judge]:
+    return lambda share: lambda e: every(within(e.row(f"speed_{one}", CLEARANCES), share) for one in stages)
 
 
 def _upright_said(e: Evidence) -> str:
@@ -169,7 +212,7 @@ JUDGES: dict[str, tuple[Judge, Tell]] = {
     "force fluctuates": (_fluctuates("force", GREAT), _fluctuation_said("force", "N")),
     "force alike": (_alike("force"), _alike_said("force")),
     "movement alike": (
-        _all(_alike("speed"), _alike("tip")),
+        _trends(lambda least: _all(_alike_at("speed")(least), _alike_at("tip")(least))),
         lambda e: f"{_alike_said('speed')(e)} (velocity), {e[MIDDLE, 'likeness_tip'].value:.4f} (tip)",
     ),
     # section 4.1: motion over the clearance
@@ -179,11 +222,11 @@ JUDGES: dict[str, tuple[Judge, Tell]] = {
     ),
     "velocity alike for all": (_alike("speed", CLEARANCES), _alike_said("speed", CLEARANCES)),
     "size matters little for the velocity": (
-        lambda e: every(within(e.row(f"speed_{stage}", CLEARANCES), LITTLE) for stage in rise.STAGES),
+        _share(LITTLE, _stages_within(tuple(rise.STAGES))),
         _row_said("speed_middle", "deg/s in the middle", 6),
     ),
     "velocity alike early and late": (
-        lambda e: every(within(e.row(f"speed_{stage}", CLEARANCES), 0.01) for stage in ("early", "late")),
+        _share(0.01, _stages_within(("early", "late"))),
         _both_said(_row_said("speed_early", "deg/s early", 5), _row_said("speed_late", "late", 5)),
     ),
     "velocity RMS fluctuation grows early and late": (
@@ -202,7 +245,12 @@ JUDGES: dict[str, tuple[Judge, Tell]] = {
     "acceleration jumps after 1 mm": (_jump_between_1_and_1p5, _row_said("rms_acceleration", "deg/s²", 3)),
     "mean acceleration falls": (_falls("mean_acceleration"), _row_said("mean_acceleration", "deg/s²", 3)),
     "mean acceleration alike": (
-        lambda e: within(e.row("mean_acceleration", CLEARANCES), 0.01, _range(e, "acceleration")),
+        _share(
+            0.01,
+            lambda part: lambda e: within(
+                e.row("mean_acceleration", CLEARANCES), part, _range(e, "acceleration")
+            ),
+        ),
         _row_said("mean_acceleration", "deg/s²", 3),
     ),
     "movement RMS fluctuation grows": (
@@ -212,17 +260,23 @@ JUDGES: dict[str, tuple[Judge, Tell]] = {
     # section 4.2: force over the clearance
     "force alike for all": (_alike("force", CLEARANCES), _alike_said("force", CLEARANCES)),
     "force RMS fluctuation differs": (
-        lambda e: opposite(within(e.row("rms_force", CLEARANCES), 0.1)), _row_said("rms_force", "N", 3),
+        _share(0.1, lambda part: lambda e: opposite(within(e.row("rms_force", CLEARANCES), part))),
+        _row_said("rms_force", "N", 3),
     ),
     "mean force grows": (_grows("mean_force"), _row_said("mean_force", "kN", 5, 1e-3)),
     "mean force grows little": (
-        lambda e: within(e.row("mean_force", CLEARANCES), SMALL),
+        _share(SMALL, lambda part: lambda e: within(e.row("mean_force", CLEARANCES), part)),
         lambda e: f"{_growth(e, 'mean_force'):+.2f} %",
     ),
     "spread falls and grows": (_falls_then_grows, _row_said("std_force", "N", 5)),
     "spread does not only grow": (lambda e: opposite(_grows("std_force")(e)), _row_said("std_force", "N", 5)),
     "size matters little for the force": (
-        lambda e: every(within(e.row(name, CLEARANCES), LITTLE) for name in ("mean_force", "std_force")),
+        _share(
+            LITTLE,
+            lambda part: lambda e: every(
+                within(e.row(name, CLEARANCES), part) for name in ("mean_force", "std_force")
+            ),
+        ),
         _row_said("std_force", "N", 5),
     ),
     # section 4.3: posture
@@ -232,7 +286,7 @@ JUDGES: dict[str, tuple[Judge, Tell]] = {
     ),
     "tip shift grows": (_falls("mean_tip_shift"), _row_said("mean_tip_shift", "mm")),
     "tip range alike": (
-        lambda e: within(e.row("tip_range", (IDEAL, *CLEARANCES)), 2.0 * LITTLE),
+        _share(0.1, lambda part: lambda e: within(e.row("tip_range", (IDEAL, *CLEARANCES)), part)),
         lambda e: f"{e[IDEAL, 'tip_range'].said(4)} mm ideal; {_row_said('tip_range', 'mm')(e)}",
     ),
     "columns tilt": (
@@ -249,7 +303,7 @@ JUDGES: dict[str, tuple[Judge, Tell]] = {
     "rear away from the vertical": (
         lambda e: e[MIDDLE, "rear_lean"].above(e[IDEAL, "rear_lean"]), _tilt_said("rear", "lean"),
     ),
-    "capacity changes": (_upright_changes, _upright_said),
+    "capacity changes": (_share(NOTICED, _upright_changes), _upright_said),
     # section 5: drive modes
     "impact in mode 1": (
         lambda e: e[MODE_1, "impulse"].above(A_BLOW),
@@ -270,7 +324,12 @@ JUDGES: dict[str, tuple[Judge, Tell]] = {
         ),
     ),
     "modes differ": (
-        lambda e: opposite(within([e[MODE_1, "rms_from_start_force"], e[MIDDLE, "rms_from_start_force"]], 0.1)),
+        _share(
+            0.1,
+            lambda part: lambda e: opposite(
+                within([e[MODE_1, "rms_from_start_force"], e[MIDDLE, "rms_from_start_force"]], part)
+            ),
+        ),
         _mode_said("rms_from_start_force", "N"),
     ),
     "gentle force": (_mode_saves("rms_from_start_force"), _mode_said("rms_from_start_force", "N")),
@@ -282,7 +341,7 @@ JUDGES: dict[str, tuple[Judge, Tell]] = {
 }  # fmt: skip
 
 
-def _claim(judge: str = "", **row: str) -> Claim:
+def _claim(judge: str = "", **row: Any) -> Claim:
     """A claim of claims.toml; its judge's name says it in a few words."""
     decides, tells = JUDGES[judge] if judge else (None, _nothing)
     return Claim(judge=decides, tell=tells, name=judge, **row)

@@ -24,7 +24,7 @@ LEGEND = {
     "cannot be judged": "cannot be judged",
 }  # fmt: skip
 SMALL = 6.5  # letters of the names of claims [points]
-WINDOWS = {"rise": "#999999", "rise and dwell": "#CC79A7"}  # over which forces are averaged
+CONTACTS = {"paper": "#999999", "internal": "#CC79A7", "cylinders": "#56B4E9"}  # lines of machines
 
 Machines = Sequence[tuple[Sample, Evidence]]
 
@@ -82,32 +82,29 @@ def _squares() -> list[Line2D]:
 
 
 def force_figure(reference: Evidence, machines: Machines) -> Figure:
-    """Table 3 over all machines, against 0.5 mm: a row a window, a column a measure."""
-    drawing = Figure(figsize=style.size(170, 130))
-    panels = drawing.subplots(2, 2, sharex=True)
+    """Table 3 over all machines, against 0.5 mm: a column a measure."""
+    drawing = Figure(figsize=style.size(170, 85))
+    panels = drawing.subplots(1, 2, sharex=True)
     measures = {"mean_force": ("mean", paper_machine.MEAN_FORCE)}
     measures["std_force"] = ("std. deviation", paper_machine.FORCE_SPREAD)
-    for row, (window, colour) in zip(panels, WINDOWS.items(), strict=True):
-        chosen = [evidence for sample, evidence in machines if sample["window"] == window]
-        for axes, (name, (what, paper)) in zip(row, measures.items(), strict=True):
+    for axes, (name, (what, paper)) in zip(panels, measures.items(), strict=True):
+        every = []
+        for contact, colour in CONTACTS.items():
+            chosen = [evidence for sample, evidence in machines if sample["contact"] == contact]
             lines = [_against_first([m.value for m in e.row(name, CLEARANCES)]) for e in chosen]
-            ours = _against_first([m.value for m in reference.row(name, CLEARANCES)])
-            printed = _against_first(list(paper.values()))
+            every += lines
             for n, line in enumerate(lines):
-                label = f"plausible machine, {window}" if n == 0 and name == "mean_force" else None
+                label = f"plausible machine, {contact}" if n == 0 and name == "mean_force" else None
                 axes.plot(SIZES_MM, line, color=colour, lw=0.5, alpha=0.6, label=label)
-            if window == REFERENCE["window"]:
-                axes.plot(SIZES_MM, ours, color="black", lw=1.6, label="reference support")
-            axes.plot(SIZES_MM, printed, "x", color=style.PAPER, ms=6, mew=1.5, label="paper")
-            _fit(axes, lines, printed)
-            axes.set(ylabel=f"{what}, change [%]", xticks=SIZES_MM)
-    for axes in panels[1]:
-        axes.set_xlabel("clearance [mm]")
-    letters(list(panels.flat))
-    handles = {
-        text: line for row in panels for line, text in zip(*row[0].get_legend_handles_labels(), strict=True)
-    }
-    drawing.legend(list(handles.values()), list(handles), loc="outside lower center", ncols=2)
+        ours = _against_first([m.value for m in reference.row(name, CLEARANCES)])
+        printed = _against_first(list(paper.values()))
+        axes.plot(SIZES_MM, ours, color="black", lw=1.6, label="reference support")
+        axes.plot(SIZES_MM, printed, "x", color=style.PAPER, ms=6, mew=1.5, label="paper")
+        _fit(axes, every, printed)
+        axes.set(ylabel=f"{what}, change [%]", xticks=SIZES_MM, xlabel="clearance [mm]")
+    letters(panels)
+    lines, names = panels[0].get_legend_handles_labels()
+    drawing.legend(lines, names, loc="outside lower center", ncols=2)
     return drawing
 
 

@@ -14,23 +14,33 @@ import numpy as np
 from studies.common import paper_machine
 from studies.common.data import rows
 from studies.contact_laws.catalogue import POWER_LAWS
-from support_exudyn import ClearancePin, HydraulicSupport, Part, reference_support
+from support_exudyn import ClearancePin, HydraulicSupport, OilColumn, Part, bore_area, reference_support
+from support_exudyn.model.pin_surroundings import contact_length, links_stiffness
 from user_forces import (
     STEEL,
     STEEL_35CRMO,
     Ambrosio,
     ImpactVelocity,
     IndentationVelocity,
+    JournalBearing,
     JournalContact,
+    NormalLaw,
+    PinInBore,
+    effective_modulus,
     external_contact_stiffness,
     internal_contact_stiffness,
 )
+from user_forces.backing import in_series, pin_stiffness
 from user_forces.values.value import InputError, Vector2
 
 Choice = str | float
 Sample = Mapping[str, Choice]  # a value of every factor, by name
 
 REFERENCE_SCALE = 0.65  # of the support whose pivots the reference support has
+HERTZ = {"paper": external_contact_stiffness, "internal": internal_contact_stiffness}
+COLUMNS = "columns"  # what a sample says besides its factors: whether it is asked on columns of oil, too
+RIGID, ON_OIL = "rigid", "rigid and oil"
+ON_OIL_EVERY = 4  # machine: a run on oil costs ten times one on rigid columns
 
 
 @dataclass(frozen=True)
@@ -99,12 +109,16 @@ REFERENCE: dict[str, Choice] = {name: row.pop("reference") for name, row in _ROW
 REFERENCE |= {
     "restitution": paper_machine.RESTITUTION,
     "sliding_coefficient": paper_machine.SLIDING_COEFFICIENT,
+    COLUMNS: RIGID,
 }
 FACTORS = tuple(Factor(**row) for row in _ROWS.values())
 
 
 def samples(number: int, seed: int) -> list[dict[str, Choice]]:
-    """So many samples of a Latin hypercube over all factors; the same for the same number and seed."""
+    """So many samples of a Latin hypercube over all factors; the same for the same number and seed.
+
+    One in ON_OIL_EVERY, the first among them, is asked on columns of oil, too.
+    """
     if number < 1:
         raise InputError(f"machines = {number}: allowed: at least 1")
     from scipy.stats import qmc  # takes a second to import
@@ -113,7 +127,11 @@ def samples(number: int, seed: int) -> list[dict[str, Choice]]:
     name = "rng" if "rng" in inspect.signature(qmc.LatinHypercube).parameters else "seed"
     generator: dict[str, Any] = {name: np.random.default_rng(seed)}
     cube = qmc.LatinHypercube(len(FACTORS), **generator).random(number)
-    return [{f.name: f.at(float(share)) for f, share in zip(FACTORS, row, strict=True)} for row in cube]
+    return [
+        {f.name: f.at(float(share)) for f, share in zip(FACTORS, row, strict=True)}
+        | {COLUMNS: RIGID if n % ON_OIL_EVERY else ON_OIL}
+        for n, row in enumerate(cube)
+    ]
 
 
 def machine(sample: Sample) -> HydraulicSupport:
@@ -171,25 +189,60 @@ def _scaled(point: Vector2, scale: float) -> Vector2:
     return point[0] * scale, point[1] * scale
 
 
-def pin(sample: Sample, clearance_mm: float) -> ClearancePin:
-    """The rear-link clearance pin of a sample; the pin's size is the paper's."""
-    bearing = paper_machine.bearing(clearance_mm)
-    form = external_contact_stiffness if sample["stiffness"] == "external" else internal_contact_stiffness
-    law = POWER_LAWS[str(sample["law"])]
-    normal = law(
-        stiffness=form(bearing, STEEL, STEEL_35CRMO),
-        restitution=number(sample, "restitution"),
-        damping_speed=ImpactVelocity(floor=1e-3)
-        if sample["damping_speed"] == "last impact"
-        else IndentationVelocity(),
-    )
+def pin(sample: Sample, clearance_mm: float, support: HydraulicSupport) -> ClearancePin:
+    """The rear-link clearance pin of a sample and its machine; the pin's radius is the paper's."""
     friction = Ambrosio(
         sliding_coefficient=number(sample, "sliding_coefficient"),
         static_speed=number(sample, "static_speed"),
         dynamic_speed=number(sample, "dynamic_speed"),
     )
-    contact = JournalContact(bearing=bearing, normal=normal, friction=friction)
+    bearing = paper_machine.bearing(clearance_mm)
+    contact = JournalContact(bearing=bearing, normal=_normal(sample, bearing, support), friction=friction)
     return ClearancePin(contact=contact, bore="first" if sample["bore"] == "base" else "second")
+
+
+def _normal(sample: Sample, bearing: JournalBearing, support: HydraulicSupport) -> NormalLaw:
+    """The law of the contact: K depth^1.5 of either kind, or cylinders as long as the machine's pin."""
+    law: type[Any] = POWER_LAWS[str(sample["law"])]
+    given: dict[str, Any] = {
+        "restitution": number(sample, "restitution"),
+        "damping_speed": ImpactVelocity(floor=1e-3)
+        if sample["damping_speed"] == "last impact"
+        else IndentationVelocity(),
+    }
+    form = HERTZ.get(str(sample["contact"]))
+    if form is not None:
+        made: NormalLaw = law(stiffness=form(bearing, STEEL, STEEL_35CRMO), **given)
+        return made
+    length = contact_length(support, paper_machine.CLEARANCE_PIN)
+    if length is None:
+        raise InputError("machine.width.lengths: has no rear_base; allowed: the length of every pin")
+    estimated = in_series(
+        [
+            pin_stiffness(bearing.journal_radius, length, STEEL_35CRMO),
+            links_stiffness(support, paper_machine.CLEARANCE_PIN, STEEL),
+        ]
+    )
+    return PinInBore(
+        bearing=bearing,
+        length=length,
+        effective_modulus=effective_modulus(STEEL, STEEL_35CRMO),
+        backing_stiffness=number(sample, "backing") * estimated,
+        damping=law.__name__,
+        **given,
+    )
+
+
+def oil_columns(sample: Sample) -> dict[str, OilColumn]:
+    """Both pairs of columns of a sample on oil, as large as its machine."""
+    scale = number(sample, "scale") / REFERENCE_SCALE
+    oil = OilColumn(
+        bore_area=bore_area(scale * paper_machine.OIL_BORE, 2),
+        oil_length=scale * paper_machine.OIL_LENGTH,
+        bulk_modulus=1e9 * number(sample, "bulk_modulus"),
+        damping_time=number(sample, "oil_damping"),
+    )
+    return {"front_column": oil, "rear_column": oil}
 
 
 def number(sample: Sample, name: str) -> float:

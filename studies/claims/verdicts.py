@@ -1,12 +1,14 @@
 """From judgements of many machines to a verdict in words."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import NamedTuple
 
-from studies.claims.claim_list import Claim
+from studies.claims.claim_list import Claim, Judge, Varied
 from studies.claims.conditions import best_condition
 from studies.claims.evidence import Evidence, NotedEvidence, Verdict
 from studies.claims.plausible import Sample
+from studies.claims.plausible_runs import OIL
 
 KINDS = ("holds", "holds only", "not supported", "cannot be judged")
 # share of all plausible machines from which a claim holds; up to one less this it is not supported. That of the
@@ -15,7 +17,19 @@ NEARLY_ALL = 0.95
 # share that a condition must get right, of machines not used to find it, to be the one that decides
 TELLING = 0.85
 GAIN = 0.05  # by how much it must beat the same answer for all to be named at all
-ENOUGH = 128  # machines from which conditions are looked for; with fewer chance looks like one
+ENOUGH = 80  # machines from which conditions are looked for; with fewer chance looks like one
+
+
+Machines = Sequence[tuple[Sample, Evidence]]
+Judged = list[tuple[Sample, Verdict]]
+
+
+class AtThreshold(NamedTuple):
+    """What a claim is with a threshold: share of the machines, None if all are open; which of KINDS."""
+
+    threshold: float
+    share: float | None
+    kind: str
 
 
 @dataclass(frozen=True)
@@ -24,7 +38,8 @@ class Ruling:
 
     reference: on the reference support. holds, fails, open: numbers of plausible machines. ours: our numbers,
     on the reference support. verdict: in words. error: the largest numerical error of our numbers, as a share
-    of the number; None for closed forms and where nothing is judged.
+    of the number; None for closed forms and where nothing is judged. thresholds: what it would be with
+    others, if its judge has one.
     """
 
     claim: Claim
@@ -35,6 +50,12 @@ class Ruling:
     ours: str
     verdict: str
     error: float | None = None
+    thresholds: tuple[AtThreshold, ...] = ()
+
+    @property
+    def hangs(self) -> bool:
+        """Whether another threshold would make it another kind of verdict, and not for want of machines."""
+        return len({one.kind for one in self.thresholds} - {"cannot be judged"}) > 1
 
     @property
     def share(self) -> float | None:
@@ -50,7 +71,7 @@ class Ruling:
     @property
     def kind(self) -> str:
         """Which of KINDS the verdict is; the longest that it begins with."""
-        return max((kind for kind in KINDS if self.verdict.startswith(kind)), key=len)
+        return _kind(self.verdict)
 
     @property
     def too_few(self) -> bool:
@@ -67,20 +88,53 @@ def _interval(holds: int, decided: int) -> tuple[float, float] | None:
     return float(found.low), float(found.high)
 
 
-def rule(claim: Claim, reference: Evidence, machines: Sequence[tuple[Sample, Evidence]]) -> Ruling:
-    """Judge a claim on the reference support and on all plausible machines."""
+def _kind(verdict: str) -> str:
+    return max((kind for kind in KINDS if verdict.startswith(kind)), key=len)
+
+
+def asked(claim: Claim, machines: Machines) -> Machines:
+    """The machines that are asked whether a claim holds."""
+    if claim.alone:
+        return []
+    return [one for one in machines if OIL in one[1].measures] if claim.on_oil else machines
+
+
+def judgements(judge: Judge, machines: Machines) -> Judged:
+    """How each machine judges."""
+    return [(sample, judge(evidence)) for sample, evidence in machines]
+
+
+def rule(claim: Claim, reference: Evidence, machines: Machines) -> Ruling:
+    """Judge a claim on the reference support and on plausible machines."""
     if claim.judge is None:
         return Ruling(claim, None, 0, 0, 0, "", "cannot be judged")
     on_reference = claim.judge(reference)
-    judge = claim.judge
-    judged = [(sample, judge(evidence)) for sample, evidence in machines] if not claim.alone else []
+    those = asked(claim, machines)
+    judged = judgements(claim.judge, those)
     holds, fails, left = (sum(verdict is kind for _, verdict in judged) for kind in (True, False, None))
     noted = NotedEvidence(reference.measures)
     ours, verdict = claim.tell(noted), _words(on_reference, judged)
-    return Ruling(claim, on_reference, holds, fails, left, ours, verdict, noted.largest_error)
+    others = _thresholds(claim.judge, those) if isinstance(claim.judge, Varied) else ()
+    found = Ruling(claim, on_reference, holds, fails, left, ours, verdict, noted.largest_error, others)
+    return replace(found, verdict=f"{verdict}; hangs on the threshold") if found.hangs else found
 
 
-def _words(reference: Verdict, judged: Sequence[tuple[Sample, Verdict]]) -> str:
+def _thresholds(judge: Varied, machines: Machines) -> tuple[AtThreshold, ...]:
+    found = []
+    for threshold in judge.shown:
+        judged = judgements(judge.at(threshold), machines)
+        decided = [verdict for _, verdict in judged if verdict is not None]
+        if decided:
+            found.append(
+                AtThreshold(threshold, sum(decided) / len(decided), _kind(_words(None, judged, of_data=False)))
+            )
+        else:
+            found.append(AtThreshold(threshold, None, "cannot be judged"))
+    return tuple(found)
+
+
+def _words(reference: Verdict, judged: Judged, *, of_data: bool = True) -> str:
+    """The verdict; of_data: with the bounds on data that decide, if there are machines enough."""
     decided = [(sample, verdict) for sample, verdict in judged if verdict is not None]
     if not decided:
         alone = {True: "holds", False: "not supported", None: "cannot be judged: within the numerical error"}
@@ -96,7 +150,7 @@ def _words(reference: Verdict, judged: Sequence[tuple[Sample, Verdict]]) -> str:
         counted = "1 machine" if len(decided) == 1 else f"{len(decided)} machines"
         return f"cannot be judged ({counted}: holds for {percent(low)} to {percent(high)} %)"
     part = f"{percent(share)} % of the machines"
-    condition = best_condition(decided) if len(decided) >= ENOUGH else None
+    condition = best_condition(decided) if of_data and len(decided) >= ENOUGH else None
     if condition is None or condition.unseen < max(share, 1.0 - share) + GAIN:
         return f"holds only for {part}"
     right = f"right for {100 * condition.unseen:.0f} %"

@@ -8,7 +8,7 @@ from dataclasses import replace
 import pytest
 
 from studies.claims import claim_list
-from studies.claims.claim_list import CLAIMS, Claim
+from studies.claims.claim_list import CLAIMS, Claim, Varied
 from studies.claims.evidence import Evidence, Measured
 from studies.claims.plausible import REFERENCE
 from studies.claims.plausible_runs import CASES, MODE_1, OIL, OIL_IDEAL, evidence, measures
@@ -50,7 +50,7 @@ def test_every_claim_says_where_what_and_how_it_is_read(claim: Claim) -> None:
     assert claim.text.endswith(".")
     assert claim.reading
     assert claim.reading.startswith("cannot be judged: ") == (claim.judge is None)
-    assert claim.alone in ("", CLOSED_FORM, "reference support alone")
+    assert claim.alone in ("", CLOSED_FORM)
     if claim.judge is None:
         assert len(claim.reading) > len("cannot be judged: ") + 20  # a reason
         assert not claim.alone
@@ -86,11 +86,12 @@ def test_every_judge_finds_what_it_asks_for_in_real_measures(claim: Claim, refer
     assert "nan" not in said
 
 
-def test_plausible_machines_are_not_asked_for_what_only_the_reference_support_has() -> None:
+def test_machines_without_oil_are_not_asked_for_what_only_those_on_oil_have() -> None:
     bare = Evidence({case: right().measures[case] for case in CASES})
+    assert sum(claim.on_oil for claim in ON_MACHINES) == 1
     for claim in ON_MACHINES:
         assert claim.judge is not None
-        if claim.alone:
+        if claim.on_oil:
             with pytest.raises(KeyError):
                 claim.judge(bare)
         else:
@@ -216,6 +217,31 @@ def test_readings_name_the_thresholds_and_times_that_are_used() -> None:
     assert f"correlate by more than {claim_list.ALIKE}" in readings
     assert f"differ by less than {100 * claim_list.LITTLE:g} % among" in readings
     assert f"means of the four differ by less than {100 * claim_list.SMALL:g} %" in readings
+
+
+VARIED = [claim for claim in ON_MACHINES if isinstance(claim.judge, Varied)]
+
+
+@pytest.mark.parametrize("claim", numbered(VARIED))
+def test_a_threshold_is_told_with_one_below_and_one_above(claim: Claim) -> None:
+    assert isinstance(claim.judge, Varied)
+    low, used, high = claim.judge.shown
+    assert used == claim.judge.used
+    assert low < used < high
+    for known, verdict in ((right(), True), (wrong(), False)):
+        assert claim.judge(known) is claim.judge.at(used)(known) is verdict
+
+
+def test_greatly_is_asked_at_2_5_and_10_per_cent() -> None:
+    greatly = [claim for claim in VARIED if "greatly" in claim.text]
+    assert [claim.judge.shown for claim in greatly if isinstance(claim.judge, Varied)] == 2 * [
+        (0.02, 0.05, 0.1)
+    ]
+    start = "Clearance makes the pin force fluctuate greatly"
+    judge = next(claim.judge for claim in CLAIMS if claim.text.startswith(start))
+    assert isinstance(judge, Varied)
+    known = with_row("rms_force", 0.0, 0.0, 700.0, 0.0)  # 7 % of the range
+    assert [judge.at(share)(known) for share in judge.shown] == [True, True, False]
 
 
 def test_no_impulse_is_no_impact() -> None:

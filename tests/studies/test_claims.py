@@ -14,7 +14,7 @@ import pytest
 from studies.claims import run as study
 from studies.claims.claim_list import CLAIMS, Claim
 from studies.claims.evidence import Evidence, Measured
-from studies.claims.plausible import REFERENCE
+from studies.claims.plausible import ON_OIL_EVERY, REFERENCE
 from studies.claims.verdicts import KINDS, Ruling, rule
 from studies.common.chapter import Chapter
 from tests.studies.forms import FORMS, ROUGH, WHOLE, written
@@ -70,7 +70,6 @@ def test_what_is_claimed_of_mean_accelerations_and_capacity_is_not_supported(
     # four numbers next to zero are in the paper's order by chance, one time in 24
     assert rows["The mean angular acceleration orders the clearances."]["verdict"] != "holds"
     assert rows["That changes the supporting capacity of the columns noticeably."]["machines"].startswith("0 %")
-    assert rows["Clearance makes the impact of the drive more pronounced."]["verdict"] == "not supported"
 
 
 def test_our_numbers_are_those_of_the_engine(numbers: dict[tuple[str, str], dict[str, Any]]) -> None:
@@ -88,9 +87,15 @@ def test_every_machine_is_a_row_with_its_data_and_judgements(out: Path, form: st
     assert len(machines) == MACHINES[form]
     judged = [name for name in machines[0] if name.startswith("claim_")]
     assert len(judged) == sum(c.judge is not None and not c.alone for c in CLAIMS)
-    for machine in machines:
+    on_oil = [f"claim_{n}" for n, claim in enumerate(CLAIMS, 1) if claim.on_oil]
+    for number, machine in enumerate(machines):
         assert float(machine["scale"]) > 0.5
-        assert all(machine[name] in ("holds", "fails", "open") for name in judged) or machine["failure"]
+        if number % ON_OIL_EVERY and not machine["failure"]:
+            assert {machine.pop(name) for name in on_oil} == {""}
+        assert (
+            all(machine[name] in ("holds", "fails", "open") for name in judged if name in machine)
+            or machine["failure"]
+        )
 
 
 def test_every_claim_is_told_with_its_reason_and_what_shows_it(out: Path) -> None:
@@ -146,8 +151,8 @@ def ruled(marks: str) -> Ruling:
 
 
 def test_of_256_machines_every_claim_that_has_a_measure_is_stored(judged: dict[str, str]) -> None:
-    asked = [str(n) for n, c in enumerate(CLAIMS, 1) if c.judge is not None and not c.alone]
-    assert list(judged) == asked
+    asked = [n for n, c in enumerate(CLAIMS, 1) if c.judge is not None and not c.alone and not c.on_oil]
+    assert list(judged) == [str(n) for n in asked]
     assert {len(marks) for marks in judged.values()} == {256}
 
 

@@ -14,12 +14,16 @@ from hypothesis import strategies as st
 from studies.claims import plausible
 from studies.claims.plausible import (
     BODIES,
+    COLUMNS,
     FACTORS,
     MEMBERS,
+    ON_OIL,
     REFERENCE,
     REFERENCE_SCALE,
+    RIGID,
     Factor,
     machine,
+    oil_columns,
     pin,
     samples,
 )
@@ -27,14 +31,17 @@ from studies.common import paper_machine
 from studies.contact_laws.catalogue import POWER_LAWS
 from support_exudyn import HydraulicSupport, reference_support
 from support_exudyn.model.linkage import lumped
+from support_exudyn.model.pin_surroundings import links_stiffness
 from user_forces import (
     STEEL,
     STEEL_35CRMO,
     ImpactVelocity,
     IndentationVelocity,
     InputError,
+    PinInBore,
     internal_contact_stiffness,
 )
+from user_forces.backing import pin_stiffness
 
 BY_NAME = {factor.name: factor for factor in FACTORS}
 RANGES = [factor for factor in FACTORS if not factor.choices]
@@ -113,7 +120,13 @@ def test_factors_are_drawn_independently() -> None:
 def test_the_same_number_and_seed_give_the_same_machines() -> None:
     assert samples(16, 3) == samples(16, 3)
     assert samples(16, 3) != samples(16, 4)
-    assert [*samples(16, 3)[0]] == [factor.name for factor in FACTORS]
+    assert [*samples(16, 3)[0]] == [*(factor.name for factor in FACTORS), COLUMNS]
+
+
+def test_one_machine_in_four_is_asked_on_oil() -> None:
+    asked = [sample[COLUMNS] == ON_OIL for sample in samples(9, 3)]
+    assert asked == [True, False, False, False, True, False, False, False, True]
+    assert REFERENCE[COLUMNS] == RIGID
 
 
 @pytest.mark.parametrize("number", [0, -1])
@@ -143,9 +156,9 @@ def test_powers_have_their_middle_at_the_geometric_mean() -> None:
 
 def test_all_that_the_requirement_names_is_varied() -> None:
     assert len(BY_NAME) == len(FACTORS)
-    assert set(REFERENCE) == set(BY_NAME)
-    asked = {"scale", "start_height", "restitution", "law", "stiffness", "sliding_coefficient"}
-    assert asked | {"static_speed", "dynamic_speed", "window"} <= set(BY_NAME)
+    assert set(REFERENCE) == {*BY_NAME, COLUMNS}
+    asked = {"scale", "start_height", "restitution", "law", "contact", "sliding_coefficient"}
+    assert asked | {"static_speed", "dynamic_speed", "stroke_time", "bulk_modulus"} <= set(BY_NAME)
     for factor in FACTORS:
         assert factor.meaning
         assert factor.reason
@@ -244,7 +257,9 @@ def test_a_machine_that_cannot_be_closed_is_refused() -> None:
 @pytest.mark.parametrize("name", ["scale", "restitution"])
 def test_words_for_a_number_are_refused(name: str) -> None:
     with pytest.raises(InputError, match=f"{name} = 'large': allowed: a number"):
-        pin(changed(**{name: "large"}), 1.5) if name == "restitution" else machine(changed(**{name: "large"}))
+        pin(changed(**{name: "large"}), 1.5, reference_support()) if name == "restitution" else machine(
+            changed(**{name: "large"})
+        )
 
 
 # --- the pin of a sample ---
@@ -252,7 +267,9 @@ def test_words_for_a_number_are_refused(name: str) -> None:
 
 @pytest.mark.parametrize("size", [0.5, 1.0, 1.5, 2.0])
 def test_the_reference_pin_is_the_papers(size: float) -> None:
-    assert pin(REFERENCE, size) == paper_machine.clearance_joint(size, paper_machine.SLIDING_COEFFICIENT)
+    assert pin(REFERENCE, size, reference_support()) == paper_machine.clearance_joint(
+        size, paper_machine.SLIDING_COEFFICIENT
+    )
 
 
 def test_a_sample_decides_law_stiffness_friction_and_bore() -> None:
@@ -260,13 +277,13 @@ def test_a_sample_decides_law_stiffness_friction_and_bore() -> None:
         law="flores",
         restitution=0.4,
         damping_speed="depth",
-        stiffness="internal",
+        contact="internal",
         bore="rear link",
         sliding_coefficient=0.11,
         static_speed=2e-5,
         dynamic_speed=3e-3,
     )
-    with_clearance = pin(sample, 1.0)
+    with_clearance = pin(sample, 1.0, reference_support())
     normal, friction = with_clearance.contact.normal, with_clearance.contact.friction
     assert type(normal) is POWER_LAWS["flores"]
     assert normal.restitution == 0.4
@@ -276,12 +293,39 @@ def test_a_sample_decides_law_stiffness_friction_and_bore() -> None:
     assert with_clearance.contact.bearing == bearing
     assert with_clearance.bore == "second"
     assert (friction.sliding_coefficient, friction.static_speed, friction.dynamic_speed) == (0.11, 2e-5, 3e-3)
-    assert type(pin(REFERENCE, 1.0).contact.normal.damping_speed) is ImpactVelocity
+    assert type(pin(REFERENCE, 1.0, reference_support()).contact.normal.damping_speed) is ImpactVelocity
+
+
+def test_cylinders_are_as_long_as_the_machines_pin_and_held_by_pin_and_link() -> None:
+    support = machine(changed(scale=0.8))
+    made = pin(changed(scale=0.8, contact="cylinders", backing=2.0, law="flores"), 1.5, support)
+    law = made.contact.normal
+    assert isinstance(law, PinInBore)
+    assert law.damping == "Flores"
+    assert law.length == pytest.approx(0.7 * 0.8 / REFERENCE_SCALE, rel=EXACT)
+    stiffness = 1.0 / (
+        1.0 / pin_stiffness(made.contact.bearing.journal_radius, law.length, STEEL_35CRMO)
+        + 1.0 / links_stiffness(support, "rear_base", STEEL)
+    )
+    assert law.backing_stiffness == pytest.approx(2.0 * stiffness, rel=EXACT)
+
+
+def test_columns_of_oil_are_as_large_as_the_machine() -> None:
+    assert oil_columns(REFERENCE) == paper_machine.oil_columns()
+    column = oil_columns(changed(scale=2.0 * REFERENCE_SCALE, bulk_modulus=2.0, oil_damping=5e-4))[
+        "rear_column"
+    ]
+    ours = paper_machine.oil_columns()["rear_column"]
+    assert column.bore_area == pytest.approx(4.0 * ours.bore_area, rel=EXACT)
+    assert column.oil_length == pytest.approx(2.0 * ours.oil_length, rel=EXACT)
+    assert (column.bulk_modulus, column.damping_time) == (2e9, 5e-4)
 
 
 def test_every_sample_has_a_pin() -> None:
-    laws = {type(pin(sample, 2.0).contact.normal) for sample in samples(32, 5)}
-    assert laws == set(POWER_LAWS.values())
+    drawn = [(sample, pin(sample, 2.0, machine(sample)).contact.normal) for sample in samples(64, 5)]
+    for sample, law in drawn:
+        assert isinstance(law, PinInBore) == (sample["contact"] == "cylinders")
+    assert {type(law) for _, law in drawn} == {*POWER_LAWS.values(), PinInBore}
 
 
 # --- words ---

@@ -26,11 +26,14 @@ GRAZING: dict[str, Choice] = {
     "restitution": 0.39352379318192465,
     "law": "lankarani_nikravesh",
     "damping_speed": "depth",
-    "stiffness": "external",
+    "contact": "paper",
+    "backing": 1.0,
+    "stroke_time": 2.0,
+    "bulk_modulus": 1.5,
+    "oil_damping": 1e-3,
     "sliding_coefficient": 0.22666592400795427,
     "static_speed": 0.0002803680591307704,
     "dynamic_speed": 0.001518162330165804,
-    "window": "rise and dwell",
     "bore": "rear link",
 }
 

@@ -1,0 +1,153 @@
+"""Every verdict before and after, and why it changed: window, new data, or so many machines.
+
+Before: as committed in formers.toml, of machines that had neither cylinders nor a stroke time of their own. Why
+a share changed is computed: by what the rise alone as window did, and by the new datum on which it now depends.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from studies.claims.plausible import FACTORS, Factor, Sample
+from studies.claims.verdicts import Ruling, percent
+from studies.common.data import rows
+from studies.common.words import TextTable
+
+# data that were not varied before, or not so far
+NEW = ("contact", "backing", "stroke_time", "bulk_modulus", "oil_damping")
+HEAVIER = "mass_"  # how the names of data begin whose range is wider
+CHANCE = (
+    0.05  # shares of two lots of machines differ by more than chance if it would do so less often than that
+)
+TELLING = 0.01  # the same of a datum: some are tried
+NOTICED = 0.02  # by which averages over the rise change a share to be named
+Judged = Sequence[tuple[Sample, bool]]
+
+
+class Judgements(NamedTuple):
+    """So many machines for which a claim holds, fails, or is left open."""
+
+    holds: int
+    fails: int
+    left: int = 0
+
+    @property
+    def share(self) -> float | None:
+        """Share for which it holds, of those that are decided."""
+        decided = self.holds + self.fails
+        return self.holds / decided if decided else None
+
+    @property
+    def said(self) -> str:
+        """The share in words."""
+        return "" if self.share is None else f"{percent(self.share)} %"
+
+
+@dataclass(frozen=True)
+class Former:
+    """A verdict of before.
+
+    claim: its number. verdict: in words. counts: of machines. rise: with averages over the rise alone. Both are
+    None if it was not asked of machines.
+    """
+
+    claim: int
+    verdict: str
+    counts: Judgements | None = None
+    rise: Judgements | None = None
+
+
+def _former(
+    claim: int, verdict: str, holds: int = 0, fails: int = 0, left: int = 0, rise: Sequence[int] = ()
+) -> Former:
+    """A row of formers.toml."""
+    if not rise:
+        return Former(claim, verdict)
+    return Former(claim, verdict, Judgements(holds, fails, left), Judgements(*rise))
+
+
+FORMER_MACHINES = 128
+FORMERS = tuple(_former(**row) for row in rows("studies.claims", "former"))
+
+
+def change_table(rulings: Sequence[Ruling], machines: Sequence[Judged]) -> TextTable:
+    """A row a claim; machines: how those that are decided judge each."""
+    found = []
+    for former, ruling, judged in zip(FORMERS, rulings, machines, strict=True):
+        before = _told(former.counts, former.verdict)
+        after = _told(Judgements(ruling.holds, ruling.fails), ruling.verdict)
+        found.append((str(former.claim), ruling.claim.text, before, after, reason(former, ruling, judged)))
+    return TextTable(("no.", "claim", "before", "now", "reason"), tuple(found), wide=True, width=200)
+
+
+def _told(counts: Judgements | None, verdict: str) -> str:
+    """A verdict with its share, unless it says that itself."""
+    if counts is None or not counts.said or counts.said in verdict:
+        return verdict
+    return f"{verdict}: {counts.said}"
+
+
+def reason(former: Former, ruling: Ruling, judged: Judged) -> str:
+    """Why a verdict is another one, or why it is not."""
+    now = Judgements(ruling.holds, ruling.fails)
+    if ruling.claim.judge is None:
+        return "none: it has no measure"
+    if former.counts is None or former.rise is None:
+        if now.share is None:
+            return "none: a closed form"
+        return f"asked of machines now, with contact and oil varied{_because(judged)}"
+    parts = []
+    was, alone = former.counts.share, former.rise.share
+    if was is not None and alone is not None and abs(was - alone) > NOTICED:
+        parts.append(f"averages over the rise alone make it {former.rise.said}")
+    if differ(former.rise, now):
+        parts.append(f"the new data make it {now.said}{_because(judged)}")
+    elif was is not None and now.share is not None and abs(now.share - was) > NOTICED and not parts:
+        parts.append("none beyond the chance of other machines")
+    if now.share is None:
+        parts.append("the numerical error leaves all machines open")
+    return "; ".join(parts) or "none"
+
+
+def differ(one: Judgements, other: Judgements) -> bool:
+    """Whether two lots of machines judge differently by more than chance (Fisher's exact test)."""
+    from scipy.stats import fisher_exact  # takes a second to import
+
+    return bool(fisher_exact(np.array([one[:2], other[:2]])).pvalue < CHANCE)
+
+
+def _because(judged: Judged) -> str:
+    """The new datum on which a claim depends most, with the shares; empty if on none more than by chance."""
+    found = min((_split(factor, judged) for factor in FACTORS if _is_new(factor)), key=lambda one: one[0])
+    return f" ({found[1]})" if found[0] < TELLING else ""
+
+
+def _is_new(factor: Factor) -> bool:
+    return factor.name in NEW or factor.name.startswith(HEAVIER)
+
+
+def _split(factor: Factor, judged: Judged) -> tuple[float, str]:
+    """How often chance alone would part the machines so by a datum, and the shares of the parts in words."""
+    from scipy.stats import chi2_contingency  # takes a second to import
+
+    if factor.choices:
+        parts = {
+            factor.chosen(one): [holds for s, holds in judged if s[factor.name] == one]
+            for one in factor.choices
+        }
+    else:
+        middle = float(factor.at(0.5))
+        parts = {
+            factor.bound(side, middle): [
+                holds for s, holds in judged if (float(s[factor.name]) >= middle) == (side == "above")
+            ]
+            for side in ("below", "above")
+        }
+    counts = [Judgements(sum(of), len(of) - sum(of)) for of in parts.values()]
+    columns = list(zip(*(one[:2] for one in counts), strict=True))
+    if not all(sum(one[:2]) for one in counts) or not all(sum(column) for column in columns):
+        return 1.0, ""
+    chance = float(chi2_contingency(np.array([one[:2] for one in counts])).pvalue)
+    return chance, ", ".join(f"{text}: {one.said}" for text, one in zip(parts, counts, strict=True))
